@@ -22,7 +22,7 @@ cmake -G Ninja -S . -B build -DCMAKE_BUILD_TYPE=Release -DNOOK_PRECOMPILE=ON -DN
   exit 1
 }
 # Without these, ccache keeps nothing that was compiled with a precompiled header.
-export CCACHE_SLOPPINESS=pch_defines,time_macros
+export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:+$CCACHE_SLOPPINESS,}pch_defines,time_macros"
 
 # The viewer and the character need less than half of the objects of the crowd, and the character's model lies in the tree.
 ninja -C build mannequin gltf_viewer

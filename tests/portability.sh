@@ -25,10 +25,11 @@ launcher=()
 command -v ccache > /dev/null && launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 
 # The largest differences that a comparison allows: AO, light relative to its largest value, materials.
-# The same instruction set by another compiler, or with another C library: rounding of the last bits.
-same_set=(3e-6 3e-6 3e-6)
+# The same instruction set by another compiler, or with another C library: rounding of the last bits, by which shadows may have
+# codes a step apart, for 7e-5 of AO (kernel_agreement.cpp).
+same_set=(8e-5 3e-6 3e-6)
 # An instruction set that x86 lacks, against scalar: other roots and exponentials, another order of sums.
-other_set=(4e-5 4e-5 4e-5)
+other_set=(1.2e-4 4e-5 4e-5)
 
 missing() {  # Writes the reason and ends the row.
   echo "$*" > "$build-$row.reason"

@@ -36,6 +36,8 @@ nook_bake_material_desc default_material_desc() {
   desc.bits = bake::material::default_bits;
   desc.rank_threshold = 0.01f;
   desc.seed = 1;
+  desc.neural_channels = compression.neural_channels;
+  desc.neural_steps = compression.neural_steps;
   return desc;
 }
 

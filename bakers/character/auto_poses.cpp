@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "bakers/character/joined_hands.h"
 #include "bakers/character/planned_rig.h"
 #include "bakers/character/self_collision.h"
 
@@ -10,6 +11,8 @@ namespace nook::bake {
 std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> vertex_area, std::size_t count,
                              std::uint64_t seed) {
   const PlannedRig rig(mesh);
+  const JoinedHands hands(mesh);
+  const BodyTree tree = body_tree(mesh);
   const SelfCollision collision(mesh, vertex_area);
   std::vector<Pose> poses(count);
   tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
@@ -20,6 +23,8 @@ std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> ver
     constexpr float allowed = 0.6f, reaching = 0.7f;
     // Half of the poses follow motion capture; of these, a share has other arms, and a share other legs.
     constexpr float of_motion = 0.5f, other_part = 0.2f;
+    // Of all poses; hands that hold each other may run into each other.
+    constexpr float joined_share = 0.15f;
     float best = 0;
     for (int attempt = 0; attempt < tries; ++attempt) {
       BodyPlan plan = plan_body(random);
@@ -33,7 +38,14 @@ std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> ver
       }
       if (!plan.arms_of_motion && random.chance(reaching)) rig.reach(plan, random);
       Pose pose = rig.pose(plan, random);
-      const float depth = collision.depth(pose);
+      const bool joined = hands.possible() && random.chance(joined_share);
+      if (joined) {
+        std::vector<JointMotion> motions = joint_motions(mesh, tree, pose);
+        Random grip(random.bits());
+        hands.join(motions, true, grip);
+        pose = pose_of(mesh, tree, motions);
+      }
+      const float depth = joined ? collision.depth_but_hands(pose) : collision.depth(pose);
       if (attempt == 0 || depth < best) {
         best = depth;
         poses[i] = std::move(pose);

@@ -80,14 +80,27 @@ TrainingSet precise_share(const SkinnedMesh& mesh, const TrainingSet& set, const
   return share;
 }
 
-// Half of the weight by vertex, as the reported mse has it, half by area, as the eye does.
-std::vector<float> vertex_weights(std::span<const float> area) {
+// Half of the weight by vertex, as the reported mse has it, half by area, as the eye does. The paper sums
+// over vertices alike (slide 25).
+std::vector<float> vertex_weights(std::span<const float> area, FitMethod fit) {
+  if (fit == FitMethod::paper) return std::vector<float>(area.size(), 1.0f);
   double mean = 0;
   for (float a : area) mean += double(a);
   mean /= double(area.size());
   std::vector<float> weight;
   for (float a : area) weight.push_back(mean > 0 ? float(0.5 + 0.5 * double(a) / mean) : 1.0f);
   return weight;
+}
+
+// Non-negative least squares over all candidates of a vertex: near key points have no weights for added
+// casters, and an entry stays however little it gains.
+LinearFitSettings plain_linear_fit(std::size_t entries) {
+  LinearFitSettings plain;
+  plain.entries = entries;
+  plain.least_gain = 0;
+  plain.anchors = 0;
+  plain.anchor_floor = 0;
+  return plain;
 }
 
 // One fit in progress: the state, what it is measured by, and the best state so far by held-out error.
@@ -97,6 +110,7 @@ class Fit {
       const Candidates& candidates, FitState state, BakeReport& report)
       : set_(set), area_(area), candidates_(candidates), report_(report), state_(std::move(state)) {
     linear_.entries = settings.entries;
+    if (settings.fit == FitMethod::paper) linear_ = plain_linear_fit(settings.entries);
   }
 
   FitState& state() { return state_; }
@@ -282,7 +296,10 @@ Start initialise(const SkinnedMesh& mesh, const Surface& surface, std::span<cons
       key_points_of_clusters(mesh, cluster, key_point_weight, feature_normal);
   const std::vector<InitialSphere> spheres = initial_spheres(mesh, weight, settings.spheres);
   Start start;
-  start.candidates.count = std::min<std::size_t>(40, key_points.size());
+  // A vertex of the paper has some local key points (slide 23): those nearest to it. Among more of them the
+  // greedy choice finds better ones.
+  const std::size_t nearest = settings.fit == FitMethod::paper ? settings.entries : 40;
+  start.candidates.count = std::min(nearest, key_points.size());
   NearKeyPoints near = nearest_key_points(mesh, feature_normal, key_points, start.candidates.count);
   start.candidates.key_point = std::move(near.key_point);
   start.candidates.nearness = std::move(near.nearness);
@@ -324,11 +341,12 @@ BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, 
   step(0);
   const Surface surface = rest_surface(mesh);
   const std::vector<float>& area = surface.area;
-  set.vertex_weight = vertex_weights(area);
+  set.vertex_weight = vertex_weights(area, settings.fit);
   const std::vector<float> placed_by = settings.fit == FitMethod::paper
                                            ? set.vertex_weight
                                            : placement_weights(set.vertex_weight, set.targets, set.fitted());
-  Start start = initialise(mesh, surface, set.vertex_weight, placed_by, settings, step);
+  const std::vector<float>& spread_by = settings.fit == FitMethod::paper ? area : set.vertex_weight;
+  Start start = initialise(mesh, surface, spread_by, placed_by, settings, step);
   if (settings.learn_gamma)
     start.state.structure.kernel.gamma =
         learned_gamma(set, area, settings, start.candidates, start.state, progress);

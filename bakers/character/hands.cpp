@@ -1,6 +1,7 @@
 #include "bakers/character/hands.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "bakers/character/body_frame.h"
 #include "bakers/character/joint_origin.h"
@@ -99,6 +100,28 @@ std::array<BodyPoint, 2> palms(const SkinnedMesh& mesh, std::span<const Joint> j
                                                count == 0 ? rig.origin(wrist) : sum * (1 / count)};
   }
   return palm;
+}
+
+HandFrame hand_frame(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,
+                     std::size_t wrist, Vec3 up) {
+  const Rig rig{mesh, joints, tree};
+  const Hand hand = hand_of(rig, wrist);
+  HandFrame frame;
+  frame.knuckles = rig.origin(wrist);
+  if (hand.knuckles.empty()) return frame;
+  Vec3 sum;
+  for (const std::size_t knuckle : hand.knuckles) sum += rig.origin(knuckle);
+  frame.knuckles = sum * (1 / float(hand.knuckles.size()));
+  frame.along = hand.along;
+  frame.across = across_knuckles(rig, hand, up);
+  frame.palm = normalised(cross(finger_axis(rig, hand, frame.across), frame.along));
+  return frame;
+}
+
+Vec3 finger_turn(const Joint& joint, Vec3 curl_axis, float curl) {
+  static constexpr float reach_degrees[3] = {85, 100, 70};
+  constexpr float radians = std::numbers::pi_v<float> / 180;
+  return std::clamp(curl, -0.1f, 1.1f) * reach_degrees[std::min<int>(joint.segment, 2)] * radians * curl_axis;
 }
 
 std::vector<Vec3> curl_axes(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,

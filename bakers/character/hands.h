@@ -18,6 +18,19 @@ struct BodyPoint {
 // Of the left and the right hand: the middle of the knuckles, or the wrist where there are none.
 std::array<BodyPoint, 2> palms(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree);
 
+// A hand in its rest pose. Directions have unit length and are zero where the rig has no fingers.
+struct HandFrame {
+  Vec3 knuckles;  // their middle, or the wrist where there are none
+  Vec3 along;     // from the wrist to the knuckles
+  Vec3 across;    // towards the thumb's side, perpendicular to along
+  Vec3 palm;      // to where the palm faces
+};
+HandFrame hand_frame(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,
+                     std::size_t wrist, Vec3 up);
+
+// The turn of a finger's joint whose curl is 0 stretched and 1 in a fist.
+Vec3 finger_turn(const Joint& joint, Vec3 curl_axis, float curl);
+
 // Of each finger and thumb, of unit length in rest space; zero for other joints. Fingers curl towards the
 // palm: about the axis across them, on the side that the thumb is on.
 std::vector<Vec3> curl_axes(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,

@@ -32,8 +32,8 @@ Mat3x4 inverse_affine(const Mat3x4& a) {
   return result;
 }
 
-// The axis times the angle of the rotation nearest to the matrix's three rows, made orthonormal in order. The
-// quaternion's largest part is found first (Shepperd 1978), so that half turns are exact.
+}  // namespace
+
 Vec3 turn_of(const Mat3x4& a) {
   const Vec3 x = normalised(row(a, 0));
   const Vec3 y = normalised(row(a, 1) - dot(row(a, 1), x) * x);
@@ -61,8 +61,6 @@ Vec3 turn_of(const Mat3x4& a) {
   const float sine = length(v);
   return sine > 0 ? 2 * std::atan2(sine, w) / sine * v : Vec3{};
 }
-
-}  // namespace
 
 std::vector<JointMotion> joint_motions(const SkinnedMesh& mesh, const BodyTree& tree, const Pose& pose) {
   std::vector<JointMotion> motions(pose.size());

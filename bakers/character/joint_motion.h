@@ -18,6 +18,10 @@ struct JointMotion {
       1;  // about the same origin; other scales than uniform ones are rounded to one of equal volume
 };
 
+// The axis times the angle of the rotation nearest to the matrix's three rows, made orthonormal in order. The
+// quaternion's largest part is found first (Shepperd 1978), so that half turns are exact.
+Vec3 turn_of(const Mat3x4& matrix);
+
 std::vector<JointMotion> joint_motions(const SkinnedMesh& mesh, const BodyTree& tree, const Pose& pose);
 Pose pose_of(const SkinnedMesh& mesh, const BodyTree& tree, std::span<const JointMotion> motions);
 

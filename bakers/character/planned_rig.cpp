@@ -19,18 +19,6 @@ Vec3 place_in(const Pose& pose, const BodyPoint& place) {
   return transform_point(pose[std::size_t(place.bone)], place.point);
 }
 
-// The rotation that takes one unit vector to another by the shortest way.
-Vec3 shortest_arc(Vec3 from, Vec3 to) {
-  const Vec3 axis = cross(from, to);
-  const float s = length(axis), c = dot(from, to);
-  if (s < 1e-6f) {
-    if (c > 0) return {};
-    const Vec3 any = std::fabs(from.x) < 0.7f ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    return std::numbers::pi_v<float> * normalised(cross(from, any));
-  }
-  return std::atan2(s, c) / s * axis;
-}
-
 // The direction in which motion capture holds a limb's joint, in its part's axes; zero where it has none.
 Vec3 wished(const BodyPlan& plan, const Joint& joint) {
   const PriorLimbs& limbs = plan.motion.limbs[joint.side == Side::right ? 1 : 0];
@@ -142,10 +130,9 @@ Vec3 PlannedRig::joint_turn(std::size_t b, const BodyPlan& plan, PoseRandom& ran
     case JointRole::hand:
       return limb.hand;
     case JointRole::finger: {
-      static constexpr float reach[3] = {85, 100, 70};
-      const float curl = std::clamp(limb.curl + 0.2f * random.normal(), -0.1f, 1.1f);
+      const float curl = limb.curl + 0.2f * random.normal();
       const Vec3 spread = joint.segment == 0 ? 0.08f * random.normal() * up : Vec3{};
-      return curl * reach[std::min<int>(joint.segment, 2)] * degree * curl_axis_[b] + spread;
+      return finger_turn(joint, curl_axis_[b], curl) + spread;
     }
     case JointRole::thumb:
       return limb.thumb * std::max(0.2f, limb.curl) * 40 * degree * curl_axis_[b] + 0.08f * normal3(random);

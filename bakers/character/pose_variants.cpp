@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "bakers/character/joined_hands.h"
 #include "bakers/character/joint_motion.h"
 #include "bakers/character/mirror_rig.h"
 #include "bakers/character/self_collision.h"
@@ -47,7 +48,8 @@ class Maker {
         tree_(body_tree(mesh)),
         mirror_(find_mirror(mesh, tree_)),
         roots_(limb_roots(mesh, tree_, vertex_area)),
-        collision_(mesh, vertex_area) {
+        collision_(mesh, vertex_area),
+        hands_(mesh) {
     for (const Pose& pose : poses) given_.push_back(joint_motions(mesh, tree_, pose));
     depth_.resize(poses.size());
     tbb::parallel_for(std::size_t(0), poses.size(),
@@ -56,15 +58,18 @@ class Maker {
 
   Pose make(Random& random) const {
     constexpr int tries = 8;
-    constexpr float allowed = 0.6f, mirrored_share = 0.5f;
+    // Joined hands keep the fingers of their pose, as those of one rig's clips are alike.
+    constexpr float allowed = 0.6f, mirrored_share = 0.5f, joined_share = 0.15f;
     Pose best;
     float least = 0;
     for (int attempt = 0; attempt < tries; ++attempt) {
       float limit = allowed;
       Motions motions = draw(random, limit);
       if (mirror_ && random.chance(mirrored_share)) motions = mirrored(*mirror_, motions);
+      const bool joined = hands_.possible() && random.chance(joined_share);
+      if (joined) hands_.join(motions, false, random);
       Pose pose = pose_of(mesh_, tree_, motions);
-      const float beyond = collision_.depth(pose) - limit;
+      const float beyond = (joined ? collision_.depth_but_hands(pose) : collision_.depth(pose)) - limit;
       if (attempt == 0 || beyond < least) {
         least = beyond;
         best = std::move(pose);
@@ -109,6 +114,7 @@ class Maker {
   std::optional<MirrorRig> mirror_;
   std::vector<std::uint32_t> roots_;
   SelfCollision collision_;
+  JoinedHands hands_;
   std::vector<Motions> given_;
   std::vector<float> depth_;
 };

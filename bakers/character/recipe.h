@@ -15,7 +15,7 @@ namespace nook::bake {
 enum class PoseMode : std::uint8_t { automatic, single_joint, clips, all, extra };
 
 // Rises whenever the same recipe begins to make other automatic poses or variants.
-inline constexpr int pose_generation = 2;
+inline constexpr int pose_generation = 3;
 
 struct Recipe {
   Preset preset = Preset::standard;

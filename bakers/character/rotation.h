@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sdk/src/core/vec.h"
 
@@ -20,6 +21,18 @@ inline Mat3x4 rotation(Vec3 axis_angle) {
                        t * a.x * a.z - s * a.y, t * a.y * a.z + s * a.x, t * a.z * a.z + c,       0};
   std::copy_n(m, 12, r.m);
   return r;
+}
+
+// The turn that takes one unit vector to another by the shortest way: axis times angle, radians.
+inline Vec3 shortest_arc(Vec3 from, Vec3 to) {
+  const Vec3 axis = cross(from, to);
+  const float s = length(axis), c = dot(from, to);
+  if (s < 1e-6f) {
+    if (c > 0) return {};
+    const Vec3 any = std::fabs(from.x) < 0.7f ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    return std::numbers::pi_v<float> * normalised(cross(from, any));
+  }
+  return std::atan2(s, c) / s * axis;
 }
 
 // A turn about an axis through a point.

@@ -55,17 +55,27 @@ SelfCollision::SelfCollision(const SkinnedMesh& mesh, std::span<const float> ver
       if (hand[spheres_[i].bone] >= 0 && hand[spheres_[i].bone] == hand[spheres_[j].bone]) continue;
       if (related(tree, spheres_[i].bone, spheres_[j].bone)) continue;
       pairs_.push_back({std::uint16_t(i), std::uint16_t(j)});
+      is_of_hands_.push_back(hand[spheres_[i].bone] >= 0 && hand[spheres_[j].bone] >= 0);
       rest_overlap_.push_back(std::max(
           0.0f, overlap(spheres_[i].centre, spheres_[i].radius, spheres_[j].centre, spheres_[j].radius)));
     }
 }
 
 float SelfCollision::depth(const Pose& pose) const {
+  return deepest(pose, true);
+}
+
+float SelfCollision::depth_but_hands(const Pose& pose) const {
+  return deepest(pose, false);
+}
+
+float SelfCollision::deepest(const Pose& pose, bool with_hands) const {
   std::vector<Vec3> centre(spheres_.size());
   for (std::size_t i = 0; i < centre.size(); ++i)
     centre[i] = transform_point(pose[spheres_[i].bone], spheres_[i].centre);
   float deepest = 0;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    if (!with_hands && is_of_hands_[p]) continue;
     const auto [i, j] = pairs_[p];
     const float radius_i = spheres_[i].radius, radius_j = spheres_[j].radius;
     const float more = overlap(centre[i], radius_i, centre[j], radius_j) - rest_overlap_[p];

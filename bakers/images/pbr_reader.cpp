@@ -151,6 +151,17 @@ std::vector<float> read_height_map(const fs::path& file, std::uint32_t side) {
   return averages(image, side, 1, [&](std::size_t texel, float* number) { *number = image.at(texel, 0); });
 }
 
+PbrMaps read_height_image(const fs::path& file) {
+  const MapImage image = read_image(file, false);
+  PbrMaps maps;
+  maps.side = image.side;
+  maps.height.resize(std::size_t(image.side) * image.side);
+  for (std::size_t y = 0; y < image.side; ++y)
+    for (std::size_t x = 0; x < image.side; ++x)
+      maps.height[(image.side - 1 - y) * image.side + x] = image.at(y * image.side + x, 0);
+  return maps;
+}
+
 PbrFolder read_pbr_folder(const fs::path& folder, std::uint32_t side) {
   const std::vector<fs::path> paths = images_in(folder);
   std::vector<std::string> names;

@@ -26,4 +26,7 @@ PbrFolder read_pbr_folder(const std::filesystem::path& folder, std::uint32_t sid
 // The height map of such a set alone: one image, in units of a height scale, y * side + x.
 std::vector<float> read_height_map(const std::filesystem::path& file, std::uint32_t side);
 
+// The heights alone, of as many points as the image has texels.
+PbrMaps read_height_image(const std::filesystem::path& file);
+
 }  // namespace nook::bake::material

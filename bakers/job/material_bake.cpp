@@ -31,12 +31,15 @@ RawMaterial obtain(MaterialTask& task, const StageReport& progress) {
 // is one.
 CompressionSettings settings_for(const MaterialTask& task, const RawMaterial& raw) {
   CompressionSettings s = task.settings;
-  if (!task.ranks_given && !set_builtin_ranks(raw, s)) s = ranks_by_threshold(raw, task.rank_threshold, s);
+  const bool has_ranks = s.method != Method::neural || has_votf(raw, s);
+  if (has_ranks && !task.ranks_given && !set_builtin_ranks(raw, s))
+    s = ranks_by_threshold(raw, task.rank_threshold, s);
   if (task.votf_ranks_given) {
     s.votf_rank_x = task.settings.votf_rank_x;
     s.votf_rank_y = task.settings.votf_rank_y;
   }
-  if (s.method == Method::k_cta && s.clusters == 0) s.mixture = std::min(s.mixture, s.cluster_count());
+  if (votf_settings(s).method == Method::k_cta && s.clusters == 0)
+    s.mixture = std::min(s.mixture, s.cluster_count());
   check_settings(s, raw);
   return s;
 }
@@ -64,7 +67,7 @@ Json source_of(const MaterialTask& task, const RawMaterial& raw) {
 }
 
 nook_bake_stage stage_of(std::string_view stage) {
-  if (stage == "BTF") return NOOK_BAKE_STAGE_BTF;
+  if (stage == "BTF" || stage == "offset" || stage == "network") return NOOK_BAKE_STAGE_BTF;
   if (stage == "relief" || stage == "views on the relief") return NOOK_BAKE_STAGE_RELIEF;
   return stage == "VOTF" ? NOOK_BAKE_STAGE_VOTF : NOOK_BAKE_STAGE_VIEW_MAP;
 }

@@ -33,6 +33,8 @@ Method method_of(nook_bake_method method) {
       return Method::cta;
     case NOOK_BAKE_METHOD_N_SVD:
       return Method::n_svd;
+    case NOOK_BAKE_METHOD_NEURAL:
+      return Method::neural;
     default:
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.method is unknown (got %d); use a NOOK_BAKE_METHOD_",
                     int(method));
@@ -149,7 +151,13 @@ void read_meso(const nook_bake_material_desc& desc, MaterialTask& task) {
   task.meso = meso_parameters(desc.meso);
   task.raw.name = task.meso->name;
   task.meso->seed = desc.seed;
-  task.trace = {desc.width, desc.height, desc.samples, desc.bounces, desc.bounce_rays, desc.seed};
+  task.trace = {desc.width,
+                desc.height,
+                desc.samples,
+                desc.bounces,
+                desc.bounce_rays,
+                desc.seed,
+                task.settings.relief == ReliefSource::known};
 }
 
 CompressionSettings settings_of(const nook_bake_material_desc& desc) {
@@ -170,6 +178,8 @@ CompressionSettings settings_of(const nook_bake_material_desc& desc) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.bits is out of range (got %u, need 8 or 16)", desc.bits);
   s.bits = desc.bits;
   s.relief = relief_source_of(desc.relief);
+  s.neural_channels = desc.neural_channels;
+  s.neural_steps = desc.neural_steps;
   s.seed = desc.seed;
   return s;
 }
@@ -183,19 +193,16 @@ bool given(const char* names, std::initializer_list<std::uint32_t> ranks) {
   return zeros == 0;
 }
 
-// Returns the settings that do not depend on the data. Ranks by threshold may turn out as low as those of one
-// cluster.
+// Returns the settings that do not depend on the data.
 CompressionSettings known_settings(const MaterialTask& task) {
   CompressionSettings s = task.settings;
-  if (!set_builtin_ranks(task.raw, s)) {
-    s.rank_light = s.rank_x = s.rank_y = 1;
-    s.rank_view = std::min(s.cluster_rank_view, std::uint32_t(task.raw.views.size()));
-  }
+  if (!set_builtin_ranks(task.raw, s)) set_lowest_ranks(task.raw, s);
   if (task.votf_ranks_given) {
     s.votf_rank_x = task.settings.votf_rank_x;
     s.votf_rank_y = task.settings.votf_rank_y;
   }
-  if (s.method == Method::k_cta && s.clusters == 0) s.mixture = std::min(s.mixture, s.cluster_count());
+  if (votf_settings(s).method == Method::k_cta && s.clusters == 0)
+    s.mixture = std::min(s.mixture, s.cluster_count());
   return s;
 }
 
@@ -230,6 +237,7 @@ MaterialTask material_task_of(const nook_bake_material_desc& desc) {
   desc.meso ? read_meso(desc, task) : read_measured(desc, task);
 
   CompressionSettings& s = task.settings;
+  const bool has_mask = task.meso || !task.raw.mask.empty();
   if (task.votf_ranks_given) {
     s.votf_rank_x = desc.votf_rank_x;
     s.votf_rank_y = desc.votf_rank_y;
@@ -238,14 +246,14 @@ MaterialTask material_task_of(const nook_bake_material_desc& desc) {
     s.votf_rank_y = std::min(s.votf_rank_y, desc.height);
   }
   if (!task.ranks_given) {
-    check_settings(known_settings(task), task.raw);
+    check_settings(known_settings(task), task.raw, has_mask);
     return task;
   }
   s.rank_light = desc.rank_light;
   s.rank_view = desc.rank_view;
   s.rank_x = desc.rank_x;
   s.rank_y = desc.rank_y;
-  check_settings(s, task.raw);
+  check_settings(s, task.raw, has_mask);
   return task;
 }
 

@@ -8,6 +8,7 @@
 
 #include "bakers/raytrace/hemisphere.h"
 #include "bakers/tensor/principal_components.h"
+#include "sdk/src/material/check.h"
 #include "sdk/src/material/spatial_modes.h"
 
 namespace nook::bake::material {
@@ -135,6 +136,7 @@ Matrix appearance_of(const RawMaterial& raw, std::uint64_t seed, std::uint32_t c
 }
 
 Matrix appearance_of(const nook::material::Material& material, std::uint64_t seed, std::uint32_t channels) {
+  nook::material::refuse_neural(material.neural.is_used(), "synthesis without raw data");
   Matrix visibility;
   if (material.visibility != nook::material::VisibilityForm::none)
     visibility = sums_of(material.votf, Matrix::Identity(1, 1), visibility_sums, seed);

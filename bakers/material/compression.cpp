@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bakers/material/neural_training.h"
 #include "bakers/material/relief.h"
 #include "bakers/material/signed_distance.h"
 #include "bakers/material/view_spline.h"
@@ -139,8 +140,11 @@ ClusteredTensor with_map(const tensor::ClusteredFit& fitted, const FitTask& task
   t.map.side = side;
   // The mask of a VOTF's values has its errors at the threshold, wherever steps are.
   const double penalty = task.view_mode > 0 ? task.settings.step_penalty : 0;
+  const auto progress = [&](std::size_t round, std::size_t rounds) {
+    return !task.progress || task.progress("view map", round, rounds);
+  };
   t.map.rows = view_rows(tensor::resample_map(fitted, projections, spline_weights(task.raw.views, side), side,
-                                              penalty, tensor::Pursuit::exchange));
+                                              penalty, tensor::Pursuit::exchange, progress));
   return t;
 }
 
@@ -175,9 +179,32 @@ nook::material::VisibilityMapping default_mapping(VisibilityForm form, std::uint
   return {threshold, 1 / threshold};
 }
 
+void check_neural(const CompressionSettings& s) {
+  if (s.neural_channels < 4 || s.neural_channels > nook::material::max_neural_channels ||
+      s.neural_channels % 4 != 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the number of channels of a neural material is %u; need a multiple of 4 from 4 to %u",
+                  s.neural_channels, nook::material::max_neural_channels);
+  if (s.neural_steps < 1 || s.neural_steps > max_neural_steps)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the number of steps of a training is %u; need 1 to %u",
+                  s.neural_steps, max_neural_steps);
+  if (s.relief != ReliefSource::none)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "a neural material has no relief, because its features have an offset of their own");
+}
+
 void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
+  check_settings(s, raw, !raw.mask.empty());
+}
+
+void check_settings(const CompressionSettings& s, const RawMaterial& raw, bool has_mask) {
   if (s.bits != 8 && s.bits != 16)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the form of numbers is %u bits; need 8 or 16", s.bits);
+  if (s.method == Method::neural) {
+    check_neural(s);
+    if (will_have_votf(has_mask, s)) check_settings(votf_settings(s), raw, has_mask);
+    return;
+  }
   const auto check = [](std::size_t got, std::size_t most, const char* what, const char* of) {
     if (got < 1 || got > most)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is %zu; %s allows 1 to %zu", what, got, of, most);
@@ -187,7 +214,7 @@ void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
   check(s.rank_view, views, "the view rank", "the number of views");
   check(s.rank_x, raw.width, "the x rank", "the width in texels");
   check(s.rank_y, raw.height, "the y rank", "the height in texels");
-  if (!raw.mask.empty() && s.visibility != VisibilityForm::none) {
+  if (will_have_votf(has_mask, s)) {
     check(s.votf_rank_x, raw.width, "the VOTF's x rank", "the width in texels");
     check(s.votf_rank_y, raw.height, "the VOTF's y rank", "the height in texels");
   }
@@ -206,6 +233,11 @@ void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
   if (s.map_side == 1 || s.map_side > nook::material::max_map_side)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a view map of %u cells a side; need 2 to %u, or 0 for none",
                   s.map_side, nook::material::max_map_side);
+}
+
+void set_lowest_ranks(const RawMaterial& sizes, CompressionSettings& s) {
+  s.rank_light = s.rank_x = s.rank_y = s.votf_rank_x = s.votf_rank_y = 1;
+  s.rank_view = std::min(s.cluster_rank_view, std::uint32_t(sizes.views.size()));
 }
 
 CompressedBtf compress_btf(const RawMaterial& raw, const CompressionSettings& s,
@@ -267,6 +299,25 @@ nook::material::Relief relief_from(const RawMaterial& raw, ReliefSource source,
   return nook::material::Relief();
 }
 
+nook::material::Neural neural_of(const RawMaterial& raw, const CompressionSettings& s,
+                                 const StageProgress& progress) {
+  NeuralSettings settings;
+  settings.shape.channels = s.neural_channels;
+  settings.offset_steps =
+      std::uint32_t(std::uint64_t(s.neural_steps) * settings.offset_steps / settings.steps);
+  settings.steps = s.neural_steps;
+  settings.seed = s.seed;
+  return encoded(fit_neural_tile(raw, settings, progress));
+}
+
+void add_btf(const RawMaterial& raw, const MovedMaterial& moved, const CompressionSettings& s,
+             const StageProgress& progress, Material& material) {
+  material.relief = moved.relief;
+  CompressedBtf btf = compress_btf(moved.or_still(raw), s, progress);
+  material.light_basis.assign(btf.light_basis.begin(), btf.light_basis.end());
+  material.btf = std::move(btf.tensor);
+}
+
 }  // namespace
 
 MovedMaterial move_views(const RawMaterial& raw, ReliefSource source, const StageProgress& progress) {
@@ -290,14 +341,14 @@ Material compress_moved(const RawMaterial& raw, const MovedMaterial& moved, cons
   material.lights.assign(raw.lights.begin(), raw.lights.end());
   material.views.assign(raw.views.begin(), raw.views.end());
   check_settings(s, raw);
-  material.relief = moved.relief;
-  CompressedBtf btf = compress_btf(moved.or_still(raw), s, progress);
-  material.light_basis.assign(btf.light_basis.begin(), btf.light_basis.end());
-  material.btf = std::move(btf.tensor);
-  if (raw.mask.empty() || s.visibility == VisibilityForm::none) return material;
+  if (s.method == Method::neural)
+    material.neural = neural_of(raw, s, progress);
+  else
+    add_btf(raw, moved, s, progress, material);
+  if (!has_votf(raw, s)) return material;
   material.visibility = s.visibility;
   material.mapping = s.mapping ? *s.mapping : default_mapping(s.visibility, raw.width, raw.height);
-  material.votf = compress_votf(raw, votf_values(raw, s.visibility), s, progress);
+  material.votf = compress_votf(raw, votf_values(raw, s.visibility), votf_settings(s), progress);
   return material;
 }
 
@@ -307,7 +358,7 @@ CompressionSettings ranks_by_threshold(const RawMaterial& raw, double share, Com
   s.rank_view = std::uint32_t(btf[1]);
   s.rank_x = std::uint32_t(btf[2]);
   s.rank_y = std::uint32_t(btf[3]);
-  if (raw.mask.empty() || s.visibility == VisibilityForm::none) return s;
+  if (!has_votf(raw, s)) return s;
   const std::vector<float> values = votf_values(raw, s.visibility);
   const auto votf = tensor::ranks_for_error(votf_view(raw, values), std::vector<double>(3, share));
   s.votf_rank_x = std::uint32_t(votf[1]);

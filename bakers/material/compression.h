@@ -1,4 +1,5 @@
-// From a raw material to a compressed one, by N-SVD, CTA or K-CTA.
+// From a raw material to a compressed one, by N-SVD, CTA or K-CTA, or by a neural network whose VOTF is that
+// of K-CTA.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,7 @@
 
 namespace nook::bake::material {
 
-enum class Method : std::uint8_t { n_svd, cta, k_cta };
+enum class Method : std::uint8_t { n_svd, cta, k_cta, neural };
 
 enum class Seeding : std::uint8_t {
   directions,  // clusters of view directions: the parametric space of the paper's 5.1
@@ -26,6 +27,8 @@ enum class ReliefSource : std::uint8_t {
   estimated,  // from what the views agree on
   known,      // from RawMaterial::heights
 };
+
+inline constexpr std::uint32_t max_neural_steps = 1000000;
 
 // The form of numbers of a bake that sets none.
 inline constexpr std::uint32_t default_bits = 8;
@@ -49,6 +52,8 @@ struct CompressionSettings {
   bool is_cta_mapped = false;   // CTA has view maps as well, whose cells show one cluster each
   std::uint32_t bits = 16;      // form of the numbers, see Material in sdk's material/material.h
   ReliefSource relief = ReliefSource::none;
+  // Of a neural material: channels of its features, a multiple of 4, and steps of its training.
+  std::uint32_t neural_channels = 16, neural_steps = 8000;
   std::uint64_t seed = 1;
 
   std::uint32_t cluster_count() const {
@@ -60,6 +65,20 @@ struct CompressionSettings {
   }
 };
 
+// Returns whether a material will have a VOTF: views that pass through it have a mask.
+inline bool will_have_votf(bool has_mask, const CompressionSettings& s) {
+  return has_mask && s.visibility != nook::material::VisibilityForm::none;
+}
+inline bool has_votf(const RawMaterial& raw, const CompressionSettings& s) {
+  return will_have_votf(!raw.mask.empty(), s);
+}
+
+// Returns the settings of the VOTF, which a neural material has by K-CTA.
+inline CompressionSettings votf_settings(CompressionSettings s) {
+  if (s.method == Method::neural) s.method = Method::k_cta;
+  return s;
+}
+
 // Returns false to stop. stage names what goes on.
 using StageProgress = std::function<bool(const char* stage, std::size_t done, std::size_t total)>;
 
@@ -69,9 +88,20 @@ using StageProgress = std::function<bool(const char* stage, std::size_t done, st
 nook::material::VisibilityMapping default_mapping(nook::material::VisibilityForm form, std::uint32_t width,
                                                   std::uint32_t height);
 
+// Throws Failure INVALID_ARGUMENT for settings that no neural material has, whatever its data are.
+void check_neural(const CompressionSettings& s);
+
 // Ranks, clusters and mixture against the material's sizes; throws Failure(INVALID_ARGUMENT) that names the
 // first that does not fit.
 void check_settings(const CompressionSettings& settings, const RawMaterial& raw);
+
+// The same before a material is traced, of which only the sizes and directions are there. has_mask: its views
+// will have a mask.
+void check_settings(const CompressionSettings& settings, const RawMaterial& sizes, bool has_mask);
+
+// Sets the lowest ranks that a threshold chooses for a material of these sizes, to check the other settings
+// before the threshold has values to choose by.
+void set_lowest_ranks(const RawMaterial& sizes, CompressionSettings& settings);
 
 // Both throw Failure(NOOK_ERROR_CANCELLED) when progress returns false. The same bits for the same seed on
 // any number of threads.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bakers/material/microfacet.h"
+#include "bakers/material/tile_filter.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake::material {
@@ -60,6 +61,17 @@ std::vector<float> heights_of_map(const PbrMaps& maps, float height_scale_m, flo
         double(range), double(most_height));
   for (std::size_t i = 0; i < z.size(); ++i) z[i] = (maps.height[i] - middle) * tiles;
   return z;
+}
+
+PbrMaps heights_at(const PbrMaps& maps, std::uint32_t side) {
+  PbrMaps out;
+  out.side = side;
+  if (maps.height.empty()) return out;
+  TileFilter filter(maps.side, maps.side, side, 1);
+  for (std::uint32_t y = 0; y < maps.side; ++y)
+    filter.add_row(y, std::span(maps.height).subspan(std::size_t(y) * maps.side, maps.side));
+  out.height = filter.result();
+  return out;
 }
 
 MesoSurface surface_of_maps(const PbrMaps& maps, float height_scale_m, float side_m) {

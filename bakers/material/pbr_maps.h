@@ -28,6 +28,9 @@ struct PbrMaps {
 // what surface_of_maps() throws.
 std::vector<float> heights_of_map(const PbrMaps& maps, float height_scale_m, float side_m);
 
+// The heights alone at side x side points, as TileFilter averages them.
+PbrMaps heights_at(const PbrMaps& maps, std::uint32_t side);
+
 // Makes the displaced surface: heights times height_scale_m over side_m are tiles, and the middle of the
 // heights is z = 0. Normals for shading come from the slopes. Slopes that vary around a point widen its
 // gloss: twice their variance is added to the squared width (M. Olano, D. Baker, LEAN Mapping, I3D 2010). A

@@ -5,7 +5,6 @@
 #include <initializer_list>
 #include <numeric>
 
-#include "bakers/material/view_heights.h"
 #include "bakers/material/view_spline.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
@@ -166,10 +165,15 @@ double fold_error(const RawMaterial& raw, const Relief& relief, const std::vecto
 
 double prediction_error(const RawMaterial& raw, const Relief& relief, const std::vector<float>& shown,
                         const ReliefProgress& progress) {
+  const std::size_t views = raw.views.size(), steps = views + folds;
   std::vector<float> moved = shown;
-  move_to_relief(raw, relief, moved, progress);
+  move_to_relief(raw, relief, moved,
+                 [&](std::size_t done, std::size_t) { return !progress || progress(done, steps); });
   double error = 0;
-  for (std::size_t fold = 0; fold < folds; ++fold) error += fold_error(raw, relief, shown, moved, fold);
+  for (std::size_t fold = 0; fold < folds; ++fold) {
+    if (progress && !progress(views + fold, steps)) throw Failure(NOOK_ERROR_CANCELLED, "stopped");
+    error += fold_error(raw, relief, shown, moved, fold);
+  }
   return error;
 }
 
@@ -213,19 +217,36 @@ Relief relief_of_heights(const RawMaterial& raw, const std::vector<float>& heigh
 
 namespace {
 
+// The count of a search whose parts count on their own: as many steps for each.
+class SearchProgress {
+ public:
+  SearchProgress(const ReliefProgress& progress, std::size_t parts) : progress_(progress), parts_(parts) {}
+
+  // The progress of the next part.
+  ReliefProgress next() {
+    return [this, part = part_++](std::size_t done, std::size_t total) {
+      return !progress_ || progress_(steps * part + steps * done / total, steps * parts_);
+    };
+  }
+
+ private:
+  static constexpr std::size_t steps = 100;
+  const ReliefProgress& progress_;
+  std::size_t parts_, part_ = 0;
+};
+
+// No relief and a plane, beside the smoothed heights.
+constexpr std::size_t other_candidates = 2;
+
 // Of a plane at the heights' mean, the heights smoothed over some numbers of texels, 0 for as they are, and
 // no relief.
 Relief best_relief(const RawMaterial& raw, const std::vector<float>& heights,
-                   std::initializer_list<float> smoothings, const ReliefProgress& progress) {
+                   std::initializer_list<float> smoothings, SearchProgress& progress) {
   const std::vector<float> shown = few_rows(raw);
   Relief best;
-  double least = prediction_error(raw, best, shown, {});
-  std::size_t tried = 0;
+  double least = prediction_error(raw, best, shown, progress.next());
   const auto try_relief = [&](Relief relief) {
-    const double error = prediction_error(raw, relief, shown, [&](std::size_t done, std::size_t total) {
-      return !progress || progress(tried * total + done, (1 + smoothings.size()) * total);
-    });
-    ++tried;
+    const double error = prediction_error(raw, relief, shown, progress.next());
     if (!(error < least)) return;
     least = error;
     best = std::move(relief);
@@ -242,13 +263,18 @@ constexpr std::size_t fewest_views = 8;
 
 Relief estimate_relief(const RawMaterial& raw, const ReliefProgress& progress) {
   if (raw.views.size() < fewest_views) return Relief();
-  return best_relief(raw, heights_of_views(raw), {1, 2, 4, 8}, progress);
+  const std::initializer_list<float> smoothings{1, 2, 4, 8};
+  SearchProgress search(progress, 1 + other_candidates + smoothings.size());
+  const std::vector<float> heights = heights_of_views(raw, search.next());
+  return best_relief(raw, heights, smoothings, search);
 }
 
 Relief known_relief(const RawMaterial& raw, const ReliefProgress& progress) {
   check_heights(raw);
   if (raw.views.size() < fewest_views) return Relief();
-  return best_relief(raw, raw.heights, {0, 1, 2, 4, 8}, progress);
+  const std::initializer_list<float> smoothings{0, 1, 2, 4, 8};
+  SearchProgress search(progress, other_candidates + smoothings.size());
+  return best_relief(raw, raw.heights, smoothings, search);
 }
 
 std::vector<Taps> relief_taps(const Relief& relief, std::uint32_t width, std::uint32_t height, Vec3 view) {

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 #include "bakers/material/raw_material.h"
 #include "bakers/material/tile_taps.h"
+#include "bakers/material/view_heights.h"
 #include "sdk/src/material/material.h"
 
 namespace nook::bake::material {
@@ -23,9 +23,6 @@ nook::material::Relief relief_of_heights(const RawMaterial& raw, const std::vect
 // or go beyond those of a file.
 void check_heights(const RawMaterial& raw);
 
-// Called with the views that are done; returns false to stop with Failure(NOOK_ERROR_CANCELLED).
-using ReliefProgress = std::function<bool(std::size_t done, std::size_t total)>;
-
 // Of the heights that the views agree on, smoothed over several lengths, their mean as a plane, and no relief
 // at all: that on which views of the raw material are predicted best from the others. Without at least 8
 // views there is no relief.
@@ -40,7 +37,7 @@ std::vector<Taps> relief_taps(const nook::material::Relief& relief, std::uint32_
 
 // Replaces images, row x view x texel as in RawMaterial::btf, by those on the relief's points: in each view
 // the ones that show the given image with the least squared error. Points that the view does not show keep
-// what stands before them.
+// what stands before them. Progress counts views.
 void move_to_relief(const RawMaterial& raw, const nook::material::Relief& relief, std::vector<float>& values,
                     const ReliefProgress& progress = {});
 

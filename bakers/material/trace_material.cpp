@@ -106,14 +106,14 @@ class Column {
 
 // Where vertical rays through the samples of a texel meet the surface first.
 std::vector<float> heights_from_above(const TiledScene& scene, const TraceSettings& s) {
-  const FlushDenormals flush;
   const float start = scene.top() + 1e-3f;
   std::vector<float> heights(std::size_t(s.width) * s.height), coverage(heights.size());
   const auto per_texel = float(s.samples * s.samples);
   const auto at = [&](std::uint32_t texel, std::uint32_t sample, std::uint32_t count) {
     return (float(texel) + (float(sample) + 0.5f) / float(s.samples)) / float(count);
   };
-  for (std::uint32_t x = 0; x < s.width; ++x)
+  tbb::parallel_for(std::uint32_t{0}, s.width, [&](std::uint32_t x) {
+    const FlushDenormals flush;
     for (std::uint32_t y = 0; y < s.height; ++y)
       for (std::uint32_t i = 0; i < s.samples * s.samples; ++i) {
         const Vec3 origin{at(x, i % s.samples, s.width), at(y, i / s.samples, s.height), start};
@@ -122,6 +122,7 @@ std::vector<float> heights_from_above(const TiledScene& scene, const TraceSettin
         heights[std::size_t(x) * s.height + y] += hit.position.z / per_texel;
         coverage[std::size_t(x) * s.height + y] += 1 / per_texel;
       }
+  });
   fill_image_gaps(heights, coverage, s.width, s.height);
   return heights;
 }
@@ -160,7 +161,7 @@ RawMaterial trace_material(const MesoSurface& surface, std::vector<Vec3> lights,
     });
   }
   fill_gaps(raw, coverage);
-  raw.heights = heights_from_above(scene, settings);
+  if (settings.finds_heights) raw.heights = heights_from_above(scene, settings);
   if (progress) progress(raw.views.size(), raw.views.size());
   round_to_halves(raw);
   return raw;

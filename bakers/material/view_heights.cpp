@@ -5,6 +5,7 @@
 #include "bakers/material/tile_taps.h"
 #include "bakers/tensor/blocks.h"
 #include "bakers/tensor/tensor.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::material {
 namespace {
@@ -58,15 +59,19 @@ float disagreement(const RawMaterial& raw, std::size_t texel, float height) {
 }  // namespace
 
 // A parabola places the smallest difference between levels.
-std::vector<float> heights_of_views(const RawMaterial& raw) {
+std::vector<float> heights_of_views(const RawMaterial& raw, const ReliefProgress& progress) {
+  constexpr std::size_t texels_at_once = 512;  // between two calls of progress
   const std::size_t texels = raw.texels();
   std::vector<float> heights(texels);
   Matrix cost(height_levels, Index(texels));
-  tensor::for_each_block(texels, 16, [&](std::size_t first, std::size_t last) {
-    for (std::size_t t = first; t < last; ++t)
-      for (int level = 0; level < height_levels; ++level)
-        cost(level, Index(t)) = disagreement(raw, t, level_height(float(level)));
-  });
+  for (std::size_t start = 0; start < texels; start += texels_at_once) {
+    if (progress && !progress(start, texels)) throw Failure(NOOK_ERROR_CANCELLED, "stopped");
+    tensor::for_each_block(std::min(texels_at_once, texels - start), 16, [&](std::size_t a, std::size_t b) {
+      for (std::size_t t = start + a; t < start + b; ++t)
+        for (int level = 0; level < height_levels; ++level)
+          cost(level, Index(t)) = disagreement(raw, t, level_height(float(level)));
+    });
+  }
   for (std::size_t t = 0; t < texels; ++t) {
     Eigen::VectorXf sum = Eigen::VectorXf::Zero(height_levels);
     for (std::size_t i = 0; i < 9; ++i) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "sdk/src/core/failure.h"
+
 namespace nook::bake::tensor {
 namespace {
 
@@ -99,8 +101,9 @@ WideMatrix own_products(const WideMatrix& products, const MixedCells& cells, Ind
 
 }  // namespace
 
-void lower_steps(const AtomGram& atoms, const WideMatrix& products, double penalty, MixedCells& cells) {
-  constexpr int rounds = 300;
+void lower_steps(const AtomGram& atoms, const WideMatrix& products, double penalty, MixedCells& cells,
+                 const RoundProgress& progress) {
+  constexpr std::size_t rounds = 300;
   constexpr double small_enough = 1e-8;  // of the first squared residual
   const StepSystem system(atoms, cells, penalty);
   if (!(penalty > 0) || !system.has_steps()) return;
@@ -110,7 +113,8 @@ void lower_steps(const AtomGram& atoms, const WideMatrix& products, double penal
   WideMatrix step = rest;
   double left = rest.squaredNorm();
   const double first = left;
-  for (int round = 0; round < rounds && left > small_enough * first; ++round) {
+  for (std::size_t round = 0; round < rounds && left > small_enough * first; ++round) {
+    if (progress && !progress(round, rounds)) throw Failure(NOOK_ERROR_CANCELLED, "stopped");
     system.apply(step, along);
     const double bend = step.cwiseProduct(along).sum();
     if (!(bend > 0)) return;

@@ -112,7 +112,7 @@ Mixture resample(const ClusteredFit& fit, const Matrix& projections, const Matri
 }
 
 Mixture resample_map(const ClusteredFit& fit, const Matrix& projections, const Matrix& weights,
-                     std::size_t side, double step_penalty, Pursuit pursuit) {
+                     std::size_t side, double step_penalty, Pursuit pursuit, const RoundProgress& progress) {
   const Resampling of(fit);
   check_sizes(of.atoms, projections, weights);
   MixedCells cells = search_rows(of, projections, weights, pursuit);
@@ -120,7 +120,8 @@ Mixture resample_map(const ClusteredFit& fit, const Matrix& projections, const M
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "weights of %zu cells, need %zu x %zu",
                   std::size_t(weights.rows()), side, side);
   cells.side = side;
-  if (step_penalty > 0) lower_steps(of.atoms, (weights * projections).cast<double>(), step_penalty, cells);
+  if (step_penalty > 0)
+    lower_steps(of.atoms, (weights * projections).cast<double>(), step_penalty, cells, progress);
   return as_mixture(of, cells);
 }
 

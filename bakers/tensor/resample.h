@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bakers/tensor/clustered_fit.h"
+#include "bakers/tensor/map_steps.h"
 
 namespace nook::bake::tensor {
 
@@ -18,8 +19,9 @@ Mixture resample(const ClusteredFit& fit, const Matrix& projections, const Matri
                  Pursuit pursuit = Pursuit::greedy);
 
 // The same for the cells of a map, weights row by row, side x side of them, with lower steps between cells
-// that mix different clusters; see map_steps.h.
+// that mix different clusters; see map_steps.h, whose progress it is.
 Mixture resample_map(const ClusteredFit& fit, const Matrix& projections, const Matrix& weights,
-                     std::size_t side, double step_penalty, Pursuit pursuit);
+                     std::size_t side, double step_penalty, Pursuit pursuit,
+                     const RoundProgress& progress = {});
 
 }  // namespace nook::bake::tensor

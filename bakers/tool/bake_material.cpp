@@ -66,6 +66,10 @@ bool is_mesh(const std::string& meso) {
   return !meso.empty() && std::ranges::count(meso_names(), std::string_view(meso)) == 0;
 }
 
+bool is_traced(const Options& o) {
+  return !o.meso.empty() || !o.pbr.empty();
+}
+
 // Points of the grid along a side of the maps: one for each view ray, which then sees no detail between them.
 std::uint32_t map_points(const Options& o) {
   constexpr std::uint32_t fewest = 4, most = 384;
@@ -153,18 +157,25 @@ RawMaterial obtain(const Options& o, platform::ProgressBar& bar) {
   return raw;
 }
 
-// Reads the image of --relief onto the material's texels.
-void read_relief(const Options& o, RawMaterial& raw) {
+// The image of --relief: at the texels of a material that will be traced, or at its own where a file decides
+// about them. Throws for heights out of range.
+PbrMaps read_relief(const Options& o) {
+  return naming_file(o.relief, [&] {
+    PbrMaps image = read_height_image(o.relief);
+    if (is_traced(o)) image = heights_at(image, o.trace.width);
+    heights_of_map(image, o.height_scale_m, o.tile_side_m);
+    return image;
+  });
+}
+
+void set_heights(const Options& o, const PbrMaps& image, RawMaterial& raw) {
   if (raw.width != raw.height)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "--relief takes an image for a material of as many columns as rows, this one has %u x %u",
                   raw.width, raw.height);
-  PbrMaps maps;
-  maps.side = raw.width;
-  const std::vector<float> z = naming_file(o.relief, [&] {
-    maps.height = read_height_map(o.relief, maps.side);
-    return heights_of_map(maps, o.height_scale_m, o.tile_side_m);
-  });
+  const PbrMaps maps = image.side == raw.width ? image : heights_at(image, raw.width);
+  const std::vector<float> z =
+      naming_file(o.relief, [&] { return heights_of_map(maps, o.height_scale_m, o.tile_side_m); });
   raw.heights.resize(z.size());
   for (std::size_t x = 0; x < raw.width; ++x)
     for (std::size_t y = 0; y < raw.height; ++y) raw.heights[x * raw.height + y] = z[y * raw.width + x];
@@ -172,12 +183,14 @@ void read_relief(const Options& o, RawMaterial& raw) {
 
 Json bake(const Options& o, platform::OutputFile& output, std::optional<platform::OutputFile>& raw_file) {
   platform::ProgressBar bar(o.common.quiet);
+  PbrMaps relief;
+  if (!o.relief.empty()) relief = read_relief(o);
   platform::Stopwatch watch;
   RawMaterial raw = obtain(o, bar);
   const double seconds_obtain = watch.seconds();
   if (raw_file) raw_file->commit(write_raw_material(raw));
-  if (!o.relief.empty()) read_relief(o, raw);
-  check_compression(o.compression, raw);
+  if (!o.relief.empty()) set_heights(o, relief, raw);
+  check_compression(o.compression, raw, !raw.mask.empty());
 
   watch = {};
   const StageProgress progress = stage_progress(bar, "compressing the ");
@@ -220,7 +233,7 @@ Json bake(const Options& o, platform::OutputFile& output, std::optional<platform
 // The sizes of a material that will be ray traced; no views for one that is read.
 RawMaterial expected_sizes(const Options& o) {
   RawMaterial sizes;
-  if (o.meso.empty() && o.pbr.empty()) return sizes;
+  if (!is_traced(o)) return sizes;
   sizes.name = o.meso;
   sizes.views.resize(o.directions);
   sizes.lights.resize(o.lights ? o.lights : o.directions);
@@ -232,8 +245,7 @@ RawMaterial expected_sizes(const Options& o) {
 void run(Options& o) {
   if (int(!o.meso.empty()) + int(!o.pbr.empty()) + int(!o.btf.empty()) + int(!o.raw.empty()) != 1)
     throw ToolError(exit_bad_arguments, "bake material: one of --meso, --pbr, --btf and --raw is needed");
-  if (o.compression.settings.relief == ReliefSource::known && o.relief.empty() && o.meso.empty() &&
-      o.pbr.empty())
+  if (o.compression.settings.relief == ReliefSource::known && o.relief.empty() && !is_traced(o))
     throw ToolError(exit_bad_arguments,
                     "bake material: --relief known needs --meso or --pbr, whose heights are known; give an "
                     "image of the heights of --btf or --raw");
@@ -250,10 +262,12 @@ void run(Options& o) {
                                         "; need an image of heights, none, estimated or known");
   if (o.texels) o.trace.width = o.trace.height = o.texels;
   o.trace.seed = o.common.seed;
+  o.trace.finds_heights = o.compression.settings.relief == ReliefSource::known && o.relief.empty();
   CompressionSettings& settings = o.compression.settings;
   if (!o.visibility_mapping.empty())
     settings.mapping = visibility_mapping(o.visibility_mapping, settings.visibility);
-  check_compression(o.compression, expected_sizes(o));
+  // A height field has no gaps.
+  check_compression(o.compression, expected_sizes(o), !o.meso.empty());
   platform::OutputFile output(o.output);
   std::optional<platform::OutputFile> raw_file, report_file;
   if (!o.keep_raw.empty()) raw_file.emplace(o.keep_raw);
@@ -350,11 +364,26 @@ void add_bake_material(CLI::App& bake) {
       ->add_option_function<std::string>(
           "--method",
           [&s](const std::string& v) {
-            s.method = v == "n-svd" ? Method::n_svd : v == "cta" ? Method::cta : Method::k_cta;
+            s.method = v == "n-svd"    ? Method::n_svd
+                       : v == "cta"    ? Method::cta
+                       : v == "neural" ? Method::neural
+                                       : Method::k_cta;
           },
-          "k-cta (default), cta or n-svd")
-      ->check(CLI::IsMember({"k-cta", "cta", "n-svd"}))
+          "k-cta (default), cta, n-svd, or neural: a small network over features of the texels, for flat and "
+          "glossy "
+          "materials, which trains for minutes; its visibility is that of k-cta")
+      ->check(CLI::IsMember({"k-cta", "cta", "n-svd", "neural"}))
       ->type_name("NAME");
+  command
+      ->add_option(
+          "--channels", s.neural_channels,
+          "of --method neural: channels of the features, a multiple of 4 up to 64; half a byte of the file "
+          "each for a texel")
+      ->check(CLI::Range(4, 64))
+      ->capture_default_str();
+  command->add_option("--steps", s.neural_steps, "of --method neural: steps of the training")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
   command
       ->add_option_function<std::string>(
           "--votf",

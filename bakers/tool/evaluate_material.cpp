@@ -1,6 +1,7 @@
 // nook evaluate material: a compressed material against the raw one, beside its baselines, with pictures and
 // plots.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +14,7 @@
 #include "bakers/tool/material/options.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
+#include "sdk/src/material/check.h"
 
 namespace nook::tool {
 namespace {
@@ -28,7 +30,7 @@ struct Options {
   std::filesystem::path raw, material, unseen, images;
   std::vector<std::uint32_t> sweep;
   std::vector<std::string> methods;  // baselines; empty: all, where baselines are requested
-  bool peers = false, seeding = false, jumps = false;
+  bool peers = false, seeding = false, jumps = false, mipmaps = false;
   std::uint32_t votf_refits = 2;
 };
 
@@ -75,6 +77,18 @@ class Pictures {
   std::vector<bake::Picture> jumps_;
 };
 
+std::vector<std::string> baselines_of(const Options& o) {
+  return o.methods.empty() && o.peers ? measure::material_peer_names() : o.methods;
+}
+
+// Baselines of bytes or of texels need no ranks of the file.
+bool fits_at_equal_ranks(const Options& o) {
+  const auto needs_ranks = [](const std::string& name) {
+    return name != "pca" && name != "pbr" && name != "neural";
+  };
+  return o.seeding || !o.sweep.empty() || std::ranges::any_of(baselines_of(o), needs_ranks);
+}
+
 RawMaterial read_raw(const std::filesystem::path& path) {
   return naming_file(path, [&] { return bake::material::read_raw_material(read_file(path)); });
 }
@@ -87,6 +101,8 @@ Json evaluate(const Options& o) {
   const RawMaterial raw = read_raw(o.raw);
   const std::vector<std::byte> bytes = read_file(o.material);
   const Material material = naming_file(o.material, [&] { return nook::material::read_material(bytes); });
+  if (fits_at_equal_ranks(o))
+    nook::material::refuse_neural(material.neural.is_used(), "a fit at equal ranks");
   const measure::MaterialFile file{bytes, material};
   bar.show("measuring", "files", 0, 1);
   RawMaterial unseen_material;
@@ -95,14 +111,13 @@ Json evaluate(const Options& o) {
     unseen_material = read_raw(o.unseen);
     unseen = &unseen_material;
   }
-  const MethodRow own =
-      naming_file(o.material, [&] { return measure::material_file_row(raw, file, unseen, o.jumps); });
+  const MethodRow own = naming_file(
+      o.material, [&] { return measure::material_file_row(raw, file, unseen, o.jumps, o.mipmaps); });
   Json rows = Json::array({bake::material::report_row(raw.name, own)});
   Pictures pictures(o, raw);
   pictures.add("file", material, own);
   measure::BaselineRequest request;
-  request.names = o.methods;
-  if (request.names.empty() && o.peers) request.names = measure::material_peer_names();
+  request.names = baselines_of(o);
   request.unseen = unseen;
   request.jumps = o.jumps;
   request.votf_refits = o.votf_refits;
@@ -156,6 +171,9 @@ void add_evaluate_material(CLI::App& evaluate_command) {
       "--jumps", o.jumps,
       "measure jumps as the view moves by 0.1 degrees, with and without view maps, which CTA has "
       "then as well; with --images a picture of the largest of each method");
+  command->add_flag(
+      "--mipmaps", o.mipmaps,
+      "measure pixels that cover 2 x 2, 4 x 4 and more texels, at their mipmap level and at the finest");
   command->add_flag("--compare-seeding", o.seeding,
                     "CTA and K-CTA from clusters of directions and of values");
   command->add_option("--sweep", o.sweep, "total view ranks, for all methods (plots with --images)")

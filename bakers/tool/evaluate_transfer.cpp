@@ -15,6 +15,7 @@
 #include "bakers/tool/probe/scene.h"
 #include "platform/progress_bar.h"
 #include "platform/stopwatch.h"
+#include "sdk/src/material/check.h"
 #include "sdk/src/material/material_file.h"
 #include "sdk/src/transfer/check.h"
 #include "sdk/src/transfer/transfer_file.h"
@@ -80,6 +81,7 @@ Json evaluate(const Options& o) {
   const material::MaterialTables tables = naming_file(o.material, [&] {
     return material::make_tables(material::read_material(material_bytes), {}, default_memory());
   });
+  material::refuse_neural(tables.neural.is_used(), "radiance transfer");
   naming_file(o.transfer,
               [&] { transfer::check_same_light(baked, tables.btf.light_modes, tables.light_hash); });
   const bool is_paper = baked.paper.is_used();

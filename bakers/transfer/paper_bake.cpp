@@ -13,6 +13,7 @@
 #include "bakers/transfer/light_matrices.h"
 #include "sdk/src/core/half.h"
 #include "sdk/src/core/spherical_gaussian.h"
+#include "sdk/src/material/check.h"
 
 namespace nook::bake::transfer {
 namespace {
@@ -193,6 +194,7 @@ void check_paper_bake(const SurfaceMesh& mesh, const PaperSettings& paper) {
 Transfer bake_paper(const SurfaceMesh& mesh, const BakeSettings& settings, const PaperSettings& paper,
                     const nook::material::MaterialTables& tables, const Progress& progress,
                     const Progress& fitted) {
+  nook::material::refuse_neural(tables.neural.is_used(), "the paper's form of radiance transfer");
   check_bake(mesh, settings);
   check_paper_bake(mesh, paper);
   const std::size_t count = mesh.position.size(), modes = std::size_t(3) * tables.btf.light_modes;

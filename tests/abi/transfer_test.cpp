@@ -2,13 +2,16 @@
 #include <nook/nook_transfer.h>
 
 #include <cmath>
+#include <cstring>
 #include <string>
 #include <vector>
 
+#include "sdk/src/material/material_file.h"
 #include "sdk/src/transfer/transfer_file.h"
 #include "tests/abi/growing_struct.h"
 #include "tests/abi/host.h"
 #include "tests/catch.h"
+#include "tests/material/material_sample.h"
 #include "tests/transfer/transfer_sample.h"
 
 using namespace nook::test;
@@ -131,4 +134,32 @@ TEST_CASE("transfer: lights that are not valid") {
   const float down[3] = {0, -0.5f, 0}, one[3] = {1, 1, 1};
   CHECK(nook_transfer_fit_directional(l.fit, down, one, l.amplitudes.data(), 19) == invalid);
   nook_transfer_light_destroy(&light);
+}
+
+TEST_CASE("transfer: a neural material is refused, because its radiance is no sum of light modes") {
+  Loaded loaded;
+  const std::vector<std::byte> bytes =
+      nook::material::write_material(nook::material::test::sample_material(1, {.channels = 4}));
+  nook_material neural = nullptr;
+  REQUIRE(nook_material_load(loaded.stage.context, bytes.data(), bytes.size(), &neural) == NOOK_OK);
+  nook_material_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_material_describe(neural, &info) == NOOK_OK);
+  CHECK(info.neural_channels == 4);
+  const nook_material_tensor none{};
+  CHECK(std::memcmp(&info.btf, &none, sizeof none) == 0);  // a neural material has no tensor of radiance
+  CHECK(nook_transfer_check_material(loaded.transfer, neural) == invalid);
+  CHECK(last_has("the material is neural"));
+  nook_transfer_response_desc desc;
+  REQUIRE(nook_transfer_response_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  desc.material = neural;
+  desc.lobe_count = 19;
+  nook_transfer_response response = nullptr;
+  CHECK(nook_transfer_response_create(loaded.stage.context, &desc, &response) == invalid);
+  CHECK(last_has("the material is neural"));
+  const nook_material_sample sample{{0, 0}, 0, {0, 0, 1}, {0, 0, 1}};
+  float radiance[3];
+  CHECK(nook_transfer_shade(neural, &sample, loaded.vectors.data(), 0, 1, radiance) == invalid);
+  CHECK(last_has("the material is neural"));
+  nook_material_destroy(&neural);
 }

@@ -72,8 +72,11 @@ class Character {
     norm_sum(model_.kernel);
     kernels_.norm_root(sum_.data(), points().padded_count, model_.kernel.gamma, shadow_.data());
   }
-  void blend() { kernels_.linear_layer(linear_.view(), shadow_.data(), nullptr, slots_.data()); }
-  void blend_added() { kernels_.linear_layer(linear_.view(), shadow_.data(), shadow_.data(), slots_.data()); }
+  void blend() { kernels_.linear_layer(linear_.view(), encoded(), nullptr, slots_.data()); }
+  void blend_added() {
+    encoded();
+    kernels_.linear_layer(linear_.view(), codes_, &codes_, slots_.data());
+  }
   void all() {
     pose();
     shadow();
@@ -87,13 +90,19 @@ class Character {
   double linear_columns_per_block() const {
     const LinearView& layer = linear_.view();
     const LinearBlock& last = layer.blocks[layer.block_count - 1];
-    return double(last.first_column + last.columns) / layer.block_count;
+    return 2.0 * double(last.first_pair + last.pairs) / layer.block_count;
   }
   // Without the padding, whose work nobody sees.
   double evaluations() const { return double(model_.spheres.size() * model_.key_points.size()); }
   const CharacterModel& model() const { return model_; }
 
  private:
+  const PointCodes& encoded() {
+    codes_.low = words_.data();
+    codes_.high = words_.data() + points_count();
+    kernels_.encode_points(shadow_.data(), points_count(), linear_.view().shadow_limit, codes_);
+    return codes_;
+  }
   static AlignedArray<float> array(std::size_t count) { return {count, nook::default_memory()}; }
   std::size_t sphere_stride() const { return padded_count(rest_spheres_.view().count); }
   std::uint32_t points_count() const { return rest_points_.padded_count(); }
@@ -117,6 +126,8 @@ class Character {
   RestKeyPoints rest_points_;
   LinearLayer linear_;
   AlignedArray<float> sphere_numbers_, point_numbers_, sum_, depth_, shadow_, slots_;
+  AlignedArray<std::int32_t> words_{std::size_t{2} * points_count(), nook::default_memory()};
+  PointCodes codes_;
   SphereTarget sphere_target_;
   KeyPointTarget point_target_;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "sdk/src/character/sphere_tree.h"
 #include "tests/catch.h"
@@ -254,7 +255,7 @@ TEST_CASE("the change stays below far_error at every distance, where arms reach 
   CHECK(grouped > 12);
 }
 
-TEST_CASE("each sphere is in one leaf of the tree, and nodes hold those of their children") {
+TEST_CASE("a tree holds each sphere once, and each node but the first is half of one before it") {
   const CharacterModel model = body(3);
   const SphereTree tree(model);
   std::vector<std::uint32_t> order(tree.order().begin(), tree.order().end());
@@ -262,19 +263,39 @@ TEST_CASE("each sphere is in one leaf of the tree, and nodes hold those of their
   REQUIRE(order.size() == 130);
   for (std::uint32_t i = 0; i < 130; ++i) CHECK(order[i] == i);
   const auto& nodes = tree.nodes();
-  CHECK((nodes[0].begin == 0 && nodes[0].end == 130 && nodes[0].next == nodes.size()));
-  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-    if (nodes[n].next == n + 1) {
-      CHECK(nodes[n].end - nodes[n].begin <= 4);
-      continue;
+  REQUIRE(nodes.size() == 129);
+  std::vector<int> uses(129 + 130, 0);
+  for (std::uint32_t n = 0; n < nodes.size(); ++n)
+    for (const std::uint16_t half : nodes[n].half) {
+      REQUIRE(half < uses.size());
+      CHECK(half > n);
+      ++uses[half];
     }
-    const SphereTreeNode &left = nodes[n + 1], &right = nodes[left.next];
-    CHECK((left.begin == nodes[n].begin && left.end == right.begin && right.end == nodes[n].end));
-    CHECK((left.begin < left.end && right.begin < right.end && right.next == nodes[n].next));
-  }
+  CHECK(uses[0] == 0);
+  CHECK(std::count(uses.begin(), uses.end(), 1) == 258);
   CharacterModel other = body(3);
   other.kernel.gamma = 1.5f;
   CHECK(SphereTree(other).is_empty());
+  other = body(3);
+  other.spheres.resize(1);
+  CHECK(SphereTree(other).is_empty());
+}
+
+TEST_CASE("a node has the mass of its spheres, at their centre of mass") {
+  const CharacterModel model = body(4);
+  const SphereTree tree(model);
+  const Posed posed(model, stiff_pose(model, {0.3f, 0, 0}, 0.4f, 1.2f));
+  const auto pose = std::make_unique<PosedSphereTree>();
+  pose_tree(tree, posed.all, 1.0f / 1024, *pose);
+  double mass = 0, x = 0;
+  for (std::uint32_t i = 0; i < 130; ++i) {
+    const double squared = 1 / (double(posed.all.inverse_radius[i]) * posed.all.inverse_radius[i]);
+    mass += squared;
+    x += squared * posed.all.x[i];
+  }
+  // Sums of 130 floats in a tree of some ten levels.
+  CHECK(std::abs(pose->mass[0] - 0.75 * mass) < 3e-6 * mass);
+  CHECK(std::abs(pose->x[0] - x / mass) < 3e-6);
 }
 
 TEST_CASE(

@@ -29,7 +29,9 @@ Work work_of(std::span<const std::byte> file, material::Material& material) {
   } catch (const Failure&) {
     return Work::refused;
   }
-  if (expanded(material.btf.shape) + expanded(material.votf.shape) > 1 << 13 || material.views.size() > 24)
+  if (expanded(material.btf.shape) + expanded(material.votf.shape) + material.neural.blocks.size() >
+          1 << 13 ||
+      material.views.size() > 24)
     return Work::large;
   return material.btf.map.side == 0 ? Work::resampled : Work::little;
 }

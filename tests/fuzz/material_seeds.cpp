@@ -31,6 +31,11 @@ std::vector<Seed> seeds() {
     made.push_back({"material_" + std::to_string(made.size()) + ".nook",
                     material::write_material(material::test::sample_material(
                         1, small({.relief_height = 0.2f, .relief_steps = steps})))});
+  for (const auto visibility : {material::VisibilityForm::none, material::VisibilityForm::distance})
+    made.push_back(
+        {"material_" + std::to_string(made.size()) + ".nook",
+         material::write_material(material::test::sample_material(
+             1, small({.map_side = 2, .visibility = visibility, .channels = 4, .units = 4, .layers = 2})))});
   return made;
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr float bound = 1.0f / 255;
 
 // N-SVD, CTA, K-CTA, K-CTA resampled, ranks that are no multiples of four, more terms than one texel of the
-// membership holds, one texel, no VOTF; integers of several of these; reliefs.
+// membership holds, one texel, no VOTF; integers of several of these; reliefs; neural materials.
 const Size forms[] = {
     {.width = 16, .height = 16, .rank_view = 8, .clusters = 1, .mixture = 1},
     {.width = 16, .height = 8, .clusters = 5, .mixture = 1},
@@ -33,6 +33,9 @@ const Size forms[] = {
     {.width = 16, .height = 16, .clusters = 6, .map_side = 24, .relief_height = 0.05f, .relief_steps = 8},
     {.width = 12, .height = 7, .bits = 8, .relief_height = 0.05f, .relief_steps = 5},
     {.width = 12, .height = 8, .map_side = 6, .bits = 8, .relief_height = -0.3f},
+    {.width = 16, .height = 8, .channels = 16, .units = 32},
+    {.width = 7, .height = 10, .map_side = 6, .channels = 4, .units = 8, .layers = 1},
+    {.visibility = material::VisibilityForm::none, .channels = 8, .units = 12, .layers = 4},
 };
 
 void put(float (&out)[3], Vec3 v) {
@@ -93,7 +96,7 @@ TEST_CASE("material: the GLSL agrees with the CPU reference to 1/255") {
         value.visibility = wanted[i].visibility;
       // Visibility is weight times the VOTF's value: so much larger is its difference.
       CHECK(difference(value, wanted[i]) <= bound);
-      brightest = std::max(brightest, std::abs(wanted[i].radiance[0]));
+      for (const float radiance : wanted[i].radiance) brightest = std::max(brightest, std::abs(radiance));
     }
     CHECK(brightest > 0.5f);
   }

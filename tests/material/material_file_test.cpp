@@ -99,6 +99,12 @@ void check_near(const ClusteredTensor& got, const ClusteredTensor& want) {
   check_near(got.map.rows.coefficients, want.map.rows.coefficients);
 }
 
+// Of both forms of numbers, and a neural one.
+constexpr test::SampleSize damaged_forms[] = {
+    {.map_side = 3, .bits = 8, .relief_height = 0.1f, .relief_steps = 8},
+    {.map_side = 3, .bits = 16, .relief_height = 0.1f, .relief_steps = 8},
+    {.visibility = VisibilityForm::none, .channels = 4, .units = 4, .layers = 2}};
+
 }  // namespace
 
 TEST_CASE("a material comes back from its file within a half float's step") {
@@ -209,9 +215,8 @@ TEST_CASE("a form of numbers that is neither 8 nor 16 is refused") {
 }
 
 TEST_CASE("a file cut at any byte is refused") {
-  for (const std::uint32_t bits : {8u, 16u}) {
-    const std::vector<std::byte> good = write_material(
-        test::sample_material(1, {.map_side = 3, .bits = bits, .relief_height = 0.1f, .relief_steps = 8}));
+  for (const test::SampleSize& form : damaged_forms) {
+    const std::vector<std::byte> good = write_material(test::sample_material(1, form));
     REQUIRE(read_outcome(good).code == NOOK_OK);
     for (std::size_t size = 0; size < good.size(); ++size) {
       // An exact copy on the heap, so that the address sanitizer sees one byte too far.
@@ -222,9 +227,8 @@ TEST_CASE("a file cut at any byte is refused") {
 }
 
 TEST_CASE("a file flipped at any byte is refused, or with its checksum repaired loads soundly") {
-  for (const std::uint32_t bits : {8u, 16u}) {
-    const std::vector<std::byte> good = write_material(
-        test::sample_material(1, {.map_side = 3, .bits = bits, .relief_height = 0.1f, .relief_steps = 8}));
+  for (const test::SampleSize& form : damaged_forms) {
+    const std::vector<std::byte> good = write_material(test::sample_material(1, form));
     std::size_t refused = 0;
     for (std::size_t i = 0; i < good.size(); ++i)
       for (const unsigned flip : {0x01u, 0x80u, 0xffu}) {
@@ -237,8 +241,9 @@ TEST_CASE("a file flipped at any byte is refused, or with its checksum repaired 
         REQUIRE((outcome.code == NOOK_OK || outcome.code == NOOK_ERROR_BAD_FILE ||
                  outcome.code == NOOK_ERROR_FILE_VERSION));
       }
-    // Heads, directions and memberships are a part of so small a file.
-    CHECK(refused > good.size() / 4);
+    // Heads, directions and memberships are a part of so small a file; features and weights may be almost
+    // anything.
+    CHECK(refused > good.size() / (form.channels > 0 ? 8 : 4));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "sdk/src/core/half.h"
 #include "sdk/src/material/material.h"
 
 namespace nook::material::test {
@@ -42,6 +43,8 @@ struct SampleSize {
   std::uint32_t bits = 16;
   float relief_height = 0;         // tiles; 0: no relief
   std::uint32_t relief_steps = 0;  // 0: a plane
+  std::uint32_t channels = 0;      // of a neural material; 0: a tensor
+  std::uint32_t units = 8, layers = 3;
 };
 
 inline void fill(Vector<float>& values, std::size_t count, float size, Numbers& numbers) {
@@ -86,6 +89,28 @@ inline Relief sample_relief(const SampleSize& size) {
   return relief;
 }
 
+// Blocks of any ends and codes, and weights with which heights lie within a tile and radiances at about 1.
+inline Neural sample_neural(const SampleSize& size, Numbers& numbers) {
+  Neural neural;
+  neural.shape = {size.width, size.height, size.channels, size.units, size.layers, 4, size.units};
+  neural.blocks.resize(neural_block_bytes_of(neural.shape));
+  for (std::size_t i = 0; i < neural.blocks.size(); ++i) {
+    std::uint8_t& byte = neural.blocks[i];
+    const std::size_t at = i % neural_block_bytes;
+    byte = std::uint8_t(at > 1    ? numbers.below(256)
+                        : at == 0 ? numbers.below(128)
+                                  : numbers.below(127) + 129);
+  }
+  const NeuralLayout at(neural.shape);
+  for (std::size_t i = 0; i < at.count; ++i) {
+    const float largest =
+        i >= at.offset_out && i <= at.offset_level ? 0.04f : 0.7f * std::sqrt(8.0f / float(size.units));
+    neural.weights.push_back(to_half(numbers.between(-largest, largest)));
+  }
+  for (std::size_t i = at.out_bias; i < at.count; ++i) neural.weights[i] = to_half(0.5f);
+  return neural;
+}
+
 inline Material sample_material(std::uint32_t seed = 1, const SampleSize& size = {}) {
   Numbers numbers(seed);
   Material material;
@@ -94,8 +119,12 @@ inline Material sample_material(std::uint32_t seed = 1, const SampleSize& size =
   material.views = hemisphere(size.views);
   const TensorShape shape{size.views,  size.width,  size.height,   size.rank_light, size.rank_view,
                           size.rank_x, size.rank_y, size.clusters, size.mixture};
-  fill_tensor(material.btf, shape, size.map_side, numbers);
-  fill(material.light_basis, 3 * size.lights * size.rank_light, 1, numbers);
+  if (size.channels > 0) {
+    material.neural = sample_neural(size, numbers);
+  } else {
+    fill_tensor(material.btf, shape, size.map_side, numbers);
+    fill(material.light_basis, 3 * size.lights * size.rank_light, 1, numbers);
+  }
   material.visibility = size.visibility;
   if (size.visibility != VisibilityForm::none) {
     material.mapping = paper_mapping(size.visibility);

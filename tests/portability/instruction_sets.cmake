@@ -13,9 +13,14 @@ run(${RESULTS} run character.nook material.nook native.values)
 string(REGEX MATCHALL "[a-z0-9]+ +[0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f][0-9a-f]+" lines "${output}")
 foreach(line ${lines})
   string(REGEX REPLACE " .*" "" name "${line}")
-  # The vector kernels have other roots and exponentials, within a few of the last bits, and add in another order: 2.3e-5 for
-  # AO and 2e-7 for light were seen. A material is evaluated by one code.
+  # The vector kernels have other roots and exponentials, within a few of the last bits, and add in another order, and shadows
+  # that differ by rounding may have codes a step apart, for 7e-5 of AO (kernel_agreement.cpp): 8.3e-5 for AO and 2e-7 for light
+  # were seen. The estimates of AVX-512 have 14 bits, so that it differs by 1.7e-4 of AO. A material is evaluated by one code.
+  set(ao 1.2e-4)
+  if(name STREQUAL "avx512")
+    set(ao 2.3e-4)
+  endif()
   if(NOT name STREQUAL "all")
-    run(${RESULTS} compare native.values native.values 4e-5 1e-6 0 scalar ${name})
+    run(${RESULTS} compare native.values native.values ${ao} 1e-6 0 scalar ${name})
   endif()
 endforeach()

@@ -23,6 +23,10 @@ constexpr double bound = 4e-5;
 // weights.
 constexpr double bound_of_estimates = 1.5e-4;
 
+// Shadows that differ by rounding may have codes a step apart, which is 1/8192 of the largest, and the
+// largest is below 3. The weights of a key point are below 0.2.
+constexpr double bound_of_codes = 0.2 * 3 / 8192;
+
 constexpr std::uint32_t seeds = 8;
 
 class Row {
@@ -112,7 +116,7 @@ bool compare(Isa isa) {
   bool good = true;
   for (const Row* row : {&rows.spheres, &rows.points, &rows.shadows, &rows.depth, &rows.open, &rows.ao,
                          &rows.norm, &rows.directional, &rows.values, &rows.fits, &rows.sums})
-    good &= row->print(isa_name(isa), limit);
+    good &= row->print(isa_name(isa), row == &rows.ao ? limit + bound_of_codes : limit);
   return good;
 }
 

@@ -76,7 +76,10 @@ class Body {
     kernels.composed_occlusion(depth_.row(0), open_.row(0), key_points, occlusion_.row(0));
   }
   void blend(const ShadowKernels& kernels) {
-    kernels.linear_layer(layer(), shadow_.row(0), occlusion_.row(0), ao_.row(0));
+    PointCodes shadow = codes(0), occlusion = codes(2);
+    kernels.encode_points(shadow_.row(0), key_points, code_limit, shadow);
+    kernels.encode_points(occlusion_.row(0), key_points, code_limit, occlusion);
+    kernels.linear_layer(layer(), shadow, &occlusion, ao_.row(0));
   }
   void light(const ShadowKernels& kernels, const Kernel& kernel);
 
@@ -92,6 +95,8 @@ class Body {
  private:
   static constexpr Vec3 offset{0.5f, -0.25f, 1};
   static constexpr float alpha_step = 1e-5f, blend_step = 1.0f / 16384;
+  // Twelve weights of up to 20,000 and 2,731 steps, times codes of this size, stay below 2^31.
+  static constexpr float code_limit = 8192;
 
   static void clear(Rows& rows, std::uint32_t count, float value, std::size_t row = 0) {
     for (std::uint32_t i = 0; i < count; ++i) rows.row(row)[i] = value;
@@ -128,19 +133,24 @@ class Body {
     return {ground_.row(0), ground_.row(1), ground_.row(2), ground_.row(3), nullptr, 1};
   }
   LinearView layer() const {
-    return {blocks_.data(), blocks,     layer_point_.data(), alpha_.data(),
-            blend_.data(),  alpha_step, blend_step,          open_bias_.row(0)};
+    return {blocks_.data(), blocks,     layer_point_.data(), alpha_.data(), blend_.data(),
+            alpha_step,     blend_step, open_bias_.row(0),   code_limit,    code_limit};
+  }
+  PointCodes codes(std::size_t part) {
+    return {codes_.data() + part * key_points, codes_.data() + (part + 1) * key_points, 0};
   }
 
   std::vector<Mat3x4> pose_;
   Rows rest_spheres_{5, spheres}, rest_points_{12, key_points};
-  std::vector<std::uint16_t> sphere_bone_, point_bone_, layer_point_;
+  std::vector<std::uint16_t> sphere_bone_, point_bone_;
+  std::vector<std::uint32_t> layer_point_;  // two for each
   std::vector<float> point_weight_;
   Rows posed_spheres_{4, spheres}, posed_points_{12, key_points}, neighbour_x_{1, spheres}, ground_{4, 1};
   Rows sum_{1, key_points}, shadow_{1, key_points}, depth_{1, key_points}, open_{1, key_points},
       occlusion_{1, key_points};
   std::vector<LinearBlock> blocks_;
   std::vector<std::int16_t> alpha_, blend_;
+  std::vector<std::int32_t> codes_;
   Rows open_bias_{1, vertices}, ao_{1, vertices};
   std::vector<LightLobe> lobes_;
   LightBands bands_;
@@ -151,11 +161,12 @@ inline Body::Body(std::uint32_t seed)
     : pose_(bones),
       sphere_bone_(spheres),
       point_bone_(4 * key_points),
-      layer_point_(blocks * columns),
+      layer_point_(blocks * columns / 2),
       point_weight_(4 * key_points),
       blocks_(blocks),
       alpha_(vertices * columns),
-      blend_(vertices * columns) {
+      blend_(vertices * columns),
+      codes_(std::size_t{4} * key_points) {
   Random random(seed);
   for (Mat3x4& bone : pose_) {
     const Vec3 x = random.direction(), z = normalised(cross(x, random.direction())), y = cross(z, x);
@@ -187,9 +198,9 @@ inline Body::Body(std::uint32_t seed)
   ground_.row(1)[0] = -2 - ground_radius;
   ground_.row(3)[0] = inverse_sphere_radius(ground_radius);
   for (std::uint32_t b = 0; b < blocks; ++b) {
-    blocks_[b] = {b * columns, columns};
+    blocks_[b] = {b * columns / 2, columns / 2};
     for (std::uint32_t c = 0; c < columns; ++c) {
-      layer_point_[b * columns + c] = std::uint16_t(random.below(key_points));
+      layer_point_[(b * columns + c) / 2] |= random.below(key_points) << 16 * (c % 2);
       for (std::uint32_t v = 0; v < linear_block_vertices; ++v) {
         const std::size_t at = (b * columns + c) * linear_block_vertices + v;
         alpha_[at] = std::int16_t(random.from(-0.1f, 0.2f) / alpha_step);

@@ -1,11 +1,15 @@
+#include <string_view>
+
 #include "bakers/measure/gpu_cost/shader_cases.h"
+#include "sdk/src/gl/embedded_shaders.h"
+#include "sdk/src/gl/material/source.h"
 
 namespace nook::measure {
 namespace {
 
-// The decoding of bakers/measure/material/neural_tile.h. A layer of a texture has two channels (BC5);
-// matrices are in blocks of 4 x 4, those of four inputs to all units beside each other. The first block's
-// inputs are the view and 1, whose weights are the bias.
+// The decoding of bakers/material/neural_tile.h where features depend on the view, which the library's do
+// not. A layer of a texture has two channels (BC5); matrices are in blocks of 4 x 4, those of four inputs to
+// all units beside each other. The first block's inputs are the view and 1, whose weights are the bias.
 constexpr char decode[] = R"(
 uniform highp sampler2DArray nook_neural_features;
 uniform highp sampler2DArray nook_neural_offset_features;
@@ -120,20 +124,14 @@ void main() {
 }
 )";
 
-struct Size {
-  const char* name;
-  int channels, view_side;
-};
-// The default of neural_tile.h, and the 22 channels that fill the bytes of K-CTA on
-// weave in docs/materials.md, rounded up to vectors.
 constexpr int layers = 3;
-constexpr Size sizes[] = {{"small", 16, 1}, {"equal bytes", 24, 7}};
 
-std::string defines(const Size& size) {
-  constexpr int units = 32, offset_channels = 8, offset_units = 16;
+// The 22 channels that fill the bytes of K-CTA on weave in docs/materials.md, rounded up to vectors.
+std::string defines() {
+  constexpr int channels = 24, view_side = 7, units = 32, offset_channels = 8, offset_units = 16;
   std::string text;
-  for (const auto& [name, value] : {std::pair("FEATURE_VEC4S", size.channels / 4),
-                                    {"VIEW_SIDE", size.view_side},
+  for (const auto& [name, value] : {std::pair("FEATURE_VEC4S", channels / 4),
+                                    {"VIEW_SIDE", view_side},
                                     {"UNIT_VEC4S", units / 4},
                                     {"LAYERS", layers},
                                     {"OFFSET_VEC4S", offset_channels / 4},
@@ -142,18 +140,62 @@ std::string defines(const Size& size) {
   return text;
 }
 
+// The library's declarations before shaders/material/neural/host.glsl, for the sizes of a bake without
+// options and weights of any values, none of which a compiler leaves out.
+std::string declarations() {
+  material::MaterialTables tables;
+  material::NeuralTables& neural = tables.neural;
+  neural.shape.width = neural.shape.height = 64;
+  neural.lowest_view_z = neural.lowest_light_z = 0.25f;
+  neural.weights.resize(material::NeuralLayout(neural.shape).count);
+  for (std::size_t i = 0; i < neural.weights.size(); ++i)
+    neural.weights[i] = 0.3f + 0.001f * float(i * 7919 % 1009);
+  const String source = gl::material_source(tables, 256, default_memory());
+  std::string_view text(source.data(), source.size());
+  for (const gl::EmbeddedShader* shader = gl::embedded_shaders_begin(); shader != gl::embedded_shaders_end();
+       ++shader)
+    if (std::string_view(shader->path) == "material/neural/host.glsl")
+      text.remove_suffix(std::string_view(shader->text).size());
+  return std::string(text);
+}
+
+constexpr char library_one_light[] = R"(#include "shaders/material/neural/host.glsl"
+in vec2 uv;
+in vec3 view;
+in vec3 light;
+out vec4 colour;
+void main() {
+  vec4 modes[NOOK_LIGHT_VEC4_COUNT];
+  nook_material_decode(uv, dFdx(uv), dFdy(uv), view, modes);
+  colour = vec4(nook_material_radiance(modes, light), 1.0);
+}
+)";
+
+constexpr char library_ten_lights[] = R"(#include "shaders/material/neural/host.glsl"
+in vec2 uv;
+in vec3 view;
+uniform vec3 lights[10];
+uniform vec3 colours[10];
+out vec4 colour;
+void main() {
+  vec4 modes[NOOK_LIGHT_VEC4_COUNT];
+  nook_material_decode(uv, dFdx(uv), dFdy(uv), view, modes);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 10; ++i) sum += colours[i] * nook_material_radiance(modes, lights[i]);
+  colour = vec4(sum, 1.0);
+}
+)";
+
 }  // namespace
 
 std::vector<ShaderCase> neural_shaders() {
   const Loop hidden{"hidden layers after the first", layers - 1, {}};
-  std::vector<ShaderCase> shaders;
-  for (const Size& size : sizes) {
-    const std::string text = defines(size) + decode, name = std::string("neural material, ") + size.name;
-    shaders.push_back(host_shader(text + one_light, name, {hidden}));
-    shaders.push_back(
-        host_shader(text + ten_lights, name + ", four lights and a probe", {{"lights", 10, {hidden}}}));
-  }
-  return shaders;
+  const std::string library = declarations(), nodes = defines() + decode, name = "neural material, ",
+                    lights = ", four lights and a probe";
+  return {host_shader(library + library_one_light, name + "small", {hidden}),
+          host_shader(library + library_ten_lights, name + "small" + lights, {{"lights", 10, {hidden}}}),
+          host_shader(nodes + one_light, name + "equal bytes", {hidden}),
+          host_shader(nodes + ten_lights, name + "equal bytes" + lights, {{"lights", 10, {hidden}}})};
 }
 
 }  // namespace nook::measure

@@ -5,6 +5,7 @@
 #include "bakers/measure/material/table_error.h"
 #include "bakers/measure/material/unseen_views.h"
 #include "bakers/measure/material/whole_file.h"
+#include "sdk/src/material/check.h"
 
 namespace nook::measure {
 namespace {
@@ -102,31 +103,39 @@ std::vector<std::string> material_baseline_names() {
 CompressionSettings settings_of(const Material& material, std::uint64_t seed) {
   const auto &btf = material.btf.shape, &votf = material.votf.shape;
   CompressionSettings s;
+  s.visibility = material.visibility;
+  s.bits = material.bits;
+  s.seed = seed;
+  if (material.neural.is_used()) {
+    s.method = Method::neural;
+    s.neural_channels = material.neural.shape.channels;
+    s.neural_steps = 0;  // unknown: it is in no file
+    return s;
+  }
   s.rank_light = btf.rank_light;
   s.rank_view = btf.rank_view * btf.clusters;
   s.rank_x = btf.rank_x;
   s.rank_y = btf.rank_y;
   s.cluster_rank_view = btf.clusters > 1 ? btf.rank_view : 4;
-  s.visibility = material.visibility;
   if (material.visibility != VisibilityForm::none) {
     s.votf_rank_x = votf.rank_x;
     s.votf_rank_y = votf.rank_y;
   }
   if (btf.clusters > 1 && btf.mixture > 1) s.map_side = material.btf.map.side;
-  s.bits = material.bits;
-  s.seed = seed;
   return s;
 }
 
 MethodRow material_file_row(const RawMaterial& raw, const MaterialFile& file, const RawMaterial* unseen,
-                            bool jumps) {
+                            bool jumps, bool mipmaps) {
   MethodRow own = measure_material(raw, file.material);
   own.method = "file: " + own.method;
   own.file_bytes = file.bytes.size();
   const nook::material::MaterialTables tables =
       nook::material::make_tables(file.material, {}, default_memory());
-  own.se_db_drawn = measure_tables(raw, tables).se_db();
+  // A network is measured as it is drawn.
+  own.se_db_drawn = tables.neural.is_used() ? own.se_db : measure_tables(raw, tables).se_db();
   own.gpu_bytes_texel = table_bytes_texel(tables);
+  if (mipmaps) own.levels = measure_levels(raw, tables);
   add_unseen(unseen, file.material, own);
   if (jumps) add_jumps(file.material, own);
   return own;
@@ -134,6 +143,10 @@ MethodRow material_file_row(const RawMaterial& raw, const MaterialFile& file, co
 
 Json material_baseline_rows(const RawMaterial& raw, const MaterialFile& file, std::uint64_t seed,
                             const BaselineRequest& request) {
+  if (std::any_of(std::begin(baselines), std::end(baselines),
+                  [&](const Baseline& baseline) { return contains(request.names, baseline.name); }) ||
+      contains(request.names, n_svd_filled_name))
+    nook::material::refuse_neural(file.material.neural.is_used(), "a fit at equal ranks");
   CompressionSettings settings = settings_of(file.material, seed);
   settings.votf_refits = request.votf_refits;
   settings.is_cta_mapped = request.jumps;

@@ -43,9 +43,11 @@ struct MaterialFile {
   const nook::material::Material& material;
 };
 
-// The file's own row: its errors, where unseen is given its errors in those views, and its jumps.
+// The file's own row: its errors, where unseen is given its errors in those views, its jumps, and its
+// mipmaps.
 bake::material::MethodRow material_file_row(const bake::material::RawMaterial& raw, const MaterialFile& file,
-                                            const bake::material::RawMaterial* unseen, bool jumps);
+                                            const bake::material::RawMaterial* unseen, bool jumps,
+                                            bool mipmaps = false);
 
 // Compresses the raw material anew by each named method, at the ranks of the file; n-svd-filled and PCA take
 // as many bytes as the whole file.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "bakers/material/neural_training.h"
 #include "bakers/measure/material/measures.h"
-#include "bakers/measure/material/neural_training.h"
 #include "bakers/measure/material/pbr_tile.h"
 #include "bakers/measure/material/pca.h"
 #include "bakers/measure/material/report.h"
@@ -18,14 +18,21 @@ using nook::material::ClusteredTensor;
 using nook::material::Material;
 using nook::material::VisibilityForm;
 
+Method method_of(const Material& material) {
+  if (material.neural.is_used()) return Method::neural;
+  const auto& shape = material.btf.shape;
+  return shape.clusters == 1 ? Method::n_svd : shape.mixture == 1 ? Method::cta : Method::k_cta;
+}
+
 }  // namespace
 
 const char* method_name(Method method) {
-  return method == Method::n_svd ? "N-SVD" : method == Method::cta ? "CTA" : "K-CTA";
+  constexpr const char* names[] = {"N-SVD", "CTA", "K-CTA", "neural"};
+  return names[std::size_t(method)];
 }
 
 void set_core_rounding(const RawMaterial& raw, Material& material) {
-  if (material.bits == 16) return;
+  if (material.bits == 16 || material.neural.is_used()) return;
   constexpr double added = 0.01, least = 0x1p-30, largest = 0x1p-7;
   const BtfError error = measure_btf(raw, material);
   const double share =
@@ -34,13 +41,10 @@ void set_core_rounding(const RawMaterial& raw, Material& material) {
 }
 
 MethodRow measure_material(const RawMaterial& raw, const Material& material) {
-  const auto& shape = material.btf.shape;
   MethodRow row;
-  row.method = method_name(shape.clusters == 1  ? Method::n_svd
-                           : shape.mixture == 1 ? Method::cta
-                                                : Method::k_cta);
-  row.mixture = shape.mixture;
-  row.view_rank = shape.rank_view * shape.clusters;
+  row.method = method_name(method_of(material));
+  row.mixture = material.btf.shape.mixture;
+  if (!material.neural.is_used()) row.view_rank = material.btf.shape.rank_view * material.btf.shape.clusters;
   row.bytes = nook::material::compressed_bytes(material);
   row.file_bytes = whole_file_bytes(material, 0);
   const BtfError error = measure_btf(raw, material);

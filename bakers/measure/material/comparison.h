@@ -4,14 +4,16 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "bakers/material/compression.h"
+#include "bakers/measure/material/table_error.h"
 #include "bakers/measure/material/view_jumps.h"
 
 namespace nook::bake::material {
 
 struct MethodRow {
-  std::string method;  // "PCA", "N-SVD", "CTA", "K-CTA"
+  std::string method;  // "PCA", "N-SVD", "CTA", "K-CTA", "neural"
   std::uint32_t mixture = 1;
   std::optional<std::uint32_t> view_rank;  // in total over the clusters; of tensors
   // Of the whole file that a user ships, view maps of the settings' size included, and of the numbers alone
@@ -22,6 +24,7 @@ struct MethodRow {
   std::optional<std::size_t> error_texels_binary, error_texels_distance;
   // As drawn from textures, see table_error.h: the error, and the textures' bytes for each texel.
   std::optional<double> se_db_drawn, gpu_bytes_texel;
+  std::vector<LevelError> levels;  // of pixels that cover many texels
   // Errors in views, and under lights, that were not fitted.
   std::optional<double> se_db_unseen;
   std::optional<std::size_t> error_texels_unseen;

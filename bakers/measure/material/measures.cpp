@@ -14,6 +14,7 @@ namespace {
 
 using Eigen::Index;
 using nook::material::ClusteredTensor;
+using nook::material::NeuralTables;
 using tensor::Matrix;
 using ConstMap = Eigen::Map<const Matrix>;
 
@@ -25,6 +26,19 @@ void need_sizes(const RawMaterial& raw, const ClusteredTensor& t, const char* wh
         "the %s is of %u views and %u x %u texels, the raw material of %zu and %u x %u; evaluate it with the "
         "raw file that it was baked from",
         what, s.views, s.width, s.height, raw.views.size(), raw.width, raw.height);
+}
+
+void need_texels(const RawMaterial& raw, std::uint32_t width, std::uint32_t height, const char* what) {
+  if (width != raw.width || height != raw.height)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the %s is of %u x %u texels, the raw material of %u x %u; evaluate it with the raw file that it "
+        "was baked from",
+        what, width, height, raw.width, raw.height);
+}
+
+NeuralTables neural_tables(const nook::material::Material& material) {
+  return make_neural_tables(material.neural, material.views, material.lights, default_memory());
 }
 
 // sum_k sum_b coefficient Z_c[a, b], expanded to texels: R_l x (I_x I_y).
@@ -132,7 +146,26 @@ BtfError sum_of_errors(std::span<const BtfError> parts) {
   return error;
 }
 
+Matrix draw_neural(const NeuralTables& tables, Vec3 view, std::span<const Vec3> lights) {
+  const auto& s = tables.shape;
+  Matrix drawn(Index(3 * lights.size()), Index(s.texels()));
+  std::vector<float> decoded(tables.decoded_count());
+  for (std::uint32_t x = 0; x < s.width; ++x)
+    for (std::uint32_t y = 0; y < s.height; ++y) {
+      const Index texel = Index(x) * s.height + y;
+      decode_neural(tables, {(float(x) + 0.5f) / float(s.width), (float(y) + 0.5f) / float(s.height), 0},
+                    view, decoded);
+      for (std::size_t l = 0; l < lights.size(); ++l) {
+        const Vec3 radiance = neural_radiance(tables, decoded, lights[l]);
+        drawn.block(Index(3 * l), texel, 3, 1) << radiance.x, radiance.y, radiance.z;
+      }
+    }
+  return drawn;
+}
+
 Matrix decode_btf_view(const nook::material::Material& material, std::size_t view) {
+  if (material.neural.is_used())
+    return draw_neural(neural_tables(material), material.views[view], material.lights);
   const auto rank = Index(material.btf.shape.rank_light);
   return ConstMap(material.light_basis.data(), Index(material.light_basis.size()) / rank, rank) *
          seen(material, view, light_modes(material.btf, view));
@@ -146,9 +179,20 @@ BtfError measure_btf(const RawMaterial& raw, const std::vector<float>& light_bas
 }
 
 BtfError measure_btf(const RawMaterial& raw, const nook::material::Material& material) {
+  if (material.neural.is_used()) {
+    const NeuralTables tables = neural_tables(material);
+    need_texels(raw, tables.shape.width, tables.shape.height, "neural material");
+    return error_of_views(raw,
+                          [&](std::size_t view) { return draw_neural(tables, raw.views[view], raw.lights); });
+  }
   need_sizes(raw, material.btf, "BTF");
   need_lights(raw, material.light_basis.size(), material.btf.shape.rank_light);
   return error_of_views(raw, [&](std::size_t view) { return decode_btf_view(material, view); });
+}
+
+BtfError measure_neural_tile(const RawMaterial& raw, const NeuralTile& tile) {
+  return error_of_views(
+      raw, [&](std::size_t view) { return draw_neural_tile(tile, raw.views[view], raw.lights); });
 }
 
 std::size_t count_error_texels(const RawMaterial& raw, const ClusteredTensor& votf,

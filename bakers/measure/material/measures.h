@@ -5,9 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "bakers/material/neural_tile.h"
 #include "bakers/material/raw_material.h"
 #include "bakers/tensor/tensor.h"
 #include "sdk/src/material/material.h"
+#include "sdk/src/material/neural_tables.h"
 
 namespace nook::bake::material {
 
@@ -19,8 +21,13 @@ tensor::Matrix decode_btf_view(const std::vector<float>& light_basis,
                                const nook::material::ClusteredTensor& btf, std::size_t view);
 std::vector<float> decode_votf_view(const nook::material::ClusteredTensor& votf, std::size_t view);
 
-// The BTF of a material as the view sees it on its relief.
+// The BTF of a material as the view sees it on its relief, or as its network draws it.
 tensor::Matrix decode_btf_view(const nook::material::Material& material, std::size_t view);
+
+// The radiance that a neural material's network gives for the texels in a view, for each light: 3 lights x
+// texels.
+tensor::Matrix draw_neural(const nook::material::NeuralTables& tables, Vec3 view,
+                           std::span<const Vec3> lights);
 
 // As on a screen, from 0 to 1: the root of y / (1 + y), where y = pi times the radiance, which is 1 for a
 // white matt plane that faces its light (E. Reinhard and others: Photographic Tone Reproduction, 2002).
@@ -42,7 +49,10 @@ BtfError sum_of_errors(std::span<const BtfError> parts);
 BtfError measure_btf(const RawMaterial& raw, const std::vector<float>& light_basis,
                      const nook::material::ClusteredTensor& btf);
 
+// A neural material is measured in the raw one's views and lights, whichever they are.
 BtfError measure_btf(const RawMaterial& raw, const nook::material::Material& material);
+
+BtfError measure_neural_tile(const RawMaterial& raw, const NeuralTile& tile);
 
 // Texels whose decoded mask, binary > 0.5 or distance > 0, is another than the raw one, summed over views.
 std::size_t count_error_texels(const RawMaterial& raw, const nook::material::ClusteredTensor& votf,

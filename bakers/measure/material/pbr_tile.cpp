@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bakers/material/height_march.h"
 #include "bakers/material/microfacet.h"
 #include "bakers/material/tile_taps.h"
 #include "bakers/material/view_heights.h"
@@ -19,49 +20,19 @@ Taps taps_of(const PbrTile& tile, float x, float y) {
   return taps_at(tile.width, tile.height, x, y);
 }
 
-float height_at(const PbrTile& tile, float x, float y) {
-  return mean_of(taps_of(tile, x, y), tile.heights.data());
-}
-
-struct Range {
-  float low = 0, high = 0;
-};
-
-Range range_of(const PbrTile& tile) {
-  const auto [low, high] = std::minmax_element(tile.heights.begin(), tile.heights.end());
-  return {*low, *high};
-}
-
-// Steps of a march over the whole range of heights: no more than half a texel along the tile.
-int steps_of(const PbrTile& tile, Vec3 direction, float depth) {
-  const float along = depth * std::hypot(direction.x, direction.y) / direction.z;
-  return std::clamp(int(2 * along * float(std::max(tile.width, tile.height))) + 4, 4, 256);
-}
-
-float march(const PbrTile& tile, Range range, float x, float y, Vec3 view) {
-  const float depth = range.high - range.low, slope_x = view.x / view.z, slope_y = view.y / view.z;
-  const int steps = steps_of(tile, view, depth);
-  float above_z = range.high,
-        above = range.high - height_at(tile, x + slope_x * above_z, y + slope_y * above_z);
-  for (int i = 1; i <= steps && above > 0; ++i) {
-    const float z = range.high - depth * float(i) / float(steps);
-    const float over = z - height_at(tile, x + slope_x * z, y + slope_y * z);
-    if (over <= 0) return above_z + (z - above_z) * above / (above - over);
-    above_z = z;
-    above = over;
-  }
-  return above_z;
+HeightMap heights_of(const PbrTile& tile) {
+  return {tile.width, tile.height, tile.heights};
 }
 
 // Returns whether a point of the relief sees the light; a hundredth of the range is its distance from the
 // relief.
-bool is_lit(const PbrTile& tile, Range range, Vec3 point, Vec3 light) {
+bool is_lit(const PbrTile& tile, HeightRange range, Vec3 point, Vec3 light) {
   const float depth = range.high - point.z;
-  const int steps = steps_of(tile, light, depth);
+  const int steps = steps_of(heights_of(tile), light, depth);
   for (int i = 1; i <= steps; ++i) {
     const float rise = depth * float(i) / float(steps);
     const float margin = 0.01f * (range.high - range.low);
-    if (height_at(tile, point.x + light.x / light.z * rise, point.y + light.y / light.z * rise) >
+    if (height_at(heights_of(tile), point.x + light.x / light.z * rise, point.y + light.y / light.z * rise) >
         point.z + rise + margin)
       return false;
   }
@@ -96,7 +67,7 @@ struct Observation {
   Vec3 view, light, value;
 };
 
-std::vector<Observation> observe(const RawMaterial& raw, const PbrTile& tile, Range range,
+std::vector<Observation> observe(const RawMaterial& raw, const PbrTile& tile, HeightRange range,
                                  std::size_t texel) {
   const Vec3 point{(float(texel / raw.height) + 0.5f) / float(raw.width),
                    (float(texel % raw.height) + 0.5f) / float(raw.height), tile.heights[texel]};
@@ -108,7 +79,7 @@ std::vector<Observation> observe(const RawMaterial& raw, const PbrTile& tile, Ra
   for (std::size_t v = 0; v < raw.views.size(); ++v) {
     const Vec3 view = raw.views[v];
     const float x = point.x - view.x / view.z * point.z, y = point.y - view.y / view.z * point.z;
-    if (march(tile, range, x, y, view) > point.z + nearest) continue;
+    if (first_height(heights_of(tile), range, x, y, view) > point.z + nearest) continue;
     const Taps taps = taps_of(tile, x, y);
     for (std::size_t l = 0; l < lit.size(); ++l)
       if (lit[l])
@@ -180,17 +151,13 @@ Unknowns fit_texel(const std::vector<Observation>& seen, Unknowns u) {
 
 }  // namespace
 
-float relief_height(const PbrTile& tile, float x, float y, Vec3 view) {
-  return march(tile, range_of(tile), x, y, view);
-}
-
 Matrix draw_pbr_tile(const PbrTile& tile, Vec3 view, std::span<const Vec3> lights) {
-  const Range range = range_of(tile);
+  const HeightRange range = range_of(heights_of(tile));
   Matrix drawn(Index(3 * lights.size()), Index(tile.texels()));
   for (std::size_t t = 0; t < tile.texels(); ++t) {
     const float x = (float(t / tile.height) + 0.5f) / float(tile.width),
                 y = (float(t % tile.height) + 0.5f) / float(tile.height);
-    const float z = march(tile, range, x, y, view);
+    const float z = first_height(heights_of(tile), range, x, y, view);
     const Vec3 point{x + view.x / view.z * z, y + view.y / view.z * z, z};
     const Taps taps = taps_of(tile, point.x, point.y);
     const Shading s{mean_of(taps, tile.diffuse.data()),
@@ -217,7 +184,7 @@ PbrTile fit_pbr_tile(const RawMaterial& raw, bool has_shadows) {
   tile.slope_x.resize(texels);
   tile.slope_y.resize(texels);
   tile.gloss_width.resize(texels);
-  const Range range = range_of(tile);
+  const HeightRange range = range_of(heights_of(tile));
   tensor::for_each_block(texels, 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t) {
       const std::vector<Observation> seen = observe(raw, tile, range, t);

@@ -25,10 +25,6 @@ struct PbrTile {
   std::size_t bytes() const { return 7 * texels(); }
 };
 
-// Where the ray through (x, y, 0) along a view, whose z is above 0, first meets the relief: its height. x and
-// y are in tiles.
-float relief_height(const PbrTile& tile, float x, float y, Vec3 view);
-
 // The radiance of the plane's texels in a view for each light, 3 lights x texels, as in RawMaterial::btf.
 tensor::Matrix draw_pbr_tile(const PbrTile& tile, Vec3 view, std::span<const Vec3> lights);
 

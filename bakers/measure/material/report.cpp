@@ -18,6 +18,9 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
   texels("votf_error_texels_distance", row.error_texels_distance);
   if (row.se_db_drawn) json["se_db_drawn"] = *row.se_db_drawn;
   if (row.gpu_bytes_texel) json["gpu_bytes_texel"] = *row.gpu_bytes_texel;
+  for (const LevelError& level : row.levels)
+    json["mipmaps"].push_back(
+        {{"texels", level.side}, {"se_db", level.se_db}, {"se_db_finest", level.se_db_finest}});
   if (row.se_db_unseen) json["se_db_unseen"] = *row.se_db_unseen;
   if (row.error_texels_unseen) json["votf_error_texels_unseen"] = *row.error_texels_unseen;
   if (row.jumps) {
@@ -33,22 +36,30 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
   return json;
 }
 
-nlohmann::ordered_json describe(const CompressionSettings& s) {
-  nlohmann::ordered_json json = {
-      {"method", method_name(s.method)},
-      {"ranks", {s.rank_light, s.rank_view, s.rank_x, s.rank_y}},
-      {"votf_ranks", {s.votf_rank_x, s.votf_rank_y}},
-      {"cluster_rank", s.method == Method::n_svd ? s.rank_view : s.cluster_rank_view},
-      {"clusters", s.method == Method::n_svd ? 1 : s.cluster_count()},
-      {"mixture", s.method == Method::k_cta ? s.mixture : 1},
-      {"seeding", s.seeding == Seeding::directions ? "directions" : "values"},
-      {"votf", s.visibility == nook::material::VisibilityForm::none     ? "none"
-               : s.visibility == nook::material::VisibilityForm::binary ? "binary"
-                                                                        : "distance"},
-      {"votf_refits", s.votf_refits},
-      {"view_map", s.made_map_side()},
-      {"bits", s.bits},
-      {"seed", s.seed}};
+nlohmann::ordered_json describe(const CompressionSettings& settings) {
+  const bool is_neural = settings.method == Method::neural;
+  const CompressionSettings s = votf_settings(settings);
+  const char* const votf = s.visibility == nook::material::VisibilityForm::none     ? "none"
+                           : s.visibility == nook::material::VisibilityForm::binary ? "binary"
+                                                                                    : "distance";
+  nlohmann::ordered_json json = {{"method", method_name(settings.method)}};
+  if (is_neural) {
+    json["channels"] = s.neural_channels;
+    if (s.neural_steps > 0) json["steps"] = s.neural_steps;
+  } else {
+    json["ranks"] = {s.rank_light, s.rank_view, s.rank_x, s.rank_y};
+  }
+  json["votf"] = votf;
+  json["seed"] = s.seed;
+  if (is_neural && s.visibility == nook::material::VisibilityForm::none) return json;
+  json["votf_ranks"] = {s.votf_rank_x, s.votf_rank_y};
+  json["cluster_rank"] = s.method == Method::n_svd ? s.rank_view : s.cluster_rank_view;
+  json["clusters"] = s.method == Method::n_svd ? 1 : s.cluster_count();
+  json["mixture"] = s.method == Method::k_cta ? s.mixture : 1;
+  json["seeding"] = s.seeding == Seeding::directions ? "directions" : "values";
+  json["votf_refits"] = s.votf_refits;
+  json["view_map"] = s.made_map_side();
+  json["bits"] = s.bits;
   if (s.step_penalty > 0) json["step_penalty"] = s.step_penalty;
   if (s.relief != ReliefSource::none)
     json["relief"] = s.relief == ReliefSource::known ? "known" : "estimated";

@@ -39,7 +39,65 @@ Matrix decoded_modes(const RawMaterial& raw, const MaterialTables& tables, Vec3 
   return modes.transpose();
 }
 
+// The radiances of a sample's point for its view under all lights: three numbers each.
+Matrix radiances(const RawMaterial& raw, const MaterialTables& tables, const Matrix& lights,
+                 const nook::material::Sample& sample) {
+  Matrix out(Index(raw.light_rows()), 1);
+  if (!tables.neural.is_used()) {
+    Matrix modes(Index(tables.btf.light_modes), 1);
+    nook::material::decode_modes(tables, sample, {modes.data(), tables.btf.light_modes});
+    out.noalias() = lights * modes;
+    return out;
+  }
+  std::vector<float> decoded(tables.neural.decoded_count());
+  decode_neural(tables.neural, {sample.u, sample.v, sample.level}, sample.view, decoded);
+  for (std::size_t l = 0; l < raw.lights.size(); ++l) {
+    const Vec3 radiance = neural_radiance(tables.neural, decoded, raw.lights[l]);
+    out.block(Index(3 * l), 0, 3, 1) << radiance.x, radiance.y, radiance.z;
+  }
+  return out;
+}
+
+// The means of the raw radiances over a square of texels for a view under all lights.
+Matrix mean_radiances(const RawMaterial& raw, std::size_t view, std::uint32_t x, std::uint32_t y,
+                      std::uint32_t side) {
+  Matrix mean = Matrix::Zero(Index(raw.light_rows()), 1);
+  for (std::size_t row = 0; row < raw.light_rows(); ++row) {
+    const float* const image = &raw.btf[(row * raw.views.size() + view) * raw.texels()];
+    float sum = 0;
+    for (std::uint32_t i = x; i < x + side; ++i)
+      for (std::uint32_t j = y; j < y + side; ++j) sum += image[std::size_t(i) * raw.height + j];
+    mean(Index(row), 0) = sum / float(side * side);
+  }
+  return mean;
+}
+
 }  // namespace
+
+std::vector<LevelError> measure_levels(const RawMaterial& raw, const MaterialTables& tables) {
+  const Matrix lights = tables.neural.is_used() ? Matrix() : light_rows(raw, tables);
+  std::vector<LevelError> levels;
+  for (std::uint32_t side = 2; raw.width % side == 0 && raw.height % side == 0; side *= 2) {
+    std::vector<BtfError> mipmap(raw.views.size()), finest(raw.views.size());
+    tensor::for_each_block(raw.views.size(), 1, [&](std::size_t view, std::size_t) {
+      for (std::uint32_t x = 0; x < raw.width; x += side)
+        for (std::uint32_t y = 0; y < raw.height; y += side) {
+          const Matrix truth = mean_radiances(raw, view, x, y, side);
+          nook::material::Sample sample{(float(x) + 0.5f * float(side)) / float(raw.width),
+                                        (float(y) + 0.5f * float(side)) / float(raw.height),
+                                        float(levels.size() + 1),
+                                        raw.views[view],
+                                        {0, 0, 1}};
+          const std::span<const float> values(truth.data(), raw.light_rows());
+          add_error(values, radiances(raw, tables, lights, sample).data(), mipmap[view]);
+          sample.level = 0;
+          add_error(values, radiances(raw, tables, lights, sample).data(), finest[view]);
+        }
+    });
+    levels.push_back({side, sum_of_errors(mipmap).se_db(), sum_of_errors(finest).se_db()});
+  }
+  return levels;
+}
 
 BtfError measure_tables(const RawMaterial& raw, const MaterialTables& tables) {
   if (tables.btf.width != raw.width || tables.btf.height != raw.height)

@@ -11,6 +11,15 @@ namespace nook::bake::material {
 // Throws Failure(INVALID_ARGUMENT) where the sizes are not the raw material's.
 BtfError measure_tables(const RawMaterial& raw, const nook::material::MaterialTables& tables);
 
+// Seen from afar, where a pixel covers a square of texels: the mean of the raw radiances over it is the
+// truth, beside the middle of the square at its mipmap level and at the finest one.
+struct LevelError {
+  std::uint32_t side = 0;  // texels
+  double se_db = 0, se_db_finest = 0;
+};
+// Of the sides 2, 4, 8 and so on that divide the sides of the tile.
+std::vector<LevelError> measure_levels(const RawMaterial& raw, const nook::material::MaterialTables& tables);
+
 // Returns the bytes of all textures over the texels of the BTF.
 double table_bytes_texel(const nook::material::MaterialTables& tables);
 

@@ -51,7 +51,7 @@ bool same_directions(const std::vector<Vec3>& a, const Vector<Vec3>& b) {
 
 Material as_seen_from(const Material& material, const std::vector<Vec3>& views) {
   Material seen = material;
-  replace_views(seen.btf, material, views);
+  if (!material.neural.is_used()) replace_views(seen.btf, material, views);
   if (material.visibility != VisibilityForm::none) replace_views(seen.votf, material, views);
   seen.views.assign(views.begin(), views.end());
   return seen;
@@ -78,10 +78,11 @@ void light_from(Material& material, const std::vector<Vec3>& lights) {
 }
 
 UnseenError measure_unseen(const RawMaterial& unseen, const Material& material) {
+  const bool is_neural = material.neural.is_used();
   Material seen = as_seen_from(material, unseen.views);
-  if (!same_directions(unseen.lights, material.lights)) light_from(seen, unseen.lights);
+  if (!is_neural && !same_directions(unseen.lights, material.lights)) light_from(seen, unseen.lights);
   UnseenError error;
-  error.se_db = measure_btf(unseen, seen).se_db();
+  error.se_db = measure_btf(unseen, is_neural ? material : seen).se_db();
   if (seen.visibility != VisibilityForm::none && !unseen.mask.empty())
     error.error_texels = count_error_texels(unseen, seen.votf, seen.visibility);
   return error;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "bakers/raytrace/random.h"
@@ -42,10 +43,28 @@ std::vector<Vec3> arc_of(std::uint64_t seed) {
   }
 }
 
+// The light modes of a sample, or of a neural material, which has none, the radiances of all lights.
+void set_modes(const Material& material, const MaterialTables& tables, const nook::material::Sample& sample,
+               std::span<float> modes) {
+  if (!tables.neural.is_used()) return decode_modes(tables, sample, modes);
+  std::vector<float> decoded(tables.neural.decoded_count());
+  decode_neural(tables.neural, {sample.u, sample.v, 0}, sample.view, decoded);
+  for (std::size_t light = 0; light < material.lights.size(); ++light) {
+    const Vec3 radiance = neural_radiance(tables.neural, decoded, material.lights[light]);
+    modes[3 * light] = radiance.x;
+    modes[3 * light + 1] = radiance.y;
+    modes[3 * light + 2] = radiance.z;
+  }
+}
+
+Eigen::Index mode_count(const Material& material, const MaterialTables& tables) {
+  return tables.neural.is_used() ? 3 * Eigen::Index(material.lights.size()) : tables.btf.light_modes;
+}
+
 // The light modes of the grid's texels for a view, a row each.
-Rows modes_of(const MaterialTables& tables, Vec3 view) {
+Rows modes_of(const Material& material, const MaterialTables& tables, Vec3 view) {
   const std::uint32_t width = std::min(grid, tables.btf.width), height = std::min(grid, tables.btf.height);
-  Rows out(Eigen::Index(width) * height, tables.btf.light_modes);
+  Rows out(Eigen::Index(width) * height, mode_count(material, tables));
   for (std::uint32_t y = 0; y < height; ++y)
     for (std::uint32_t x = 0; x < width; ++x) {
       // Middles of texels, which no filter blurs.
@@ -55,7 +74,7 @@ Rows modes_of(const MaterialTables& tables, Vec3 view) {
       const nook::material::Sample sample{
           middle(x, width, tables.btf.width), middle(y, height, tables.btf.height), 0, view, {0, 0, 1}};
       const Eigen::Index row = Eigen::Index(y) * width + x;
-      decode_modes(tables, sample, {out.row(row).data(), std::size_t(out.cols())});
+      set_modes(material, tables, sample, {out.row(row).data(), std::size_t(out.cols())});
     }
   return out;
 }
@@ -63,7 +82,8 @@ Rows modes_of(const MaterialTables& tables, Vec3 view) {
 // Returns G = U^T U of the light basis of the tables, in which m^T G m is the sum of squares of all radiances
 // of the modes m.
 Rows gram_of(const Material& material, const MaterialTables& tables) {
-  const Eigen::Index modes = tables.btf.light_modes;
+  const Eigen::Index modes = mode_count(material, tables);
+  if (tables.neural.is_used()) return Rows::Identity(modes, modes);
   Rows basis(3 * Eigen::Index(material.lights.size()), modes);
   std::vector<float> rows(3 * std::size_t(modes));
   for (std::size_t light = 0; light < material.lights.size(); ++light) {
@@ -90,9 +110,9 @@ ViewJumps measure_view_jumps(const Material& material, std::uint64_t seed) {
   std::vector<Jump> jumps(arcs * steps);
   tbb::parallel_for(std::size_t{0}, arcs, [&](std::size_t arc) {
     const std::vector<Vec3> views = arc_of(seed + arc);
-    Rows before = modes_of(tables, views[0]);
+    Rows before = modes_of(material, tables, views[0]);
     for (std::size_t i = 0; i < steps; ++i) {
-      Rows after = modes_of(tables, views[i + 1]);
+      Rows after = modes_of(material, tables, views[i + 1]);
       const double change = square(after - before, gram), size = square(before, gram);
       jumps[arc * steps + i] = {size > 0 ? std::sqrt(change / size) : 0, views[i], views[i + 1]};
       before = std::move(after);

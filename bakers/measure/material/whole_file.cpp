@@ -76,8 +76,14 @@ std::size_t whole_file_bytes(const Material& material, std::uint32_t map_side) {
 
 std::size_t bytes_beside_btf(std::span<const std::byte> file) {
   const Container container(file, nook::material::material_kind);
-  std::size_t btf = container.section("LGHT").remaining() + container.section("BTF_").remaining();
-  if (container.has("BMAP")) btf += container.section("BMAP").remaining();
+  std::size_t btf = 0;
+  const auto add = [&](const char(&name)[5]) {
+    if (container.has(name)) btf += container.section(name).remaining();
+  };
+  add("LGHT");
+  add("BTF_");
+  add("BMAP");
+  add("NEUR");
   return file.size() - btf;
 }
 

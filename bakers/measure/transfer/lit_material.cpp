@@ -2,12 +2,14 @@
 
 #include <vector>
 
+#include "sdk/src/material/check.h"
 #include "sdk/src/material/evaluate.h"
 #include "sdk/src/material/reflectance.h"
 
 namespace nook::measure {
 
 nook::transfer::Response response_of(const nook::material::MaterialTables& tables, std::uint32_t lobes) {
+  nook::material::refuse_neural(tables.neural.is_used(), "radiance transfer");
   const nook::transfer::HemisphereCells cells(nook::transfer::sharpness_of(lobes), default_memory());
   const std::size_t count = std::size_t(3) * tables.btf.light_modes;
   std::vector<float> values(cells.direction.size() * count);

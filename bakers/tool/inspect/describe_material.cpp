@@ -18,6 +18,15 @@ void describe_tensor(Row& row, const std::string& name, const material::Clustere
   row[name + "_terms"] = material::cell_terms(tensor);
 }
 
+void describe_neural(Row& row, const material::Neural& neural) {
+  const material::NeuralShape& shape = neural.shape;
+  row["neural_channels"] = shape.channels;
+  row["neural_units"] = shape.units;
+  row["neural_layers"] = shape.layers;
+  row["neural_offset"] = Row::array({shape.offset_channels, shape.offset_units});
+  row["neural_weights"] = neural.weights.size();
+}
+
 }  // namespace
 
 Row describe_material(std::span<const std::byte> bytes) {
@@ -31,9 +40,10 @@ Row describe_material(std::span<const std::byte> bytes) {
   row["compressed_bytes"] = material::compressed_bytes(material);
   row["lights"] = material.lights.size();
   row["views"] = material.views.size();
-  row["width"] = material.btf.shape.width;
-  row["height"] = material.btf.shape.height;
-  describe_tensor(row, "btf", material.btf);
+  const bool is_neural = material.neural.is_used();
+  row["width"] = is_neural ? material.neural.shape.width : material.btf.shape.width;
+  row["height"] = is_neural ? material.neural.shape.height : material.btf.shape.height;
+  is_neural ? describe_neural(row, material.neural) : describe_tensor(row, "btf", material.btf);
   row["visibility"] = forms[std::size_t(material.visibility)];
   if (material.visibility != material::VisibilityForm::none) {
     row["visibility_mapping"] = Row::array({material.mapping.threshold, material.mapping.weight});

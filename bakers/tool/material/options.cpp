@@ -100,7 +100,7 @@ void set_rest(const CompressionOptions& options, CompressionSettings& s) {
     s.votf_rank_x = r[0];
     s.votf_rank_y = r[1];
   }
-  if (s.method == Method::k_cta && options.settings.clusters == 0)
+  if (votf_settings(s).method == Method::k_cta && options.settings.clusters == 0)
     s.mixture = std::min(s.mixture, s.cluster_count());
 }
 
@@ -108,17 +108,19 @@ void set_rest(const CompressionOptions& options, CompressionSettings& s) {
 
 CompressionSettings compression_settings(const CompressionOptions& options, const RawMaterial& raw) {
   CompressionSettings s = options.settings;
-  if (!set_known_ranks(options, raw, s)) s = ranks_by_threshold(raw, options.threshold, s);
+  const bool has_ranks = s.method != Method::neural || has_votf(raw, s);
+  if (has_ranks && !set_known_ranks(options, raw, s)) s = ranks_by_threshold(raw, options.threshold, s);
   set_rest(options, s);
   check_settings(s, raw);
   return s;
 }
 
-void check_compression(const CompressionOptions& options, const RawMaterial& sizes) {
+void check_compression(const CompressionOptions& options, const RawMaterial& sizes, bool has_mask) {
   CompressionSettings s = options.settings;
-  const bool known = set_known_ranks(options, sizes, s);
+  if (s.method == Method::neural) check_neural(s);
+  if (!set_known_ranks(options, sizes, s)) set_lowest_ranks(sizes, s);
   set_rest(options, s);
-  if (known && !sizes.views.empty()) check_settings(s, sizes);
+  if (!sizes.views.empty()) check_settings(s, sizes, has_mask);
 }
 
 nook::material::VisibilityMapping visibility_mapping(const std::string& text, VisibilityForm form) {

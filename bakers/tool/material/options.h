@@ -26,8 +26,10 @@ bake::material::CompressionSettings compression_settings(const CompressionOption
                                                          const bake::material::RawMaterial& raw);
 
 // Throws what compression_settings throws for a material of these sizes, except where its values decide. A
-// bake calls this before it traces rays. Without views the sizes are unknown, and only the texts are checked.
-void check_compression(const CompressionOptions& options, const bake::material::RawMaterial& sizes);
+// bake calls this before it traces rays. has_mask: the views will have a mask. Without views the sizes are
+// unknown, and only the texts are checked.
+void check_compression(const CompressionOptions& options, const bake::material::RawMaterial& sizes,
+                       bool has_mask);
 
 // "T,W", or "paper": the paper's numbers for the form. Throws ToolError for a text that is neither.
 nook::material::VisibilityMapping visibility_mapping(const std::string& text,

@@ -14,6 +14,7 @@ NOOK_BAKE_KERNEL_PAPER = 1
 NOOK_BAKE_KERNEL_RATIONAL = 2
 NOOK_BAKE_METHOD_CTA = 1
 NOOK_BAKE_METHOD_K_CTA = 0
+NOOK_BAKE_METHOD_NEURAL = 3
 NOOK_BAKE_METHOD_N_SVD = 2
 NOOK_BAKE_POSES_ALL = 3
 NOOK_BAKE_POSES_AUTO = 0
@@ -481,6 +482,8 @@ class nook_material_info(ctypes.Structure):
         ("compressed_bytes", ctypes.c_uint64),
         ("view_map_bytes", ctypes.c_uint64),
         ("table_bytes", ctypes.c_uint64),
+        ("neural_channels", ctypes.c_uint32),
+        ("neural_units", ctypes.c_uint32),
     ]
 
 
@@ -748,6 +751,8 @@ class nook_bake_material_desc(ctypes.Structure):
         ("bits", ctypes.c_uint32),
         ("relief", nook_bake_relief),
         ("heights", ctypes.POINTER(ctypes.c_float)),
+        ("neural_channels", ctypes.c_uint32),
+        ("neural_steps", ctypes.c_uint32),
     ]
 
 

@@ -131,7 +131,7 @@ def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any 
     """Starts to bake a material and returns at once.
 
     meso: fiber, roughhole or weave; or btf: lights x views x height x width x 3, with lights and views as directions in tangent
-    space, and coverage: views x height x width. method: k_cta, cta or n_svd. relief: none, estimated, or known: the heights of meso,
+    space, and coverage: views x height x width. method: k_cta, cta, n_svd or neural. relief: none, estimated, or known: the heights of meso,
     or with btf heights: height x width, in tiles. settings are the numbers of nook_bake_material_desc.
     """
     desc = descriptor(c.nook_bake_material_desc, "nook_bake_material_desc_init")

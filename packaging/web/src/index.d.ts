@@ -395,6 +395,8 @@ export interface MaterialInfo {
   compressedBytes: number;
   viewMapBytes: number;
   tableBytes: number;
+  neuralChannels: number;
+  neuralUnits: number;
 }
 export interface MaterialSample {
   uv: Numbers;

@@ -47,7 +47,7 @@ enum {
   /* The view map, which follows each of the two. */
   NOOK_BAKE_STAGE_VIEW_MAP = 8,
   /* The search for a material's relief, and the views that are moved to it, before the compression; done and
-   * total count views. */
+   * total count steps of the search, and then those views. */
   NOOK_BAKE_STAGE_RELIEF = 9
 };
 typedef int32_t nook_bake_stage;

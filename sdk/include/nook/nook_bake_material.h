@@ -16,7 +16,10 @@ enum {
   /* Clustered tensor approximation: each view has one cluster. */
   NOOK_BAKE_METHOD_CTA = 1,
   /* N-mode singular value decomposition: one cluster. */
-  NOOK_BAKE_METHOD_N_SVD = 2
+  NOOK_BAKE_METHOD_N_SVD = 2,
+  /* A small network over features of the texels, which trains for minutes; its VOTF is that of K-CTA. It is
+   * the better one on flat and glossy materials, see docs/materials.md. Ranks are those of the VOTF. */
+  NOOK_BAKE_METHOD_NEURAL = 3
 };
 typedef int32_t nook_bake_method;
 
@@ -119,6 +122,10 @@ typedef struct nook_bake_material_desc {
   /* height x width, row 0 at v = 0: heights over the plane of the texels in tiles, -1 to 1, for RELIEF_KNOWN
    * of measured data. nook_bake_material_start copies the array. NULL (default): not known. */
   const float* heights;
+  /* For NEURAL: channels of the features, a multiple of 4 up to 64; default 16. */
+  uint32_t neural_channels;
+  /* For NEURAL: steps of the training, 1 to 1000000; default 8000. */
+  uint32_t neural_steps;
 } nook_bake_material_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does.

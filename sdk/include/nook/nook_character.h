@@ -149,7 +149,7 @@ typedef struct nook_scene_desc {
   /* AO, root mean square over a body, in [0, 1], default 1/1024. nook_scene_update merges the spheres of a
    * linked caster into 16, 6 or 2 groups, as few as an estimate of the change of AO allows at their distance
    * from the receiver, and far spheres of the body itself where it has the default kernel, at most 256
-   * spheres, full detail and no light. The change of a vertex is larger: up to three times as much was seen.
+   * spheres, full detail and no light. The change of a vertex is larger: up to 18 times as much was seen.
    * 0 merges nothing, and neither do NOOK_COMBINE_PAPER and the OpenGL 4.3 tier. */
   float far_error;
   /* Must be 0. */

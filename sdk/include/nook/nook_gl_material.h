@@ -10,6 +10,9 @@
  *     alpha = nook_material_visibility(nook_material_occlusion(uv, dFdx(uv), dFdy(uv), view));
  * nook_material_radiance is called once for each light, and its result includes the cosine.
  *
+ * The text of a neural material has the same functions. Its `modes` are no light modes but sums of the
+ * network for the pixel: other shaders cannot add them up or mix them.
+ *
  * Silhouettes of the meso-structure need two passes over the same triangles. The first pass draws pixels with
  * alpha = 1 and discards the others. The second pass blends those with 0 < alpha < 1 by alpha; it tests depth
  * but does not write it. */
@@ -65,9 +68,10 @@ typedef struct nook_gl_material_info {
   uint64_t texture_bytes;
   /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions: constants, uniforms and the functions
    * above. Every name in it begins with nook_ or NOOK_. Materials of the same sizes and mapping have the same
-   * text and may share a program. The uniform vec2 nook_visibility_mapping, a constant on OpenGL ES, holds
-   * threshold and weight and starts with those of the material; the paper uses 0.5 and 1 for masks, and 0.05
-   * and 12 for distances. The text is valid while the material lives. */
+   * text and may share a program; that of a neural material has constants for its weights, and no other
+   * material has it. The uniform vec2 nook_visibility_mapping, a constant on OpenGL ES, holds threshold and
+   * weight and starts with those of the material; the paper uses 0.5 and 1 for masks, and 0.05 and 12 for
+   * distances. The text is valid while the material lives. */
   const char* glsl;
 } nook_gl_material_info;
 

@@ -11,6 +11,11 @@
  *     radiance:      sum_a light_basis[light, a] L_a, for red, green and blue, and again for each light.
  * Both are linear in the images, so that mipmaps give the mean over a pixel's footprint.
  *
+ * A neural material (`--method neural`) has a small network over features of its texels in the place of the
+ * BTF's tensor. It is loaded, evaluated, uploaded and drawn by the same calls. Its radiance is no sum of
+ * light modes, so that radiance transfer refuses it, and its mipmaps are means of features, not of what the
+ * network makes of them.
+ *
  * Directions are unit vectors in tangent space that point away from the surface: x along u, y along v, z
  * along the normal.
  *
@@ -102,6 +107,10 @@ typedef struct nook_material_info {
   uint64_t view_map_bytes;
   /* The size of the expanded images: host memory that is held now, and texture memory after an upload. */
   uint64_t table_bytes;
+  /* Of a neural material the channels of its features and the units of a layer of its network, and all
+   * members of btf are 0; 0 for the others. */
+  uint32_t neural_channels;
+  uint32_t neural_units;
 } nook_material_info;
 
 /* Describes a material.
@@ -121,7 +130,7 @@ typedef struct nook_material_sample {
 
 typedef struct nook_material_value {
   /* Linear red, green and blue towards the view, for an irradiance of 1 on a plane that faces the light.
-   * Compression may leave it slightly negative. */
+   * Compression may leave it slightly negative, but for a neural material. */
   float radiance[3];
   /* The VOTF: a filtered mask in [0, 1], or a distance in [-1, 1]; 1 without a VOTF. */
   float occlusion;

@@ -45,8 +45,6 @@ Mat3x4 place_of(const float* place_3x4) {
   return place;
 }
 
-static_assert(LoadedClips::block_slots == LoadedModel::slot_chunk);
-
 // Calls put(place, ao) for each file vertex.
 template <class Put>
 void write_ao(const LoadedClips& clips, const FrameMix& mix, void* out, std::size_t stride, Put&& put) {
@@ -59,9 +57,12 @@ void write_ao(const LoadedClips& clips, const FrameMix& mix, void* out, std::siz
   for (std::uint32_t first = 0; first < slots; first += LoadedClips::block_slots) {
     const std::uint32_t count = std::min(LoadedClips::block_slots, slots - first);
     decode_ao(clips, weights.data(), first, count, ao.data());
-    const std::uint32_t chunk = first / LoadedModel::slot_chunk, last = model.chunk_begin[chunk + 1];
-    for (std::uint32_t i = model.chunk_begin[chunk]; i < last; ++i)
-      put(bytes + model.chunk_file_vertex[i] * stride, ao[model.slot_in_chunk[i]]);
+    const std::uint32_t chunk = first / LoadedClips::block_slots;
+    for (std::uint32_t r = model.run_begin[chunk]; r < model.run_begin[chunk + 1]; ++r) {
+      const LoadedModel::FileRun& run = model.file_run[r];
+      for (std::uint32_t i = 0; i < run.vertices; ++i)
+        put(bytes + (run.first_vertex + i) * stride, ao[model.slot_in_chunk[run.first_entry + i]]);
+    }
   }
 }
 

@@ -29,10 +29,12 @@ nook_material_info info_of(const Material& material, const MaterialTables& table
   info.visibility = static_cast<nook_material_visibility>(material.visibility);
   info.light_count = static_cast<std::uint32_t>(material.lights.size());
   info.view_count = static_cast<std::uint32_t>(material.views.size());
-  info.width = material.btf.shape.width;
-  info.height = material.btf.shape.height;
-  info.btf = tensor_info(material.btf, tables.btf);
-  const DecodeCost decode = decode_cost(tables.btf), light = light_cost(tables.btf),
+  info.width = tables.btf.width;
+  info.height = tables.btf.height;
+  const bool is_neural = tables.neural.is_used();
+  if (!is_neural) info.btf = tensor_info(material.btf, tables.btf);
+  const DecodeCost decode = is_neural ? neural_decode_cost(tables.neural) : decode_cost(tables.btf),
+                   light = is_neural ? neural_light_cost(tables.neural) : light_cost(tables.btf),
                    occlusion = decode_cost(tables.votf);
   const DecodeCost relief = relief_cost(tables.relief);
   info.decode_fetches = relief.fetches + decode.fetches;
@@ -44,6 +46,10 @@ nook_material_info info_of(const Material& material, const MaterialTables& table
   info.compressed_bytes = compressed_bytes(material);
   info.view_map_bytes = map_bytes(material.btf, material.bits);
   info.table_bytes = table_bytes(tables);
+  if (is_neural) {
+    info.neural_channels = material.neural.shape.channels;
+    info.neural_units = material.neural.shape.units;
+  }
   if (material.visibility == VisibilityForm::none) return info;
   info.visibility_threshold = material.mapping.threshold;
   info.visibility_weight = material.mapping.weight;
@@ -82,10 +88,12 @@ nook_result nook_material_load(nook_context context, const void* bytes, size_t s
     const Material material = read_material({static_cast<const std::byte*>(bytes), size}, context->memory());
     *out = Owned<nook_material_s>::make(context->memory(), shared, context, material).detach();
     const nook_material_info& info = (*out)->info;
-    context->log(NOOK_LOG_INFO,
-                 "material: %u x %u texels, %u clusters, %u of them mixed, %zu bytes, %llu expanded",
-                 info.width, info.height, info.btf.clusters, info.btf.mixture, size,
-                 static_cast<unsigned long long>(info.table_bytes));
+    context->log(
+        NOOK_LOG_INFO,
+        "material: %u x %u texels, %u clusters, %u of them mixed, %u neural channels, %zu bytes, %llu "
+        "expanded",
+        info.width, info.height, info.btf.clusters, info.btf.mixture, info.neural_channels, size,
+        static_cast<unsigned long long>(info.table_bytes));
   });
 }
 

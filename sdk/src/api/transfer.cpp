@@ -34,6 +34,7 @@ nook_transfer_response_desc default_response() {
 }
 
 Response response_of(const nook::material::MaterialTables& tables, std::uint32_t lobes, Memory* memory) {
+  nook::material::refuse_neural(tables.neural.is_used(), "radiance transfer");
   const HemisphereCells cells(sharpness_of(lobes), memory);
   const std::size_t count = std::size_t(3) * tables.btf.light_modes;
   Vector<float> values(cells.direction.size() * count, 0.0f, memory);
@@ -156,6 +157,7 @@ nook_result nook_transfer_check_material(nook_transfer transfer, nook_material m
   return api::enter("nook_transfer_check_material", [&] {
     need(transfer, "transfer");
     need(material, "material");
+    nook::material::refuse_neural(material->tables.neural.is_used(), "radiance transfer");
     check_same_light(transfer->transfer, material->tables.btf.light_modes, material->tables.light_hash);
     check_same_material(transfer->transfer, material->tables.votf_hash);
   });
@@ -262,6 +264,7 @@ nook_result nook_transfer_shade(nook_material material, const nook_material_samp
                                 float* radiance) {
   return api::enter("nook_transfer_shade", [&] {
     need(material, "material");
+    nook::material::refuse_neural(material->tables.neural.is_used(), "radiance transfer");
     const std::uint32_t modes = material->tables.btf.light_modes;
     if (vector_floats != 3 * modes)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

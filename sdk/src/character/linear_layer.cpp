@@ -28,7 +28,7 @@ std::uint32_t block_count_of(std::size_t vertices) {
 }
 
 // The columns of all blocks, one block after another: the key points that the vertices of a block use, each
-// once and in ascending order.
+// once and in ascending order. A block of an odd number has its last one twice.
 struct Columns {
   Vector<std::uint16_t> key_point;
   Vector<std::uint32_t> first;  // for each block, and the end
@@ -45,6 +45,7 @@ struct Columns {
       const auto own = key_point.begin() + first.back();
       std::sort(own, key_point.end());
       key_point.erase(std::unique(own, key_point.end()), key_point.end());
+      if (key_point.size() % 2) key_point.push_back(key_point.back());
       first.push_back(static_cast<std::uint32_t>(key_point.size()));
     }
   }
@@ -53,6 +54,10 @@ struct Columns {
     const auto begin = key_point.begin();
     return static_cast<std::size_t>(std::lower_bound(begin + first[block], begin + first[block + 1], k) -
                                     begin);
+  }
+  // Where the weights of a slot in one of its block's columns lie.
+  std::size_t place(std::size_t column, std::size_t slot) const {
+    return column / 2 * linear_pair_weights + slot % linear_block_vertices * 2 + column % 2;
   }
 };
 
@@ -80,6 +85,25 @@ AlignedArray<std::int16_t> in_steps(const Vector<float>& weights, float step, Me
   return out;
 }
 
+// The largest sum over a vertex' columns of the sizes of its weights, in steps.
+double largest_sum(const AlignedArray<LinearBlock>& blocks, const AlignedArray<std::int16_t>& weights) {
+  double largest = 1;
+  for (const LinearBlock& block : blocks)
+    for (std::size_t v = 0; v < linear_pair_weights; v += 2) {
+      double sum = 0;
+      for (std::size_t pair = block.first_pair; pair < block.first_pair + block.pairs; ++pair)
+        for (std::size_t c = v; c < v + 2; ++c) sum += std::abs(weights[pair * linear_pair_weights + c]);
+      largest = std::max(largest, sum);
+    }
+  return largest;
+}
+
+float code_limit(const AlignedArray<LinearBlock>& blocks, const AlignedArray<std::int16_t>& weights) {
+  constexpr double largest_word = 2147483647;
+  return static_cast<float>(
+      std::min(std::floor(largest_word / largest_sum(blocks, weights)), double(max_code_limit)));
+}
+
 }  // namespace
 
 LinearLayer::LinearLayer(const CharacterModel& model, Memory* memory)
@@ -91,9 +115,11 @@ LinearLayer::LinearLayer(const CharacterModel& model, Memory* memory)
   const Columns columns(model, order, memory);
 
   for (std::size_t b = 0; b < blocks_.size(); ++b)
-    blocks_[b] = {columns.first[b], columns.first[b + 1] - columns.first[b]};
-  key_point_ = AlignedArray<std::uint16_t>(columns.key_point.size(), memory);
-  std::copy(columns.key_point.begin(), columns.key_point.end(), key_point_.begin());
+    blocks_[b] = {columns.first[b] / 2, (columns.first[b + 1] - columns.first[b]) / 2};
+  key_points_ = AlignedArray<std::uint32_t>(columns.key_point.size() / 2, memory);
+  for (std::size_t pair = 0; pair < key_points_.size(); ++pair)
+    key_points_[pair] =
+        columns.key_point[2 * pair] | static_cast<std::uint32_t>(columns.key_point[2 * pair + 1]) << 16;
   Vector<float> alpha(columns.key_point.size() * linear_block_vertices, 0.0f, memory);
   Vector<float> blend(alpha.size(), 0.0f, memory);
 
@@ -105,7 +131,7 @@ LinearLayer::LinearLayer(const CharacterModel& model, Memory* memory)
     for (std::size_t e = vertex * model.influences; e < (vertex + 1) * model.influences; ++e) {
       if (model.alpha[e] == 0) continue;
       const std::size_t column = columns.find(slot / linear_block_vertices, model.influence[e]);
-      const std::size_t place = column * linear_block_vertices + slot % linear_block_vertices;
+      const std::size_t place = columns.place(column, slot);
       alpha[place] += model.alpha[e];
       blend[place] += model.blend[e];
       gain += std::abs(model.blend[e]);
@@ -123,10 +149,16 @@ LinearLayer::LinearLayer(const CharacterModel& model, Memory* memory)
   const float alpha_step = alpha_step_of(alpha), blend_step = blend_step_of(blend);
   alpha_ = in_steps(alpha, alpha_step, memory);
   blend_ = in_steps(blend, blend_step, memory);
-  view_ = {blocks_.data(),    static_cast<std::uint32_t>(blocks_.size()),
-           key_point_.data(), alpha_.data(),
-           blend_.data(),     alpha_step,
-           blend_step,        open_bias_.data()};
+  view_ = {blocks_.data(),
+           static_cast<std::uint32_t>(blocks_.size()),
+           key_points_.data(),
+           alpha_.data(),
+           blend_.data(),
+           alpha_step,
+           blend_step,
+           open_bias_.data(),
+           code_limit(blocks_, alpha_),
+           code_limit(blocks_, blend_)};
 }
 
 }  // namespace nook

@@ -28,7 +28,7 @@ class LinearLayer {
 
  private:
   AlignedArray<LinearBlock> blocks_;
-  AlignedArray<std::uint16_t> key_point_;
+  AlignedArray<std::uint32_t> key_points_;
   AlignedArray<std::int16_t> alpha_;
   AlignedArray<std::int16_t> blend_;
   AlignedArray<float> open_bias_;

@@ -9,9 +9,6 @@ namespace {
 
 using Indices = Vector<std::uint32_t>;
 
-// A multiple of all block sizes. Its AO lies in 4 KiB where the file has no other vertices between.
-constexpr std::size_t window_vertices = 1024;
-
 // Calls body(key_point) for each key point that shades a vertex.
 template <class Body>
 void for_influences(const CharacterModel& model, std::size_t vertex, Body&& body) {
@@ -52,8 +49,9 @@ class Window {
       });
   }
 
-  // Appends the vertices of the next block to `order`; at least one must be left.
-  void append_block(std::uint32_t count, Indices& order) {
+  // Appends the vertices of the next block to `order`; at least one must be left. Returns the number of its
+  // key points.
+  std::size_t append_block(std::uint32_t count, Indices& order) {
     while (is_taken_[first_left_]) ++first_left_;
     take(first_left_, order);
     for (std::uint32_t i = 1; i < count; ++i) take(next(), order);
@@ -62,9 +60,11 @@ class Window {
       in_block_[k] = 0;
       for (const std::uint32_t user : users_[k]) ++missing_[user];
     }
+    const std::size_t key_points = block_key_points_.size();
     block_key_points_.clear();
     for (const std::uint32_t v : candidates_) is_candidate_[v] = 0;
     candidates_.clear();
+    return key_points;
   }
 
  private:
@@ -104,6 +104,27 @@ class Window {
   std::uint32_t first_left_ = 0;
 };
 
+// Appends the blocks of a window, those with most key points first: a processor predicts the end of a loop
+// that is as long as the one before. A block that is not full stays last.
+void append_window(Window& window, std::size_t vertices, std::uint32_t block_vertices, Memory* memory,
+                   Indices& order) {
+  struct Block {
+    std::size_t key_points, begin;
+  };
+  Indices blocks(memory);
+  Vector<Block> sizes(memory);
+  while (vertices - blocks.size() >= block_vertices) {
+    const std::size_t begin = blocks.size();
+    sizes.push_back({window.append_block(block_vertices, blocks), begin});
+  }
+  std::stable_sort(sizes.begin(), sizes.end(),
+                   [](const Block& a, const Block& b) { return a.key_points > b.key_points; });
+  for (const Block& block : sizes)
+    for (std::size_t i = 0; i < block_vertices; ++i) order.push_back(blocks[block.begin + i]);
+  if (blocks.size() < vertices)
+    window.append_block(static_cast<std::uint32_t>(vertices - blocks.size()), order);
+}
+
 }  // namespace
 
 Vector<std::uint32_t> linear_layer_order(const CharacterModel& model, std::uint32_t block_vertices,
@@ -111,13 +132,10 @@ Vector<std::uint32_t> linear_layer_order(const CharacterModel& model, std::uint3
   const Indices in_file = file_order(model, memory);
   Indices order(memory);
   order.reserve(in_file.size());
-  for (std::size_t begin = 0; begin < in_file.size(); begin += window_vertices) {
-    const std::size_t count = std::min(window_vertices, in_file.size() - begin);
+  for (std::size_t begin = 0; begin < in_file.size(); begin += linear_window_vertices) {
+    const std::size_t count = std::min<std::size_t>(linear_window_vertices, in_file.size() - begin);
     Window window(model, std::span(in_file).subspan(begin, count), memory);
-    while (order.size() < begin + count)
-      window.append_block(
-          static_cast<std::uint32_t>(std::min<std::size_t>(block_vertices, begin + count - order.size())),
-          order);
+    append_window(window, count, block_vertices, memory, order);
   }
   return order;
 }

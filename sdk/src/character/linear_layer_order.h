@@ -10,6 +10,9 @@
 
 namespace nook {
 
+// A multiple of all block sizes. Its AO lies in 4 KiB where the file has no other vertices between.
+inline constexpr std::uint32_t linear_window_vertices = 1024;
+
 // Returns all vertices in the order of their slots. Blocks are made of the vertices of one window of the
 // file's order: the first that is left, then always the one that needs the fewest further key points. The
 // model's influences must be valid.

@@ -29,7 +29,7 @@ struct LoadedClips : RefCounted {
 
   // The modes of AO in the order of the slots of the model's linear layer, in blocks of block_slots slots: a
   // block has all its modes one after another, so that a vertex block is decoded from one run of memory.
-  static constexpr std::uint32_t block_slots = 256;
+  static constexpr std::uint32_t block_slots = LoadedModel::slot_chunk;
   const AlignedArray<std::int8_t> block_mode;
 
   const ClipSet set;  // without the modes of AO, which are above

@@ -53,21 +53,31 @@ Vector<LoadedLevel> load_levels(const CharacterModel& model, Memory* memory) {
   return loaded;
 }
 
-// Maps chunks of slots of the linear layer to file vertices, as one list of lists.
+// Maps chunks of slots of the linear layer to runs of file vertices, as one list of lists.
 void invert_file_order(LoadedModel& loaded, Memory* memory) {
   constexpr std::uint32_t chunk = LoadedModel::slot_chunk;
   const AlignedArray<std::uint32_t>& slot_of = loaded.linear.file_to_slot();
-  const std::size_t slots = loaded.linear.padded_slots(), file_vertices = loaded.model.file_to_welded.size();
-  loaded.chunk_begin = AlignedArray<std::uint32_t>((slots + chunk - 1) / chunk + 1, memory);
-  loaded.chunk_file_vertex = AlignedArray<std::uint32_t>(file_vertices, memory);
-  loaded.slot_in_chunk = AlignedArray<std::uint8_t>(file_vertices, memory);
-  for (std::size_t i = 0; i < file_vertices; ++i) ++loaded.chunk_begin[slot_of[i] / chunk];
-  std::uint32_t sum = 0;
-  for (std::uint32_t& end : loaded.chunk_begin) end = sum += end;
-  for (std::size_t i = file_vertices; i-- > 0;) {
-    const std::uint32_t place = --loaded.chunk_begin[slot_of[i] / chunk];
-    loaded.chunk_file_vertex[place] = static_cast<std::uint32_t>(i);
-    loaded.slot_in_chunk[place] = static_cast<std::uint8_t>(slot_of[i] % chunk);
+  const std::size_t slots = loaded.linear.padded_slots(), file_vertices = slot_of.size();
+  const auto begins = [&](std::size_t i) { return i == 0 || slot_of[i] / chunk != slot_of[i - 1] / chunk; };
+  AlignedArray<std::uint32_t> vertices_before((slots + chunk - 1) / chunk + 1, memory);
+  loaded.run_begin = AlignedArray<std::uint32_t>(vertices_before.size(), memory);
+  for (std::size_t i = 0; i < file_vertices; ++i) {
+    ++vertices_before[slot_of[i] / chunk + 1];
+    if (begins(i)) ++loaded.run_begin[slot_of[i] / chunk + 1];
+  }
+  for (std::size_t c = 1; c < vertices_before.size(); ++c) {
+    vertices_before[c] += vertices_before[c - 1];
+    loaded.run_begin[c] += loaded.run_begin[c - 1];
+  }
+  loaded.file_run = AlignedArray<LoadedModel::FileRun>(loaded.run_begin[vertices_before.size() - 1], memory);
+  loaded.slot_in_chunk = AlignedArray<std::uint16_t>(file_vertices, memory);
+  AlignedArray<std::uint32_t> next_run(vertices_before.size(), memory);
+  for (std::size_t i = 0; i < file_vertices; ++i) {
+    const std::uint32_t c = slot_of[i] / chunk, entry = vertices_before[c]++;
+    loaded.slot_in_chunk[entry] = static_cast<std::uint16_t>(slot_of[i] % chunk);
+    if (begins(i))
+      loaded.file_run[loaded.run_begin[c] + next_run[c]++] = {static_cast<std::uint32_t>(i), 0, entry};
+    ++loaded.file_run[loaded.run_begin[c] + next_run[c] - 1].vertices;
   }
 }
 

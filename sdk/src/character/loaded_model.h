@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sdk/src/character/linear_layer.h"
+#include "sdk/src/character/linear_layer_order.h"
 #include "sdk/src/character/model.h"
 #include "sdk/src/character/shadow_kernels_rest.h"
 #include "sdk/src/character/sphere_groups.h"
@@ -31,13 +32,17 @@ struct LoadedModel : RefCounted {
   const SphereTree sphere_tree;      // the same
   const Vector<LoadedLevel> levels;  // those of model.levels; full detail is not among them
 
-  // The file vertices that take the AO of a chunk c of slots of the linear layer, in ascending order so that
-  // they are written near each other, are chunk_file_vertex[chunk_begin[c]...chunk_begin[c + 1]]. The slot of
-  // each, from the first of the chunk on, is that of slot_in_chunk.
-  static constexpr std::uint32_t slot_chunk = 256;
-  AlignedArray<std::uint32_t> chunk_begin;
-  AlignedArray<std::uint32_t> chunk_file_vertex;
-  AlignedArray<std::uint8_t> slot_in_chunk;
+  // File vertices that follow each other and take the AO of one chunk of slots of the linear layer. Their
+  // slots, from the first of the chunk on, are slot_in_chunk[first_entry...first_entry + vertices].
+  struct FileRun {
+    std::uint32_t first_vertex = 0, vertices = 0, first_entry = 0;
+  };
+  // The runs of chunk c are file_run[run_begin[c]...run_begin[c + 1]], in ascending order. Chunks are the
+  // windows of linear_layer_order.h, whose vertices follow each other in most files.
+  static constexpr std::uint32_t slot_chunk = linear_window_vertices;
+  AlignedArray<std::uint32_t> run_begin;
+  AlignedArray<FileRun> file_run;
+  AlignedArray<std::uint16_t> slot_in_chunk;
   AlignedArray<float>
       open_without_bias;  // 1 per slot, in place of LinearView::open_bias where self-shadow is switched off
 

@@ -6,13 +6,13 @@
 namespace nook {
 
 std::uint64_t instance_bytes(const LoadedModel& model) {
-  std::uint64_t floats = sphere_lanes * padded_count(model.model.spheres.size()) +
-                         point_lanes * model.rest_key_points.padded_count();
+  std::uint64_t words = sphere_lanes * padded_count(model.model.spheres.size()) +
+                        (point_lanes + code_lanes) * model.rest_key_points.padded_count();
   for (const LoadedLevel& level : model.levels)
-    floats += sphere_lanes * padded_count(level.rest_spheres.view().count);
+    words += sphere_lanes * padded_count(level.rest_spheres.view().count);
   for (std::uint32_t t = 0; t < group_tiers; ++t)
-    floats += group_lanes * padded_count(model.groups.tier(t).count());
-  return sizeof(Instance) + floats * sizeof(float) + model.model.bone_count() * sizeof(Mat3x4) +
+    words += group_lanes * padded_count(model.groups.tier(t).count());
+  return sizeof(Instance) + words * sizeof(float) + model.model.bone_count() * sizeof(Mat3x4) +
          model.model.world_casters.size() * sizeof(PosedCaster);
 }
 

@@ -40,7 +40,8 @@ struct SphereLanes {
   std::uint32_t count = 0;
 };
 
-inline constexpr std::size_t sphere_lanes = 4, group_lanes = 6, point_lanes = 17;  // pointers of a struct
+inline constexpr std::size_t sphere_lanes = 4, group_lanes = 6, point_lanes = 17,
+                             code_lanes = 4;  // pointers of a struct
 
 // Key points in world space, each array padded_count long. Padding holds finite numbers. Pointers are into
 // InstanceArrays::storage.
@@ -54,6 +55,8 @@ struct PointLanes {
   float* optical_depth = nullptr;  // composed form: sum over casters of solid_depth
   float* open = nullptr;           // composed form: product over ground and occluders of 1 - form factor
   float* added = nullptr;          // composed form: 1 - open * exp(-optical_depth); 0 is unshadowed
+  PointCodes shadow_codes;         // of shadow and added for the linear layer, the latter where has_added
+  PointCodes added_codes;
   std::uint32_t count = 0;
   std::uint32_t padded_count = 0;
 };
@@ -66,6 +69,7 @@ struct InstanceArrays {
   // always complete.
   PointLanes points;
   AlignedArray<float> storage;
+  AlignedArray<std::int32_t> codes;
 };
 InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory);
 

@@ -153,6 +153,13 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory) {
          {&groups.x, &groups.y, &groups.z, &groups.inverse_radius, &groups.caster_weight, &groups.moment})
       take(lane, padded_count(groups.count));
   for (float** lane : of_points) take(lane, points.padded_count);
+  arrays.codes = AlignedArray<std::int32_t>(code_lanes * points.padded_count, memory);
+  std::int32_t* code = arrays.codes.data();
+  for (std::int32_t** lane : {&points.shadow_codes.low, &points.shadow_codes.high, &points.added_codes.low,
+                              &points.added_codes.high}) {
+    *lane = code;
+    code += points.padded_count;
+  }
   return arrays;
 }
 

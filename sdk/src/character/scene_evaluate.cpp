@@ -70,7 +70,8 @@ std::uint64_t sum_own_spheres(const Scene& scene, const Instance& instance, cons
   return std::uint64_t{spheres.count} * points.count;
 }
 
-// From the evaluated key points to all of them. Scale and offset belong to self-shadow.
+// From the evaluated key points to all of them; the padding repeats the last. Scale and offset belong to
+// self-shadow.
 void spread_level(const CharacterLevel& level, bool with_self, const PointLanes& points) {
   for (std::uint32_t k = 0; k < points.count; ++k) {
     const std::uint16_t source = level.source[k];
@@ -78,6 +79,16 @@ void spread_level(const CharacterLevel& level, bool with_self, const PointLanes&
                                  : points.norm_sum[source];
     points.added[k] = points.optical_depth[source];
   }
+  for (float* lane : {points.shadow, points.added})
+    std::fill(lane + points.count, lane + points.padded_count, lane[points.count - 1]);
+}
+
+void encode_shadows(const Scene& scene, Instance& instance) {
+  const LinearView& layer = instance.model->linear.view();
+  PointLanes& p = instance.result.arrays.points;
+  scene.kernels->encode_points(p.shadow, p.padded_count, layer.shadow_limit, p.shadow_codes);
+  if (instance.result.has_added)
+    scene.kernels->encode_points(p.added, p.padded_count, layer.occlusion_limit, p.added_codes);
 }
 
 }  // namespace
@@ -145,6 +156,7 @@ void evaluate_shadows(const Scene& scene, Instance& instance) noexcept {
     spread_level(instance.model->model.levels[instance.plan.level - 1], has_self_shadow(scene, instance),
                  instance.result.arrays.points);
   }
+  encode_shadows(scene, instance);
   instance.result.evaluated_frame = scene.frame;
 }
 
@@ -192,7 +204,7 @@ Self self_of(const Scene& scene, const Instance& instance) {
 
 constexpr std::uint32_t chunk_slots = LoadedModel::slot_chunk,
                         chunk_blocks = chunk_slots / linear_block_vertices;
-static_assert(LoadedClips::block_slots % chunk_slots == 0);
+static_assert(LoadedClips::block_slots == chunk_slots);
 using ChunkAo = std::array<float, chunk_slots>;
 
 // Calls evaluate(layer, first_slot) for each chunk of the model's linear layer, then put(place, slot) for its
@@ -203,9 +215,9 @@ void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out
   const LinearView& view = loaded.linear.view();
   auto* const bytes = static_cast<unsigned char*>(out);
   // Copies, because bytes that are written might be those of the originals.
-  const std::uint32_t *const begin = loaded.chunk_begin.data(), *const vertex =
-                                                                    loaded.chunk_file_vertex.data();
-  const std::uint8_t* const slot = loaded.slot_in_chunk.data();
+  const std::uint32_t* const begin = loaded.run_begin.data();
+  const LoadedModel::FileRun* const runs = loaded.file_run.data();
+  const std::uint16_t* const slots = loaded.slot_in_chunk.data();
   for (std::uint32_t block = 0; block < view.block_count; block += chunk_blocks) {
     const std::uint32_t first_slot = block * linear_block_vertices;
     LinearView chunk = view;
@@ -214,7 +226,12 @@ void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out
     chunk.open_bias = open_bias + first_slot;
     evaluate(chunk, first_slot);
     const std::uint32_t number = first_slot / chunk_slots, last = begin[number + 1];
-    for (std::uint32_t i = begin[number]; i < last; ++i) put(bytes + vertex[i] * stride_bytes, slot[i]);
+    for (std::uint32_t r = begin[number]; r < last; ++r) {
+      const LoadedModel::FileRun run = runs[r];
+      unsigned char* place = bytes + run.first_vertex * stride_bytes;
+      const std::uint16_t* const slot = slots + run.first_entry;
+      for (std::uint32_t i = 0; i < run.vertices; ++i, place += stride_bytes) put(place, slot[i]);
+    }
   }
 }
 
@@ -230,7 +247,7 @@ const float* open_bias_of(const LoadedModel& loaded, Self self) {
 }
 
 // Calls put(place, number) for each file vertex, place being a pointer stride_bytes further for each. The
-// numbers are AO as numbers of another type, which convert makes of all 256 of a chunk at once.
+// numbers are AO as numbers of another type, which convert makes of all of a chunk at once.
 template <class Number, class Stride, class Convert, class Put>
 void for_each_ao(const Scene& scene, const Instance& instance, void* out, Stride stride_bytes,
                  Convert&& convert, Put&& put) noexcept {
@@ -243,18 +260,19 @@ void for_each_ao(const Scene& scene, const Instance& instance, void* out, Stride
   }
   const Self self = self_of(scene, instance);
   const PointLanes& points = instance.result.arrays.points;
-  const float* const added = instance.result.has_added ? points.added : nullptr;
-  alignas(64) ChunkAo ao{}, own{};
+  const PointCodes* const added = instance.result.has_added ? &points.added_codes : nullptr;
+  alignas(64) ChunkAo ao, own;
   alignas(64) std::array<Number, chunk_slots> numbers;
   for_each_chunk(
       loaded, open_bias_of(loaded, self), out, stride_bytes,
       [&](const LinearView& chunk, std::uint32_t first_slot) {
-        scene.kernels->linear_layer(chunk, points.shadow, added, ao.data());
+        scene.kernels->linear_layer(chunk, points.shadow_codes, added, ao.data());
+        const std::uint32_t count = chunk.block_count * linear_block_vertices;
         if (self == Self::clip) {
           decode_clip(instance, chunk, first_slot, own);
-          for (std::uint32_t i = 0; i < chunk_slots; ++i) ao[i] *= own[i];
+          for (std::uint32_t i = 0; i < count; ++i) ao[i] *= own[i];
         }
-        for (std::uint32_t i = 0; i < chunk_slots; ++i) numbers[i] = convert(ao[i]);
+        for (std::uint32_t i = 0; i < count; ++i) numbers[i] = convert(ao[i]);
       },
       [&](unsigned char* place, std::uint32_t slot) { put(place, numbers[slot]); });
 }
@@ -306,8 +324,8 @@ void read_directional_ao(const Scene& scene, const Instance& instance, float* ou
   const LoadedModel& loaded = *instance.model;
   const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
   const Self self = self_of(scene, instance);
-  alignas(64) std::array<ChunkAo, 3> ao{};
-  alignas(64) ChunkAo own{};
+  alignas(64) std::array<ChunkAo, 3> ao;
+  alignas(64) ChunkAo own;
   float* const rgb[] = {ao[0].data(), ao[1].data(), ao[2].data()};
   for_each_chunk(
       loaded, open_bias_of(loaded, self), out, stride_bytes,
@@ -317,7 +335,7 @@ void read_directional_ao(const Scene& scene, const Instance& instance, float* ou
         if (self != Self::clip) return;
         decode_clip(instance, chunk, first_slot, own);
         for (ChunkAo& channel : ao)
-          for (std::uint32_t i = 0; i < chunk_slots; ++i) channel[i] *= own[i];
+          for (std::uint32_t i = 0; i < chunk.block_count * linear_block_vertices; ++i) channel[i] *= own[i];
       },
       [&](unsigned char* place, std::uint32_t slot) {
         put_three(place, ao[0][slot], ao[1][slot], ao[2][slot]);

@@ -3,7 +3,7 @@
 //
 // A character's frame: pose_spheres and pose_key_points bring the model to world space; self_norm_sum and
 // norm_root give the shadow at each key point; composed_depth, exact_open and composed_occlusion give what
-// other casters take away; linear_layer blends both to vertices.
+// other casters take away; encode_points and linear_layer blend both to vertices.
 #pragma once
 
 #include <cstddef>
@@ -91,52 +91,65 @@ struct RestKeyPointView {
   std::uint32_t padded_count = 0;
 };
 
-// A sphere, or several as one, as the plain sum of the default kernel takes them (shadow_nook_of_mass). World
-// space, metres.
-struct MassSphere {
-  float x, y, z;
-  float softness;  // square metres, of the horizon
-  float core;      // square metres, added to the squared distance
-  float mass;      // square metres: 3/4 of the squared radius, or of their sum
+// The nodes and spheres of a tree in a pose, nodes first, as the plain sum of the default kernel takes them
+// (shadow_nook_of_mass). World space, metres.
+struct PosedSphereTree {
+  static constexpr std::uint32_t max_spheres = 256, max_masses = 512;  // a node less than spheres
+
+  float x[max_masses], y[max_masses], z[max_masses];
+  float softness[max_masses];  // square metres, of the horizon
+  float core[max_masses];      // square metres, added to the squared distance
+  float mass[max_masses];      // square metres: 3/4 of the squared radius, or of their sum
+  float reach[max_spheres];    // square metres, of nodes: key points nearer than that need its halves
 };
-// A node of a tree of spheres.
-struct MassNode {
-  MassSphere merged;
-  float reach;  // square metres: key points whose squared distance plus core is smaller need the spheres
-};
+// The two halves of a node of a tree of spheres, each a node or a sphere, as numbers of PosedSphereTree.
+// Nodes come before their halves.
 struct SphereTreeNode {
-  std::uint32_t begin = 0, end = 0;  // its spheres
-  std::uint32_t next = 0;            // the node after its last descendant; a leaf has none
+  std::uint16_t half[2] = {};
 };
 // SphereTree and PosedSphereTree own it.
 struct SphereTreeView {
-  const SphereTreeNode* shape = nullptr;
-  std::uint32_t count = 0;
-  const MassSphere* spheres = nullptr;
-  const MassNode* nodes = nullptr;
+  const SphereTreeNode* node = nullptr;
+  std::uint32_t nodes = 0;
+  const PosedSphereTree* pose = nullptr;
 };
 
 // 16 vertices of the linear layer as a small dense matrix with one column for each key point that any of them
-// uses. A column takes one broadcast and one multiply-add for all 16 vertices, while looking up key points
-// for each vertex takes a load for each. Column c of the block is key_point[first_column + c]; the alphas of
-// its 16 vertices are at alpha[16 (first_column + c)], their blend weights at blend[16 (first_column + c)].
-// Weights are 16-bit numbers of a step: a frame reads all of them, and half as many bytes take half the time.
+// uses. A column takes few instructions for all 16 vertices, while looking up key points for each vertex
+// takes a load for each. Columns come in pairs, because processors have one instruction for the sum of two
+// products of 16-bit numbers. Pair p of the block has the
+// two key points of key_points[first_pair + p]; the two alphas of each of its 16 vertices are side by side
+// from alpha[32 (first_pair + p)] on, their blend weights from blend[32 (first_pair + p)] on. The last column
+// may have no weights.
 struct LinearBlock {
-  std::uint32_t first_column = 0;
-  std::uint32_t columns = 0;
+  std::uint32_t first_pair = 0;
+  std::uint32_t pairs = 0;
 };
 inline constexpr std::uint32_t linear_block_vertices = 16;
+inline constexpr std::uint32_t linear_pair_weights = 2 * linear_block_vertices;
+
+// Values at key points as whole numbers of a step, which encode_points chooses: the largest value is `limit`
+// steps. Each code is there as the lower and as the upper half of a word, whose other half is 0.
+struct PointCodes {
+  std::int32_t* low = nullptr;
+  std::int32_t* high = nullptr;
+  float step = 0;
+};
 
 // The linear layer by slots, with the vertices in an order of its own. LinearLayer owns it.
 struct LinearView {
   const LinearBlock* blocks = nullptr;
   std::uint32_t block_count = 0;
-  const std::uint16_t* key_point = nullptr;
+  // The first key point of a pair in the lower half, the second in the upper half, for one load.
+  const std::uint32_t* key_points = nullptr;
   const std::int16_t* alpha = nullptr;
   const std::int16_t* blend = nullptr;  // blend weights, in the layout of alpha
   float alpha_step = 1, blend_step = 1;
   const float* open_bias = nullptr;  // 1 - bias, for each slot
+  // The largest codes of shadows and of occlusions with which the sums of all vertices fit into 32 bits.
+  float shadow_limit = 1, occlusion_limit = 1;
 };
+inline constexpr float max_code_limit = 32767;
 
 struct ShadowKernels {
   Isa isa = Isa::scalar;
@@ -148,7 +161,7 @@ struct ShadowKernels {
   void (*self_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
                         float* sum);
   // The same for the default kernel and gamma 1, with nodes of a tree in place of far spheres: each group of
-  // key points takes the largest nodes out of whose reach all of it is. Returns the number of pairs of a key
+  // key points takes the largest nodes out of whose reach its box is. Returns the number of pairs of a key
   // point and a sphere or node that it evaluates.
   std::uint64_t (*tree_sum)(const SphereTreeView& tree, const KeyPointSoa& points, float* sum);
   // shadow[k] = sum[k]^(1 / gamma); sum and shadow may be the same array.
@@ -164,10 +177,13 @@ struct ShadowKernels {
   void (*composed_occlusion)(const float* depth, const float* open, std::uint32_t padded_count,
                              float* occlusion);
 
+  // Rounds values to codes from -limit to limit. A code changes a value by at most half of the step.
+  void (*encode_points)(const float* value, std::uint32_t padded_count, float limit, PointCodes& codes);
   // ao[slot] = clamp(1 - (sum alpha * shadow + bias), 0, 1) * clamp(1 - sum blend * occlusion, 0, 1) in the
-  // layer's slot order, with 16 entries for each block. occlusion NULL evaluates self-shadow only. For any
-  // input, ao is a number in [0, 1].
-  void (*linear_layer)(const LinearView& layer, const float* shadow, const float* occlusion, float* ao);
+  // layer's slot order, with 16 entries for each block. occlusion NULL evaluates self-shadow only. For codes
+  // of any input, ao is a number in [0, 1].
+  void (*linear_layer)(const LinearView& layer, const PointCodes& shadow, const PointCodes* occlusion,
+                       float* ao);
 
   // Transforms from rest space to world space. bones map rest space to world space; they are rigid or have a
   // uniform scale, which scales radii. offset_ws is subtracted, so that a scene far from the world's origin

@@ -2,7 +2,10 @@
 // it has defined
 //   isa, its Isa,
 //   Float, a vector of `width` numbers with the operations of core/simd_scalar.h,
-//   broadcast, load and store.
+//   broadcast, load and store,
+//   Whole, as many whole numbers, and CodePair, two 16-bit numbers for all lanes: code_pair(low, high) of the
+//   halves of a word, add_products(p, codes, sum), which adds the products of each lane's two numbers from p
+//   on, load_pairs(p, first, second) of the same numbers, and store_codes(low, high, a) of PointCodes.
 // Everything here has internal linkage or a name that contains the instruction set's type, so that code for a
 // newer processor can never be merged into a function that an older one runs.
 
@@ -115,71 +118,145 @@ void self_norm_sum(const SphereSoa& spheres, const KeyPointSoa& points, const Ke
   }
 }
 
-template <class F>
-struct SeenMass {
-  F h, d2_and_core;
+Float shadow_of_mass(const PosedSphereTree& tree, std::uint32_t i, const Points<Float>& p) {
+  const Float dx = broadcast(tree.x[i]) - p.x, dy = broadcast(tree.y[i]) - p.y,
+              dz = broadcast(tree.z[i]) - p.z;
+  return shadow_nook_of_mass(fma(dx, p.nx, fma(dy, p.ny, dz * p.nz)),
+                             fma(dx, dx, fma(dy, dy, fma(dz, dz, broadcast(tree.core[i])))),
+                             broadcast(tree.softness[i]), broadcast(tree.mass[i]));
+}
+
+// Groups of key points that choose their nodes together, one bit each.
+constexpr std::uint32_t batch_groups = 32;
+
+// The boxes of the groups of a batch along an axis.
+struct Extents {
+  alignas(64) float low[batch_groups];
+  alignas(64) float high[batch_groups];
+
+  void put(std::uint32_t group, const float* place) {
+    Float least = load(place), most = least;
+    for (std::uint32_t i = width; i < key_point_group; i += width) {
+      least = min(least, load(place + i));
+      most = max(most, load(place + i));
+    }
+    float lows[width], highs[width];
+    store(lows, least);
+    store(highs, most);
+    for (std::uint32_t half = width / 2; half > 0; half /= 2)
+      for (std::uint32_t i = 0; i < half; ++i) {
+        lows[i] = lows[i + half] < lows[i] ? lows[i + half] : lows[i];
+        highs[i] = highs[i + half] > highs[i] ? highs[i + half] : highs[i];
+      }
+    low[group] = lows[0];
+    high[group] = highs[0];
+  }
+  // Returns the distance of a place from the boxes of the groups from `group` on.
+  Float outside(Float place, std::uint32_t group) const {
+    return place - min(max(place, load(low + group)), load(high + group));
+  }
 };
 
-template <class F>
-SeenMass<F> see_mass(const MassSphere& sphere, const Points<F>& p) {
-  const F dx = F(broadcast(sphere.x)) - p.x;
-  const F dy = F(broadcast(sphere.y)) - p.y;
-  const F dz = F(broadcast(sphere.z)) - p.z;
-  return {fma(dx, p.nx, fma(dy, p.ny, dz * p.nz)),
-          fma(dx, dx, fma(dy, dy, fma(dz, dz, F(broadcast(sphere.core)))))};
+struct GroupBoxes {
+  Extents x, y, z;
+
+  // Groups after the last repeat it.
+  GroupBoxes(const KeyPointSoa& points, std::uint32_t first) {
+    for (std::uint32_t g = 0; g < batch_groups; ++g) {
+      const std::uint32_t last = points.padded_count - key_point_group;
+      const std::uint32_t k = first + g * key_point_group < last ? first + g * key_point_group : last;
+      x.put(g, points.x + k);
+      y.put(g, points.y + k);
+      z.put(g, points.z + k);
+    }
+  }
+  // Returns a bit for each group that is in the reach of a node.
+  std::uint32_t near(const PosedSphereTree& tree, std::uint32_t n) const {
+    const Float at_x = broadcast(tree.x[n]), at_y = broadcast(tree.y[n]), at_z = broadcast(tree.z[n]),
+                reach = broadcast(tree.reach[n]);
+    std::uint32_t groups = 0;
+    for (std::uint32_t g = 0; g < batch_groups; g += width) {
+      const Float dx = x.outside(at_x, g), dy = y.outside(at_y, g), dz = z.outside(at_z, g);
+      groups |= bits(less(fma(dx, dx, fma(dy, dy, dz * dz)), reach)) << g;
+    }
+    return groups;
+  }
+};
+
+// Swaps rows and columns of 32 x 32 bits: Hacker's Delight, 7-3.
+void transpose_bits(std::uint32_t (&row)[32]) {
+  std::uint32_t mask = 0xffff;
+  for (std::uint32_t half = 16; half > 0; half /= 2, mask ^= mask << half)
+    for (std::uint32_t pair = 0; pair < 32; pair += 2 * half)
+      for (std::uint32_t r = pair; r < pair + half; ++r) {
+        const std::uint32_t swapped = ((row[r] >> half) ^ row[r + half]) & mask;
+        row[r] ^= swapped << half;
+        row[r + half] ^= swapped;
+      }
 }
 
-template <class F>
-F shadow_of_mass(const MassSphere& sphere, const SeenMass<F>& seen) {
-  return shadow_nook_of_mass(seen.h, seen.d2_and_core, F(broadcast(sphere.softness)),
-                             F(broadcast(sphere.mass)));
+// The choice of each group of a batch: a bit for each node out of whose reach it is while it is in the reach
+// of all nodes above, and for each sphere whose nodes are all near.
+struct ChosenMasses {
+  static constexpr std::uint32_t words = PosedSphereTree::max_masses / 32;
+
+  std::uint32_t count = 0;       // of words in use
+  std::uint32_t bit[words][32];  // of masses 32 w to 32 w + 31 in bit[w][group]
+
+  ChosenMasses(const SphereTreeView& tree, const GroupBoxes& boxes) : count((2 * tree.nodes + 32) / 32) {
+    const auto groups = [&](std::uint32_t mass) -> std::uint32_t& { return bit[mass / 32][mass % 32]; };
+    for (std::uint32_t m = 2 * tree.nodes + 1; m < 32 * count; ++m) groups(m) = 0;
+    groups(0) = ~0u;
+    for (std::uint32_t n = 0; n < tree.nodes; ++n) {
+      const std::uint32_t reached = groups(n), near = boxes.near(*tree.pose, n);
+      groups(n) = reached & ~near;
+      groups(tree.node[n].half[0]) = groups(tree.node[n].half[1]) = reached & near;
+    }
+    for (std::uint32_t w = 0; w < count; ++w) transpose_bits(bit[w]);
+  }
+};
+
+// For a word that is not 0. std::countr_zero is a function of the C++ library, which the linker may merge.
+std::uint32_t lowest_bit(std::uint32_t word) {
+#ifdef NOOK_TRAILING_ZEROS
+  return static_cast<std::uint32_t>(NOOK_TRAILING_ZEROS(word));
+#else
+  std::uint32_t bit = 0;
+  while (!(word >> bit & 1)) ++bit;
+  return bit;
+#endif
 }
 
-// One group of key points.
 constexpr std::uint32_t group_parts = key_point_group / width;
 
-std::uint64_t tree_sum_at(const SphereTreeView& tree, const KeyPointSoa& points, std::uint32_t k,
-                          float* sum) {
+// Returns the number of masses.
+std::uint32_t sum_chosen(const PosedSphereTree& tree, const ChosenMasses& chosen, std::uint32_t group,
+                         const KeyPointSoa& points, std::uint32_t k, float* sum) {
   Points<Float> p[group_parts];
   Float total[group_parts];
   for (std::uint32_t i = 0; i < group_parts; ++i) {
     p[i] = load_points<Float>(points, k + i * width);
     total[i] = load(sum + k + i * width);
   }
-  std::uint64_t evaluated = 0;
-  for (std::uint32_t n = 0; n < tree.count;) {
-    const SphereTreeNode& shape = tree.shape[n];
-    const MassNode& node = tree.nodes[n];
-    SeenMass<Float> seen[group_parts];
-    std::uint32_t near = 0;
-    for (std::uint32_t i = 0; i < group_parts; ++i) {
-      seen[i] = see_mass(node.merged, p[i]);
-      near |= bits(less(seen[i].d2_and_core, broadcast(node.reach)));
+  std::uint32_t count = 0;
+  for (std::uint32_t w = 0; w < chosen.count; ++w)
+    for (std::uint32_t left = chosen.bit[w][group]; left != 0; left &= left - 1, ++count) {
+      const std::uint32_t mass = 32 * w + lowest_bit(left);
+      for (std::uint32_t i = 0; i < group_parts; ++i) total[i] = total[i] + shadow_of_mass(tree, mass, p[i]);
     }
-    if (!near) {
-      for (std::uint32_t i = 0; i < group_parts; ++i)
-        total[i] = total[i] + shadow_of_mass(node.merged, seen[i]);
-      ++evaluated;
-    } else if (shape.next == n + 1) {
-      for (std::uint32_t s = shape.begin; s < shape.end; ++s)
-        for (std::uint32_t i = 0; i < group_parts; ++i)
-          total[i] = total[i] + shadow_of_mass(tree.spheres[s], see_mass(tree.spheres[s], p[i]));
-      evaluated += shape.end - shape.begin;
-    } else {
-      ++n;
-      continue;
-    }
-    n = shape.next;
-  }
   for (std::uint32_t i = 0; i < group_parts; ++i) store(sum + k + i * width, total[i]);
-  return evaluated;
+  return count;
 }
 
 std::uint64_t tree_sum(const SphereTreeView& tree, const KeyPointSoa& points, float* sum) {
   std::uint64_t evaluated = 0;
-  for (std::uint32_t k = 0; k < points.padded_count; k += key_point_group)
-    evaluated += key_point_group * tree_sum_at(tree, points, k, sum);
-  return evaluated;
+  for (std::uint32_t first = 0; first < points.padded_count; first += batch_groups * key_point_group) {
+    const ChosenMasses chosen(tree, GroupBoxes(points, first));
+    for (std::uint32_t g = 0, k = first; g < batch_groups && k < points.padded_count;
+         ++g, k += key_point_group)
+      evaluated += sum_chosen(*tree.pose, chosen, g, points, k, sum);
+  }
+  return key_point_group * evaluated;
 }
 
 void norm_root(const float* sum, std::uint32_t padded_count, float gamma, float* shadow) {
@@ -237,52 +314,78 @@ Float clamped_open(Float a) {
   return max(min(a, broadcast(1.0f)), broadcast(0.0f));
 }
 
-// The weighted sums of the vertices of a block over some of its columns.
-template <bool Added>
+// max returns its second operand where the first is NaN, so that no NaN counts.
+float largest_size(const float* value, std::uint32_t padded_count) {
+  Float largest = broadcast(0.0f);
+  for (std::uint32_t k = 0; k < padded_count; k += width) {
+    const Float v = load(value + k);
+    largest = max(max(v, broadcast(0.0f) - v), largest);
+  }
+  float lanes[width], out = 0;
+  store(lanes, largest);
+  for (const float lane : lanes) out = lane > out ? lane : out;
+  return out;
+}
+
+void encode_points(const float* value, std::uint32_t padded_count, float limit, PointCodes& codes) {
+  const float largest = largest_size(value, padded_count);
+  codes.step = largest / limit;
+  const Float inverse = broadcast(limit / (largest > 1e-30f ? largest : 1e-30f));
+  const Float low = broadcast(-limit), high = broadcast(limit);
+  for (std::uint32_t k = 0; k < padded_count; k += width)
+    store_codes(codes.low + k, codes.high + k, max(min(load(value + k) * inverse, high), low));
+}
+
+// The weighted sums of the vertices of a block over its columns.
 struct BlockSums {
   static constexpr std::uint32_t parts = linear_block_vertices / width;
 
-  Float shaded[parts], added[parts];
+  Whole part[parts];
 
-  BlockSums() {
-    for (std::uint32_t p = 0; p < parts; ++p) shaded[p] = added[p] = broadcast(0.0f);
-  }
-  void add(const LinearView& layer, std::uint32_t column, const float* shadow, const float* occlusion) {
-    const std::uint16_t k = layer.key_point[column];
-    const Float gamma = broadcast(shadow[k]), dark = broadcast(Added ? occlusion[k] : 0.0f);
-    for (std::uint32_t p = 0; p < parts; ++p) {
-      const std::size_t at = std::size_t{column} * linear_block_vertices + p * width;
-      shaded[p] = fma(load_short(layer.alpha + at), gamma, shaded[p]);
-      if constexpr (Added) added[p] = fma(load_short(layer.blend + at), dark, added[p]);
+  BlockSums(const LinearView& layer, const LinearBlock& block, const std::int16_t* weights,
+            const PointCodes& codes) {
+    for (Whole& sum : part) sum = whole_zero();
+    const std::uint32_t* k = layer.key_points + block.first_pair;
+    const std::uint32_t* const end = k + block.pairs;
+    const std::int16_t* w = weights + linear_pair_weights * std::size_t{block.first_pair};
+    if (block.pairs % 2) {
+      add(*k++, w, codes);
+      w += linear_pair_weights;
     }
+    // Two at a time, because the loop itself costs as much as a pair.
+    for (; k != end; k += 2, w += 2 * linear_pair_weights) {
+      add(k[0], w, codes);
+      add(k[1], w + linear_pair_weights, codes);
+    }
+  }
+  void add(std::uint32_t key_points, const std::int16_t* w, const PointCodes& codes) {
+    const CodePair pair = code_pair(codes.low[key_points & 0xffff], codes.high[key_points >> 16]);
+    for (std::uint32_t p = 0; p < parts; ++p) part[p] = add_products(w + p * 2 * width, pair, part[p]);
   }
 };
 
-// Even and odd columns have sums of their own, because each addition to a sum waits for the one before.
 template <bool Added>
-void linear_blocks(const LinearView& layer, const float* shadow, const float* occlusion, float* ao) {
-  const Float alpha_step = broadcast(layer.alpha_step), blend_step = broadcast(layer.blend_step);
+void linear_blocks(const LinearView& layer, const PointCodes& shadow, const PointCodes* occlusion,
+                   float* ao) {
+  const Float one = broadcast(1.0f), alpha_step = broadcast(layer.alpha_step * shadow.step),
+              blend_step = broadcast(Added ? layer.blend_step * occlusion->step : 0.0f);
   for (std::uint32_t b = 0; b < layer.block_count; ++b) {
-    const LinearBlock block = layer.blocks[b];
-    BlockSums<Added> even, odd;
-    const std::uint32_t end = block.first_column + block.columns;
-    std::uint32_t c = block.first_column;
-    for (; c + 1 < end; c += 2) {
-      even.add(layer, c, shadow, occlusion);
-      odd.add(layer, c + 1, shadow, occlusion);
+    const float* const bias = layer.open_bias + b * linear_block_vertices;
+    Float open[BlockSums::parts];
+    const BlockSums shaded(layer, layer.blocks[b], layer.alpha, shadow);
+    for (std::uint32_t p = 0; p < BlockSums::parts; ++p)
+      open[p] = clamped_open(load(bias + p * width) - number(shaded.part[p]) * alpha_step);
+    if constexpr (Added) {
+      const BlockSums added(layer, layer.blocks[b], layer.blend, *occlusion);
+      for (std::uint32_t p = 0; p < BlockSums::parts; ++p)
+        open[p] = open[p] * clamped_open(one - number(added.part[p]) * blend_step);
     }
-    if (c < end) even.add(layer, c, shadow, occlusion);
-    for (std::uint32_t p = 0; p < BlockSums<Added>::parts; ++p) {
-      const std::uint32_t slot = b * linear_block_vertices + p * width;
-      Float open = clamped_open(load(layer.open_bias + slot) - (even.shaded[p] + odd.shaded[p]) * alpha_step);
-      if constexpr (Added)
-        open = open * clamped_open(broadcast(1.0f) - (even.added[p] + odd.added[p]) * blend_step);
-      store(ao + slot, open);
-    }
+    for (std::uint32_t p = 0; p < BlockSums::parts; ++p)
+      store(ao + b * linear_block_vertices + p * width, open[p]);
   }
 }
 
-void linear_layer(const LinearView& layer, const float* shadow, const float* occlusion, float* ao) {
+void linear_layer(const LinearView& layer, const PointCodes& shadow, const PointCodes* occlusion, float* ao) {
   if (occlusion)
     linear_blocks<true>(layer, shadow, occlusion, ao);
   else

@@ -159,15 +159,19 @@ DirectionalSum directional_sum(const LinearView& layer, const LinearBlock& block
                                const float* shadow, const float* const* coloured,
                                const float* const* occlusion) {
   DirectionalSum sum;
-  const std::uint32_t end = block.first_column + block.columns;
-  for (std::uint32_t c = block.first_column; c < end; ++c) {
-    const std::uint32_t k = layer.key_point[c], at = c * linear_block_vertices + lane;
-    const Float alpha = load_short(layer.alpha + at) * broadcast(layer.alpha_step);
-    sum.shadow = fma(alpha, broadcast(shadow[k]), sum.shadow);
-    for (int i = 0; i < 3; ++i) sum.coloured[i] = fma(alpha, broadcast(coloured[i][k]), sum.coloured[i]);
-    if constexpr (Added) {
-      const Float blend = load_short(layer.blend + at) * broadcast(layer.blend_step);
-      for (int i = 0; i < 3; ++i) sum.occlusion[i] = fma(blend, broadcast(occlusion[i][k]), sum.occlusion[i]);
+  for (std::uint32_t pair = block.first_pair; pair < block.first_pair + block.pairs; ++pair) {
+    const std::size_t at = std::size_t{pair} * linear_pair_weights + 2 * lane;
+    Float alpha[2], blend[2];
+    load_pairs(layer.alpha + at, alpha[0], alpha[1]);
+    if constexpr (Added) load_pairs(layer.blend + at, blend[0], blend[1]);
+    for (std::uint32_t c = 0; c < 2; ++c) {
+      const std::uint32_t k = layer.key_points[pair] >> 16 * c & 0xffff;
+      const Float shaded = alpha[c] * broadcast(layer.alpha_step);
+      sum.shadow = fma(shaded, broadcast(shadow[k]), sum.shadow);
+      for (int i = 0; i < 3; ++i) sum.coloured[i] = fma(shaded, broadcast(coloured[i][k]), sum.coloured[i]);
+      if constexpr (!Added) continue;
+      const Float dark = blend[c] * broadcast(layer.blend_step);
+      for (int i = 0; i < 3; ++i) sum.occlusion[i] = fma(dark, broadcast(occlusion[i][k]), sum.occlusion[i]);
     }
   }
   return sum;

@@ -8,4 +8,5 @@
 #include "sdk/src/character/kernel.h"
 #include "sdk/src/character/shadow_kernels.h"
 #include "sdk/src/character/shadow_kernels_tables.h"
+#include "sdk/src/core/compiler.h"
 #include "sdk/src/core/simd_pair.h"

@@ -17,7 +17,7 @@ struct FourMatrices {
   Four m[12];
 };
 
-FourMatrices transposed(const Four (&rows)[4][3]) {
+NOOK_INLINE FourMatrices transposed(const Four (&rows)[4][3]) {
   FourMatrices out;
   for (int r = 0; r < 3; ++r) {
     Four a = rows[0][r], b = rows[1][r], c = rows[2][r], d = rows[3][r];
@@ -38,7 +38,7 @@ int used_bones(const float* weight) {
   return largest[3] > 0 ? 4 : largest[2] > 0 ? 3 : largest[1] > 0 ? 2 : 1;
 }
 
-FourMatrices blend_four(const Mat3x4* bones, const std::uint16_t* bone, const float* weight) {
+NOOK_INLINE FourMatrices blend_four(const Mat3x4* bones, const std::uint16_t* bone, const float* weight) {
   Four rows[4][3];
   const int used = used_bones(weight);
   for (int k = 0; k < 4; ++k) {
@@ -75,8 +75,8 @@ Four squared_length(const Three& v) {
   return fma(v.x, v.x, fma(v.y, v.y, v.z * v.z));
 }
 
-void pose_four(const KeyPointSoa& rest, const FourMatrices& m, Vec3 offset_ws, std::uint32_t k,
-               const KeyPointTarget& out) {
+NOOK_INLINE void pose_four(const KeyPointSoa& rest, const FourMatrices& m, Vec3 offset_ws, std::uint32_t k,
+                           const KeyPointTarget& out) {
   const Three p =
       moved_point(m, {load_four(rest.x + k), load_four(rest.y + k), load_four(rest.z + k)}, offset_ws);
   store(out.x + k, p.x);
@@ -91,12 +91,21 @@ void pose_four(const KeyPointSoa& rest, const FourMatrices& m, Vec3 offset_ws, s
   store(out.nz + k, n.z * scale);
 }
 
+// Without the surface, the matrices can stay in registers.
 void pose_key_points(const RestKeyPointView& rest, const Mat3x4* bones, Vec3 offset_ws,
                      const KeyPointTarget& out, const KeyPointTarget* surface) {
+  const auto blend = [&](std::uint32_t k) {
+    return blend_four(bones, rest.bone + 4 * k, rest.weight + 4 * k);
+  };
+  if (!surface) {
+    for (std::uint32_t k = 0; k < rest.padded_count; k += 4)
+      pose_four(rest.fitted, blend(k), offset_ws, k, out);
+    return;
+  }
   for (std::uint32_t k = 0; k < rest.padded_count; k += 4) {
-    const FourMatrices m = blend_four(bones, rest.bone + 4 * k, rest.weight + 4 * k);
+    const FourMatrices m = blend(k);
     pose_four(rest.fitted, m, offset_ws, k, out);
-    if (surface) pose_four(rest.surface, m, offset_ws, k, *surface);
+    pose_four(rest.surface, m, offset_ws, k, *surface);
   }
 }
 

@@ -7,8 +7,8 @@
 namespace nook {
 namespace {
 
-// A leaf costs one test for all of its spheres.
-constexpr std::uint32_t leaf_spheres = 4;
+// The share of the allowed error in the estimate of each node: several nodes add up.
+constexpr float share_of_node = 0.7f;
 
 using Spheres = std::span<std::uint32_t>;
 
@@ -39,19 +39,32 @@ std::uint32_t split(const CharacterModel& model, Spheres spheres) {
   return first == 0 || first == spheres.size() ? static_cast<std::uint32_t>(spheres.size() / 2) : first;
 }
 
-void add_nodes(const CharacterModel& model, Spheres all, std::uint32_t begin, std::uint32_t end,
-               Vector<SphereTreeNode>& nodes) {
-  const std::size_t own = nodes.size();
-  nodes.push_back({begin, end, 0});
-  if (end - begin > leaf_spheres) {
+// Breadth first: a processor merges nodes side by side if none waits for the one before.
+Vector<SphereTreeNode> nodes_of(const CharacterModel& model, Spheres all, Memory* memory) {
+  struct Range {
+    std::uint32_t begin, end;
+  };
+  const std::size_t first_sphere = all.size() - 1;  // one node less than spheres
+  Vector<SphereTreeNode> nodes(memory);
+  Vector<Range> ranges(memory);
+  const auto number_of = [&](std::uint32_t begin, std::uint32_t end) {
+    if (end - begin == 1) return static_cast<std::uint16_t>(first_sphere + begin);
+    ranges.push_back({begin, end});
+    return static_cast<std::uint16_t>(ranges.size() - 1);
+  };
+  number_of(0, static_cast<std::uint32_t>(all.size()));
+  for (std::size_t n = 0; n < ranges.size(); ++n) {
+    const auto [begin, end] = ranges[n];
     const std::uint32_t middle = begin + split(model, all.subspan(begin, end - begin));
-    add_nodes(model, all, begin, middle, nodes);
-    add_nodes(model, all, middle, end, nodes);
+    SphereTreeNode node;
+    node.half[0] = number_of(begin, middle);
+    node.half[1] = number_of(middle, end);
+    nodes.push_back(node);
   }
-  nodes[own].next = static_cast<std::uint32_t>(nodes.size());
+  return nodes;
 }
 
-// Sums over the spheres of a node.
+// Sums over the spheres of a node, or of one sphere.
 struct Moments {
   float mass = 0;    // square metres: the sum of squared radii
   Vec3 centre;       // by mass
@@ -59,79 +72,71 @@ struct Moments {
   float fourth = 0;  // metres^4: sum of mass * radius^2
 };
 
-// Sums about the first sphere, which is near all of them.
-Moments moments_of(std::span<const MassSphere> spheres) {
-  Moments sum;
-  const Vec3 first{spheres[0].x, spheres[0].y, spheres[0].z};
-  Vec3 shift;
-  for (const MassSphere& sphere : spheres) {
-    const Vec3 d = Vec3{sphere.x, sphere.y, sphere.z} - first;
-    const float mass = sphere.softness;
-    sum.mass += mass;
-    shift += d * mass;
-    sum.spread += mass * dot(d, d);
-    sum.fourth += mass * mass;
-  }
-  shift = shift * (1 / sum.mass);
-  sum.centre = first + shift;
-  sum.spread = std::max(sum.spread - sum.mass * dot(shift, shift), 0.0f);
-  return sum;
-}
-
-Moments joined(const Moments& a, const Moments& b) {
-  const float mass = a.mass + b.mass, share = b.mass / mass;
+// `inverse` is that of the sum of their masses.
+Moments joined(const Moments& a, const Moments& b, float inverse) {
+  const float share = b.mass * inverse;
   const Vec3 apart = b.centre - a.centre;
-  return {mass, a.centre + apart * share, a.spread + b.spread + a.mass * share * dot(apart, apart),
+  return {a.mass + b.mass, a.centre + apart * share, a.spread + b.spread + a.mass * share * dot(apart, apart),
           a.fourth + b.fourth};
 }
 
+void put_mass(const Moments& m, std::uint32_t i, float softness, float radius_squared, PosedSphereTree& out) {
+  out.x[i] = m.centre.x;
+  out.y[i] = m.centre.y;
+  out.z[i] = m.centre.z;
+  out.softness[i] = softness;
+  out.core[i] = float(NOOK_KERNEL_CORE) * radius_squared;
+  out.mass[i] = 0.75f * m.mass;
+}
+
+// Spheres that spread by sigma along the normal are, around the horizon, on average sigma / sqrt(2 pi) above
+// it, as one whose horizon is softened by 4 sigma^2 / (2 pi); sigma^2 is a third of the variance.
+constexpr float softness_of_variance = 0.21f;
+
 // The largest second derivative of cos / d^2 is 6 / d^4; half of all key points face away, and the mean
 // square of cos over the other half is 1/3, so that half of 6 * spread / d^4 becomes 1.2 * spread / d^4, root
-// mean square. Nearer than three times the extent the series has no meaning. The extent softens the horizon
-// of a node.
-MassNode node_of(const Moments& m, float error) {
-  const float inverse = 1 / m.mass, variance = m.spread * inverse, radius_squared = m.fourth * inverse;
-  const float reach = std::max(std::sqrt(1.2f * m.spread / error), 9 * variance);
-  const float core = float(NOOK_KERNEL_CORE) * radius_squared;
-  return {{m.centre.x, m.centre.y, m.centre.z, radius_squared + 0.1f * variance, core, 0.75f * m.mass},
-          reach + core};
+// mean square, which is the error at the squared distance sqrt(1.2 * spread / error). Nearer than three times
+// the extent the series has no meaning.
+void put_node(const Moments& m, std::uint32_t n, float inverse, float inverse_error, PosedSphereTree& out) {
+  const float variance = m.spread * inverse, radius_squared = m.fourth * inverse;
+  put_mass(m, n, radius_squared + softness_of_variance * variance, radius_squared, out);
+  out.reach[n] = std::max(std::sqrt(1.2f * inverse_error * m.spread), 9 * variance);
 }
 
 }  // namespace
 
 SphereTree::SphereTree(const CharacterModel& model, Memory* memory) {
   const auto count = static_cast<std::uint32_t>(model.spheres.size());
-  if (model.kernel.form != KernelForm::nook || model.kernel.gamma != 1 || count == 0 ||
+  if (model.kernel.form != KernelForm::nook || model.kernel.gamma != 1 || count < 2 ||
       count > PosedSphereTree::max_spheres)
     return;
   order_ = AlignedArray<std::uint32_t>(count, memory);
   for (std::uint32_t i = 0; i < count; ++i) order_[i] = i;
-  Vector<SphereTreeNode> nodes(memory);
-  add_nodes(model, {order_.data(), count}, 0, count, nodes);
-  if (nodes.size() > PosedSphereTree::max_nodes) return;
+  const Vector<SphereTreeNode> nodes = nodes_of(model, {order_.data(), count}, memory);
   nodes_ = AlignedArray<SphereTreeNode>(nodes.size(), memory);
   std::copy(nodes.begin(), nodes.end(), nodes_.begin());
 }
 
 SphereTreeView pose_tree(const SphereTree& tree, const SphereSoa& spheres, float error,
                          PosedSphereTree& out) {
-  for (std::uint32_t i = 0; i < tree.order().size(); ++i) {
+  const auto nodes = static_cast<std::uint32_t>(tree.nodes().size()),
+             count = static_cast<std::uint32_t>(tree.order().size());
+  Moments moments[PosedSphereTree::max_masses];
+  for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t s = tree.order()[i];
     const float squared = 1 / (spheres.inverse_radius[s] * spheres.inverse_radius[s]);
-    out.spheres[i] = {spheres.x[s],   spheres.y[s], spheres.z[s], squared, float(NOOK_KERNEL_CORE) * squared,
-                      0.75f * squared};
+    Moments& m = moments[nodes + i];
+    m = {squared, {spheres.x[s], spheres.y[s], spheres.z[s]}, 0, squared * squared};
+    put_mass(m, nodes + i, squared, squared, out);
   }
-  const SphereTreeNode* const nodes = tree.nodes().data();
-  const auto count = static_cast<std::uint32_t>(tree.nodes().size());
-  Moments moments[PosedSphereTree::max_nodes];
-  for (std::uint32_t n = count; n-- > 0;) {
-    const SphereTreeNode& node = nodes[n];
-    const bool is_leaf = node.next == n + 1;
-    moments[n] = is_leaf ? moments_of({out.spheres + node.begin, out.spheres + node.end})
-                         : joined(moments[n + 1], moments[nodes[n + 1].next]);
-    out.nodes[n] = node_of(moments[n], error / 8);
+  const float inverse_error = 1 / (share_of_node * error);
+  for (std::uint32_t n = nodes; n-- > 0;) {
+    const Moments &a = moments[tree.nodes()[n].half[0]], &b = moments[tree.nodes()[n].half[1]];
+    const float inverse = 1 / (a.mass + b.mass);
+    moments[n] = joined(a, b, inverse);
+    put_node(moments[n], n, inverse, inverse_error, out);
   }
-  return {nodes, count, out.spheres, out.nodes};
+  return {tree.nodes().data(), nodes, &out};
 }
 
 }  // namespace nook

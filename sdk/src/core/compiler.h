@@ -22,6 +22,12 @@
 #define NOOK_INLINE inline __attribute__((always_inline))
 #endif
 
+// NOOK_TRAILING_ZEROS(word): the number of the lowest bit of an unsigned int that is set; undefined where the
+// compiler has no such builtin.
+#if defined(__GNUC__)
+#define NOOK_TRAILING_ZEROS(word) __builtin_ctz(word)
+#endif
+
 // NOOK_CLONES: function multiversioning, one clone for each instruction set, chosen when the program is
 // loaded, from one plain source that the compiler vectorises. It needs the resolvers of the ELF format.
 // Sanitizers do not get along with these, so they run the plain version.

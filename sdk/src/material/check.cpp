@@ -103,7 +103,68 @@ void check_relief(const Relief& relief, const TensorShape& btf, nook_result code
                   double(relief.high));
 }
 
+void check_neural(const Material& material, nook_result code) {
+  const Neural& neural = material.neural;
+  check_neural_shape(neural.shape, code);
+  const Check check{code, "neural material"};
+  check.sized("blocks", neural.blocks.size(), neural_block_bytes_of(neural.shape));
+  check.sized("weights", neural.weights.size(), NeuralLayout(neural.shape).count);
+  for (std::size_t i = 0; i < neural.blocks.size(); i += neural_block_bytes) {
+    const int upper = std::int8_t(neural.blocks[i]), lower = std::int8_t(neural.blocks[i + 1]);
+    if (upper < lower || lower < -neural_feature_steps)
+      throw Failure(code,
+                    "the ends of block %zu of the neural material are out of range (got %d and %d, need the "
+                    "upper one first, and at least -127)",
+                    i / neural_block_bytes, upper, lower);
+  }
+  for (std::size_t i = 0; i < neural.weights.size(); ++i)
+    if ((neural.weights[i] & 0x7c00u) == 0x7c00u)
+      throw Failure(code, "weight %zu of the neural material is not finite", i);
+  check.sized("cores", material.btf.cores.size(), 0);
+  check.sized("the light basis", material.light_basis.size(), 0);
+  check.sized("the view map's side", material.btf.map.side, 0);
+  if (material.relief.moves())
+    throw Failure(code, "the material is neural and has a relief; its features have an offset of their own");
+}
+
+void check_btf(const Material& material, nook_result code) {
+  const std::size_t lights = material.lights.size();
+  check_tensor(material.btf, lights, material.views.size(), "BTF", code);
+  check_relief(material.relief, material.btf.shape, code);
+  const Check light{code, "light mode"};
+  light.sized("the basis", material.light_basis.size(), 3 * lights * material.btf.shape.rank_light);
+  light.numbers("basis", material.light_basis, max_number);
+}
+
 }  // namespace
+
+void check_neural_shape(const NeuralShape& s, nook_result code) {
+  const Check check{code, "neural material"};
+  check.range("the width in texels", s.width, 1, max_texels);
+  check.range("the height in texels", s.height, 1, max_texels);
+  check.range("the number of layers", s.layers, 1, max_neural_layers);
+  const struct {
+    const char* what;
+    std::uint32_t got, most;
+  } sizes[] = {{"the number of channels", s.channels, max_neural_channels},
+               {"the number of units", s.units, max_neural_units},
+               {"the number of channels of the offset", s.offset_channels, max_neural_channels},
+               {"the number of units of the offset", s.offset_units, max_neural_units}};
+  for (const auto& size : sizes) {
+    check.range(size.what, size.got, 4, size.most);
+    if (size.got % 4 != 0)
+      throw Failure(code, "%s of the neural material is no multiple of 4 (got %u)", size.what, size.got);
+  }
+}
+
+void refuse_neural(bool is_neural, const char* what) {
+  if (is_neural)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the material is neural, and its radiance is no sum of light modes, which %s needs; bake it with the "
+        "method k-cta",
+        what);
+}
 
 void check_shape(const TensorShape& shape, std::size_t lights, std::size_t views, const char* name,
                  nook_result code) {
@@ -133,12 +194,7 @@ void check_material(const Material& material, nook_result code) {
                   double(material.core_rounding));
   check_directions(material.lights, {code, "lights"});
   check_directions(material.views, {code, "views"});
-  const std::size_t lights = material.lights.size(), views = material.views.size();
-  check_tensor(material.btf, lights, views, "BTF", code);
-  check_relief(material.relief, material.btf.shape, code);
-  const Check light{code, "light mode"};
-  light.sized("the basis", material.light_basis.size(), 3 * lights * material.btf.shape.rank_light);
-  light.numbers("basis", material.light_basis, max_number);
+  material.neural.is_used() ? check_neural(material, code) : check_btf(material, code);
   const Check votf{code, "VOTF"};
   votf.range("the form of visibility", std::uint64_t(material.visibility), 0,
              std::uint64_t(VisibilityForm::distance));
@@ -146,7 +202,7 @@ void check_material(const Material& material, nook_result code) {
     votf.sized("cores", material.votf.cores.size(), 0);
     return;
   }
-  check_tensor(material.votf, 0, views, "VOTF", code);
+  check_tensor(material.votf, 0, material.views.size(), "VOTF", code);
   const auto [threshold, weight] = material.mapping;
   if (!(threshold >= 0 && threshold <= max_number && weight >= 0 && weight <= max_number))
     throw Failure(code, "the visibility mapping is out of range (got threshold %g, weight %g, need 0 to %g)",

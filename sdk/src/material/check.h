@@ -24,6 +24,11 @@ inline constexpr float max_number = 0x1p14f;
 inline constexpr float max_relief_height = 1;
 inline constexpr float max_relief_slope = 57.3f;
 inline constexpr std::uint32_t max_relief_steps = 64;
+// Sizes of a neural material: channels and units, of features and of the offset, are multiples of 4. So its
+// sums of half floats are finite in all layers.
+inline constexpr std::uint32_t max_neural_channels = 64;
+inline constexpr std::uint32_t max_neural_units = 64;
+inline constexpr std::uint32_t max_neural_layers = 4;
 // The minimum distance of two directions of a set.
 inline constexpr float min_distance = 1e-3f;
 
@@ -31,6 +36,12 @@ inline constexpr float min_distance = 1e-3f;
 // before any number is read and checks the sizes that determine how many numbers there are.
 void check_shape(const TensorShape& shape, std::size_t lights, std::size_t views, const char* name,
                  nook_result code);
+// Does the same for a neural material.
+void check_neural_shape(const NeuralShape& shape, nook_result code);
 void check_material(const Material& material, nook_result code);
+
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for a neural material: its radiance is no sum of light modes,
+// which `what` needs.
+void refuse_neural(bool is_neural, const char* what);
 
 }  // namespace nook::material

@@ -27,6 +27,17 @@ inline DecodeCost light_cost(const TensorTables& btf) {
   return {3 * btf.light_modes / 4, 3 * btf.light_modes};
 }
 
+// The cost of a neural material's first layers, and of one light: the products of its matrices.
+inline DecodeCost neural_decode_cost(const NeuralTables& t) {
+  const NeuralShape& s = t.shape;
+  return {(s.channels + s.offset_channels) / 4,
+          (s.offset_channels + 4) * s.offset_units + s.offset_units + (s.channels + 4) * s.units};
+}
+inline DecodeCost neural_light_cost(const NeuralTables& t) {
+  const NeuralShape& s = t.shape;
+  return {0, neural_light_inputs * s.units + (s.layers - 1) * s.units * s.units + 3 * s.units};
+}
+
 // The cost of finding a point of the relief, at most: a height and a place for each plane of the march.
 inline DecodeCost relief_cost(const ReliefTables& relief) {
   if (!relief.moves()) return {};

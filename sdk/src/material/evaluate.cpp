@@ -4,33 +4,14 @@
 #include <array>
 #include <cmath>
 
-#include "sdk/src/core/half.h"
 #include "sdk/src/material/check.h"
-#include "sdk/src/material/filtering.h"
+#include "sdk/src/material/layered_image.h"
 #include "sdk/src/material/parabolic.h"
-#include "sdk/src/material/spatial_modes.h"
 #include "sdk/src/material/view_cells.h"
 
 namespace nook::material {
 namespace {
 
-using Four = std::array<float, 4>;
-
-Four four(const std::uint16_t* halves) {
-  return {from_half(halves[0]), from_half(halves[1]), from_half(halves[2]), from_half(halves[3])};
-}
-Four four(const std::int8_t* integers) {
-  return {float(integers[0]) / 127, float(integers[1]) / 127, float(integers[2]) / 127,
-          float(integers[3]) / 127};
-}
-Four four(const float* numbers) {
-  return {numbers[0], numbers[1], numbers[2], numbers[3]};
-}
-Four mix(const Four& a, const Four& b, float t) {
-  Four out;
-  for (int i = 0; i < 4; ++i) out[i] = a[i] + (b[i] - a[i]) * t;
-  return out;
-}
 float dot(const Four& a, const Four& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
@@ -41,30 +22,10 @@ Between clamped(float at, std::uint32_t size) {
   return {first, std::min(first + 1, size - 1), place - low};
 }
 
-template <class Number>
-Four bilinear(const TensorTables& tables, const Vector<Number>& spatial, std::uint32_t layer, float u,
-              float v, std::uint32_t level) {
-  const std::uint32_t w = level_size(tables.width, level), h = level_size(tables.height, level);
-  const Between x = repeated(u, w), y = repeated(v, h);
-  const Number* const image = &spatial[tables.level_offset(level) + std::size_t(layer) * w * h * 4];
-  const auto texel = [&](std::uint32_t column, std::uint32_t row) {
-    return four(image + (std::size_t(row) * w + column) * 4);
-  };
-  return mix(mix(texel(x.low, y.low), texel(x.high, y.low), x.t),
-             mix(texel(x.low, y.high), texel(x.high, y.high), x.t), y.t);
-}
-
-Four bilinear(const TensorTables& tables, std::uint32_t layer, float u, float v, std::uint32_t level) {
-  return tables.bits == 16 ? bilinear(tables, tables.spatial, layer, u, v, level)
-                           : bilinear(tables, tables.spatial_8, layer, u, v, level);
-}
-
-Four trilinear(const TensorTables& tables, std::uint32_t layer, const Sample& sample) {
-  const float level = std::clamp(sample.level, 0.0f, float(tables.levels - 1));
-  const auto low = static_cast<std::uint32_t>(level);
-  const Four fine = bilinear(tables, layer, sample.u, sample.v, low);
-  if (level == float(low)) return fine;
-  return mix(fine, bilinear(tables, layer, sample.u, sample.v, low + 1), level - float(low));
+Four mode_at(const TensorTables& tables, std::uint32_t layer, const Sample& sample) {
+  const ImagePlace place{sample.u, sample.v, sample.level};
+  return tables.bits == 16 ? trilinear(tables.image_size(), tables.spatial.data(), layer, place)
+                           : trilinear(tables.image_size(), tables.spatial_8.data(), layer, place);
 }
 
 std::uint32_t member(const TensorTables& tables, std::size_t cell, std::uint32_t k) {
@@ -109,7 +70,7 @@ void decode(const TensorTables& tables, const Sample& sample, float* modes) {
       const Four coefficients = blended(tables, std::size_t(k) * tables.view_vec4_count + f, blend);
       for (std::uint32_t a = 0; a < tables.light_modes; ++a) {
         const std::uint32_t layer = (cluster * tables.light_modes + a) * tables.view_vec4_count + f;
-        modes[a] += dot(coefficients, trilinear(tables, layer, sample));
+        modes[a] += dot(coefficients, mode_at(tables, layer, sample));
       }
     }
   }
@@ -135,10 +96,19 @@ Four light_texel(const MaterialTables& tables, std::uint32_t layer, const Betwee
              mix(texel(x.low, y.high), texel(x.high, y.high), x.t), y.t);
 }
 
+Radiance evaluate_neural(const NeuralTables& tables, const Sample& sample) {
+  std::array<float, max_neural_units + 4> numbers;
+  const auto decoded = std::span(numbers).first(tables.decoded_count());
+  decode_neural(tables, {sample.u, sample.v, sample.level}, sample.view, decoded);
+  const Vec3 radiance = neural_radiance(tables, decoded, sample.light);
+  return {radiance.x, radiance.y, radiance.z};
+}
+
 }  // namespace
 
 Radiance evaluate_btf(const MaterialTables& tables, const Sample& sample) {
   if (!(sample.light.z > 0)) return {};
+  if (tables.neural.is_used()) return evaluate_neural(tables.neural, sample);
   std::array<float, 3 * max_directions + 3> modes;
   decode(tables.btf, on_relief(tables, sample), modes.data());
   const LightPlace place = light_place(sample.light);

@@ -22,9 +22,10 @@ struct Radiance {
 };
 
 // Returns the radiance for an irradiance of 1 on a plane that faces the light; it is black for light from
-// below the horizon. Compression may leave it slightly negative.
+// below the horizon. Compression may leave it slightly negative, but for a neural material.
 Radiance evaluate_btf(const MaterialTables& tables, const Sample& sample);
-// Computes the light modes of the sample's point for its view, light_modes numbers; the light is not read.
+// Computes the light modes of the sample's point for its view, light_modes numbers; the light is not read. A
+// neural material has none, see refuse_neural in check.h.
 void decode_modes(const MaterialTables& tables, const Sample& sample, std::span<float> modes);
 // Computes the light basis for a light from a direction, 3 x light_modes numbers, channel by channel; it is 0
 // below the horizon. The radiance is its product with the light modes.

@@ -1,6 +1,6 @@
 // A compressed material as plain data: a bidirectional texture function (BTF) and optionally a view-dependent
-// occlusion texture function (VOTF). N-SVD, CTA and K-CTA have one form. The method is that of Y.-T. Tsai,
-// Z.-C. Shih: K-Clustered Tensor Approximation, 2012.
+// occlusion texture function (VOTF). N-SVD, CTA and K-CTA have one form; neural.h has another one of the BTF.
+// The method is that of Y.-T. Tsai, Z.-C. Shih: K-Clustered Tensor Approximation, 2012.
 //
 // Directions are unit vectors in tangent space that point away from the surface: x along u, y along v, z >= 0
 // along the normal. Texel (x, y) has its centre at u = (x + 0.5) / I_x, v = (y + 0.5) / I_y; the tile
@@ -20,6 +20,7 @@
 
 #include "sdk/src/core/containers.h"
 #include "sdk/src/core/vec.h"
+#include "sdk/src/material/neural.h"
 #include "sdk/src/material/shape.h"
 
 namespace nook::material {
@@ -95,6 +96,7 @@ struct Material {
         views(memory),
         light_basis(memory),
         btf(memory),
+        neural(memory),
         votf(memory),
         relief(memory),
         recipe(memory) {}
@@ -108,6 +110,7 @@ struct Material {
   // it is 1. It includes the cosine of the light: a white Lambertian plane under a perpendicular light gives
   // 1 / pi.
   ClusteredTensor btf;
+  Neural neural;  // in the place of light_basis and btf, which are then empty
 
   VisibilityForm visibility = VisibilityForm::none;
   VisibilityMapping mapping;  // not read if visibility is none
@@ -128,8 +131,11 @@ struct Material {
 // paper counts them; integers are counted without their scales.
 inline std::size_t compressed_bytes(const Material& material) {
   const std::uint32_t bits = material.bits;
-  return light_basis_bytes(material.lights.size(), material.btf.shape, bits) +
-         compressed_bytes(material.btf.shape, bits) +
+  const std::size_t btf = material.neural.is_used()
+                              ? neural_bytes(material.neural.shape)
+                              : light_basis_bytes(material.lights.size(), material.btf.shape, bits) +
+                                    compressed_bytes(material.btf.shape, bits);
+  return btf +
          (material.visibility == VisibilityForm::none ? 0 : compressed_bytes(material.votf.shape, bits));
 }
 

@@ -1,4 +1,4 @@
-// Materials as .nook files. Version 3 of the kind "MATL" has the sections
+// Materials as .nook files. Version 4 of the kind "MATL" has the sections
 //   HEAD  u16 lights, views; u8 form of visibility, f32 threshold and weight of its mapping; u8 form of
 //         numbers, 8 or 16 (version 1: always 16)
 //   DIRS  lights, then views, three 32-bit floats each
@@ -8,9 +8,12 @@
 //   VOTF  the VOTF in the same form (optional)
 //   BMAP  the BTF's resampled view map (optional): u16 side; its rows
 //   VMAP  the VOTF's resampled view map (optional)
-//   RELF  the relief (optional, of version 3 only): u8 steps, f32 low, high, max_slope, u8 levels; with a
-//         relief the version is 3, without one 2
+//   RELF  the relief (optional, from version 3 on): u8 steps, f32 low, high, max_slope, u8 levels
+//   NEUR  a neural material (of version 4), which has neither LGHT nor BTF_, BMAP and RELF:
+//         u16 width, height; u8 channels, units, layers, offset channels, offset units;
+//         the blocks of its features and its weights, as in neural.h
 //   RECP  recipe
+// A file has the lowest version that can hold it: 4 of a neural material, 3 with a relief, else 2.
 // Packed numbers of the form 16 are an i8 exponent e, then each number as a half float h with the value
 // h 2^e. Those of the form 8 are multiples of a step, see packed_numbers.h; the slabs are those of the cores'
 // last two modes, a cluster's basis, or everything. Rows are memberships in u8, or u16 above 256 clusters,
@@ -28,7 +31,7 @@
 
 namespace nook::material {
 
-inline constexpr ContainerKind material_kind{four_letters("MATL"), "material", 1, 3};
+inline constexpr ContainerKind material_kind{four_letters("MATL"), "material", 1, 4};
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_material finds a fault.
 std::vector<std::byte> write_material(const Material& material);

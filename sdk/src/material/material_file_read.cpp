@@ -113,6 +113,38 @@ void read_relief(ByteReader in, Relief& relief) {
   for (std::uint8_t& level : relief.levels) level = std::uint8_t(in.u8());
 }
 
+void read_neural(ByteReader in, Neural& neural) {
+  NeuralShape& s = neural.shape;
+  s.width = in.u16();
+  s.height = in.u16();
+  for (std::uint32_t* size : {&s.channels, &s.units, &s.layers, &s.offset_channels, &s.offset_units})
+    *size = in.u8();
+  check_neural_shape(s, NOOK_ERROR_BAD_FILE);
+  if (in.remaining() != neural_bytes(s))
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "section %s has the wrong length (got %zu bytes after its sizes, need %zu); bake the file again",
+        in.name(), in.remaining(), neural_bytes(s));
+  neural.blocks.resize(neural_block_bytes_of(s));
+  for (std::uint8_t& byte : neural.blocks) byte = std::uint8_t(in.u8());
+  neural.weights.resize(NeuralLayout(s).count);
+  for (std::uint16_t& weight : neural.weights) weight = std::uint16_t(in.u16());
+}
+
+// The light basis and the BTF.
+void read_btf(const Container& file, const Head& head, Material& material) {
+  const float step = read_tensor(file.section("BTF_"), material, head.lights, "BTF", material.btf);
+  // A hundredth more, so that a material that is written again has the same step.
+  if (const float error = error_of_step(material.btf.cores, step); error > 0 && error < 0.9f)
+    material.core_rounding = 1.01f * error;
+  ByteReader light = file.section("LGHT");
+  const std::size_t light_numbers = std::size_t(3) * head.lights * material.btf.shape.rank_light;
+  read_numbers(light, material.bits, light_numbers, light_numbers, "basis", material.light_basis);
+  light.check_end();
+  if (file.has("BMAP")) read_map(file.section("BMAP"), material.bits, material.btf);
+  if (file.version() >= 3 && file.has("RELF")) read_relief(file.section("RELF"), material.relief);
+}
+
 }  // namespace
 
 Material read_material(std::span<const std::byte> bytes, Memory* memory) {
@@ -123,20 +155,14 @@ Material read_material(std::span<const std::byte> bytes, Memory* memory) {
   read_directions(directions, head.lights, material.lights);
   read_directions(directions, head.views, material.views);
   directions.check_end();
-  const float step = read_tensor(file.section("BTF_"), material, head.lights, "BTF", material.btf);
-  // A hundredth more, so that a material that is written again has the same step.
-  if (const float error = error_of_step(material.btf.cores, step); error > 0 && error < 0.9f)
-    material.core_rounding = 1.01f * error;
-  ByteReader light = file.section("LGHT");
-  const std::size_t light_numbers = std::size_t(3) * head.lights * material.btf.shape.rank_light;
-  read_numbers(light, material.bits, light_numbers, light_numbers, "basis", material.light_basis);
-  light.check_end();
-  if (file.has("BMAP")) read_map(file.section("BMAP"), material.bits, material.btf);
+  if (file.version() >= 4 && file.has("NEUR"))
+    read_neural(file.section("NEUR"), material.neural);
+  else
+    read_btf(file, head, material);
   if (material.visibility != VisibilityForm::none) {
     read_tensor(file.section("VOTF"), material, 0, "VOTF", material.votf);
     if (file.has("VMAP")) read_map(file.section("VMAP"), material.bits, material.votf);
   }
-  if (file.version() >= 3 && file.has("RELF")) read_relief(file.section("RELF"), material.relief);
   ByteReader recipe = file.section("RECP");
   material.recipe = recipe.text(recipe.remaining());
   check_material(material, NOOK_ERROR_BAD_FILE);

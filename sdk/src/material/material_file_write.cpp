@@ -59,10 +59,28 @@ ByteWriter write_relief(const Relief& relief) {
   return out;
 }
 
-// Libraries of version 2 draw what has no relief.
+ByteWriter write_neural(const Neural& neural) {
+  ByteWriter out;
+  const NeuralShape& s = neural.shape;
+  out.u16(s.width);
+  out.u16(s.height);
+  for (const std::uint32_t size : {s.channels, s.units, s.layers, s.offset_channels, s.offset_units})
+    out.u8(size);
+  for (const std::uint8_t byte : neural.blocks) out.u8(byte);
+  for (const std::uint16_t weight : neural.weights) out.u16(weight);
+  return out;
+}
+
+ByteWriter write_light(const Material& material) {
+  ByteWriter out;
+  write_numbers(out, material.bits, material.light_basis, material.light_basis.size());
+  return out;
+}
+
+// Libraries of version 2 draw what has no relief, and those of version 3 what is a tensor.
 ContainerKind kind_of(const Material& material) {
   ContainerKind kind = material_kind;
-  kind.newest_version = material.relief.moves() ? 3 : 2;
+  kind.newest_version = material.neural.is_used() ? 4 : material.relief.moves() ? 3 : 2;
   return kind;
 }
 
@@ -74,7 +92,7 @@ std::vector<std::byte> write_material(const Material& material) {
   const auto add = [&](const char(&name)[5], const ByteWriter& out) {
     sections.push_back({four_letters(name), out.bytes()});
   };
-  ByteWriter head, directions, light, recipe;
+  ByteWriter head, directions, recipe;
   head.u16(static_cast<std::uint32_t>(material.lights.size()));
   head.u16(static_cast<std::uint32_t>(material.views.size()));
   head.u8(static_cast<std::uint32_t>(material.visibility));
@@ -89,9 +107,12 @@ std::vector<std::byte> write_material(const Material& material) {
       directions.f32(d.z);
     }
   add("DIRS", directions);
-  write_numbers(light, material.bits, material.light_basis, material.light_basis.size());
-  add("LGHT", light);
-  add("BTF_", write_tensor(material.bits, material.btf, material.core_rounding));
+  if (material.neural.is_used()) {
+    add("NEUR", write_neural(material.neural));
+  } else {
+    add("LGHT", write_light(material));
+    add("BTF_", write_tensor(material.bits, material.btf, material.core_rounding));
+  }
   if (material.btf.map.side) add("BMAP", write_map(material.bits, material.btf));
   if (material.visibility != VisibilityForm::none) {
     add("VOTF", write_tensor(material.bits, material.votf, votf_rounding));

@@ -52,7 +52,7 @@ void for_each_texel(const TensorTables& tables, std::uint32_t cluster, std::uint
   for (std::uint32_t level = 0;; ++level) {
     const std::uint32_t w = level_size(tables.width, level), h = level_size(tables.height, level);
     const std::size_t texels = std::size_t(w) * h;
-    const std::size_t first = tables.level_offset(level) + layer * texels * 4 + b % 4;
+    const std::size_t first = tables.image_size().level_offset(level) + layer * texels * 4 + b % 4;
     for (std::size_t i = 0; i < texels; ++i) write(first + 4 * i, image[i]);
     if (level + 1 == tables.levels) return;
     halve(image, w, h, other);
@@ -177,7 +177,7 @@ void set_sizes(const TensorShape& s, std::uint32_t light_modes, std::uint32_t bi
 
 void make_spatial(const ClusteredTensor& tensor, float scale, const Parallel& parallel, TensorTables& tables,
                   Memory* memory) {
-  tables.spatial.resize(tables.level_offset(tables.levels));
+  tables.spatial.resize(tables.image_size().level_offset(tables.levels));
   for_each_mode(tensor, parallel, memory,
                 [&](std::uint32_t c, std::uint32_t a, std::uint32_t b, std::span<float> image,
                     std::span<float> other) noexcept {
@@ -193,7 +193,7 @@ std::int8_t as_integer(float value) {
 
 void make_spatial_8(const ClusteredTensor& tensor, const ModeScales& scales, const Parallel& parallel,
                     TensorTables& tables, Memory* memory) {
-  tables.spatial_8.resize(tables.level_offset(tables.levels));
+  tables.spatial_8.resize(tables.image_size().level_offset(tables.levels));
   for_each_mode(tensor, parallel, memory,
                 [&](std::uint32_t c, std::uint32_t a, std::uint32_t b, std::span<float> image,
                     std::span<float> other) noexcept {
@@ -333,30 +333,32 @@ void make_votf(const Material& material, std::uint32_t map_side, const Parallel&
       tables.votf);
 }
 
-}  // namespace
-
-std::size_t TensorTables::level_offset(std::uint32_t level) const {
-  std::size_t offset = 0;
-  for (std::uint32_t l = 0; l < level; ++l)
-    offset += std::size_t(level_size(width, l)) * level_size(height, l) * layers() * 4;
-  return offset;
+void make_neural(const Material& material, MaterialTables& tables, Memory* memory) {
+  tables.neural = make_neural_tables(material.neural, material.views, material.lights, memory);
+  tables.btf.width = tables.neural.size.width;
+  tables.btf.height = tables.neural.size.height;
+  tables.btf.levels = tables.neural.size.levels;
 }
+
+}  // namespace
 
 MaterialTables make_tables(const Material& material, const Parallel& parallel, Memory* memory,
                            std::uint32_t map_side) {
   MaterialTables tables(memory);
-  make_btf(material, map_side, parallel, tables, memory);
+  if (material.neural.is_used())
+    make_neural(material, tables, memory);
+  else
+    make_btf(material, map_side, parallel, tables, memory);
   tables.visibility = material.visibility;
   tables.mapping = material.mapping;
-  tables.relief =
-      make_relief_tables(material.relief, material.btf.shape.width, material.btf.shape.height, memory);
+  tables.relief = make_relief_tables(material.relief, tables.btf.width, tables.btf.height, memory);
   if (material.visibility != VisibilityForm::none) make_votf(material, map_side, parallel, tables, memory);
   return tables;
 }
 
 std::uint64_t table_bytes(const MaterialTables& tables) {
-  return tensor_bytes(tables.btf) + tensor_bytes(tables.votf) + 2 * tables.relief.heights.size() +
-         tables.light_8.size() + 4 * std::uint64_t(tables.light.size());
+  return tables.neural.features.size() + tensor_bytes(tables.btf) + tensor_bytes(tables.votf) +
+         2 * tables.relief.heights.size() + tables.light_8.size() + 4 * std::uint64_t(tables.light.size());
 }
 
 }  // namespace nook::material

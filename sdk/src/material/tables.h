@@ -6,7 +6,9 @@
 
 #include "sdk/src/core/containers.h"
 #include "sdk/src/core/parallel.h"
+#include "sdk/src/material/layered_image.h"
 #include "sdk/src/material/material.h"
+#include "sdk/src/material/neural_tables.h"
 #include "sdk/src/material/relief.h"
 
 namespace nook::material {
@@ -47,16 +49,16 @@ struct TensorTables {
   std::uint32_t memberships() const { return terms + (blended ? 1 : 0); }
   bool has_membership() const { return clusters > 1 || blended; }
   std::uint32_t layers() const { return clusters * light_modes * view_vec4_count; }
-  // Returns the offset of a level in `spatial`.
-  std::size_t level_offset(std::uint32_t level) const;
+  ImageSize image_size() const { return {width, height, layers(), levels}; }
 };
 
 struct MaterialTables {
   explicit MaterialTables(Memory* memory = default_memory())
-      : btf(memory), votf(memory), relief(memory), light(memory), light_8(memory) {}
+      : btf(memory), neural(memory), votf(memory), relief(memory), light(memory), light_8(memory) {}
 
-  TensorTables btf;
-  TensorTables votf;  // empty if visibility is none
+  TensorTables btf;     // of a neural material the sizes of its texels alone
+  NeuralTables neural;  // in the place of btf and light
+  TensorTables votf;    // empty if visibility is none
   VisibilityForm visibility = VisibilityForm::none;
   VisibilityMapping mapping;
   ReliefTables relief;  // of the BTF

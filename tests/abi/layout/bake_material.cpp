@@ -2,7 +2,7 @@
 
 #include "tests/abi/layout/layout.h"
 
-NOOK_SIZE(nook_bake_material_desc, 192);
+NOOK_SIZE(nook_bake_material_desc, 200);
 NOOK_AT(nook_bake_material_desc, struct_size, 0);
 NOOK_AT(nook_bake_material_desc, header_version, 4);
 NOOK_AT(nook_bake_material_desc, next, 8);
@@ -41,3 +41,5 @@ NOOK_AT(nook_bake_material_desc, progress_user, 168);
 NOOK_AT(nook_bake_material_desc, bits, 176);
 NOOK_AT(nook_bake_material_desc, relief, 180);
 NOOK_AT(nook_bake_material_desc, heights, 184);
+NOOK_AT(nook_bake_material_desc, neural_channels, 192);
+NOOK_AT(nook_bake_material_desc, neural_steps, 196);

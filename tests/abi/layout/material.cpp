@@ -12,7 +12,7 @@ NOOK_AT(nook_material_tensor, mixture, 20);
 NOOK_AT(nook_material_tensor, view_map_side, 24);
 NOOK_AT(nook_material_tensor, terms, 28);
 
-NOOK_SIZE(nook_material_info, 144);
+NOOK_SIZE(nook_material_info, 152);
 NOOK_AT(nook_material_info, visibility, 4);
 NOOK_AT(nook_material_info, visibility_threshold, 8);
 NOOK_AT(nook_material_info, visibility_weight, 12);
@@ -31,6 +31,8 @@ NOOK_AT(nook_material_info, occlusion_multiply_adds, 116);
 NOOK_AT(nook_material_info, compressed_bytes, 120);
 NOOK_AT(nook_material_info, view_map_bytes, 128);
 NOOK_AT(nook_material_info, table_bytes, 136);
+NOOK_AT(nook_material_info, neural_channels, 144);
+NOOK_AT(nook_material_info, neural_units, 148);
 
 NOOK_SIZE(nook_material_sample, 36);
 NOOK_AT(nook_material_sample, level, 8);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "bakers/character/body_tree.h"
+#include "bakers/character/joined_hands.h"
 #include "bakers/character/pose_prior.h"
 #include "bakers/character/self_collision.h"
 #include "bakers/import/skinning.h"
@@ -38,6 +39,30 @@ std::vector<Pose> poses_of(const SkinnedMesh& mesh, std::size_t count) {
 template <class Predicate>
 double share_of(const std::vector<Pose>& poses, Predicate predicate) {
   return double(std::count_if(poses.begin(), poses.end(), predicate)) / double(poses.size());
+}
+
+// Four fingers and a thumb of one joint each on both hands; palms face down.
+SkinnedMesh figure_with_fingers() {
+  SkinnedMesh mesh = stick_figure();
+  for (const float side : {1.0f, -1.0f}) {
+    const std::string end = side > 0 ? "_l" : "_r";
+    const auto hand = std::int32_t(bone_named(mesh, ("hand" + end).c_str()));
+    const auto add = [&](const char* name, Vec3 origin) {
+      Bone b;
+      b.name = name + end;
+      b.parent = hand;
+      b.frame_rest.m[3] = side * origin.x;
+      b.frame_rest.m[7] = origin.y;
+      b.frame_rest.m[11] = origin.z;
+      mesh.bones.push_back(b);
+    };
+    add("index_01", {0.80f, 1.4f, 0.03f});
+    add("middle_01", {0.81f, 1.4f, 0.01f});
+    add("ring_01", {0.80f, 1.4f, -0.01f});
+    add("pinky_01", {0.79f, 1.4f, -0.03f});
+    add("thumb_01", {0.74f, 1.38f, 0.04f});
+  }
+  return mesh;
 }
 
 }  // namespace
@@ -112,6 +137,49 @@ TEST_CASE("what is in one hand does not collide, two hands do") {
   const Vec3 across = origin(mesh, right) - origin(mesh, left);
   pose[left].m[3] += across.x - 0.17f;  // onto the other hand, mirrored
   CHECK(collision.depth(pose) > 0.6f);
+  // A metre before the body they touch nothing but each other.
+  pose[left].m[11] += 1;
+  pose[right].m[11] += 1;
+  CHECK(collision.depth(pose) > 0.6f);
+  CHECK(collision.depth_but_hands(pose) == 0);
+}
+
+TEST_CASE("joined hands meet before the trunk with palms to each other, and all else stays") {
+  const SkinnedMesh mesh = figure_with_fingers();
+  const BodyTree tree = body_tree(mesh);
+  const JoinedHands hands(mesh);
+  REQUIRE(hands.possible());
+  CHECK_FALSE(JoinedHands(stick_figure()).possible());  // it has no fingers
+  const std::size_t left = bone_named(mesh, "hand_l"), right = bone_named(mesh, "hand_r"),
+                    fore = bone_named(mesh, "lowerarm_l"), thigh = bone_named(mesh, "thigh_l");
+  const float hand = length(Vec3{0.80f, 1.4f, 0} - origin(mesh, left));
+  const Mat3x4 rest;
+  constexpr int count = 200;
+  int near = 0, before = 0, facing = 0;
+  for (int i = 0; i < count; ++i) {
+    std::vector<JointMotion> motions(mesh.bones.size());
+    Random random{std::uint64_t(i)}, again{std::uint64_t(i)};
+    hands.join(motions, true, random);
+    std::vector<JointMotion> same(mesh.bones.size());
+    hands.join(same, true, again);
+    CHECK(same[left].turn == motions[left].turn);
+    const Pose pose = pose_of(mesh, tree, motions);
+    const Vec3 l = transform_point(pose[left], {0.80f, 1.4f, 0}),
+               r = transform_point(pose[right], {-0.80f, 1.4f, 0});
+    near += length(l - r) < 2.5f * hand;
+    before += 0.5f * (l + r).z > 0;
+    facing += dot(transform_vector(pose[left], {0, -1, 0}), transform_vector(pose[right], {0, -1, 0})) < 0.5f;
+    // Single precision over a chain of six joints of a body of 2 m.
+    CHECK(length(transform_point(pose[left], origin(mesh, left)) -
+                 transform_point(pose[fore], origin(mesh, left))) < 1e-4f);
+    CHECK(std::equal(std::begin(pose[thigh].m), std::end(pose[thigh].m), std::begin(rest.m)));
+  }
+  // The knuckles of stacked fists are 1.4 hands apart along the handle and up to 1.2 across it, each missed
+  // by a quarter of a hand; a place out of reach of twelve draws is rare.
+  CHECK(near > 0.9 * count);
+  CHECK(before > 0.95 * count);
+  // Fingers of both hands point forwards, so that palms face each other unless one hand is reversed.
+  CHECK(facing > 0.75 * count);
 }
 
 TEST_CASE("poses of motion capture have limbs of unit length, two equal sides, and are the same for a seed") {

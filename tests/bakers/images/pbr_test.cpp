@@ -151,6 +151,10 @@ TEST_CASE("an image of heights alone is read as the map of a set, its rows from 
   maps.height = read_height_map(file, maps.side);
   REQUIRE(maps.height.size() == 64);
   for (std::size_t y = 1; y < 7; ++y) CHECK(maps.height[y * 8 + 3] == Approx(9.0f - float(y)));
+  const PbrMaps own = read_height_image(file);
+  CHECK(own.side == 8);
+  CHECK(own.height == maps.height);
+  CHECK(heights_at(own, 2).height == read_height_map(file, 2));
   // 7 of the image's units of 0.05 m, on a tile of 2 m, around 0.
   const std::vector<float> tiles = heights_of_map(maps, 0.05f, 2);
   const auto [low, high] = std::minmax_element(tiles.begin(), tiles.end());

@@ -68,7 +68,7 @@ TEST_CASE("a strip occludes and shadows where the ray's slope says, across the t
 TEST_CASE("heights are those of the highest points over the texels, and of their surroundings over gaps") {
   const std::vector<Vec3> up{{0, 0, 1}};
   const Vec3 grey{0.5f, 0.5f, 0.5f};
-  const TraceSettings settings{8, 4, 2, 0, 1, 1};
+  TraceSettings settings{8, 4, 2, 0, 1, 1, true};
   // Half of the samples of the third column lie under the strip.
   const RawMaterial strip =
       trace_material(test::strip_over_ground(0.3125f, 0.75f, 0.25f, grey), up, up, settings);
@@ -81,6 +81,8 @@ TEST_CASE("heights are those of the highest points over the texels, and of their
   test::add_quad(half, {0, 0, 0.25f}, {0.5f, 0, 0.25f}, {0.5f, 1, 0.25f}, {0, 1, 0.25f}, grey);
   for (const float height : trace_material(half, up, up, settings).heights)
     CHECK(height == Approx(0.25f).margin(1e-5));
+  settings.finds_heights = false;
+  CHECK(trace_material(half, up, up, settings).heights.empty());
 }
 
 TEST_CASE("the VOTF is where the view meets the structure, on the plane z = 0") {

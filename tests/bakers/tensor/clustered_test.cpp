@@ -346,6 +346,10 @@ TEST_CASE("weights with lower steps are those of the closed form, between cells 
   lower_steps(atoms, WideMatrix::Ones(16, 2), 1e6, cells);
   for (Index i = 0; i < 16; ++i)
     CHECK(cells.weights(i, 0) == Approx(i % 4 == 0 || i % 4 == 3 ? 1.2 : 0.4).epsilon(1e-4));
+  cells = two_halves(4);
+  CHECK_THROWS_AS(
+      lower_steps(atoms, WideMatrix::Ones(16, 2), 1e6, cells, [](std::size_t, std::size_t) { return false; }),
+      Failure);
   // Nothing changes without a penalty, or where all cells mix the same.
   cells = two_halves(4);
   lower_steps(atoms, WideMatrix::Zero(16, 2), 0, cells);

@@ -1,8 +1,13 @@
+#include <algorithm>
+#include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
+#include "tests/bakers/relief_in_file.h"
 #include "tests/bakers/tool/tool_run.h"
 #include "tests/catch.h"
 
@@ -84,6 +89,49 @@ TEST_CASE(
   CHECK(again.at("rows").at(0).at("se_db") == row.at("se_db"));
 }
 
+TEST_CASE("bake material trains a neural material, which inspect describes and evaluate measures") {
+  const TestFolder folder;
+  const ToolRun run = folder.run(small_bake(folder, "n.nook",
+                                            {{"--method", "neural"},
+                                             {"--channels", "8"},
+                                             {"--steps", "60"},
+                                             {"--keep-raw", folder.path("n.raw")},
+                                             {"--report", folder.path("r.json")}}));
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  const auto baked = nlohmann::json::parse(read_text(folder.path("r.json")));
+  CHECK(baked.at("rows").at(0).at("method") == "neural");
+  const ToolRun inspected = folder.run({"inspect", folder.path("n.nook")});
+  CHECK(inspected.out.find("neural_channels") != std::string::npos);
+
+  const ToolRun measured = folder.run({"evaluate", "material", folder.path("n.raw"), folder.path("n.nook"),
+                                       "--unseen", folder.path("n.raw"), "--methods", "pca", "--mipmaps",
+                                       "--images", folder.path("images"), "--report", folder.path("e.json")});
+  INFO(measured.error);
+  REQUIRE(measured.exit_code == 0);
+  const auto row = nlohmann::json::parse(read_text(folder.path("e.json"))).at("rows").at(0);
+  CHECK(row.at("method") == "file: neural");
+  CHECK(row.at("se_db") == baked.at("rows").at(0).at("se_db"));
+  CHECK(row.at("se_db_unseen") == row.at("se_db"));
+  REQUIRE(row.at("mipmaps").size() == 2);  // of 12 texels
+  CHECK(row.at("mipmaps").at(1).at("texels") == 4);
+  CHECK(!read_text(folder.path("images") + "/fiber_file.png").empty());
+
+  for (const std::vector<std::string>& fit : std::vector<std::vector<std::string>>{
+           {"--methods", "n-svd"}, {"--peers"}, {"--sweep", "4"}, {"--compare-seeding"}}) {
+    std::vector<std::string> arguments{"evaluate", "material", folder.path("n.raw"), folder.path("n.nook")};
+    arguments.insert(arguments.end(), fit.begin(), fit.end());
+    const ToolRun refused = folder.run(arguments);
+    INFO(fit[0] << refused.error);
+    CHECK(refused.exit_code != 0);
+    CHECK(refused.error.find("the material is neural") != std::string::npos);
+    CHECK(refused.error.find("measuring") == std::string::npos);  // at once
+  }
+  const ToolRun odd = folder.run(small_bake(folder, "o.nook", {{"--method", "neural"}, {"--channels", "6"}}));
+  CHECK(odd.exit_code != 0);
+  CHECK(odd.error.find("need a multiple of 4") != std::string::npos);
+}
+
 TEST_CASE("bake material traces a folder of maps") {
   const TestFolder folder;
   std::filesystem::create_directory(folder.path("planks"));
@@ -128,6 +176,72 @@ TEST_CASE("bake material traces a folder of maps") {
   CHECK(missing.error.find("planks_height.ppm") != std::string::npos);
 }
 
+TEST_CASE("heights of an image are in the file at their texels, whose rows begin at its top") {
+  const TestFolder folder;
+  std::filesystem::create_directory(folder.path("mounds"));
+  constexpr std::size_t side = 32, texels = 16;
+  constexpr double turn = 6.283185307179586;
+  // Waves of other heights along x and y, none of them symmetric.
+  const auto height_at = [](double x, double y) {
+    return 128 + 70 * std::cos(turn * (x - 0.15)) + 40 * std::sin(turn * y);
+  };
+  std::string colour = "P6\n32 32\n255\n", height = colour;
+  for (std::size_t row = 0; row < side; ++row)
+    for (std::size_t column = 0; column < side; ++column) {
+      const double x = (double(column) + 0.5) / side, y = 1 - (double(row) + 0.5) / side;
+      colour.append(3, char(int(128 + 60 * std::cos(turn * (2 * x + y)) + 60 * std::sin(turn * (y - x)))));
+      height.append(3, char(int(std::lround(height_at(x, y)))));
+    }
+  write_text(folder.path("mounds/mounds_diffuse.ppm"), colour);
+  write_text(folder.path("mounds/mounds_height.ppm"), height);
+  const auto levels_of = [&](const std::vector<std::string>& source) {
+    std::vector<std::string> arguments{
+        "bake", "material",           "--ranks", "8,8,8,8",  "--view-map",
+        "0",    "--height-scale",     "0.2",     "--relief", folder.path("mounds/mounds_height.ppm"),
+        "-o",   folder.path("a.nook")};
+    arguments.insert(arguments.end(), source.begin(), source.end());
+    const ToolRun run = folder.run(arguments);
+    INFO(run.error);
+    REQUIRE(run.exit_code == 0);
+    return relief_in_file(read_text(folder.path("a.nook"))).levels;
+  };
+  const std::vector<std::uint8_t> levels =
+      levels_of({"--pbr", folder.path("mounds"), "--texels", "16", "--directions", "16", "--max-tilt", "45",
+                 "--bounces", "0", "--keep-raw", folder.path("a.raw")});
+  REQUIRE(levels.size() == texels * texels);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    INFO("texel " << i % texels << " " << i / texels);
+    const double at = height_at((double(i % texels) + 0.5) / texels, (double(i / texels) + 0.5) / texels);
+    // From 18 to 238 the heights have 220 steps. Means over texels take as much from both waves, of 16 texels
+    // each, and levels go from the lowest texel to the highest; extremes between texels are left.
+    CHECK(std::abs(double(levels[i]) - 255 * (at - 18) / 220) < 8);
+  }
+  // The image has the texels of a file's material only when that is read.
+  CHECK(levels_of({"--raw", folder.path("a.raw")}) == levels);
+}
+
+TEST_CASE("bake material reads the image of --relief before it traces rays or reads a material") {
+  const TestFolder folder;
+  write_text(folder.path("text.png"), "no image");
+  // From 0 to 1, on a tile of 1 m.
+  write_text(folder.path("edge.ppm"),
+             std::string("P6\n2 2\n255\n") + std::string(6, '\0') + std::string(6, '\xff'));
+  for (const auto& [image, code, word] :
+       {std::tuple("text.png", 3, "text.png"), std::tuple("edge.ppm", 2, "tiles high")})
+    for (const std::vector<std::string>& source :
+         std::vector<std::vector<std::string>>{{"--meso", "weave"}, {"--raw", folder.path("none.raw")}}) {
+      std::vector<std::string> arguments{"bake",           "material", "--relief", folder.path(image),
+                                         "--height-scale", "0.8",      "-o",       folder.path("a.nook")};
+      arguments.insert(arguments.end(), source.begin(), source.end());
+      const ToolRun run = folder.run(arguments);
+      INFO(run.error);
+      CHECK(run.exit_code == code);
+      CHECK(run.error.find(word) != std::string::npos);
+      CHECK(run.error.find("ray tracing") == std::string::npos);
+      CHECK(run.error.find("none.raw") == std::string::npos);
+    }
+}
+
 TEST_CASE("bake material refuses what it cannot bake, by name, and leaves nothing behind") {
   const TestFolder folder;
   const auto refused = [&](const std::vector<std::string>& arguments, int code, const std::string& word) {
@@ -146,6 +260,14 @@ TEST_CASE("bake material refuses what it cannot bake, by name, and leaves nothin
   refused(small_bake(folder, "a.nook", {{"--visibility-mapping", "wide"}}), 2, "--visibility-mapping");
   refused(small_bake(folder, "a.nook", {{"--visibility-mapping", "-1,12"}}), 2, "threshold -1");
   refused(small_bake(folder, "a.nook", {{"--radius", "0"}}), 2, "radius");
+  refused(small_bake(folder, "a.nook", {{"--votf-ranks", "13,8"}}), 2, "VOTF's x rank is 13");
+  refused(small_bake(folder, "a.nook", {{"--ranks", "auto"}, {"--clusters", "20"}}), 2, "clusters is 20");
+  for (const auto& [option, value, word] : {std::tuple("--view-map", "1", "view map of 1"),
+                                            std::tuple("--visibility-mapping", "-1,12", "threshold -1"),
+                                            std::tuple("--votf-ranks", "8,13", "VOTF's y rank is 13")})
+    refused(small_bake(folder, "a.nook", {{"--method", "neural"}, {option, value}}), 2, word);
+  refused(small_bake(folder, "a.nook", {{"--method", "neural"}, {"--clusters", "2"}, {"--mixture", "8"}}), 2,
+          "mixture K is 8");
   refused({"bake", "material", "--btf", folder.path("nowhere"), "-o", folder.path("a.nook")}, 3, "nowhere");
   refused({"bake", "material", "--raw", folder.path("none.raw"), "-o", folder.path("a.nook")}, 3, "none.raw");
   refused({"bake", "material", "--raw", folder.path("none.raw"), "-o", folder.path("a.nook"), "--relief",

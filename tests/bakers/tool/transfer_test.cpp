@@ -134,6 +134,16 @@ TEST_CASE("bake and evaluate transfer: reflections, holes and the paper's form")
   run = evaluate("weave2");
   CHECK(run.exit_code == 2);
   CHECK(run.error.find("light modes") != std::string::npos);
+  REQUIRE(folder
+              .run({"bake",       "material", "--meso",   "weave",     "--directions",
+                    "12",         "--texels", "12",       "--bounces", "0",
+                    "--view-map", "8",        "--method", "neural",    "--channels",
+                    "4",          "--steps",  "8",        "-o",        folder.path("neural"),
+                    "--quiet"})
+              .exit_code == 0);
+  run = evaluate("neural");
+  CHECK(run.exit_code == 2);
+  CHECK(run.error.find("the material is neural") != std::string::npos);
   CHECK(
       folder
           .run({"bake", "transfer", folder.path("ball.glb"), "-o", folder.path("c.nook"), "--form", "paper"})

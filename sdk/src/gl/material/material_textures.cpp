@@ -38,6 +38,11 @@ void check_limits(const Functions& gl, const MaterialTables& tables, std::uint32
           "bake it with a view map or a smaller view rank",
           t->terms * t->view_vec4_count, layers);
   }
+  const material::ImageSize& features = tables.neural.size;
+  if (features.layers > layers)
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the material's features need more layers than this OpenGL has (got %u, need at most %u)",
+                  features.layers, layers);
   const std::size_t count = 1 + std::size_t(tables.relief.steps > 0) + texture_count(tables.btf, max_layers) +
                             texture_count(tables.votf, max_layers);
   if (count > MaterialTextures::max_textures)
@@ -60,6 +65,22 @@ MaterialTextures::MaterialTextures(Device& device, const MaterialTables& tables,
   source_ = material_source(tables, max_layers, device.memory);
   textures_.reserve(max_textures);
   set_plain_unpacking(gl);
+  tables.neural.is_used() ? add_features(device, tables.neural) : add_btf(device, tables, max_layers);
+  if (tables.votf.terms != 0) add_tensor(device, tables.votf, "votf", max_layers);
+  bytes_ = material::table_bytes(tables);
+}
+
+void MaterialTextures::add_features(Device& device, const material::NeuralTables& tables) {
+  const material::ImageSize& size = tables.size;
+  const auto layers = GLsizei(size.layers);
+  textures_.push_back({make_texture_array(device,
+                                          {ArrayUse::spatial_8, GLsizei(size.width), GLsizei(size.height), 0,
+                                           layers, layers, GLsizei(size.levels)},
+                                          tables.features.data(), "nook: features"),
+                       "nook_neural_features"});
+}
+
+void MaterialTextures::add_btf(Device& device, const MaterialTables& tables, std::uint32_t max_layers) {
   const auto light_layers = GLsizei(3 * tables.btf.light_modes / 4),
              light_side = GLsizei(MaterialTables::light_side);
   const bool is_integer = !tables.light_8.empty();
@@ -77,8 +98,6 @@ MaterialTextures::MaterialTextures(Device& device, const MaterialTables& tables,
              r.heights.data(), "nook: relief"),
          "nook_relief_heights"});
   add_tensor(device, tables.btf, "btf", max_layers);
-  if (tables.votf.terms != 0) add_tensor(device, tables.votf, "votf", max_layers);
-  bytes_ = material::table_bytes(tables);
 }
 
 void MaterialTextures::add_tensor(Device& device, const TensorTables& t, const char* name,

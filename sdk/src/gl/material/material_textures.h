@@ -30,6 +30,9 @@ class MaterialTextures {
   std::uint64_t bytes() const { return bytes_; }
 
  private:
+  void add_features(Device& device, const material::NeuralTables& tables);
+  // The light map, the relief and the tensor.
+  void add_btf(Device& device, const material::MaterialTables& tables, std::uint32_t max_layers);
   void add_tensor(Device& device, const material::TensorTables& tables, const char* name,
                   std::uint32_t max_layers);
 

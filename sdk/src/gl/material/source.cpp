@@ -1,28 +1,15 @@
 #include "sdk/src/gl/material/source.h"
 
-#include <cstdarg>
-#include <cstdio>
-
-#include "sdk/src/core/compiler.h"
 #include "sdk/src/gl/embedded_shaders.h"
+#include "sdk/src/gl/float_literal.h"
+#include "sdk/src/gl/material/formatted_text.h"
+#include "sdk/src/gl/material/neural_source.h"
 
 namespace nook::gl {
 namespace {
 
-using Text = String;
-
-void add(Text& out, const char* format, ...) NOOK_PRINTF(2, 3);
-void add(Text& out, const char* format, ...) {
-  char line[200];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  out += line;
-}
-
 // name is "btf" and prefix "NOOK_BTF", or the same of the VOTF.
-void add_tensor(Text& out, const material::TensorTables& t, const char* name, const char* prefix,
+void add_tensor(String& out, const material::TensorTables& t, const char* name, const char* prefix,
                 std::uint32_t max_layers) {
   add(out, "#define %s_TERMS %u\n#define %s_VIEW_VEC4_COUNT %u\n", prefix, t.terms, prefix,
       t.view_vec4_count);
@@ -45,36 +32,40 @@ void add_tensor(Text& out, const material::TensorTables& t, const char* name, co
   out += "}\n";
 }
 
-void add_relief(Text& out, const material::ReliefTables& relief) {
+void add_relief(String& out, const material::ReliefTables& relief) {
   add(out, "#define NOOK_RELIEF %d\n", int(relief.moves()));
   if (!relief.moves()) return;
   add(out, "#define NOOK_RELIEF_STEPS %u\n", relief.steps);
-  add(out, "const float nook_relief_low = %#.9g, nook_relief_high = %#.9g, nook_relief_max_slope = %#.9g;\n",
-      double(relief.low), double(relief.high), double(relief.max_slope));
+  add(out, "const float nook_relief_low = %s, nook_relief_high = %s, nook_relief_max_slope = %s;\n",
+      float_literal(relief.low).text, float_literal(relief.high).text, float_literal(relief.max_slope).text);
   if (relief.steps > 0) out += "uniform highp sampler2DArray nook_relief_heights;\n";
 }
 
-const char* host_text() {
+const char* host_text(std::string_view path) {
   for (const EmbeddedShader* shader = embedded_shaders_begin(); shader != embedded_shaders_end(); ++shader)
-    if (std::string_view(shader->path) == "material/host.glsl") return shader->text;
+    if (std::string_view(shader->path) == path) return shader->text;
   return "";
 }
 
 }  // namespace
 
 String material_source(const material::MaterialTables& tables, std::uint32_t max_layers, Memory* memory) {
-  Text out(memory);
-  add(out, "#define NOOK_LIGHT_VEC4_COUNT %u\nuniform highp sampler2DArray nook_light_map;\n",
-      tables.btf.light_modes / 4);
-  add_tensor(out, tables.btf, "btf", "NOOK_BTF", max_layers);
+  String out(memory);
+  const bool is_neural = tables.neural.is_used();
+  if (is_neural) {
+    add_neural_declarations(tables.neural, out);
+  } else {
+    add(out, "#define NOOK_LIGHT_VEC4_COUNT %u\nuniform highp sampler2DArray nook_light_map;\n",
+        tables.btf.light_modes / 4);
+    add_tensor(out, tables.btf, "btf", "NOOK_BTF", max_layers);
+  }
   add_tensor(out, tables.votf, "votf", "NOOK_VOTF", max_layers);
-  add_relief(out, tables.relief);
+  if (!is_neural) add_relief(out, tables.relief);
   if (tables.votf.terms != 0)
     // OpenGL ES gives uniforms no first value.
-    add(out,
-        "#ifdef GL_ES\nconst\n#else\nuniform\n#endif\nvec2 nook_visibility_mapping = vec2(%#.9g, %#.9g);\n",
-        double(tables.mapping.threshold), double(tables.mapping.weight));
-  out += host_text();
+    add(out, "#ifdef GL_ES\nconst\n#else\nuniform\n#endif\nvec2 nook_visibility_mapping = vec2(%s, %s);\n",
+        float_literal(tables.mapping.threshold).text, float_literal(tables.mapping.weight).text);
+  out += host_text(is_neural ? "material/neural/host.glsl" : "material/host.glsl");
   return out;
 }
 

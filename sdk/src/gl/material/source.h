@@ -1,4 +1,5 @@
-// The GLSL of a material: constants and samplers for its sizes, then shaders/material/host.glsl.
+// The GLSL of a material: constants and samplers for its sizes, then shaders/material/host.glsl, or that of
+// neural ones.
 #pragma once
 
 #include <string>

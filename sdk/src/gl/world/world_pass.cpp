@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "sdk/src/core/failure.h"
+#include "sdk/src/gl/float_literal.h"
 #include "sdk/src/gl/nnao/pass.h"
 #include "sdk/src/gl/program.h"
 #include "sdk/src/gl/state_guard.h"
@@ -172,7 +173,7 @@ TextureFormat WorldPass::half_format() const {
 
 void WorldPass::make_half(const nook_world_pass_desc& desc) {
   char masked[80];
-  std::snprintf(masked, sizeof masked, "#define NOOK_APART %g\n", NOOK_REPLACED);
+  std::snprintf(masked, sizeof masked, "#define NOOK_APART %s\n", float_literal(float(NOOK_REPLACED)).text);
   half_depth_ = make_draw("nnao/depth.frag", "");
   masked_half_depth_ = make_draw("nnao/depth.frag", masked);
   half_ao_ = make_darkening("#define NOOK_BODIES NOOK_NEAR_BODIES\n");

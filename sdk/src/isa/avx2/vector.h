@@ -26,8 +26,35 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return _mm256_loadu_ps(p);
 }
-inline Float load_short(const std::int16_t* p) {
-  return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))));
+// Whole numbers of 32 bits.
+struct Whole {
+  __m256i v;
+};
+struct CodePair {
+  __m256i v;
+};
+inline Whole whole_zero() {
+  return {_mm256_setzero_si256()};
+}
+inline CodePair code_pair(std::int32_t low, std::int32_t high) {
+  return {_mm256_or_si256(_mm256_set1_epi32(low), _mm256_set1_epi32(high))};
+}
+inline Whole add_products(const std::int16_t* p, CodePair codes, Whole sum) {
+  const __m256i pairs = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
+  return {_mm256_add_epi32(sum.v, _mm256_madd_epi16(pairs, codes.v))};
+}
+inline Float number(Whole a) {
+  return _mm256_cvtepi32_ps(a.v);
+}
+inline void load_pairs(const std::int16_t* p, Float& first, Float& second) {
+  const __m256i pairs = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
+  first = _mm256_cvtepi32_ps(_mm256_srai_epi32(_mm256_slli_epi32(pairs, 16), 16));
+  second = _mm256_cvtepi32_ps(_mm256_srai_epi32(pairs, 16));
+}
+inline void store_codes(std::int32_t* low, std::int32_t* high, Float a) {
+  const __m256i code = _mm256_cvtps_epi32(a.v);
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(low), _mm256_and_si256(code, _mm256_set1_epi32(0xffff)));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(high), _mm256_slli_epi32(code, 16));
 }
 inline void store(float* p, Float a) {
   _mm256_storeu_ps(p, a.v);

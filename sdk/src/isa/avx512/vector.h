@@ -26,8 +26,36 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return _mm512_loadu_ps(p);
 }
-inline Float load_short(const std::int16_t* p) {
-  return _mm512_cvtepi32_ps(_mm512_cvtepi16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))));
+// Whole numbers of 32 bits, in halves: products of 16 bits in vectors of 512 are no part of AVX-512F.
+struct Whole {
+  __m256i a, b;
+};
+struct CodePair {
+  __m256i v;
+};
+inline Whole whole_zero() {
+  return {_mm256_setzero_si256(), _mm256_setzero_si256()};
+}
+inline CodePair code_pair(std::int32_t low, std::int32_t high) {
+  return {_mm256_or_si256(_mm256_set1_epi32(low), _mm256_set1_epi32(high))};
+}
+inline Whole add_products(const std::int16_t* p, CodePair codes, Whole sum) {
+  const auto* const pairs = reinterpret_cast<const __m256i*>(p);
+  return {_mm256_add_epi32(sum.a, _mm256_madd_epi16(_mm256_loadu_si256(pairs), codes.v)),
+          _mm256_add_epi32(sum.b, _mm256_madd_epi16(_mm256_loadu_si256(pairs + 1), codes.v))};
+}
+inline Float number(Whole a) {
+  return _mm512_cvtepi32_ps(_mm512_inserti64x4(_mm512_castsi256_si512(a.a), a.b, 1));
+}
+inline void load_pairs(const std::int16_t* p, Float& first, Float& second) {
+  const __m512i pairs = _mm512_loadu_si512(p);
+  first = _mm512_cvtepi32_ps(_mm512_srai_epi32(_mm512_slli_epi32(pairs, 16), 16));
+  second = _mm512_cvtepi32_ps(_mm512_srai_epi32(pairs, 16));
+}
+inline void store_codes(std::int32_t* low, std::int32_t* high, Float a) {
+  const __m512i code = _mm512_cvtps_epi32(a.v);
+  _mm512_storeu_si512(low, _mm512_and_si512(code, _mm512_set1_epi32(0xffff)));
+  _mm512_storeu_si512(high, _mm512_slli_epi32(code, 16));
 }
 inline void store(float* p, Float a) {
   _mm512_storeu_ps(p, a.v);

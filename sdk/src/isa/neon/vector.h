@@ -26,8 +26,37 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return vld1q_f32(p);
 }
-inline Float load_short(const std::int16_t* p) {
-  return vcvtq_f32_s32(vmovl_s16(vld1_s16(p)));
+// Whole numbers of 32 bits.
+struct Whole {
+  int32x4_t v;
+};
+struct CodePair {
+  int16x8_t v;
+};
+inline Whole whole_zero() {
+  return {vdupq_n_s32(0)};
+}
+inline CodePair code_pair(std::int32_t low, std::int32_t high) {
+  return {vreinterpretq_s16_s32(vdupq_n_s32(low | high))};
+}
+inline Whole add_products(const std::int16_t* p, CodePair codes, Whole sum) {
+  const int16x8_t pairs = vld1q_s16(p);
+  const int32x4_t products =
+      vpaddq_s32(vmull_s16(vget_low_s16(pairs), vget_low_s16(codes.v)), vmull_high_s16(pairs, codes.v));
+  return {vaddq_s32(sum.v, products)};
+}
+inline Float number(Whole a) {
+  return vcvtq_f32_s32(a.v);
+}
+inline void load_pairs(const std::int16_t* p, Float& first, Float& second) {
+  const int16x4x2_t pairs = vld2_s16(p);
+  first = vcvtq_f32_s32(vmovl_s16(pairs.val[0]));
+  second = vcvtq_f32_s32(vmovl_s16(pairs.val[1]));
+}
+inline void store_codes(std::int32_t* low, std::int32_t* high, Float a) {
+  const int32x4_t code = vcvtnq_s32_f32(a.v);
+  vst1q_s32(low, vandq_s32(code, vdupq_n_s32(0xffff)));
+  vst1q_s32(high, vshlq_n_s32(code, 16));
 }
 inline void store(float* p, Float a) {
   vst1q_f32(p, a.v);

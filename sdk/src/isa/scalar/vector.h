@@ -20,8 +20,32 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return *p;
 }
-inline Float load_short(const std::int16_t* p) {
-  return *p;
+// A whole number of 32 bits.
+using Whole = std::int32_t;
+struct CodePair {
+  std::int32_t first, second;
+};
+inline Whole whole_zero() {
+  return 0;
+}
+inline CodePair code_pair(std::int32_t low, std::int32_t high) {
+  return {static_cast<std::int16_t>(low), high >> 16};
+}
+inline Whole add_products(const std::int16_t* p, CodePair codes, Whole sum) {
+  return sum + p[0] * codes.first + p[1] * codes.second;
+}
+inline Float number(Whole a) {
+  return static_cast<Float>(a);
+}
+inline void load_pairs(const std::int16_t* p, Float& first, Float& second) {
+  first = p[0];
+  second = p[1];
+}
+// To the nearest, as the vectors round.
+inline void store_codes(std::int32_t* low, std::int32_t* high, Float a) {
+  const auto code = static_cast<std::uint32_t>(std::lrint(a));
+  *low = static_cast<std::int32_t>(code & 0xffff);
+  *high = static_cast<std::int32_t>(code << 16);
 }
 inline void store(float* p, Float a) {
   *p = a;

@@ -26,9 +26,35 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return _mm_loadu_ps(p);
 }
-inline Float load_short(const std::int16_t* p) {
-  const __m128i four = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(p));
-  return _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(four, four), 16));
+// Whole numbers of 32 bits.
+struct Whole {
+  __m128i v;
+};
+struct CodePair {
+  __m128i v;
+};
+inline Whole whole_zero() {
+  return {_mm_setzero_si128()};
+}
+inline CodePair code_pair(std::int32_t low, std::int32_t high) {
+  return {_mm_set1_epi32(low | high)};
+}
+inline Whole add_products(const std::int16_t* p, CodePair codes, Whole sum) {
+  const __m128i pairs = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+  return {_mm_add_epi32(sum.v, _mm_madd_epi16(pairs, codes.v))};
+}
+inline Float number(Whole a) {
+  return _mm_cvtepi32_ps(a.v);
+}
+inline void load_pairs(const std::int16_t* p, Float& first, Float& second) {
+  const __m128i pairs = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+  first = _mm_cvtepi32_ps(_mm_srai_epi32(_mm_slli_epi32(pairs, 16), 16));
+  second = _mm_cvtepi32_ps(_mm_srai_epi32(pairs, 16));
+}
+inline void store_codes(std::int32_t* low, std::int32_t* high, Float a) {
+  const __m128i code = _mm_cvtps_epi32(a.v);
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(low), _mm_and_si128(code, _mm_set1_epi32(0xffff)));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(high), _mm_slli_epi32(code, 16));
 }
 inline void store(float* p, Float a) {
   _mm_storeu_ps(p, a.v);

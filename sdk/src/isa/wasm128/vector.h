@@ -26,8 +26,34 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return wasm_v128_load(p);
 }
-inline Float load_short(const std::int16_t* p) {
-  return wasm_f32x4_convert_i32x4(wasm_i32x4_load16x4(p));
+// Whole numbers of 32 bits.
+struct Whole {
+  v128_t v;
+};
+struct CodePair {
+  v128_t v;
+};
+inline Whole whole_zero() {
+  return {wasm_i32x4_splat(0)};
+}
+inline CodePair code_pair(std::int32_t low, std::int32_t high) {
+  return {wasm_i32x4_splat(low | high)};
+}
+inline Whole add_products(const std::int16_t* p, CodePair codes, Whole sum) {
+  return {wasm_i32x4_add(sum.v, wasm_i32x4_dot_i16x8(wasm_v128_load(p), codes.v))};
+}
+inline Float number(Whole a) {
+  return wasm_f32x4_convert_i32x4(a.v);
+}
+inline void load_pairs(const std::int16_t* p, Float& first, Float& second) {
+  const v128_t pairs = wasm_v128_load(p);
+  first = wasm_f32x4_convert_i32x4(wasm_i32x4_shr(wasm_i32x4_shl(pairs, 16), 16));
+  second = wasm_f32x4_convert_i32x4(wasm_i32x4_shr(pairs, 16));
+}
+inline void store_codes(std::int32_t* low, std::int32_t* high, Float a) {
+  const v128_t code = wasm_i32x4_trunc_sat_f32x4(wasm_f32x4_nearest(a.v));
+  wasm_v128_store(low, wasm_v128_and(code, wasm_i32x4_splat(0xffff)));
+  wasm_v128_store(high, wasm_i32x4_shl(code, 16));
 }
 inline void store(float* p, Float a) {
   wasm_v128_store(p, a.v);

@@ -1,14 +1,16 @@
-#include "bakers/measure/material/neural_tile.h"
+#include "bakers/material/neural_tile.h"
 
 #include <tbb/task_arena.h>
 
 #include <cmath>
 
 #include "bakers/material/directions.h"
-#include "bakers/measure/material/neural_pass.h"
-#include "bakers/measure/material/neural_training.h"
+#include "bakers/material/neural_pass.h"
+#include "bakers/material/neural_training.h"
+#include "bakers/measure/material/measures.h"
 #include "bakers/raytrace/random.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/material/material_file.h"
 #include "tests/catch.h"
 
 using namespace nook;
@@ -25,7 +27,7 @@ struct Numbers {
 
 Numbers random_numbers() {
   Numbers n;
-  n.shape = {6, 5, 3, 2, 0.3f, 5, 3, 2, 3};
+  n.shape = {{6, 5, 3, 5, 3, 2, 3}, 2, 0.3f};
   Random random(5);
   const auto fill = [&](std::vector<float>& values, std::size_t count, float scale) {
     values.resize(count);
@@ -125,8 +127,8 @@ TEST_CASE("blocks round to eight levels between the ends of each channel") {
     features[i] = i % channels ? 0.25f : random.between(-1, 1);
   round_to_blocks(shape, channels, features, rounded);
   for (std::size_t i = 0; i < features.size(); ++i)
-    // Half of a level of the widest block, and half of a byte's step at its ends.
-    REQUIRE(std::abs(rounded[i] - features[i]) <= (i % channels ? 0.0f : 1.0f / 7) + 1.0f / 255 + 1e-6f);
+    // Half of a level of the widest block, and half of a step at its ends and at the level.
+    REQUIRE(std::abs(rounded[i] - features[i]) <= (i % channels ? 0.0f : 1.0f / 7) + 1.0f / 127 + 1e-6f);
   std::vector<float> again(features.size());
   round_to_blocks(shape, channels, rounded, again);
   for (std::size_t i = 0; i < again.size(); ++i) REQUIRE(again[i] == Approx(rounded[i]).margin(1e-6));
@@ -170,8 +172,55 @@ TEST_CASE("a neural tile finds a planted material") {
   const NeuralTile tile = fit_neural_tile(raw, few_steps(1500));
   // The mean of all texels has 8 dB, the best matt plane 16 dB.
   CHECK(measure_neural_tile(raw, tile).se_db() > 23);
-  // Sixteen blocks of eight bytes for each four channels.
+  // Four blocks of eight bytes for each channel.
   CHECK(tile.bytes() == 4 * 8 * (4 + 8) + 2 * tile.weights.size());
+}
+
+TEST_CASE("a file draws the neural tile that was trained") {
+  const RawMaterial raw = planted();
+  NeuralSettings settings = few_steps(60);
+  settings.shape.offset_channels = settings.shape.offset_units = 4;
+  const NeuralTile tile = fit_neural_tile(raw, settings);
+  nook::material::Material material;
+  material.lights.assign(raw.lights.begin(), raw.lights.end());
+  material.views.assign(raw.views.begin(), raw.views.end());
+  material.neural = encoded(tile);
+  const nook::material::Material read = nook::material::quantise(material);
+  // The same features and weights; sums in another order.
+  CHECK(measure_btf(raw, read).se_db() == Approx(measure_neural_tile(raw, tile).se_db()).margin(1e-3));
+  for (std::size_t view : {0u, 7u, 15u}) {
+    const tensor::Matrix trained = draw_neural_tile(tile, raw.views[view], raw.lights),
+                         drawn = decode_btf_view(read, view);
+    CHECK((trained - drawn).cwiseAbs().maxCoeff() < 1e-4f);
+    CHECK(trained.maxCoeff() > 0.05f);
+  }
+}
+
+TEST_CASE("a bake by the method neural has a network, and the visibility of K-CTA") {
+  RawMaterial raw = planted();
+  raw.mask.assign(raw.views.size() * raw.texels(), 1);
+  for (std::size_t i = 0; i < raw.mask.size(); i += 3) raw.mask[i] = 0;
+  CompressionSettings s;
+  s.method = Method::neural;
+  s.neural_channels = 8;
+  s.neural_steps = 20;
+  s.rank_view = 8;
+  s.rank_x = s.rank_y = s.votf_rank_x = s.votf_rank_y = 8;
+  s.map_side = 6;
+  s.mixture = 2;
+  s.bits = 8;
+  const nook::material::Material material = nook::material::quantise(compress(raw, s));
+  CHECK(material.neural.shape.channels == 8);
+  CHECK(material.btf.cores.empty());
+  CHECK(material.visibility == nook::material::VisibilityForm::distance);
+  CHECK(material.votf.map.side == 6);
+  for (const std::uint32_t channels : {0u, 6u, 68u}) {
+    s.neural_channels = channels;
+    CHECK_THROWS_AS(check_settings(s, raw), Failure);
+  }
+  s.neural_channels = 8;
+  s.relief = ReliefSource::estimated;
+  CHECK_THROWS_AS(check_settings(s, raw), Failure);
 }
 
 TEST_CASE("a neural tile has the same bits on any number of threads") {
@@ -182,6 +231,17 @@ TEST_CASE("a neural tile has the same bits on any number of threads") {
   CHECK(tiles[0].weights == tiles[1].weights);
   CHECK(tiles[0].features == tiles[1].features);
   CHECK(tiles[0].offset_features == tiles[1].offset_features);
+}
+
+TEST_CASE("radiance that half floats cannot hold is refused before the training") {
+  for (const float factor : {1e-6f, 1e8f}) {
+    RawMaterial raw = planted();
+    for (float& value : raw.btf) value *= factor;
+    std::size_t calls = 0;
+    const auto count = [&](const char*, std::size_t, std::size_t) { return ++calls > 0; };
+    CHECK_THROWS_AS(fit_neural_tile(raw, few_steps(40), count), Failure);
+    CHECK(calls == 0);
+  }
 }
 
 TEST_CASE("the training of a neural tile can be stopped") {

@@ -1,12 +1,12 @@
-#include "bakers/measure/material/neural_training.h"
+#include "bakers/material/neural_training.h"
 
 #include <cmath>
 #include <numbers>
 
 #include "bakers/algebra/adam.h"
+#include "bakers/material/height_march.h"
+#include "bakers/material/neural_pass.h"
 #include "bakers/material/view_heights.h"
-#include "bakers/measure/material/neural_pass.h"
-#include "bakers/measure/material/pbr_tile.h"
 #include "bakers/raytrace/random.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
@@ -60,6 +60,17 @@ Targets targets_of(const RawMaterial& raw) {
             raw.btf[(row * views + v) * texels + t] / targets.scale;
   });
   return targets;
+}
+
+// The last layer holds the scale in half floats: beyond these bounds its weights lose their digits or
+// overflow.
+void check_scale(float scale) {
+  constexpr float least = 1.0f / 4096, most = 4096;
+  if (!(scale >= least && scale <= most))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the root mean square of the radiance is %g; a neural material needs %g to %g, so multiply "
+                  "the radiance",
+                  double(scale), double(least), double(most));
 }
 
 struct Trainer {
@@ -141,18 +152,20 @@ void add_gradients(Trainer& t) {
 // Trains the network of the offset alone to the first hits of the relief at which views agree.
 void fit_offsets(Trainer& t, const StageProgress& progress) {
   const NeuralShape& s = t.shape;
-  PbrTile relief;
-  relief.width = t.raw.width;
-  relief.height = t.raw.height;
-  relief.heights = heights_of_views(t.raw);
+  const std::vector<float> heights = heights_of_views(t.raw, [&](std::size_t, std::size_t) {
+    report(progress, "offset", 0, t.settings.offset_steps);
+    return true;
+  });
+  const HeightMap relief{t.raw.width, t.raw.height, heights};
+  const HeightRange range = range_of(relief);
   const std::size_t texels = t.raw.texels();
   std::vector<float> hit(t.raw.views.size() * texels);
   constexpr float lowest_z = 0.01f;
   tensor::for_each_block(t.raw.views.size(), 1, [&](std::size_t v, std::size_t) {
     const Vec3 seen = t.raw.views[v], view{seen.x, seen.y, std::max(seen.z, lowest_z)};
     for (std::size_t i = 0; i < texels; ++i)
-      hit[v * texels + i] = relief_height(relief, (float(i / s.height) + 0.5f) / float(s.width),
-                                          (float(i % s.height) + 0.5f) / float(s.height), view);
+      hit[v * texels + i] = first_height(relief, range, (float(i / s.height) + 0.5f) / float(s.width),
+                                         (float(i % s.height) + 0.5f) / float(s.height), view);
   });
   constexpr float rate = 1e-2f;
   for (std::uint32_t step = 0; step < t.settings.offset_steps; ++step) {
@@ -173,7 +186,7 @@ void fit_offsets(Trainer& t, const StageProgress& progress) {
     t.weights.step(now);
     t.offset_features.step(now);
     t.offset_features.clamp();
-    report(progress, "training, offsets", step + 1, t.settings.offset_steps);
+    report(progress, "offset", step + 1, t.settings.offset_steps);
   }
   t.weights.adam = Adam(t.at.count);
   t.offset_features.adam = Adam(t.offset_features.value.size());
@@ -229,7 +242,7 @@ void train(Trainer& t, const Targets& targets, const StageProgress& progress) {
     t.offset_features.step(offset_share * s.feature_rate * now);
     t.features.clamp();
     t.offset_features.clamp();
-    report(progress, "training", step + 1, s.steps);
+    report(progress, "network", step + 1, s.steps);
   }
 }
 
@@ -260,6 +273,7 @@ NeuralTile fit_neural_tile(const RawMaterial& raw, const NeuralSettings& setting
                            const StageProgress& progress) {
   Trainer t{raw, settings, shape_of(raw, settings.shape)};
   const Targets targets = targets_of(raw);
+  check_scale(targets.scale);
   set_first_numbers(t);
   fit_offsets(t, progress);
   train(t, targets, progress);

@@ -1,4 +1,4 @@
-#include "bakers/measure/material/neural_pass.h"
+#include "bakers/material/neural_pass.h"
 
 #include <cmath>
 #include <numbers>
@@ -11,15 +11,16 @@ using Columns = NeuralPass::Columns;
 using Weights = Eigen::Map<const Columns>;
 using WeightGradient = Eigen::Map<Columns>;
 
-constexpr float leak = 0.01f;  // the slope below 0
+using nook::material::neural_hidden_layer, nook::material::neural_leak;
 
 void rectify(Columns& values) {
-  values = values.cwiseMax(leak * values);
+  values = values.cwiseMax(neural_leak * values);
 }
 
 // The gradient before the rectifier, of that after it.
 void rectify_back(const Columns& after, Columns& gradient) {
-  gradient.array() *= (after.array() > 0).select(Eigen::ArrayXXf::Ones(after.rows(), after.cols()), leak);
+  gradient.array() *=
+      (after.array() > 0).select(Eigen::ArrayXXf::Ones(after.rows(), after.cols()), neural_leak);
 }
 
 // A direction's place on the square map of views: the disc of equal solid angles, then P. Shirley's and K.
@@ -51,15 +52,9 @@ void set_nodes(const NeuralShape& s, Vec3 view, NeuralPass::Tap& tap) {
   std::copy_n(share, 4, tap.node_share);
 }
 
-// Views along the plane would see features at any distance.
-float view_z(Vec3 view) {
-  return std::max(view.z, 0.01f);
-}
-
-// A height of a tile or more comes from a network that has gone astray.
 void set_texels(const NeuralShape& s, const NeuralPosition& p, float height, NeuralPass::Tap& tap) {
   const bool shifted = std::abs(height) < 1;
-  const float shift = shifted ? height / view_z(p.view) : 0;
+  const float shift = nook::material::neural_shift(height, p.view);
   const float x = float(p.texel / s.height) + p.view.x * shift * float(s.width),
               y = float(p.texel % s.height) + p.view.y * shift * float(s.height);
   const float left = std::floor(x), low = std::floor(y), fx = x - left, fy = y - low;
@@ -84,7 +79,7 @@ Feature feature_at(const NeuralNumbers& n, std::uint32_t node, std::uint32_t tex
 }
 
 void set_light_input(Vec3 view, Vec3 light, float* to) {
-  const Vec3 half = normalised(view + light);
+  const Vec3 half = nook::material::neural_half(view, light);
   const float values[neural_light_inputs] = {light.x, light.y, light.z, half.x, half.y, half.z};
   std::copy_n(values, neural_light_inputs, to);
 }
@@ -119,11 +114,6 @@ void set_sum(std::vector<float>& weights, std::size_t where, const Columns& grad
   Eigen::Map<Eigen::VectorXf>(&weights[where], gradient.rows()) = gradient.rowwise().sum();
 }
 
-// Where the numbers of a hidden layer after the first begin.
-std::size_t hidden_layer(const NeuralShape& s, const NeuralLayout& at, std::size_t layer) {
-  return at.hidden + (layer - 1) * s.units * (s.units + 1);
-}
-
 // A height moves the place where the features of a position are read.
 float height_gradient(const NeuralNumbers& n, Vec3 view, const NeuralPass::Tap& tap,
                       const Eigen::Ref<const Eigen::VectorXf>& gradient) {
@@ -136,7 +126,8 @@ float height_gradient(const NeuralNumbers& n, Vec3 view, const NeuralPass::Tap& 
       along_y += slope * tap.slope_y[t];
     }
   }
-  return (along_x * view.x * float(n.shape.width) + along_y * view.y * float(n.shape.height)) / view_z(view);
+  return (along_x * view.x * float(n.shape.width) + along_y * view.y * float(n.shape.height)) *
+         nook::material::neural_slope(view);
 }
 
 }  // namespace
@@ -176,7 +167,7 @@ void NeuralPass::forward(const NeuralNumbers& n) {
   for (Index i = 0; i < count; ++i) units[0].middleCols(i * each, each).colwise() += at_position.col(i);
   rectify(units[0]);
   for (std::size_t layer = 1; layer < s.layers; ++layer) {
-    const float* layer_weights = &n.weights[hidden_layer(s, at, layer)];
+    const float* layer_weights = &n.weights[neural_hidden_layer(s, at, layer)];
     units[layer].noalias() = Weights(layer_weights, width, width) * units[layer - 1];
     units[layer].colwise() += Feature(layer_weights + width * width, width);
     rectify(units[layer]);
@@ -196,7 +187,7 @@ void NeuralPass::backward(const NeuralNumbers& n) {
   Columns gradient = Weights(&n.weights[at.out], 3, width).transpose() * out, before;
   rectify_back(units.back(), gradient);
   for (std::size_t layer = s.layers - 1; layer > 0; --layer) {
-    const std::size_t where = hidden_layer(s, at, layer);
+    const std::size_t where = neural_hidden_layer(s, at, layer);
     set_product(weights, where, gradient, units[layer - 1]);
     set_sum(weights, where + s.units * s.units, gradient);
     before.noalias() = Weights(&n.weights[where], width, width).transpose() * gradient;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bakers/material/compression.h"
-#include "bakers/measure/material/neural_tile.h"
+#include "bakers/material/neural_tile.h"
 
 namespace nook::bake::material {
 

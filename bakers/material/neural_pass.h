@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "bakers/measure/material/neural_tile.h"
+#include "bakers/material/neural_tile.h"
 
 namespace nook::bake::material {
 

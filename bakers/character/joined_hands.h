@@ -1,0 +1,51 @@
+// Poses in which both hands hold one thing, or each other: a grip, a handle, a prayer. Most of what tools,
+// weapons and gestures ask of hands is of this kind, and arms that are drawn apart never meet so closely.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "bakers/character/body_frame.h"
+#include "bakers/character/hands.h"
+#include "bakers/character/joint_motion.h"
+#include "bakers/raytrace/random.h"
+
+namespace nook::bake {
+
+class JoinedHands {
+ public:
+  explicit JoinedHands(const SkinnedMesh& mesh);  // which is kept by reference
+
+  // False where the rig has no two arms with hands and fingers.
+  bool possible() const { return arms_[0].index_knuckle >= 0 && arms_[1].index_knuckle >= 0; }
+
+  // Draws a place before the trunk and moves both arms there; with_fingers closes the fingers as well. All
+  // else stays. possible() must hold.
+  void join(std::vector<JointMotion>& motions, bool with_fingers, Random& random) const;
+
+ private:
+  struct Arm {
+    std::int32_t upper = -1, fore = -1, hand = -1;  // bones
+    Vec3 shoulder, elbow, wrist;                    // joints at rest, metres
+    HandFrame frame;
+    std::vector<std::uint32_t> fingers;  // and thumbs; each behind its parent
+    std::int32_t index_knuckle = -1;     // the first joint of the finger beside the thumb
+  };
+  struct Grip;
+  struct ArmPose;
+
+  Arm find_arm(Side side) const;
+  Grip draw(Random& random) const;
+  ArmPose solve(const Pose& pose, const Grip& grip, int side) const;
+  void close_fingers(const Arm& arm, float curl, std::vector<JointMotion>& motions, Random& random) const;
+
+  const SkinnedMesh& mesh_;
+  std::vector<Joint> joints_;
+  BodyTree tree_;
+  BodyFrame frame_;
+  std::vector<Vec3> curl_axis_;
+  std::array<Arm, 2> arms_;  // left, right
+  std::int32_t chest_ = -1;  // the nearest spine above both arms; -1: none
+};
+
+}  // namespace nook::bake

@@ -1,0 +1,109 @@
+// A material as a small network over features of its texels, in the place of a clustered BTF, after A.
+// Kuznetsov, K. Mullia, Z. Xu, M. Hasan, R. Ramamoorthi: NeuMIP, 2021 (the neural offset) and C. Weinreich,
+// L. de Oliveira, A. Houdard, G. Nader: Real-Time Neural Materials using Block-Compressed Features, 2023.
+//
+// With all layers as matrices, r(x) = max(x, x / 100) and features read linearly at a point of the tile:
+//   height   = offset_out r(offset_in (offset features at uv, view, 1)) + offset_level
+//   decoded  = position (features at uv + view.xy / view.z height, view, 1)
+//   units    = r(decoded + light_weights (light, half vector)), and for each further layer
+//   units    = r(hidden (units, 1))
+//   radiance = max(out (units, 1), 0)
+// So what does not depend on the light is computed once for a pixel.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "sdk/src/core/containers.h"
+#include "sdk/src/core/vec.h"
+
+namespace nook::material {
+
+struct NeuralShape {
+  std::uint32_t width = 0, height = 0;                   // texels
+  std::uint32_t channels = 16;                           // of the features
+  std::uint32_t units = 32;                              // of each hidden layer of the network
+  std::uint32_t layers = 3;                              // hidden ones
+  std::uint32_t offset_channels = 8, offset_units = 16;  // of the network of the offset
+
+  std::size_t texels() const { return std::size_t(width) * height; }
+  std::size_t blocks() const { return std::size_t(width + 3) / 4 * ((height + 3) / 4); }
+
+  bool operator==(const NeuralShape&) const = default;
+};
+
+inline constexpr std::uint32_t neural_view_inputs = 3, neural_light_inputs = 6;
+
+// Where the numbers of each layer stand in the weights: matrices of outputs x inputs, inputs slow, each
+// followed by the bias, which is the weight of an input of 1.
+struct NeuralLayout {
+  explicit NeuralLayout(const NeuralShape& shape);
+  std::size_t offset_in, offset_bias, offset_out, offset_level;  // features and view -> units -> height
+  std::size_t position, position_bias;                           // features and view -> units
+  std::size_t light;                                             // light and half vector -> units
+  std::size_t hidden;         // units -> units and their bias, for each layer
+  std::size_t out, out_bias;  // units -> RGB
+  std::size_t count;
+};
+
+// Where the numbers of a hidden layer begin; the first layer is 0 and has none there.
+constexpr std::size_t neural_hidden_layer(const NeuralShape& s, const NeuralLayout& at, std::size_t layer) {
+  return at.hidden + (layer - 1) * s.units * (s.units + 1);
+}
+
+// The slope of a unit below 0.
+inline constexpr float neural_leak = 0.01f;
+
+// Features lie in [-1, 1] as multiples of 1 / 127, the numbers of textures of signed bytes. A block of 4 x 4
+// texels of a channel takes eight bytes, those of BC4 with signs: the upper and the lower end as signed
+// bytes, then 16 codes of three bits, row by row, the first in the lowest bits. Code 0 is the upper end, 1
+// the lower one, and 2 to 7 lie between them in equal steps, from the upper to the lower one.
+inline constexpr int neural_feature_steps = 127;
+inline constexpr std::size_t neural_block_bytes = 8;
+// The number of a code, rounded to the nearest; upper is not below lower.
+constexpr int neural_level(int upper, int lower, std::uint32_t code) {
+  const int down = code == 0 ? 0 : code == 1 ? 7 : int(code) - 1;  // sevenths of the way
+  const int sum = upper * (7 - down) + lower * down;
+  return (sum >= 0 ? sum + 3 : sum - 3) / 7;
+}
+
+struct Neural {
+  explicit Neural(Memory* memory = default_memory()) : blocks(memory), weights(memory) {}
+
+  NeuralShape shape;
+  // Channel x block row x block column, features before those of the offset.
+  Vector<std::uint8_t> blocks;
+  Vector<std::uint16_t> weights;  // half floats; empty: the material is a clustered tensor
+
+  bool is_used() const { return !weights.empty(); }
+};
+
+// The bytes of blocks and of weights.
+inline std::size_t neural_block_bytes_of(const NeuralShape& s) {
+  return neural_block_bytes * s.blocks() * (s.channels + s.offset_channels);
+}
+inline std::size_t neural_bytes(const NeuralShape& s) {
+  return neural_block_bytes_of(s) + 2 * NeuralLayout(s).count;
+}
+
+// Functions of the training and of the decoder.
+
+// The shift of the place where features are read, over x and y of a view: of a height of 1, and of any. Views
+// along the plane would see features at any distance, and a height of a tile or more comes from a network
+// that has gone astray.
+inline constexpr float neural_least_view_z = 0.01f;
+inline float neural_slope(Vec3 view) {
+  return 1 / std::max(view.z, neural_least_view_z);
+}
+inline float neural_shift(float height, Vec3 view) {
+  return height > -1 && height < 1 ? height * neural_slope(view) : 0.0f;
+}
+
+// The vector halfway between two directions.
+inline Vec3 neural_half(Vec3 view, Vec3 light) {
+  const Vec3 sum = view + light;
+  return sum * (1 / std::max(length(sum), 1e-6f));
+}
+
+}  // namespace nook::material

@@ -1,0 +1,41 @@
+// A neural material as textures and numbers, and its decoding on the CPU. shaders/material/neural has the
+// same functions.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "sdk/src/core/containers.h"
+#include "sdk/src/core/vec.h"
+#include "sdk/src/material/layered_image.h"
+#include "sdk/src/material/neural.h"
+
+namespace nook::material {
+
+struct NeuralTables {
+  explicit NeuralTables(Memory* memory = default_memory()) : features(memory), weights(memory) {}
+
+  NeuralShape shape;
+  // Layers of four channels: features, then those of the offset. The numbers are integers of -127 to 127,
+  // which are 127 times the features. Mipmaps are means over areas of texels.
+  ImageSize size;
+  Vector<std::int8_t> features;
+  Vector<float> weights;  // empty: the material is a clustered tensor
+  // Views and lights lower than all sampled ones are raised to the lowest of them.
+  float lowest_view_z = 1, lowest_light_z = 1;
+
+  bool is_used() const { return !weights.empty(); }
+  // The numbers of a pixel: the sums of the first layer without a light, then the view and 0.
+  std::uint32_t decoded_count() const { return shape.units + 4; }
+};
+
+NeuralTables make_neural_tables(const Neural& neural, std::span<const Vec3> views,
+                                std::span<const Vec3> lights, Memory* memory);
+
+// Computes the numbers of a pixel, decoded_count() of them.
+void decode_neural(const NeuralTables& tables, const ImagePlace& place, Vec3 view, std::span<float> decoded);
+
+// Returns the radiance of a light above the horizon of what decode_neural gave: RGB, at least 0.
+Vec3 neural_radiance(const NeuralTables& tables, std::span<const float> decoded, Vec3 light);
+
+}  // namespace nook::material

@@ -1,0 +1,78 @@
+// Decoding of a clustered BTF, also on a relief.
+#if NOOK_RELIEF
+// Returns the point of the tile over which the view's ray through uv first meets the relief.
+// sdk/src/material/relief.cpp has the same function.
+vec2 nook_material_relief(vec2 uv, vec3 view, float level) {
+  float across = length(view.xy);
+  vec2 slope = view.xy * (view.z * nook_relief_max_slope > across ? 1.0 / max(view.z, 1e-6)
+                                                                  : nook_relief_max_slope / max(across, 1e-6));
+  vec2 lowest = uv + nook_relief_low * slope, rise = (nook_relief_high - nook_relief_low) * slope;
+#if NOOK_RELIEF_STEPS == 0
+  return lowest + rise;
+#else
+  float above_share = 1.0;
+  float above = 1.0 - textureLod(nook_relief_heights, vec3(lowest + rise, 0.0), level).x;
+  for (int i = 1; i <= NOOK_RELIEF_STEPS && above > 0.0; ++i) {
+    float share = 1.0 - float(i) / float(NOOK_RELIEF_STEPS);
+    float over = share - textureLod(nook_relief_heights, vec3(lowest + share * rise, 0.0), level).x;
+    if (over <= 0.0) return lowest + (above_share + (share - above_share) * above / (above - over)) * rise;
+    above_share = share;
+    above = over;
+  }
+  return lowest + above_share * rise;
+#endif
+}
+#endif
+
+// Computes the light modes of the point uv for the view, filtered over the pixel with the sides dx and dy.
+void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
+  vec2 place = nook_parabolic_place(view, NOOK_BTF_SIDE);
+  ivec2 cell = min(ivec2(place), ivec2(NOOK_BTF_SIDE - 1));
+  float level = nook_mipmap_level(dx, dy, NOOK_BTF_TEXELS);
+#if NOOK_RELIEF
+  uv = nook_material_relief(uv, view, level);
+#endif
+  for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a) modes[a] = vec4(0.0);
+  uvec4 clusters = uvec4(0u);
+#if NOOK_BTF_BLENDED
+  uvec4 last = texelFetch(nook_btf_membership, ivec3(cell, NOOK_BTF_TERMS / 4), 0);
+  nook_material_cell blend = nook_material_blend(place, cell, int(last[NOOK_BTF_TERMS % 4]));
+#endif
+  for (int k = 0; k < NOOK_BTF_TERMS; ++k) {
+#if NOOK_BTF_CLUSTERS > 1
+#if NOOK_BTF_BLENDED
+    if (k % 4 == 0)
+      clusters = k / 4 == NOOK_BTF_TERMS / 4 ? last : texelFetch(nook_btf_membership, ivec3(cell, k / 4), 0);
+#else
+    if (k % 4 == 0) clusters = texelFetch(nook_btf_membership, ivec3(cell, k / 4), 0);
+#endif
+#endif
+    int first = int(clusters[k % 4]) * NOOK_LIGHT_VEC4_COUNT * 4 * NOOK_BTF_VIEW_VEC4_COUNT;
+    for (int b = 0; b < NOOK_BTF_VIEW_VEC4_COUNT; ++b) {
+#if NOOK_BTF_BLENDED
+      vec4 coefficients = nook_material_blended(nook_btf_coefficients, blend, k * NOOK_BTF_VIEW_VEC4_COUNT + b);
+#else
+      vec4 coefficients = texelFetch(nook_btf_coefficients, ivec3(cell, k * NOOK_BTF_VIEW_VEC4_COUNT + b), 0);
+#endif
+      for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a) {
+        int layer = first + a * 4 * NOOK_BTF_VIEW_VEC4_COUNT + b;
+        modes[a] += vec4(dot(coefficients, nook_btf_mode(layer, uv, level)),
+                         dot(coefficients, nook_btf_mode(layer + NOOK_BTF_VIEW_VEC4_COUNT, uv, level)),
+                         dot(coefficients, nook_btf_mode(layer + 2 * NOOK_BTF_VIEW_VEC4_COUNT, uv, level)),
+                         dot(coefficients, nook_btf_mode(layer + 3 * NOOK_BTF_VIEW_VEC4_COUNT, uv, level)));
+      }
+    }
+  }
+}
+
+// Returns the radiance towards the view for an irradiance of 1 on a plane that faces the light.
+vec3 nook_material_radiance(vec4 modes[NOOK_LIGHT_VEC4_COUNT], vec3 light) {
+  vec3 radiance = vec3(0.0);
+  if (light.z <= 0.0) return radiance;
+  vec2 at = 0.5 * nook_parabolic(light) + 0.5;
+  for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a)
+    radiance += vec3(dot(modes[a], textureLod(nook_light_map, vec3(at, float(a)), 0.0)),
+                     dot(modes[a], textureLod(nook_light_map, vec3(at, float(a + NOOK_LIGHT_VEC4_COUNT)), 0.0)),
+                     dot(modes[a], textureLod(nook_light_map, vec3(at, float(a + 2 * NOOK_LIGHT_VEC4_COUNT)), 0.0)));
+  return radiance;
+}
