@@ -3,13 +3,21 @@
 
 #include "bakers/measure/gpu_cost/shader_cases.h"
 #include "sdk/src/gl/embedded_shaders.h"
-#include "sdk/src/gl/material/source.h"
 
 namespace nook::measure {
+
+std::string material_declarations(const material::MaterialTables& tables, std::string_view host) {
+  constexpr std::uint32_t max_layers = 2048;  // of a texture array: the minimum of OpenGL 4.5
+  const String source = gl::material_source(tables, max_layers, default_memory());
+  std::string_view text(source.data(), source.size());
+  for (const gl::EmbeddedShader* shader = gl::embedded_shaders_begin(); shader != gl::embedded_shaders_end();
+       ++shader)
+    if (std::string_view(shader->path) == host) text.remove_suffix(std::string_view(shader->text).size());
+  return std::string(text);
+}
+
 namespace {
 
-// Layers of a texture array: the minimum of OpenGL 4.5.
-constexpr std::uint32_t max_layers = 2048;
 // Cells of the view maps that K-CTA is baked with.
 constexpr std::uint32_t file_map_side = 64;
 
@@ -51,7 +59,7 @@ void set_tensor(material::TensorTables& t, std::uint32_t texels, std::uint32_t l
   t.side = t.blended ? file_map_side : material::default_map_side;
 }
 
-// The library's declarations before shaders/material/host.glsl, whose text is that of the counted tree.
+// The library's declarations before shaders/material/host.glsl.
 std::string declarations(const Size& size) {
   material::MaterialTables tables;
   set_tensor(tables.btf, size.texels, size.light_modes, size.view_vec4s, size.clusters, size.terms);
@@ -61,13 +69,7 @@ std::string declarations(const Size& size) {
     tables.relief.max_slope = 3.7f;
     tables.relief.steps = relief_steps;
   }
-  const String source = gl::material_source(tables, max_layers, default_memory());
-  std::string_view text(source.data(), source.size());
-  for (const gl::EmbeddedShader* shader = gl::embedded_shaders_begin(); shader != gl::embedded_shaders_end();
-       ++shader)
-    if (std::string_view(shader->path) == "material/host.glsl")
-      text.remove_suffix(std::string_view(shader->text).size());
-  return std::string(text);
+  return material_declarations(tables, "material/host.glsl");
 }
 
 constexpr char decode[] = R"(#include "shaders/material/host.glsl"

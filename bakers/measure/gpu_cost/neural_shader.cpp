@@ -1,8 +1,4 @@
-#include <string_view>
-
 #include "bakers/measure/gpu_cost/shader_cases.h"
-#include "sdk/src/gl/embedded_shaders.h"
-#include "sdk/src/gl/material/source.h"
 
 namespace nook::measure {
 namespace {
@@ -150,13 +146,7 @@ std::string declarations() {
   neural.weights.resize(material::NeuralLayout(neural.shape).count);
   for (std::size_t i = 0; i < neural.weights.size(); ++i)
     neural.weights[i] = 0.3f + 0.001f * float(i * 7919 % 1009);
-  const String source = gl::material_source(tables, 256, default_memory());
-  std::string_view text(source.data(), source.size());
-  for (const gl::EmbeddedShader* shader = gl::embedded_shaders_begin(); shader != gl::embedded_shaders_end();
-       ++shader)
-    if (std::string_view(shader->path) == "material/neural/host.glsl")
-      text.remove_suffix(std::string_view(shader->text).size());
-  return std::string(text);
+  return material_declarations(tables, "material/neural/host.glsl");
 }
 
 constexpr char library_one_light[] = R"(#include "shaders/material/neural/host.glsl"

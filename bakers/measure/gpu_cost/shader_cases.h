@@ -3,12 +3,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "bakers/measure/gpu_cost/instruction_count.h"
 #include "bakers/measure/gpu_cost/source_text.h"
 #include "bakers/measure/nnao/baselines.h"
+#include "sdk/src/gl/material/source.h"
 
 namespace nook::measure {
 
@@ -39,6 +41,10 @@ ShaderCase tree_shader(Stage stage, const std::string& path, const std::string& 
 
 // A host's fragment shader.
 ShaderCase host_shader(const std::string& text, const std::string& name, const std::vector<Loop>& loops = {});
+
+// The library's text of a material up to `host`, a file of shaders/ that ends it, such as material/host.glsl:
+// a counted shader includes that file from the counted tree.
+std::string material_declarations(const material::MaterialTables& tables, std::string_view host);
 
 // Shaders that run one after the other, each for a share of the threads.
 struct PassCase {
