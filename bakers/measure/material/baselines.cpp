@@ -11,6 +11,7 @@ namespace nook::measure {
 namespace {
 
 using namespace bake::material;
+using nook::material::ClusteredTensor;
 using nook::material::Material;
 using nook::material::VisibilityForm;
 using Json = nlohmann::ordered_json;
@@ -101,27 +102,30 @@ std::vector<std::string> material_baseline_names() {
 }
 
 CompressionSettings settings_of(const Material& material, std::uint64_t seed) {
+  const bool is_neural = material.neural.is_used();
   const auto &btf = material.btf.shape, &votf = material.votf.shape;
+  const ClusteredTensor& viewed = is_neural ? material.votf : material.btf;  // has the view modes
   CompressionSettings s;
   s.visibility = material.visibility;
   s.bits = material.bits;
   s.seed = seed;
-  if (material.neural.is_used()) {
-    s.method = Method::neural;
-    s.neural_channels = material.neural.shape.channels;
-    s.neural_steps = 0;  // unknown: it is in no file
-    return s;
-  }
-  s.rank_light = btf.rank_light;
-  s.rank_view = btf.rank_view * btf.clusters;
-  s.rank_x = btf.rank_x;
-  s.rank_y = btf.rank_y;
-  s.cluster_rank_view = btf.clusters > 1 ? btf.rank_view : 4;
+  s.rank_view = viewed.shape.rank_view * viewed.shape.clusters;
+  s.cluster_rank_view = viewed.shape.clusters > 1 ? viewed.shape.rank_view : 4;
+  if (viewed.shape.clusters > 1 && viewed.shape.mixture > 1) s.map_side = viewed.map.side;
   if (material.visibility != VisibilityForm::none) {
     s.votf_rank_x = votf.rank_x;
     s.votf_rank_y = votf.rank_y;
   }
-  if (btf.clusters > 1 && btf.mixture > 1) s.map_side = material.btf.map.side;
+  if (is_neural) {
+    s.method = Method::neural;
+    s.neural_channels = material.neural.shape.channels;
+    s.neural_steps = 0;  // unknown: it is in no file
+    s.mixture = votf.mixture;
+    return s;
+  }
+  s.rank_light = btf.rank_light;
+  s.rank_x = btf.rank_x;
+  s.rank_y = btf.rank_y;
   return s;
 }
 
