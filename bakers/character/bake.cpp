@@ -15,6 +15,7 @@
 #include "bakers/import/skinning.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/character/levels.h"
+#include "sdk/src/character/model_check.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/place.h"
@@ -35,6 +36,9 @@ void check(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSetti
   if (!(s.kernel.gamma >= 1 && s.kernel.gamma <= 8))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "gamma out of range (got %g, need 1 to 8)",
                   double(s.kernel.gamma));
+  if (!(s.saturation >= 0 && s.saturation <= max_saturation))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "saturation out of range (got %g, need 0 to %g)",
+                  double(s.saturation), double(max_saturation));
   for (std::size_t p = 0; p < poses.size(); ++p) {
     if (poses[p].size() != mesh.bones.size())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "pose %zu has the wrong number of bones (got %zu, need %zu)",
@@ -292,8 +296,9 @@ Start initialise(const SkinnedMesh& mesh, const Surface& surface, std::span<cons
   clustering.count = std::min(settings.key_points, mesh.vertex_count());
   const std::vector<std::uint32_t> cluster =
       cluster_vertices(mesh, key_point_weight, feature_normal, clustering);
-  const std::vector<KeyPoint> key_points =
-      key_points_of_clusters(mesh, cluster, key_point_weight, feature_normal);
+  std::vector<KeyPoint> key_points = key_points_of_clusters(mesh, cluster, key_point_weight, feature_normal);
+  if (settings.fit == FitMethod::nook && settings.kernel.gamma == 1 && !settings.learn_gamma)
+    for (KeyPoint& point : key_points) point.saturation = settings.saturation;
   const std::vector<InitialSphere> spheres = initial_spheres(mesh, weight, settings.spheres);
   Start start;
   // A vertex of the paper has some local key points (slide 23): those nearest to it. Among more of them the

@@ -84,6 +84,8 @@ CharacterModel export_model(const FitState& state, const SkinnedMesh& mesh,
     for (int j = 0; j < KeyPoint::max_bones; ++j) sum += q[6 + j] * q[6 + j];
     for (int j = 0; j < KeyPoint::max_bones; ++j) p.weight[j] = q[6 + j] * q[6 + j] / sum;
     p.bone = structure.key_point_bone[k];
+    const float root = state.parameters[structure.saturation_offset(k)];
+    p.saturation = root * root;
     model.key_points.push_back(p);
   }
   const LinearLayerFit& linear = state.linear;
@@ -136,6 +138,7 @@ FitState state_of_model(const CharacterModel& model) {
     state.parameters.insert(state.parameters.end(),
                             {p.position.x, p.position.y, p.position.z, p.normal.x, p.normal.y, p.normal.z});
     for (float w : p.weight) state.parameters.push_back(std::sqrt(w));
+    state.parameters.push_back(std::sqrt(p.saturation));
   }
   state.linear.entries = model.influences;
   state.linear.key_point.assign(model.influence.begin(), model.influence.end());

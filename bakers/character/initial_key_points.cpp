@@ -69,6 +69,7 @@ FitState initial_state(const Kernel& kernel, std::span<const InitialSphere> sphe
     const float values[6] = {p.position.x, p.position.y, p.position.z, p.normal.x, p.normal.y, p.normal.z};
     std::copy_n(values, 6, q);
     for (int j = 0; j < KeyPoint::max_bones; ++j) q[6 + j] = std::sqrt(p.weight[j]);
+    state.parameters[state.structure.saturation_offset(k)] = std::sqrt(p.saturation);
   }
   return state;
 }

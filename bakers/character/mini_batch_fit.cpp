@@ -8,6 +8,7 @@
 #include <random>
 
 #include "bakers/character/batch_kernels.h"
+#include "sdk/src/character/model_check.h"
 
 namespace nook::bake {
 namespace {
@@ -34,10 +35,11 @@ class Adam {
   std::vector<float> first_, second_;
 };
 
-// Learning rates in the parameters' own units: metres, log radius, unit normals, weight roots. A step moves
+// Learning rates in the parameters' own units: metres, log radius, unit normals, roots. A step moves
 // each by about this much; they were chosen by scale, not searched.
-constexpr float sphere_rate[4] = {2e-3f, 2e-3f, 2e-3f, 1e-2f};
-constexpr float key_point_rate[10] = {2e-3f, 2e-3f, 2e-3f, 2e-2f, 2e-2f, 2e-2f, 1e-2f, 1e-2f, 1e-2f, 1e-2f};
+constexpr float sphere_rate[LayerStructure::sphere_parameters] = {2e-3f, 2e-3f, 2e-3f, 1e-2f};
+constexpr float key_point_rate[LayerStructure::key_point_parameters] = {
+    2e-3f, 2e-3f, 2e-3f, 2e-2f, 2e-2f, 2e-2f, 1e-2f, 1e-2f, 1e-2f, 1e-2f, 1e-2f};
 constexpr float alpha_rate = 5e-3f;
 constexpr float bias_rate = 2e-3f;
 
@@ -69,6 +71,7 @@ void fit_mini_batches(FitState& state, const TrainingSet& set, const MiniBatchSe
                       const StepProgress& progress) {
   const LayerStructure& structure = state.structure;
   const NonLinearLayer layer(structure);
+  const float max_saturation_root = std::sqrt(max_saturation);
   const std::size_t padded = structure.padded_count(), vertices = state.linear.vertex_count();
   const std::size_t parameter_count = structure.parameter_count();
   constexpr std::size_t lanes = batch_poses, vertex_parts = 8;
@@ -79,7 +82,8 @@ void fit_mini_batches(FitState& state, const TrainingSet& set, const MiniBatchSe
   std::vector<std::vector<float>> lane_gradient(lanes, std::vector<float>(parameter_count));
   std::vector<float> gradient(parameter_count), gradient_alpha(state.linear.alpha.size()),
       gradient_bias(vertices);
-  Adam adam_spheres(4 * structure.sphere_count()), adam_keys(10 * structure.key_point_count());
+  const std::size_t split = structure.key_point_offset(0);
+  Adam adam_spheres(split), adam_keys(parameter_count - split);
   Adam adam_alpha(state.linear.alpha.size()), adam_bias(vertices);
   PoseOrder order(set.fitted(), settings.seed);
 
@@ -116,14 +120,19 @@ void fit_mini_batches(FitState& state, const TrainingSet& set, const MiniBatchSe
                        (settings.final_rate + (1 - settings.final_rate) * cosine);
     const std::span<float> all(state.parameters);
     const std::span<const float> slope(gradient);
-    const std::size_t split = 4 * structure.sphere_count();
-    adam_spheres.step(all.first(split), slope.first(split), sphere_rate, 4, rate, step + 1);
-    adam_keys.step(all.subspan(split), slope.subspan(split), key_point_rate, 10, rate, step + 1);
+    adam_spheres.step(all.first(split), slope.first(split), sphere_rate, LayerStructure::sphere_parameters,
+                      rate, step + 1);
+    adam_keys.step(all.subspan(split), slope.subspan(split), key_point_rate,
+                   LayerStructure::key_point_parameters, rate, step + 1);
     adam_alpha.step(state.linear.alpha, gradient_alpha, &alpha_rate, 1, rate, step + 1);
     adam_bias.step(state.linear.bias, gradient_bias, &bias_rate, 1, rate, step + 1);
     for (std::size_t s = 0; s < state.linear.alpha.size(); ++s)
       state.linear.alpha[s] =
           std::max(state.linear.floor.empty() ? 0.0f : state.linear.floor[s], state.linear.alpha[s]);
+    for (std::size_t k = 0; k < structure.key_point_count(); ++k) {
+      float& root = state.parameters[structure.saturation_offset(k)];
+      root = std::clamp(root, -max_saturation_root, max_saturation_root);
+    }
     if (progress && !progress(step + 1)) break;
   }
 }

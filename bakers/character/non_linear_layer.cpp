@@ -47,6 +47,18 @@ float uniform_scale(const Mat3x4& a) {
   return length({a.m[0], a.m[4], a.m[8]});
 }
 
+// The shadow of a key point, and its derivatives by the sum of its terms and by the root of the saturation.
+struct Response {
+  float shadow, by_sum, by_root;
+};
+
+Response response(float sum, float power, float saturation_root) {
+  const float norm = std::pow(sum, power), saturation = saturation_root * saturation_root;
+  const float open = 1 / (1 + saturation * norm);
+  return {norm * open, open * open * power * std::pow(sum, power - 1),
+          -2 * saturation_root * norm * norm * open * open};
+}
+
 }  // namespace
 
 LayerWorkspace::LayerWorkspace(const LayerStructure& structure)
@@ -96,7 +108,9 @@ void NonLinearLayer::forward(std::span<const Mat3x4> bones, std::span<const floa
   for (std::size_t h = 0; h < spheres; ++h)
     add_sphere(structure_.kernel, &workspace.sphere_[5 * h], workspace.sphere_[5 * h + 4], arrays, sum);
   const float power = 1 / structure_.kernel.gamma;
-  for (std::size_t k = 0; k < padded; ++k) shadow[k * stride] = k < keys ? std::pow(sum[k], power) : 0.0f;
+  for (std::size_t k = 0; k < padded; ++k)
+    shadow[k * stride] =
+        k < keys ? response(sum[k], power, parameters[structure_.saturation_offset(k)]).shadow : 0.0f;
 }
 
 void NonLinearLayer::backward(std::span<const Mat3x4> bones, std::span<const float> parameters,
@@ -107,9 +121,13 @@ void NonLinearLayer::backward(std::span<const Mat3x4> bones, std::span<const flo
   float* key = workspace.key_.data();
   float* gradient_key = workspace.gradient_key_.data();
   const float power = 1 / structure_.kernel.gamma;
-  for (std::size_t k = 0; k < padded; ++k)
-    workspace.gradient_sum_[k] =
-        k < keys ? gradient_shadow[k * stride] * power * std::pow(workspace.sum_[k], power - 1) : 0.0f;
+  std::fill(workspace.gradient_sum_.begin(), workspace.gradient_sum_.end(), 0.0f);
+  for (std::size_t k = 0; k < keys; ++k) {
+    const std::size_t root = structure_.saturation_offset(k);
+    const Response slope = response(workspace.sum_[k], power, parameters[root]);
+    workspace.gradient_sum_[k] = gradient_shadow[k * stride] * slope.by_sum;
+    gradient[root] += gradient_shadow[k * stride] * slope.by_root;
+  }
   std::fill(workspace.gradient_key_.begin(), workspace.gradient_key_.end(), 0.0f);
   const KeyPointArrays arrays{
       key, key + padded, key + 2 * padded, key + 3 * padded, key + 4 * padded, key + 5 * padded, padded};

@@ -26,11 +26,15 @@ struct LayerStructure {
 
   // Parameters in one flat vector, unconstrained, so that any optimiser can walk it:
   //   4 for each sphere: centre (rest space, metres), log radius;
-  //   10 for each key point: position, normal (any length), 4 roots of bone weights (weight = root^2 / sum of
-  //   root^2).
-  std::size_t sphere_offset(std::size_t h) const { return 4 * h; }
-  std::size_t key_point_offset(std::size_t k) const { return 4 * sphere_count() + 10 * k; }
-  std::size_t parameter_count() const { return 4 * sphere_count() + 10 * key_point_count(); }
+  //   11 for each key point: position, normal (any length), 4 roots of bone weights (weight = root^2 / sum of
+  //   root^2), root of the saturation. At a root of 0 the saturation has no slope and stays 0.
+  static constexpr std::size_t sphere_parameters = 4, key_point_parameters = 11;
+  std::size_t sphere_offset(std::size_t h) const { return sphere_parameters * h; }
+  std::size_t key_point_offset(std::size_t k) const {
+    return sphere_parameters * sphere_count() + key_point_parameters * k;
+  }
+  std::size_t saturation_offset(std::size_t k) const { return key_point_offset(k) + 10; }
+  std::size_t parameter_count() const { return key_point_offset(key_point_count()); }
 };
 
 // Scratch memory of one evaluation; reused between poses by one thread at a time.

@@ -5,6 +5,7 @@
 
 #include "bakers/character/pose_sets.h"
 #include "bakers/job/worker_arena.h"
+#include "sdk/src/character/model_check.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -122,6 +123,15 @@ void choose_settings(const nook_bake_job_desc& desc, BakeSettings& settings) {
   settings.fit = fit_of(desc.fit);
   if (desc.steps) settings.steps = desc.steps;
   settings.seed = desc.seed;
+  if (desc.saturation == NOOK_BAKE_UNSATURATED) {
+    settings.saturation = 0;
+  } else if (desc.saturation != 0) {
+    if (!(desc.saturation > 0 && desc.saturation <= max_saturation))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.saturation is out of range (got %g, need 0 to %g, or NOOK_BAKE_UNSATURATED)",
+                    double(desc.saturation), double(max_saturation));
+    settings.saturation = desc.saturation;
+  }
   settings.learn_gamma = desc.gamma == NOOK_BAKE_GAMMA_LEARNED;
   if (desc.gamma != 0 && !settings.learn_gamma) {
     if (!(desc.gamma >= 1 && desc.gamma <= 8))

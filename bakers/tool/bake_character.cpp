@@ -34,6 +34,7 @@ struct Options {
   std::vector<std::string> clips;
   std::uint32_t spheres = 0, key_points = 0, rays = 0, steps = 0, auto_poses = 0, samples_per_clip = 0;
   float gamma = 0;
+  std::optional<float> saturation;
   double time_limit_s = 0;
 };
 
@@ -124,6 +125,8 @@ Job start(const Options& options, nook_bake_character character, Follower& follo
   desc.kernel = options.kernel;
   desc.fit = options.fit;
   desc.gamma = options.gamma;
+  if (options.saturation)
+    desc.saturation = *options.saturation > 0 ? *options.saturation : NOOK_BAKE_UNSATURATED;
   desc.time_limit_s = options.time_limit_s;
   desc.progress = Follower::call;
   desc.progress_user = &follower;
@@ -226,6 +229,11 @@ void add_bake_character(CLI::App& bake) {
           "exponent of the shadow norm, 1 to 8 (default 1), or learned: the best of several short fits")
       ->type_name("G|learned")
       ->check(CLI::Range(1.0, 8.0) | CLI::IsMember({"learned"}));
+  command
+      ->add_option("--saturation", o.saturation,
+                   "saturation of the key points before the fit (default 0.5, and none with --fit paper or "
+                   "another --gamma than 1), which the fit changes; 0: none")
+      ->check(CLI::Range(0.0, 64.0));
   command
       ->add_option("--time-limit", o.time_limit_s,
                    "end the fit after so many seconds; such a bake is not reproducible bit for bit")

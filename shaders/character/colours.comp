@@ -109,7 +109,7 @@ void main() {
   }
   if (gl_GlobalInvocationID.x < nook_key_point_count) {
     uint place = uint(NOOK_COLOUR_VEC4S) * (record.place * nook_shadow_stride + nook_shadow_offset + key_point);
-    nook_colour[place] = vec4(norm > 0.0 ? coloured / norm : vec3(1.0), nook_norm_root(norm, nook_gamma));
+    nook_colour[place] = vec4(norm > 0.0 ? coloured / norm : vec3(1.0), nook_shadow_of(norm, key_point));
     nook_colour[place + 1u] = vec4(1.0 - open * exp(-depth), 0.0);
   }
 }

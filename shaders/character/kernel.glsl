@@ -28,6 +28,7 @@ float nook_raised(float y, float gamma) {
   return y > 0.0 ? pow(y, gamma) : 0.0;
 }
 float nook_norm_root(float sum, float gamma) { return sum > 0.0 ? pow(sum, 1.0 / gamma) : 0.0; }
+float nook_saturated(float norm, float c) { return norm / (1.0 + c * norm); }
 
 // acos within 7e-5 (Abramowitz and Stegun 4.4.45). GLSL does not specify the precision of its own acos.
 float nook_arc_cosine(float x) {

@@ -12,7 +12,7 @@ layout(std430, binding = NOOK_BINDING_SPHERES) readonly buffer NookSpheres {
   vec4 nook_sphere[];  // two for each: centre, 1 / radius; caster weight
 };
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookKeyPoints {
-  vec4 nook_rest_key_point[];  // six for each: position, normal, surface position, surface normal, bones, weights
+  vec4 nook_rest_key_point[];  // six for each: position, saturation; normal; surface position; surface normal; bones; weights
 };
 
 layout(location = NOOK_LOCATION_FIRST_RECORD) uniform uint nook_first_record;
@@ -72,4 +72,10 @@ void nook_pose(uint key_point, uint first_bone, out NookPoint fitted, out NookPo
     else
       surface = posed;
   }
+}
+
+// The shadow of a key point whose spheres have the sum of terms `sum`.
+float nook_shadow_of(float sum, uint key_point) {
+  float saturation = nook_rest_key_point[uint(NOOK_KEY_POINT_VEC4S) * (nook_first_key_point + key_point)].w;
+  return nook_saturated(nook_norm_root(sum, nook_gamma), saturation);
 }

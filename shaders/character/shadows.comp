@@ -63,5 +63,5 @@ void main() {
   }
   if (gl_GlobalInvocationID.x < nook_key_point_count)
     nook_shadow[record.place * nook_shadow_stride + nook_shadow_offset + key_point] =
-        vec2(nook_norm_root(norm, nook_gamma), 1.0 - open * exp(-depth));
+        vec2(nook_shadow_of(norm, key_point), 1.0 - open * exp(-depth));
 }

@@ -70,7 +70,8 @@ class Character {
   void shadow() {
     clear();
     norm_sum(model_.kernel);
-    kernels_.norm_root(sum_.data(), points().padded_count, model_.kernel.gamma, shadow_.data());
+    kernels_.norm_root(sum_.data(), rest_points_.view().saturation, points().padded_count,
+                       model_.kernel.gamma, shadow_.data());
   }
   void blend() { kernels_.linear_layer(linear_.view(), encoded(), nullptr, slots_.data()); }
   void blend_added() {

@@ -353,12 +353,42 @@ TEST_CASE("files of version 2, which have no bind data, are read") {
   model.bind = BindData();
   model.rest = RestSurface();
   auto bytes = write_character_model(model);
-  REQUIRE(bytes[8] == std::byte{3});
+  REQUIRE(bytes[8] == std::byte{4});
   bytes[8] = std::byte{2};
   repair_checksum(bytes);
   const CharacterModel read = read_character_model(bytes);
   CHECK(read.bind.empty());
   CHECK(read.vertex_count() == model.vertex_count());
+}
+
+TEST_CASE("files of version 3, which have no saturations, are read as unsaturated") {
+  CharacterModel model = test::sample_model();
+  for (KeyPoint& point : model.key_points) point.saturation = 0;
+  auto bytes = write_character_model(model);
+  REQUIRE(bytes[8] == std::byte{4});
+  bytes[8] = std::byte{3};
+  repair_checksum(bytes);
+  for (const KeyPoint& point : read_character_model(bytes).key_points) CHECK(point.saturation == 0);
+}
+
+TEST_CASE("saturations keep half a step of their roots, and those out of range are refused by name") {
+  CharacterModel model = test::sample_model();
+  float most = 0;
+  for (const KeyPoint& point : model.key_points) most = std::max(most, point.saturation);
+  REQUIRE(most > 0);
+  const CharacterModel read = quantise(model);
+  for (std::size_t k = 0; k < model.key_points.size(); ++k)
+    CHECK(std::abs(std::sqrt(read.key_points[k].saturation) - std::sqrt(model.key_points[k].saturation)) <=
+          0.5f / 255 * std::sqrt(most) * 1.001f);  // the rounding of floats is far below a thousandth of it
+  for (const float wrong : {-0.5f, 65.0f, NAN}) {
+    model.key_points[1].saturation = wrong;
+    try {
+      check_model(model, NOOK_ERROR_BAD_FILE);
+      FAIL("a saturation of " << wrong << " passed");
+    } catch (const Failure& failure) {
+      CHECK(std::string(failure.what()).find("saturation of key point 1") != std::string::npos);
+    }
+  }
 }
 
 TEST_CASE("bind data with faults is refused by name") {

@@ -118,6 +118,7 @@ inline CharacterModel sample_model(std::uint32_t seed = 1, SampleSize size = {})
       sum += point.weight[b] = numbers.between(0.1f, 1);
     }
     for (float& weight : point.weight) weight /= sum;
+    point.saturation = numbers.between(0, 2);
     model.key_points.push_back(point);
   }
   model.influences = size.influences;

@@ -22,7 +22,8 @@ std::vector<float> shadows(const ShadowKernels& kernels, const SphereSoa& sphere
                            const Kernel& kernel) {
   std::vector<float> shadow(points.padded_count, 0.0f);
   kernels.self_norm_sum(spheres, points, kernel, shadow.data());
-  kernels.norm_root(shadow.data(), points.padded_count, kernel.gamma, shadow.data());
+  const std::vector<float> saturation(points.padded_count, 0.0f);
+  kernels.norm_root(shadow.data(), saturation.data(), points.padded_count, kernel.gamma, shadow.data());
   return shadow;
 }
 
@@ -111,12 +112,12 @@ TEST_CASE("two calls join their spheres in one norm") {
 }
 
 TEST_CASE("the general power is good to 1e-5 of its value") {
-  std::vector<float> sum(1024), root(1024);
+  std::vector<float> sum(1024), saturation(1024, 0.0f), root(1024);
   for (std::size_t i = 0; i < sum.size(); ++i)
     sum[i] = static_cast<float>(std::pow(10.0, -6 + 9.0 * double(i) / 1023));
   for (const ShadowKernels* kernels : available_kernels())
     for (const float gamma : {0.25f, 0.4f, 1.0f, 1.37f, 1.5f, 2.0f, 3.0f, 8.0f}) {  // exponents 4 to 1/8
-      kernels->norm_root(sum.data(), 1024, gamma, root.data());
+      kernels->norm_root(sum.data(), saturation.data(), 1024, gamma, root.data());
       double worst = 0;
       for (std::size_t i = 0; i < sum.size(); ++i)
         worst = std::max(worst, std::abs(root[i] / std::pow(double(sum[i]), 1 / double(gamma)) - 1));
@@ -125,11 +126,30 @@ TEST_CASE("the general power is good to 1e-5 of its value") {
     }
 }
 
+TEST_CASE("a saturated shadow is n / (1 + c n) of its norm, and 1 / c in the limit") {
+  std::vector<float> sum(1024), saturation(1024), shadow(1024);
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    sum[i] = static_cast<float>(std::pow(10.0, -6 + 12.0 * double(i) / 1023));
+    saturation[i] = std::vector<float>{0, 0.01f, 0.5f, 3, 64}[i % 5];
+  }
+  for (const ShadowKernels* kernels : available_kernels())
+    for (const float gamma : {1.0f, 2.0f}) {
+      kernels->norm_root(sum.data(), saturation.data(), 1024, gamma, shadow.data());
+      double worst = 0;
+      for (std::size_t i = 0; i < sum.size(); ++i) {
+        const double norm = std::pow(double(sum[i]), 1 / double(gamma));
+        worst = std::max(worst, std::abs(shadow[i] * (1 + double(saturation[i]) * norm) / norm - 1));
+      }
+      INFO(kernels->name << " gamma " << gamma);
+      CHECK(worst < 1e-6);  // a square root, a product, a sum and a quotient, each rounded once
+    }
+}
+
 TEST_CASE("the root of nothing is nothing") {
-  std::vector<float> sum(16, 0.0f), root(16, 1.0f);
+  std::vector<float> sum(16, 0.0f), saturation(16, 2.0f), root(16, 1.0f);
   for (const ShadowKernels* kernels : available_kernels())
     for (const float gamma : {1.0f, 1.5f, 2.0f, 3.3f}) {
-      kernels->norm_root(sum.data(), 16, gamma, root.data());
+      kernels->norm_root(sum.data(), saturation.data(), 16, gamma, root.data());
       CHECK(std::all_of(root.begin(), root.end(), [](float r) { return r == 0; }));
     }
 }

@@ -65,7 +65,7 @@ class Body {
   void shadow(const ShadowKernels& kernels, const Kernel& kernel) {
     clear(sum_, key_points, 0);
     kernels.self_norm_sum(posed_spheres(), posed_points(0), kernel, sum_.row(0));
-    kernels.norm_root(sum_.row(0), key_points, kernel.gamma, shadow_.row(0));
+    kernels.norm_root(sum_.row(0), saturation_.row(0), key_points, kernel.gamma, shadow_.row(0));
   }
   // The body itself, moved aside, is its neighbour.
   void casters(const ShadowKernels& kernels) {
@@ -116,8 +116,8 @@ class Body {
             rows.row(r + 4), rows.row(r + 5), key_points};
   }
   RestKeyPointView rest_points() const {
-    return {points(rest_points_, 0), points(rest_points_, 6), point_bone_.data(), point_weight_.data(),
-            key_points};
+    return {points(rest_points_, 0), points(rest_points_, 6), point_bone_.data(),
+            point_weight_.data(),    saturation_.row(0),      key_points};
   }
   KeyPointSoa posed_points(std::size_t r) const { return points(posed_points_, r); }
   SphereSoa posed_spheres() const {
@@ -141,7 +141,7 @@ class Body {
   }
 
   std::vector<Mat3x4> pose_;
-  Rows rest_spheres_{5, spheres}, rest_points_{12, key_points};
+  Rows rest_spheres_{5, spheres}, rest_points_{12, key_points}, saturation_{1, key_points};
   std::vector<std::uint16_t> sphere_bone_, point_bone_;
   std::vector<std::uint32_t> layer_point_;  // two for each
   std::vector<float> point_weight_;
@@ -193,6 +193,7 @@ inline Body::Body(std::uint32_t seed)
     // Bones side by side, so that normals do not blend away: a weight of 0.7 on the first.
     for (int b = 0; b < 4; ++b) point_bone_[4 * k + b] = std::uint16_t(random.below(bones));
     for (int b = 0; b < 4; ++b) point_weight_[4 * k + b] = b ? 0.1f : 0.7f;
+    saturation_.row(0)[k] = float(k % 5);
   }
   constexpr float ground_radius = 10'000;
   ground_.row(1)[0] = -2 - ground_radius;

@@ -40,6 +40,7 @@ NOOK_BAKE_STAGE_RELIEF = 9
 NOOK_BAKE_STAGE_VIEW_MAP = 8
 NOOK_BAKE_STAGE_VOTF = 7
 NOOK_BAKE_STAGE_WAITING = 0
+NOOK_BAKE_UNSATURATED = -1.0
 NOOK_BONE_NAMES_DROP_SHARED_PREFIX = 2
 NOOK_BONE_NAMES_LOOSE = 1
 NOOK_COMBINE_COMPOSED = 0
@@ -704,6 +705,7 @@ class nook_bake_job_desc(ctypes.Structure):
         ("time_limit_s", ctypes.c_double),
         ("progress", nook_bake_progress_fn),
         ("progress_user", ctypes.c_void_p),
+        ("saturation", ctypes.c_float),
     ]
 
 

@@ -100,7 +100,7 @@ def bake_character(character: Character, *, preset: str = "standard", poses: Opt
     """Starts to bake a character model and returns at once.
 
     preset: draft, standard or production. poses: auto, single_joint, clips, all or extra. clip_split: all, half or families.
-    settings: spheres, key_points, rays, steps, auto_pose_count, samples_per_clip, seed, threads, gamma, time_limit_s, as
+    settings: spheres, key_points, rays, steps, auto_pose_count, samples_per_clip, seed, threads, gamma, saturation, time_limit_s, as
     nook_bake_job_desc has them. progress is called on threads of the job; it returns False to cancel.
     """
     desc = descriptor(c.nook_bake_job_desc, "nook_bake_job_desc_init")
@@ -121,7 +121,7 @@ def bake_character(character: Character, *, preset: str = "standard", poses: Opt
         extra = floats(extra_poses, (None, character.bone_count, 3, 4), "extra_poses")
         desc.extra_poses_3x4, desc.extra_pose_count = pointer(extra), len(extra)
     _set(desc, settings, ("spheres", "key_points", "rays", "steps", "auto_pose_count", "samples_per_clip", "seed", "threads", "gamma",
-                          "time_limit_s"))
+                          "saturation", "time_limit_s"))
     return Job(lambda out: call("nook_bake_job_start", character.handle, ctypes.byref(desc), out), desc, progress)
 
 

@@ -251,6 +251,9 @@ typedef int32_t nook_bake_fit;
  * long. */
 #define NOOK_BAKE_GAMMA_LEARNED (-1.0f)
 
+/* A saturation that keeps all shadows unsaturated. */
+#define NOOK_BAKE_UNSATURATED (-1.0f)
+
 typedef struct nook_bake_job_desc {
   /* nook_bake_job_desc_init sets these two. */
   uint32_t struct_size;
@@ -301,6 +304,10 @@ typedef struct nook_bake_job_desc {
   /* NULL (default): the host polls instead. */
   nook_bake_progress_fn progress;
   void* progress_user;
+  /* The saturation c of each key point before the fit, with which its shadow is n / (1 + c n) of the norm n
+   * of its spheres, up to 64; the fit changes it. 0 (default) means 0.5. With NOOK_BAKE_UNSATURATED, with fit
+   * PAPER and with another gamma than 1, all shadows are their norms. */
+  float saturation;
 } nook_bake_job_desc;
 
 /* Fills *desc with defaults, as nook_context_desc_init does.

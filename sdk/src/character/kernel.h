@@ -83,6 +83,14 @@ F shadow_term(KernelForm form, F xi, F delta2) {
   return shadow_nook(xi, delta2);
 }
 
+// The shadow of a key point whose spheres have the norm n: n / (1 + c n). Spheres add up as if none of them
+// stood behind another; what lies close together hides itself, so that a shadow grows less than its norm. c
+// is fitted for each key point. 0 is the paper's form.
+template <class F>
+F saturated(F norm, F c) {
+  return norm / fma(c, norm, F(1.0f));
+}
+
 // The share of the cosine-weighted hemisphere above a surface that a sphere covers, clipped at the horizon.
 // With h = delta and c = sqrt((h^2 - 1) / (h^2 - xi^2)), for -1 < xi < 1 < h:
 //   f = [ (xi acos(-xi c) / h - sqrt((1 - xi^2)(h^2 - 1))) / h^2 + acos(c) ] / pi.

@@ -41,7 +41,7 @@ Shadows evaluate(const CharacterModel& model, const Vector<ProxySphere>& spheres
         {&s[0], &s[count], &s[2 * count], &s[3 * count], rest_spheres.caster_weight(), count},
         {&p[0], &p[padded], &p[2 * padded], &p[3 * padded], &p[4 * padded], &p[5 * padded], padded},
         model.kernel, sum.data());
-    kernels.norm_root(sum.data(), padded, model.kernel.gamma, sum.data());
+    kernels.norm_root(sum.data(), rest_points.view().saturation, padded, model.kernel.gamma, sum.data());
     shadows.value.insert(shadows.value.end(), sum.begin(),
                          sum.begin() + static_cast<std::ptrdiff_t>(shadows.points));
   }

@@ -47,6 +47,12 @@ void fill(float* const* lanes, std::uint32_t count, float value) {
   for (int c = 0; c < 3; ++c) std::fill_n(lanes[c], count, value);
 }
 
+// The inverse of norm_root.
+float norm_sum_of(float shadow, float saturation, float gamma) {
+  const float norm = shadow / std::max(1 - saturation * shadow, 1e-6f);
+  return gamma == 1 ? norm : std::pow(norm, gamma);
+}
+
 // Weighted sums become colours of the shadow: shadow * (sum of y^gamma rho) / (sum of y^gamma), from the
 // evaluated key points to all of them.
 void colour_shadow(const Instance& instance, InstanceLight& light) {
@@ -54,11 +60,12 @@ void colour_shadow(const Instance& instance, InstanceLight& light) {
   const float gamma = instance.model->model.kernel.gamma;
   const CharacterLevel* level =
       instance.plan.level ? &instance.model->model.levels[instance.plan.level - 1] : nullptr;
+  const float* saturation = rest_points_of(instance).view().saturation;
   for (std::uint32_t k = 0; k < points.count; ++k) {
     const std::uint32_t source = level ? level->source[k] : k;
-    // At a coarser level the roots have been taken in place.
+    // At a coarser level the shadows have taken the places of the sums.
     const float sum =
-        level && gamma != 1 ? std::pow(points.norm_sum[source], gamma) : points.norm_sum[source];
+        level ? norm_sum_of(points.norm_sum[source], saturation[source], gamma) : points.norm_sum[source];
     const float scale = sum > 0 ? points.shadow[k] / sum : 0;
     for (int c = 0; c < 3; ++c) light.shadow[c][k] = light.sum[c][source] * scale;
   }

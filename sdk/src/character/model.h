@@ -1,6 +1,7 @@
 // A character model: the baked regression of Le et al. 2019 as plain data, in rest space and metres.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -45,6 +46,7 @@ struct KeyPoint {
   Vec3 surface_normal;    // their mean normal, unit length
   std::array<std::uint16_t, max_bones> bone{};
   std::array<float, max_bones> weight{};  // non-negative, with sum 1
+  float saturation = 0;                   // c of saturated() in kernel.h, >= 0
 };
 
 struct PrimitiveRange {
@@ -143,5 +145,12 @@ struct CharacterModel {
   std::size_t vertex_count() const { return bias.size(); }
   std::size_t bone_count() const { return bone_names.size(); }
 };
+
+// The largest saturation of the key points; 0 where no shadow is saturated.
+inline float max_saturation_of(const CharacterModel& model) {
+  float max = 0;
+  for (const KeyPoint& point : model.key_points) max = std::max(max, point.saturation);
+  return max;
+}
 
 }  // namespace nook

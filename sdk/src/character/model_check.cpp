@@ -81,6 +81,8 @@ void check_key_points(const CharacterModel& model, const Check& check) {
     }
     // Four float additions and a conversion from double stay well below 1e-4.
     check.that(within(sum, 1 - 1e-4f, 1 + 1e-4f), "sum of bone weights of key point", k, sum, "1");
+    check.that(within(point.saturation, 0, max_saturation), "saturation of key point", k, point.saturation,
+               "0 to 64");
   }
 }
 

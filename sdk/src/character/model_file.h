@@ -1,10 +1,11 @@
-// Character models as .nook files. Version 3 of the kind "CHAR" has the sections
+// Character models as .nook files. Version 4 of the kind "CHAR" has the sections
 //   HEAD kernel, bounds   BONE names   SPHR proxy spheres   KEYP key points   LINR linear layer
 //   STAO static AO, one byte for each welded vertex (optional)   FMAP file order   PRIM primitives
 //   LODS levels of detail (optional)   RECP recipe
 //   BIND bind data (optional)   REST rest positions and normals of the welded vertices (optional)
 //   WCAS world casters (optional)   BENT blocked vectors of the welded vertices (optional)
-// Version 2 has neither BIND nor REST and is read as well.
+//   SATU saturations of the key points (optional, all 0 without it)
+// Version 2 has neither BIND nor REST, version 3 has no SATU; both are read as well.
 // Numbers are quantised within the error budget; model_file_packing.h has the number of bits.
 #pragma once
 
@@ -18,7 +19,7 @@
 
 namespace nook {
 
-inline constexpr ContainerKind character_kind{four_letters("CHAR"), "character model", 2, 3};
+inline constexpr ContainerKind character_kind{four_letters("CHAR"), "character model", 2, 4};
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if the model fails check_model.
 std::vector<std::byte> write_character_model(const CharacterModel& model);

@@ -24,6 +24,7 @@ struct CharacterBits {
   static constexpr int bone_count = 2;
   // Units of 1/256, so that the sum of a key point's weights is exactly 1.
   static constexpr int bone_weight = 8;
+  static constexpr int saturation = 8;  // square-root companded
   static constexpr int entry_count = 3;
   static constexpr int reference = 5;  // the earlier vertex that shares key points
   static constexpr int alpha = 7;      // square-root companded

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "sdk/src/character/model_check.h"
 #include "sdk/src/character/model_file.h"
@@ -85,6 +86,21 @@ void read_key_points(ByteReader in, CharacterModel& model) {
       point.weight[b] = static_cast<float>(code) / 256;
       left -= code;
     }
+  }
+  in.check_end();
+}
+
+void read_saturations(ByteReader in, CharacterModel& model) {
+  const float largest = in.f32();
+  if (!(largest >= 0 && largest * largest <= max_saturation))
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the root of the largest saturation is out of range (got %g, need 0 to %g); bake the file "
+                  "again",
+                  double(largest), double(std::sqrt(max_saturation)));
+  const Range root{0, largest};
+  for (KeyPoint& point : model.key_points) {
+    const float decoded = root.decode(in.u8(), Bits::saturation);
+    point.saturation = decoded * decoded;
   }
   in.check_end();
 }
@@ -359,6 +375,7 @@ CharacterModel read_character_model(std::span<const std::byte> bytes, Memory* me
   if (file.has("REST")) read_rest_surface(file.section("REST"), model);
   if (file.has("WCAS")) read_world_casters(file.section("WCAS"), model);
   if (file.has("BENT")) read_blocked(file.section("BENT"), model);
+  if (file.has("SATU")) read_saturations(file.section("SATU"), model);
   ByteReader recipe = file.section("RECP");
   model.recipe = recipe.text(recipe.remaining());
   check_model(model, NOOK_ERROR_BAD_FILE);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -92,6 +93,16 @@ ByteWriter write_key_points(const CharacterModel& model) {
       if (--used > 0) out.bits(codes[b], Bits::bone_weight);
     }
   }
+  return out;
+}
+
+// Roots at equal distances, so that steps are fine where saturations are small.
+ByteWriter write_saturations(const CharacterModel& model) {
+  const Range root{0, std::sqrt(max_saturation_of(model))};
+  ByteWriter out;
+  out.f32(root.high);
+  for (const KeyPoint& point : model.key_points)
+    out.u8(root.encode(std::sqrt(point.saturation), Bits::saturation));
   return out;
 }
 
@@ -374,6 +385,7 @@ std::vector<std::byte> write_character_model(const CharacterModel& model) {
   if (!model.rest.position.empty()) add("REST", write_rest_surface(model.rest));
   if (!model.world_casters.empty()) add("WCAS", write_world_casters(model));
   if (!model.blocked.empty()) add("BENT", write_blocked(model));
+  if (max_saturation_of(model) > 0) add("SATU", write_saturations(model));
   ByteWriter recipe;
   recipe.text(model.recipe);
   add("RECP", recipe);

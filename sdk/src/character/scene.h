@@ -51,7 +51,7 @@ struct PointLanes {
   float *surface_x = nullptr, *surface_y = nullptr, *surface_z = nullptr;  // where added casters are felt
   float *surface_nx = nullptr, *surface_ny = nullptr, *surface_nz = nullptr;
   float* norm_sum = nullptr;       // sum over spheres of (solid angle * visibility)^gamma
-  float* shadow = nullptr;         // norm_sum^(1 / gamma): the model's shadow
+  float* shadow = nullptr;         // the model's shadow: norm_sum^(1 / gamma), saturated
   float* optical_depth = nullptr;  // composed form: sum over casters of solid_depth
   float* open = nullptr;           // composed form: product over ground and occluders of 1 - form factor
   float* added = nullptr;          // composed form: 1 - open * exp(-optical_depth); 0 is unshadowed

@@ -40,7 +40,8 @@ const Vector<ProxySphere>& spheres_at(const CharacterModel& model, std::uint32_t
   return l == 0 ? model.spheres : model.levels[l - 1].spheres;
 }
 
-// All spheres of a caster: by Minkowski's inequality the norm grows by at most the norm of the new terms.
+// All spheres of a caster: by Minkowski's inequality the norm grows by at most the norm of the new terms, and
+// the shadow by no more than the norm.
 float paper_bound(const LoadedModel& receiver, std::uint32_t receiver_level, const Instance& caster,
                   float gap) {
   const Kernel& kernel = receiver.model.kernel;

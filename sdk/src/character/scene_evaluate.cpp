@@ -148,11 +148,12 @@ void evaluate_shadows(const Scene& scene, Instance& instance) noexcept {
       composed ? evaluate_composed(scene, instance, points) : join_paper_norm(scene, instance, points);
   instance.result.evaluations = own + std::uint64_t{added} * points.count;
   instance.result.has_added = composed && added > 0;
+  const float* saturation = rest_points_of(instance).view().saturation;
   if (instance.plan.level == 0) {
-    scene.kernels->norm_root(points.norm_sum, points.padded_count, kernel.gamma, points.shadow);
+    scene.kernels->norm_root(points.norm_sum, saturation, points.padded_count, kernel.gamma, points.shadow);
     std::copy_n(points.optical_depth, points.padded_count, points.added);
   } else {
-    scene.kernels->norm_root(points.norm_sum, points.padded_count, kernel.gamma, points.norm_sum);
+    scene.kernels->norm_root(points.norm_sum, saturation, points.padded_count, kernel.gamma, points.norm_sum);
     spread_level(instance.model->model.levels[instance.plan.level - 1], has_self_shadow(scene, instance),
                  instance.result.arrays.points);
   }

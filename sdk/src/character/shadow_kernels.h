@@ -88,6 +88,7 @@ struct RestKeyPointView {
   KeyPointSoa surface;
   const std::uint16_t* bone = nullptr;
   const float* weight = nullptr;
+  const float* saturation = nullptr;
   std::uint32_t padded_count = 0;
 };
 
@@ -164,8 +165,9 @@ struct ShadowKernels {
   // key points takes the largest nodes out of whose reach its box is. Returns the number of pairs of a key
   // point and a sphere or node that it evaluates.
   std::uint64_t (*tree_sum)(const SphereTreeView& tree, const KeyPointSoa& points, float* sum);
-  // shadow[k] = sum[k]^(1 / gamma); sum and shadow may be the same array.
-  void (*norm_root)(const float* sum, std::uint32_t padded_count, float gamma, float* shadow);
+  // shadow[k] = saturated(sum[k]^(1 / gamma), saturation[k]); sum and shadow may be the same array.
+  void (*norm_root)(const float* sum, const float* saturation, std::uint32_t padded_count, float gamma,
+                    float* shadow);
 
   // depth[k] += solid_depth(sum over spheres of caster_weight * form factor), by the fast form. The spheres
   // are those of one caster, points are the surface key points.

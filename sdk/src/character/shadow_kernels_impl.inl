@@ -259,12 +259,14 @@ std::uint64_t tree_sum(const SphereTreeView& tree, const KeyPointSoa& points, fl
   return key_point_group * evaluated;
 }
 
-void norm_root(const float* sum, std::uint32_t padded_count, float gamma, float* shadow) {
+void norm_root(const float* sum, const float* saturation, std::uint32_t padded_count, float gamma,
+               float* shadow) {
   const NormPower p = norm_power(gamma);
   const Float exponent = broadcast(1 / gamma);
   for (std::uint32_t k = 0; k < padded_count; k += width) {
     const Float s = load(sum + k);
-    store(shadow + k, p == NormPower::one ? s : p == NormPower::two ? sqrt(s) : power(s, exponent));
+    const Float norm = p == NormPower::one ? s : p == NormPower::two ? sqrt(s) : power(s, exponent);
+    store(shadow + k, saturated(norm, load(saturation + k)));
   }
 }
 

@@ -50,7 +50,7 @@ RestSpheres::RestSpheres(const CharacterModel& model, Memory* memory)
 }
 
 RestKeyPoints::RestKeyPoints(const CharacterModel& model, Memory* memory)
-    : numbers_(12 * padded_key_points(static_cast<std::uint32_t>(model.key_points.size())), memory),
+    : numbers_(13 * padded_key_points(static_cast<std::uint32_t>(model.key_points.size())), memory),
       bone_(4 * padded_key_points(static_cast<std::uint32_t>(model.key_points.size())), memory),
       weight_(4 * padded_key_points(static_cast<std::uint32_t>(model.key_points.size())), memory) {
   const std::uint32_t count = static_cast<std::uint32_t>(model.key_points.size());
@@ -60,14 +60,19 @@ RestKeyPoints::RestKeyPoints(const CharacterModel& model, Memory* memory)
     const KeyPoint& point = model.key_points[std::min(k, count - 1)];
     write_six(numbers, stride, k, point.position, point.normal);
     write_six(numbers + 6 * stride, stride, k, point.surface_position, point.surface_normal);
+    numbers[12 * stride + k] = point.saturation;
     for (std::size_t b = 0; b < KeyPoint::max_bones; ++b) {
       check_bone(model, point.bone[b], "key point", k);
       bone_[4 * k + b] = point.bone[b];
       weight_[4 * k + b] = point.weight[b];
     }
   }
-  view_ = {six_arrays(numbers, stride), six_arrays(numbers + 6 * stride, stride), bone_.data(),
-           weight_.data(), stride};
+  view_ = {six_arrays(numbers, stride),
+           six_arrays(numbers + 6 * stride, stride),
+           bone_.data(),
+           weight_.data(),
+           numbers + 12 * stride,
+           stride};
 }
 
 }  // namespace nook

@@ -61,3 +61,4 @@ NOOK_AT(nook_bake_job_desc, gamma, 100);
 NOOK_AT(nook_bake_job_desc, time_limit_s, 104);
 NOOK_AT(nook_bake_job_desc, progress, 112);
 NOOK_AT(nook_bake_job_desc, progress_user, 120);
+NOOK_AT(nook_bake_job_desc, saturation, 128);

@@ -40,6 +40,7 @@ Problem random_problem(Kernel kernel, std::size_t spheres, std::size_t keys, uns
     float* q = &p.parameters[p.structure.key_point_offset(k)];
     for (int i = 0; i < 6; ++i) q[i] = uniform(-1, 1);
     for (int i = 0; i < 3; ++i) q[6 + i] = uniform(0.2f, 1);
+    p.parameters[p.structure.saturation_offset(k)] = uniform(-1.5f, 1.5f);
     q[9] = 0;
   }
   for (int b = 0; b < 3; ++b)
@@ -92,7 +93,7 @@ TEST_CASE("one sphere casts the closed form of slide 18 on one key point") {
   structure.sphere_bone = {0};
   structure.key_point_bone = {{0, 0, 0, 0}};
   // Sphere of radius 0.5 at distance 2 straight above: delta = 4, xi = 4.
-  const std::vector<float> parameters{0, 2, 0, std::log(0.5f), 0, 0, 0, 0, 1, 0, 1, 0, 0, 0};
+  const std::vector<float> parameters{0, 2, 0, std::log(0.5f), 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0};
   const Pose bones(1);
   const NonLinearLayer layer(structure);
   LayerWorkspace workspace(structure);

@@ -31,8 +31,8 @@ Floats pack_spheres(const CharacterModel& model, Memory* memory) {
 }
 
 void append_key_point(Floats& out, const KeyPoint& point) {
-  for (const Vec3 v : {point.position, point.normal, point.surface_position, point.surface_normal})
-    append(out, v, 0);
+  append(out, point.position, point.saturation);
+  for (const Vec3 v : {point.normal, point.surface_position, point.surface_normal}) append(out, v, 0);
   for (const std::uint16_t bone : point.bone) out.push_back(bone);
   for (const float weight : point.weight) out.push_back(weight);
 }
