@@ -1,6 +1,7 @@
 // The shipped GLSL gives what the CPU reference gives, in every form and however the layers are split.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sdk/src/material/parabolic.h"
 #include "tests/gl/material_decoder.h"
@@ -73,6 +74,37 @@ float difference(const nook_material_value& a, const nook_material_value& b) {
   return largest;
 }
 
+// A footprint in texels: an ellipse turned by `axis`, seen through pixels that are turned by `screen`.
+void put_sides(nook_material_pixel& pixel, const nook_material_info& info, float longer, float shorter,
+               float axis, float screen) {
+  const auto side = [&](float(&out)[2], float along, float across) {
+    out[0] = (std::cos(axis) * along - std::sin(axis) * across) / float(info.width);
+    out[1] = (std::sin(axis) * along + std::cos(axis) * across) / float(info.height);
+  };
+  side(pixel.dx, longer * std::cos(screen), shorter * std::sin(screen));
+  side(pixel.dy, -longer * std::sin(screen), shorter * std::cos(screen));
+}
+
+// Places and directions of samples_of, with footprints whose level is whole for that many fetches: longer
+// than these cover, of the length that they cover, or shorter.
+std::vector<nook_material_pixel> pixels_of(const nook_material_info& info, std::size_t count, int fetches) {
+  material::test::Numbers numbers(23);
+  std::vector<nook_material_pixel> pixels;
+  for (const nook_material_sample& s : samples_of(info, count)) {
+    nook_material_pixel pixel{};
+    std::copy_n(s.uv, 2, pixel.uv);
+    std::copy_n(s.view, 3, pixel.view);
+    std::copy_n(s.light, 3, pixel.light);
+    const float side = std::exp2(s.level), longer = numbers.between(1, float(fetches));
+    const bool is_longer = numbers.below(2) == 0;
+    put_sides(pixel, info, side * (is_longer ? float(fetches) : longer),
+              side * (is_longer ? numbers.between(0, 1) : 1), numbers.between(0, 6.3f),
+              numbers.between(0, 6.3f));
+    pixels.push_back(pixel);
+  }
+  return pixels;
+}
+
 }  // namespace
 
 TEST_CASE("material: the GLSL agrees with the CPU reference to 1/255") {
@@ -99,6 +131,67 @@ TEST_CASE("material: the GLSL agrees with the CPU reference to 1/255") {
       for (const float radiance : wanted[i].radiance) brightest = std::max(brightest, std::abs(radiance));
     }
     CHECK(brightest > 0.5f);
+  }
+}
+
+TEST_CASE("material: several fetches along a pixel agree with the CPU reference to 1/255") {
+  NOOK_NEED_CONTEXT(context);
+  MaterialFixture fixture(context);
+  for (const Size& size : forms) {
+    const nook_material loaded = fixture.load(material::test::sample_material(21, size));
+    const nook_material_info info = info_of(loaded);
+    const MaterialDecoder decoder(context.gl(), fixture.upload(loaded), info);
+    for (const int fetches : {2, 3}) {
+      const std::vector<nook_material_pixel> pixels = pixels_of(info, 512, fetches);
+      std::vector<nook_material_value> wanted(pixels.size());
+      NOOK_OK_OR_FAIL(nook_material_evaluate_anisotropic(loaded, pixels.data(), std::uint32_t(pixels.size()),
+                                                         std::uint32_t(fetches), wanted.data()));
+      const std::vector<GpuValue> got = decoder.decode(pixels, fetches);
+      for (std::size_t i = 0; i < pixels.size(); ++i) {
+        INFO("form " << &size - forms << ", " << fetches << " fetches, pixel " << i);
+        nook_material_value value = got[i].value;
+        if (std::abs(wanted[i].occlusion - info.visibility_threshold) < 1e-4f)
+          value.visibility = wanted[i].visibility;
+        CHECK(difference(value, wanted[i]) <= bound);
+      }
+    }
+  }
+}
+
+TEST_CASE("material: round footprints are decoded as by one fetch, and others always to numbers") {
+  NOOK_NEED_CONTEXT(context);
+  MaterialFixture fixture(context);
+  for (const Size& size :
+       {Size{.width = 16, .height = 8, .map_side = 6},
+        Size{.width = 16, .height = 8, .bits = 8, .relief_height = 0.05f, .relief_steps = 8},
+        Size{.width = 16, .height = 8, .channels = 8}}) {
+    const nook_material loaded = fixture.load(material::test::sample_material(7, size));
+    const nook_material_info info = info_of(loaded);
+    const MaterialDecoder decoder(context.gl(), fixture.upload(loaded), info);
+    nook_material_pixel pixel{{0.3f, -1.4f}, {0, 0}, {0, 0}, {0.48f, 0.6f, 0.64f}, {0, 0.6f, 0.8f}};
+    std::vector<nook_material_pixel> round;
+    for (const float side : {0.5f, 1.0f, 3.0f, 4.0f, 64.0f}) {
+      round.push_back(pixel);
+      put_sides(round.back(), info, side, side, 0, 0);
+    }
+    round.push_back(pixel);  // no size
+    const std::vector<GpuValue> wanted = decoder.decode(round, 0);
+    for (const int fetches : {1, 2, 3, 8, 1000, -5}) {
+      const std::vector<GpuValue> got = decoder.decode(round, fetches);
+      for (std::size_t i = 0; i < round.size(); ++i) CHECK(difference(got[i].value, wanted[i].value) == 0);
+    }
+    const float infinite = std::numeric_limits<float>::infinity(), no_number = std::nanf("");
+    std::vector<nook_material_pixel> bad;
+    for (const float number : {infinite, no_number, 3e38f, -1e20f})
+      for (int i = 0; i < 4; ++i) {
+        bad.push_back(pixel);
+        put_sides(bad.back(), info, 2, 1, 1, 0);
+        (i < 2 ? bad.back().dx[i] : bad.back().dy[i - 2]) = number;
+      }
+    put_sides(pixel, info, 1e6f, 1e6f, 0, 0);
+    const GpuValue coarsest = decoder.decode(std::vector{pixel}, 0)[0];
+    for (const GpuValue& value : decoder.decode(bad, 2))
+      CHECK(difference(value.value, coarsest.value) <= bound);
   }
 }
 
@@ -150,12 +243,22 @@ TEST_CASE("material: a pixel has the stated number of fetches") {
     const nook_material_info info = info_of(loaded);
     nook_material_sample sample{};
     sample.view[2] = sample.light[2] = 1;
-    const GpuValue got = MaterialDecoder(context.gl(), fixture.upload(loaded), info).decode({sample})[0];
+    const MaterialDecoder decoder(context.gl(), fixture.upload(loaded), info);
+    const GpuValue got = decoder.decode(std::vector{sample})[0];
     // A march ends where it meets the relief, after its first plane or later.
     CHECK(got.decode_fetches <= float(info.decode_fetches));
     CHECK(got.decode_fetches >= float(info.decode_fetches - size.relief_steps));
     CHECK(got.light_fetches == float(info.light_fetches));
     CHECK(got.occlusion_fetches == float(info.occlusion_fetches));
+    nook_material_pixel pixel{};
+    pixel.view[2] = pixel.light[2] = 1;
+    put_sides(pixel, info, 4, 1, 1, 0);
+    const GpuValue along = decoder.decode(std::vector{pixel}, 3)[0];
+    CHECK(along.decode_fetches <= float(info.decode_fetches + 2 * info.further_decode_fetches));
+    CHECK(along.decode_fetches >=
+          float(info.decode_fetches + 2 * info.further_decode_fetches - 3 * size.relief_steps));
+    CHECK(along.light_fetches == float(info.light_fetches));
+    CHECK(along.occlusion_fetches == float(info.occlusion_fetches + 2 * info.further_occlusion_fetches));
   }
 }
 

@@ -47,8 +47,13 @@ class MaterialDecoder {
   MaterialDecoder& operator=(const MaterialDecoder&) = delete;
 
   std::vector<GpuValue> decode(const std::vector<nook_material_sample>& samples) const;
+  // With that many fetches along each pixel; 0 is the isotropic form.
+  std::vector<GpuValue> decode(const std::vector<nook_material_pixel>& pixels, int fetches) const;
 
  private:
+  // Four numbers a pixel: texture coordinates, sides, views, lights.
+  std::vector<GpuValue> draw(std::vector<float> (&numbers)[4], std::size_t count, int fetches) const;
+
   const GladGLContext& gl_;
   nook_material_info info_;
   std::vector<nook_gl_material_texture> textures_;
