@@ -105,56 +105,80 @@ std::vector<nook_material_pixel> pixels_of(const nook_material_info& info, std::
   return pixels;
 }
 
-}  // namespace
+// A form that was uploaded, with a program that decodes it.
+struct Uploaded {
+  Uploaded(MaterialFixture& fixture, const Size& size)
+      : loaded(fixture.load(material::test::sample_material(21, size))),
+        info(info_of(loaded)),
+        decoder(fixture.context.gl(), fixture.upload(loaded), info, true) {}
 
-TEST_CASE("material: the GLSL agrees with the CPU reference to 1/255") {
-  NOOK_NEED_CONTEXT(context);
-  MaterialFixture fixture(context);
-  for (const Size& size : forms) {
-    const nook_material loaded = fixture.load(material::test::sample_material(21, size));
-    const nook_material_info info = info_of(loaded);
-    const MaterialDecoder decoder(context.gl(), fixture.upload(loaded), info);
-    const std::vector<nook_material_sample> samples = samples_of(info, 2048);
-    std::vector<nook_material_value> wanted(samples.size());
-    NOOK_OK_OR_FAIL(
-        nook_material_evaluate(loaded, samples.data(), std::uint32_t(samples.size()), wanted.data()));
-    const std::vector<GpuValue> got = decoder.decode(samples);
-    float brightest = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      INFO("form " << &size - forms << ", sample " << i << ", level " << samples[i].level);
-      // The mapping (26) steps from weight times threshold to 1; on either side both may be right.
-      nook_material_value value = got[i].value;
-      if (std::abs(wanted[i].occlusion - info.visibility_threshold) < 1e-4f)
-        value.visibility = wanted[i].visibility;
-      // Visibility is weight times the VOTF's value: so much larger is its difference.
-      CHECK(difference(value, wanted[i]) <= bound);
-      for (const float radiance : wanted[i].radiance) brightest = std::max(brightest, std::abs(radiance));
-    }
-    CHECK(brightest > 0.5f);
+  nook_material loaded;
+  nook_material_info info;
+  MaterialDecoder decoder;
+};
+
+// The mapping (26) steps from weight times threshold to 1; on either side both may be right. Visibility is
+// weight times the VOTF's value: so much larger is its difference.
+void check_agreement(const std::vector<GpuValue>& got, const std::vector<nook_material_value>& wanted,
+                     const nook_material_info& info) {
+  REQUIRE(got.size() == wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    INFO("sample or pixel " << i);
+    nook_material_value value = got[i].value;
+    if (std::abs(wanted[i].occlusion - info.visibility_threshold) < 1e-4f)
+      value.visibility = wanted[i].visibility;
+    CHECK(difference(value, wanted[i]) <= bound);
   }
 }
 
-TEST_CASE("material: several fetches along a pixel agree with the CPU reference to 1/255") {
+void check_samples(const Uploaded& form) {
+  const std::vector<nook_material_sample> samples = samples_of(form.info, 2048);
+  std::vector<nook_material_value> wanted(samples.size());
+  NOOK_OK_OR_FAIL(
+      nook_material_evaluate(form.loaded, samples.data(), std::uint32_t(samples.size()), wanted.data()));
+  check_agreement(form.decoder.decode(samples), wanted, form.info);
+  float brightest = 0;
+  for (const nook_material_value& value : wanted)
+    for (const float radiance : value.radiance) brightest = std::max(brightest, std::abs(radiance));
+  CHECK(brightest > 0.5f);
+}
+
+void check_pixels(const Uploaded& form, int fetches) {
+  const std::vector<nook_material_pixel> pixels = pixels_of(form.info, 512, fetches);
+  std::vector<nook_material_value> wanted(pixels.size());
+  NOOK_OK_OR_FAIL(nook_material_evaluate_anisotropic(form.loaded, pixels.data(), std::uint32_t(pixels.size()),
+                                                     std::uint32_t(fetches), wanted.data()));
+  check_agreement(form.decoder.decode(pixels, fetches), wanted, form.info);
+}
+
+// A march ends where it meets the relief, after its first plane or later.
+void check_fetches(const Uploaded& form, std::uint32_t relief_steps) {
+  const nook_material_info& info = form.info;
+  nook_material_pixel pixel{};
+  pixel.view[2] = pixel.light[2] = 1;
+  put_sides(pixel, info, 4, 1, 1, 0);
+  for (const int fetches : {0, 1, 3}) {
+    const GpuValue got = form.decoder.decode(std::vector{pixel}, fetches)[0];
+    const auto further = std::uint32_t(std::max(fetches - 1, 0));
+    const std::uint32_t decoded = info.decode_fetches + further * info.further_decode_fetches;
+    CHECK(got.decode_fetches <= float(decoded));
+    CHECK(got.decode_fetches >= float(decoded - (further + 1) * relief_steps));
+    CHECK(got.light_fetches == float(info.light_fetches));
+    CHECK(got.occlusion_fetches == float(info.occlusion_fetches + further * info.further_occlusion_fetches));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("material: the GLSL agrees with the CPU reference to 1/255, with the stated number of fetches") {
   NOOK_NEED_CONTEXT(context);
   MaterialFixture fixture(context);
   for (const Size& size : forms) {
-    const nook_material loaded = fixture.load(material::test::sample_material(21, size));
-    const nook_material_info info = info_of(loaded);
-    const MaterialDecoder decoder(context.gl(), fixture.upload(loaded), info);
-    for (const int fetches : {2, 3}) {
-      const std::vector<nook_material_pixel> pixels = pixels_of(info, 512, fetches);
-      std::vector<nook_material_value> wanted(pixels.size());
-      NOOK_OK_OR_FAIL(nook_material_evaluate_anisotropic(loaded, pixels.data(), std::uint32_t(pixels.size()),
-                                                         std::uint32_t(fetches), wanted.data()));
-      const std::vector<GpuValue> got = decoder.decode(pixels, fetches);
-      for (std::size_t i = 0; i < pixels.size(); ++i) {
-        INFO("form " << &size - forms << ", " << fetches << " fetches, pixel " << i);
-        nook_material_value value = got[i].value;
-        if (std::abs(wanted[i].occlusion - info.visibility_threshold) < 1e-4f)
-          value.visibility = wanted[i].visibility;
-        CHECK(difference(value, wanted[i]) <= bound);
-      }
-    }
+    INFO("form " << &size - forms);
+    const Uploaded form(fixture, size);
+    check_samples(form);
+    for (const int fetches : {2, 3}) check_pixels(form, fetches);
+    check_fetches(form, size.relief_steps);
   }
 }
 
@@ -165,9 +189,9 @@ TEST_CASE("material: round footprints are decoded as by one fetch, and others al
        {Size{.width = 16, .height = 8, .map_side = 6},
         Size{.width = 16, .height = 8, .bits = 8, .relief_height = 0.05f, .relief_steps = 8},
         Size{.width = 16, .height = 8, .channels = 8}}) {
-    const nook_material loaded = fixture.load(material::test::sample_material(7, size));
-    const nook_material_info info = info_of(loaded);
-    const MaterialDecoder decoder(context.gl(), fixture.upload(loaded), info);
+    const Uploaded form(fixture, size);
+    const nook_material_info& info = form.info;
+    const MaterialDecoder& decoder = form.decoder;
     nook_material_pixel pixel{{0.3f, -1.4f}, {0, 0}, {0, 0}, {0.48f, 0.6f, 0.64f}, {0, 0.6f, 0.8f}};
     std::vector<nook_material_pixel> round;
     for (const float side : {0.5f, 1.0f, 3.0f, 4.0f, 64.0f}) {
@@ -233,33 +257,6 @@ TEST_CASE("material: more layers than OpenGL 3.3 guarantees are split") {
   CHECK(info_of(split).texture_count == 8);  // 320 layers in two arrays
   const std::vector<GpuValue> got = MaterialDecoder(context.gl(), split, info).decode(samples);
   for (std::size_t i = 0; i < samples.size(); ++i) CHECK(difference(got[i].value, wanted[i]) <= bound);
-}
-
-TEST_CASE("material: a pixel has the stated number of fetches") {
-  NOOK_NEED_CONTEXT(context);
-  MaterialFixture fixture(context);
-  for (const Size& size : forms) {
-    const nook_material loaded = fixture.load(material::test::sample_material(2, size));
-    const nook_material_info info = info_of(loaded);
-    nook_material_sample sample{};
-    sample.view[2] = sample.light[2] = 1;
-    const MaterialDecoder decoder(context.gl(), fixture.upload(loaded), info);
-    const GpuValue got = decoder.decode(std::vector{sample})[0];
-    // A march ends where it meets the relief, after its first plane or later.
-    CHECK(got.decode_fetches <= float(info.decode_fetches));
-    CHECK(got.decode_fetches >= float(info.decode_fetches - size.relief_steps));
-    CHECK(got.light_fetches == float(info.light_fetches));
-    CHECK(got.occlusion_fetches == float(info.occlusion_fetches));
-    nook_material_pixel pixel{};
-    pixel.view[2] = pixel.light[2] = 1;
-    put_sides(pixel, info, 4, 1, 1, 0);
-    const GpuValue along = decoder.decode(std::vector{pixel}, 3)[0];
-    CHECK(along.decode_fetches <= float(info.decode_fetches + 2 * info.further_decode_fetches));
-    CHECK(along.decode_fetches >=
-          float(info.decode_fetches + 2 * info.further_decode_fetches - 3 * size.relief_steps));
-    CHECK(along.light_fetches == float(info.light_fetches));
-    CHECK(along.occlusion_fetches == float(info.occlusion_fetches + 2 * info.further_occlusion_fetches));
-  }
 }
 
 TEST_CASE("material: a far view is the average of a near one") {

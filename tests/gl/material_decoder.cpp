@@ -31,14 +31,21 @@ const char main_text[] =
     "  vec3 view = texelFetch(views, p, 0).xyz, light = texelFetch(lights, p, 0).xyz;\n"
     "  vec4 side = texelFetch(sides, p, 0);\n"
     "  vec4 modes[NOOK_LIGHT_VEC4_COUNT];\n"
+    "#if IS_ANISOTROPIC\n"
     "  if (fetches > 0) nook_material_decode_anisotropic(place, side.xy, side.zw, view, fetches, modes);\n"
-    "  else nook_material_decode(place, side.xy, side.zw, view, modes);\n"
+    "  else\n"
+    "#endif\n"
+    "    nook_material_decode(place, side.xy, side.zw, view, modes);\n"
     "  int decoded = taken();\n"
     "  vec3 radiance = nook_material_radiance(modes, light);\n"
     "  int lit = taken();\n"
-    "  float occlusion = fetches > 0\n"
-    "      ? nook_material_occlusion_anisotropic(place, side.xy, side.zw, view, fetches)\n"
-    "      : nook_material_occlusion(place, side.xy, side.zw, view);\n"
+    "  float occlusion;\n"
+    "#if IS_ANISOTROPIC\n"
+    "  if (fetches > 0) occlusion = nook_material_occlusion_anisotropic(place, side.xy, side.zw, view, "
+    "fetches);\n"
+    "  else\n"
+    "#endif\n"
+    "    occlusion = nook_material_occlusion(place, side.xy, side.zw, view);\n"
     "  value = vec4(radiance, occlusion);\n"
     "  more = vec4(nook_material_visibility(occlusion), float(decoded), float(lit), float(taken()));\n"
     "}\n";
@@ -87,7 +94,8 @@ nook_gl_material_info info_of(nook_gl_material material) {
   return info;
 }
 
-MaterialDecoder::MaterialDecoder(const GladGLContext& gl, nook_gl_material material, nook_material_info info)
+MaterialDecoder::MaterialDecoder(const GladGLContext& gl, nook_gl_material material, nook_material_info info,
+                                 bool is_anisotropic)
     : gl_(gl), info_(info) {
   const nook_gl_material_info uploaded = info_of(material);
   for (std::uint32_t i = 0; i < uploaded.texture_count; ++i) {
@@ -96,8 +104,10 @@ MaterialDecoder::MaterialDecoder(const GladGLContext& gl, nook_gl_material mater
     NOOK_OK_OR_FAIL(nook_gl_material_describe_texture(material, i, &texture));
     textures_.push_back(texture);
   }
-  program_ = platform::link_program(gl, {glsl_header(gl), vertex_text},
-                                    {glsl_header(gl), counting_text, uploaded.glsl, main_text});
+  program_ = platform::link_program(
+      gl, {glsl_header(gl), vertex_text},
+      {glsl_header(gl), counting_text, uploaded.glsl,
+       is_anisotropic ? "#define IS_ANISOTROPIC 1\n" : "#define IS_ANISOTROPIC 0\n", main_text});
 }
 
 MaterialDecoder::~MaterialDecoder() {

@@ -86,6 +86,21 @@ void main() {
 }
 )";
 
+// The same with two fetches of each mode along the pixel.
+constexpr char decode_anisotropic[] = R"(#include "shaders/material/host.glsl"
+in vec2 uv;
+in vec3 view;
+in vec3 light;
+out vec4 colour;
+void main() {
+  vec2 dx = dFdx(uv), dy = dFdy(uv);
+  vec4 modes[NOOK_LIGHT_VEC4_COUNT];
+  nook_material_decode_anisotropic(uv, dx, dy, view, 2, modes);
+  float visibility = nook_material_visibility(nook_material_occlusion_anisotropic(uv, dx, dy, view, 2));
+  colour = vec4(nook_material_radiance(modes, light), visibility);
+}
+)";
+
 // Four lights and a probe of six lobes, each lobe as a light along its axis.
 constexpr char ten_lights[] = R"(#include "shaders/material/host.glsl"
 in vec2 uv;
@@ -166,6 +181,7 @@ std::vector<ShaderCase> material_shaders() {
       if (size.loop_on_vega10) shaders.back().other_families = {{"vega10", loops(size.loop_on_vega10)}};
     };
     add(decode, name, {});
+    add(decode_anisotropic, name + ", two fetches", {});
     if (size.has_relief) continue;
     const bool is_k_cta = size.clusters > 1;
     if (is_k_cta && size.light_modes <= 16) {
