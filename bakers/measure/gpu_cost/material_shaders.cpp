@@ -48,6 +48,14 @@ std::vector<Loop> loops_of(const Size& size, const std::optional<Loop>& decoding
   return loops;
 }
 
+// Twice as many instructions in a term, which no family unrolls then.
+std::vector<Loop> loops_of_two_fetches(const Size& size) {
+  std::vector<Loop> loops;
+  if (size.has_relief) loops.push_back({"places", 2, {{"planes", double(relief_steps), {}}}});
+  loops.push_back({"terms", double(size.terms), {}});
+  return loops;
+}
+
 void set_tensor(material::TensorTables& t, std::uint32_t texels, std::uint32_t light_modes,
                 std::uint32_t view_vec4s, std::uint32_t clusters, std::uint32_t terms) {
   t.width = t.height = texels;
@@ -181,9 +189,11 @@ std::vector<ShaderCase> material_shaders() {
       if (size.loop_on_vega10) shaders.back().other_families = {{"vega10", loops(size.loop_on_vega10)}};
     };
     add(decode, name, {});
-    add(decode_anisotropic, name + ", two fetches", {});
-    if (size.has_relief) continue;
     const bool is_k_cta = size.clusters > 1;
+    if (is_k_cta)
+      shaders.push_back(host_shader(declarations(size) + decode_anisotropic, name + ", two fetches",
+                                    loops_of_two_fetches(size)));
+    if (size.has_relief) continue;
     if (is_k_cta && size.light_modes <= 16) {
       add(transferred, std::string("radiance transfer, ") + size.name, {});
       add(transferred_mix, std::string("radiance transfer, vectors fetched, ") + size.name, {});

@@ -194,8 +194,9 @@ std::vector<ShaderCase> neural_shaders() {
   const Loop hidden{"hidden layers after the first", layers - 1, {}};
   const std::string library = declarations(), nodes = defines() + decode, name = "neural material, ",
                     lights = ", four lights and a probe";
-  return {host_shader(library + library_one_light, name + "small", {hidden}),
-          host_shader(library + library_two_fetches, name + "small, two fetches", {hidden}),
+  ShaderCase two_fetches = host_shader(library + library_two_fetches, name + "small, two fetches", {hidden});
+  two_fetches.other_families = {{"vega10", {{"places", 2, {}}, hidden}}};
+  return {host_shader(library + library_one_light, name + "small", {hidden}), two_fetches,
           host_shader(library + library_ten_lights, name + "small" + lights, {{"lights", 10, {hidden}}}),
           host_shader(nodes + one_light, name + "equal bytes", {hidden}),
           host_shader(nodes + ten_lights, name + "equal bytes" + lights, {{"lights", 10, {hidden}}})};
