@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Bakes four materials in six files, measures grazing views of each, and prints the table of docs/material_decoding.md.
+"""Bakes four materials in seven files, measures grazing views of each, and prints the table of docs/material_decoding.md.
 
     docs/material_footprints.py --out out/footprints [--write]
 
-A file that is in the output folder already is not baked again. The neural material trains for ten minutes of processor time.
+A file that is in the output folder already is not baked again. Neural materials train for minutes.
 """
 import argparse
 import json
@@ -18,6 +18,7 @@ SMALL = ["--directions", "49", "--texels", "48"]
 # Name: the raw material's name, how it is made, and options of its compression.
 MATERIALS = {"weave": ("weave", ["--meso", "weave", *SMALL], []),
              "weave, relief": ("weave", None, ["--relief", "estimated"]),
+             "weave, neural": ("weave", None, ["--method", "neural", "--steps", "3000"]),
              "fiber": ("fiber", ["--meso", "fiber", *SMALL], []),
              "rings": ("rings", "docs/material_rings.py", []),
              "wood": ("wood", "docs/material_wood.py", ["--ranks", "12,20,24,24"]),

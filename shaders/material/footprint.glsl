@@ -1,6 +1,6 @@
 // The places of the tile that a pixel reads. sdk/src/material/footprint.h describes them and has the same functions.
 
-// What is read is the mean over the first `count` places, which share one mipmap level.
+// The mean over the first `count` places is read; they share one mipmap level.
 struct nook_material_fetches {
   int count;
   float level;

@@ -54,7 +54,7 @@ class MaterialDecoder {
   std::vector<GpuValue> decode(const std::vector<nook_material_pixel>& pixels, int fetches) const;
 
  private:
-  // Four numbers a pixel: texture coordinates, sides, views, lights.
+  // Texture coordinates, sides, views and lights, four numbers of each for a pixel.
   std::vector<GpuValue> draw(std::vector<float> (&numbers)[4], std::size_t count, int fetches) const;
 
   const GladGLContext& gl_;

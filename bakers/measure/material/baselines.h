@@ -43,7 +43,7 @@ struct MaterialFile {
   const nook::material::Material& material;
 };
 
-// What is measured of a file beside its errors in the fitted views.
+// Measures of a file beside its errors in the fitted views.
 struct FileMeasures {
   const bake::material::RawMaterial* unseen = nullptr;  // errors in these views; null: none
   bool jumps = false, mipmaps = false, grazing = false;

@@ -1,4 +1,4 @@
-// How sharp a material is in grazing views, whose pixels are longer along the tilt of the view.
+// Sharpness of a material in grazing views, whose pixels are longer along the tilt of the view.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace nook::bake::material {
 
-// Mean squares of radiances over pixels, lights and views: of what is drawn less the mean of the file, or of
-// the raw images, over each pixel. The first has the error of the filter alone, the second that of the
+// Mean squares of radiances over pixels, lights and views: of the drawn ones less the mean of the file, or
+// of the raw images, over each pixel. The first has the error of the filter alone, the second that of the
 // compression too.
 struct GrazingError {
   std::uint32_t fetches = 1;  // of each mode; 1 is isotropic, at the level of the longer side

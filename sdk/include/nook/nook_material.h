@@ -156,8 +156,9 @@ typedef struct nook_material_pixel {
    * a pixel without a size, which sees the finest level. */
   float dx[2];
   float dy[2];
-  /* As in nook_material_sample. */
+  /* Unit vector; a view from below the horizon is moved onto it. */
   float view[3];
+  /* Unit vector; light from below the horizon gives black. */
   float light[3];
 } nook_material_pixel;
 

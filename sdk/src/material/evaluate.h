@@ -18,8 +18,8 @@ struct Sample {
   Vec3 light;
 };
 
-// What a pixel of a picture shows: the mean over its footprint, along the longer side of which it reads
-// `fetches` places, 1 to max_fetches; see footprint.h.
+// A pixel of a picture, which shows the mean over its footprint and reads `fetches` places along the longer
+// side of it, 1 to max_fetches; see footprint.h.
 struct Pixel {
   PixelSides sides;
   Vec3 view, light;  // as in Sample

@@ -12,7 +12,7 @@ namespace nook::material {
 
 inline constexpr std::uint32_t max_fetches = 8;
 
-// What is read is the mean over the first `count` places, which share one level.
+// The mean over the first `count` places is read; they share one level.
 struct Fetches {
   std::uint32_t count = 1;  // 1 to max_fetches
   std::array<ImagePlace, max_fetches> place{};
