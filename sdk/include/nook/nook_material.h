@@ -168,14 +168,14 @@ typedef struct nook_material_pixel {
 NOOK_API nook_result nook_material_evaluate(nook_material material, const nook_material_sample* samples,
                                             uint32_t count, nook_material_value* values);
 
-/* Decodes pixels on the CPU, each as the mean over `fetches` places along the longer side of its footprint (1
- * to NOOK_MATERIAL_MAX_FETCHES; 2 brings the squared error in views beyond 60 degrees below a fifth of that
- * of nook_material_evaluate at the level of the longer side). Each place has the level of the shorter side,
- * or of its share of the longer one where that is more: pixels longer than `fetches` times their width are
- * blurred across, and none has gaps. A round pixel is decoded as by nook_material_evaluate. Of a relief or a
- * neural material the view's ray through each place meets a point of its own; a neural material decodes the
- * mean of the features, as its mipmaps do. This is the reference of nook_material_decode_anisotropic and
- * nook_material_occlusion_anisotropic of the GLSL.
+/* Decodes pixels on the CPU, each as the mean over `fetches` places along the longer side of its footprint, 1
+ * to NOOK_MATERIAL_MAX_FETCHES. Beyond 60 degrees, 2 leave a fifth at most, and of neural materials two
+ * fifths, of the squared error of one fetch at the level of the longer side. Each place has the level of the
+ * shorter side, or of its share of the longer one where that is more: pixels longer than `fetches` times
+ * their width are blurred across, and none has gaps. A round pixel is decoded as by nook_material_evaluate.
+ * Of a relief or a neural material the view's ray through each place meets a point of its own; a neural
+ * material decodes the mean of the features, as its mipmaps do. This is the reference of
+ * nook_material_decode_anisotropic and nook_material_occlusion_anisotropic of the GLSL.
  * Any thread. Errors: INVALID_ARGUMENT (also, a number of a pixel is not finite, or fetches is out of range).
  */
 NOOK_API nook_result nook_material_evaluate_anisotropic(nook_material material,
