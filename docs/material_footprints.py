@@ -1,79 +1,80 @@
 #!/usr/bin/env python3
-"""Filters the images of a raw material over the pixels of tilted views, and prints the error against supersampling.
+"""Bakes four materials in seven files, measures grazing views of each, and prints the table of docs/material_decoding.md.
 
-    docs/material_footprints.py RAW [RAW ...]
+    docs/material_footprints.py --out out/footprints [--write]
 
-A pixel is as wide as a texel across the view's tilt and 1 / cos(tilt) texels along it. The truth is the mean of 8 x 32 bilinear samples in
-it. "isotropic" is one trilinear fetch at the mipmap level of the longer side, as in nook_material_decode; "N along" is the mean of N
-fetches along the longer side, each at the level of the larger of the shorter side and an N-th of the longer one. Decoding is linear in the
-images, so that filtering these filters the material. The error is the mean square over pixels, lights and the views beyond 60 degrees.
+A file that is in the output folder already is not baked again. Neural materials train for minutes.
 """
+import argparse
+import json
 import pathlib
-import struct
+import subprocess
 import sys
 
-import numpy
+from markdown_table import show, table
 
-from markdown_table import table
-from material_rounding import sections
-
-PIXELS = 400
-
-
-def mipmaps(image):
-    """Means over 2 x 2 texels, lights x width x height; sides halve without rest as long as levels are needed."""
-    levels = [image]
-    while min(levels[-1].shape[1:]) % 2 == 0 and min(levels[-1].shape[1:]) > 3:
-        levels.append(sum(levels[-1][:, i::2, j::2] for i in (0, 1) for j in (0, 1)) / 4)
-    return levels
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SMALL = ["--directions", "49", "--texels", "48"]
+# Name: the raw material's name, how it is made, and options of its compression.
+MATERIALS = {"weave": ("weave", ["--meso", "weave", *SMALL], []),
+             "weave, relief": ("weave", None, ["--relief", "estimated"]),
+             "weave, neural": ("weave", None, ["--method", "neural", "--steps", "3000"]),
+             "fiber": ("fiber", ["--meso", "fiber", *SMALL], []),
+             "rings": ("rings", "docs/material_rings.py", []),
+             "wood": ("wood", "docs/material_wood.py", ["--ranks", "12,20,24,24"]),
+             "wood, neural": ("wood", None, ["--method", "neural"])}
 
 
-def bilinear(image, u, v):
-    w, h = image.shape[1:]
-    x, y = u * w - 0.5, v * h - 0.5
-    i, j = numpy.floor(x).astype(int), numpy.floor(y).astype(int)
-    s, t = x - i, y - j
-    at = lambda a, b: image[:, a % w, b % h]
-    return (at(i, j) * (1 - s) + at(i + 1, j) * s) * (1 - t) + (at(i, j + 1) * (1 - s) + at(i + 1, j + 1) * s) * t
+class Bench:
+    def __init__(self, tool, out):
+        self.tool, self.out = tool, out
+        out.mkdir(parents=True, exist_ok=True)
+
+    def run(self, *arguments):
+        print("+ " + " ".join(map(str, arguments)), file=sys.stderr, flush=True)
+        subprocess.run([str(a) for a in arguments], check=True)
+
+    def raw_of(self, name, source):
+        raw = self.out / f"{name}.raw"
+        if raw.exists():
+            return raw
+        if source == "docs/material_wood.py":
+            self.run(sys.executable, ROOT / source, raw)
+            return raw
+        if isinstance(source, str):
+            self.run(sys.executable, ROOT / source, self.out / f"{name}.glb")
+            source = ["--meso", self.out / f"{name}.glb", *SMALL]
+        self.run(self.tool, "bake", "material", *source, "-o", self.out / f"{name}.nook", "--keep-raw", raw, "--quiet")
+        return raw
+
+    def row(self, name):
+        """The row of the report of a material's grazing views."""
+        raw_name, source, options = MATERIALS[name]
+        raw, file = self.raw_of(raw_name, source), self.out / f"{name.replace(', ', '_')}.nook"
+        if not file.exists():
+            self.run(self.tool, "bake", "material", "--raw", raw, *options, "-o", file, "--quiet")
+        report = self.out / f"{file.stem}.json"
+        self.run(self.tool, "evaluate", "material", raw, file, "--grazing", "--quiet", "--report", report)
+        return json.loads(report.read_text())["rows"][0]
 
 
-def trilinear(levels, u, v, level):
-    level = min(max(level, 0.0), len(levels) - 1.0)
-    low = min(int(level), len(levels) - 2)
-    return bilinear(levels[low], u, v) * (1 - level + low) + bilinear(levels[low + 1], u, v) * (level - low)
-
-
-def errors(raw, fetches):
-    data = sections(raw)
-    lights, views, width, height = struct.unpack_from("<4I", data["HEAD"], 0)
-    directions = numpy.frombuffer(data["DIRS"], numpy.float32).reshape(-1, 3)[lights:]
-    btf = numpy.frombuffer(data["BTF_"], numpy.float16).reshape(3 * lights, views, width, height)
-    random = numpy.random.default_rng(1)
-    sums = {count: [] for count in fetches}
-    for view in numpy.flatnonzero(directions[:, 2] < 0.5):
-        levels = mipmaps(btf[:, view].astype(numpy.float32))
-        along = directions[view, :2] / numpy.hypot(*directions[view, :2])
-        across, long = numpy.array([-along[1], along[0]]), 1 / directions[view, 2]
-        u, v = random.random((2, PIXELS))
-        place = lambda a, b: (u + (along[0] * a + across[0] * b) / width, v + (along[1] * a + across[1] * b) / height)
-        truth = numpy.mean([bilinear(levels[0], *place(((i + 0.5) / 32 - 0.5) * long, (j + 0.5) / 8 - 0.5))
-                            for i in range(32) for j in range(8)], axis=0)
-        for count in fetches:
-            level = numpy.log2(max(1, long / count))
-            drawn = numpy.mean([trilinear(levels, *place(((i + 0.5) / count - 0.5) * long, 0), level) for i in range(count)], axis=0)
-            sums[count].append(numpy.square(drawn - truth).mean())
-    return {count: float(numpy.mean(values)) for count, values in sums.items()}
+def cells(name, row):
+    errors = {error["fetches"]: error for error in row["grazing"]}
+    further = [f"{errors[count]['of_isotropic']:.2f}" for count in (2, 3, 4, 8)]
+    raw = [f"{errors[count]['of_isotropic_raw']:.2f}" for count in (2, 3)]
+    return [name, f"{errors[1]['mse']:.2e}", *further, f"{errors[1]['mse_raw']:.2e}", *raw]
 
 
 def main():
-    if len(sys.argv) < 2:
-        raise SystemExit(__doc__)
-    fetches = (1, 2, 3, 4)
-    rows = []
-    for raw in sys.argv[1:]:
-        found = errors(raw, fetches)
-        rows.append([pathlib.Path(raw).stem, f"{found[1]:.2e}", *(f"{found[count] / found[1]:.2f}" for count in fetches[1:])])
-    print(table(["material", "isotropic, mean square", *(f"{count} along, of it" for count in fetches[1:])], rows))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/tool/nook")
+    parser.add_argument("--out", type=pathlib.Path, required=True, help="folder for materials and reports")
+    parser.add_argument("--write", action="store_true", help="put the table into the document instead of printing it")
+    options = parser.parse_args()
+    bench = Bench(options.tool, options.out)
+    rows = [cells(name, bench.row(name)) for name in MATERIALS]
+    heads = ["material", "mse, isotropic", "2 fetches, of it", "3", "4", "8", "mse to the raw images, isotropic", "2 fetches, of it", "3"]
+    show(ROOT / "docs/material_decoding.md", pathlib.Path(__file__).name, {"grazing views": table(heads, rows)}, options.write)
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ struct Options {
   std::filesystem::path raw, material, unseen, images;
   std::vector<std::uint32_t> sweep;
   std::vector<std::string> methods;  // baselines; empty: all, where baselines are requested
-  bool peers = false, seeding = false, jumps = false, mipmaps = false;
+  bool peers = false, seeding = false, jumps = false, mipmaps = false, grazing = false;
   std::uint32_t votf_refits = 2;
 };
 
@@ -111,8 +111,9 @@ Json evaluate(const Options& o) {
     unseen_material = read_raw(o.unseen);
     unseen = &unseen_material;
   }
-  const MethodRow own = naming_file(
-      o.material, [&] { return measure::material_file_row(raw, file, unseen, o.jumps, o.mipmaps); });
+  const MethodRow own = naming_file(o.material, [&] {
+    return measure::material_file_row(raw, file, {unseen, o.jumps, o.mipmaps, o.grazing});
+  });
   Json rows = Json::array({bake::material::report_row(raw.name, own)});
   Pictures pictures(o, raw);
   pictures.add("file", material, own);
@@ -174,6 +175,9 @@ void add_evaluate_material(CLI::App& evaluate_command) {
   command->add_flag(
       "--mipmaps", o.mipmaps,
       "measure pixels that cover 2 x 2, 4 x 4 and more texels, at their mipmap level and at the finest");
+  command->add_flag(
+      "--grazing", o.grazing,
+      "measure pixels of views beyond 60 degrees against supersampling, with 1 to 8 fetches along them");
   command->add_flag("--compare-seeding", o.seeding,
                     "CTA and K-CTA from clusters of directions and of values");
   command->add_option("--sweep", o.sweep, "total view ranks, for all methods (plots with --images)")

@@ -19,12 +19,12 @@ using Json = nlohmann::ordered_json;
 // A material that is ready to be drawn.
 struct Loaded {
   Loaded(const nook::Context& host, const nook::Gl& gl, const platform::Context& context,
-         const std::filesystem::path& path)
+         const std::filesystem::path& path, std::uint32_t fetches)
       : name(path.stem().string()),
         bytes(platform::read_file(path)),
         material(host, bytes.data(), bytes.size()),
         uploaded(gl, material),
-        program(context.gl(), uploaded) {}
+        program(context.gl(), uploaded, fetches) {}
 
   std::string name;
   std::vector<unsigned char> bytes;
@@ -33,8 +33,9 @@ struct Loaded {
   MaterialProgram program;
 };
 
-Json describe(const Loaded& loaded, const FrameTimes& times) {
+Json describe(const Loaded& loaded, std::uint32_t fetches, const FrameTimes& times) {
   const nook_material_info info = loaded.material.info();
+  const std::uint32_t further = fetches > 1 ? fetches - 1 : 0;
   return {{"material", loaded.name},
           {"clusters", info.btf.clusters},
           {"mixture", info.btf.mixture},
@@ -43,11 +44,12 @@ Json describe(const Loaded& loaded, const FrameTimes& times) {
           {"view_map_bytes", info.view_map_bytes},
           {"texture_bytes", loaded.uploaded.info().texture_bytes},
           {"textures", loaded.uploaded.info().texture_count},
-          {"decode_fetches", info.decode_fetches},
+          {"fetches_along", fetches},
+          {"decode_fetches", info.decode_fetches + further * info.further_decode_fetches},
           {"decode_multiply_adds", info.decode_multiply_adds},
           {"light_fetches", info.light_fetches},
           {"light_multiply_adds", info.light_multiply_adds},
-          {"occlusion_fetches", info.occlusion_fetches},
+          {"occlusion_fetches", info.occlusion_fetches + further * info.further_occlusion_fetches},
           {"occlusion_multiply_adds", info.occlusion_multiply_adds},
           {"ms", times.ms},
           {"cpu_ms", times.cpu_ms}};
@@ -89,7 +91,7 @@ void run(const Options& o) {
   const platform::RenderTarget target(*context, o.width_px, o.height_px);
   const Stage stage{*context, meshes, target, float(o.width_px) / float(o.height_px), o.is_one_sided};
   if (o.frames == 0) {
-    run_window(stage, Loaded(host, gl, *context, o.files[0]).program);
+    run_window(stage, Loaded(host, gl, *context, o.files[0], o.fetches).program);
     return;
   }
   std::filesystem::create_directories(o.out);
@@ -100,11 +102,11 @@ void run(const Options& o) {
               {"rows", Json::array()}};
   platform::ProgressBar bar(o.quiet);
   for (const std::filesystem::path& path : o.files) {
-    const Loaded loaded(host, gl, *context, path);
+    const Loaded loaded(host, gl, *context, path, o.fetches);
     const FrameTimes times =
         draw_frames(stage, loaded.program, {o.frames, o.out, loaded.name},
                     [&](std::uint32_t done) { bar.show(loaded.name, "pictures", done, o.frames); });
-    report["rows"].push_back(describe(loaded, times));
+    report["rows"].push_back(describe(loaded, o.fetches, times));
   }
   platform::OutputFile(o.report).commit(report.dump(2) + "\n");
   std::printf("pictures: %s\nreport:   %s\n", std::filesystem::absolute(o.out).c_str(),

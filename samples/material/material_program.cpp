@@ -1,6 +1,7 @@
 #include "samples/material/material_program.h"
 
 #include <glm/gtc/type_ptr.hpp>
+#include <string>
 
 namespace material {
 namespace {
@@ -36,7 +37,11 @@ void main() {
   vec3 view = to_tangent * normalize(eye - position_ws);
   float alpha = 1.0;
 #if PASS != COLOUR
+#if FETCHES == 0
   alpha = nook_material_visibility(nook_material_occlusion(place, dx, dy, view));
+#else
+  alpha = nook_material_visibility(nook_material_occlusion_anisotropic(place, dx, dy, view, FETCHES));
+#endif
 #endif
 #if PASS == DEPTH
   if (alpha < 1.0) discard;
@@ -46,7 +51,11 @@ void main() {
   if (alpha <= 0.0 || alpha >= 1.0) discard;
 #endif
   vec4 modes[NOOK_LIGHT_VEC4_COUNT];
+#if FETCHES == 0
   nook_material_decode(place, dx, dy, view, modes);
+#else
+  nook_material_decode_anisotropic(place, dx, dy, view, FETCHES, modes);
+#endif
   vec3 colour = nook_material_radiance(modes, to_tangent * key_direction) * vec3(4.2, 4.0, 3.7) +
                 nook_material_radiance(modes, to_tangent * fill_direction) * vec3(0.5, 0.6, 0.8);
   pixel = vec4(max(colour, 0.0), alpha);
@@ -60,12 +69,15 @@ constexpr const char* pass_choice[] = {"#define PASS DEPTH\n", "#define PASS COL
 
 }  // namespace
 
-MaterialProgram::MaterialProgram(const GladGLContext& gl, const nook::GlMaterial& material)
+MaterialProgram::MaterialProgram(const GladGLContext& gl, const nook::GlMaterial& material,
+                                 std::uint32_t fetches)
     : gl_(gl), textures_(material.textures()) {
+  const std::string fetch_count = "#define FETCHES " + std::to_string(fetches) + "\n";
   for (const char* choice : pass_choice) {
     const platform::Program& program = programs_.emplace_back(
         gl, std::initializer_list<const char*>{version, vertex_text},
-        std::initializer_list<const char*>{version, pass_names, choice, material.info().glsl, fragment_text});
+        std::initializer_list<const char*>{version, pass_names, choice, fetch_count.c_str(),
+                                           material.info().glsl, fragment_text});
     program.use();
     for (std::size_t i = 0; i < textures_.size(); ++i)
       gl.Uniform1i(program.uniform(textures_[i].uniform), GLint(i));

@@ -23,7 +23,8 @@ enum class Pass {
 
 class MaterialProgram {
  public:
-  MaterialProgram(const GladGLContext& gl, const nook::GlMaterial& material);
+  // fetches along the longer side of a pixel; 0: the isotropic functions.
+  MaterialProgram(const GladGLContext& gl, const nook::GlMaterial& material, std::uint32_t fetches);
 
   // Binds the pass's program and the textures, and sets the OpenGL state that the pass needs.
   void begin(const View& view, Pass pass) const;

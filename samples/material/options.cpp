@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include <nook/nook_material.h>
+
 #include "platform/platform.h"
 
 namespace material {
@@ -23,6 +25,11 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   app.add_option("--size", size, "pixels of a picture, WIDTHxHEIGHT");
   app.add_option("--tile", o.tile_m, "side of a material's tile on the shapes, metres")
       ->check(CLI::Range(0.01f, 1.0f));
+  app.add_option(
+         "--fetches", o.fetches,
+         "fetches of each mode along the longer side of a pixel, which keep grazing views sharp; 0 takes "
+         "one at the level of that side")
+      ->check(CLI::Range(0, int(NOOK_MATERIAL_MAX_FETCHES)));
   app.add_flag("--one-sided", o.is_one_sided,
                "leave out the insides of the shapes, which show through holes");
   app.add_option("--out", o.out, "folder of the pictures");

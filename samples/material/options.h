@@ -15,6 +15,7 @@ struct Options {
   std::uint32_t frames = 6;
   int width_px = 960, height_px = 540;
   float tile_m = 0.16f;       // the side of a tile on the shapes
+  std::uint32_t fetches = 2;  // along each pixel
   bool is_one_sided = false;  // without the insides of the surfaces
   std::filesystem::path out = "out/material", report;
   bool quiet = false;

@@ -24,13 +24,20 @@ vec2 nook_material_relief(vec2 uv, vec3 view, float level) {
 }
 #endif
 
-// Computes the light modes of the point uv for the view, filtered over the pixel with the sides dx and dy.
-void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
+vec4 nook_btf_mean(int layer, nook_material_fetches at) {
+  vec4 mean = nook_btf_mode(layer, at.place[0], at.level);
+  for (int i = 1; i < at.count; ++i)
+    mean += (nook_btf_mode(layer, at.place[i], at.level) - mean) / float(i + 1);
+  return mean;
+}
+
+// Computes the mean light modes of places for the view. On a relief the view's ray through each place meets a point of
+// its own.
+void nook_material_decode_at(nook_material_fetches at, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   vec2 place = nook_parabolic_place(view, NOOK_BTF_SIDE);
   ivec2 cell = min(ivec2(place), ivec2(NOOK_BTF_SIDE - 1));
-  float level = nook_mipmap_level(dx, dy, NOOK_BTF_TEXELS);
 #if NOOK_RELIEF
-  uv = nook_material_relief(uv, view, level);
+  for (int i = 0; i < at.count; ++i) at.place[i] = nook_material_relief(at.place[i], view, at.level);
 #endif
   for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a) modes[a] = vec4(0.0);
   uvec4 clusters = uvec4(0u);
@@ -56,13 +63,24 @@ void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[N
 #endif
       for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a) {
         int layer = first + a * 4 * NOOK_BTF_VIEW_VEC4_COUNT + b;
-        modes[a] += vec4(dot(coefficients, nook_btf_mode(layer, uv, level)),
-                         dot(coefficients, nook_btf_mode(layer + NOOK_BTF_VIEW_VEC4_COUNT, uv, level)),
-                         dot(coefficients, nook_btf_mode(layer + 2 * NOOK_BTF_VIEW_VEC4_COUNT, uv, level)),
-                         dot(coefficients, nook_btf_mode(layer + 3 * NOOK_BTF_VIEW_VEC4_COUNT, uv, level)));
+        modes[a] += vec4(dot(coefficients, nook_btf_mean(layer, at)),
+                         dot(coefficients, nook_btf_mean(layer + NOOK_BTF_VIEW_VEC4_COUNT, at)),
+                         dot(coefficients, nook_btf_mean(layer + 2 * NOOK_BTF_VIEW_VEC4_COUNT, at)),
+                         dot(coefficients, nook_btf_mean(layer + 3 * NOOK_BTF_VIEW_VEC4_COUNT, at)));
       }
     }
   }
+}
+
+// Computes the light modes of the point uv for the view, filtered over the pixel with the sides dx and dy.
+void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
+  nook_material_decode_at(nook_material_one_fetch(uv, dx, dy, NOOK_BTF_TEXELS), view, modes);
+}
+
+// The same with several fetches of each mode along the longer side of the pixel, which keep grazing views sharp.
+void nook_material_decode_anisotropic(vec2 uv, vec2 dx, vec2 dy, vec3 view, int fetches,
+                                      out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
+  nook_material_decode_at(nook_material_fetches_along(uv, dx, dy, NOOK_BTF_TEXELS, fetches), view, modes);
 }
 
 // Returns the radiance towards the view for an irradiance of 1 on a plane that faces the light.

@@ -6,6 +6,8 @@
 // numbers, and sdk/src/material/evaluate.cpp has the same functions.
 #include "shaders/material/view_map.glsl"
 
+#include "shaders/material/footprint.glsl"
+
 #include "shaders/material/btf.glsl"
 
 #include "shaders/material/visibility.glsl"

@@ -1,12 +1,16 @@
 // Decoding of a VOTF.
-// Returns the VOTF, a filtered mask or signed distance.
-float nook_material_occlusion(vec2 uv, vec2 dx, vec2 dy, vec3 view) {
-#if NOOK_VOTF_TERMS == 0
-  return 1.0;
-#else
+#if NOOK_VOTF_TERMS > 0
+vec4 nook_votf_mean(int layer, nook_material_fetches at) {
+  vec4 mean = nook_votf_mode(layer, at.place[0], at.level);
+  for (int i = 1; i < at.count; ++i)
+    mean += (nook_votf_mode(layer, at.place[i], at.level) - mean) / float(i + 1);
+  return mean;
+}
+
+// Returns the mean of the VOTF over places.
+float nook_material_occlusion_at(nook_material_fetches at, vec3 view) {
   vec2 place = nook_parabolic_place(view, NOOK_VOTF_SIDE);
   ivec2 cell = min(ivec2(place), ivec2(NOOK_VOTF_SIDE - 1));
-  float level = nook_mipmap_level(dx, dy, NOOK_VOTF_TEXELS);
   float value = 0.0;
   uvec4 clusters = uvec4(0u);
 #if NOOK_VOTF_BLENDED
@@ -29,10 +33,28 @@ float nook_material_occlusion(vec2 uv, vec2 dx, vec2 dy, vec3 view) {
 #else
       vec4 coefficients = texelFetch(nook_votf_coefficients, ivec3(cell, k * NOOK_VOTF_VIEW_VEC4_COUNT + b), 0);
 #endif
-      value += dot(coefficients, nook_votf_mode(first + b, uv, level));
+      value += dot(coefficients, nook_votf_mean(first + b, at));
     }
   }
   return value;
+}
+#endif
+
+// Returns the VOTF, a filtered mask or signed distance.
+float nook_material_occlusion(vec2 uv, vec2 dx, vec2 dy, vec3 view) {
+#if NOOK_VOTF_TERMS == 0
+  return 1.0;
+#else
+  return nook_material_occlusion_at(nook_material_one_fetch(uv, dx, dy, NOOK_VOTF_TEXELS), view);
+#endif
+}
+
+// The same with several fetches of each mode along the longer side of the pixel.
+float nook_material_occlusion_anisotropic(vec2 uv, vec2 dx, vec2 dy, vec3 view, int fetches) {
+#if NOOK_VOTF_TERMS == 0
+  return 1.0;
+#else
+  return nook_material_occlusion_at(nook_material_fetches_along(uv, dx, dy, NOOK_VOTF_TEXELS, fetches), view);
 #endif
 }
 

@@ -28,6 +28,8 @@ bool last_is(const char* start, const char* part) {
 
 constexpr nook_material_sample sample{{0.2f, 0.7f}, 0, {0, 0, 1}, {0, 0, 1}};
 
+constexpr nook_material_pixel pixel{{0.2f, 0.7f}, {0.1f, 0}, {0, 0.1f}, {0, 0, 1}, {0, 0, 1}};
+
 }  // namespace
 
 TEST_CASE("materials: bad parameters and bad files") {
@@ -54,6 +56,19 @@ TEST_CASE("materials: bad parameters and bad files") {
   bad[1].view[1] = NAN;
   CHECK(nook_material_evaluate(material, bad, 2, &value) == invalid);
   CHECK(last_is("nook_material_evaluate: ", "sample 1"));
+
+  CHECK(nook_material_evaluate_anisotropic(nullptr, &pixel, 1, 2, &value) == invalid);
+  CHECK(nook_material_evaluate_anisotropic(material, nullptr, 1, 2, &value) == invalid);
+  CHECK(nook_material_evaluate_anisotropic(material, &pixel, 1, 2, nullptr) == invalid);
+  CHECK(nook_material_evaluate_anisotropic(material, nullptr, 0, 2, nullptr) == NOOK_OK);
+  for (const std::uint32_t fetches : {0u, NOOK_MATERIAL_MAX_FETCHES + 1u}) {
+    CHECK(nook_material_evaluate_anisotropic(material, &pixel, 1, fetches, &value) == invalid);
+    CHECK(last_is("nook_material_evaluate_anisotropic: ", "need 1 to 8"));
+  }
+  nook_material_pixel bad_pixels[2] = {pixel, pixel};
+  bad_pixels[1].dy[0] = INFINITY;
+  CHECK(nook_material_evaluate_anisotropic(material, bad_pixels, 2, 2, &value) == invalid);
+  CHECK(last_is("nook_material_evaluate_anisotropic: ", "pixel 1"));
   CHECK(nook_material_describe(material, nullptr) == invalid);
   check_info<nook_material_info>(
       offsetof(nook_material_info, neural_channels),
@@ -77,6 +92,10 @@ TEST_CASE("materials: numbers of any size give an answer") {
     const nook_material_sample odd{{size, -size}, size, {size, size, -size}, {size, 0, size}};
     nook_material_value value{};
     CHECK(nook_material_evaluate(material, &odd, 1, &value) == NOOK_OK);
+    CHECK(std::isfinite(value.radiance[0] + value.radiance[1] + value.radiance[2] + value.occlusion));
+    const nook_material_pixel odd_pixel{
+        {size, -size}, {size, 0}, {-size, size}, {size, size, -size}, {size, 0, size}};
+    CHECK(nook_material_evaluate_anisotropic(material, &odd_pixel, 1, 3, &value) == NOOK_OK);
     CHECK(std::isfinite(value.radiance[0] + value.radiance[1] + value.radiance[2] + value.occlusion));
   }
   nook_material_destroy(&material);

@@ -155,11 +155,16 @@ TEST_CASE("the C++ wrapper owns a material and decodes it") {
   CHECK(info.light_fetches == 3);
   CHECK(info.light_multiply_adds == 12);
   CHECK(info.occlusion_fetches == 3 + 3 + 1);
+  CHECK(info.further_decode_fetches == 3 * 4);
+  CHECK(info.further_occlusion_fetches == 3);
   CHECK(info.view_map_bytes == 0);
   CHECK(info.compressed_bytes < bytes.size());
   const nook_material_sample sample{{0.2f, 0.7f}, 0, {0, 0, 1}, {0, 0, 1}};
   nook_material_value value{};
   material.evaluate(&sample, 1, &value);
+  CHECK(value.visibility >= 0);
+  const nook_material_pixel pixel{{0.2f, 0.7f}, {0.1f, 0}, {0, 0.1f}, {0, 0, 1}, {0, 0, 1}};
+  material.evaluate_anisotropic(&pixel, 1, 2, &value);
   CHECK(value.visibility >= 0);
   CHECK_THROWS_AS(nook::Material(context, bytes.data(), 10), nook::Error);
 }

@@ -54,6 +54,16 @@ void evaluate(nook_material material, const nook_material_sample& sample) {
   require(value.visibility >= 0 && value.visibility <= 1);
   if (is_reasonable(sample))
     require(std::isfinite(value.radiance[0] + value.radiance[1] + value.radiance[2]));
+  // The sample's numbers as the sides of a pixel too.
+  const nook_material_pixel pixel{{sample.uv[0], sample.uv[1]},
+                                  {sample.level, sample.light[0]},
+                                  {sample.uv[1], sample.view[1]},
+                                  {sample.view[0], sample.view[1], sample.view[2]},
+                                  {sample.light[0], sample.light[1], sample.light[2]}};
+  require(ok(nook_material_evaluate_anisotropic(material, &pixel, 1, 2, &value)));
+  require(value.visibility >= 0 && value.visibility <= 1);
+  if (is_reasonable(sample))
+    require(std::isfinite(value.radiance[0] + value.radiance[1] + value.radiance[2]));
 }
 
 // Calls visit(sample) for some samples above the horizon and for those of the script.

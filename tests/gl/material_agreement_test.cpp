@@ -1,6 +1,7 @@
 // The shipped GLSL gives what the CPU reference gives, in every form and however the layers are split.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sdk/src/material/parabolic.h"
 #include "tests/gl/material_decoder.h"
@@ -73,32 +74,148 @@ float difference(const nook_material_value& a, const nook_material_value& b) {
   return largest;
 }
 
+// A footprint in texels: an ellipse turned by `axis`, seen through pixels that are turned by `screen`.
+void put_sides(nook_material_pixel& pixel, const nook_material_info& info, float longer, float shorter,
+               float axis, float screen) {
+  const auto side = [&](float(&out)[2], float along, float across) {
+    out[0] = (std::cos(axis) * along - std::sin(axis) * across) / float(info.width);
+    out[1] = (std::sin(axis) * along + std::cos(axis) * across) / float(info.height);
+  };
+  side(pixel.dx, longer * std::cos(screen), shorter * std::sin(screen));
+  side(pixel.dy, -longer * std::sin(screen), shorter * std::cos(screen));
+}
+
+// Places and directions of samples_of, with footprints whose level is whole for that many fetches: longer
+// than these cover, of the length that they cover, or shorter.
+std::vector<nook_material_pixel> pixels_of(const nook_material_info& info, std::size_t count, int fetches) {
+  material::test::Numbers numbers(23);
+  std::vector<nook_material_pixel> pixels;
+  for (const nook_material_sample& s : samples_of(info, count)) {
+    nook_material_pixel pixel{};
+    std::copy_n(s.uv, 2, pixel.uv);
+    std::copy_n(s.view, 3, pixel.view);
+    std::copy_n(s.light, 3, pixel.light);
+    const float side = std::exp2(s.level), longer = numbers.between(1, float(fetches));
+    const bool is_longer = numbers.below(2) == 0;
+    put_sides(pixel, info, side * (is_longer ? float(fetches) : longer),
+              side * (is_longer ? numbers.between(0, 1) : 1), numbers.between(0, 6.3f),
+              numbers.between(0, 6.3f));
+    pixels.push_back(pixel);
+  }
+  return pixels;
+}
+
+// A form that was uploaded, with a program that decodes it.
+struct Uploaded {
+  Uploaded(MaterialFixture& fixture, const Size& size)
+      : loaded(fixture.load(material::test::sample_material(21, size))),
+        info(info_of(loaded)),
+        decoder(fixture.context.gl(), fixture.upload(loaded), info, true) {}
+
+  nook_material loaded;
+  nook_material_info info;
+  MaterialDecoder decoder;
+};
+
+// The mapping (26) steps from weight times threshold to 1; on either side both may be right. Visibility is
+// weight times the VOTF's value: so much larger is its difference.
+void check_agreement(const std::vector<GpuValue>& got, const std::vector<nook_material_value>& wanted,
+                     const nook_material_info& info) {
+  REQUIRE(got.size() == wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    INFO("sample or pixel " << i);
+    nook_material_value value = got[i].value;
+    if (std::abs(wanted[i].occlusion - info.visibility_threshold) < 1e-4f)
+      value.visibility = wanted[i].visibility;
+    CHECK(difference(value, wanted[i]) <= bound);
+  }
+}
+
+void check_samples(const Uploaded& form) {
+  const std::vector<nook_material_sample> samples = samples_of(form.info, 2048);
+  std::vector<nook_material_value> wanted(samples.size());
+  NOOK_OK_OR_FAIL(
+      nook_material_evaluate(form.loaded, samples.data(), std::uint32_t(samples.size()), wanted.data()));
+  check_agreement(form.decoder.decode(samples), wanted, form.info);
+  float brightest = 0;
+  for (const nook_material_value& value : wanted)
+    for (const float radiance : value.radiance) brightest = std::max(brightest, std::abs(radiance));
+  CHECK(brightest > 0.5f);
+}
+
+void check_pixels(const Uploaded& form, int fetches) {
+  const std::vector<nook_material_pixel> pixels = pixels_of(form.info, 512, fetches);
+  std::vector<nook_material_value> wanted(pixels.size());
+  NOOK_OK_OR_FAIL(nook_material_evaluate_anisotropic(form.loaded, pixels.data(), std::uint32_t(pixels.size()),
+                                                     std::uint32_t(fetches), wanted.data()));
+  check_agreement(form.decoder.decode(pixels, fetches), wanted, form.info);
+}
+
+// A march ends where it meets the relief, after its first plane or later.
+void check_fetches(const Uploaded& form, std::uint32_t relief_steps) {
+  const nook_material_info& info = form.info;
+  nook_material_pixel pixel{};
+  pixel.view[2] = pixel.light[2] = 1;
+  put_sides(pixel, info, 4, 1, 1, 0);
+  for (const int fetches : {0, 1, 3}) {
+    const GpuValue got = form.decoder.decode(std::vector{pixel}, fetches)[0];
+    const auto further = std::uint32_t(std::max(fetches - 1, 0));
+    const std::uint32_t decoded = info.decode_fetches + further * info.further_decode_fetches;
+    CHECK(got.decode_fetches <= float(decoded));
+    CHECK(got.decode_fetches >= float(decoded - (further + 1) * relief_steps));
+    CHECK(got.light_fetches == float(info.light_fetches));
+    CHECK(got.occlusion_fetches == float(info.occlusion_fetches + further * info.further_occlusion_fetches));
+  }
+}
+
 }  // namespace
 
-TEST_CASE("material: the GLSL agrees with the CPU reference to 1/255") {
+TEST_CASE("material: the GLSL agrees with the CPU reference to 1/255, with the stated number of fetches") {
   NOOK_NEED_CONTEXT(context);
   MaterialFixture fixture(context);
   for (const Size& size : forms) {
-    const nook_material loaded = fixture.load(material::test::sample_material(21, size));
-    const nook_material_info info = info_of(loaded);
-    const MaterialDecoder decoder(context.gl(), fixture.upload(loaded), info);
-    const std::vector<nook_material_sample> samples = samples_of(info, 2048);
-    std::vector<nook_material_value> wanted(samples.size());
-    NOOK_OK_OR_FAIL(
-        nook_material_evaluate(loaded, samples.data(), std::uint32_t(samples.size()), wanted.data()));
-    const std::vector<GpuValue> got = decoder.decode(samples);
-    float brightest = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      INFO("form " << &size - forms << ", sample " << i << ", level " << samples[i].level);
-      // The mapping (26) steps from weight times threshold to 1; on either side both may be right.
-      nook_material_value value = got[i].value;
-      if (std::abs(wanted[i].occlusion - info.visibility_threshold) < 1e-4f)
-        value.visibility = wanted[i].visibility;
-      // Visibility is weight times the VOTF's value: so much larger is its difference.
-      CHECK(difference(value, wanted[i]) <= bound);
-      for (const float radiance : wanted[i].radiance) brightest = std::max(brightest, std::abs(radiance));
+    INFO("form " << &size - forms);
+    const Uploaded form(fixture, size);
+    check_samples(form);
+    for (const int fetches : {2, 3}) check_pixels(form, fetches);
+    check_fetches(form, size.relief_steps);
+  }
+}
+
+TEST_CASE("material: round footprints are decoded as by one fetch, and others always to numbers") {
+  NOOK_NEED_CONTEXT(context);
+  MaterialFixture fixture(context);
+  for (const Size& size :
+       {Size{.width = 16, .height = 8, .map_side = 6},
+        Size{.width = 16, .height = 8, .bits = 8, .relief_height = 0.05f, .relief_steps = 8},
+        Size{.width = 16, .height = 8, .channels = 8}}) {
+    const Uploaded form(fixture, size);
+    const nook_material_info& info = form.info;
+    const MaterialDecoder& decoder = form.decoder;
+    nook_material_pixel pixel{{0.3f, -1.4f}, {0, 0}, {0, 0}, {0.48f, 0.6f, 0.64f}, {0, 0.6f, 0.8f}};
+    std::vector<nook_material_pixel> round;
+    for (const float side : {0.5f, 1.0f, 3.0f, 4.0f, 64.0f}) {
+      round.push_back(pixel);
+      put_sides(round.back(), info, side, side, 0, 0);
     }
-    CHECK(brightest > 0.5f);
+    round.push_back(pixel);  // no size
+    const std::vector<GpuValue> wanted = decoder.decode(round, 0);
+    for (const int fetches : {1, 2, 3, 8, 1000, -5}) {
+      const std::vector<GpuValue> got = decoder.decode(round, fetches);
+      for (std::size_t i = 0; i < round.size(); ++i) CHECK(difference(got[i].value, wanted[i].value) == 0);
+    }
+    const float infinite = std::numeric_limits<float>::infinity(), no_number = std::nanf("");
+    std::vector<nook_material_pixel> bad;
+    for (const float number : {infinite, no_number, 3e38f, -1e20f})
+      for (int i = 0; i < 4; ++i) {
+        bad.push_back(pixel);
+        put_sides(bad.back(), info, 2, 1, 1, 0);
+        (i < 2 ? bad.back().dx[i] : bad.back().dy[i - 2]) = number;
+      }
+    put_sides(pixel, info, 1e6f, 1e6f, 0, 0);
+    const GpuValue coarsest = decoder.decode(std::vector{pixel}, 0)[0];
+    for (const GpuValue& value : decoder.decode(bad, 2))
+      CHECK(difference(value.value, coarsest.value) <= bound);
   }
 }
 
@@ -140,23 +257,6 @@ TEST_CASE("material: more layers than OpenGL 3.3 guarantees are split") {
   CHECK(info_of(split).texture_count == 8);  // 320 layers in two arrays
   const std::vector<GpuValue> got = MaterialDecoder(context.gl(), split, info).decode(samples);
   for (std::size_t i = 0; i < samples.size(); ++i) CHECK(difference(got[i].value, wanted[i]) <= bound);
-}
-
-TEST_CASE("material: a pixel has the stated number of fetches") {
-  NOOK_NEED_CONTEXT(context);
-  MaterialFixture fixture(context);
-  for (const Size& size : forms) {
-    const nook_material loaded = fixture.load(material::test::sample_material(2, size));
-    const nook_material_info info = info_of(loaded);
-    nook_material_sample sample{};
-    sample.view[2] = sample.light[2] = 1;
-    const GpuValue got = MaterialDecoder(context.gl(), fixture.upload(loaded), info).decode({sample})[0];
-    // A march ends where it meets the relief, after its first plane or later.
-    CHECK(got.decode_fetches <= float(info.decode_fetches));
-    CHECK(got.decode_fetches >= float(info.decode_fetches - size.relief_steps));
-    CHECK(got.light_fetches == float(info.light_fetches));
-    CHECK(got.occlusion_fetches == float(info.occlusion_fetches));
-  }
 }
 
 TEST_CASE("material: a far view is the average of a near one") {

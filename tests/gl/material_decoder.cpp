@@ -21,21 +21,31 @@ const char counting_text[] =
 
 const char main_text[] =
     "#undef texelFetch\n"
-    "uniform highp sampler2D places, views, lights;\n"
-    "uniform vec2 texels;\n"
+    "uniform highp sampler2D places, sides, views, lights;\n"
+    "uniform int fetches;\n"
     "layout(location = 0) out vec4 value; layout(location = 1) out vec4 more;\n"
     "int taken() { int n = fetched; fetched = 0; return n; }\n"
     "void main() {\n"
     "  ivec2 p = ivec2(gl_FragCoord.xy);\n"
-    "  vec3 place = texelFetch(places, p, 0).xyz;\n"
+    "  vec2 place = texelFetch(places, p, 0).xy;\n"
     "  vec3 view = texelFetch(views, p, 0).xyz, light = texelFetch(lights, p, 0).xyz;\n"
-    "  vec2 dx = vec2(exp2(place.z) / texels.x, 0.0), dy = vec2(0.0, exp2(place.z) / texels.y);\n"
+    "  vec4 side = texelFetch(sides, p, 0);\n"
     "  vec4 modes[NOOK_LIGHT_VEC4_COUNT];\n"
-    "  nook_material_decode(place.xy, dx, dy, view, modes);\n"
+    "#if IS_ANISOTROPIC\n"
+    "  if (fetches > 0) nook_material_decode_anisotropic(place, side.xy, side.zw, view, fetches, modes);\n"
+    "  else\n"
+    "#endif\n"
+    "    nook_material_decode(place, side.xy, side.zw, view, modes);\n"
     "  int decoded = taken();\n"
     "  vec3 radiance = nook_material_radiance(modes, light);\n"
     "  int lit = taken();\n"
-    "  float occlusion = nook_material_occlusion(place.xy, dx, dy, view);\n"
+    "  float occlusion;\n"
+    "#if IS_ANISOTROPIC\n"
+    "  if (fetches > 0) occlusion = nook_material_occlusion_anisotropic(place, side.xy, side.zw, view, "
+    "fetches);\n"
+    "  else\n"
+    "#endif\n"
+    "    occlusion = nook_material_occlusion(place, side.xy, side.zw, view);\n"
     "  value = vec4(radiance, occlusion);\n"
     "  more = vec4(nook_material_visibility(occlusion), float(decoded), float(lit), float(taken()));\n"
     "}\n";
@@ -84,7 +94,8 @@ nook_gl_material_info info_of(nook_gl_material material) {
   return info;
 }
 
-MaterialDecoder::MaterialDecoder(const GladGLContext& gl, nook_gl_material material, nook_material_info info)
+MaterialDecoder::MaterialDecoder(const GladGLContext& gl, nook_gl_material material, nook_material_info info,
+                                 bool is_anisotropic)
     : gl_(gl), info_(info) {
   const nook_gl_material_info uploaded = info_of(material);
   for (std::uint32_t i = 0; i < uploaded.texture_count; ++i) {
@@ -93,8 +104,10 @@ MaterialDecoder::MaterialDecoder(const GladGLContext& gl, nook_gl_material mater
     NOOK_OK_OR_FAIL(nook_gl_material_describe_texture(material, i, &texture));
     textures_.push_back(texture);
   }
-  program_ = platform::link_program(gl, {glsl_header(gl), vertex_text},
-                                    {glsl_header(gl), counting_text, uploaded.glsl, main_text});
+  program_ = platform::link_program(
+      gl, {glsl_header(gl), vertex_text},
+      {glsl_header(gl), counting_text, uploaded.glsl,
+       is_anisotropic ? "#define IS_ANISOTROPIC 1\n" : "#define IS_ANISOTROPIC 0\n", main_text});
 }
 
 MaterialDecoder::~MaterialDecoder() {
@@ -102,19 +115,37 @@ MaterialDecoder::~MaterialDecoder() {
 }
 
 std::vector<GpuValue> MaterialDecoder::decode(const std::vector<nook_material_sample>& samples) const {
-  const int width = std::min(int(samples.size()), 256), height = (int(samples.size()) + width - 1) / width;
-  std::vector<float> numbers[3];
-  for (const nook_material_sample& s : samples)
-    for (int i = 0; i < 3; ++i) {
-      numbers[0].push_back(i < 2 ? s.uv[i] : s.level);
-      numbers[1].push_back(s.view[i]);
-      numbers[2].push_back(s.light[i]);
-    }
+  std::vector<float> numbers[4];
+  for (const nook_material_sample& s : samples) {
+    const float side = std::exp2(s.level);
+    numbers[0].insert(numbers[0].end(), {s.uv[0], s.uv[1], 0, 0});
+    numbers[1].insert(numbers[1].end(), {side / float(info_.width), 0, 0, side / float(info_.height)});
+    numbers[2].insert(numbers[2].end(), {s.view[0], s.view[1], s.view[2], 0});
+    numbers[3].insert(numbers[3].end(), {s.light[0], s.light[1], s.light[2], 0});
+  }
+  return draw(numbers, samples.size(), 0);
+}
+
+std::vector<GpuValue> MaterialDecoder::decode(const std::vector<nook_material_pixel>& pixels,
+                                              int fetches) const {
+  std::vector<float> numbers[4];
+  for (const nook_material_pixel& p : pixels) {
+    numbers[0].insert(numbers[0].end(), {p.uv[0], p.uv[1], 0, 0});
+    numbers[1].insert(numbers[1].end(), {p.dx[0], p.dx[1], p.dy[0], p.dy[1]});
+    numbers[2].insert(numbers[2].end(), {p.view[0], p.view[1], p.view[2], 0});
+    numbers[3].insert(numbers[3].end(), {p.light[0], p.light[1], p.light[2], 0});
+  }
+  return draw(numbers, pixels.size(), fetches);
+}
+
+std::vector<GpuValue> MaterialDecoder::draw(std::vector<float> (&numbers)[4], std::size_t count,
+                                            int fetches) const {
+  const int width = std::min(int(count), 256), height = (int(count) + width - 1) / width;
   Textures images(gl_);
-  GLuint inputs[3] = {};
-  for (int i = 0; i < 3; ++i) {
-    numbers[i].resize(std::size_t(3) * width * height);
-    inputs[i] = images.floats(GL_RGB32F, 3, width, height, numbers[i]);
+  GLuint inputs[4] = {};
+  for (int i = 0; i < 4; ++i) {
+    numbers[i].resize(std::size_t(4) * width * height);
+    inputs[i] = images.floats(GL_RGBA32F, 4, width, height, numbers[i]);
   }
   const GLuint value = images.floats(GL_RGBA32F, 4, width, height, {}),
                more = images.floats(GL_RGBA32F, 4, width, height, {});
@@ -128,14 +159,14 @@ std::vector<GpuValue> MaterialDecoder::decode(const std::vector<nook_material_sa
     CHECK(at >= 0);
     gl_.Uniform1i(at, unit++);
   }
-  const char* const names[] = {"places", "views", "lights"};
-  for (int i = 0; i < 3; ++i) {
+  const char* const names[] = {"places", "sides", "views", "lights"};
+  for (int i = 0; i < 4; ++i) {
     gl_.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
     gl_.BindTexture(GL_TEXTURE_2D, inputs[i]);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl_.Uniform1i(gl_.GetUniformLocation(program_, names[i]), unit++);
   }
-  gl_.Uniform2f(gl_.GetUniformLocation(program_, "texels"), float(info_.width), float(info_.height));
+  gl_.Uniform1i(gl_.GetUniformLocation(program_, "fetches"), fetches);
 
   GLuint framebuffer = 0, vertex_array = 0;
   gl_.GenFramebuffers(1, &framebuffer);
@@ -161,7 +192,7 @@ std::vector<GpuValue> MaterialDecoder::decode(const std::vector<nook_material_sa
     gl_.BindTexture(GL_TEXTURE_2D_ARRAY, 0);
   }
   std::vector<GpuValue> out;
-  for (std::size_t i = 0; i < samples.size(); ++i)
+  for (std::size_t i = 0; i < count; ++i)
     out.push_back({{{first[4 * i], first[4 * i + 1], first[4 * i + 2]}, first[4 * i + 3], second[4 * i]},
                    second[4 * i + 1],
                    second[4 * i + 2],

@@ -41,14 +41,22 @@ struct GpuValue {
 
 class MaterialDecoder {
  public:
-  MaterialDecoder(const GladGLContext& gl, nook_gl_material material, nook_material_info info);
+  // is_anisotropic: the program has the functions with several fetches too, which drivers take long to
+  // compile.
+  MaterialDecoder(const GladGLContext& gl, nook_gl_material material, nook_material_info info,
+                  bool is_anisotropic = false);
   ~MaterialDecoder();
   MaterialDecoder(const MaterialDecoder&) = delete;
   MaterialDecoder& operator=(const MaterialDecoder&) = delete;
 
   std::vector<GpuValue> decode(const std::vector<nook_material_sample>& samples) const;
+  // With that many fetches along each pixel of an anisotropic decoder; 0 is the isotropic form.
+  std::vector<GpuValue> decode(const std::vector<nook_material_pixel>& pixels, int fetches) const;
 
  private:
+  // Texture coordinates, sides, views and lights, four numbers of each for a pixel.
+  std::vector<GpuValue> draw(std::vector<float> (&numbers)[4], std::size_t count, int fetches) const;
+
   const GladGLContext& gl_;
   nook_material_info info_;
   std::vector<nook_gl_material_texture> textures_;

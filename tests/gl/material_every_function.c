@@ -25,6 +25,7 @@ int nook_material_call_everything(const void* bytes, size_t size, nook_gl_proc_f
   nook_material_info info;
   nook_material_value value;
   const nook_material_sample sample = {{0.5F, 0.5F}, 0, {0, 0, 1}, {0, 0, 1}};
+  const nook_material_pixel pixel = {{0.5F, 0.5F}, {0.1F, 0}, {0, 0.2F}, {0, 0, 1}, {0, 0, 1}};
   nook_context context = NULL;
   nook_gl gl = NULL;
   nook_material material = NULL;
@@ -45,7 +46,10 @@ int nook_material_call_everything(const void* bytes, size_t size, nook_gl_proc_f
   EXPECT_OK(nook_material_describe(material, &info));
   EXPECT(info.visibility != NOOK_MATERIAL_VISIBILITY_NONE && info.btf.terms > 0 && info.votf.terms > 0);
   EXPECT(info.decode_fetches > 0 && info.light_fetches > 0 && info.occlusion_fetches > 0);
+  EXPECT(info.further_decode_fetches > 0 && info.further_occlusion_fetches > 0);
   EXPECT_OK(nook_material_evaluate(material, &sample, 1, &value));
+  EXPECT(value.visibility >= 0 && value.visibility <= 1);
+  EXPECT_OK(nook_material_evaluate_anisotropic(material, &pixel, 1, NOOK_MATERIAL_MAX_FETCHES, &value));
   EXPECT(value.visibility >= 0 && value.visibility <= 1);
 
   EXPECT_OK(nook_gl_material_desc_init(&desc, sizeof desc, NOOK_VERSION));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <thread>
 
@@ -368,4 +369,103 @@ TEST_CASE("a plane of relief moves texels by its height, and steep views no furt
     const TexturePlace at = relief_place(moving.relief, {0.3f, 0.6f}, 0, view);
     CHECK((std::abs(at.u - 0.5f) < 1e-6f && at.v == 0.6f));
   }
+}
+
+TEST_CASE("places of a pixel lie along the longer axis of its footprint and cover it") {
+  test::Numbers numbers(5);
+  for (int i = 0; i < 300; ++i) {
+    // The footprint turned by `axis` in texels, seen through pixels turned by `screen`: J = R(axis) S
+    // R(screen).
+    const std::uint32_t width = 3 + numbers.below(60), height = 3 + numbers.below(60),
+                        count = 1 + numbers.below(max_fetches);
+    const float shorter = numbers.between(0.1f, 4), longer = shorter * numbers.between(1, 12),
+                axis = numbers.between(0, 6.3f), screen = numbers.between(0, 6.3f);
+    const auto side = [&](float along, float across) {
+      return TexturePlace{(std::cos(axis) * along - std::sin(axis) * across) / float(width),
+                          (std::sin(axis) * along + std::cos(axis) * across) / float(height)};
+    };
+    const PixelSides pixel{{numbers.between(-1, 2), numbers.between(-1, 2)},
+                           side(longer * std::cos(screen), shorter * std::sin(screen)),
+                           side(-longer * std::sin(screen), shorter * std::cos(screen))};
+    const Fetches at = fetches_along(pixel, width, height, count);
+    REQUIRE(at.count == count);
+    const float square = std::max(shorter, longer / float(count)), reach = 0.5f * (longer - square);
+    const float first_x = (at.place[0].u - pixel.middle.u) * float(width),
+                first_y = (at.place[0].v - pixel.middle.v) * float(height);
+    const float forward = first_x * std::cos(axis) + first_y * std::sin(axis) > 0 ? 1.0f : -1.0f;
+    for (std::uint32_t n = 0; n < count; ++n) {
+      const float share = count > 1 ? 1 - 2 * float(n) / float(count - 1) : 0;
+      const float x = (at.place[n].u - pixel.middle.u) * float(width),
+                  y = (at.place[n].v - pixel.middle.v) * float(height);
+      // Texels; squares of up to 2,300 in floats, and roots of the difference of two that may be nearly
+      // equal.
+      CHECK(std::abs(x - forward * share * reach * std::cos(axis)) < 5e-3f);
+      CHECK(std::abs(y - forward * share * reach * std::sin(axis)) < 5e-3f);
+      CHECK(std::abs(at.place[n].level - std::log2(square)) < 5e-3f);
+    }
+  }
+}
+
+TEST_CASE("a round pixel is decoded as a sample, and sides that are no numbers give the coarsest level") {
+  const float infinite = std::numeric_limits<float>::infinity(), no_number = std::nanf("");
+  for (const test::SampleSize& size :
+       {test::SampleSize{.width = 16, .height = 8, .map_side = 5},
+        {.width = 16, .height = 8, .bits = 8, .relief_height = 0.05f, .relief_steps = 8},
+        {.width = 16, .height = 8, .channels = 8}}) {
+    const MaterialTables tables = tables_of(test::sample_material(12, size));
+    const Vec3 view = normalised({0.6f, -0.3f, 0.5f}), light = normalised({-0.2f, 0.3f, 0.7f});
+    const auto check_equal = [&](const PixelSides& sides, std::uint32_t fetches, float level) {
+      const Sample sample{sides.middle.u, sides.middle.v, level, view, light};
+      const Pixel pixel{sides, view, light, fetches};
+      const Radiance want = evaluate_btf(tables, sample), got = evaluate_btf_pixel(tables, pixel);
+      CHECK((got.red == want.red && got.green == want.green && got.blue == want.blue));
+      CHECK(evaluate_votf_pixel(tables, pixel) == evaluate_votf(tables, sample));
+    };
+    const TexturePlace middle{0.3f, -1.4f};
+    for (const std::uint32_t fetches : {1u, 2u, 3u, 8u}) {
+      for (const float side : {0.25f, 1.0f, 3.0f, 4.0f, 64.0f})
+        check_equal({middle, {side / 16, 0}, {0, side / 8}}, fetches, 0.5f * std::log2(side * side));
+      check_equal({middle, {}, {}}, fetches, 0);
+      for (const float number : {infinite, -infinite, no_number, 3e38f})
+        for (const PixelSides& sides : {PixelSides{middle, {number, 0}, {0, 0.1f}},
+                                        {middle, {0.1f, number}, {0.2f, 0.1f}},
+                                        {middle, {0.1f, 0}, {number, number}}})
+          check_equal(sides, fetches, 30);
+    }
+  }
+}
+
+TEST_CASE("fetches along a pixel come nearer to supersampling than one fetch") {
+  // Images without any order, which no filter is made for; sums of squares over pixels of all directions.
+  const Material material =
+      test::sample_material(13, {.width = 32, .height = 32, .rank_x = 32, .rank_y = 32, .map_side = 5});
+  const MaterialTables tables = tables_of(material);
+  const Vec3 view = normalised({0.5f, 0.2f, 0.4f}), light = normalised({0.3f, 0.3f, 0.7f});
+  test::Numbers numbers(4);
+  double errors[3] = {}, votf_errors[3] = {};
+  for (int i = 0; i < 60; ++i) {
+    const float angle = numbers.between(0, 3.14f), longer = numbers.between(2, 6) / 32, shorter = 1.0f / 32;
+    const PixelSides sides{{numbers.between(0, 1), numbers.between(0, 1)},
+                           {-shorter * std::sin(angle), shorter * std::cos(angle)},
+                           {longer * std::cos(angle), longer * std::sin(angle)}};
+    double mean = 0, votf_mean = 0;
+    for (int x = 0; x < 6; ++x)
+      for (int y = 0; y < 36; ++y) {
+        const float across = (float(x) + 0.5f) / 6 - 0.5f, along = (float(y) + 0.5f) / 36 - 0.5f;
+        const Sample sample{sides.middle.u + across * sides.dx.u + along * sides.dy.u,
+                            sides.middle.v + across * sides.dx.v + along * sides.dy.v, 0, view, light};
+        mean += double(evaluate_btf(tables, sample).green) / 216;
+        votf_mean += double(evaluate_votf(tables, sample)) / 216;
+      }
+    for (const std::uint32_t fetches : {1u, 2u, 4u}) {
+      const Pixel pixel{sides, view, light, fetches};
+      errors[fetches / 2] += std::pow(double(evaluate_btf_pixel(tables, pixel).green) - mean, 2);
+      votf_errors[fetches / 2] += std::pow(double(evaluate_votf_pixel(tables, pixel)) - votf_mean, 2);
+    }
+  }
+  // The bound that the filter is made to keep, also of noise.
+  CHECK(errors[1] < 0.5 * errors[0]);
+  CHECK(votf_errors[1] < 0.5 * votf_errors[0]);
+  CHECK(errors[2] < errors[1]);
+  CHECK(votf_errors[2] < votf_errors[1]);
 }

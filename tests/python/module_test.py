@@ -187,6 +187,9 @@ class Materials(unittest.TestCase):
         # The light table has 64 cells a side. Half a cell is up to 0.02 radians, which changes the cosine of 1.2 radians by 5 %.
         np.testing.assert_allclose(values.radiance, np.repeat(albedo / math.pi * directions[:, 2:], 3, axis=1), rtol=0.05)
         np.testing.assert_array_equal(values.visibility, 1)
+        nothing = np.zeros_like(uv)
+        pixels = material.evaluate_anisotropic(uv, nothing, nothing, directions, directions, fetches=3)
+        np.testing.assert_array_equal(pixels.radiance, values.radiance)
 
 
 class Module(unittest.TestCase):

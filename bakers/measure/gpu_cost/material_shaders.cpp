@@ -48,6 +48,14 @@ std::vector<Loop> loops_of(const Size& size, const std::optional<Loop>& decoding
   return loops;
 }
 
+// Twice as many instructions in a term, which no family unrolls then.
+std::vector<Loop> loops_of_two_fetches(const Size& size) {
+  std::vector<Loop> loops;
+  if (size.has_relief) loops.push_back({"places", 2, {{"planes", double(relief_steps), {}}}});
+  loops.push_back({"terms", double(size.terms), {}});
+  return loops;
+}
+
 void set_tensor(material::TensorTables& t, std::uint32_t texels, std::uint32_t light_modes,
                 std::uint32_t view_vec4s, std::uint32_t clusters, std::uint32_t terms) {
   t.width = t.height = texels;
@@ -82,6 +90,21 @@ void main() {
   vec4 modes[NOOK_LIGHT_VEC4_COUNT];
   nook_material_decode(uv, dx, dy, view, modes);
   float visibility = nook_material_visibility(nook_material_occlusion(uv, dx, dy, view));
+  colour = vec4(nook_material_radiance(modes, light), visibility);
+}
+)";
+
+// The same with two fetches of each mode along the pixel.
+constexpr char decode_anisotropic[] = R"(#include "shaders/material/host.glsl"
+in vec2 uv;
+in vec3 view;
+in vec3 light;
+out vec4 colour;
+void main() {
+  vec2 dx = dFdx(uv), dy = dFdy(uv);
+  vec4 modes[NOOK_LIGHT_VEC4_COUNT];
+  nook_material_decode_anisotropic(uv, dx, dy, view, 2, modes);
+  float visibility = nook_material_visibility(nook_material_occlusion_anisotropic(uv, dx, dy, view, 2));
   colour = vec4(nook_material_radiance(modes, light), visibility);
 }
 )";
@@ -166,8 +189,11 @@ std::vector<ShaderCase> material_shaders() {
       if (size.loop_on_vega10) shaders.back().other_families = {{"vega10", loops(size.loop_on_vega10)}};
     };
     add(decode, name, {});
-    if (size.has_relief) continue;
     const bool is_k_cta = size.clusters > 1;
+    if (is_k_cta)
+      shaders.push_back(host_shader(declarations(size) + decode_anisotropic, name + ", two fetches",
+                                    loops_of_two_fetches(size)));
+    if (size.has_relief) continue;
     if (is_k_cta && size.light_modes <= 16) {
       add(transferred, std::string("radiance transfer, ") + size.name, {});
       add(transferred_mix, std::string("radiance transfer, vectors fetched, ") + size.name, {});

@@ -129,8 +129,7 @@ CompressionSettings settings_of(const Material& material, std::uint64_t seed) {
   return s;
 }
 
-MethodRow material_file_row(const RawMaterial& raw, const MaterialFile& file, const RawMaterial* unseen,
-                            bool jumps, bool mipmaps) {
+MethodRow material_file_row(const RawMaterial& raw, const MaterialFile& file, const FileMeasures& measures) {
   MethodRow own = measure_material(raw, file.material);
   own.method = "file: " + own.method;
   own.file_bytes = file.bytes.size();
@@ -139,9 +138,10 @@ MethodRow material_file_row(const RawMaterial& raw, const MaterialFile& file, co
   // A network is measured as it is drawn.
   own.se_db_drawn = tables.neural.is_used() ? own.se_db : measure_tables(raw, tables).se_db();
   own.gpu_bytes_texel = table_bytes_texel(tables);
-  if (mipmaps) own.levels = measure_levels(raw, tables);
-  add_unseen(unseen, file.material, own);
-  if (jumps) add_jumps(file.material, own);
+  if (measures.mipmaps) own.levels = measure_levels(raw, tables);
+  if (measures.grazing) own.grazing = measure_grazing(raw, tables);
+  add_unseen(measures.unseen, file.material, own);
+  if (measures.jumps) add_jumps(file.material, own);
   return own;
 }
 

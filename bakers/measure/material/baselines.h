@@ -43,11 +43,13 @@ struct MaterialFile {
   const nook::material::Material& material;
 };
 
-// The file's own row: its errors, where unseen is given its errors in those views, its jumps, and its
-// mipmaps.
+// Measures of a file beside its errors in the fitted views.
+struct FileMeasures {
+  const bake::material::RawMaterial* unseen = nullptr;  // errors in these views; null: none
+  bool jumps = false, mipmaps = false, grazing = false;
+};
 bake::material::MethodRow material_file_row(const bake::material::RawMaterial& raw, const MaterialFile& file,
-                                            const bake::material::RawMaterial* unseen, bool jumps,
-                                            bool mipmaps = false);
+                                            const FileMeasures& measures = {});
 
 // Compresses the raw material anew by each named method, at the ranks of the file; n-svd-filled and PCA take
 // as many bytes as the whole file.

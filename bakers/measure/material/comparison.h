@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bakers/material/compression.h"
+#include "bakers/measure/material/grazing.h"
 #include "bakers/measure/material/table_error.h"
 #include "bakers/measure/material/view_jumps.h"
 
@@ -24,7 +25,8 @@ struct MethodRow {
   std::optional<std::size_t> error_texels_binary, error_texels_distance;
   // As drawn from textures, see table_error.h: the error, and the textures' bytes for each texel.
   std::optional<double> se_db_drawn, gpu_bytes_texel;
-  std::vector<LevelError> levels;  // of pixels that cover many texels
+  std::vector<LevelError> levels;     // of pixels that cover many texels
+  std::vector<GrazingError> grazing;  // of pixels of tilted views
   // Errors in views, and under lights, that were not fitted.
   std::optional<double> se_db_unseen;
   std::optional<std::size_t> error_texels_unseen;

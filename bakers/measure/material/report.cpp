@@ -21,6 +21,12 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
   for (const LevelError& level : row.levels)
     json["mipmaps"].push_back(
         {{"texels", level.side}, {"se_db", level.se_db}, {"se_db_finest", level.se_db_finest}});
+  for (const GrazingError& error : row.grazing)
+    json["grazing"].push_back({{"fetches", error.fetches},
+                               {"mse", error.mse},
+                               {"of_isotropic", error.mse / row.grazing.front().mse},
+                               {"mse_raw", error.mse_raw},
+                               {"of_isotropic_raw", error.mse_raw / row.grazing.front().mse_raw}});
   if (row.se_db_unseen) json["se_db_unseen"] = *row.se_db_unseen;
   if (row.error_texels_unseen) json["votf_error_texels_unseen"] = *row.error_texels_unseen;
   if (row.jumps) {

@@ -13,18 +13,6 @@ using Eigen::Index;
 using nook::material::MaterialTables;
 using tensor::Matrix;
 
-// The light basis of all lights and channels, 3 lights x light modes.
-Matrix light_rows(const RawMaterial& raw, const MaterialTables& tables) {
-  const std::size_t modes = tables.btf.light_modes;
-  Matrix rows(Index(raw.light_rows()), Index(modes));
-  std::vector<float> basis(3 * modes);
-  for (std::size_t light = 0; light < raw.lights.size(); ++light) {
-    nook::material::light_basis_at(tables, raw.lights[light], basis);
-    std::copy(basis.begin(), basis.end(), rows.data() + 3 * light * modes);
-  }
-  return rows;
-}
-
 // The light modes of all texels for a view, light modes x texels (x slow, y fast).
 Matrix decoded_modes(const RawMaterial& raw, const MaterialTables& tables, Vec3 view) {
   Matrix modes(Index(raw.texels()), Index(tables.btf.light_modes));
@@ -73,6 +61,17 @@ Matrix mean_radiances(const RawMaterial& raw, std::size_t view, std::uint32_t x,
 }
 
 }  // namespace
+
+Matrix light_rows(const RawMaterial& raw, const MaterialTables& tables) {
+  const std::size_t modes = tables.btf.light_modes;
+  Matrix rows(Index(raw.light_rows()), Index(modes));
+  std::vector<float> basis(3 * modes);
+  for (std::size_t light = 0; light < raw.lights.size(); ++light) {
+    nook::material::light_basis_at(tables, raw.lights[light], basis);
+    std::copy(basis.begin(), basis.end(), rows.data() + 3 * light * modes);
+  }
+  return rows;
+}
 
 std::vector<LevelError> measure_levels(const RawMaterial& raw, const MaterialTables& tables) {
   const Matrix lights = tables.neural.is_used() ? Matrix() : light_rows(raw, tables);

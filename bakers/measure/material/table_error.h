@@ -8,6 +8,9 @@
 
 namespace nook::bake::material {
 
+// The light basis of all lights and channels of the raw material, 3 lights x light modes.
+tensor::Matrix light_rows(const RawMaterial& raw, const nook::material::MaterialTables& tables);
+
 // Throws Failure(INVALID_ARGUMENT) where the sizes are not the raw material's.
 BtfError measure_tables(const RawMaterial& raw, const nook::material::MaterialTables& tables);
 

@@ -61,8 +61,8 @@ Sheet sheet_of(const MaterialTables& tables) {
 
 void add_raw(PageParts& parts, Measures& measures, std::span<const std::byte> bytes,
              const nook::material::Material& material, const bake::material::RawMaterial& raw) {
-  const nlohmann::ordered_json row = bake::material::report_row(
-      raw.name, measure::material_file_row(raw, {bytes, material}, nullptr, false));
+  const nlohmann::ordered_json row =
+      bake::material::report_row(raw.name, measure::material_file_row(raw, {bytes, material}));
   if (row.contains("se_db") && row["se_db"].is_number()) measures.value["se_db"] = row["se_db"].get<double>();
   std::vector<std::vector<Html>> rows{{Html("against the raw material"), Html("value")}};
   for (const auto& item : row.items())

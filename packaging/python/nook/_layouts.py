@@ -65,6 +65,7 @@ NOOK_ISA_WASM128 = 6
 NOOK_LOG_ERROR = 2
 NOOK_LOG_INFO = 0
 NOOK_LOG_WARNING = 1
+NOOK_MATERIAL_MAX_FETCHES = 8
 NOOK_MATERIAL_VISIBILITY_BINARY = 1
 NOOK_MATERIAL_VISIBILITY_DISTANCE = 2
 NOOK_MATERIAL_VISIBILITY_NONE = 0
@@ -485,6 +486,8 @@ class nook_material_info(ctypes.Structure):
         ("table_bytes", ctypes.c_uint64),
         ("neural_channels", ctypes.c_uint32),
         ("neural_units", ctypes.c_uint32),
+        ("further_decode_fetches", ctypes.c_uint32),
+        ("further_occlusion_fetches", ctypes.c_uint32),
     ]
 
 
@@ -502,6 +505,16 @@ class nook_material_value(ctypes.Structure):
         ("radiance", ctypes.c_float * 3),
         ("occlusion", ctypes.c_float),
         ("visibility", ctypes.c_float),
+    ]
+
+
+class nook_material_pixel(ctypes.Structure):
+    _fields_ = [
+        ("uv", ctypes.c_float * 2),
+        ("dx", ctypes.c_float * 2),
+        ("dy", ctypes.c_float * 2),
+        ("view", ctypes.c_float * 3),
+        ("light", ctypes.c_float * 3),
     ]
 
 
@@ -943,6 +956,7 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "nook_material_destroy": (None, [ctypes.POINTER(nook_material)]),
     "nook_material_describe": (nook_result, [nook_material, ctypes.POINTER(nook_material_info)]),
     "nook_material_evaluate": (nook_result, [nook_material, ctypes.POINTER(nook_material_sample), ctypes.c_uint32, ctypes.POINTER(nook_material_value)]),
+    "nook_material_evaluate_anisotropic": (nook_result, [nook_material, ctypes.POINTER(nook_material_pixel), ctypes.c_uint32, ctypes.c_uint32, ctypes.POINTER(nook_material_value)]),
     "nook_transfer_load": (nook_result, [nook_context, ctypes.c_void_p, ctypes.c_size_t, ctypes.POINTER(nook_transfer)]),
     "nook_transfer_destroy": (None, [ctypes.POINTER(nook_transfer)]),
     "nook_transfer_describe": (nook_result, [nook_transfer, ctypes.POINTER(nook_transfer_info)]),

@@ -37,9 +37,22 @@ class Material(Handle):
         """The material at n points: uv is n x 2, view and light are n x 3 unit vectors in tangent space, away from the surface."""
         points = floats(uv, (None, 2), "uv")
         views, lights = floats(view, (len(points), 3), "view"), floats(light, (len(points), 3), "light")
+        samples = np.concatenate([points, np.full((len(points), 1), level, np.float32), views, lights], axis=1)
+        return self._values("nook_material_evaluate", c.nook_material_sample, samples)
+
+    def evaluate_anisotropic(self, uv: Any, dx: Any, dy: Any, view: Any, light: Any, fetches: int = 2) -> MaterialValues:
+        """The material in n pixels: dx and dy are n x 2, the changes of uv to the neighbours to the right and above; the rest as in
+        evaluate. Each is the mean over that many places along the longer side of the pixel, 1 to NOOK_MATERIAL_MAX_FETCHES."""
+        points = floats(uv, (None, 2), "uv")
+        sides = [floats(side, (len(points), 2), name) for side, name in ((dx, "dx"), (dy, "dy"))]
+        views, lights = floats(view, (len(points), 3), "view"), floats(light, (len(points), 3), "light")
+        return self._values("nook_material_evaluate_anisotropic", c.nook_material_pixel,
+                            np.concatenate([points, *sides, views, lights], axis=1), fetches)
+
+    def _values(self, function: str, structure: Any, rows: Any, *further: int) -> MaterialValues:
         # The structures hold floats alone, so that arrays of floats have their layout.
-        samples = np.concatenate([points, np.full((len(points), 1), level, np.float32), views, lights], axis=1).astype(np.float32)
-        values = np.empty((len(points), ctypes.sizeof(c.nook_material_value) // 4), np.float32)
-        call("nook_material_evaluate", self.handle, ctypes.cast(samples.ctypes.data, ctypes.POINTER(c.nook_material_sample)), len(points),
+        rows = rows.astype(np.float32)
+        values = np.empty((len(rows), ctypes.sizeof(c.nook_material_value) // 4), np.float32)
+        call(function, self.handle, ctypes.cast(rows.ctypes.data, ctypes.POINTER(structure)), len(rows), *further,
              ctypes.cast(values.ctypes.data, ctypes.POINTER(c.nook_material_value)))
         return MaterialValues(values[:, 0:3].copy(), values[:, 3].copy(), values[:, 4].copy())

@@ -397,6 +397,8 @@ export interface MaterialInfo {
   tableBytes: number;
   neuralChannels: number;
   neuralUnits: number;
+  furtherDecodeFetches: number;
+  furtherOcclusionFetches: number;
 }
 export interface MaterialSample {
   uv: Numbers;
@@ -404,10 +406,18 @@ export interface MaterialSample {
   view: Numbers;
   light: Numbers;
 }
+export interface MaterialPixel {
+  uv: Numbers;
+  dx: Numbers;
+  dy: Numbers;
+  view: Numbers;
+  light: Numbers;
+}
 export class Material extends Owned {
   private constructor();
   readonly info: MaterialInfo;
   evaluate(samples: MaterialSample[]): { radiance: Float32Array; occlusion: number; visibility: number }[];
+  evaluateAnisotropic(pixels: MaterialPixel[], fetches?: number): { radiance: Float32Array; occlusion: number; visibility: number }[];
 }
 export class GlMaterial extends Owned {
   private constructor();

@@ -10,6 +10,14 @@
  *     alpha = nook_material_visibility(nook_material_occlusion(uv, dFdx(uv), dFdy(uv), view));
  * nook_material_radiance is called once for each light, and its result includes the cosine.
  *
+ * Both filter a pixel by one fetch of each mode at the mipmap level of its longer side, which blurs grazing
+ * views. With several fetches along that side, `fetches` being a constant of 1 to NOOK_MATERIAL_MAX_FETCHES,
+ *     nook_material_decode_anisotropic(uv, dFdx(uv), dFdy(uv), view, fetches, modes);
+ *     alpha = nook_material_visibility(
+ *         nook_material_occlusion_anisotropic(uv, dFdx(uv), dFdy(uv), view, fetches));
+ * stay sharp, see nook_material_evaluate_anisotropic. Each fetch beyond the first costs
+ * further_decode_fetches of nook_material_info; a program that calls neither pays nothing.
+ *
  * The text of a neural material has the same functions. Its `modes` are no light modes but sums of the
  * network for the pixel: other shaders cannot add them up or mix them.
  *

@@ -111,6 +111,11 @@ typedef struct nook_material_info {
    * members of btf are 0; 0 for the others. */
   uint32_t neural_channels;
   uint32_t neural_units;
+  /* The fetches that each further place of nook_material_decode_anisotropic adds to decode_fetches, and each
+   * of nook_material_occlusion_anisotropic to occlusion_fetches: those of modes or features and of a relief,
+   * but not those of coefficients. */
+  uint32_t further_decode_fetches;
+  uint32_t further_occlusion_fetches;
 } nook_material_info;
 
 /* Describes a material.
@@ -139,11 +144,43 @@ typedef struct nook_material_value {
   float visibility;
 } nook_material_value;
 
+/* The largest number of fetches along the longer side of a pixel. */
+enum { NOOK_MATERIAL_MAX_FETCHES = 8 };
+
+/* A pixel of a picture, of any shape. Where a view is tilted it is longer along the tilt, and a single mipmap
+ * level blurs it across. */
+typedef struct nook_material_pixel {
+  /* Texture coordinates of its middle; 0 to 1 is one tile, and the tile repeats. */
+  float uv[2];
+  /* Their changes from this pixel to its neighbours to the right and above, as dFdx(uv) and dFdy(uv). Zero is
+   * a pixel without a size, which sees the finest level. */
+  float dx[2];
+  float dy[2];
+  /* Unit vector; a view from below the horizon is moved onto it. */
+  float view[3];
+  /* Unit vector; light from below the horizon gives black. */
+  float light[3];
+} nook_material_pixel;
+
 /* Decodes samples on the CPU. This is the reference of the GLSL, which agrees within 1/255 for radiances up
  * to 1.
  * Any thread. Errors: INVALID_ARGUMENT (also, a number of a sample is not finite). */
 NOOK_API nook_result nook_material_evaluate(nook_material material, const nook_material_sample* samples,
                                             uint32_t count, nook_material_value* values);
+
+/* Decodes pixels on the CPU, each as the mean over `fetches` places along the longer side of its footprint, 1
+ * to NOOK_MATERIAL_MAX_FETCHES. Beyond 60 degrees, 2 leave a fifth at most, and of neural materials two
+ * fifths, of the squared error of one fetch at the level of the longer side. Each place has the level of the
+ * shorter side, or of its share of the longer one where that is more: pixels longer than `fetches` times
+ * their width are blurred across, and none has gaps. A round pixel is decoded as by nook_material_evaluate.
+ * Of a relief or a neural material the view's ray through each place meets a point of its own; a neural
+ * material decodes the mean of the features, as its mipmaps do. This is the reference of
+ * nook_material_decode_anisotropic and nook_material_occlusion_anisotropic of the GLSL.
+ * Any thread. Errors: INVALID_ARGUMENT (also, a number of a pixel is not finite, or fetches is out of range).
+ */
+NOOK_API nook_result nook_material_evaluate_anisotropic(nook_material material,
+                                                        const nook_material_pixel* pixels, uint32_t count,
+                                                        uint32_t fetches, nook_material_value* values);
 
 #ifdef __cplusplus
 }

@@ -25,6 +25,10 @@ class Material : public Unique<nook_material, nook_material_destroy> {
   void evaluate(const nook_material_sample* samples, std::uint32_t count, nook_material_value* values) const {
     check(nook_material_evaluate(get(), samples, count, values));
   }
+  void evaluate_anisotropic(const nook_material_pixel* pixels, std::uint32_t count, std::uint32_t fetches,
+                            nook_material_value* values) const {
+    check(nook_material_evaluate_anisotropic(get(), pixels, count, fetches, values));
+  }
 
  private:
   static nook_material load(const Context& context, const void* bytes, std::size_t size) {

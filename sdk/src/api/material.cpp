@@ -43,6 +43,9 @@ nook_material_info info_of(const Material& material, const MaterialTables& table
   info.light_multiply_adds = light.multiply_adds;
   info.occlusion_fetches = occlusion.fetches;
   info.occlusion_multiply_adds = occlusion.multiply_adds;
+  // A neural material's fetches are those of features.
+  info.further_decode_fetches = is_neural ? decode.fetches : relief.fetches + further_fetches(tables.btf);
+  info.further_occlusion_fetches = further_fetches(tables.votf);
   info.compressed_bytes = compressed_bytes(material);
   info.view_map_bytes = map_bytes(material.btf, material.bits);
   info.table_bytes = table_bytes(tables);
@@ -58,18 +61,41 @@ nook_material_info info_of(const Material& material, const MaterialTables& table
   return info;
 }
 
-Sample checked(const nook_material_sample& given, std::uint32_t index) {
-  for (const float number : {given.uv[0], given.uv[1], given.level, given.view[0], given.view[1],
-                             given.view[2], given.light[0], given.light[1], given.light[2]})
+void need_finite(std::initializer_list<float> numbers, const char* what, std::uint32_t index) {
+  for (const float number : numbers)
     if (!std::isfinite(number))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a number of sample %u is not finite (got %g)", index,
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a number of %s %u is not finite (got %g)", what, index,
                     double(number));
+}
+
+Sample checked(const nook_material_sample& given, std::uint32_t index) {
+  need_finite({given.uv[0], given.uv[1], given.level, given.view[0], given.view[1], given.view[2],
+               given.light[0], given.light[1], given.light[2]},
+              "sample", index);
   return {given.uv[0],
           given.uv[1],
           given.level,
           {given.view[0], given.view[1], given.view[2]},
           {given.light[0], given.light[1], given.light[2]}};
 }
+
+Pixel checked(const nook_material_pixel& given, std::uint32_t index, std::uint32_t fetches) {
+  need_finite({given.uv[0], given.uv[1], given.dx[0], given.dx[1], given.dy[0], given.dy[1], given.view[0],
+               given.view[1], given.view[2], given.light[0], given.light[1], given.light[2]},
+              "pixel", index);
+  return {{{given.uv[0], given.uv[1]}, {given.dx[0], given.dx[1]}, {given.dy[0], given.dy[1]}},
+          {given.view[0], given.view[1], given.view[2]},
+          {given.light[0], given.light[1], given.light[2]},
+          fetches};
+}
+
+nook_material_value value_of(const MaterialTables& tables, const Radiance& radiance, float occlusion) {
+  return {{radiance.red, radiance.green, radiance.blue},
+          occlusion,
+          visibility_of(tables.visibility, tables.mapping, occlusion)};
+}
+
+static_assert(NOOK_MATERIAL_MAX_FETCHES == max_fetches);
 
 }  // namespace
 
@@ -121,11 +147,27 @@ nook_result nook_material_evaluate(nook_material material, const nook_material_s
     const MaterialTables& tables = material->tables;
     for (std::uint32_t i = 0; i < count; ++i) {
       const Sample sample = checked(samples[i], i);
-      const Radiance radiance = evaluate_btf(tables, sample);
-      const float occlusion = evaluate_votf(tables, sample);
-      values[i] = {{radiance.red, radiance.green, radiance.blue},
-                   occlusion,
-                   visibility_of(tables.visibility, tables.mapping, occlusion)};
+      values[i] = value_of(tables, evaluate_btf(tables, sample), evaluate_votf(tables, sample));
+    }
+  });
+}
+
+nook_result nook_material_evaluate_anisotropic(nook_material material, const nook_material_pixel* pixels,
+                                               uint32_t count, uint32_t fetches,
+                                               nook_material_value* values) {
+  return api::enter("nook_material_evaluate_anisotropic", [&] {
+    need(material, "material");
+    if (fetches < 1 || fetches > max_fetches)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "fetches is out of range (got %u, need 1 to %u)", fetches,
+                    max_fetches);
+    if (count == 0) return;
+    need(pixels, "pixels");
+    need(values, "values");
+    for (std::uint32_t i = 0; i < count; ++i) checked(pixels[i], i, fetches);
+    const MaterialTables& tables = material->tables;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Pixel pixel = checked(pixels[i], i, fetches);
+      values[i] = value_of(tables, evaluate_btf_pixel(tables, pixel), evaluate_votf_pixel(tables, pixel));
     }
   });
 }

@@ -22,10 +22,19 @@ Between clamped(float at, std::uint32_t size) {
   return {first, std::min(first + 1, size - 1), place - low};
 }
 
-Four mode_at(const TensorTables& tables, std::uint32_t layer, const Sample& sample) {
-  const ImagePlace place{sample.u, sample.v, sample.level};
-  return tables.bits == 16 ? trilinear(tables.image_size(), tables.spatial.data(), layer, place)
-                           : trilinear(tables.image_size(), tables.spatial_8.data(), layer, place);
+Four mode_at(const TensorTables& tables, std::uint32_t layer, const Fetches& at) {
+  return mean_over(at, [&](const ImagePlace& place) {
+    return tables.bits == 16 ? trilinear(tables.image_size(), tables.spatial.data(), layer, place)
+                             : trilinear(tables.image_size(), tables.spatial_8.data(), layer, place);
+  });
+}
+
+Fetches fetches_of(const Sample& sample) {
+  return one_fetch({sample.u, sample.v, sample.level});
+}
+
+Fetches fetches_of(const Pixel& pixel, std::uint32_t width, std::uint32_t height) {
+  return fetches_along(pixel.sides, width, height, pixel.fetches);
 }
 
 std::uint32_t member(const TensorTables& tables, std::size_t cell, std::uint32_t k) {
@@ -51,18 +60,21 @@ Four blended(const TensorTables& tables, std::size_t layer, const CellBlend& ble
   return sum;
 }
 
-// The sample at the point of the relief that its view sees.
-Sample on_relief(const MaterialTables& tables, Sample sample) {
-  const TexturePlace at = relief_place(tables.relief, {sample.u, sample.v}, sample.level, sample.view);
-  sample.u = at.u;
-  sample.v = at.v;
-  return sample;
+// The points of the relief that a view sees through places.
+Fetches on_relief(const MaterialTables& tables, Fetches at, Vec3 view) {
+  for (std::uint32_t i = 0; i < at.count; ++i) {
+    ImagePlace& place = at.place[i];
+    const TexturePlace seen = relief_place(tables.relief, {place.u, place.v}, place.level, view);
+    place.u = seen.u;
+    place.v = seen.v;
+  }
+  return at;
 }
 
-// Decodes the light modes of a texel for a view: each of the light_modes numbers is a sum over terms and view
-// modes.
-void decode(const TensorTables& tables, const Sample& sample, float* modes) {
-  const CellBlend blend = blend_of(tables, sample.view);
+// Decodes the mean light modes of places for a view: each of the light_modes numbers is a sum over terms and
+// view modes.
+void decode(const TensorTables& tables, const Fetches& at, Vec3 view, float* modes) {
+  const CellBlend blend = blend_of(tables, view);
   std::fill_n(modes, tables.light_modes, 0.0f);
   for (std::uint32_t k = 0; k < tables.terms; ++k) {
     const std::uint32_t cluster = tables.clusters > 1 ? member(tables, blend.cell[0], k) : 0;
@@ -70,7 +82,7 @@ void decode(const TensorTables& tables, const Sample& sample, float* modes) {
       const Four coefficients = blended(tables, std::size_t(k) * tables.view_vec4_count + f, blend);
       for (std::uint32_t a = 0; a < tables.light_modes; ++a) {
         const std::uint32_t layer = (cluster * tables.light_modes + a) * tables.view_vec4_count + f;
-        modes[a] += dot(coefficients, mode_at(tables, layer, sample));
+        modes[a] += dot(coefficients, mode_at(tables, layer, at));
       }
     }
   }
@@ -96,22 +108,20 @@ Four light_texel(const MaterialTables& tables, std::uint32_t layer, const Betwee
              mix(texel(x.low, y.high), texel(x.high, y.high), x.t), y.t);
 }
 
-Radiance evaluate_neural(const NeuralTables& tables, const Sample& sample) {
+Radiance evaluate_neural(const NeuralTables& tables, const Fetches& at, Vec3 view, Vec3 light) {
   std::array<float, max_neural_units + 4> numbers;
   const auto decoded = std::span(numbers).first(tables.decoded_count());
-  decode_neural(tables, {sample.u, sample.v, sample.level}, sample.view, decoded);
-  const Vec3 radiance = neural_radiance(tables, decoded, sample.light);
+  decode_neural_places(tables, at, view, decoded);
+  const Vec3 radiance = neural_radiance(tables, decoded, light);
   return {radiance.x, radiance.y, radiance.z};
 }
 
-}  // namespace
-
-Radiance evaluate_btf(const MaterialTables& tables, const Sample& sample) {
-  if (!(sample.light.z > 0)) return {};
-  if (tables.neural.is_used()) return evaluate_neural(tables.neural, sample);
+Radiance radiance_of(const MaterialTables& tables, const Fetches& at, Vec3 view, Vec3 light) {
+  if (!(light.z > 0)) return {};
+  if (tables.neural.is_used()) return evaluate_neural(tables.neural, at, view, light);
   std::array<float, 3 * max_directions + 3> modes;
-  decode(tables.btf, on_relief(tables, sample), modes.data());
-  const LightPlace place = light_place(sample.light);
+  decode(tables.btf, on_relief(tables, at, view), view, modes.data());
+  const LightPlace place = light_place(light);
   float radiance[3] = {};
   const std::uint32_t light_vec4_count = tables.btf.light_modes / 4;
   for (std::uint32_t channel = 0; channel < 3; ++channel)
@@ -121,8 +131,29 @@ Radiance evaluate_btf(const MaterialTables& tables, const Sample& sample) {
   return {radiance[0], radiance[1], radiance[2]};
 }
 
+float votf_of(const MaterialTables& tables, const Fetches& at, Vec3 view) {
+  float value = 0;
+  decode(tables.votf, at, view, &value);
+  return value;
+}
+
+}  // namespace
+
+Radiance evaluate_btf(const MaterialTables& tables, const Sample& sample) {
+  return radiance_of(tables, fetches_of(sample), sample.view, sample.light);
+}
+
+Radiance evaluate_btf_pixel(const MaterialTables& tables, const Pixel& pixel) {
+  return radiance_of(tables, fetches_of(pixel, tables.btf.width, tables.btf.height), pixel.view, pixel.light);
+}
+
 void decode_modes(const MaterialTables& tables, const Sample& sample, std::span<float> modes) {
-  decode(tables.btf, on_relief(tables, sample), modes.data());
+  decode(tables.btf, on_relief(tables, fetches_of(sample), sample.view), sample.view, modes.data());
+}
+
+void decode_pixel_modes(const MaterialTables& tables, const Pixel& pixel, std::span<float> modes) {
+  const Fetches at = fetches_of(pixel, tables.btf.width, tables.btf.height);
+  decode(tables.btf, on_relief(tables, at, pixel.view), pixel.view, modes.data());
 }
 
 void light_basis_at(const MaterialTables& tables, Vec3 light, std::span<float> basis) {
@@ -139,9 +170,12 @@ void light_basis_at(const MaterialTables& tables, Vec3 light, std::span<float> b
 
 float evaluate_votf(const MaterialTables& tables, const Sample& sample) {
   if (tables.visibility == VisibilityForm::none) return 1;
-  float value = 0;
-  decode(tables.votf, sample, &value);
-  return value;
+  return votf_of(tables, fetches_of(sample), sample.view);
+}
+
+float evaluate_votf_pixel(const MaterialTables& tables, const Pixel& pixel) {
+  if (tables.visibility == VisibilityForm::none) return 1;
+  return votf_of(tables, fetches_of(pixel, tables.votf.width, tables.votf.height), pixel.view);
 }
 
 float visibility_of(VisibilityForm form, const VisibilityMapping& mapping, float value) {

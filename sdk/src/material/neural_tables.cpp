@@ -66,10 +66,14 @@ void rectify(std::span<float> units) {
 
 // The sums of a first layer: channels from a layer of the images on, the view and the bias.
 void add_first_layer(const NeuralTables& tables, std::size_t weights, std::uint32_t layer,
-                     std::uint32_t channels, const ImagePlace& place, Vec3 view, std::span<float> sums) {
+                     std::uint32_t channels, const Fetches& places, Vec3 view, std::span<float> sums) {
   const float* at = &tables.weights[weights];
-  for (std::uint32_t i = 0; i < channels / 4; ++i)
-    at = add_products(at, trilinear(tables.size, tables.features.data(), layer + i, place), sums);
+  for (std::uint32_t i = 0; i < channels / 4; ++i) {
+    const auto feature = [&](const ImagePlace& place) {
+      return trilinear(tables.size, tables.features.data(), layer + i, place);
+    };
+    at = add_products(at, mean_over(places, feature), sums);
+  }
   const float rest[] = {view.x, view.y, view.z, 1};
   add_products(at, rest, sums);
 }
@@ -78,11 +82,21 @@ float height_at(const NeuralTables& tables, const NeuralLayout& at, const ImageP
   const NeuralShape& s = tables.shape;
   float numbers[max_neural_units] = {};
   const std::span<float> units(numbers, s.offset_units);
-  add_first_layer(tables, at.offset_in, s.channels / 4, s.offset_channels, place, view, units);
+  add_first_layer(tables, at.offset_in, s.channels / 4, s.offset_channels, one_fetch(place), view, units);
   rectify(units);
   float height = tables.weights[at.offset_level];
   for (std::size_t u = 0; u < units.size(); ++u) height += tables.weights[at.offset_out + u] * units[u];
   return height;
+}
+
+// Where a view through a place reads the features.
+ImagePlace seen_place(const NeuralTables& tables, const NeuralLayout& at, const ImagePlace& place,
+                      Vec3 view) {
+  const float wished = neural_shift(height_at(tables, at, place, view), view);
+  // A view that is no unit vector may be so long that no place is left.
+  const bool is_finite = std::isfinite(view.x * wished) && std::isfinite(view.y * wished);
+  const float shift = is_finite ? wished : 0;
+  return {place.u + view.x * shift, place.v + view.y * shift, place.level};
 }
 
 }  // namespace
@@ -106,19 +120,20 @@ NeuralTables make_neural_tables(const Neural& neural, std::span<const Vec3> view
   return tables;
 }
 
-void decode_neural(const NeuralTables& tables, const ImagePlace& place, Vec3 given,
-                   std::span<float> decoded) {
+void decode_neural(const NeuralTables& tables, const ImagePlace& place, Vec3 view, std::span<float> decoded) {
+  decode_neural_places(tables, one_fetch(place), view, decoded);
+}
+
+void decode_neural_places(const NeuralTables& tables, const Fetches& given_places, Vec3 given,
+                          std::span<float> decoded) {
   const NeuralShape& s = tables.shape;
   const NeuralLayout at(s);
   const Vec3 view = raised(given, tables.lowest_view_z);
-  const float wished = neural_shift(height_at(tables, at, place, view), view);
-  // A view that is no unit vector may be so long that no place is left.
-  const bool is_finite = std::isfinite(view.x * wished) && std::isfinite(view.y * wished);
-  const float shift = is_finite ? wished : 0;
+  Fetches places = given_places;
+  for (std::uint32_t i = 0; i < places.count; ++i)
+    places.place[i] = seen_place(tables, at, places.place[i], view);
   std::fill(decoded.begin(), decoded.end(), 0.0f);
-  add_first_layer(tables, at.position, 0, s.channels,
-                  {place.u + view.x * shift, place.v + view.y * shift, place.level}, view,
-                  decoded.first(s.units));
+  add_first_layer(tables, at.position, 0, s.channels, places, view, decoded.first(s.units));
   decoded[s.units] = view.x;
   decoded[s.units + 1] = view.y;
   decoded[s.units + 2] = view.z;

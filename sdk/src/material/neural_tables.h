@@ -7,6 +7,7 @@
 
 #include "sdk/src/core/containers.h"
 #include "sdk/src/core/vec.h"
+#include "sdk/src/material/footprint.h"
 #include "sdk/src/material/layered_image.h"
 #include "sdk/src/material/neural.h"
 
@@ -32,8 +33,10 @@ struct NeuralTables {
 NeuralTables make_neural_tables(const Neural& neural, std::span<const Vec3> views,
                                 std::span<const Vec3> lights, Memory* memory);
 
-// Computes the numbers of a pixel, decoded_count() of them.
+// Computes the numbers of a pixel, decoded_count() of them, of one place or of the mean of the features of
+// several, each of which has a height of its own.
 void decode_neural(const NeuralTables& tables, const ImagePlace& place, Vec3 view, std::span<float> decoded);
+void decode_neural_places(const NeuralTables& tables, const Fetches& at, Vec3 view, std::span<float> decoded);
 
 // Returns the radiance of a light above the horizon of what decode_neural gave: RGB, at least 0.
 Vec3 neural_radiance(const NeuralTables& tables, std::span<const float> decoded, Vec3 light);

@@ -29,20 +29,39 @@ float nook_neural_height(vec2 uv, float level, vec3 view) {
   return height;
 }
 
-// Computes the numbers of the point uv for the view, with features filtered over the pixel with the sides dx and dy.
-void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
+vec4 nook_neural_mean(int layer, nook_material_fetches at) {
+  vec4 mean = nook_neural_feature(layer, at.place[0], at.level);
+  for (int i = 1; i < at.count; ++i)
+    mean += (nook_neural_feature(layer, at.place[i], at.level) - mean) / float(i + 1);
+  return mean;
+}
+
+// Computes the numbers of places for the view, of the mean of their features. Each place has a height of its own.
+void nook_material_decode_at(nook_material_fetches at, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   view = nook_neural_raised(view, nook_neural_lowest_view_z);
-  float level = nook_mipmap_level(dx, dy, NOOK_BTF_TEXELS);
-  float height = nook_neural_height(uv, level, view);
-  if (abs(height) < 1.0) uv += view.xy * (height / max(view.z, nook_neural_least_view_z));
+  for (int i = 0; i < at.count; ++i) {
+    float height = nook_neural_height(at.place[i], at.level, view);
+    if (abs(height) < 1.0) at.place[i] += view.xy * (height / max(view.z, nook_neural_least_view_z));
+  }
   for (int u = 0; u < NOOK_NEURAL_UNIT_VEC4S; ++u)
     modes[u] = nook_neural_position[NOOK_NEURAL_FEATURE_VEC4S * NOOK_NEURAL_UNIT_VEC4S + u] * vec4(view, 1.0);
   for (int i = 0; i < NOOK_NEURAL_FEATURE_VEC4S; ++i) {
-    vec4 feature = nook_neural_feature(i, uv, level);
+    vec4 feature = nook_neural_mean(i, at);
     for (int u = 0; u < NOOK_NEURAL_UNIT_VEC4S; ++u)
       modes[u] += nook_neural_position[i * NOOK_NEURAL_UNIT_VEC4S + u] * feature;
   }
   modes[NOOK_NEURAL_UNIT_VEC4S] = vec4(view, 0.0);
+}
+
+// Computes the numbers of the point uv for the view, with features filtered over the pixel with the sides dx and dy.
+void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
+  nook_material_decode_at(nook_material_one_fetch(uv, dx, dy, NOOK_BTF_TEXELS), view, modes);
+}
+
+// The same with several fetches of each feature along the longer side of the pixel, which keep grazing views sharp.
+void nook_material_decode_anisotropic(vec2 uv, vec2 dx, vec2 dy, vec3 view, int fetches,
+                                      out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
+  nook_material_decode_at(nook_material_fetches_along(uv, dx, dy, NOOK_BTF_TEXELS, fetches), view, modes);
 }
 
 // Returns the radiance towards the view for an irradiance of 1 on a plane that faces the light.

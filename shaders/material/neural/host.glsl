@@ -2,6 +2,8 @@
 // weights as constants and the sampler of the features before this text.
 #include "shaders/material/view_map.glsl"
 
+#include "shaders/material/footprint.glsl"
+
 #include "shaders/material/neural/decode.glsl"
 
 #include "shaders/material/visibility.glsl"

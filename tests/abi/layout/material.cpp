@@ -12,7 +12,7 @@ NOOK_AT(nook_material_tensor, mixture, 20);
 NOOK_AT(nook_material_tensor, view_map_side, 24);
 NOOK_AT(nook_material_tensor, terms, 28);
 
-NOOK_SIZE(nook_material_info, 152);
+NOOK_SIZE(nook_material_info, 160);
 NOOK_AT(nook_material_info, visibility, 4);
 NOOK_AT(nook_material_info, visibility_threshold, 8);
 NOOK_AT(nook_material_info, visibility_weight, 12);
@@ -33,11 +33,19 @@ NOOK_AT(nook_material_info, view_map_bytes, 128);
 NOOK_AT(nook_material_info, table_bytes, 136);
 NOOK_AT(nook_material_info, neural_channels, 144);
 NOOK_AT(nook_material_info, neural_units, 148);
+NOOK_AT(nook_material_info, further_decode_fetches, 152);
+NOOK_AT(nook_material_info, further_occlusion_fetches, 156);
 
 NOOK_SIZE(nook_material_sample, 36);
 NOOK_AT(nook_material_sample, level, 8);
 NOOK_AT(nook_material_sample, view, 12);
 NOOK_AT(nook_material_sample, light, 24);
+
+NOOK_SIZE(nook_material_pixel, 48);
+NOOK_AT(nook_material_pixel, dx, 8);
+NOOK_AT(nook_material_pixel, dy, 16);
+NOOK_AT(nook_material_pixel, view, 24);
+NOOK_AT(nook_material_pixel, light, 36);
 
 NOOK_SIZE(nook_material_value, 20);
 NOOK_AT(nook_material_value, occlusion, 12);

@@ -104,9 +104,10 @@ TEST_CASE("bake material trains a neural material, which inspect describes and e
   const ToolRun inspected = folder.run({"inspect", folder.path("n.nook")});
   CHECK(inspected.out.find("neural_channels") != std::string::npos);
 
-  const ToolRun measured = folder.run({"evaluate", "material", folder.path("n.raw"), folder.path("n.nook"),
-                                       "--unseen", folder.path("n.raw"), "--methods", "pca", "--mipmaps",
-                                       "--images", folder.path("images"), "--report", folder.path("e.json")});
+  const ToolRun measured =
+      folder.run({"evaluate", "material", folder.path("n.raw"), folder.path("n.nook"), "--unseen",
+                  folder.path("n.raw"), "--methods", "pca", "--mipmaps", "--grazing", "--images",
+                  folder.path("images"), "--report", folder.path("e.json")});
   INFO(measured.error);
   REQUIRE(measured.exit_code == 0);
   const auto row = nlohmann::json::parse(read_text(folder.path("e.json"))).at("rows").at(0);
@@ -115,6 +116,9 @@ TEST_CASE("bake material trains a neural material, which inspect describes and e
   CHECK(row.at("se_db_unseen") == row.at("se_db"));
   REQUIRE(row.at("mipmaps").size() == 2);  // of 12 texels
   CHECK(row.at("mipmaps").at(1).at("texels") == 4);
+  REQUIRE(row.at("grazing").size() == 5);
+  CHECK(row.at("grazing").at(0).at("of_isotropic") == 1);
+  CHECK(row.at("grazing").at(1).at("fetches") == 2);
   CHECK(!read_text(folder.path("images") + "/fiber_file.png").empty());
 
   for (const std::vector<std::string>& fit : std::vector<std::vector<std::string>>{

@@ -1,5 +1,6 @@
 // The sizes of a material, as sdk/src/gl/material/source.cpp writes them.
 #define NOOK_LIGHT_VEC4_COUNT 4
+#define NOOK_MATERIAL_MAX_FETCHES 8
 #define NOOK_BTF_TERMS 3
 #define NOOK_BTF_VIEW_VEC4_COUNT 1
 #define NOOK_BTF_CLUSTERS 20

@@ -4,6 +4,7 @@
 #include "sdk/src/gl/float_literal.h"
 #include "sdk/src/gl/material/formatted_text.h"
 #include "sdk/src/gl/material/neural_source.h"
+#include "sdk/src/material/footprint.h"
 
 namespace nook::gl {
 namespace {
@@ -61,6 +62,7 @@ String material_source(const material::MaterialTables& tables, std::uint32_t max
   }
   add_tensor(out, tables.votf, "votf", "NOOK_VOTF", max_layers);
   if (!is_neural) add_relief(out, tables.relief);
+  add(out, "#define NOOK_MATERIAL_MAX_FETCHES %u\n", material::max_fetches);
   if (tables.votf.terms != 0)
     // OpenGL ES gives uniforms no first value.
     add(out, "#ifdef GL_ES\nconst\n#else\nuniform\n#endif\nvec2 nook_visibility_mapping = vec2(%s, %s);\n",
