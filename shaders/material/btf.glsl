@@ -47,7 +47,7 @@ void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[N
     if (k % 4 == 0) clusters = texelFetch(nook_btf_membership, ivec3(cell, k / 4), 0);
 #endif
 #endif
-    int first = int(clusters[k % 4]) * NOOK_LIGHT_VEC4_COUNT * 4 * NOOK_BTF_VIEW_VEC4_COUNT;
+    int cluster = int(clusters[k % 4]);
     for (int b = 0; b < NOOK_BTF_VIEW_VEC4_COUNT; ++b) {
 #if NOOK_BTF_BLENDED
       vec4 coefficients = nook_material_blended(nook_btf_coefficients, blend, k * NOOK_BTF_VIEW_VEC4_COUNT + b);
@@ -55,11 +55,11 @@ void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[N
       vec4 coefficients = texelFetch(nook_btf_coefficients, ivec3(cell, k * NOOK_BTF_VIEW_VEC4_COUNT + b), 0);
 #endif
       for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a) {
-        int layer = first + a * 4 * NOOK_BTF_VIEW_VEC4_COUNT + b;
-        modes[a] += vec4(dot(coefficients, nook_btf_mode(layer, uv, level)),
-                         dot(coefficients, nook_btf_mode(layer + NOOK_BTF_VIEW_VEC4_COUNT, uv, level)),
-                         dot(coefficients, nook_btf_mode(layer + 2 * NOOK_BTF_VIEW_VEC4_COUNT, uv, level)),
-                         dot(coefficients, nook_btf_mode(layer + 3 * NOOK_BTF_VIEW_VEC4_COUNT, uv, level)));
+        int mode = a * 4 * NOOK_BTF_VIEW_VEC4_COUNT + b;
+        modes[a] += vec4(dot(coefficients, nook_btf_mode(cluster, mode, uv, level)),
+                         dot(coefficients, nook_btf_mode(cluster, mode + NOOK_BTF_VIEW_VEC4_COUNT, uv, level)),
+                         dot(coefficients, nook_btf_mode(cluster, mode + 2 * NOOK_BTF_VIEW_VEC4_COUNT, uv, level)),
+                         dot(coefficients, nook_btf_mode(cluster, mode + 3 * NOOK_BTF_VIEW_VEC4_COUNT, uv, level)));
       }
     }
   }

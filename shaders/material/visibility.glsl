@@ -22,14 +22,14 @@ float nook_material_occlusion(vec2 uv, vec2 dx, vec2 dy, vec3 view) {
     if (k % 4 == 0) clusters = texelFetch(nook_votf_membership, ivec3(cell, k / 4), 0);
 #endif
 #endif
-    int first = int(clusters[k % 4]) * NOOK_VOTF_VIEW_VEC4_COUNT;
+    int cluster = int(clusters[k % 4]);
     for (int b = 0; b < NOOK_VOTF_VIEW_VEC4_COUNT; ++b) {
 #if NOOK_VOTF_BLENDED
       vec4 coefficients = nook_material_blended(nook_votf_coefficients, blend, k * NOOK_VOTF_VIEW_VEC4_COUNT + b);
 #else
       vec4 coefficients = texelFetch(nook_votf_coefficients, ivec3(cell, k * NOOK_VOTF_VIEW_VEC4_COUNT + b), 0);
 #endif
-      value += dot(coefficients, nook_votf_mode(first + b, uv, level));
+      value += dot(coefficients, nook_votf_mode(cluster, b, uv, level));
     }
   }
   return value;

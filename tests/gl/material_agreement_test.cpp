@@ -15,9 +15,17 @@ namespace {
 
 constexpr float bound = 1.0f / 255;
 
+constexpr nook_material_modes plain = NOOK_MATERIAL_MODES_PLAIN;
+
+struct Form : Size {
+  nook_material_modes modes = plain;
+  int whole_light_modes = 4;
+};
+
 // N-SVD, CTA, K-CTA, K-CTA resampled, ranks that are no multiples of four, more terms than one texel of the
-// membership holds, one texel, no VOTF; integers of several of these; reliefs; neural materials.
-const Size forms[] = {
+// membership holds, one texel, no VOTF; integers of several of these; reliefs; neural materials; blocks of
+// several of these, with sides that are no multiples of four.
+const Form forms[] = {
     {.width = 16, .height = 16, .rank_view = 8, .clusters = 1, .mixture = 1},
     {.width = 16, .height = 8, .clusters = 5, .mixture = 1},
     {.width = 12, .height = 12, .rank_light = 8, .clusters = 5, .mixture = 3},
@@ -37,6 +45,25 @@ const Size forms[] = {
     {.width = 7, .height = 10, .map_side = 6, .channels = 4, .units = 8, .layers = 1},
     {.visibility = material::VisibilityForm::none, .channels = 8, .units = 12, .layers = 4},
 };
+
+// In the blocks that every context of its kind has.
+const Form block_forms[] = {
+    {{.width = 16, .height = 16, .rank_light = 8, .clusters = 6, .mixture = 3, .map_side = 24, .bits = 8}},
+    {{.width = 13, .height = 6, .rank_light = 7, .rank_view = 5, .clusters = 1, .mixture = 1}},
+    {{.width = 7, .height = 12, .clusters = 5, .mixture = 2}, plain, 0},
+    {{.width = 1, .height = 1, .rank_x = 1, .rank_y = 1}, plain, 0},
+    {{.width = 16, .height = 8, .channels = 16, .units = 32}},
+    {{.width = 12, .height = 7, .rank_light = 8, .bits = 8, .relief_height = 0.05f, .relief_steps = 5}},
+};
+
+std::vector<Form> forms_of(const platform::Context& context) {
+  std::vector<Form> all(std::begin(forms), std::end(forms));
+  for (Form form : block_forms) {
+    form.modes = context.is_es() ? NOOK_MATERIAL_MODES_EAC : NOOK_MATERIAL_MODES_RGTC;
+    all.push_back(form);
+  }
+  return all;
+}
 
 void put(float (&out)[3], Vec3 v) {
   out[0] = v.x;
@@ -78,8 +105,10 @@ float difference(const nook_material_value& a, const nook_material_value& b) {
 TEST_CASE("material: the GLSL agrees with the CPU reference to 1/255") {
   NOOK_NEED_CONTEXT(context);
   MaterialFixture fixture(context);
-  for (const Size& size : forms) {
-    const nook_material loaded = fixture.load(material::test::sample_material(21, size));
+  const std::vector<Form> all = forms_of(context);
+  for (const Form& form : all) {
+    const nook_material loaded =
+        fixture.load(material::test::sample_material(21, form), form.modes, form.whole_light_modes);
     const nook_material_info info = info_of(loaded);
     const MaterialDecoder decoder(context.gl(), fixture.upload(loaded), info);
     const std::vector<nook_material_sample> samples = samples_of(info, 2048);
@@ -89,7 +118,7 @@ TEST_CASE("material: the GLSL agrees with the CPU reference to 1/255") {
     const std::vector<GpuValue> got = decoder.decode(samples);
     float brightest = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      INFO("form " << &size - forms << ", sample " << i << ", level " << samples[i].level);
+      INFO("form " << &form - all.data() << ", sample " << i << ", level " << samples[i].level);
       // The mapping (26) steps from weight times threshold to 1; on either side both may be right.
       nook_material_value value = got[i].value;
       if (std::abs(wanted[i].occlusion - info.visibility_threshold) < 1e-4f)
@@ -142,18 +171,52 @@ TEST_CASE("material: more layers than OpenGL 3.3 guarantees are split") {
   for (std::size_t i = 0; i < samples.size(); ++i) CHECK(difference(got[i].value, wanted[i]) <= bound);
 }
 
+TEST_CASE("material: blocks are split in pairs of layers, and refused where a context lacks them") {
+  NOOK_NEED_CONTEXT(context);
+  MaterialFixture fixture(context);
+  const nook_material_modes modes = context.is_es() ? NOOK_MATERIAL_MODES_EAC : NOOK_MATERIAL_MODES_RGTC;
+  const material::Material sample = material::test::sample_material(
+      5, {.width = 9, .height = 8, .rank_light = 8, .clusters = 5, .mixture = 2});
+  const nook_material loaded = fixture.load(sample, modes);
+  const nook_material_info info = info_of(loaded);
+  const std::vector<nook_material_sample> samples = samples_of(info, 256);
+  const nook_gl_material whole = fixture.upload(loaded);
+  CHECK(info_of(whole).texture_bytes == info.table_bytes);
+  CHECK(info_of(whole).texture_count == 7);
+  const std::vector<GpuValue> wanted = MaterialDecoder(context.gl(), whole, info).decode(samples);
+  for (const int layers : {39, 21, 12}) {
+    // 20 layers of the BTF as integers and 40 in blocks, 10 of the VOTF.
+    const nook_gl_material split = fixture.upload(loaded, layers);
+    const int pairs = layers / 2;
+    CHECK(int(info_of(split).texture_count) ==
+          5 + (20 + layers - 1) / layers + (20 + pairs - 1) / pairs + (5 + pairs - 1) / pairs);
+    const std::vector<GpuValue> got = MaterialDecoder(context.gl(), split, info).decode(samples);
+    for (std::size_t i = 0; i < samples.size(); ++i) CHECK(difference(got[i].value, wanted[i].value) == 0);
+  }
+  for (const nook_material_modes other : {NOOK_MATERIAL_MODES_RGTC, NOOK_MATERIAL_MODES_EAC}) {
+    nook_gl_material uploaded = nullptr;
+    const nook_result result =
+        nook_gl_material_create(fixture.gl, fixture.load(sample, other), nullptr, &uploaded);
+    CHECK((result == NOOK_OK || (other != modes && result == NOOK_ERROR_UNSUPPORTED)));
+    CHECK((uploaded != nullptr) == (result == NOOK_OK));
+    nook_gl_material_destroy(&uploaded);
+  }
+}
+
 TEST_CASE("material: a pixel has the stated number of fetches") {
   NOOK_NEED_CONTEXT(context);
   MaterialFixture fixture(context);
-  for (const Size& size : forms) {
-    const nook_material loaded = fixture.load(material::test::sample_material(2, size));
+  const std::vector<Form> all = forms_of(context);
+  for (const Form& form : all) {
+    const nook_material loaded =
+        fixture.load(material::test::sample_material(2, form), form.modes, form.whole_light_modes);
     const nook_material_info info = info_of(loaded);
     nook_material_sample sample{};
     sample.view[2] = sample.light[2] = 1;
     const GpuValue got = MaterialDecoder(context.gl(), fixture.upload(loaded), info).decode({sample})[0];
     // A march ends where it meets the relief, after its first plane or later.
     CHECK(got.decode_fetches <= float(info.decode_fetches));
-    CHECK(got.decode_fetches >= float(info.decode_fetches - size.relief_steps));
+    CHECK(got.decode_fetches >= float(info.decode_fetches - form.relief_steps));
     CHECK(got.light_fetches == float(info.light_fetches));
     CHECK(got.occlusion_fetches == float(info.occlusion_fetches));
   }

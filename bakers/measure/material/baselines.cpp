@@ -130,12 +130,12 @@ CompressionSettings settings_of(const Material& material, std::uint64_t seed) {
 }
 
 MethodRow material_file_row(const RawMaterial& raw, const MaterialFile& file, const RawMaterial* unseen,
-                            bool jumps, bool mipmaps) {
+                            bool jumps, bool mipmaps, const nook::material::ModeForm& form) {
   MethodRow own = measure_material(raw, file.material);
   own.method = "file: " + own.method;
   own.file_bytes = file.bytes.size();
-  const nook::material::MaterialTables tables =
-      nook::material::make_tables(file.material, {}, default_memory());
+  const nook::material::MaterialTables tables = nook::material::make_tables(
+      file.material, {}, default_memory(), nook::material::default_map_side, form);
   // A network is measured as it is drawn.
   own.se_db_drawn = tables.neural.is_used() ? own.se_db : measure_tables(raw, tables).se_db();
   own.gpu_bytes_texel = table_bytes_texel(tables);

@@ -13,6 +13,7 @@
 #include "bakers/measure/material/report.h"
 #include "bakers/measure/material/sweep.h"
 #include "sdk/src/material/material_file.h"
+#include "sdk/src/material/tables.h"
 
 namespace nook::measure {
 
@@ -44,10 +45,10 @@ struct MaterialFile {
 };
 
 // The file's own row: its errors, where unseen is given its errors in those views, its jumps, and its
-// mipmaps.
+// mipmaps. What is drawn has modes of the form.
 bake::material::MethodRow material_file_row(const bake::material::RawMaterial& raw, const MaterialFile& file,
                                             const bake::material::RawMaterial* unseen, bool jumps,
-                                            bool mipmaps = false);
+                                            bool mipmaps = false, const nook::material::ModeForm& form = {});
 
 // Compresses the raw material anew by each named method, at the ranks of the file; n-svd-filled and PCA take
 // as many bytes as the whole file.
