@@ -30,9 +30,8 @@ constexpr std::uint8_t code_of(int sevenths) {
 
 enum class BlockForm : std::uint32_t { none = 0, rgtc = 1, eac = 2 };
 
-// Writes the eight bytes of numbers in [-1, 1]. The levels of RGTC blocks are multiples of 1 / 127, because
-// drivers differ in how they round levels between those; so all of them give the same numbers. Those of EAC
-// are multiples of 1 / 1023 anyway.
+// Writes the eight bytes of numbers in [-1, 1]. The levels of RGTC blocks are multiples of 1 / 127, so that
+// decoders in bytes, which round levels between those, give the numbers of the specification.
 void encode_block(BlockForm form, const float (&numbers)[16], std::uint8_t* bytes);
 
 // Returns a number of a block, as the specifications of OpenGL define it.
