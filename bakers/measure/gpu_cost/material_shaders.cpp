@@ -34,7 +34,7 @@ struct Size {
 const Size sizes[] = {
     {"fiber, N-SVD", 16, 20, 1, 1, 96, 20, 1, 1, {}, Loop{"view vectors", 20, {}}},
     {"fiber, K-CTA, K = 3", 16, 1, 20, 3, 96, 1, 20, 3, {}, {}},
-    {"fiber, K-CTA, K = 3, in blocks", 16, 1, 20, 3, 96, 1, 20, 3, {}, {}, false, 12},
+    {"fiber, K-CTA, K = 3, in blocks", 16, 1, 20, 3, 96, 1, 20, 3, {}, Loop{"terms", 3, {}}, false, 12},
     {"roughhole, N-SVD", 28, 11, 1, 1, 96, 11, 1, 1, {}, Loop{"view vectors", 11, {}}},
     {"roughhole, K-CTA, K = 3", 28, 1, 11, 3, 96, 1, 11, 3, Loop{"terms", 3, {}}, Loop{"terms", 3, {}}},
     {"weave, K-CTA, K = 3", 20, 1, 10, 3, 48, 1, 10, 3, {}, Loop{"terms", 3, {}}},

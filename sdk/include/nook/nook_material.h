@@ -49,7 +49,8 @@ typedef int32_t nook_material_visibility;
 NOOK_API nook_result nook_material_load(nook_context context, const void* bytes, size_t size,
                                         nook_material* out);
 
-/* How a material's spatial modes are held, in host memory and in textures. */
+/* The form of a material's spatial modes, in host memory and in textures. WebGL 2 has either form of blocks
+ * only as an extension that the page enables. */
 enum {
   /* As the file has its numbers: signed bytes, or half floats. Every context has these textures. */
   NOOK_MATERIAL_MODES_PLAIN = 0,
