@@ -141,6 +141,7 @@ MethodRow material_file_row(const RawMaterial& raw, const MaterialFile& file, co
   own.gpu_bytes_texel = table_bytes_texel(tables);
   if (mipmaps) own.levels = measure_levels(raw, tables);
   add_unseen(unseen, file.material, own);
+  if (unseen && !tables.neural.is_used()) own.se_db_drawn_unseen = measure_tables(*unseen, tables).se_db();
   if (jumps) add_jumps(file.material, own);
   return own;
 }
