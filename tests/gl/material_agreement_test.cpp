@@ -55,7 +55,6 @@ const Form block_forms[] = {
     {{.width = 13, .height = 6, .rank_light = 7, .rank_view = 5, .clusters = 1, .mixture = 1}},
     {{.width = 7, .height = 12, .clusters = 5, .mixture = 2}, plain, 0},
     {{.width = 1, .height = 1, .rank_x = 1, .rank_y = 1}, plain, 0},
-    {{.width = 16, .height = 8, .channels = 16, .units = 32}},
     {{.width = 12, .height = 7, .rank_light = 8, .bits = 8, .relief_height = 0.05f, .relief_steps = 5}},
 };
 
