@@ -153,6 +153,22 @@ def numbers_rows(bench):
                 yield material, bits, report["rows"][0]
 
 
+# Modes of `evaluate material`: the form of blocks, and light modes that stay whole. 1,024 are all of them.
+BLOCKS = {"half floats": ("plain", 4), "signed bytes, light map of blocks": ("rgtc", 1024), "RGTC but for 8 light modes": ("rgtc", 8),
+          "RGTC but for 4 light modes": ("rgtc", 4), "EAC but for 4 light modes": ("eac", 4), "RGTC": ("rgtc", 0)}
+
+
+def blocks_table(bench):
+    """The bytes of textures and what they draw, of the files of half floats that numbers_rows makes."""
+    rows = []
+    for material in NUMBERS:
+        for name, (modes, whole) in BLOCKS.items():
+            r = bench.run(f"{material} {modes} {whole}", "evaluate", "material", bench.path(f"{material}.raw"),
+                          bench.path(f"{material} k-cta 16 bits.nook"), "--modes", modes, "--whole-light-modes", str(whole))["rows"][0]
+            rows.append([material, name, f"{r['gpu_bytes_texel']:.0f}", f"{r['se_db_drawn']:.2f}", f"{r['se_db_drawn'] - r['se_db']:.2f}"])
+    return table(["material", "modes", "GPU, bytes for each texel", "drawn, S/E, dB", "less the file"], rows)
+
+
 def jumps_table(bench):
     """The largest jump and the 99th percentile of each method, with its view map and without it."""
     def pair(row, rest):
@@ -265,6 +281,7 @@ def main():
         bench.bake(material, its)
     weave = bench.evaluate("weave", "peers", ["--peers"])
     numbers = numbers_table(list(numbers_rows(bench)))
+    blocks = blocks_table(bench)
     between = between_table(list(between_rows(bench)))
     small = "small roughhole"
     sweep = bench.evaluate(small, "sweep", ["--sweep", ",".join(map(str, SWEEP)), "--images", bench.path("images")])
@@ -288,7 +305,7 @@ def main():
     show(ROOT / "docs/materials.md", pathlib.Path(__file__).name,
          {"methods": methods_table({**methods, "weave": weave}), "unseen views": unseen_table(methods, 100, 37),
           "view maps": maps_table(maps), "view ranks": sweep_table(sweep), "thresholds": thresholds_table(thresholds),
-          "first clusters": seeding_table(seeding), "numbers": numbers, "jumps": jumps_table(bench),
+          "first clusters": seeding_table(seeding), "numbers": numbers, "modes in blocks": blocks, "jumps": jumps_table(bench),
           "between the samples": between, "neural": neural_table(neural_rows(bench)), "neural cycles": cycles_table()}, options.write)
     show(ROOT / "docs/evidence.md", pathlib.Path(__file__).name, {"materials": summary_table(methods)}, options.write)
 

@@ -11,6 +11,7 @@
 namespace nook::bake::material {
 
 using Eigen::Index;
+using nook::material::RgtcBlock;
 
 std::size_t neural_bytes(const NeuralShape& s) {
   const std::size_t blocks = s.blocks() * (s.nodes() * s.channels + s.offset_channels);
@@ -40,40 +41,32 @@ BlockPlaces places_of(const NeuralShape& s, std::uint32_t channels, std::size_t 
   return places;
 }
 
-struct Block {
-  int upper = 0, lower = 0;
-  std::uint8_t code[16];
+float level(const RgtcBlock& block, int i) {
+  return float(nook::material::neural_level(block.upper, block.lower, block.code[i])) /
+         nook::material::neural_feature_steps;
+}
 
-  float level(int i) const {
-    return float(nook::material::neural_level(upper, lower, code[i])) / nook::material::neural_feature_steps;
-  }
-};
-
-Block encode(const BlockPlaces& places, const float* features) {
+RgtcBlock encode(const BlockPlaces& places, const float* features) {
   constexpr float steps = nook::material::neural_feature_steps, levels = 7;
   float low = features[places.at[0]], high = low;
   for (const std::size_t place : places.at) {
     low = std::min(low, features[place]);
     high = std::max(high, features[place]);
   }
-  Block block;
-  block.upper = int(std::floor(high * steps + 0.5f));
-  block.lower = int(std::floor(low * steps + 0.5f));
+  RgtcBlock block;
+  block.upper = std::int8_t(std::floor(high * steps + 0.5f));
+  block.lower = std::int8_t(std::floor(low * steps + 0.5f));
   const float scale = block.upper > block.lower ? levels / float(block.upper - block.lower) : 0;
   for (int i = 0; i < 16; ++i) {
     const float down = (float(block.upper) - steps * features[places.at[i]]) * scale;
-    const int seventh = std::clamp(int(std::floor(down + 0.5f)), 0, 7);
-    block.code[i] = std::uint8_t(seventh == 0 ? 0 : seventh == 7 ? 1 : seventh + 1);
+    block.code[i] = nook::material::code_of(std::clamp(int(std::floor(down + 0.5f)), 0, 7));
   }
   return block;
 }
 
-void append(const Block& block, Vector<std::uint8_t>& bytes) {
-  bytes.push_back(std::uint8_t(block.upper));
-  bytes.push_back(std::uint8_t(block.lower));
-  std::uint64_t codes = 0;
-  for (int i = 0; i < 16; ++i) codes |= std::uint64_t(block.code[i]) << (3 * i);
-  for (int i = 0; i < 6; ++i) bytes.push_back(std::uint8_t(codes >> (8 * i)));
+void append(const RgtcBlock& block, Vector<std::uint8_t>& bytes) {
+  bytes.resize(bytes.size() + nook::material::signed_block_bytes);
+  write_rgtc(block, &bytes[bytes.size() - nook::material::signed_block_bytes]);
 }
 
 void append_channels(const NeuralShape& s, std::uint32_t channels, const std::vector<float>& features,
@@ -93,8 +86,8 @@ void round_to_blocks(const NeuralShape& s, std::uint32_t channels, std::span<con
       const BlockPlaces places = places_of(s, channels, b % blocks);
       for (std::uint32_t channel = 0; channel < channels; ++channel) {
         const std::size_t at = b / blocks * image + channel;
-        const Block block = encode(places, &features[at]);
-        for (int i = 0; i < 16; ++i) rounded[at + places.at[i]] = block.level(i);
+        const RgtcBlock block = encode(places, &features[at]);
+        for (int i = 0; i < 16; ++i) rounded[at + places.at[i]] = level(block, i);
       }
     }
   });

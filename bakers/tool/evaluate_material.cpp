@@ -2,6 +2,7 @@
 // plots.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -32,7 +33,13 @@ struct Options {
   std::vector<std::string> methods;  // baselines; empty: all, where baselines are requested
   bool peers = false, seeding = false, jumps = false, mipmaps = false, grazing = false;
   std::uint32_t votf_refits = 2;
+  nook::material::ModeForm form;  // of what is drawn
 };
+
+const std::map<std::string, nook::material::BlockForm> block_forms = {
+    {"plain", nook::material::BlockForm::none},
+    {"rgtc", nook::material::BlockForm::rgtc},
+    {"eac", nook::material::BlockForm::eac}};
 
 void add_sweep(const RawMaterial& raw, const CompressionSettings& settings, const Options& o,
                const measure::MethodProgress& progress, Json& report) {
@@ -112,7 +119,7 @@ Json evaluate(const Options& o) {
     unseen = &unseen_material;
   }
   const MethodRow own = naming_file(o.material, [&] {
-    return measure::material_file_row(raw, file, {unseen, o.jumps, o.mipmaps, o.grazing});
+    return measure::material_file_row(raw, file, {unseen, o.jumps, o.mipmaps, o.grazing, o.form});
   });
   Json rows = Json::array({bake::material::report_row(raw.name, own)});
   Pictures pictures(o, raw);
@@ -134,6 +141,8 @@ Json evaluate(const Options& o) {
   Json report;
   report["rows"] = rows;
   report["settings"] = describe(settings);
+  if (o.form.blocks != nook::material::BlockForm::none)
+    report["settings"]["whole_light_modes"] = o.form.whole_light_modes;
   if (o.seeding) report["seeding"] = measure::seeding_rows(raw, settings, progress);
   if (!o.sweep.empty()) add_sweep(raw, settings, o, progress, report);
   return report;
@@ -178,6 +187,17 @@ void add_evaluate_material(CLI::App& evaluate_command) {
   command->add_flag(
       "--grazing", o.grazing,
       "measure pixels of views beyond 60 degrees against supersampling, with 1 to 8 fetches along them");
+  command
+      ->add_option("--modes", o.form.blocks,
+                   "draw with spatial modes as the file has them (plain), or in blocks of a context: rgtc or "
+                   "eac; for se_db_drawn and gpu_bytes_texel")
+      ->transform(CLI::CheckedTransformer(block_forms))
+      ->type_name("FORM");
+  command
+      ->add_option("--whole-light-modes", o.form.whole_light_modes,
+                   "with blocks, the first light modes that stay whole, in steps of 4")
+      ->check(CLI::Range(0u, nook::material::max_directions))
+      ->capture_default_str();
   command->add_flag("--compare-seeding", o.seeding,
                     "CTA and K-CTA from clusters of directions and of values");
   command->add_option("--sweep", o.sweep, "total view ranks, for all methods (plots with --images)")

@@ -24,10 +24,10 @@ vec2 nook_material_relief(vec2 uv, vec3 view, float level) {
 }
 #endif
 
-vec4 nook_btf_mean(int layer, nook_material_fetches at) {
-  vec4 mean = nook_btf_mode(layer, at.place[0], at.level);
+vec4 nook_btf_mean(int cluster, int mode, nook_material_fetches at) {
+  vec4 mean = nook_btf_mode(cluster, mode, at.place[0], at.level);
   for (int i = 1; i < at.count; ++i)
-    mean += (nook_btf_mode(layer, at.place[i], at.level) - mean) / float(i + 1);
+    mean += (nook_btf_mode(cluster, mode, at.place[i], at.level) - mean) / float(i + 1);
   return mean;
 }
 
@@ -54,7 +54,7 @@ void nook_material_decode_at(nook_material_fetches at, vec3 view, out vec4 modes
     if (k % 4 == 0) clusters = texelFetch(nook_btf_membership, ivec3(cell, k / 4), 0);
 #endif
 #endif
-    int first = int(clusters[k % 4]) * NOOK_LIGHT_VEC4_COUNT * 4 * NOOK_BTF_VIEW_VEC4_COUNT;
+    int cluster = int(clusters[k % 4]);
     for (int b = 0; b < NOOK_BTF_VIEW_VEC4_COUNT; ++b) {
 #if NOOK_BTF_BLENDED
       vec4 coefficients = nook_material_blended(nook_btf_coefficients, blend, k * NOOK_BTF_VIEW_VEC4_COUNT + b);
@@ -62,11 +62,11 @@ void nook_material_decode_at(nook_material_fetches at, vec3 view, out vec4 modes
       vec4 coefficients = texelFetch(nook_btf_coefficients, ivec3(cell, k * NOOK_BTF_VIEW_VEC4_COUNT + b), 0);
 #endif
       for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a) {
-        int layer = first + a * 4 * NOOK_BTF_VIEW_VEC4_COUNT + b;
-        modes[a] += vec4(dot(coefficients, nook_btf_mean(layer, at)),
-                         dot(coefficients, nook_btf_mean(layer + NOOK_BTF_VIEW_VEC4_COUNT, at)),
-                         dot(coefficients, nook_btf_mean(layer + 2 * NOOK_BTF_VIEW_VEC4_COUNT, at)),
-                         dot(coefficients, nook_btf_mean(layer + 3 * NOOK_BTF_VIEW_VEC4_COUNT, at)));
+        int mode = a * 4 * NOOK_BTF_VIEW_VEC4_COUNT + b;
+        modes[a] += vec4(dot(coefficients, nook_btf_mean(cluster, mode, at)),
+                         dot(coefficients, nook_btf_mean(cluster, mode + NOOK_BTF_VIEW_VEC4_COUNT, at)),
+                         dot(coefficients, nook_btf_mean(cluster, mode + 2 * NOOK_BTF_VIEW_VEC4_COUNT, at)),
+                         dot(coefficients, nook_btf_mean(cluster, mode + 3 * NOOK_BTF_VIEW_VEC4_COUNT, at)));
       }
     }
   }

@@ -1,9 +1,9 @@
 // Decoding of a VOTF.
 #if NOOK_VOTF_TERMS > 0
-vec4 nook_votf_mean(int layer, nook_material_fetches at) {
-  vec4 mean = nook_votf_mode(layer, at.place[0], at.level);
+vec4 nook_votf_mean(int cluster, int mode, nook_material_fetches at) {
+  vec4 mean = nook_votf_mode(cluster, mode, at.place[0], at.level);
   for (int i = 1; i < at.count; ++i)
-    mean += (nook_votf_mode(layer, at.place[i], at.level) - mean) / float(i + 1);
+    mean += (nook_votf_mode(cluster, mode, at.place[i], at.level) - mean) / float(i + 1);
   return mean;
 }
 
@@ -26,14 +26,14 @@ float nook_material_occlusion_at(nook_material_fetches at, vec3 view) {
     if (k % 4 == 0) clusters = texelFetch(nook_votf_membership, ivec3(cell, k / 4), 0);
 #endif
 #endif
-    int first = int(clusters[k % 4]) * NOOK_VOTF_VIEW_VEC4_COUNT;
+    int cluster = int(clusters[k % 4]);
     for (int b = 0; b < NOOK_VOTF_VIEW_VEC4_COUNT; ++b) {
 #if NOOK_VOTF_BLENDED
       vec4 coefficients = nook_material_blended(nook_votf_coefficients, blend, k * NOOK_VOTF_VIEW_VEC4_COUNT + b);
 #else
       vec4 coefficients = texelFetch(nook_votf_coefficients, ivec3(cell, k * NOOK_VOTF_VIEW_VEC4_COUNT + b), 0);
 #endif
-      value += dot(coefficients, nook_votf_mean(first + b, at));
+      value += dot(coefficients, nook_votf_mean(cluster, b, at));
     }
   }
   return value;

@@ -81,6 +81,40 @@ TEST_CASE("materials: bad parameters and bad files") {
 
 TEST_CASE("materials: callers of older and newer headers") {
   check_init<nook_gl_material_desc>(nook_gl_material_desc_init, sizeof(nook_gl_material_desc));
+  check_init<nook_material_desc>(nook_material_desc_init, sizeof(nook_material_desc));
+}
+
+TEST_CASE("materials: modes in blocks take less memory, and other modes are refused") {
+  Stage stage;
+  const std::vector<std::byte> bytes = nook_test_material_bytes();
+  nook_material_desc desc;
+  REQUIRE(nook_material_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  const auto load = [&](nook_material* out) {
+    return nook_material_load_with(stage.context, bytes.data(), bytes.size(), &desc, out);
+  };
+  std::uint64_t size[3];
+  for (const nook_material_modes modes :
+       {NOOK_MATERIAL_MODES_PLAIN, NOOK_MATERIAL_MODES_RGTC, NOOK_MATERIAL_MODES_EAC}) {
+    desc.modes = modes;
+    nook_material material = nullptr;
+    REQUIRE(load(&material) == NOOK_OK);
+    nook_material_info info{};
+    info.struct_size = sizeof info;
+    REQUIRE(nook_material_describe(material, &info) == NOOK_OK);
+    size[modes] = info.table_bytes;
+    nook_material_destroy(&material);
+  }
+  CHECK(size[NOOK_MATERIAL_MODES_RGTC] < size[NOOK_MATERIAL_MODES_PLAIN]);
+  CHECK(size[NOOK_MATERIAL_MODES_EAC] == size[NOOK_MATERIAL_MODES_RGTC]);
+  nook_material material = nullptr;
+  desc.modes = 3;
+  CHECK(load(&material) == invalid);
+  CHECK(last_is("nook_material_load_with: ", "desc.modes"));
+  desc.modes = NOOK_MATERIAL_MODES_RGTC;
+  desc.whole_light_modes = -1;
+  CHECK(load(&material) == invalid);
+  CHECK(last_is("nook_material_load_with: ", "whole_light_modes"));
+  CHECK(material == nullptr);
 }
 
 TEST_CASE("materials: numbers of any size give an answer") {

@@ -128,9 +128,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     resample(read, input.script);
     return 0;
   }
+  nook_material_desc desc;
+  require(ok(nook_material_desc_init(&desc, sizeof desc, NOOK_VERSION)));
+  desc.modes = std::int32_t(settings >> 2 & 3) % 3;
   nook_material material = nullptr;
-  if (!ok(nook_material_load(context_with_jobs(settings & 1), input.file.data(), input.file.size(),
-                             &material))) {
+  if (!ok(nook_material_load_with(context_with_jobs(settings & 1), input.file.data(), input.file.size(),
+                                  &desc, &material))) {
     require(material == nullptr);
     return 0;
   }

@@ -190,6 +190,10 @@ struct Silent<id, R(GLAD_API_PTR*)(A...)> {
     } else if constexpr (id == id_TexImage3D) {
       const auto [target, level, internal, width, height, depth, border, format, type, data] = arguments;
       read_texels(width, height, depth, format, type, data);
+    } else if constexpr (id == id_CompressedTexImage3D) {
+      const auto [target, level, internal, width, height, depth, border, bytes, data] = arguments;
+      const auto* first = static_cast<const std::byte*>(data);
+      std::vector<std::byte>(first, first + bytes).swap(s.mapped);
     }
     return R();
   }

@@ -63,10 +63,15 @@ MaterialFixture::~MaterialFixture() {
   for (const std::string& message : take_debug_messages()) FAIL_CHECK(message);
 }
 
-nook_material MaterialFixture::load(const material::Material& material) {
+nook_material MaterialFixture::load(const material::Material& material, nook_material_modes modes,
+                                    int whole_light_modes) {
   const std::vector<std::byte> file = material::write_material(material);
   nook_material handle = nullptr;
-  NOOK_OK_OR_FAIL(nook_material_load(host.handle, file.data(), file.size(), &handle));
+  nook_material_desc desc;
+  NOOK_OK_OR_FAIL(nook_material_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  desc.modes = modes;
+  desc.whole_light_modes = whole_light_modes;
+  NOOK_OK_OR_FAIL(nook_material_load_with(host.handle, file.data(), file.size(), &desc, &handle));
   materials.push_back(handle);
   return handle;
 }

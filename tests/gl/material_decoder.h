@@ -19,7 +19,8 @@ struct MaterialFixture {
   ~MaterialFixture();
 
   // Kept to the end.
-  nook_material load(const material::Material& material);
+  nook_material load(const material::Material& material,
+                     nook_material_modes modes = NOOK_MATERIAL_MODES_PLAIN, int whole_light_modes = 4);
   // max_layers 0: the context's own.
   nook_gl_material upload(nook_material material, int max_layers = 0);
 

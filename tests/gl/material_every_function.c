@@ -28,6 +28,7 @@ int nook_material_call_everything(const void* bytes, size_t size, nook_gl_proc_f
   const nook_material_pixel pixel = {{0.5F, 0.5F}, {0.1F, 0}, {0, 0.2F}, {0, 0, 1}, {0, 0, 1}};
   nook_context context = NULL;
   nook_gl gl = NULL;
+  nook_material_desc material_desc;
   nook_material material = NULL;
   nook_gl_material on_gpu = NULL;
   uint32_t i;
@@ -40,6 +41,10 @@ int nook_material_call_everything(const void* bytes, size_t size, nook_gl_proc_f
   gl_desc.get_proc_user = user;
   EXPECT_OK(nook_gl_create(context, &gl_desc, &gl));
 
+  EXPECT_OK(nook_material_desc_init(&material_desc, sizeof material_desc, NOOK_VERSION));
+  EXPECT(material_desc.modes == NOOK_MATERIAL_MODES_PLAIN && material_desc.whole_light_modes == 4);
+  EXPECT_OK(nook_material_load_with(context, bytes, size, &material_desc, &material));
+  nook_material_destroy(&material);
   EXPECT_OK(nook_material_load(context, bytes, size, &material));
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;

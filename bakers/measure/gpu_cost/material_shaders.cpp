@@ -28,11 +28,13 @@ struct Size {
   // The loop of the decoding that is not unrolled, and the one on vega10 where that is another.
   std::optional<Loop> loop, loop_on_vega10;
   bool has_relief = false;
+  std::uint32_t packed_modes = 0;  // light modes in blocks, with the VOTF
 };
 // Fiber and roughhole at the paper's ranks, as docs/material_decoding.md counts them, and weave.
 const Size sizes[] = {
     {"fiber, N-SVD", 16, 20, 1, 1, 96, 20, 1, 1, {}, Loop{"view vectors", 20, {}}},
     {"fiber, K-CTA, K = 3", 16, 1, 20, 3, 96, 1, 20, 3, {}, {}},
+    {"fiber, K-CTA, K = 3, in blocks", 16, 1, 20, 3, 96, 1, 20, 3, {}, Loop{"terms", 3, {}}, false, 12},
     {"roughhole, N-SVD", 28, 11, 1, 1, 96, 11, 1, 1, {}, Loop{"view vectors", 11, {}}},
     {"roughhole, K-CTA, K = 3", 28, 1, 11, 3, 96, 1, 11, 3, Loop{"terms", 3, {}}, Loop{"terms", 3, {}}},
     {"weave, K-CTA, K = 3", 20, 1, 10, 3, 48, 1, 10, 3, {}, Loop{"terms", 3, {}}},
@@ -72,6 +74,8 @@ std::string declarations(const Size& size) {
   material::MaterialTables tables;
   set_tensor(tables.btf, size.texels, size.light_modes, size.view_vec4s, size.clusters, size.terms);
   set_tensor(tables.votf, size.texels, 1, size.votf_view_vec4s, size.votf_clusters, size.votf_terms);
+  tables.btf.packed_modes = size.packed_modes;
+  tables.votf.packed_modes = size.packed_modes ? 1 : 0;
   if (size.has_relief) {
     tables.relief.high = 0.1f;
     tables.relief.max_slope = 3.7f;
@@ -189,6 +193,7 @@ std::vector<ShaderCase> material_shaders() {
       if (size.loop_on_vega10) shaders.back().other_families = {{"vega10", loops(size.loop_on_vega10)}};
     };
     add(decode, name, {});
+    if (size.packed_modes) continue;
     const bool is_k_cta = size.clusters > 1;
     if (is_k_cta)
       shaders.push_back(host_shader(declarations(size) + decode_anisotropic, name + ", two fetches",

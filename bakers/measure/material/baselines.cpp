@@ -133,14 +133,16 @@ MethodRow material_file_row(const RawMaterial& raw, const MaterialFile& file, co
   MethodRow own = measure_material(raw, file.material);
   own.method = "file: " + own.method;
   own.file_bytes = file.bytes.size();
-  const nook::material::MaterialTables tables =
-      nook::material::make_tables(file.material, {}, default_memory());
+  const nook::material::MaterialTables tables = nook::material::make_tables(
+      file.material, {}, default_memory(), nook::material::default_map_side, form);
   // A network is measured as it is drawn.
   own.se_db_drawn = tables.neural.is_used() ? own.se_db : measure_tables(raw, tables).se_db();
   own.gpu_bytes_texel = table_bytes_texel(tables);
   if (measures.mipmaps) own.levels = measure_levels(raw, tables);
   if (measures.grazing) own.grazing = measure_grazing(raw, tables);
   add_unseen(measures.unseen, file.material, own);
+  if (measures.unseen && !tables.neural.is_used())
+    own.se_db_drawn_unseen = measure_tables(*measures.unseen, tables).se_db();
   if (measures.jumps) add_jumps(file.material, own);
   return own;
 }

@@ -13,6 +13,7 @@
 #include "bakers/measure/material/report.h"
 #include "bakers/measure/material/sweep.h"
 #include "sdk/src/material/material_file.h"
+#include "sdk/src/material/tables.h"
 
 namespace nook::measure {
 
@@ -47,6 +48,7 @@ struct MaterialFile {
 struct FileMeasures {
   const bake::material::RawMaterial* unseen = nullptr;  // errors in these views; null: none
   bool jumps = false, mipmaps = false, grazing = false;
+  nook::material::ModeForm form;  // of the modes of what is drawn
 };
 bake::material::MethodRow material_file_row(const bake::material::RawMaterial& raw, const MaterialFile& file,
                                             const FileMeasures& measures = {});

@@ -24,7 +24,7 @@ struct MethodRow {
   std::optional<double> psnr_toned_db;  // of toned() in measures.h
   std::optional<std::size_t> error_texels_binary, error_texels_distance;
   // As drawn from textures, see table_error.h: the error, and the textures' bytes for each texel.
-  std::optional<double> se_db_drawn, gpu_bytes_texel;
+  std::optional<double> se_db_drawn, se_db_drawn_unseen, gpu_bytes_texel;
   std::vector<LevelError> levels;     // of pixels that cover many texels
   std::vector<GrazingError> grazing;  // of pixels of tilted views
   // Errors in views, and under lights, that were not fitted.

@@ -17,6 +17,7 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
   texels("votf_error_texels_binary", row.error_texels_binary);
   texels("votf_error_texels_distance", row.error_texels_distance);
   if (row.se_db_drawn) json["se_db_drawn"] = *row.se_db_drawn;
+  if (row.se_db_drawn_unseen) json["se_db_drawn_unseen"] = *row.se_db_drawn_unseen;
   if (row.gpu_bytes_texel) json["gpu_bytes_texel"] = *row.gpu_bytes_texel;
   for (const LevelError& level : row.levels)
     json["mipmaps"].push_back(

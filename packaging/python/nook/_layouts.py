@@ -66,6 +66,9 @@ NOOK_LOG_ERROR = 2
 NOOK_LOG_INFO = 0
 NOOK_LOG_WARNING = 1
 NOOK_MATERIAL_MAX_FETCHES = 8
+NOOK_MATERIAL_MODES_EAC = 2
+NOOK_MATERIAL_MODES_PLAIN = 0
+NOOK_MATERIAL_MODES_RGTC = 1
 NOOK_MATERIAL_VISIBILITY_BINARY = 1
 NOOK_MATERIAL_VISIBILITY_DISTANCE = 2
 NOOK_MATERIAL_VISIBILITY_NONE = 0
@@ -448,6 +451,17 @@ class nook_material(ctypes.c_void_p):
 
 
 nook_material_visibility = ctypes.c_int32
+nook_material_modes = ctypes.c_int32
+
+
+class nook_material_desc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("header_version", ctypes.c_uint32),
+        ("next", ctypes.c_void_p),
+        ("modes", nook_material_modes),
+        ("whole_light_modes", ctypes.c_int32),
+    ]
 
 
 class nook_material_tensor(ctypes.Structure):
@@ -953,6 +967,8 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "nook_character_model_remap": (nook_result, [nook_character_model, ctypes.POINTER(ctypes.c_uint32), ctypes.c_uint32, ctypes.POINTER(nook_character_model)]),
     "nook_character_model_resample": (nook_result, [nook_character_model, ctypes.POINTER(nook_vertex_match), ctypes.POINTER(nook_character_model)]),
     "nook_material_load": (nook_result, [nook_context, ctypes.c_void_p, ctypes.c_size_t, ctypes.POINTER(nook_material)]),
+    "nook_material_desc_init": (nook_result, [ctypes.POINTER(nook_material_desc), ctypes.c_size_t, ctypes.c_uint32]),
+    "nook_material_load_with": (nook_result, [nook_context, ctypes.c_void_p, ctypes.c_size_t, ctypes.POINTER(nook_material_desc), ctypes.POINTER(nook_material)]),
     "nook_material_destroy": (None, [ctypes.POINTER(nook_material)]),
     "nook_material_describe": (nook_result, [nook_material, ctypes.POINTER(nook_material_info)]),
     "nook_material_evaluate": (nook_result, [nook_material, ctypes.POINTER(nook_material_sample), ctypes.c_uint32, ctypes.POINTER(nook_material_value)]),

@@ -43,7 +43,7 @@ typedef struct nook_gl_material_desc {
   /* Must be NULL. */
   const void* next;
   /* The maximum number of layers of one texture array; a material with more layers uses several arrays. 0
-   * (default): the limit of this OpenGL, which is at least 256. */
+   * (default): the limit of this OpenGL, which is at least 256. Arrays of blocks have at least 2. */
   int32_t max_layers;
   /* Must be 0. */
   int32_t reserved;
@@ -57,7 +57,7 @@ NOOK_API nook_result nook_gl_material_desc_init(nook_gl_material_desc* desc, siz
 /* Uploads a material, which the caller may destroy afterwards; desc may be NULL for the defaults. On failure
  * *out is NULL and no OpenGL object is left.
  * Context thread. Errors: INVALID_ARGUMENT, VERSION, UNSUPPORTED (the material needs more texture units or
- * larger textures than this OpenGL has), GL, OUT_OF_MEMORY. */
+ * larger textures than this OpenGL has, or blocks that it does not have), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_material_create(nook_gl gl, nook_material material,
                                              const nook_gl_material_desc* desc, nook_gl_material* out);
 

@@ -49,6 +49,47 @@ typedef int32_t nook_material_visibility;
 NOOK_API nook_result nook_material_load(nook_context context, const void* bytes, size_t size,
                                         nook_material* out);
 
+/* The form of a material's spatial modes, in host memory and in textures. WebGL 2 has either form of blocks
+ * only as an extension that the page enables. */
+enum {
+  /* As the file has its numbers: signed bytes, or half floats. Every context has these textures. */
+  NOOK_MATERIAL_MODES_PLAIN = 0,
+  /* Blocks of 4 x 4 texels, about half of the bytes of signed bytes: signed RGTC (BC5). OpenGL has it, and
+   * OpenGL ES with GL_EXT_texture_compression_rgtc. */
+  NOOK_MATERIAL_MODES_RGTC = 1,
+  /* The same, in signed EAC (RG11). OpenGL ES has it, and OpenGL 4.3 or GL_ARB_ES3_compatibility, where most
+   * drivers expand it. */
+  NOOK_MATERIAL_MODES_EAC = 2
+};
+typedef int32_t nook_material_modes;
+
+typedef struct nook_material_desc {
+  /* nook_material_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t header_version;
+  /* Must be NULL. */
+  const void* next;
+  /* Default: NOOK_MATERIAL_MODES_PLAIN. Blocks of two channels take two fetches for four numbers. With
+   * blocks, the modes that stay whole and the light map are signed bytes, also of a file of half floats, and
+   * the light map has 32 x 32 cells for up to 128 lights. The VOTF is in blocks as well, which is all that
+   * they change of a neural material. */
+  nook_material_modes modes;
+  /* With blocks: the number of first light modes that stay whole, because they have most of what blocks would
+   * lose; rounded up to a multiple of 4. 0: all are in blocks. Default: 4. */
+  int32_t whole_light_modes;
+} nook_material_desc;
+
+/* Fills *desc with defaults, as nook_context_desc_init does.
+ * Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+NOOK_API nook_result nook_material_desc_init(nook_material_desc* desc, size_t size, uint32_t header_version);
+
+/* As nook_material_load, which is this call with desc NULL. Blocks are encoded here, so that
+ * nook_material_evaluate reads the numbers that textures will hold. Radiance transfer that was baked with a
+ * file of half floats does not fit the same file with blocks.
+ * Any thread. Errors: INVALID_ARGUMENT, VERSION, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_material_load_with(nook_context context, const void* bytes, size_t size,
+                                             const nook_material_desc* desc, nook_material* out);
+
 /* Releases the caller's reference and sets *material to NULL.
  * Any thread. */
 NOOK_API void nook_material_destroy(nook_material* material);
@@ -90,8 +131,8 @@ typedef struct nook_material_info {
   /* All members are 0 without a VOTF. */
   nook_material_tensor votf;
   /* The texels that nook_material_decode fetches, where a filtered fetch counts as one, and its multiply-adds
-   * of single numbers, four to a vector. A relief adds a fetch for each plane of its march, fewer where
-   * the march ends early. */
+   * of single numbers, four to a vector. A mode in blocks counts two. A relief adds a fetch for each plane of
+   * its march, fewer where the march ends early. */
   uint32_t decode_fetches;
   uint32_t decode_multiply_adds;
   /* The same for nook_material_radiance. */

@@ -11,10 +11,17 @@
 namespace nook {
 inline namespace wrapper {
 
+inline nook_material_desc material_desc() {
+  nook_material_desc desc;
+  check(nook_material_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  return desc;
+}
+
 class Material : public Unique<nook_material, nook_material_destroy> {
  public:
-  Material(const Context& context, const void* bytes, std::size_t size)
-      : Unique(load(context, bytes, size)) {}
+  Material(const Context& context, const void* bytes, std::size_t size,
+           const nook_material_desc& desc = material_desc())
+      : Unique(load(context, bytes, size, desc)) {}
 
   nook_material_info info() const {
     nook_material_info info{};
@@ -31,9 +38,10 @@ class Material : public Unique<nook_material, nook_material_destroy> {
   }
 
  private:
-  static nook_material load(const Context& context, const void* bytes, std::size_t size) {
+  static nook_material load(const Context& context, const void* bytes, std::size_t size,
+                            const nook_material_desc& desc) {
     nook_material handle = nullptr;
-    check(nook_material_load(context.get(), bytes, size, &handle));
+    check(nook_material_load_with(context.get(), bytes, size, &desc, &handle));
     return handle;
   }
 };

@@ -3,6 +3,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/material_handle.h"
 #include "sdk/src/core/descriptors.h"
+#include "sdk/src/material/check.h"
 #include "sdk/src/material/cost.h"
 #include "sdk/src/material/evaluate.h"
 #include "sdk/src/material/material_file.h"
@@ -61,6 +62,30 @@ nook_material_info info_of(const Material& material, const MaterialTables& table
   return info;
 }
 
+nook_material_desc default_desc() {
+  nook_material_desc desc{};
+  desc.struct_size = sizeof desc;
+  desc.header_version = NOOK_VERSION;
+  desc.modes = NOOK_MATERIAL_MODES_PLAIN;
+  desc.whole_light_modes = std::int32_t(ModeForm{}.whole_light_modes);
+  return desc;
+}
+constexpr std::size_t first_desc = offsetof(nook_material_desc, whole_light_modes) + sizeof(std::int32_t);
+
+ModeForm checked(const nook_material_desc* given) {
+  if (!given) return {};
+  const nook_material_desc desc =
+      read_descriptor(given, "nook_material_desc_init", first_desc, default_desc());
+  if (desc.modes < NOOK_MATERIAL_MODES_PLAIN || desc.modes > NOOK_MATERIAL_MODES_EAC)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.modes is no NOOK_MATERIAL_MODES value (got %d, need 0 to 2)", desc.modes);
+  if (desc.whole_light_modes < 0 || std::uint32_t(desc.whole_light_modes) > max_directions)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.whole_light_modes is out of range (got %d, need 0 to %u)", desc.whole_light_modes,
+                  std::uint32_t(max_directions));
+  return {static_cast<BlockForm>(desc.modes), std::uint32_t(desc.whole_light_modes)};
+}
+
 void need_finite(std::initializer_list<float> numbers, const char* what, std::uint32_t index) {
   for (const float number : numbers)
     if (!std::isfinite(number))
@@ -97,30 +122,43 @@ nook_material_value value_of(const MaterialTables& tables, const Radiance& radia
 
 static_assert(NOOK_MATERIAL_MAX_FETCHES == max_fetches);
 
+void load(nook_context context, const void* bytes, std::size_t size, const nook_material_desc* desc,
+          nook_material* out) {
+  need(out, "out");
+  *out = nullptr;
+  need(context, "context");
+  need(bytes, "bytes");
+  const ModeForm form = checked(desc);
+  const auto shared = Ref<nook_context_s>::share(context);
+  const Material material = read_material({static_cast<const std::byte*>(bytes), size}, context->memory());
+  *out = Owned<nook_material_s>::make(context->memory(), shared, context, material, form).detach();
+  const nook_material_info& info = (*out)->info;
+  context->log(
+      NOOK_LOG_INFO,
+      "material: %u x %u texels, %u clusters, %u of them mixed, %u neural channels, %zu bytes, %llu expanded",
+      info.width, info.height, info.btf.clusters, info.btf.mixture, info.neural_channels, size,
+      static_cast<unsigned long long>(info.table_bytes));
+}
+
 }  // namespace
 
-nook_material_s::nook_material_s(nook_context_s* made_by, const Material& loaded)
-    : tables(make_tables(loaded, made_by->parallel(), made_by->memory())) {
+nook_material_s::nook_material_s(nook_context_s* made_by, const Material& loaded, const ModeForm& form)
+    : tables(make_tables(loaded, made_by->parallel(), made_by->memory(), default_map_side, form)) {
   info = info_of(loaded, tables);
 }
 
 nook_result nook_material_load(nook_context context, const void* bytes, size_t size, nook_material* out) {
-  return api::enter("nook_material_load", [&] {
-    need(out, "out");
-    *out = nullptr;
-    need(context, "context");
-    need(bytes, "bytes");
-    const auto shared = Ref<nook_context_s>::share(context);
-    const Material material = read_material({static_cast<const std::byte*>(bytes), size}, context->memory());
-    *out = Owned<nook_material_s>::make(context->memory(), shared, context, material).detach();
-    const nook_material_info& info = (*out)->info;
-    context->log(
-        NOOK_LOG_INFO,
-        "material: %u x %u texels, %u clusters, %u of them mixed, %u neural channels, %zu bytes, %llu "
-        "expanded",
-        info.width, info.height, info.btf.clusters, info.btf.mixture, info.neural_channels, size,
-        static_cast<unsigned long long>(info.table_bytes));
-  });
+  return api::enter("nook_material_load", [&] { load(context, bytes, size, nullptr, out); });
+}
+
+nook_result nook_material_desc_init(nook_material_desc* desc, size_t size, uint32_t header_version) {
+  return api::enter("nook_material_desc_init",
+                    [&] { init_descriptor(desc, size, header_version, first_desc, default_desc()); });
+}
+
+nook_result nook_material_load_with(nook_context context, const void* bytes, size_t size,
+                                    const nook_material_desc* desc, nook_material* out) {
+  return api::enter("nook_material_load_with", [&] { load(context, bytes, size, desc, out); });
 }
 
 void nook_material_destroy(nook_material* material) {

@@ -8,7 +8,8 @@
 
 struct nook_material_s : nook::RefCounted {
   // The compressed numbers are not kept.
-  nook_material_s(nook_context_s* made_by, const nook::material::Material& loaded);
+  nook_material_s(nook_context_s* made_by, const nook::material::Material& loaded,
+                  const nook::material::ModeForm& form);
 
   nook_material_info info{};  // without struct_size
   nook::material::MaterialTables tables;

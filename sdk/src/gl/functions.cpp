@@ -145,6 +145,8 @@ void load_desktop_options(Functions& gl, const Loader& loader) {
   gl.can.indexed_viewports = gl.version >= 41;
   gl.can.query_buffers = gl.version >= 44;
   gl.can.stencil_textures = gl.version >= 43;
+  gl.can.rgtc_textures = true;
+  gl.can.eac_textures = gl.version >= 43 || has_extension(gl, loader, "GL_ARB_ES3_compatibility");
   if (gl.can.indexed_viewports) {
     loader.optional(gl.GetFloati_v, "glGetFloati_v");
     loader.optional(gl.ViewportIndexedf, "glViewportIndexedf");
@@ -156,6 +158,10 @@ void load_desktop_options(Functions& gl, const Loader& loader) {
 
 void load_es_options(Functions& gl, const Loader& loader) {
   load_feedback_objects(gl, loader);
+  gl.can.rgtc_textures = has_extension(gl, loader, "GL_EXT_texture_compression_rgtc");
+  // WebGL alone has none of the blocks of OpenGL ES.
+  gl.can.eac_textures =
+      gl.profile == Profile::es || has_extension(gl, loader, "GL_WEBGL_compressed_texture_etc");
   loader.optional(gl.InvalidateFramebuffer, "glInvalidateFramebuffer");
   if (gl.profile == Profile::webgl) {
     loader.optional(gl.GetBufferSubData, "glGetBufferSubData");

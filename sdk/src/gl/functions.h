@@ -29,6 +29,7 @@ namespace nook::gl {
   X(ClearBufferfv)                       \
   X(ColorMask)                           \
   X(CompileShader)                       \
+  X(CompressedTexImage3D)                \
   X(CopyBufferSubData)                   \
   X(CreateProgram)                       \
   X(CreateShader)                        \
@@ -177,6 +178,8 @@ struct Abilities {
       false;  // polygon mode, primitive restart by index, sRGB switch, logic op, clip distances
   bool query_buffers = false;     // GL_QUERY_BUFFER
   bool stencil_textures = false;  // GL_DEPTH_STENCIL_TEXTURE_MODE
+  bool rgtc_textures = false;     // GL_COMPRESSED_SIGNED_RG_RGTC2
+  bool eac_textures = false;      // GL_COMPRESSED_SIGNED_RG11_EAC
 };
 
 struct Functions {

@@ -11,19 +11,19 @@ struct DecodeCost {
   std::uint32_t multiply_adds = 0;
 };
 
-// The fetches that each further place of a footprint adds: those of spatial modes.
+// The fetches that each further place of a footprint adds: those of spatial modes. A mode in blocks takes two.
 inline std::uint32_t further_fetches(const TensorTables& t) {
-  return t.terms * t.view_vec4_count * t.light_modes;
+  return t.terms * t.view_vec4_count * (t.light_modes + t.packed_modes);
 }
 
 // The cost of a BTF's light modes or a VOTF's value: the coefficients of each term, of three cells if cells
 // blend, the spatial mode for each coefficient and light mode, and the clusters of the terms if there are
 // several. Without tables the cost is 0.
 inline DecodeCost decode_cost(const TensorTables& t) {
-  const std::uint32_t spatial = further_fetches(t);
+  const std::uint32_t spatial = t.terms * t.view_vec4_count * t.light_modes;
   const std::uint32_t clusters = t.has_membership() ? vec4_count(t.memberships()) : 0;
   const std::uint32_t coefficients = t.terms * t.view_vec4_count;
-  return {spatial + (t.blended ? 3 : 1) * coefficients + clusters,
+  return {further_fetches(t) + (t.blended ? 3 : 1) * coefficients + clusters,
           4 * (spatial + (t.blended ? 3 * coefficients : 0))};
 }
 

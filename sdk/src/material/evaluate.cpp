@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "sdk/src/material/check.h"
 #include "sdk/src/material/layered_image.h"
@@ -16,13 +17,17 @@ float dot(const Four& a, const Four& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-Between clamped(float at, std::uint32_t size) {
-  const float place = std::clamp(at * float(size) - 0.5f, 0.0f, float(size - 1)), low = std::floor(place);
-  const auto first = static_cast<std::uint32_t>(low);
-  return {first, std::min(first + 1, size - 1), place - low};
-}
-
-Four mode_at(const TensorTables& tables, std::uint32_t layer, const Fetches& at) {
+// The modes 4 f to 4 f + 3 of a cluster and a light mode.
+Four mode_at(const TensorTables& tables, std::uint32_t cluster, std::uint32_t a, std::uint32_t f,
+             const Fetches& at) {
+  const std::uint32_t whole = tables.whole_modes();
+  if (a >= whole) {
+    const std::uint32_t pair = (cluster * tables.packed_modes + a - whole) * tables.view_vec4_count + f;
+    return mean_over(at, [&](const ImagePlace& place) {
+      return trilinear(tables.block_size(), tables.block_form, tables.blocks.data(), 2 * pair, place);
+    });
+  }
+  const std::uint32_t layer = (cluster * whole + a) * tables.view_vec4_count + f;
   return mean_over(at, [&](const ImagePlace& place) {
     return tables.bits == 16 ? trilinear(tables.image_size(), tables.spatial.data(), layer, place)
                              : trilinear(tables.image_size(), tables.spatial_8.data(), layer, place);
@@ -39,7 +44,12 @@ Fetches fetches_of(const Pixel& pixel, std::uint32_t width, std::uint32_t height
 
 std::uint32_t member(const TensorTables& tables, std::size_t cell, std::uint32_t k) {
   const std::size_t count = std::size_t(tables.side) * tables.side;
-  return tables.membership[(k / 4 * count + cell) * 4 + k % 4];
+  const std::size_t bytes = tables.member_bytes();
+  const std::uint8_t* const at = &tables.membership[((k / 4 * count + cell) * 4 + k % 4) * bytes];
+  if (bytes == 1) return *at;
+  std::uint16_t value;
+  std::memcpy(&value, at, sizeof value);
+  return value;
 }
 
 CellBlend blend_of(const TensorTables& tables, Vec3 view) {
@@ -80,10 +90,8 @@ void decode(const TensorTables& tables, const Fetches& at, Vec3 view, float* mod
     const std::uint32_t cluster = tables.clusters > 1 ? member(tables, blend.cell[0], k) : 0;
     for (std::uint32_t f = 0; f < tables.view_vec4_count; ++f) {
       const Four coefficients = blended(tables, std::size_t(k) * tables.view_vec4_count + f, blend);
-      for (std::uint32_t a = 0; a < tables.light_modes; ++a) {
-        const std::uint32_t layer = (cluster * tables.light_modes + a) * tables.view_vec4_count + f;
-        modes[a] += dot(coefficients, mode_at(tables, layer, at));
-      }
+      for (std::uint32_t a = 0; a < tables.light_modes; ++a)
+        modes[a] += dot(coefficients, mode_at(tables, cluster, a, f, at));
     }
   }
 }
@@ -92,14 +100,13 @@ void decode(const TensorTables& tables, const Fetches& at, Vec3 view, float* mod
 struct LightPlace {
   Between x, y;
 };
-LightPlace light_place(Vec3 light) {
+LightPlace light_place(std::uint32_t side, Vec3 light) {
   const ParabolicPoint p = to_parabolic(light);
-  return {clamped(0.5f * p.x + 0.5f, MaterialTables::light_side),
-          clamped(0.5f * p.y + 0.5f, MaterialTables::light_side)};
+  return {edge_clamped(0.5f * p.x + 0.5f, side), edge_clamped(0.5f * p.y + 0.5f, side)};
 }
 
 Four light_texel(const MaterialTables& tables, std::uint32_t layer, const Between& x, const Between& y) {
-  constexpr std::size_t side = MaterialTables::light_side;
+  const std::size_t side = tables.light_side;
   const auto texel = [&](std::uint32_t column, std::uint32_t row) {
     const std::size_t at = ((layer * side + row) * side + column) * 4;
     return tables.light_8.empty() ? four(&tables.light[at]) : four(&tables.light_8[at]);
@@ -121,7 +128,7 @@ Radiance radiance_of(const MaterialTables& tables, const Fetches& at, Vec3 view,
   if (tables.neural.is_used()) return evaluate_neural(tables.neural, at, view, light);
   std::array<float, 3 * max_directions + 3> modes;
   decode(tables.btf, on_relief(tables, at, view), view, modes.data());
-  const LightPlace place = light_place(light);
+  const LightPlace place = light_place(tables.light_side, light);
   float radiance[3] = {};
   const std::uint32_t light_vec4_count = tables.btf.light_modes / 4;
   for (std::uint32_t channel = 0; channel < 3; ++channel)
@@ -161,7 +168,7 @@ void light_basis_at(const MaterialTables& tables, Vec3 light, std::span<float> b
     std::fill(basis.begin(), basis.end(), 0.0f);
     return;
   }
-  const LightPlace place = light_place(light);
+  const LightPlace place = light_place(tables.light_side, light);
   for (std::uint32_t layer = 0; layer < 3 * tables.btf.light_modes / 4; ++layer) {
     const Four value = light_texel(tables, layer, place.x, place.y);
     std::copy(value.begin(), value.end(), &basis[4 * std::size_t(layer)]);

@@ -1,6 +1,7 @@
 // Where a linear filter reads along one side of a texture.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -17,6 +18,13 @@ inline Between repeated(float at, std::uint32_t size) {
   const float place = (at - std::floor(at)) * float(size) - 0.5f, low = std::floor(place);
   const auto first = static_cast<std::uint32_t>(low + float(size)) % size;
   return {first, (first + 1) % size, place - low};
+}
+
+// Of a side that ends; beyond the middle of the outermost texel is that texel.
+inline Between edge_clamped(float at, std::uint32_t size) {
+  const float place = std::clamp(at * float(size) - 0.5f, 0.0f, float(size - 1)), low = std::floor(place);
+  const auto first = static_cast<std::uint32_t>(low);
+  return {first, std::min(first + 1, size - 1), place - low};
 }
 
 }  // namespace nook::material

@@ -9,6 +9,7 @@
 
 #include "sdk/src/core/half.h"
 #include "sdk/src/material/filtering.h"
+#include "sdk/src/material/signed_blocks.h"
 #include "sdk/src/material/spatial_modes.h"
 
 namespace nook::material {
@@ -48,26 +49,68 @@ struct ImagePlace {
   float u = 0, v = 0, level = 0;
 };
 
-template <class Number>
-Four bilinear(const ImageSize& size, const Number* numbers, std::uint32_t layer, const ImagePlace& place,
-              std::uint32_t level) {
-  const std::uint32_t w = level_size(size.width, level), h = level_size(size.height, level);
-  const Between x = repeated(place.u, w), y = repeated(place.v, h);
-  const Number* const image = numbers + size.level_offset(level) + std::size_t(layer) * w * h * 4;
-  const auto texel = [&](std::uint32_t column, std::uint32_t row) {
-    return four(image + (std::size_t(row) * w + column) * 4);
-  };
+// Of texel(column, row) in an image of a level.
+template <class Texel>
+Four bilinear(std::uint32_t width, std::uint32_t height, const ImagePlace& place, Texel&& texel) {
+  const Between x = repeated(place.u, width), y = repeated(place.v, height);
   return mix(mix(texel(x.low, y.low), texel(x.high, y.low), x.t),
              mix(texel(x.low, y.high), texel(x.high, y.high), x.t), y.t);
 }
 
+// Of at_level(level), the bilinear value of a level.
+template <class AtLevel>
+Four between_levels(std::uint32_t levels, float wanted, AtLevel&& at_level) {
+  const float level = std::clamp(wanted, 0.0f, float(levels - 1));
+  const auto low = static_cast<std::uint32_t>(level);
+  const Four fine = at_level(low);
+  if (level == float(low)) return fine;
+  return mix(fine, at_level(low + 1), level - float(low));
+}
+
 template <class Number>
 Four trilinear(const ImageSize& size, const Number* numbers, std::uint32_t layer, const ImagePlace& place) {
-  const float level = std::clamp(place.level, 0.0f, float(size.levels - 1));
-  const auto low = static_cast<std::uint32_t>(level);
-  const Four fine = bilinear(size, numbers, layer, place, low);
-  if (level == float(low)) return fine;
-  return mix(fine, bilinear(size, numbers, layer, place, low + 1), level - float(low));
+  return between_levels(size.levels, place.level, [&](std::uint32_t level) {
+    const std::uint32_t w = level_size(size.width, level), h = level_size(size.height, level);
+    const Number* const image = numbers + size.level_offset(level) + std::size_t(layer) * w * h * 4;
+    return bilinear(w, h, place, [&](std::uint32_t column, std::uint32_t row) {
+      return four(image + (std::size_t(row) * w + column) * 4);
+    });
+  });
+}
+
+// Images in blocks with four numbers in each texel, two layers of two channels each, in the layout of
+// textures: one level after another, layers x block rows x block columns x channels x a block of
+// signed_blocks.h. Blocks at the rim of a level hold its last texels once more.
+struct BlockSize {
+  std::uint32_t width = 0, height = 0, layers = 0, levels = 0;  // layers of two channels
+
+  static constexpr std::size_t block_bytes = 2 * signed_block_bytes;  // of a block of two channels
+  std::uint32_t columns(std::uint32_t level) const { return (level_size(width, level) + 3) / 4; }
+  std::uint32_t rows(std::uint32_t level) const { return (level_size(height, level) + 3) / 4; }
+  std::size_t layer_bytes(std::uint32_t level) const { return block_bytes * columns(level) * rows(level); }
+  std::size_t level_offset(std::uint32_t level) const {
+    std::size_t offset = 0;
+    for (std::uint32_t l = 0; l < level; ++l) offset += layer_bytes(l) * layers;
+    return offset;
+  }
+};
+
+// layer is the first of the two.
+inline Four trilinear(const BlockSize& size, BlockForm form, const std::uint8_t* blocks, std::uint32_t layer,
+                      const ImagePlace& place) {
+  return between_levels(size.levels, place.level, [&](std::uint32_t level) {
+    const std::size_t columns = size.columns(level), bytes = size.layer_bytes(level);
+    const std::uint8_t* const image = blocks + size.level_offset(level) + layer * bytes;
+    return bilinear(
+        level_size(size.width, level), level_size(size.height, level), place,
+        [&](std::uint32_t column, std::uint32_t row) {
+          const std::uint8_t* const block = image + BlockSize::block_bytes * (row / 4 * columns + column / 4);
+          const std::uint32_t texel = row % 4 * 4 + column % 4;
+          return Four{decode_texel(form, block, texel), decode_texel(form, block + signed_block_bytes, texel),
+                      decode_texel(form, block + bytes, texel),
+                      decode_texel(form, block + bytes + signed_block_bytes, texel)};
+        });
+  });
 }
 
 }  // namespace nook::material

@@ -17,6 +17,7 @@
 
 #include "sdk/src/core/containers.h"
 #include "sdk/src/core/vec.h"
+#include "sdk/src/material/signed_blocks.h"
 
 namespace nook::material {
 
@@ -56,14 +57,12 @@ constexpr std::size_t neural_hidden_layer(const NeuralShape& s, const NeuralLayo
 inline constexpr float neural_leak = 0.01f;
 
 // Features lie in [-1, 1] as multiples of 1 / 127, the numbers of textures of signed bytes. A block of 4 x 4
-// texels of a channel takes eight bytes, those of BC4 with signs: the upper and the lower end as signed
-// bytes, then 16 codes of three bits, row by row, the first in the lowest bits. Code 0 is the upper end, 1
-// the lower one, and 2 to 7 lie between them in equal steps, from the upper to the lower one.
-inline constexpr int neural_feature_steps = 127;
-inline constexpr std::size_t neural_block_bytes = 8;
+// texels of a channel takes eight bytes, those of RGTC in signed_blocks.h.
+inline constexpr int neural_feature_steps = signed_block_steps;
+inline constexpr std::size_t neural_block_bytes = signed_block_bytes;
 // The number of a code, rounded to the nearest; upper is not below lower.
 constexpr int neural_level(int upper, int lower, std::uint32_t code) {
-  const int down = code == 0 ? 0 : code == 1 ? 7 : int(code) - 1;  // sevenths of the way
+  const int down = sevenths_of(code);
   const int sum = upper * (7 - down) + lower * down;
   return (sum >= 0 ? sum + 3 : sum - 3) / 7;
 }

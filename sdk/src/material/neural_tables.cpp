@@ -14,14 +14,12 @@ void decode_channel(const Neural& neural, std::uint32_t channel, std::span<float
   const std::uint32_t columns = (s.width + 3) / 4;
   const std::uint8_t* block = &neural.blocks[neural_block_bytes * s.blocks() * channel];
   for (std::size_t b = 0; b < s.blocks(); ++b, block += neural_block_bytes) {
-    std::uint64_t codes = 0;
-    for (int i = 0; i < 6; ++i) codes |= std::uint64_t(block[2 + i]) << (8 * i);
-    const int upper = std::int8_t(block[0]), lower = std::int8_t(block[1]);
+    const RgtcBlock read = read_rgtc(block);
     const auto x = std::uint32_t(b % columns * 4), y = std::uint32_t(b / columns * 4);
     for (std::uint32_t i = 0; i < 16; ++i)
       if (x + i % 4 < s.width && y + i / 4 < s.height)
         image[std::size_t(y + i / 4) * s.width + x + i % 4] =
-            float(neural_level(upper, lower, std::uint32_t(codes >> (3 * i) & 7)));
+            float(neural_level(read.upper, read.lower, read.code[i]));
   }
 }
 

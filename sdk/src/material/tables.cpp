@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "sdk/src/core/half.h"
 #include "sdk/src/core/hash.h"
@@ -44,20 +45,60 @@ void for_each_mode(const ClusteredTensor& tensor, const Parallel& parallel, Memo
   }
 }
 
-// Calls write(texel, value) for all texels of all levels of a mode; texel is an index of `spatial`.
-template <class Write>
-void for_each_texel(const TensorTables& tables, std::uint32_t cluster, std::uint32_t a, std::uint32_t b,
-                    std::span<float> image, std::span<float> other, Write&& write) {
-  const std::size_t layer = (std::size_t(cluster) * tables.light_modes + a) * tables.view_vec4_count + b / 4;
+// Calls body(level, width, height, image) for all levels of a mode, whose finest one is in image.
+template <class Body>
+void for_each_level(const TensorTables& tables, std::span<float> image, std::span<float> other, Body&& body) {
   for (std::uint32_t level = 0;; ++level) {
     const std::uint32_t w = level_size(tables.width, level), h = level_size(tables.height, level);
-    const std::size_t texels = std::size_t(w) * h;
-    const std::size_t first = tables.image_size().level_offset(level) + layer * texels * 4 + b % 4;
-    for (std::size_t i = 0; i < texels; ++i) write(first + 4 * i, image[i]);
+    body(level, w, h, image);
     if (level + 1 == tables.levels) return;
     halve(image, w, h, other);
     std::swap(image, other);
   }
+}
+
+// Calls write(texel, value) for all texels of all levels of a mode; texel is an index of `spatial`.
+template <class Write>
+void for_each_texel(const TensorTables& tables, std::uint32_t cluster, std::uint32_t a, std::uint32_t b,
+                    std::span<float> image, std::span<float> other, Write&& write) {
+  const std::size_t layer =
+      (std::size_t(cluster) * tables.whole_modes() + a) * tables.view_vec4_count + b / 4;
+  for_each_level(tables, image, other,
+                 [&](std::uint32_t level, std::uint32_t w, std::uint32_t h, std::span<const float> texels) {
+                   const std::size_t count = std::size_t(w) * h;
+                   const std::size_t first =
+                       tables.image_size().level_offset(level) + layer * count * 4 + b % 4;
+                   for (std::size_t i = 0; i < count; ++i) write(first + 4 * i, texels[i]);
+                 });
+}
+
+// Encodes an image into every second of the blocks from `to` on.
+template <class Scaled>
+void encode_image(BlockForm form, std::uint32_t width, std::uint32_t height, std::span<const float> image,
+                  Scaled&& scaled, std::uint8_t* to) {
+  for (std::uint32_t y = 0; y < height; y += 4)
+    for (std::uint32_t x = 0; x < width; x += 4, to += BlockSize::block_bytes) {
+      float numbers[16];
+      for (std::uint32_t i = 0; i < 16; ++i)
+        numbers[i] = scaled(
+            image[std::size_t(std::min(y + i / 4, height - 1)) * width + std::min(x + i % 4, width - 1)]);
+      encode_block(form, numbers, to);
+    }
+}
+
+// Encodes all levels of a mode of which `a` counts light modes in blocks.
+template <class Scaled>
+void encode_mode(TensorTables& tables, std::uint32_t cluster, std::uint32_t a, std::uint32_t b,
+                 std::span<float> image, std::span<float> other, Scaled&& scaled) {
+  const BlockSize size = tables.block_size();
+  const std::size_t pair = (std::size_t(cluster) * tables.packed_modes + a) * tables.view_vec4_count + b / 4;
+  const std::size_t layer = 2 * pair + b % 4 / 2;
+  for_each_level(tables, image, other,
+                 [&](std::uint32_t level, std::uint32_t w, std::uint32_t h, std::span<const float> texels) {
+                   const std::size_t at = size.level_offset(level) + layer * size.layer_bytes(level);
+                   encode_image(tables.block_form, w, h, texels, scaled,
+                                &tables.blocks[at + signed_block_bytes * (b % 2)]);
+                 });
 }
 
 // Returns the exponent that scales the largest bound of a spatial mode to [2^14, 2^15), which is within a
@@ -148,9 +189,14 @@ void pack_cells(const ViewCells& cells, std::uint32_t rank, Scale&& scale, Tenso
   tables.terms = cells.terms;
   tables.blended = !cells.neighbours.empty();
   tables.coefficients.resize(count * 4 * cells.terms * tables.view_vec4_count);
-  if (tables.has_membership()) tables.membership.resize(count * 4 * vec4_count(tables.memberships()));
-  const auto member = [&](std::size_t cell, std::uint32_t k) -> std::uint16_t& {
-    return tables.membership[(k / 4 * count + cell) * 4 + k % 4];
+  const std::size_t bytes = tables.member_bytes();
+  if (tables.has_membership()) tables.membership.resize(count * 4 * vec4_count(tables.memberships()) * bytes);
+  const auto set_member = [&](std::size_t cell, std::uint32_t k, std::uint16_t value) {
+    std::uint8_t* const at = &tables.membership[((k / 4 * count + cell) * 4 + k % 4) * bytes];
+    if (bytes == 1)
+      *at = std::uint8_t(value);
+    else
+      std::memcpy(at, &value, sizeof value);
   };
   for (std::size_t cell = 0; cell < count; ++cell) {
     for (std::uint32_t k = 0; k < cells.terms; ++k) {
@@ -159,20 +205,37 @@ void pack_cells(const ViewCells& cells, std::uint32_t rank, Scale&& scale, Tenso
       for (std::uint32_t b = 0; b < rank; ++b)
         tables.coefficients[((std::size_t(k) * tables.view_vec4_count + b / 4) * count + cell) * 4 + b % 4] =
             finite_half(cells.rows.coefficients[term * rank + b] * scale(cluster, b));
-      if (tables.has_membership()) member(cell, k) = std::uint16_t(cluster);
+      if (tables.has_membership()) set_member(cell, k, std::uint16_t(cluster));
     }
-    if (tables.blended) member(cell, cells.terms) = cells.neighbours[cell];
+    if (tables.blended) set_member(cell, cells.terms, cells.neighbours[cell]);
   }
 }
 
-void set_sizes(const TensorShape& s, std::uint32_t light_modes, std::uint32_t bits, TensorTables& tables) {
+// Numbers with scales: integers, and blocks.
+bool has_scales(const Material& material, const ModeForm& form) {
+  return material.bits == 8 || form.blocks != BlockForm::none;
+}
+
+void set_sizes(const TensorShape& s, std::uint32_t light_modes, TensorTables& tables) {
   tables.width = s.width;
   tables.height = s.height;
   tables.levels = level_count(s.width, s.height);
   tables.light_modes = light_modes;
   tables.view_vec4_count = vec4_count(s.rank_view);
   tables.clusters = s.clusters;
-  tables.bits = bits;
+}
+
+// Modes from light mode `whole` on go into blocks, if there is a form of these.
+void set_blocks(BlockForm form, std::uint32_t whole, TensorTables& tables) {
+  if (form == BlockForm::none || whole >= tables.light_modes) return;
+  tables.block_form = form;
+  tables.packed_modes = tables.light_modes - whole;
+  tables.blocks.resize(tables.block_size().level_offset(tables.levels));
+  // Modes that ranks do not fill are zeros.
+  std::uint8_t zeros[signed_block_bytes];
+  encode_block(form, {}, zeros);
+  for (std::size_t at = 0; at < tables.blocks.size(); at += signed_block_bytes)
+    std::copy_n(zeros, signed_block_bytes, &tables.blocks[at]);
 }
 
 void make_spatial(const ClusteredTensor& tensor, float scale, const Parallel& parallel, TensorTables& tables,
@@ -191,26 +254,33 @@ std::int8_t as_integer(float value) {
   return std::int8_t(std::nearbyint(std::clamp(value, -1.0f, 1.0f) * 127));
 }
 
-void make_spatial_8(const ClusteredTensor& tensor, const ModeScales& scales, const Parallel& parallel,
-                    TensorTables& tables, Memory* memory) {
+// Integers and blocks.
+void make_scaled_spatial(const ClusteredTensor& tensor, const ModeScales& scales, const Parallel& parallel,
+                         TensorTables& tables, Memory* memory) {
+  tables.bits = 8;
   tables.spatial_8.resize(tables.image_size().level_offset(tables.levels));
+  const std::uint32_t whole = tables.whole_modes();
   for_each_mode(tensor, parallel, memory,
                 [&](std::uint32_t c, std::uint32_t a, std::uint32_t b, std::span<float> image,
                     std::span<float> other) noexcept {
                   const float p = scales.p[std::size_t(c) * tensor.shape.rank_view + b];
-                  for_each_texel(tables, c, a, b, image, other, [&](std::size_t at, float value) {
-                    tables.spatial_8[at] = as_integer(quotient(quotient(value, p), scales.r[a]));
-                  });
+                  const auto scaled = [&](float value) { return quotient(quotient(value, p), scales.r[a]); };
+                  if (a >= whole)
+                    encode_mode(tables, c, a - whole, b, image, other, scaled);
+                  else
+                    for_each_texel(tables, c, a, b, image, other, [&](std::size_t at, float value) {
+                      tables.spatial_8[at] = as_integer(scaled(value));
+                    });
                 });
 }
 
 // scale(a) multiplies the columns of the light basis.
 template <class Scale>
 void make_light_map(const Material& material, Scale&& scale, MaterialTables& tables, Memory* memory) {
-  const std::uint32_t side = MaterialTables::light_side, rank = material.btf.shape.rank_light;
+  const std::uint32_t side = tables.light_side, rank = material.btf.shape.rank_light;
   const std::size_t count = std::size_t(side) * side, light_vec4_count = vec4_count(rank);
   const DirectionMesh mesh(material.lights, memory);
-  tables.light.resize(3 * light_vec4_count * count * 4);
+  tables.light.assign(3 * light_vec4_count * count * 4, 0.0f);
   std::size_t hint = 0;
   for (std::uint32_t row = 0; row < side; ++row)
     for (std::uint32_t column = 0; column < side; ++column) {
@@ -261,27 +331,77 @@ std::uint64_t hash_of_votf(const Material& material) {
 }
 
 std::uint64_t tensor_bytes(const TensorTables& tables) {
-  return tables.spatial_8.size() +
-         2 * (std::uint64_t(tables.spatial.size()) + tables.coefficients.size() + tables.membership.size());
+  return tables.spatial_8.size() + tables.blocks.size() + tables.membership.size() +
+         2 * (std::uint64_t(tables.spatial.size()) + tables.coefficients.size());
 }
 
-// Replaces the light map by integers and returns the number that 127 stands for.
-float round_light_map(MaterialTables& tables, Memory* memory) {
+float largest_of(std::span<const float> values) {
   float largest = 0;
-  for (const float value : tables.light) largest = std::max(largest, std::abs(value));
-  tables.light_8.resize(tables.light.size());
-  for (std::size_t i = 0; i < tables.light.size(); ++i)
-    tables.light_8[i] = as_integer(quotient(tables.light[i], largest));
-  tables.light = Vector<float>(memory);
+  for (const float value : values) largest = std::max(largest, std::abs(value));
   return largest;
 }
 
-void make_btf(const Material& material, std::uint32_t map_side, const Parallel& parallel,
-              MaterialTables& tables, Memory* memory) {
+// Replaces the light map by integers, of which 127 stands for `unit`.
+void round_light_map(MaterialTables& tables, float unit, Memory* memory) {
+  tables.light_8.resize(tables.light.size());
+  for (std::size_t i = 0; i < tables.light.size(); ++i)
+    tables.light_8[i] = as_integer(quotient(tables.light[i], unit));
+  tables.light = Vector<float>(memory);
+}
+
+// Moves the texels around each light, in equal shares of the weights of a linear filter, until the filter
+// gives the light's row of the basis there (S. Kaczmarz, 1937).
+template <class Scale>
+void fit_light_map(const Material& material, Scale&& scale, MaterialTables& tables) {
+  constexpr int sweeps = 8;
+  const std::uint32_t side = tables.light_side, rank = material.btf.shape.rank_light;
+  const std::size_t light_vec4_count = vec4_count(rank);
+  for (std::size_t step = 0; step < sweeps * material.lights.size(); ++step) {
+    const std::size_t light = step % material.lights.size();
+    const ParabolicPoint p = to_parabolic(material.lights[light]);
+    const Between x = edge_clamped(0.5f * p.x + 0.5f, side), y = edge_clamped(0.5f * p.y + 0.5f, side);
+    const std::size_t at[4] = {y.low * side + x.low, y.low * side + x.high, y.high * side + x.low,
+                               y.high * side + x.high};
+    const float weight[4] = {(1 - x.t) * (1 - y.t), x.t * (1 - y.t), (1 - x.t) * y.t, x.t * y.t};
+    float squares = 0;
+    for (const float w : weight) squares += w * w;
+    for (std::size_t i = 0; i < 3 * std::size_t(rank); ++i) {
+      const std::size_t channel = i / rank, a = i % rank;
+      float* const layer = &tables.light[(channel * light_vec4_count + a / 4) * side * side * 4 + a % 4];
+      float rest = material.light_basis[(3 * light + channel) * rank + a] * scale(std::uint32_t(a));
+      for (int k = 0; k < 4; ++k) rest -= weight[k] * layer[4 * at[k]];
+      for (int k = 0; k < 4; ++k) layer[4 * at[k]] += rest * weight[k] / squares;
+    }
+  }
+}
+
+// The cells of a small light map: eight for each light, so that few lights share texels.
+std::uint32_t small_light_side(std::size_t lights) {
+  return lights <= 128 ? 32 : 64;
+}
+
+// Makes the light map of integers, and returns the number that 127 stands for. It is that of the map of
+// default size, whose numbers others were baked with.
+template <class Scale>
+float make_light_map_8(const Material& material, Scale&& scale, bool is_small, MaterialTables& tables,
+                       Memory* memory) {
+  make_light_map(material, scale, tables, memory);
+  const float unit = largest_of(tables.light);
+  if (is_small) {
+    tables.light_side = small_light_side(material.lights.size());
+    make_light_map(material, scale, tables, memory);
+    fit_light_map(material, scale, tables);
+  }
+  round_light_map(tables, unit, memory);
+  return unit;
+}
+
+void make_btf(const Material& material, std::uint32_t map_side, const ModeForm& form,
+              const Parallel& parallel, MaterialTables& tables, Memory* memory) {
   const ClusteredTensor& btf = material.btf;
   const ViewCells cells = view_cells(btf, material.views, map_side, memory);
-  set_sizes(btf.shape, 4 * vec4_count(btf.shape.rank_light), material.bits, tables.btf);
-  if (material.bits == 16) {
+  set_sizes(btf.shape, 4 * vec4_count(btf.shape.rank_light), tables.btf);
+  if (!has_scales(material, form)) {
     const int exponent = spatial_exponent(btf, memory);
     tables.light_hash = hash_of_light(material, {}, float(exponent));
     make_spatial(btf, std::ldexp(1.0f, exponent), parallel, tables.btf, memory);
@@ -294,10 +414,10 @@ void make_btf(const Material& material, std::uint32_t map_side, const Parallel& 
   const ModeScales scales =
       mode_scales(btf.shape, largest_of_modes(btf, parallel, memory),
                   largest_of_columns(material.light_basis, btf.shape.rank_light, memory), memory);
-  make_spatial_8(btf, scales, parallel, tables.btf, memory);
-  make_light_map(
-      material, [&](std::uint32_t a) { return scales.r[a]; }, tables, memory);
-  const float unit = round_light_map(tables, memory);
+  set_blocks(form.blocks, 4 * vec4_count(form.whole_light_modes), tables.btf);
+  make_scaled_spatial(btf, scales, parallel, tables.btf, memory);
+  const float unit = make_light_map_8(
+      material, [&](std::uint32_t a) { return scales.r[a]; }, form.blocks != BlockForm::none, tables, memory);
   pack_cells(
       cells, btf.shape.rank_view,
       [&](std::uint32_t c, std::uint32_t b) {
@@ -307,13 +427,13 @@ void make_btf(const Material& material, std::uint32_t map_side, const Parallel& 
   tables.light_hash = hash_of_light(material, scales.r, unit);
 }
 
-void make_votf(const Material& material, std::uint32_t map_side, const Parallel& parallel,
-               MaterialTables& tables, Memory* memory) {
+void make_votf(const Material& material, std::uint32_t map_side, const ModeForm& form,
+               const Parallel& parallel, MaterialTables& tables, Memory* memory) {
   const ClusteredTensor& votf = material.votf;
   const ViewCells cells = view_cells(votf, material.views, map_side, memory);
-  set_sizes(votf.shape, 1, material.bits, tables.votf);
+  set_sizes(votf.shape, 1, tables.votf);
   tables.votf_hash = hash_of_votf(material);
-  if (material.bits == 16) {
+  if (!has_scales(material, form)) {
     // The inverse power of two multiplies the coefficients, so that it is used only where a half would
     // overflow.
     const int exponent = std::min(spatial_exponent(votf, memory), 0);
@@ -324,7 +444,8 @@ void make_votf(const Material& material, std::uint32_t map_side, const Parallel&
     return;
   }
   const ModeScales scales = mode_scales(votf.shape, largest_of_modes(votf, parallel, memory), {}, memory);
-  make_spatial_8(votf, scales, parallel, tables.votf, memory);
+  set_blocks(form.blocks, 0, tables.votf);
+  make_scaled_spatial(votf, scales, parallel, tables.votf, memory);
   pack_cells(
       cells, votf.shape.rank_view,
       [&](std::uint32_t c, std::uint32_t b) {
@@ -343,16 +464,17 @@ void make_neural(const Material& material, MaterialTables& tables, Memory* memor
 }  // namespace
 
 MaterialTables make_tables(const Material& material, const Parallel& parallel, Memory* memory,
-                           std::uint32_t map_side) {
+                           std::uint32_t map_side, const ModeForm& form) {
   MaterialTables tables(memory);
   if (material.neural.is_used())
     make_neural(material, tables, memory);
   else
-    make_btf(material, map_side, parallel, tables, memory);
+    make_btf(material, map_side, form, parallel, tables, memory);
   tables.visibility = material.visibility;
   tables.mapping = material.mapping;
   tables.relief = make_relief_tables(material.relief, tables.btf.width, tables.btf.height, memory);
-  if (material.visibility != VisibilityForm::none) make_votf(material, map_side, parallel, tables, memory);
+  if (material.visibility != VisibilityForm::none)
+    make_votf(material, map_side, form, parallel, tables, memory);
   return tables;
 }
 

@@ -19,10 +19,19 @@ constexpr std::uint32_t vec4_count(std::uint32_t rank) {
   return (rank + 3) / 4;
 }
 
-// All numbers are half floats, except for the membership, and for spatial modes of 8 bits.
+// A choice of whoever makes the tables: blocks for the spatial modes. The integers take the place of half
+// floats then, and the light map has fewer cells, whose values are fitted to the lights.
+struct ModeForm {
+  BlockForm blocks = BlockForm::none;
+  // The first light modes of a BTF stay integers, because they have most of what blocks would lose. Rounded
+  // up to a multiple of 4.
+  std::uint32_t whole_light_modes = 4;
+};
+
+// All numbers are half floats, except for the membership, and for spatial modes of 8 bits or in blocks.
 struct TensorTables {
   explicit TensorTables(Memory* memory = default_memory())
-      : spatial(memory), spatial_8(memory), coefficients(memory), membership(memory) {}
+      : spatial(memory), spatial_8(memory), blocks(memory), coefficients(memory), membership(memory) {}
 
   std::uint32_t width = 0, height = 0;  // of level 0
   std::uint32_t levels = 0;
@@ -32,24 +41,34 @@ struct TensorTables {
   std::uint32_t side = 0;   // cells of the view map
   std::uint32_t terms = 0;  // of a cell; see ViewCells
   bool blended = false;     // cells blend with their neighbours; see ViewCells
-  std::uint32_t bits = 16;  // of a spatial mode
+  std::uint32_t bits = 16;  // of a spatial mode that is not in blocks
+  BlockForm block_form = BlockForm::none;
+  std::uint32_t packed_modes = 0;  // light modes in blocks, the last ones
 
-  // One level after another: layers x height x width x 4. Number b % 4 of layer (c light_modes + a)
+  // One level after another: layers x height x width x 4. Number b % 4 of layer (c whole_modes() + a)
   // view_vec4_count + b / 4 is the mode S_c[a, b] of spatial_modes.h, times a power of two for the whole
   // tensor. With 8 bits it is instead, times 127, an integer of -127 to 127, after a division by the mode's
   // scale p_c[b] r[a], of which the coefficients and the light map have their factors.
   Vector<std::uint16_t> spatial;
   Vector<std::int8_t> spatial_8;
+  // Modes with a scale, too: those of light mode whole_modes() + a begin at layer 2 ((c packed_modes + a)
+  // view_vec4_count + b / 4).
+  Vector<std::uint8_t> blocks;
   // terms x view_vec4_count layers of side x side x 4.
   Vector<std::uint16_t> coefficients;
   // Layers of side x side x 4, with four terms each, and the neighbours of ViewCells as the last of the terms
-  // if the cells blend. Empty if there is a single cluster and no cell blends.
-  Vector<std::uint16_t> membership;
+  // if the cells blend. Empty if there is a single cluster and no cell blends. Numbers of member_bytes().
+  Vector<std::uint8_t> membership;
 
   std::uint32_t memberships() const { return terms + (blended ? 1 : 0); }
   bool has_membership() const { return clusters > 1 || blended; }
-  std::uint32_t layers() const { return clusters * light_modes * view_vec4_count; }
+  std::uint32_t member_bytes() const { return clusters <= 256 ? 1 : 2; }
+  std::uint32_t whole_modes() const { return light_modes - packed_modes; }
+  std::uint32_t layers() const { return clusters * whole_modes() * view_vec4_count; }
   ImageSize image_size() const { return {width, height, layers(), levels}; }
+  BlockSize block_size() const {
+    return {width, height, 2 * clusters * packed_modes * view_vec4_count, levels};
+  }
 };
 
 struct MaterialTables {
@@ -63,11 +82,12 @@ struct MaterialTables {
   VisibilityMapping mapping;
   ReliefTables relief;  // of the BTF
 
-  static constexpr std::uint32_t light_side = 64;
+  std::uint32_t light_side = 64;
   // The light basis over the hemisphere, interpolated linearly between the lights. Beyond the outermost
   // lights theirs is scaled by the ratio of cosines, down to 0 at the horizon. The table has layers x side x
   // side x 4 floats, with layer channel light_modes / 4 + a / 4. It is divided by the power of two of the
-  // BTF's spatial modes.
+  // BTF's spatial modes. Beside modes in blocks it is smaller, and its texels around each light are moved so
+  // that the light has its row of the basis.
   Vector<float> light;
   // With 8 bits in place of `light`: integers of -127 to 127, which are 127 times the light map whose columns
   // are multiplied by r[a], over its largest number. The coefficients are multiplied by that number.
@@ -83,7 +103,7 @@ inline constexpr std::uint32_t default_map_side = 256;
 // Makes the tables of a material that passed check_material. map_side is the side in cells of the view maps
 // of a material without any; see view_cells.h.
 MaterialTables make_tables(const Material& material, const Parallel& parallel, Memory* memory,
-                           std::uint32_t map_side = default_map_side);
+                           std::uint32_t map_side = default_map_side, const ModeForm& form = {});
 
 // Returns the bytes of all tables.
 std::uint64_t table_bytes(const MaterialTables& tables);

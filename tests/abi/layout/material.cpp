@@ -2,6 +2,13 @@
 
 #include "tests/abi/layout/layout.h"
 
+NOOK_SIZE(nook_material_desc, 24);
+NOOK_AT(nook_material_desc, struct_size, 0);
+NOOK_AT(nook_material_desc, header_version, 4);
+NOOK_AT(nook_material_desc, next, 8);
+NOOK_AT(nook_material_desc, modes, 16);
+NOOK_AT(nook_material_desc, whole_light_modes, 20);
+
 NOOK_SIZE(nook_material_tensor, 32);
 NOOK_AT(nook_material_tensor, rank_light, 0);
 NOOK_AT(nook_material_tensor, rank_view, 4);

@@ -300,6 +300,25 @@ TEST_CASE("bake material stops at a signal and leaves nothing behind") {
   CHECK(folder.names().empty());
 }
 
+TEST_CASE("evaluate material draws with modes in blocks") {
+  const TestFolder folder;
+  REQUIRE(folder.run(small_bake(folder, "a.nook", {{"--keep-raw", folder.path("a.raw")}})).exit_code == 0);
+  const auto drawn = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"evaluate",           "material",
+                                       folder.path("a.raw"), folder.path("a.nook"),
+                                       "--report",           folder.path("e.json")};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    REQUIRE(folder.run(arguments).exit_code == 0);
+    return nlohmann::json::parse(read_text(folder.path("e.json"))).at("rows").at(0);
+  };
+  const auto plain = drawn({}), packed = drawn({"--modes", "rgtc", "--whole-light-modes", "0"});
+  CHECK(packed.at("gpu_bytes_texel") < plain.at("gpu_bytes_texel"));
+  CHECK(packed.at("se_db") == plain.at("se_db"));
+  CHECK(packed.at("se_db_drawn") != plain.at("se_db_drawn"));
+  CHECK(folder.run({"evaluate", "material", folder.path("a.raw"), folder.path("a.nook"), "--modes", "bc7"})
+            .exit_code == 2);
+}
+
 TEST_CASE("evaluate material refuses files that do not belong together") {
   const TestFolder folder;
   REQUIRE(folder.run(small_bake(folder, "a.nook", {{"--keep-raw", folder.path("a.raw")}})).exit_code == 0);

@@ -16,6 +16,6 @@
 uniform sampler2DArray nook_btf_coefficients, nook_votf_coefficients, nook_light_map;
 uniform usampler2DArray nook_btf_membership, nook_votf_membership;
 uniform vec2 nook_visibility_mapping;
-vec4 nook_btf_mode(int layer, vec2 uv, float level);
-vec4 nook_votf_mode(int layer, vec2 uv, float level);
+vec4 nook_btf_mode(int cluster, int mode, vec2 uv, float level);
+vec4 nook_votf_mode(int cluster, int mode, vec2 uv, float level);
 #include "shaders/material/host.glsl"

@@ -17,7 +17,21 @@ using material::TensorTables;
 constexpr std::uint32_t guaranteed_layers = 256;  // guaranteed by OpenGL 3.3
 
 std::size_t texture_count(const TensorTables& t, std::uint32_t max_layers) {
-  return t.terms == 0 ? 0 : array_count(t, max_layers) + 1 + t.has_membership();
+  return t.terms == 0
+             ? 0
+             : array_count(t, max_layers) + block_array_count(t, max_layers) + 1 + t.has_membership();
+}
+
+void check_blocks(const Functions& gl, material::BlockForm form) {
+  const bool is_rgtc = form == material::BlockForm::rgtc;
+  if (form == material::BlockForm::none || (is_rgtc ? gl.can.rgtc_textures : gl.can.eac_textures)) return;
+  throw Failure(NOOK_ERROR_UNSUPPORTED,
+                "the material's modes are in blocks that this %s does not have (got %s, need %s); load the "
+                "material with other modes",
+                api_name(gl), is_rgtc ? "NOOK_MATERIAL_MODES_RGTC" : "NOOK_MATERIAL_MODES_EAC",
+                gl.can.rgtc_textures  ? "NOOK_MATERIAL_MODES_RGTC or PLAIN"
+                : gl.can.eac_textures ? "NOOK_MATERIAL_MODES_EAC or PLAIN"
+                                      : "NOOK_MATERIAL_MODES_PLAIN");
 }
 
 // Checks the sizes and layers of the textures against the limits of this OpenGL.
@@ -25,6 +39,7 @@ void check_limits(const Functions& gl, const MaterialTables& tables, std::uint32
   const auto side = std::uint32_t(integer(gl, GL_MAX_TEXTURE_SIZE));
   const auto layers = std::uint32_t(integer(gl, GL_MAX_ARRAY_TEXTURE_LAYERS));
   for (const TensorTables* t : {&tables.btf, &tables.votf}) {
+    check_blocks(gl, t->block_form);
     const std::uint32_t largest = std::max({t->width, t->height, t->side});
     if (largest > side)
       throw Failure(
@@ -81,8 +96,7 @@ void MaterialTextures::add_features(Device& device, const material::NeuralTables
 }
 
 void MaterialTextures::add_btf(Device& device, const MaterialTables& tables, std::uint32_t max_layers) {
-  const auto light_layers = GLsizei(3 * tables.btf.light_modes / 4),
-             light_side = GLsizei(MaterialTables::light_side);
+  const auto light_layers = GLsizei(3 * tables.btf.light_modes / 4), light_side = GLsizei(tables.light_side);
   const bool is_integer = !tables.light_8.empty();
   const void* const light =
       is_integer ? static_cast<const void*>(tables.light_8.data()) : tables.light.data();
@@ -114,13 +128,20 @@ void MaterialTextures::add_tensor(Device& device, const TensorTables& t, const c
   add({ArrayUse::coefficients, side, side, 0, coefficient_layers, coefficient_layers, 1},
       t.coefficients.data(), "coefficients", -1);
   if (t.has_membership())
-    add({ArrayUse::membership, side, side, 0, membership_layers, membership_layers, 1}, t.membership.data(),
-        "membership", -1);
+    add({t.member_bytes() == 1 ? ArrayUse::membership_8 : ArrayUse::membership, side, side, 0,
+         membership_layers, membership_layers, 1},
+        t.membership.data(), "membership", -1);
   int number = 0;
   for (GLsizei first = 0; first < layers; first += GLsizei(max_layers))
     add({t.bits == 8 ? ArrayUse::spatial_8 : ArrayUse::spatial, GLsizei(t.width), GLsizei(t.height), first,
          std::min(layers - first, GLsizei(max_layers)), layers, GLsizei(t.levels)},
         t.bits == 8 ? static_cast<const void*>(t.spatial_8.data()) : t.spatial.data(), "spatial", number++);
+  const auto block_layers = GLsizei(t.block_size().layers), most = GLsizei(most_block_layers(max_layers));
+  number = 0;
+  for (GLsizei first = 0; first < block_layers; first += most)
+    add({t.block_form == material::BlockForm::rgtc ? ArrayUse::rgtc : ArrayUse::eac, GLsizei(t.width),
+         GLsizei(t.height), first, std::min(block_layers - first, most), block_layers, GLsizei(t.levels)},
+        t.blocks.data(), "blocks", number++);
 }
 
 }  // namespace nook::gl

@@ -9,6 +9,47 @@
 namespace nook::gl {
 namespace {
 
+// Writes the fetch of a layer from the arrays of `most` layers each that it may be in.
+template <class Fetch>
+void add_choice(String& out, std::uint32_t arrays, std::uint32_t most, Fetch&& fetch) {
+  for (std::uint32_t i = 0; i < arrays; ++i) {
+    if (i + 1 < arrays) add(out, "  if (layer < %u)\n  ", (i + 1) * most);
+    fetch(i, i * most);
+  }
+}
+
+// The samplers of spatial modes, and the function that fetches four of them: `mode` counts those of a
+// cluster, whole ones first.
+void add_modes(String& out, const material::TensorTables& t, const char* name, std::uint32_t max_layers) {
+  const std::uint32_t whole = t.whole_modes() * t.view_vec4_count,
+                      packed = t.packed_modes * t.view_vec4_count;
+  const std::uint32_t arrays = array_count(t, max_layers), block_arrays = block_array_count(t, max_layers);
+  for (std::uint32_t i = 0; i < arrays; ++i)
+    add(out, "uniform highp sampler2DArray nook_%s_spatial_%u;\n", name, i);
+  for (std::uint32_t i = 0; i < block_arrays; ++i)
+    add(out, "uniform highp sampler2DArray nook_%s_blocks_%u;\n", name, i);
+  add(out, "vec4 nook_%s_mode(int cluster, int mode, vec2 uv, float level) {\n", name);
+  if (whole > 0 && packed > 0) add(out, "  if (mode < %u) {\n", whole);
+  if (whole > 0) {
+    add(out, "  int layer = cluster * %u + mode;\n", whole);
+    add_choice(out, arrays, max_layers, [&](std::uint32_t i, std::uint32_t first) {
+      add(out, "  return textureLod(nook_%s_spatial_%u, vec3(uv, float(layer - %u)), level);\n", name, i,
+          first);
+    });
+  }
+  if (whole > 0 && packed > 0) out += "  }\n";
+  if (packed > 0) {
+    add(out, "  int layer = 2 * (cluster * %u + mode - %u);\n", packed, whole);
+    add_choice(out, block_arrays, most_block_layers(max_layers), [&](std::uint32_t i, std::uint32_t first) {
+      add(out, "  return vec4(textureLod(nook_%s_blocks_%u, vec3(uv, float(layer - %u)), level).rg,\n", name,
+          i, first);
+      add(out, "    textureLod(nook_%s_blocks_%u, vec3(uv, float(layer + 1 - %u)), level).rg);\n", name, i,
+          first);
+    });
+  }
+  out += "}\n";
+}
+
 // name is "btf" and prefix "NOOK_BTF", or the same of the VOTF.
 void add_tensor(String& out, const material::TensorTables& t, const char* name, const char* prefix,
                 std::uint32_t max_layers) {
@@ -20,17 +61,7 @@ void add_tensor(String& out, const material::TensorTables& t, const char* name, 
   add(out, "#define %s_TEXELS vec2(%u.0, %u.0)\n", prefix, t.width, t.height);
   add(out, "uniform highp sampler2DArray nook_%s_coefficients;\n", name);
   if (t.has_membership()) add(out, "uniform highp usampler2DArray nook_%s_membership;\n", name);
-  const std::uint32_t arrays = array_count(t, max_layers);
-  for (std::uint32_t i = 0; i < arrays; ++i)
-    add(out, "uniform highp sampler2DArray nook_%s_spatial_%u;\n", name, i);
-  add(out, "vec4 nook_%s_mode(int layer, vec2 uv, float level) {\n", name);
-  for (std::uint32_t i = 0; i < arrays; ++i) {
-    const std::uint32_t first = i * max_layers;
-    if (i + 1 < arrays) add(out, "  if (layer < %u)\n  ", first + max_layers);
-    add(out, "  return textureLod(nook_%s_spatial_%u, vec3(uv, float(layer - %u)), level);\n", name, i,
-        first);
-  }
-  out += "}\n";
+  add_modes(out, t, name, max_layers);
 }
 
 void add_relief(String& out, const material::ReliefTables& relief) {

@@ -9,9 +9,16 @@
 
 namespace nook::gl {
 
-// max_layers is the maximum for one texture array.
+// max_layers is the maximum for one texture array. Both layers of a mode in blocks are in one array.
 inline std::uint32_t array_count(const material::TensorTables& tables, std::uint32_t max_layers) {
   return (tables.layers() + max_layers - 1) / max_layers;
+}
+constexpr std::uint32_t most_block_layers(std::uint32_t max_layers) {
+  return max_layers < 2 ? 2 : max_layers / 2 * 2;
+}
+inline std::uint32_t block_array_count(const material::TensorTables& tables, std::uint32_t max_layers) {
+  const std::uint32_t most = most_block_layers(max_layers);
+  return (tables.block_size().layers + most - 1) / most;
 }
 
 String material_source(const material::MaterialTables& tables, std::uint32_t max_layers, Memory* memory);

@@ -10,10 +10,12 @@ namespace {
 
 struct Layout {
   GLint internal_format;
-  GLenum format, type;
-  std::size_t texel_bytes;
+  GLenum format, type;      // 0 of blocks
+  std::size_t texel_bytes;  // 0 of blocks
   GLint min_filter, mag_filter, wrap;
 };
+
+constexpr std::size_t block_bytes = 16;  // of 4 x 4 texels of two channels
 
 // OpenGL ES filters no textures of 32-bit floats.
 Layout layout_of(const Functions& gl, ArrayUse use) {
@@ -24,6 +26,12 @@ Layout layout_of(const Functions& gl, ArrayUse use) {
       return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE};
     case ArrayUse::membership:
       return {GL_RGBA16UI, GL_RGBA_INTEGER, GL_UNSIGNED_SHORT, 8, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE};
+    case ArrayUse::membership_8:
+      return {GL_RGBA8UI, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE, 4, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE};
+    case ArrayUse::rgtc:
+      return {GL_COMPRESSED_SIGNED_RG_RGTC2, 0, 0, 0, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT};
+    case ArrayUse::eac:
+      return {GL_COMPRESSED_SIGNED_RG11_EAC, 0, 0, 0, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT};
     case ArrayUse::spatial_8:
       return {GL_RGBA8_SNORM, GL_RGBA, GL_BYTE, 4, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT};
     case ArrayUse::light_8:
@@ -64,9 +72,17 @@ Object make_texture_array(Device& device, const ArrayPlan& plan, const void* dat
   const auto* bytes = static_cast<const std::byte*>(data);
   for (GLsizei level = 0; level < plan.levels; ++level) {
     const GLsizei width = std::max(plan.width >> level, 1), height = std::max(plan.height >> level, 1);
-    const std::size_t layer_bytes = layout.texel_bytes * std::size_t(width) * std::size_t(height);
-    gl.TexImage3D(GL_TEXTURE_2D_ARRAY, level, layout.internal_format, width, height, plan.layers, 0,
-                  layout.format, layout.type, bytes + layer_bytes * std::size_t(plan.first_layer));
+    const bool is_packed = layout.texel_bytes == 0;
+    const std::size_t layer_bytes =
+        is_packed ? block_bytes * std::size_t((width + 3) / 4) * std::size_t((height + 3) / 4)
+                  : layout.texel_bytes * std::size_t(width) * std::size_t(height);
+    const std::byte* const first = bytes + layer_bytes * std::size_t(plan.first_layer);
+    if (is_packed)
+      gl.CompressedTexImage3D(GL_TEXTURE_2D_ARRAY, level, GLenum(layout.internal_format), width, height,
+                              plan.layers, 0, GLsizei(layer_bytes * std::size_t(plan.layers)), first);
+    else
+      gl.TexImage3D(GL_TEXTURE_2D_ARRAY, level, layout.internal_format, width, height, plan.layers, 0,
+                    layout.format, layout.type, first);
     bytes += layer_bytes * std::size_t(plan.all_layers);
   }
   device.check("uploading a material's texture");

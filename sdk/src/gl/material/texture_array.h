@@ -9,9 +9,12 @@ enum class ArrayUse {
   spatial,       // half floats, mipmaps, linear, repeated
   coefficients,  // half floats, nearest
   membership,    // 16-bit integers, nearest
+  membership_8,  // 8-bit integers, nearest
   light,         // floats, linear, clamped to the edge
   spatial_8,     // signed 8-bit integers as -1 to 1, else as spatial
   light_8,       // signed 8-bit integers as -1 to 1, else as light
+  rgtc,          // blocks of two numbers of -1 to 1, else as spatial
+  eac,           // the same in another form
   coordinates,   // pairs of 16-bit integers, nearest
   heights        // one half float, else as spatial
 };
@@ -24,9 +27,9 @@ struct ArrayPlan {
   GLsizei levels = 1;
 };
 
-// Creates a GL_TEXTURE_2D_ARRAY with four numbers in each texel, two of coordinates, or a height. `data` has
-// all layers of level 0, then those of level 1 and so on. Binds the array of unit 0, and expects plain pixel
-// unpacking. Throws Failure.
+// Creates a GL_TEXTURE_2D_ARRAY with four numbers in each texel, two of coordinates and blocks, or a height.
+// `data` has all layers of level 0, then those of level 1 and so on. Binds the array of unit 0, and expects
+// plain pixel unpacking. Throws Failure.
 Object make_texture_array(Device& device, const ArrayPlan& plan, const void* data, const char* label);
 
 // Sets pixel unpacking from host memory without gaps.
