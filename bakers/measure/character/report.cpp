@@ -131,9 +131,12 @@ CharacterReport measure_character(const BakedCharacter& baked, const Recipe* rec
 std::vector<Pose> caster_poses(const ImportedCharacter& character, std::size_t count) {
   const std::vector<std::size_t> clips = motion_clips(character);
   std::vector<Pose> poses;
-  for (std::size_t i = 0; i < count && !clips.empty(); ++i) {
-    const std::size_t clip = clips[i * clips.size() / count];
-    poses.push_back(clip_poses(character, {&clip, 1}, 1).front());
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    // Of `count` poses, evenly over the clips, those that fall to this one.
+    const std::size_t first = (i * count + clips.size() - 1) / clips.size(),
+                      end = ((i + 1) * count + clips.size() - 1) / clips.size();
+    const std::vector<Pose> own = clip_poses(character, {&clips[i], 1}, end - first);
+    poses.insert(poses.end(), own.begin(), own.end());
   }
   if (poses.empty()) poses.push_back(rest_pose(character));
   return poses;
@@ -153,6 +156,7 @@ Json caster_rows(const std::vector<CasterRow>& rows) {
   Json array = Json::array();
   for (const CasterRow& r : rows)
     array.push_back({{"distance_m", r.distance_m},
+                     {"distance_radii", r.distance_radii},
                      {"form", r.form},
                      {"darkening", r.darkening},
                      {"darkening_traced", r.darkening_traced},

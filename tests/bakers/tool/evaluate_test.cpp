@@ -203,6 +203,14 @@ TEST_CASE("a neighbour darkens less the farther it is, by each form and by ray t
   }
   // Between 1 m and 10 m a body's solid angle falls by two orders of magnitude; rays resolve one of them.
   CHECK(rows[8].at("darkening_traced").get<double>() < 0.1 * rows[0].at("darkening_traced").get<double>());
+  const double radius_m = rows[0].at("distance_m").get<double>() / rows[0].at("distance_radii").get<double>();
+  REQUIRE(baked.folder
+              .run({"evaluate", "casters", baked.glb, baked.model, "--report", baked.report, "--rays", "16",
+                    "--bearings", "1", "--poses", "1", "--radii", "--distances", "2"})
+              .exit_code == 0);
+  const Json in_radii = Json::parse(read_text(baked.report)).at("rows")[0];
+  CHECK(in_radii.at("distance_radii").get<double>() == Approx(2));  // float
+  CHECK(in_radii.at("distance_m").get<double>() == Approx(2 * radius_m));
   // Two tubes across each other: parts of both lie inside the other one.
   const auto contact = [&](const char* clip) {
     return baked.folder.run({"evaluate", "casters", baked.glb, baked.model, "--report", baked.report,
