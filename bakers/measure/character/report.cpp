@@ -11,6 +11,7 @@
 #include "bakers/measure/character/linear_pose.h"
 #include "bakers/measure/character/pose_clusters.h"
 #include "sdk/src/character/model_file.h"
+#include "sdk/src/character/scene.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::measure {
@@ -104,6 +105,17 @@ void add_baselines(Json& row, const ImportedCharacter& character, const Recipe* 
   measure("pose_clusters", fit_pose_clusters(mesh, training, fitted, settings.seed));
 }
 
+// The runtime's update with the far_error that scenes have by default, and with exact sums.
+void add_update_errors(Json& row, const CharacterModel& model, std::span<const Pose> poses,
+                       const AoTargets& truth) {
+  const UpdateErrors by_default = bake::measure_update(model, poses, truth, SceneSettings().far_error),
+                     exact = bake::measure_update(model, poses, truth, 0);
+  row["mse_update"] = by_default.mse;
+  row["mse_update_exact"] = exact.mse;
+  row["mse_update_visible"] = by_default.mse_visible;
+  row["mse_update_exact_visible"] = exact.mse_visible;
+}
+
 }  // namespace
 
 std::uint64_t evaluation_ray_seed(std::uint64_t seed) {
@@ -122,6 +134,7 @@ CharacterReport measure_character(const BakedCharacter& baked, const Recipe* rec
   report.evaluation = evaluate_character(baked.character.mesh, baked.model, measured.poses, settings.rays,
                                          evaluation_ray_seed(settings.seed), progress("ray tracing"));
   report.row = model_row(baked, measured, settings.name, report.evaluation);
+  add_update_errors(report.row, baked.model, measured.poses, report.evaluation.truth);
   if (settings.baselines)
     add_baselines(report.row, baked.character, recipe, measured.poses, report.evaluation.truth, settings,
                   progress);

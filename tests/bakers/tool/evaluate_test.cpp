@@ -94,6 +94,12 @@ TEST_CASE("by default the clips that were not fitted are measured, 20 poses each
     CHECK(has(run.out, key));
   }
   CHECK(row.at("mse").get<double>() > 0);
+  // Exact sums by the runtime differ from the scalar reference by rounding, its default ones by far_error.
+  CHECK(row.at("mse_update_exact").get<double>() == Approx(row.at("mse").get<double>()).epsilon(1e-3));
+  CHECK(row.at("mse_update_exact_visible").get<double>() ==
+        Approx(row.at("mse_visible").get<double>()).epsilon(1e-3));
+  CHECK(row.at("mse_update").get<double>() == Approx(row.at("mse").get<double>()).epsilon(0.02));
+  CHECK(row.contains("mse_update_visible"));
   CHECK(row.at("mse_oracle").get<double>() <=
         row.at("mse_static").get<double>());  // the oracle is the best static bake
   CHECK(row.at("mse_oracle_visible").get<double>() <= row.at("mse_static_visible").get<double>());
