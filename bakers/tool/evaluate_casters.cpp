@@ -65,9 +65,12 @@ Json evaluate(const Options& options) {
         return !interrupted();
       });
   if (!options.images.empty())
-    for (const float distance : study.distances_m)
-      measure::write_pair_picture(options.images / picture_name(distance), mesh, baked.model,
-                                  bake::body_pair(baked.model, poses, 0, 0, study.bearings, distance), study);
+    for (const float distance : study.distances) {
+      const float distance_m = bake::distance_in_metres(study, baked.model, distance);
+      measure::write_pair_picture(options.images / picture_name(distance_m), mesh, baked.model,
+                                  bake::body_pair(baked.model, poses, 0, 0, study.bearings, distance_m),
+                                  study);
+    }
   return report_of(rows, study.seed);
 }
 
@@ -95,19 +98,23 @@ void add_evaluate_casters(CLI::App& evaluate_command) {
   CLI::Option* const distances =
       command
           ->add_option(
-              "--distances", o.study.distances_m,
+              "--distances", o.study.distances,
               "metres between the bodies' middles along the ground, separated by commas; vertices that "
               "lie inside the neighbour are left out")
           ->delimiter(',')
           ->check(CLI::Range(0.01, 1000.0))
           ->default_str("0.3,0.5,0.75,1,2,3,5,10");
+  CLI::Option* const radii = command->add_flag(
+      "--radii", o.study.in_radii,
+      "distances are in bounding radii of the body instead of metres, so that bodies of any "
+      "size compare; a person's is about 1 m");
   CLI::Option* const contact = command->add_option(
       "--contact", o.contact,
       "two bodies in the middles of two clips instead, each darkened by the other: the names of "
       "both clips, the place of the second body seen from the first one's middle (x, y and z in "
       "metres), and its turn about the vertical axis in degrees");
   contact->type_name("CLIP CLIP X Y Z DEGREES");
-  for (CLI::Option* const unused : {bearings, poses, distances}) contact->excludes(unused);
+  for (CLI::Option* const unused : {bearings, poses, distances, radii}) contact->excludes(unused);
   command->add_option("--images", o.images,
                       "draw both bodies of the contact, or of a pair at each distance: PNG files in this "
                       "directory");

@@ -130,6 +130,7 @@ class CasterDistance {
   CasterDistance(const SkinnedMesh& mesh, const CharacterModel& model)
       : mesh_(mesh),
         area_(vertex_areas(mesh, mesh.position)),
+        radius_m_(model.bounding_radius),
         composed_(model, NOOK_COMBINE_COMPOSED, 0),
         paper_(model, NOOK_COMBINE_PAPER, 0),
         grouped_(model, NOOK_COMBINE_COMPOSED, SceneSettings().far_error) {}
@@ -165,6 +166,7 @@ class CasterDistance {
     by_composed.change_of_groups = std::sqrt(change_ / all_area_);
     for (CasterRow* row : {&by_composed, &by_paper}) {
       row->distance_m = distance_m;
+      row->distance_radii = distance_m / radius_m_;
       row->share_inside = inside_area_ / all_area_;
       rows.push_back(*row);
     }
@@ -175,12 +177,17 @@ class CasterDistance {
  private:
   const SkinnedMesh& mesh_;
   std::vector<float> area_;
+  float radius_m_;
   LinkedPair composed_, paper_, grouped_;
   Sums composed_sums_, paper_sums_;
   double all_area_ = 0, inside_area_ = 0, change_ = 0;
 };
 
 }  // namespace
+
+float distance_in_metres(const CasterStudy& study, const CharacterModel& model, float distance) {
+  return study.in_radii ? distance * model.bounding_radius : distance;
+}
 
 BodyPair body_pair(const CharacterModel& model, std::span<const Pose> poses, std::size_t p,
                    std::size_t bearing, std::size_t bearings, float distance_m) {
@@ -234,16 +241,17 @@ std::vector<CasterRow> measure_casters(const SkinnedMesh& mesh, const CharacterM
   CasterDistance measured(mesh, model);
   std::vector<CasterRow> rows;
   std::size_t done = 0;
-  const std::size_t total = study.distances_m.size() * poses.size() * study.bearings;
-  for (float distance : study.distances_m) {
+  const std::size_t total = study.distances.size() * poses.size() * study.bearings;
+  for (const float distance : study.distances) {
+    const float distance_m = distance_in_metres(study, model, distance);
     for (std::size_t p = 0; p < poses.size(); ++p)
       for (std::size_t b = 0; b < study.bearings; ++b) {
         if (progress && !progress(done++, total))
           throw Failure(NOOK_ERROR_CANCELLED, "cancelled while measuring casters");
-        measured.add(body_pair(model, poses, p, b, study.bearings, distance), study.rays,
+        measured.add(body_pair(model, poses, p, b, study.bearings, distance_m), study.rays,
                      study.seed + 31 * (done + 1));
       }
-    measured.finish(distance, rows);
+    measured.finish(distance_m, rows);
   }
   return rows;
 }

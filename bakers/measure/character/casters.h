@@ -15,8 +15,9 @@ namespace nook::bake {
 // Means are by area, over the receiver's vertices outside the neighbour, bearings and poses. Darkening is the
 // AO of the body alone minus that with the neighbour.
 struct CasterRow {
-  float distance_m = 0;   // between the two bodies' centres, along the ground
-  const char* form = "";  // "composed" or "paper"
+  float distance_m = 0;      // between the two bodies' centres, along the ground
+  float distance_radii = 0;  // the same in bounding radii of the body
+  const char* form = "";     // "composed" or "paper"
   double darkening = 0;
   double darkening_traced = 0;
   double mse_over_none = 0;  // mean squared error of the darkening over that of no darkening, without the
@@ -31,11 +32,15 @@ struct CasterRow {
 };
 
 struct CasterStudy {
-  std::vector<float> distances_m{0.3f, 0.5f, 0.75f, 1, 2, 3, 5, 10};
+  std::vector<float> distances{0.3f, 0.5f, 0.75f, 1, 2, 3, 5, 10};
+  bool in_radii = false;  // distances are in bounding radii of the body instead of metres
   std::size_t bearings = 6;
   std::uint32_t rays = 256;  // a vertex, in two halves; the same rays with and without the neighbour
   std::uint64_t seed = 1;
 };
+
+// A distance of the study in metres.
+float distance_in_metres(const CasterStudy& study, const CharacterModel& model, float distance);
 
 // Two bodies in world space.
 struct BodyPair {

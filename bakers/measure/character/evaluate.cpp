@@ -9,6 +9,8 @@
 #include "bakers/character/fit_state.h"
 #include "bakers/character/joint_roles.h"
 #include "bakers/import/skinning.h"
+#include "sdk/src/character/loaded_model.h"
+#include "sdk/src/character/scene.h"
 
 namespace nook::bake {
 namespace {
@@ -168,6 +170,38 @@ CharacterEvaluation evaluate_character(const SkinnedMesh& mesh, const CharacterM
   result.rays = rays;
   result.noise_floor_mse = measure_noise_floor(mesh, poses, result.truth, rays, seed);
   return result;
+}
+
+UpdateErrors measure_update(const CharacterModel& model, std::span<const Pose> poses, const AoTargets& truth,
+                            float far_error) {
+  Memory* const memory = default_memory();
+  SceneSettings settings;
+  settings.far_error = far_error;
+  Scene scene(settings, Parallel{}, memory);
+  scene.terms = NOOK_TERM_SELF;
+  const nook_instance_id id = add_instance(
+      scene, Owned<LoadedModel>::make(memory, Ref<const RefCounted>(), CharacterModel(model), memory));
+  std::vector<std::size_t> file_of_welded(model.vertex_count());
+  for (std::size_t i = 0; i < model.file_to_welded.size(); ++i) file_of_welded[model.file_to_welded[i]] = i;
+  std::vector<float> ao(model.file_to_welded.size());
+  double squared = 0, visible_squared = 0;
+  std::size_t visible = 0;
+  for (std::size_t t = 0; t < poses.size(); ++t) {
+    set_pose(scene, id, poses[t]);
+    update(scene);
+    read_ao(scene, instance_of(scene, id), ao.data(), sizeof(float));
+    for (std::size_t i = 0; i < file_of_welded.size(); ++i) {
+      const double traced = truth_at(truth, t, i), error = double(ao[file_of_welded[i]]) - traced;
+      squared += error * error;
+      if (traced < visible_truth) continue;
+      visible_squared += error * error;
+      ++visible;
+    }
+  }
+  UpdateErrors errors;
+  errors.mse = squared / double(poses.size() * file_of_welded.size());
+  if (visible > 0) errors.mse_visible = visible_squared / double(visible);
+  return errors;
 }
 
 }  // namespace nook::bake

@@ -54,6 +54,15 @@ CharacterEvaluation evaluate_character(const SkinnedMesh& mesh, const CharacterM
                                        std::span<const Pose> poses, std::uint32_t rays, std::uint64_t seed,
                                        const Progress& progress = {});
 
+// The error of the runtime's own update of a lone instance, which groups far spheres as far_error allows (0:
+// none, which differs from the scalar reference by rounding alone).
+struct UpdateErrors {
+  double mse = 0;          // over all welded vertices and poses
+  double mse_visible = 0;  // over those vertex-poses whose truth is at least visible_truth
+};
+UpdateErrors measure_update(const CharacterModel& model, std::span<const Pose> poses, const AoTargets& truth,
+                            float far_error);
+
 // Splits vertices for mse_body and mse_hands: true where a hand bone (by role) or a bone below it holds most
 // of the weight.
 std::vector<char> hand_vertices(const SkinnedMesh& mesh);

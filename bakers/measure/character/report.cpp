@@ -11,6 +11,7 @@
 #include "bakers/measure/character/linear_pose.h"
 #include "bakers/measure/character/pose_clusters.h"
 #include "sdk/src/character/model_file.h"
+#include "sdk/src/character/scene.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::measure {
@@ -104,6 +105,17 @@ void add_baselines(Json& row, const ImportedCharacter& character, const Recipe* 
   measure("pose_clusters", fit_pose_clusters(mesh, training, fitted, settings.seed));
 }
 
+// The runtime's update with the far_error that scenes have by default, and with exact sums.
+void add_update_errors(Json& row, const CharacterModel& model, std::span<const Pose> poses,
+                       const AoTargets& truth) {
+  const UpdateErrors by_default = bake::measure_update(model, poses, truth, SceneSettings().far_error),
+                     exact = bake::measure_update(model, poses, truth, 0);
+  row["mse_update"] = by_default.mse;
+  row["mse_update_exact"] = exact.mse;
+  row["mse_update_visible"] = by_default.mse_visible;
+  row["mse_update_exact_visible"] = exact.mse_visible;
+}
+
 }  // namespace
 
 std::uint64_t evaluation_ray_seed(std::uint64_t seed) {
@@ -122,6 +134,7 @@ CharacterReport measure_character(const BakedCharacter& baked, const Recipe* rec
   report.evaluation = evaluate_character(baked.character.mesh, baked.model, measured.poses, settings.rays,
                                          evaluation_ray_seed(settings.seed), progress("ray tracing"));
   report.row = model_row(baked, measured, settings.name, report.evaluation);
+  add_update_errors(report.row, baked.model, measured.poses, report.evaluation.truth);
   if (settings.baselines)
     add_baselines(report.row, baked.character, recipe, measured.poses, report.evaluation.truth, settings,
                   progress);
@@ -131,9 +144,12 @@ CharacterReport measure_character(const BakedCharacter& baked, const Recipe* rec
 std::vector<Pose> caster_poses(const ImportedCharacter& character, std::size_t count) {
   const std::vector<std::size_t> clips = motion_clips(character);
   std::vector<Pose> poses;
-  for (std::size_t i = 0; i < count && !clips.empty(); ++i) {
-    const std::size_t clip = clips[i * clips.size() / count];
-    poses.push_back(clip_poses(character, {&clip, 1}, 1).front());
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    // Of `count` poses, evenly over the clips, those that fall to this one.
+    const std::size_t first = (i * count + clips.size() - 1) / clips.size(),
+                      end = ((i + 1) * count + clips.size() - 1) / clips.size();
+    const std::vector<Pose> own = clip_poses(character, {&clips[i], 1}, end - first);
+    poses.insert(poses.end(), own.begin(), own.end());
   }
   if (poses.empty()) poses.push_back(rest_pose(character));
   return poses;
@@ -153,6 +169,7 @@ Json caster_rows(const std::vector<CasterRow>& rows) {
   Json array = Json::array();
   for (const CasterRow& r : rows)
     array.push_back({{"distance_m", r.distance_m},
+                     {"distance_radii", r.distance_radii},
                      {"form", r.form},
                      {"darkening", r.darkening},
                      {"darkening_traced", r.darkening_traced},

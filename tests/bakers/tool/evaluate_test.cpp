@@ -94,6 +94,12 @@ TEST_CASE("by default the clips that were not fitted are measured, 20 poses each
     CHECK(has(run.out, key));
   }
   CHECK(row.at("mse").get<double>() > 0);
+  // Exact sums by the runtime differ from the scalar reference by rounding, its default ones by far_error.
+  CHECK(row.at("mse_update_exact").get<double>() == Approx(row.at("mse").get<double>()).epsilon(1e-3));
+  CHECK(row.at("mse_update_exact_visible").get<double>() ==
+        Approx(row.at("mse_visible").get<double>()).epsilon(1e-3));
+  CHECK(row.at("mse_update").get<double>() == Approx(row.at("mse").get<double>()).epsilon(0.02));
+  CHECK(row.contains("mse_update_visible"));
   CHECK(row.at("mse_oracle").get<double>() <=
         row.at("mse_static").get<double>());  // the oracle is the best static bake
   CHECK(row.at("mse_oracle_visible").get<double>() <= row.at("mse_static_visible").get<double>());
@@ -203,6 +209,14 @@ TEST_CASE("a neighbour darkens less the farther it is, by each form and by ray t
   }
   // Between 1 m and 10 m a body's solid angle falls by two orders of magnitude; rays resolve one of them.
   CHECK(rows[8].at("darkening_traced").get<double>() < 0.1 * rows[0].at("darkening_traced").get<double>());
+  const double radius_m = rows[0].at("distance_m").get<double>() / rows[0].at("distance_radii").get<double>();
+  REQUIRE(baked.folder
+              .run({"evaluate", "casters", baked.glb, baked.model, "--report", baked.report, "--rays", "16",
+                    "--bearings", "1", "--poses", "1", "--radii", "--distances", "2"})
+              .exit_code == 0);
+  const Json in_radii = Json::parse(read_text(baked.report)).at("rows")[0];
+  CHECK(in_radii.at("distance_radii").get<double>() == Approx(2));  // float
+  CHECK(in_radii.at("distance_m").get<double>() == Approx(2 * radius_m));
   // Two tubes across each other: parts of both lie inside the other one.
   const auto contact = [&](const char* clip) {
     return baked.folder.run({"evaluate", "casters", baked.glb, baked.model, "--report", baked.report,
