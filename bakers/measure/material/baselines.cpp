@@ -134,7 +134,7 @@ MethodRow material_file_row(const RawMaterial& raw, const MaterialFile& file, co
   own.method = "file: " + own.method;
   own.file_bytes = file.bytes.size();
   const nook::material::MaterialTables tables = nook::material::make_tables(
-      file.material, {}, default_memory(), nook::material::default_map_side, form);
+      file.material, {}, default_memory(), nook::material::default_map_side, measures.form);
   // A network is measured as it is drawn.
   own.se_db_drawn = tables.neural.is_used() ? own.se_db : measure_tables(raw, tables).se_db();
   own.gpu_bytes_texel = table_bytes_texel(tables);
