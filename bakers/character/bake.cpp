@@ -297,8 +297,7 @@ Start initialise(const SkinnedMesh& mesh, const Surface& surface, std::span<cons
   const std::vector<std::uint32_t> cluster =
       cluster_vertices(mesh, key_point_weight, feature_normal, clustering);
   std::vector<KeyPoint> key_points = key_points_of_clusters(mesh, cluster, key_point_weight, feature_normal);
-  if (settings.fit == FitMethod::nook && settings.kernel.gamma == 1 && !settings.learn_gamma)
-    for (KeyPoint& point : key_points) point.saturation = settings.saturation;
+  for (KeyPoint& point : key_points) point.saturation = settings.used_saturation();
   const std::vector<InitialSphere> spheres = initial_spheres(mesh, weight, settings.spheres);
   Start start;
   // A vertex of the paper has some local key points (slide 23): those nearest to it. Among more of them the

@@ -28,10 +28,15 @@ struct BakeSettings {
   std::uint64_t seed = 1;
   Kernel kernel;
   // Of each key point before the fit, up to max_saturation (model_check.h); the fit changes it. 0: no shadow
-  // is saturated, as with method paper, and with another gamma than 1, which has the same purpose.
+  // is saturated, as with method paper, and with a gamma that is learned or not 1, which has the same
+  // purpose.
   float saturation = 0.5f;
   bool learn_gamma = false;  // chooses kernel.gamma by held-out error of short fits
   FitMethod fit = FitMethod::nook;
+
+  float used_saturation() const {
+    return fit == FitMethod::nook && kernel.gamma == 1 && !learn_gamma ? saturation : 0;
+  }
 };
 
 enum class BakeStage : std::uint8_t { raytrace, initialise, fit, casters };

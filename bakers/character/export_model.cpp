@@ -14,6 +14,22 @@ constexpr float least_alpha = 1e-3f;
 // 1e-3.
 constexpr float dropped_alpha = 4e-3f;
 
+KeyPoint key_point_of(const FitState& state, std::size_t k) {
+  const LayerStructure& structure = state.structure;
+  const float* q = &state.parameters[structure.key_point_offset(k)];
+  KeyPoint p;
+  p.position = {q[0], q[1], q[2]};
+  p.normal = normalised({q[3], q[4], q[5]});
+  if (dot(p.normal, p.normal) == 0) p.normal = {0, 1, 0};
+  float sum = 0;
+  for (int j = 0; j < KeyPoint::max_bones; ++j) sum += q[6 + j] * q[6 + j];
+  for (int j = 0; j < KeyPoint::max_bones; ++j) p.weight[j] = q[6 + j] * q[6 + j] / sum;
+  p.bone = structure.key_point_bone[k];
+  const float root = state.parameters[structure.saturation_offset(k)];
+  p.saturation = root * root;
+  return p;
+}
+
 // Of the entries of a vertex, the one whose surface frame is nearest in place and direction.
 std::size_t nearest_key_point(const CharacterModel& model, std::size_t vertex, Vec3 position, Vec3 normal) {
   constexpr float metres_of_a_normal = 0.1f;
@@ -74,20 +90,8 @@ CharacterModel export_model(const FitState& state, const SkinnedMesh& mesh,
     const float* q = &state.parameters[structure.sphere_offset(h)];
     model.spheres.push_back({{q[0], q[1], q[2]}, std::exp(q[3]), structure.sphere_bone[h], 1.0f});
   }
-  for (std::size_t k = 0; k < structure.key_point_count(); ++k) {
-    const float* q = &state.parameters[structure.key_point_offset(k)];
-    KeyPoint p;
-    p.position = {q[0], q[1], q[2]};
-    p.normal = normalised({q[3], q[4], q[5]});
-    if (dot(p.normal, p.normal) == 0) p.normal = {0, 1, 0};
-    float sum = 0;
-    for (int j = 0; j < KeyPoint::max_bones; ++j) sum += q[6 + j] * q[6 + j];
-    for (int j = 0; j < KeyPoint::max_bones; ++j) p.weight[j] = q[6 + j] * q[6 + j] / sum;
-    p.bone = structure.key_point_bone[k];
-    const float root = state.parameters[structure.saturation_offset(k)];
-    p.saturation = root * root;
-    model.key_points.push_back(p);
-  }
+  for (std::size_t k = 0; k < structure.key_point_count(); ++k)
+    model.key_points.push_back(key_point_of(state, k));
   const LinearLayerFit& linear = state.linear;
   model.influences = std::uint32_t(linear.entries);
   model.influence.assign(linear.key_point.begin(), linear.key_point.end());

@@ -65,13 +65,24 @@ class PoseOrder {
   std::size_t at_ = 0;
 };
 
+// Weights stay above their floors, and saturations below their bound.
+void keep_in_range(FitState& state) {
+  LinearLayerFit& linear = state.linear;
+  for (std::size_t s = 0; s < linear.alpha.size(); ++s)
+    linear.alpha[s] = std::max(linear.floor.empty() ? 0.0f : linear.floor[s], linear.alpha[s]);
+  const float max_root = std::sqrt(max_saturation);
+  for (std::size_t k = 0; k < state.structure.key_point_count(); ++k) {
+    float& root = state.parameters[state.structure.saturation_offset(k)];
+    root = std::clamp(root, -max_root, max_root);
+  }
+}
+
 }  // namespace
 
 void fit_mini_batches(FitState& state, const TrainingSet& set, const MiniBatchSettings& settings,
                       const StepProgress& progress) {
   const LayerStructure& structure = state.structure;
   const NonLinearLayer layer(structure);
-  const float max_saturation_root = std::sqrt(max_saturation);
   const std::size_t padded = structure.padded_count(), vertices = state.linear.vertex_count();
   const std::size_t parameter_count = structure.parameter_count();
   constexpr std::size_t lanes = batch_poses, vertex_parts = 8;
@@ -126,13 +137,7 @@ void fit_mini_batches(FitState& state, const TrainingSet& set, const MiniBatchSe
                    LayerStructure::key_point_parameters, rate, step + 1);
     adam_alpha.step(state.linear.alpha, gradient_alpha, &alpha_rate, 1, rate, step + 1);
     adam_bias.step(state.linear.bias, gradient_bias, &bias_rate, 1, rate, step + 1);
-    for (std::size_t s = 0; s < state.linear.alpha.size(); ++s)
-      state.linear.alpha[s] =
-          std::max(state.linear.floor.empty() ? 0.0f : state.linear.floor[s], state.linear.alpha[s]);
-    for (std::size_t k = 0; k < structure.key_point_count(); ++k) {
-      float& root = state.parameters[structure.saturation_offset(k)];
-      root = std::clamp(root, -max_saturation_root, max_saturation_root);
-    }
+    keep_in_range(state);
     if (progress && !progress(step + 1)) break;
   }
 }

@@ -113,6 +113,19 @@ void NonLinearLayer::forward(std::span<const Mat3x4> bones, std::span<const floa
         k < keys ? response(sum[k], power, parameters[structure_.saturation_offset(k)]).shadow : 0.0f;
 }
 
+void NonLinearLayer::backward_response(std::span<const float> parameters, LayerWorkspace& workspace,
+                                       const float* gradient_shadow, std::size_t stride,
+                                       std::span<float> gradient) const {
+  const float power = 1 / structure_.kernel.gamma;
+  std::fill(workspace.gradient_sum_.begin(), workspace.gradient_sum_.end(), 0.0f);
+  for (std::size_t k = 0; k < structure_.key_point_count(); ++k) {
+    const std::size_t root = structure_.saturation_offset(k);
+    const Response slope = response(workspace.sum_[k], power, parameters[root]);
+    workspace.gradient_sum_[k] = gradient_shadow[k * stride] * slope.by_sum;
+    gradient[root] += gradient_shadow[k * stride] * slope.by_root;
+  }
+}
+
 void NonLinearLayer::backward(std::span<const Mat3x4> bones, std::span<const float> parameters,
                               LayerWorkspace& workspace, const float* gradient_shadow, std::size_t stride,
                               std::span<float> gradient) const {
@@ -120,14 +133,7 @@ void NonLinearLayer::backward(std::span<const Mat3x4> bones, std::span<const flo
   const std::size_t padded = structure_.padded_count();
   float* key = workspace.key_.data();
   float* gradient_key = workspace.gradient_key_.data();
-  const float power = 1 / structure_.kernel.gamma;
-  std::fill(workspace.gradient_sum_.begin(), workspace.gradient_sum_.end(), 0.0f);
-  for (std::size_t k = 0; k < keys; ++k) {
-    const std::size_t root = structure_.saturation_offset(k);
-    const Response slope = response(workspace.sum_[k], power, parameters[root]);
-    workspace.gradient_sum_[k] = gradient_shadow[k * stride] * slope.by_sum;
-    gradient[root] += gradient_shadow[k * stride] * slope.by_root;
-  }
+  backward_response(parameters, workspace, gradient_shadow, stride, gradient);
   std::fill(workspace.gradient_key_.begin(), workspace.gradient_key_.end(), 0.0f);
   const KeyPointArrays arrays{
       key, key + padded, key + 2 * padded, key + 3 * padded, key + 4 * padded, key + 5 * padded, padded};

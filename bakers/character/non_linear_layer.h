@@ -65,6 +65,10 @@ class NonLinearLayer {
                 const float* gradient_shadow, std::size_t stride, std::span<float> gradient) const;
 
  private:
+  // The part of backward from shadows to sums and saturations.
+  void backward_response(std::span<const float> parameters, LayerWorkspace& workspace,
+                         const float* gradient_shadow, std::size_t stride, std::span<float> gradient) const;
+
   const LayerStructure& structure_;
 };
 

@@ -142,7 +142,7 @@ std::string recipe_text(const ImportedCharacter& character, const Recipe& recipe
   j["steps"] = s.steps;
   j["kernel"] = name_of(s.kernel.form);
   j["fit"] = name_of(s.fit);
-  j["saturation"] = s.saturation;
+  j["saturation"] = s.used_saturation();
   j["time_limit_s"] = s.time_limit_s;
   return j.dump();
 }
@@ -173,7 +173,7 @@ Recipe read_recipe(const ImportedCharacter& character, std::string_view text) {
     r.settings.steps = j.at("steps");
     r.settings.kernel.form = KernelForm(index_of(kernel_names, j.at("kernel")));
     r.settings.fit = FitMethod(index_of(fit_names, j.at("fit")));
-    // Files from before saturation have none.
+    // Recipes of character files up to version 3 have none.
     r.settings.saturation = j.value("saturation", 0.0f);
     r.settings.time_limit_s = j.at("time_limit_s");
     return r;

@@ -130,6 +130,10 @@ void choose_settings(const nook_bake_job_desc& desc, BakeSettings& settings) {
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "desc.saturation is out of range (got %g, need 0 to %g, or NOOK_BAKE_UNSATURATED)",
                     double(desc.saturation), double(max_saturation));
+    if (desc.fit != NOOK_BAKE_FIT_NOOK || (desc.gamma != 0 && desc.gamma != 1))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.saturation needs fit NOOK and a gamma of 1 (got %g, fit %d, gamma %g)",
+                    double(desc.saturation), int(desc.fit), double(desc.gamma));
     settings.saturation = desc.saturation;
   }
   settings.learn_gamma = desc.gamma == NOOK_BAKE_GAMMA_LEARNED;

@@ -167,6 +167,39 @@ void run(const Options& options) {
 
 using Names = std::map<std::string, std::int32_t>;
 
+void add_choice(CLI::App& command, const char* name, std::int32_t& value, const Names& names,
+                const char* help) {
+  std::vector<std::string> keys;
+  for (const auto& entry : names) keys.push_back(entry.first);
+  command
+      .add_option_function<std::string>(
+          name, [&value, names](const std::string& key) { value = names.at(key); }, help)
+      ->check(CLI::IsMember(keys))
+      ->type_name("NAME");
+}
+
+// The form of the model and how it is fitted.
+void add_form_options(CLI::App& command, Options& o) {
+  add_choice(command, "--kernel", o.kernel,
+             {{"nook", NOOK_BAKE_KERNEL_NOOK},
+              {"paper", NOOK_BAKE_KERNEL_PAPER},
+              {"rational", NOOK_BAKE_KERNEL_RATIONAL}},
+             "shadow of a sphere: nook (default), paper (Le et al. 2019) or rational");
+  add_choice(command, "--fit", o.fit, {{"nook", NOOK_BAKE_FIT_NOOK}, {"paper", NOOK_BAKE_FIT_PAPER}},
+             "nook (mini-batches, default) or paper (block coordinate descent with L-BFGS)");
+  command
+      .add_option_function<std::string>(
+          "--gamma", [&o](const std::string& text) { o.gamma = gamma_of(text); },
+          "exponent of the shadow norm, 1 to 8 (default 1), or learned: the best of several short fits")
+      ->type_name("G|learned")
+      ->check(CLI::Range(1.0, 8.0) | CLI::IsMember({"learned"}));
+  command
+      .add_option("--saturation", o.saturation,
+                  "saturation of the key points before the fit (default 0.5, and none with --fit paper or "
+                  "another --gamma than 1), which the fit changes; 0: none")
+      ->check(CLI::Range(0.0, 64.0));
+}
+
 }  // namespace
 
 void add_bake_character(CLI::App& bake) {
@@ -174,34 +207,26 @@ void add_bake_character(CLI::App& bake) {
       bake.add_subcommand("character", "bake a rigged character for dynamic ambient occlusion");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  const auto choice = [&](const char* name, std::int32_t& value, const Names& names, const char* help) {
-    std::vector<std::string> keys;
-    for (const auto& entry : names) keys.push_back(entry.first);
-    command
-        ->add_option_function<std::string>(
-            name, [&value, names](const std::string& key) { value = names.at(key); }, help)
-        ->check(CLI::IsMember(keys))
-        ->type_name("NAME");
-  };
   command->add_option("input", o.input, "character, .glb or .gltf")->required();
   command->add_option("-o,--output", o.output, "the .nook file to write")->required();
   add_linked_files_option(*command, o.linked);
-  choice("--preset", o.preset,
-         {{"draft", NOOK_BAKE_PRESET_DRAFT},
-          {"standard", NOOK_BAKE_PRESET_STANDARD},
-          {"production", NOOK_BAKE_PRESET_PRODUCTION}},
-         "draft (about 20 s), standard (up to 5 minutes, the default) or production (about half an hour)");
-  choice("--poses", o.poses,
-         {{"auto", NOOK_BAKE_POSES_AUTO},
-          {"single-joint", NOOK_BAKE_POSES_SINGLE_JOINT},
-          {"clips", NOOK_BAKE_POSES_CLIPS},
-          {"all", NOOK_BAKE_POSES_ALL}},
-         "what to fit: auto (generated poses), single-joint (a grid of rotations of each joint alone), "
-         "clips, or all (auto "
-         "and clips, the default)");
+  add_choice(
+      *command, "--preset", o.preset,
+      {{"draft", NOOK_BAKE_PRESET_DRAFT},
+       {"standard", NOOK_BAKE_PRESET_STANDARD},
+       {"production", NOOK_BAKE_PRESET_PRODUCTION}},
+      "draft (about 20 s), standard (up to 5 minutes, the default) or production (about half an hour)");
+  add_choice(*command, "--poses", o.poses,
+             {{"auto", NOOK_BAKE_POSES_AUTO},
+              {"single-joint", NOOK_BAKE_POSES_SINGLE_JOINT},
+              {"clips", NOOK_BAKE_POSES_CLIPS},
+              {"all", NOOK_BAKE_POSES_ALL}},
+             "what to fit: auto (generated poses), single-joint (a grid of rotations of each joint alone), "
+             "clips, or all (auto "
+             "and clips, the default)");
   command->add_option("--clips", o.clips, "fit only these clips of the file")->delimiter(',');
-  choice(
-      "--split", o.split,
+  add_choice(
+      *command, "--split", o.split,
       {{"all", NOOK_BAKE_SPLIT_ALL}, {"half", NOOK_BAKE_SPLIT_HALF}, {"families", NOOK_BAKE_SPLIT_FAMILIES}},
       "without --clips: all motion clips (default), or half: every second one in byte order of the names, "
       "so that `evaluate` measures on the others, or families: the same with clips whose names begin with "
@@ -216,24 +241,7 @@ void add_bake_character(CLI::App& bake) {
       ->check(CLI::Range(1, 1000000));
   command->add_option("--steps", o.steps, "steps of the fit (--fit paper: rounds)")
       ->check(CLI::Range(1, 10000000));
-  choice("--kernel", o.kernel,
-         {{"nook", NOOK_BAKE_KERNEL_NOOK},
-          {"paper", NOOK_BAKE_KERNEL_PAPER},
-          {"rational", NOOK_BAKE_KERNEL_RATIONAL}},
-         "shadow of a sphere: nook (default), paper (Le et al. 2019) or rational");
-  choice("--fit", o.fit, {{"nook", NOOK_BAKE_FIT_NOOK}, {"paper", NOOK_BAKE_FIT_PAPER}},
-         "nook (mini-batches, default) or paper (block coordinate descent with L-BFGS)");
-  command
-      ->add_option_function<std::string>(
-          "--gamma", [&o](const std::string& text) { o.gamma = gamma_of(text); },
-          "exponent of the shadow norm, 1 to 8 (default 1), or learned: the best of several short fits")
-      ->type_name("G|learned")
-      ->check(CLI::Range(1.0, 8.0) | CLI::IsMember({"learned"}));
-  command
-      ->add_option("--saturation", o.saturation,
-                   "saturation of the key points before the fit (default 0.5, and none with --fit paper or "
-                   "another --gamma than 1), which the fit changes; 0: none")
-      ->check(CLI::Range(0.0, 64.0));
+  add_form_options(*command, o);
   command
       ->add_option("--time-limit", o.time_limit_s,
                    "end the fit after so many seconds; such a bake is not reproducible bit for bit")

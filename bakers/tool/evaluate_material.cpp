@@ -141,11 +141,27 @@ Json evaluate(const Options& o) {
   Json report;
   report["rows"] = rows;
   report["settings"] = describe(settings);
-  if (o.form.blocks != nook::material::BlockForm::none)
+  if (o.form.blocks != nook::material::BlockForm::none) {
+    report["settings"]["modes"] = o.form.blocks == nook::material::BlockForm::rgtc ? "rgtc" : "eac";
     report["settings"]["whole_light_modes"] = o.form.whole_light_modes;
+  }
   if (o.seeding) report["seeding"] = measure::seeding_rows(raw, settings, progress);
   if (!o.sweep.empty()) add_sweep(raw, settings, o, progress, report);
   return report;
+}
+
+void add_mode_options(CLI::App& command, nook::material::ModeForm& form) {
+  command
+      .add_option("--modes", form.blocks,
+                  "draw with spatial modes as the file has them (plain), or in blocks of a context: rgtc or "
+                  "eac; for all that is measured as it is drawn")
+      ->transform(CLI::CheckedTransformer(block_forms))
+      ->type_name("FORM");
+  command
+      .add_option("--whole-light-modes", form.whole_light_modes,
+                  "with blocks, the first light modes that stay whole, in steps of 4")
+      ->check(CLI::Range(0u, 3 * nook::material::max_directions))
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -186,18 +202,9 @@ void add_evaluate_material(CLI::App& evaluate_command) {
       "measure pixels that cover 2 x 2, 4 x 4 and more texels, at their mipmap level and at the finest");
   command->add_flag(
       "--grazing", o.grazing,
-      "measure pixels of views beyond 60 degrees against supersampling, with 1 to 8 fetches along them");
-  command
-      ->add_option("--modes", o.form.blocks,
-                   "draw with spatial modes as the file has them (plain), or in blocks of a context: rgtc or "
-                   "eac; for se_db_drawn and gpu_bytes_texel")
-      ->transform(CLI::CheckedTransformer(block_forms))
-      ->type_name("FORM");
-  command
-      ->add_option("--whole-light-modes", o.form.whole_light_modes,
-                   "with blocks, the first light modes that stay whole, in steps of 4")
-      ->check(CLI::Range(0u, nook::material::max_directions))
-      ->capture_default_str();
+      "measure pixels of views between 60 and 85 degrees against supersampling, with 1 to 8 fetches along "
+      "them");
+  add_mode_options(*command, o.form);
   command->add_flag("--compare-seeding", o.seeding,
                     "CTA and K-CTA from clusters of directions and of values");
   command->add_option("--sweep", o.sweep, "total view ranks, for all methods (plots with --images)")

@@ -1,6 +1,7 @@
 #include "sdk/src/character/model_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <new>
 #include <string>
@@ -361,6 +362,28 @@ TEST_CASE("files of version 2, which have no bind data, are read") {
   CHECK(read.vertex_count() == model.vertex_count());
 }
 
+TEST_CASE("a file whose largest saturation is out of range is refused") {
+  const CharacterModel model = test::sample_model();
+  const auto bytes = write_character_model(model);
+  const float root = std::sqrt(max_saturation_of(model));
+  std::byte code[sizeof root];
+  std::memcpy(code, &root, sizeof root);
+  const auto at = std::search(bytes.begin(), bytes.end(), std::begin(code), std::end(code));
+  REQUIRE(at != bytes.end());
+  for (const float wrong : {-1.0f, 8.1f, NAN}) {
+    auto spoiled = bytes;
+    std::memcpy(&spoiled[std::size_t(at - bytes.begin())], &wrong, sizeof wrong);
+    repair_checksum(spoiled);
+    try {
+      read_character_model(spoiled);
+      FAIL("a root of " << wrong << " passed");
+    } catch (const Failure& failure) {
+      CHECK(failure.code() == NOOK_ERROR_BAD_FILE);
+      CHECK(std::string(failure.what()).find("largest saturation") != std::string::npos);
+    }
+  }
+}
+
 TEST_CASE("files of version 3, which have no saturations, are read as unsaturated") {
   CharacterModel model = test::sample_model();
   for (KeyPoint& point : model.key_points) point.saturation = 0;
@@ -373,8 +396,7 @@ TEST_CASE("files of version 3, which have no saturations, are read as unsaturate
 
 TEST_CASE("saturations keep half a step of their roots, and those out of range are refused by name") {
   CharacterModel model = test::sample_model();
-  float most = 0;
-  for (const KeyPoint& point : model.key_points) most = std::max(most, point.saturation);
+  const float most = max_saturation_of(model);
   REQUIRE(most > 0);
   const CharacterModel read = quantise(model);
   for (std::size_t k = 0; k < model.key_points.size(); ++k)

@@ -1,8 +1,10 @@
 #include "bakers/measure/material/grazing.h"
 
 #include <cmath>
+#include <span>
 
 #include "bakers/material/tile_taps.h"
+#include "bakers/measure/material/decoded_radiances.h"
 #include "bakers/measure/material/table_error.h"
 #include "bakers/raytrace/random.h"
 #include "bakers/tensor/blocks.h"
@@ -21,26 +23,19 @@ using tensor::Matrix;
 constexpr std::uint32_t fetch_counts[] = {1, 2, 3, 4, 8};
 constexpr std::size_t pixels = 32;          // of a view
 constexpr std::uint32_t texel_samples = 8;  // along a texel
-constexpr float lowest_z = 0.5f;            // 60 degrees from the normal
+// Cosines of the measured views: 60 to 85 degrees from the normal.
+constexpr float highest_z = 0.5f, lowest_z = 0.0871f;
 
 // The radiances of a pixel under all lights, three numbers each.
 Matrix radiances(const RawMaterial& raw, const MaterialTables& tables, const Matrix& lights,
                  const Pixel& pixel) {
-  if (!tables.neural.is_used()) {
-    Matrix modes(Index(tables.btf.light_modes), 1);
-    nook::material::decode_pixel_modes(tables, pixel, {modes.data(), tables.btf.light_modes});
-    return lights * modes;
-  }
-  Matrix out(Index(raw.light_rows()), 1);
-  std::vector<float> decoded(tables.neural.decoded_count());
-  decode_neural_places(tables.neural,
-                       fetches_along(pixel.sides, tables.btf.width, tables.btf.height, pixel.fetches),
-                       pixel.view, decoded);
-  for (std::size_t l = 0; l < raw.lights.size(); ++l) {
-    const Vec3 radiance = neural_radiance(tables.neural, decoded, raw.lights[l]);
-    out.block(Index(3 * l), 0, 3, 1) << radiance.x, radiance.y, radiance.z;
-  }
-  return out;
+  return decoded_radiances(
+      raw, tables, lights,
+      [&](std::span<float> modes) { nook::material::decode_pixel_modes(tables, pixel, modes); },
+      [&](std::span<float> sums) {
+        const auto places = fetches_along(pixel.sides, tables.btf.width, tables.btf.height, pixel.fetches);
+        decode_neural_places(tables.neural, places, pixel.view, sums);
+      });
 }
 
 // Calls visit(place) at even places over a pixel, and returns how many they were.
@@ -113,7 +108,7 @@ std::vector<GrazingError> measure_grazing(const RawMaterial& raw, const Material
                   tables.btf.height, raw.width, raw.height);
   std::vector<std::size_t> views;
   for (std::size_t view = 0; view < raw.views.size(); ++view)
-    if (raw.views[view].z > 0 && raw.views[view].z < lowest_z) views.push_back(view);
+    if (raw.views[view].z >= lowest_z && raw.views[view].z < highest_z) views.push_back(view);
   if (views.empty()) return {};
   const Matrix lights = tables.neural.is_used() ? Matrix() : light_rows(raw, tables);
   std::vector<std::vector<GrazingError>> parts(views.size());

@@ -17,10 +17,10 @@ struct GrazingError {
   double mse = 0, mse_raw = 0;
 };
 
-// Of the raw material's views beyond 60 degrees, with 1, 2, 3 and 4 fetches, and 8. A pixel is as wide as a
-// texel across the tilt and 1 / cos(tilt) texels along it, at 32 places of the tile for each view; the means
-// are over 8 x 8 samples or more for each texel of it, bilinear and of the finest level. Empty where no view
-// is so low. Throws Failure(INVALID_ARGUMENT) where texels are not the raw material's.
+// Of the raw material's views between 60 and 85 degrees, with 1, 2, 3 and 4 fetches, and 8. A pixel is as
+// wide as a texel across the tilt and 1 / cos(tilt) texels along it, at 32 places of the tile for each view;
+// the means are over 8 x 8 samples or more for each texel of it, bilinear and of the finest level. Empty
+// where there is no such view. Throws Failure(INVALID_ARGUMENT) where texels are not the raw material's.
 std::vector<GrazingError> measure_grazing(const RawMaterial& raw,
                                           const nook::material::MaterialTables& tables);
 

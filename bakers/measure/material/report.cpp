@@ -22,12 +22,14 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
   for (const LevelError& level : row.levels)
     json["mipmaps"].push_back(
         {{"texels", level.side}, {"se_db", level.se_db}, {"se_db_finest", level.se_db_finest}});
-  for (const GrazingError& error : row.grazing)
-    json["grazing"].push_back({{"fetches", error.fetches},
-                               {"mse", error.mse},
-                               {"of_isotropic", error.mse / row.grazing.front().mse},
-                               {"mse_raw", error.mse_raw},
-                               {"of_isotropic_raw", error.mse_raw / row.grazing.front().mse_raw}});
+  for (const GrazingError& error : row.grazing) {
+    const GrazingError& isotropic = row.grazing.front();
+    auto& entry = json["grazing"].emplace_back(
+        nlohmann::ordered_json{{"fetches", error.fetches}, {"mse", error.mse}, {"mse_raw", error.mse_raw}});
+    // A material of one colour has no error to compare with.
+    if (isotropic.mse > 0) entry["of_isotropic"] = error.mse / isotropic.mse;
+    if (isotropic.mse_raw > 0) entry["of_isotropic_raw"] = error.mse_raw / isotropic.mse_raw;
+  }
   if (row.se_db_unseen) json["se_db_unseen"] = *row.se_db_unseen;
   if (row.error_texels_unseen) json["votf_error_texels_unseen"] = *row.error_texels_unseen;
   if (row.jumps) {

@@ -1,7 +1,9 @@
 #include "bakers/measure/material/table_error.h"
 
 #include <algorithm>
+#include <span>
 
+#include "bakers/measure/material/decoded_radiances.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/material/evaluate.h"
@@ -30,20 +32,12 @@ Matrix decoded_modes(const RawMaterial& raw, const MaterialTables& tables, Vec3 
 // The radiances of a sample's point for its view under all lights: three numbers each.
 Matrix radiances(const RawMaterial& raw, const MaterialTables& tables, const Matrix& lights,
                  const nook::material::Sample& sample) {
-  Matrix out(Index(raw.light_rows()), 1);
-  if (!tables.neural.is_used()) {
-    Matrix modes(Index(tables.btf.light_modes), 1);
-    nook::material::decode_modes(tables, sample, {modes.data(), tables.btf.light_modes});
-    out.noalias() = lights * modes;
-    return out;
-  }
-  std::vector<float> decoded(tables.neural.decoded_count());
-  decode_neural(tables.neural, {sample.u, sample.v, sample.level}, sample.view, decoded);
-  for (std::size_t l = 0; l < raw.lights.size(); ++l) {
-    const Vec3 radiance = neural_radiance(tables.neural, decoded, raw.lights[l]);
-    out.block(Index(3 * l), 0, 3, 1) << radiance.x, radiance.y, radiance.z;
-  }
-  return out;
+  return decoded_radiances(
+      raw, tables, lights,
+      [&](std::span<float> modes) { nook::material::decode_modes(tables, sample, modes); },
+      [&](std::span<float> sums) {
+        decode_neural(tables.neural, {sample.u, sample.v, sample.level}, sample.view, sums);
+      });
 }
 
 // The means of the raw radiances over a square of texels for a view under all lights.

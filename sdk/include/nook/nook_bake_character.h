@@ -305,8 +305,9 @@ typedef struct nook_bake_job_desc {
   nook_bake_progress_fn progress;
   void* progress_user;
   /* The saturation c of each key point before the fit, with which its shadow is n / (1 + c n) of the norm n
-   * of its spheres, up to 64; the fit changes it. 0 (default) means 0.5. With NOOK_BAKE_UNSATURATED, with fit
-   * PAPER and with another gamma than 1, all shadows are their norms. */
+   * of its spheres, up to 64; the fit changes it. 0 (default) means 0.5 with fit NOOK and a gamma of 1, and
+   * none otherwise. NOOK_BAKE_UNSATURATED: all shadows are their norms. Another number needs fit NOOK and a
+   * gamma of 1. */
   float saturation;
 } nook_bake_job_desc;
 

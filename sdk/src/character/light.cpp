@@ -47,7 +47,7 @@ void fill(float* const* lanes, std::uint32_t count, float value) {
   for (int c = 0; c < 3; ++c) std::fill_n(lanes[c], count, value);
 }
 
-// The inverse of norm_root.
+// The inverse of norm_root, to 6e-8 (1 + c n) of the norm n for the saturation c, and at most n = 1e6 / c.
 float norm_sum_of(float shadow, float saturation, float gamma) {
   const float norm = shadow / std::max(1 - saturation * shadow, 1e-6f);
   return gamma == 1 ? norm : std::pow(norm, gamma);

@@ -225,6 +225,23 @@ TEST_CASE("settings that make no sense are refused before the job starts") {
     desc.gamma = 0.5f;
     expected = "desc.gamma is out of range (got 0.5";
   }
+  SECTION("saturation below what stands for none") {
+    desc.saturation = -0.5f;
+    expected = "desc.saturation is out of range (got -0.5, need 0 to 64";
+  }
+  SECTION("saturation above the bound") {
+    desc.saturation = 65;
+    expected = "desc.saturation is out of range (got 65";
+  }
+  SECTION("saturation that is no number") {
+    desc.saturation = std::nanf("");
+    expected = "desc.saturation is out of range";
+  }
+  SECTION("saturation of a fit that has none") {
+    desc.saturation = 1;
+    desc.gamma = 2;
+    expected = "desc.saturation needs fit NOOK and a gamma of 1 (got 1, fit 0, gamma 2)";
+  }
   SECTION("gamma below what stands for learned") {
     desc.gamma = -2;
     expected = "desc.gamma is out of range (got -2";

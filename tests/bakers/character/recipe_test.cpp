@@ -37,11 +37,15 @@ TEST_CASE("a recipe comes back from its text") {
   recipe.auto_poses = 5;
   recipe.variant_poses = 7;
   recipe.settings.seed = 9;
+  recipe.settings.saturation = 0.25f;
   const Recipe read = read_recipe(character, recipe_text(character, recipe));
   CHECK(read.auto_poses == 5);
   CHECK(read.variant_poses == 7);
   CHECK(read.generation == pose_generation);
   CHECK(read.settings.seed == 9);
+  CHECK(read.settings.saturation == 0.25f);
+  recipe.settings.kernel.gamma = 2;  // such a bake has none, whatever was asked for
+  CHECK(read_recipe(character, recipe_text(character, recipe)).settings.saturation == 0);
   CHECK(recipe_poses(character, read).size() == 5);  // without clips there is nothing to make variants of
 }
 
@@ -50,6 +54,7 @@ TEST_CASE("an early recipe is read, and its automatic poses are refused") {
   const Recipe early = read_recipe(character, early_text("5", "0"));
   CHECK(early.generation == 1);
   CHECK(early.variant_poses == 0);
+  CHECK(early.settings.saturation == 0);
   try {
     recipe_poses(character, early);
     FAIL("made poses of another generation");
