@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bakers/material/raw_material.h"
-#include "bakers/tensor/blocks.h"
+#include "bakers/tensor/tensor.h"
 #include "sdk/src/material/neural_tables.h"
 #include "sdk/src/material/tables.h"
 

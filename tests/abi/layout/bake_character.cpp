@@ -36,7 +36,7 @@ NOOK_AT(nook_bake_character_info, warning_count, 28);
 NOOK_AT(nook_bake_character_info, bounds_min, 32);
 NOOK_AT(nook_bake_character_info, bounds_max, 44);
 
-NOOK_SIZE(nook_bake_job_desc, 128);
+NOOK_SIZE(nook_bake_job_desc, 136);
 NOOK_AT(nook_bake_job_desc, struct_size, 0);
 NOOK_AT(nook_bake_job_desc, header_version, 4);
 NOOK_AT(nook_bake_job_desc, next, 8);
