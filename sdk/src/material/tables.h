@@ -101,7 +101,8 @@ struct MaterialTables {
 inline constexpr std::uint32_t default_map_side = 256;
 
 // Makes the tables of a material that passed check_material. map_side is the side in cells of the view maps
-// of a material without any; see view_cells.h.
+// of a material without any; see view_cells.h. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for blocks of too
+// many bytes; see check_block_bytes.
 MaterialTables make_tables(const Material& material, const Parallel& parallel, Memory* memory,
                            std::uint32_t map_side = default_map_side, const ModeForm& form = {});
 
