@@ -8,11 +8,12 @@
 
 namespace nook::material {
 
-inline constexpr std::uint32_t max_directions = 1024;  // of lights, and of views
-inline constexpr std::uint32_t max_texels = 1024;      // along u, and along v
-inline constexpr std::uint32_t max_mixture = 8;        // K
-inline constexpr std::uint32_t max_row = 512;          // K R_v, the coefficients of one view
-inline constexpr std::uint32_t max_map_side = 512;     // cells of a resampled view map
+inline constexpr std::uint32_t max_directions = 1024;                 // of lights, and of views
+inline constexpr std::uint32_t max_light_modes = 3 * max_directions;  // R_l, of three colours of lights
+inline constexpr std::uint32_t max_texels = 1024;                     // along u, and along v
+inline constexpr std::uint32_t max_mixture = 8;                       // K
+inline constexpr std::uint32_t max_row = 512;                         // K R_v, the coefficients of one view
+inline constexpr std::uint32_t max_map_side = 512;                    // cells of a resampled view map
 // The maximum of C R_l R_v I_x I_y, the numbers of one tensor's expanded spatial modes with ranks rounded up
 // to multiples of 4: 1 GiB of half floats.
 inline constexpr std::uint64_t max_expanded = std::uint64_t{1} << 29;
