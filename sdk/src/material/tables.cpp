@@ -381,13 +381,14 @@ void fit_light_map(const Material& material, Scale&& scale, MaterialTables& tabl
   }
 }
 
-// The cells of a small light map: eight for each light, so that few lights share texels.
+// The side in cells of a small light map: eight cells or more for each of up to 512 lights, and four for each
+// of 1,024, so that few lights share texels.
 std::uint32_t small_light_side(std::size_t lights) {
   return lights <= 128 ? 32 : 64;
 }
 
 // Makes the light map of integers, and returns the number that 127 stands for. It is that of the map of
-// default size, whose numbers others were baked with.
+// default size, whose numbers others were baked with; fitted texels above it are clamped.
 template <class Scale>
 float make_light_map_8(const Material& material, Scale&& scale, bool is_small, MaterialTables& tables,
                        Memory* memory) {
