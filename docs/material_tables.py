@@ -153,7 +153,8 @@ def numbers_rows(bench):
                 yield material, bits, report["rows"][0]
 
 
-# Modes of `evaluate material`: the form of blocks, and light modes that stay whole. 1,024 are all of them.
+# Modes of `evaluate material`: the form of blocks, and light modes that stay whole. 1,024 are more than
+# any of these files has.
 BLOCKS = {"half floats": ("plain", 4), "signed bytes, light map of blocks": ("rgtc", 1024), "RGTC but for 8 light modes": ("rgtc", 8),
           "RGTC but for 4 light modes": ("rgtc", 4), "EAC but for 4 light modes": ("eac", 4), "RGTC": ("rgtc", 0)}
 

@@ -111,10 +111,16 @@ TEST_CASE("materials: modes in blocks take less memory, and other modes are refu
   CHECK(load(&material) == invalid);
   CHECK(last_is("nook_material_load_with: ", "desc.modes"));
   desc.modes = NOOK_MATERIAL_MODES_RGTC;
-  desc.whole_light_modes = -1;
-  CHECK(load(&material) == invalid);
-  CHECK(last_is("nook_material_load_with: ", "whole_light_modes"));
+  // The largest light rank of a file.
+  for (const int out_of_range : {-1, 3 * 1024 + 1}) {
+    desc.whole_light_modes = out_of_range;
+    CHECK(load(&material) == invalid);
+    CHECK(last_is("nook_material_load_with: ", "whole_light_modes"));
+  }
   CHECK(material == nullptr);
+  desc.whole_light_modes = 3 * 1024;
+  CHECK(load(&material) == NOOK_OK);
+  nook_material_destroy(&material);
 }
 
 TEST_CASE("materials: numbers of any size give an answer") {

@@ -114,6 +114,52 @@ TEST_CASE("material: a failed upload leaves nothing behind") {
   CHECK(context.gl().GetError() == GL_NO_ERROR);
 }
 
+TEST_CASE("material: blocks that a context lacks are refused, and the message names those that it has") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  Trace trace(context);
+  // Creates textures of modes in blocks of a material of 8 rows, in a context that is as `trace` says.
+  const auto create = [&](nook_material_modes modes, std::uint32_t width) {
+    const std::vector<std::byte> bytes =
+        material::write_material(material::test::sample_material(3, {.width = width, .height = 8}));
+    nook_material_desc desc;
+    NOOK_OK_OR_FAIL(nook_material_desc_init(&desc, sizeof desc, NOOK_VERSION));
+    desc.modes = modes;
+    nook_material loaded = nullptr;
+    NOOK_OK_OR_FAIL(nook_material_load_with(host.handle, bytes.data(), bytes.size(), &desc, &loaded));
+    nook_gl gl = create_gl(host.handle, Trace::loader, &trace, 0);
+    nook_gl_material uploaded = nullptr;
+    const nook_result result = nook_gl_material_create(gl, loaded, nullptr, &uploaded);
+    CHECK((uploaded != nullptr) == (result == NOOK_OK));
+    nook_gl_material_destroy(&uploaded);
+    nook_gl_destroy(&gl);
+    nook_material_destroy(&loaded);
+    return result;
+  };
+  const nook_material_modes rgtc = NOOK_MATERIAL_MODES_RGTC, eac = NOOK_MATERIAL_MODES_EAC;
+  // The oldest version, without extensions.
+  constexpr unsigned num_extensions = 0x821D;
+  trace.limits = {{GL_MAJOR_VERSION, 3}, {GL_MINOR_VERSION, context.is_es() ? 0 : 3}, {num_extensions, 0}};
+  CHECK(create(context.is_es() ? rgtc : eac, 8) == NOOK_ERROR_UNSUPPORTED);
+  CHECK(message_has(context.is_es()
+                        ? "(got NOOK_MATERIAL_MODES_RGTC, need NOOK_MATERIAL_MODES_EAC or PLAIN)"
+                        : "(got NOOK_MATERIAL_MODES_EAC, need NOOK_MATERIAL_MODES_RGTC or PLAIN)"));
+  // WebGL, whose extensions are all there but enabled by the page alone.
+  trace.version = "OpenGL ES 3.0 (WebGL 2.0)";
+  trace.limits = {{GL_MAJOR_VERSION, 3}, {GL_MINOR_VERSION, 0}, {GL_NUM_COMPRESSED_TEXTURE_FORMATS, 0}};
+  for (const nook_material_modes modes : {rgtc, eac}) {
+    CHECK(create(modes, 8) == NOOK_ERROR_UNSUPPORTED);
+    CHECK(message_has("need NOOK_MATERIAL_MODES_PLAIN)"));
+  }
+  trace.formats = {GL_COMPRESSED_RG_RGTC2, GL_COMPRESSED_SIGNED_RG_RGTC2};
+  trace.limits[GL_NUM_COMPRESSED_TEXTURE_FORMATS] = 2;
+  CHECK(create(eac, 8) == NOOK_ERROR_UNSUPPORTED);
+  CHECK(create(rgtc, 6) == NOOK_ERROR_UNSUPPORTED);
+  CHECK(message_has("got 6 x 8 texels, need multiples of 4"));
+  if (!context.is_es()) CHECK(create(rgtc, 8) == NOOK_OK);
+  CHECK(context.gl().GetError() == GL_NO_ERROR);
+}
+
 TEST_CASE("material: after the OpenGL context is lost nothing calls OpenGL, and destroy works") {
   NOOK_NEED_CONTEXT(context);
   const std::vector<std::byte> bytes = nook_test_material_bytes();

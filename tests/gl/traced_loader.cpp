@@ -1,5 +1,6 @@
 #include "tests/gl/traced_loader.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -66,6 +67,11 @@ struct Traced<id, R(GLAD_API_PTR*)(A...)> {
       const auto limit = counts.trace->limits.find(name);
       if (limit != counts.trace->limits.end()) {
         *out = limit->second;
+        return;
+      }
+      if (name == GL_COMPRESSED_TEXTURE_FORMATS &&
+          counts.trace->limits.contains(GL_NUM_COMPRESSED_TEXTURE_FORMATS)) {
+        std::copy(counts.trace->formats.begin(), counts.trace->formats.end(), out);
         return;
       }
     }

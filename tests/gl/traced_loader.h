@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "platform/platform.h"
 
@@ -23,6 +24,7 @@ class Trace {
 
   std::set<std::string> hidden;    // these names are answered with NULL
   std::map<unsigned, int> limits;  // what glGetIntegerv answers for these names
+  std::vector<int> formats;        // and for GL_COMPRESSED_TEXTURE_FORMATS, if `limits` has their number
   const char* version = nullptr;   // what glGetString answers for GL_VERSION, unless null
   bool shaders_fail = false;       // by glGetShaderiv
   bool mapping_fails = false;      // glMapBufferRange answers NULL for writing

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <string>
 
+#include "sdk/src/core/failure.h"
+#include "sdk/src/material/check.h"
 #include "sdk/src/material/evaluate.h"
 #include "sdk/src/material/layered_image.h"
 #include "sdk/src/material/tables.h"
@@ -187,6 +190,36 @@ TEST_CASE("modes in blocks have the bytes of their blocks, and those of integers
       CHECK(tables.light.empty());
     }
   }
+}
+
+TEST_CASE("blocks of a single texel that take more than 1 GiB are refused before memory is taken") {
+  // The file format allows 2^29 numbers, which are 4 GiB of blocks: 16 bytes for each pair of numbers. The
+  // arrays are left out, so that whoever reads them before the refusal crashes.
+  Material material;
+  material.btf.shape = {.views = 1024,
+                        .width = 1,
+                        .height = 1,
+                        .rank_light = 1024,
+                        .rank_view = 512,
+                        .rank_x = 1,
+                        .rank_y = 1,
+                        .clusters = 1024,
+                        .mixture = 1};
+  CHECK_NOTHROW(check_shape(material.btf.shape, 1024, 1024, "BTF", NOOK_ERROR_BAD_FILE));
+  std::string message;
+  try {
+    make_tables(material, {}, nook::default_memory(), default_map_side, {BlockForm::rgtc, 0});
+  } catch (const nook::Failure& failure) {
+    CHECK(failure.code() == NOOK_ERROR_INVALID_ARGUMENT);
+    message = failure.what();
+  }
+  CHECK(message.find("got 4294967296, need at most 1073741824") != std::string::npos);
+  // A layer of a single texel is a block of 16 bytes.
+  const std::uint32_t most = std::uint32_t(max_block_bytes / BlockSize::block_bytes);
+  CHECK_NOTHROW(check_block_bytes({1, 1, most, 1}));
+  CHECK_THROWS_AS(check_block_bytes({1, 1, most + 2, 1}), nook::Failure);
+  // As many numbers of the largest texels, with all of their levels.
+  CHECK_NOTHROW(check_block_bytes({1024, 1024, 256, 11}));
 }
 
 TEST_CASE("modes in blocks decode to what integers do, up to the rounding of blocks") {

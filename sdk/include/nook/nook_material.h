@@ -55,7 +55,8 @@ enum {
   /* As the file has its numbers: signed bytes, or half floats. Every context has these textures. */
   NOOK_MATERIAL_MODES_PLAIN = 0,
   /* Blocks of 4 x 4 texels, about half of the bytes of signed bytes: signed RGTC (BC5). OpenGL has it, and
-   * OpenGL ES with GL_EXT_texture_compression_rgtc. */
+   * OpenGL ES with GL_EXT_texture_compression_rgtc. In WebGL both sides of the tile have to be multiples of 4
+   * texels. */
   NOOK_MATERIAL_MODES_RGTC = 1,
   /* The same, in signed EAC (RG11). OpenGL ES has it, and OpenGL 4.3 or GL_ARB_ES3_compatibility, where most
    * drivers expand it. */
@@ -75,7 +76,7 @@ typedef struct nook_material_desc {
    * they change of a neural material. */
   nook_material_modes modes;
   /* With blocks: the number of first light modes that stay whole, because they have most of what blocks would
-   * lose; rounded up to a multiple of 4. 0: all are in blocks. Default: 4. */
+   * lose; rounded up to a multiple of 4. 0 to 3,072; 0: all are in blocks. Default: 4. */
   int32_t whole_light_modes;
 } nook_material_desc;
 
@@ -84,9 +85,12 @@ typedef struct nook_material_desc {
 NOOK_API nook_result nook_material_desc_init(nook_material_desc* desc, size_t size, uint32_t header_version);
 
 /* As nook_material_load, which is this call with desc NULL. Blocks are encoded here, so that
- * nook_material_evaluate reads the numbers that textures will hold. Radiance transfer that was baked with a
- * file of half floats does not fit the same file with blocks.
- * Any thread. Errors: INVALID_ARGUMENT, VERSION, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
+ * nook_material_evaluate reads the numbers that textures will hold. Drivers that interpolate RGTC with
+ * weights of bytes, as llvmpipe, are the exception: some of their texels are off by 1/127 of the largest
+ * number of a mode, and decoded values of random materials by up to 4/127. Radiance transfer that was baked
+ * with a file of half floats does not fit the same file with blocks.
+ * Any thread. Errors: INVALID_ARGUMENT (also, the blocks of a tensor take more than 1 GiB, which a tile of
+ * few texels can), VERSION, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_material_load_with(nook_context context, const void* bytes, size_t size,
                                              const nook_material_desc* desc, nook_material* out);
 
@@ -204,19 +208,20 @@ typedef struct nook_material_pixel {
 } nook_material_pixel;
 
 /* Decodes samples on the CPU. This is the reference of the GLSL, which agrees within 1/255 for radiances up
- * to 1.
+ * to 1; with RGTC see nook_material_load_with.
  * Any thread. Errors: INVALID_ARGUMENT (also, a number of a sample is not finite). */
 NOOK_API nook_result nook_material_evaluate(nook_material material, const nook_material_sample* samples,
                                             uint32_t count, nook_material_value* values);
 
 /* Decodes pixels on the CPU, each as the mean over `fetches` places along the longer side of its footprint, 1
- * to NOOK_MATERIAL_MAX_FETCHES. Beyond 60 degrees, 2 leave a fifth at most, and of neural materials two
- * fifths, of the squared error of one fetch at the level of the longer side. Each place has the level of the
- * shorter side, or of its share of the longer one where that is more: pixels longer than `fetches` times
- * their width are blurred across, and none has gaps. A round pixel is decoded as by nook_material_evaluate.
- * Of a relief or a neural material the view's ray through each place meets a point of its own; a neural
- * material decodes the mean of the features, as its mipmaps do. This is the reference of
- * nook_material_decode_anisotropic and nook_material_occlusion_anisotropic of the GLSL.
+ * to NOOK_MATERIAL_MAX_FETCHES. In views beyond 60 degrees of seven measured files, against the same file
+ * with many samples for a pixel, 2 leave a fifth at most, and of neural materials two fifths, of the squared
+ * error of one fetch at the level of the longer side. Each place has the level of the shorter side, or of its
+ * share of the longer one where that is more: pixels longer than `fetches` times their width are blurred
+ * across, and none has gaps. A round pixel is decoded as by nook_material_evaluate. Of a relief or a neural
+ * material the view's ray through each place meets a point of its own; a neural material decodes the mean of
+ * the features, as its mipmaps do. This is the reference of nook_material_decode_anisotropic and
+ * nook_material_occlusion_anisotropic of the GLSL.
  * Any thread. Errors: INVALID_ARGUMENT (also, a number of a pixel is not finite, or fetches is out of range).
  */
 NOOK_API nook_result nook_material_evaluate_anisotropic(nook_material material,

@@ -79,10 +79,10 @@ ModeForm checked(const nook_material_desc* given) {
   if (desc.modes < NOOK_MATERIAL_MODES_PLAIN || desc.modes > NOOK_MATERIAL_MODES_EAC)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.modes is no NOOK_MATERIAL_MODES value (got %d, need 0 to 2)", desc.modes);
-  if (desc.whole_light_modes < 0 || std::uint32_t(desc.whole_light_modes) > max_directions)
+  if (desc.whole_light_modes < 0 || std::uint32_t(desc.whole_light_modes) > max_light_modes)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.whole_light_modes is out of range (got %d, need 0 to %u)", desc.whole_light_modes,
-                  std::uint32_t(max_directions));
+                  max_light_modes);
   return {static_cast<BlockForm>(desc.modes), std::uint32_t(desc.whole_light_modes)};
 }
 

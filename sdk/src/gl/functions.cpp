@@ -1,5 +1,6 @@
 #include "sdk/src/gl/functions.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "sdk/src/core/failure.h"
@@ -10,6 +11,8 @@ namespace {
 // The constants of EXT_disjoint_timer_query and of its functions are those of OpenGL 3.3.
 constexpr const char* es_timer_extension = "GL_EXT_disjoint_timer_query";
 constexpr GLenum num_extensions = 0x821D;
+// Above what any context lists: OpenGL ES with all of its extensions has about a hundred.
+constexpr std::size_t most_compressed_formats = 256;
 
 class Loader {
  public:
@@ -85,6 +88,17 @@ bool has_extension(const Functions& gl, const Loader& loader, const char* name) 
   return false;
 }
 
+// WebGL alone has no blocks of its own. Its list of extensions has those that a page may enable; this one has
+// the formats of those that it did enable.
+bool lists_compressed_format(const Functions& gl, GLenum format) {
+  GLint count = 0;
+  gl.GetIntegerv(GL_NUM_COMPRESSED_TEXTURE_FORMATS, &count);
+  if (count < 1 || std::size_t(count) > most_compressed_formats) return false;
+  GLint formats[most_compressed_formats] = {};
+  gl.GetIntegerv(GL_COMPRESSED_TEXTURE_FORMATS, formats);
+  return std::find(formats, formats + count, GLint(format)) != formats + count;
+}
+
 void load_common(Functions& gl, const Loader& loader) {
   const char* const version = gl.profile == Profile::desktop ? "OpenGL 3.3" : "OpenGL ES 3.0";
 #define NOOK_X(name) loader.required(gl.name, "gl" #name, version);
@@ -158,12 +172,12 @@ void load_desktop_options(Functions& gl, const Loader& loader) {
 
 void load_es_options(Functions& gl, const Loader& loader) {
   load_feedback_objects(gl, loader);
-  gl.can.rgtc_textures = has_extension(gl, loader, "GL_EXT_texture_compression_rgtc");
-  // WebGL alone has none of the blocks of OpenGL ES.
-  gl.can.eac_textures =
-      gl.profile == Profile::es || has_extension(gl, loader, "GL_WEBGL_compressed_texture_etc");
+  const bool is_web = gl.profile == Profile::webgl;
+  gl.can.rgtc_textures = is_web ? lists_compressed_format(gl, GL_COMPRESSED_SIGNED_RG_RGTC2)
+                                : has_extension(gl, loader, "GL_EXT_texture_compression_rgtc");
+  gl.can.eac_textures = !is_web || lists_compressed_format(gl, GL_COMPRESSED_SIGNED_RG11_EAC);
   loader.optional(gl.InvalidateFramebuffer, "glInvalidateFramebuffer");
-  if (gl.profile == Profile::webgl) {
+  if (is_web) {
     loader.optional(gl.GetBufferSubData, "glGetBufferSubData");
     gl.can.buffer_reads = gl.GetBufferSubData != nullptr;
     return;

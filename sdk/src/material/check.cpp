@@ -157,6 +157,19 @@ void check_neural_shape(const NeuralShape& s, nook_result code) {
   }
 }
 
+void check_block_bytes(const BlockSize& size) {
+  // Of 64 bits, also where a size_t has 32.
+  std::uint64_t bytes = 0;
+  for (std::uint32_t level = 0; level < size.levels; ++level)
+    bytes += std::uint64_t(size.layer_bytes(level)) * size.layers;
+  if (bytes > max_block_bytes)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the material's modes of %u x %u texels take too many bytes in blocks (got %llu, need at "
+                  "most %llu); load it with NOOK_MATERIAL_MODES_PLAIN",
+                  size.width, size.height, static_cast<unsigned long long>(bytes),
+                  static_cast<unsigned long long>(max_block_bytes));
+}
+
 void refuse_neural(bool is_neural, const char* what) {
   if (is_neural)
     throw Failure(

@@ -3,18 +3,23 @@
 
 #include <nook/nook.h>
 
+#include "sdk/src/material/layered_image.h"
 #include "sdk/src/material/material.h"
 
 namespace nook::material {
 
-inline constexpr std::uint32_t max_directions = 1024;  // of lights, and of views
-inline constexpr std::uint32_t max_texels = 1024;      // along u, and along v
-inline constexpr std::uint32_t max_mixture = 8;        // K
-inline constexpr std::uint32_t max_row = 512;          // K R_v, the coefficients of one view
-inline constexpr std::uint32_t max_map_side = 512;     // cells of a resampled view map
+inline constexpr std::uint32_t max_directions = 1024;                 // of lights, and of views
+inline constexpr std::uint32_t max_light_modes = 3 * max_directions;  // R_l, of three colours of lights
+inline constexpr std::uint32_t max_texels = 1024;                     // along u, and along v
+inline constexpr std::uint32_t max_mixture = 8;                       // K
+inline constexpr std::uint32_t max_row = 512;                         // K R_v, the coefficients of one view
+inline constexpr std::uint32_t max_map_side = 512;                    // cells of a resampled view map
 // The maximum of C R_l R_v I_x I_y, the numbers of one tensor's expanded spatial modes with ranks rounded up
 // to multiples of 4: 1 GiB of half floats.
 inline constexpr std::uint64_t max_expanded = std::uint64_t{1} << 29;
+// The maximum of the bytes of one tensor's blocks, the same 1 GiB: a block of two numbers has 16 bytes even
+// for a single texel.
+inline constexpr std::uint64_t max_block_bytes = 2 * max_expanded;
 // The maximum of core entries and of all other numbers, so that no sum of the decoder overflows. Both are
 // powers of two, so that no number at the limit is rounded beyond it.
 inline constexpr float max_core = 0x1p26f;
@@ -39,6 +44,10 @@ void check_shape(const TensorShape& shape, std::size_t lights, std::size_t views
 // Does the same for a neural material.
 void check_neural_shape(const NeuralShape& shape, nook_result code);
 void check_material(const Material& material, nook_result code);
+
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for blocks of more than max_block_bytes, which only a shape of
+// few texels along a side has.
+void check_block_bytes(const BlockSize& size);
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for a neural material: its radiance is no sum of light modes,
 // which `what` needs.

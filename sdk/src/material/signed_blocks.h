@@ -31,7 +31,8 @@ constexpr std::uint8_t code_of(int sevenths) {
 enum class BlockForm : std::uint32_t { none = 0, rgtc = 1, eac = 2 };
 
 // Writes the eight bytes of numbers in [-1, 1]. The levels of RGTC blocks are multiples of 1 / 127, so that
-// decoders in bytes, which round levels between those, give the numbers of the specification.
+// decoders that round levels to those give the numbers of the specification. Decoders whose weights are
+// bytes, too, as that of llvmpipe, are off by 1 / 127 in some texels.
 void encode_block(BlockForm form, const float (&numbers)[16], std::uint8_t* bytes);
 
 // Returns a number of a block, as the specifications of OpenGL define it.

@@ -6,6 +6,7 @@
 
 #include "sdk/src/core/half.h"
 #include "sdk/src/core/hash.h"
+#include "sdk/src/material/check.h"
 #include "sdk/src/material/direction_mesh.h"
 #include "sdk/src/material/low_light.h"
 #include "sdk/src/material/spatial_modes.h"
@@ -216,24 +217,28 @@ bool has_scales(const Material& material, const ModeForm& form) {
   return material.bits == 8 || form.blocks != BlockForm::none;
 }
 
-void set_sizes(const TensorShape& s, std::uint32_t light_modes, TensorTables& tables) {
+// Modes from light mode `whole` on go into blocks, if there is a form of these. Throws Failure if they
+// would take too many bytes, and takes no memory before.
+void set_sizes(const TensorShape& s, std::uint32_t light_modes, BlockForm form, std::uint32_t whole,
+               TensorTables& tables) {
   tables.width = s.width;
   tables.height = s.height;
   tables.levels = level_count(s.width, s.height);
   tables.light_modes = light_modes;
   tables.view_vec4_count = vec4_count(s.rank_view);
   tables.clusters = s.clusters;
+  if (form == BlockForm::none || whole >= light_modes) return;
+  tables.block_form = form;
+  tables.packed_modes = light_modes - whole;
+  check_block_bytes(tables.block_size());
 }
 
-// Modes from light mode `whole` on go into blocks, if there is a form of these.
-void set_blocks(BlockForm form, std::uint32_t whole, TensorTables& tables) {
-  if (form == BlockForm::none || whole >= tables.light_modes) return;
-  tables.block_form = form;
-  tables.packed_modes = tables.light_modes - whole;
+// Modes that ranks do not fill are zeros.
+void make_blocks(TensorTables& tables) {
+  if (tables.block_form == BlockForm::none) return;
   tables.blocks.resize(tables.block_size().level_offset(tables.levels));
-  // Modes that ranks do not fill are zeros.
   std::uint8_t zeros[signed_block_bytes];
-  encode_block(form, {}, zeros);
+  encode_block(tables.block_form, {}, zeros);
   for (std::size_t at = 0; at < tables.blocks.size(); at += signed_block_bytes)
     std::copy_n(zeros, signed_block_bytes, &tables.blocks[at]);
 }
@@ -259,6 +264,7 @@ void make_scaled_spatial(const ClusteredTensor& tensor, const ModeScales& scales
                          TensorTables& tables, Memory* memory) {
   tables.bits = 8;
   tables.spatial_8.resize(tables.image_size().level_offset(tables.levels));
+  make_blocks(tables);
   const std::uint32_t whole = tables.whole_modes();
   for_each_mode(tensor, parallel, memory,
                 [&](std::uint32_t c, std::uint32_t a, std::uint32_t b, std::span<float> image,
@@ -375,13 +381,14 @@ void fit_light_map(const Material& material, Scale&& scale, MaterialTables& tabl
   }
 }
 
-// The cells of a small light map: eight for each light, so that few lights share texels.
+// The side in cells of a small light map: eight cells or more for each of up to 512 lights, and four for each
+// of 1,024, so that few lights share texels.
 std::uint32_t small_light_side(std::size_t lights) {
   return lights <= 128 ? 32 : 64;
 }
 
 // Makes the light map of integers, and returns the number that 127 stands for. It is that of the map of
-// default size, whose numbers others were baked with.
+// default size, whose numbers others were baked with; fitted texels above it are clamped.
 template <class Scale>
 float make_light_map_8(const Material& material, Scale&& scale, bool is_small, MaterialTables& tables,
                        Memory* memory) {
@@ -400,7 +407,6 @@ void make_btf(const Material& material, std::uint32_t map_side, const ModeForm& 
               const Parallel& parallel, MaterialTables& tables, Memory* memory) {
   const ClusteredTensor& btf = material.btf;
   const ViewCells cells = view_cells(btf, material.views, map_side, memory);
-  set_sizes(btf.shape, 4 * vec4_count(btf.shape.rank_light), tables.btf);
   if (!has_scales(material, form)) {
     const int exponent = spatial_exponent(btf, memory);
     tables.light_hash = hash_of_light(material, {}, float(exponent));
@@ -414,7 +420,6 @@ void make_btf(const Material& material, std::uint32_t map_side, const ModeForm& 
   const ModeScales scales =
       mode_scales(btf.shape, largest_of_modes(btf, parallel, memory),
                   largest_of_columns(material.light_basis, btf.shape.rank_light, memory), memory);
-  set_blocks(form.blocks, 4 * vec4_count(form.whole_light_modes), tables.btf);
   make_scaled_spatial(btf, scales, parallel, tables.btf, memory);
   const float unit = make_light_map_8(
       material, [&](std::uint32_t a) { return scales.r[a]; }, form.blocks != BlockForm::none, tables, memory);
@@ -431,7 +436,6 @@ void make_votf(const Material& material, std::uint32_t map_side, const ModeForm&
                const Parallel& parallel, MaterialTables& tables, Memory* memory) {
   const ClusteredTensor& votf = material.votf;
   const ViewCells cells = view_cells(votf, material.views, map_side, memory);
-  set_sizes(votf.shape, 1, tables.votf);
   tables.votf_hash = hash_of_votf(material);
   if (!has_scales(material, form)) {
     // The inverse power of two multiplies the coefficients, so that it is used only where a half would
@@ -444,7 +448,6 @@ void make_votf(const Material& material, std::uint32_t map_side, const ModeForm&
     return;
   }
   const ModeScales scales = mode_scales(votf.shape, largest_of_modes(votf, parallel, memory), {}, memory);
-  set_blocks(form.blocks, 0, tables.votf);
   make_scaled_spatial(votf, scales, parallel, tables.votf, memory);
   pack_cells(
       cells, votf.shape.rank_view,
@@ -466,15 +469,19 @@ void make_neural(const Material& material, MaterialTables& tables, Memory* memor
 MaterialTables make_tables(const Material& material, const Parallel& parallel, Memory* memory,
                            std::uint32_t map_side, const ModeForm& form) {
   MaterialTables tables(memory);
-  if (material.neural.is_used())
+  const bool is_neural = material.neural.is_used(), has_votf = material.visibility != VisibilityForm::none;
+  if (!is_neural)
+    set_sizes(material.btf.shape, 4 * vec4_count(material.btf.shape.rank_light), form.blocks,
+              4 * vec4_count(form.whole_light_modes), tables.btf);
+  if (has_votf) set_sizes(material.votf.shape, 1, form.blocks, 0, tables.votf);
+  if (is_neural)
     make_neural(material, tables, memory);
   else
     make_btf(material, map_side, form, parallel, tables, memory);
   tables.visibility = material.visibility;
   tables.mapping = material.mapping;
   tables.relief = make_relief_tables(material.relief, tables.btf.width, tables.btf.height, memory);
-  if (material.visibility != VisibilityForm::none)
-    make_votf(material, map_side, form, parallel, tables, memory);
+  if (has_votf) make_votf(material, map_side, form, parallel, tables, memory);
   return tables;
 }
 

@@ -87,7 +87,8 @@ struct MaterialTables {
   // lights theirs is scaled by the ratio of cosines, down to 0 at the horizon. The table has layers x side x
   // side x 4 floats, with layer channel light_modes / 4 + a / 4. It is divided by the power of two of the
   // BTF's spatial modes. Beside modes in blocks it is smaller, and its texels around each light are moved so
-  // that the light has its row of the basis.
+  // that the light has its row of the basis, but for rounding and for numbers above the largest of the
+  // default map.
   Vector<float> light;
   // With 8 bits in place of `light`: integers of -127 to 127, which are 127 times the light map whose columns
   // are multiplied by r[a], over its largest number. The coefficients are multiplied by that number.
@@ -101,7 +102,8 @@ struct MaterialTables {
 inline constexpr std::uint32_t default_map_side = 256;
 
 // Makes the tables of a material that passed check_material. map_side is the side in cells of the view maps
-// of a material without any; see view_cells.h.
+// of a material without any; see view_cells.h. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for blocks of too
+// many bytes; see check_block_bytes.
 MaterialTables make_tables(const Material& material, const Parallel& parallel, Memory* memory,
                            std::uint32_t map_side = default_map_side, const ModeForm& form = {});
 

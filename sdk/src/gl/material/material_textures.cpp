@@ -22,16 +22,23 @@ std::size_t texture_count(const TensorTables& t, std::uint32_t max_layers) {
              : array_count(t, max_layers) + block_array_count(t, max_layers) + 1 + t.has_membership();
 }
 
-void check_blocks(const Functions& gl, material::BlockForm form) {
-  const bool is_rgtc = form == material::BlockForm::rgtc;
-  if (form == material::BlockForm::none || (is_rgtc ? gl.can.rgtc_textures : gl.can.eac_textures)) return;
-  throw Failure(NOOK_ERROR_UNSUPPORTED,
-                "the material's modes are in blocks that this %s does not have (got %s, need %s); load the "
-                "material with other modes",
-                api_name(gl), is_rgtc ? "NOOK_MATERIAL_MODES_RGTC" : "NOOK_MATERIAL_MODES_EAC",
-                gl.can.rgtc_textures  ? "NOOK_MATERIAL_MODES_RGTC or PLAIN"
-                : gl.can.eac_textures ? "NOOK_MATERIAL_MODES_EAC or PLAIN"
-                                      : "NOOK_MATERIAL_MODES_PLAIN");
+void check_blocks(const Functions& gl, const TensorTables& t) {
+  const bool is_rgtc = t.block_form == material::BlockForm::rgtc;
+  if (t.block_form == material::BlockForm::none) return;
+  if (!(is_rgtc ? gl.can.rgtc_textures : gl.can.eac_textures))
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the material's modes are in blocks that this %s does not have (got %s, need %s); load the "
+                  "material with other modes",
+                  api_name(gl), is_rgtc ? "NOOK_MATERIAL_MODES_RGTC" : "NOOK_MATERIAL_MODES_EAC",
+                  gl.can.rgtc_textures  ? "NOOK_MATERIAL_MODES_RGTC or PLAIN"
+                  : gl.can.eac_textures ? "NOOK_MATERIAL_MODES_EAC or PLAIN"
+                                        : "NOOK_MATERIAL_MODES_PLAIN");
+  // A rule of WebGL's extension alone, for the finest level.
+  if (is_rgtc && gl.profile == Profile::webgl && (t.width % 4 != 0 || t.height % 4 != 0))
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "WebGL has no RGTC textures of the material's size (got %u x %u texels, need multiples of "
+                  "4); load the material with NOOK_MATERIAL_MODES_PLAIN",
+                  t.width, t.height);
 }
 
 // Checks the sizes and layers of the textures against the limits of this OpenGL.
@@ -39,7 +46,7 @@ void check_limits(const Functions& gl, const MaterialTables& tables, std::uint32
   const auto side = std::uint32_t(integer(gl, GL_MAX_TEXTURE_SIZE));
   const auto layers = std::uint32_t(integer(gl, GL_MAX_ARRAY_TEXTURE_LAYERS));
   for (const TensorTables* t : {&tables.btf, &tables.votf}) {
-    check_blocks(gl, t->block_form);
+    check_blocks(gl, *t);
     const std::uint32_t largest = std::max({t->width, t->height, t->side});
     if (largest > side)
       throw Failure(

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "sdk/src/gl/state_guard.h"
+#include "sdk/src/material/layered_image.h"
 
 namespace nook::gl {
 namespace {
@@ -14,8 +15,6 @@ struct Layout {
   std::size_t texel_bytes;  // 0 of blocks
   GLint min_filter, mag_filter, wrap;
 };
-
-constexpr std::size_t block_bytes = 16;  // of 4 x 4 texels of two channels
 
 // OpenGL ES filters no textures of 32-bit floats.
 Layout layout_of(const Functions& gl, ArrayUse use) {
@@ -69,13 +68,14 @@ Object make_texture_array(Device& device, const ArrayPlan& plan, const void* dat
                     {GL_TEXTURE_WRAP_T, layout.wrap}};
   for (const auto& parameter : parameters)
     gl.TexParameteri(GL_TEXTURE_2D_ARRAY, parameter.name, parameter.value);
+  const bool is_packed = layout.texel_bytes == 0;
+  const material::BlockSize blocks{std::uint32_t(plan.width), std::uint32_t(plan.height),
+                                   std::uint32_t(plan.all_layers), std::uint32_t(plan.levels)};
   const auto* bytes = static_cast<const std::byte*>(data);
   for (GLsizei level = 0; level < plan.levels; ++level) {
     const GLsizei width = std::max(plan.width >> level, 1), height = std::max(plan.height >> level, 1);
-    const bool is_packed = layout.texel_bytes == 0;
-    const std::size_t layer_bytes =
-        is_packed ? block_bytes * std::size_t((width + 3) / 4) * std::size_t((height + 3) / 4)
-                  : layout.texel_bytes * std::size_t(width) * std::size_t(height);
+    const std::size_t layer_bytes = is_packed ? blocks.layer_bytes(std::uint32_t(level))
+                                              : layout.texel_bytes * std::size_t(width) * std::size_t(height);
     const std::byte* const first = bytes + layer_bytes * std::size_t(plan.first_layer);
     if (is_packed)
       gl.CompressedTexImage3D(GL_TEXTURE_2D_ARRAY, level, GLenum(layout.internal_format), width, height,
