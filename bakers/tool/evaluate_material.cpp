@@ -160,7 +160,7 @@ void add_mode_options(CLI::App& command, nook::material::ModeForm& form) {
   command
       .add_option("--whole-light-modes", form.whole_light_modes,
                   "with blocks, the first light modes that stay whole, in steps of 4")
-      ->check(CLI::Range(0u, 3 * nook::material::max_directions))
+      ->check(CLI::Range(0u, nook::material::max_light_modes))
       ->capture_default_str();
 }
 

@@ -1,4 +1,4 @@
-// What a decoded point of a material shows under the lights of a raw material.
+// The radiances of a decoded point of a material under the lights of a raw material.
 #pragma once
 
 #include <vector>

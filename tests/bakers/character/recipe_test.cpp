@@ -44,7 +44,7 @@ TEST_CASE("a recipe comes back from its text") {
   CHECK(read.generation == pose_generation);
   CHECK(read.settings.seed == 9);
   CHECK(read.settings.saturation == 0.25f);
-  recipe.settings.kernel.gamma = 2;  // such a bake has none, whatever was asked for
+  recipe.settings.kernel.gamma = 2;  // with which a bake saturates no shadow
   CHECK(read_recipe(character, recipe_text(character, recipe)).settings.saturation == 0);
   CHECK(recipe_poses(character, read).size() == 5);  // without clips there is nothing to make variants of
 }
