@@ -45,6 +45,9 @@ TEST_CASE("materials fetch what docs/material_decoding.md counts") {
   // Its loop over three terms stays a loop, and the fetch of a fourth cluster is counted in each turn, though
   // none takes it.
   CHECK(fetches_of("material, roughhole, K-CTA, K = 3") == 128 + 3);
+  // A second place along the pixel fetches the modes of radiance and of the VOTF once more, 54 of the 83.
+  CHECK(fetches_of("material, fiber, K-CTA, K = 3, two fetches") == 83 + 54);
+  CHECK(fetches_of("neural material, small, two fetches") == 2 * 6);
 }
 
 TEST_CASE("the feedback shader fetches the bias, the attributes of four influences, and their key points") {
