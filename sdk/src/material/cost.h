@@ -11,7 +11,8 @@ struct DecodeCost {
   std::uint32_t multiply_adds = 0;
 };
 
-// The fetches that each further place of a footprint adds: those of spatial modes. A mode in blocks takes two.
+// The fetches that each further place of a footprint adds: those of spatial modes. A mode in blocks takes
+// two.
 inline std::uint32_t further_fetches(const TensorTables& t) {
   return t.terms * t.view_vec4_count * (t.light_modes + t.packed_modes);
 }
