@@ -53,7 +53,7 @@ TEST_CASE("models: bad parameters and bad files") {
   newer[8] = std::byte{9};
   CHECK(nook_character_model_load(stage.context, newer.data(), newer.size(), &model) ==
         NOOK_ERROR_FILE_VERSION);
-  CHECK(last_is("nook_character_model_load: ", "got 9, need 3"));
+  CHECK(last_is("nook_character_model_load: ", "got 9, need 4"));
 
   std::uint32_t first = 0, count = 0;
   CHECK(nook_character_model_primitive(stage.model, 2, &first, &count) == invalid);

@@ -232,7 +232,7 @@ TEST_CASE("each fault of the container has a message of its own") {
   file = good;
   put_u32(file, 8, 7);
   CHECK(read_outcome(file).code == NOOK_ERROR_FILE_VERSION);
-  CHECK(mentions(read_outcome(file), "got 7, need 3"));
+  CHECK(mentions(read_outcome(file), "got 7, need 4"));
   file = good;
   put_u32(file, 12, four_letters("NNAO"));
   CHECK(mentions(read_outcome(file), "got \"NNAO\", need \"CHAR\""));

@@ -93,7 +93,7 @@ TEST_CASE("a caster on the bright side darkens more than one on the dark side") 
 TEST_CASE("a bias takes the same light as the key points from which it takes away") {
   CharacterModel data = sample_model();
   for (float& alpha : data.alpha) alpha *= 3;
-  for (float& bias : data.bias) bias -= 0.8f;
+  for (float& bias : data.bias) bias -= 0.4f;
   const auto model = load(std::move(data));
   Scene scene = make_scene();
   const nook_instance_id id = place(scene, model, {0, 1, 0});
