@@ -380,13 +380,13 @@ TEST_CASE("places of a pixel lie along the longer axis of its footprint and cove
                         count = 1 + numbers.below(max_fetches);
     const float shorter = numbers.between(0.1f, 4), longer = shorter * numbers.between(1, 12),
                 axis = numbers.between(0, 6.3f), screen = numbers.between(0, 6.3f);
-    const auto side = [&](float along, float across) {
+    const auto turned = [&](float along, float across) {
       return TexturePlace{(std::cos(axis) * along - std::sin(axis) * across) / float(width),
                           (std::sin(axis) * along + std::cos(axis) * across) / float(height)};
     };
     const PixelSides pixel{{numbers.between(-1, 2), numbers.between(-1, 2)},
-                           side(longer * std::cos(screen), shorter * std::sin(screen)),
-                           side(-longer * std::sin(screen), shorter * std::cos(screen))};
+                           turned(longer * std::cos(screen), shorter * std::sin(screen)),
+                           turned(-longer * std::sin(screen), shorter * std::cos(screen))};
     const Fetches at = fetches_along(pixel, width, height, count);
     REQUIRE(at.count == count);
     const float square = std::max(shorter, longer / float(count)), reach = 0.5f * (longer - square);
@@ -423,8 +423,8 @@ TEST_CASE("a round pixel is decoded as a sample, and sides that are no numbers g
     };
     const TexturePlace middle{0.3f, -1.4f};
     for (const std::uint32_t fetches : {1u, 2u, 3u, 8u}) {
-      for (const float side : {0.25f, 1.0f, 3.0f, 4.0f, 64.0f})
-        check_equal({middle, {side / 16, 0}, {0, side / 8}}, fetches, 0.5f * std::log2(side * side));
+      for (const float texels : {0.25f, 1.0f, 3.0f, 4.0f, 64.0f})
+        check_equal({middle, {texels / 16, 0}, {0, texels / 8}}, fetches, 0.5f * std::log2(texels * texels));
       check_equal({middle, {}, {}}, fetches, 0);
       for (const float number : {infinite, -infinite, no_number, 3e38f})
         for (const PixelSides& sides : {PixelSides{middle, {number, 0}, {0, 0.1f}},
