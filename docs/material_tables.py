@@ -270,14 +270,18 @@ def summary_table(reports):
                          for material, report in reports.items()])
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def bench_of_arguments(description):
+    """The bench of a script's arguments, and whether it writes into the documents."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/tool/nook")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="folder for materials and reports")
     parser.add_argument("--write", action="store_true", help="put the tables into the documents instead of printing them")
     options = parser.parse_args()
-    bench = Bench(options.tool, options.out)
+    return Bench(options.tool, options.out), options.write
 
+
+def main():
+    bench, write = bench_of_arguments(__doc__)
     for material, its in SMALL.items():
         bench.bake(material, its)
     weave = bench.evaluate("weave", "peers", ["--peers"])
@@ -307,8 +311,8 @@ def main():
          {"methods": methods_table({**methods, "weave": weave}), "unseen views": unseen_table(methods, 100, 37),
           "view maps": maps_table(maps), "view ranks": sweep_table(sweep), "thresholds": thresholds_table(thresholds),
           "first clusters": seeding_table(seeding), "numbers": numbers, "modes in blocks": blocks, "jumps": jumps_table(bench),
-          "between the samples": between, "neural": neural_table(neural_rows(bench)), "neural cycles": cycles_table()}, options.write)
-    show(ROOT / "docs/evidence.md", pathlib.Path(__file__).name, {"materials": summary_table(methods)}, options.write)
+          "between the samples": between, "neural": neural_table(neural_rows(bench)), "neural cycles": cycles_table()}, write)
+    show(ROOT / "docs/evidence.md", pathlib.Path(__file__).name, {"materials": summary_table(methods)}, write)
 
 
 if __name__ == "__main__":

@@ -47,16 +47,14 @@ float uniform_scale(const Mat3x4& a) {
   return length({a.m[0], a.m[4], a.m[8]});
 }
 
-// The shadow of a key point, and its derivatives by the sum of its terms and by the root of the saturation.
-struct Response {
-  float shadow, by_sum, by_root;
+// The derivatives of a key point's shadow by the sum of its terms and by the root of the saturation.
+struct ShadowSlope {
+  float by_sum, by_root;
 };
 
-Response response(float sum, float power, float saturation_root) {
-  const float norm = std::pow(sum, power), saturation = saturation_root * saturation_root;
-  const float open = 1 / (1 + saturation * norm);
-  return {norm * open, open * open * power * std::pow(sum, power - 1),
-          -2 * saturation_root * norm * norm * open * open};
+ShadowSlope shadow_slope(float sum, float power, float saturation_root) {
+  const float norm = std::pow(sum, power), open = 1 / (1 + saturation_root * saturation_root * norm);
+  return {open * open * power * std::pow(sum, power - 1), -2 * saturation_root * norm * norm * open * open};
 }
 
 }  // namespace
@@ -108,9 +106,11 @@ void NonLinearLayer::forward(std::span<const Mat3x4> bones, std::span<const floa
   for (std::size_t h = 0; h < spheres; ++h)
     add_sphere(structure_.kernel, &workspace.sphere_[5 * h], workspace.sphere_[5 * h + 4], arrays, sum);
   const float power = 1 / structure_.kernel.gamma;
-  for (std::size_t k = 0; k < padded; ++k)
-    shadow[k * stride] =
-        k < keys ? response(sum[k], power, parameters[structure_.saturation_offset(k)]).shadow : 0.0f;
+  for (std::size_t k = 0; k < keys; ++k) {
+    const float root = parameters[structure_.saturation_offset(k)];
+    shadow[k * stride] = saturated(std::pow(sum[k], power), root * root);
+  }
+  for (std::size_t k = keys; k < padded; ++k) shadow[k * stride] = 0;
 }
 
 void NonLinearLayer::backward_response(std::span<const float> parameters, LayerWorkspace& workspace,
@@ -120,7 +120,7 @@ void NonLinearLayer::backward_response(std::span<const float> parameters, LayerW
   std::fill(workspace.gradient_sum_.begin(), workspace.gradient_sum_.end(), 0.0f);
   for (std::size_t k = 0; k < structure_.key_point_count(); ++k) {
     const std::size_t root = structure_.saturation_offset(k);
-    const Response slope = response(workspace.sum_[k], power, parameters[root]);
+    const ShadowSlope slope = shadow_slope(workspace.sum_[k], power, parameters[root]);
     workspace.gradient_sum_[k] = gradient_shadow[k * stride] * slope.by_sum;
     gradient[root] += gradient_shadow[k * stride] * slope.by_root;
   }

@@ -92,24 +92,14 @@ out vec4 colour;
 void main() {
   vec2 dx = dFdx(uv), dy = dFdy(uv);
   vec4 modes[NOOK_LIGHT_VEC4_COUNT];
-  nook_material_decode(uv, dx, dy, view, modes);
-  float visibility = nook_material_visibility(nook_material_occlusion(uv, dx, dy, view));
-  colour = vec4(nook_material_radiance(modes, light), visibility);
-}
-)";
-
-// The same with two fetches of each mode along the pixel.
-constexpr char decode_anisotropic[] = R"(#include "shaders/material/host.glsl"
-in vec2 uv;
-in vec3 view;
-in vec3 light;
-out vec4 colour;
-void main() {
-  vec2 dx = dFdx(uv), dy = dFdy(uv);
-  vec4 modes[NOOK_LIGHT_VEC4_COUNT];
+#ifdef TWO_FETCHES
   nook_material_decode_anisotropic(uv, dx, dy, view, 2, modes);
-  float visibility = nook_material_visibility(nook_material_occlusion_anisotropic(uv, dx, dy, view, 2));
-  colour = vec4(nook_material_radiance(modes, light), visibility);
+  float occlusion = nook_material_occlusion_anisotropic(uv, dx, dy, view, 2);
+#else
+  nook_material_decode(uv, dx, dy, view, modes);
+  float occlusion = nook_material_occlusion(uv, dx, dy, view);
+#endif
+  colour = vec4(nook_material_radiance(modes, light), nook_material_visibility(occlusion));
 }
 )";
 
@@ -196,7 +186,7 @@ std::vector<ShaderCase> material_shaders() {
     if (size.packed_modes) continue;
     const bool is_k_cta = size.clusters > 1;
     if (is_k_cta)
-      shaders.push_back(host_shader(declarations(size) + decode_anisotropic, name + ", two fetches",
+      shaders.push_back(host_shader(declarations(size) + two_fetches + decode, name + ", two fetches",
                                     loops_of_two_fetches(size)));
     if (size.has_relief) continue;
     if (is_k_cta && size.light_modes <= 16) {

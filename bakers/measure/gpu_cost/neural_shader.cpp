@@ -156,19 +156,11 @@ in vec3 light;
 out vec4 colour;
 void main() {
   vec4 modes[NOOK_LIGHT_VEC4_COUNT];
-  nook_material_decode(uv, dFdx(uv), dFdy(uv), view, modes);
-  colour = vec4(nook_material_radiance(modes, light), 1.0);
-}
-)";
-
-constexpr char library_two_fetches[] = R"(#include "shaders/material/neural/host.glsl"
-in vec2 uv;
-in vec3 view;
-in vec3 light;
-out vec4 colour;
-void main() {
-  vec4 modes[NOOK_LIGHT_VEC4_COUNT];
+#ifdef TWO_FETCHES
   nook_material_decode_anisotropic(uv, dFdx(uv), dFdy(uv), view, 2, modes);
+#else
+  nook_material_decode(uv, dFdx(uv), dFdy(uv), view, modes);
+#endif
   colour = vec4(nook_material_radiance(modes, light), 1.0);
 }
 )";
@@ -194,9 +186,10 @@ std::vector<ShaderCase> neural_shaders() {
   const Loop hidden{"hidden layers after the first", layers - 1, {}};
   const std::string library = declarations(), nodes = defines() + decode, name = "neural material, ",
                     lights = ", four lights and a probe";
-  ShaderCase two_fetches = host_shader(library + library_two_fetches, name + "small, two fetches", {hidden});
-  two_fetches.other_families = {{"vega10", {{"places", 2, {}}, hidden}}};
-  return {host_shader(library + library_one_light, name + "small", {hidden}), two_fetches,
+  ShaderCase along =
+      host_shader(library + two_fetches + library_one_light, name + "small, two fetches", {hidden});
+  along.other_families = {{"vega10", {{"places", 2, {}}, hidden}}};
+  return {host_shader(library + library_one_light, name + "small", {hidden}), along,
           host_shader(library + library_ten_lights, name + "small" + lights, {{"lights", 10, {hidden}}}),
           host_shader(nodes + one_light, name + "equal bytes", {hidden}),
           host_shader(nodes + ten_lights, name + "equal bytes" + lights, {{"lights", 10, {hidden}}})};

@@ -45,6 +45,8 @@ ShaderCase host_shader(const std::string& text, const std::string& name, const s
 // The library's text of a material up to `host`, a file of shaders/ that ends it, such as material/host.glsl:
 // a counted shader includes that file from the counted tree.
 std::string material_declarations(const material::MaterialTables& tables, std::string_view host);
+// Before the text of a material's pixel: it fetches each mode at two places along the pixel.
+inline constexpr char two_fetches[] = "#define TWO_FETCHES\n";
 
 // Shaders that run one after the other, each for a share of the threads.
 struct PassCase {
