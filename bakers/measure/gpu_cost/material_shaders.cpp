@@ -94,12 +94,12 @@ void main() {
   vec4 modes[NOOK_LIGHT_VEC4_COUNT];
 #ifdef TWO_FETCHES
   nook_material_decode_anisotropic(uv, dx, dy, view, 2, modes);
-  float occlusion = nook_material_occlusion_anisotropic(uv, dx, dy, view, 2);
+  float visibility = nook_material_visibility(nook_material_occlusion_anisotropic(uv, dx, dy, view, 2));
 #else
   nook_material_decode(uv, dx, dy, view, modes);
-  float occlusion = nook_material_occlusion(uv, dx, dy, view);
+  float visibility = nook_material_visibility(nook_material_occlusion(uv, dx, dy, view));
 #endif
-  colour = vec4(nook_material_radiance(modes, light), nook_material_visibility(occlusion));
+  colour = vec4(nook_material_radiance(modes, light), visibility);
 }
 )";
 
