@@ -18,6 +18,7 @@ struct nook_centre {
   vec2 place;  // the texel's centre
   vec3 position, normal, viewer;
   float half_nearness;          // 1 / 2r
+  float min_squared;            // of the distance of a tap, square metres
   float steps_px[NOOK_STEPS];   // distances of the taps of a direction, texels along the screen's y axis
 };
 
@@ -39,7 +40,7 @@ struct nook_horizon {
 void nook_add_tap(inout nook_horizon found, nook_centre centre, vec2 place) {
   vec2 texel = clamp(floor(place), vec2(0.0), nook_surface_last);
   vec3 v = nook_position(nook_surface_rays, texel, nook_depth_at(ivec2(texel))) - centre.position;
-  float squared = max(dot(v, v), 1.0e-24), per_metre = inversesqrt(squared);
+  float squared = max(dot(v, v), centre.min_squared), per_metre = inversesqrt(squared);
   float elevation = dot(v, centre.normal) * per_metre, angle = dot(v, centre.viewer) * per_metre;
   float nearness = clamp(1.0 - squared * per_metre * centre.half_nearness, 0.0, 1.0);
   vec4 x = nook_network[NOOK_HORIZON_TAP] + angle * nook_network[NOOK_HORIZON_TAP + 1] +
@@ -93,6 +94,10 @@ float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 ra
   centre.normal = normal;
   centre.viewer = nook_to_viewer(position);
   centre.half_nearness = 0.5 / radius.x;
+  // At the border of the screen taps meet their own pixel. v is 0 there, but for what a compiler rounds otherwise at the one
+  // place than at the other, which would be a direction at random. Half a pixel is less than the distance of any other one.
+  float half_pixel = 0.5 / max(abs(scale.x), abs(scale.y));
+  centre.min_squared = half_pixel * half_pixel;
   for (int i = 0; i < NOOK_STEPS; ++i) centre.steps_px[i] = nook_step_distance(i, NOOK_STEPS, noise, radius.y);
   float facing = dot(normal, centre.viewer);
   vec4 gate = 1.0 + facing * nook_network[NOOK_HORIZON_DIRECTION_GATE + 1];

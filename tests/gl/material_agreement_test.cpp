@@ -5,6 +5,7 @@
 
 #include "sdk/src/material/evaluate.h"
 #include "sdk/src/material/parabolic.h"
+#include "tests/gl/filter_weights.h"
 #include "tests/gl/material_decoder.h"
 #include "tests/gl/test_context.h"
 #include "tests/material/material_sample.h"
@@ -19,6 +20,15 @@ constexpr float bound = 1.0f / 255;
 // llvmpipe interpolates the levels of RGTC with weights in bytes, so that some are off by 1 / 127. Modes have
 // coefficients of up to 2 here, and a fault of layout gives differences of 0.5.
 constexpr float rgtc_bound = 4.0f / 127, rgtc_mean_bound = 5e-4f;
+
+// Of a driver that weighs texels with few bits, beside what its weights explain (reaches_of): it filters
+// integers of 8 bits with few bits too, and the levels of RGTC are off by 1 / 127 more often. On NVIDIA's the
+// largest difference was 0.0195 where the weights explain none, and 2.2 times what they explain elsewhere,
+// because each fetch has errors of its own.
+constexpr float coarse_bound = 6.0f / 255, coarse_rgtc_bound = 8.0f / 127, coarse_rgtc_mean_bound = 0.01f;
+constexpr float times_reach = 2;
+// Weights with a smaller error are floats.
+constexpr float exact_weights = 1e-4f;
 
 constexpr nook_material_modes plain = NOOK_MATERIAL_MODES_PLAIN;
 
@@ -139,11 +149,13 @@ std::vector<nook_material_pixel> pixels_of(const nook_material_info& info, std::
 // A form that was uploaded, with a program that decodes it.
 struct Uploaded {
   Uploaded(MaterialFixture& fixture, const Form& form)
-      : loaded(fixture.load(material::test::sample_material(21, form), form.modes, form.whole_light_modes)),
+      : weight_error(filter_weight_error(fixture.context.gl())),
+        loaded(fixture.load(material::test::sample_material(21, form), form.modes, form.whole_light_modes)),
         info(info_of(loaded)),
         is_rgtc(form.modes == NOOK_MATERIAL_MODES_RGTC),
         decoder(fixture.context.gl(), fixture.upload(loaded), info, true) {}
 
+  float weight_error;
   nook_material loaded;
   nook_material_info info;
   bool is_rgtc;
@@ -155,31 +167,74 @@ float visibility_of(float occlusion, const nook_material_info& info) {
                                  {info.visibility_threshold, info.visibility_weight}, occlusion);
 }
 
+// Returns how far each value may be from the reference because the driver weighs texels with few bits: the
+// largest difference of the reference where the place in the tile and the light move by the error of the
+// weights, up and down along both axes. Nothing where the weights are floats. level: of an item.
+template <class Item, class Level, class Evaluate>
+std::vector<float> reaches_of(const std::vector<Item>& items, const std::vector<nook_material_value>& wanted,
+                              float weight_error, const nook_material_info& info, Level level,
+                              Evaluate evaluate) {
+  std::vector<float> reaches(items.size(), 0.0f);
+  if (weight_error <= exact_weights) return reaches;
+  constexpr float light_texels = 32;  // along a side of the smallest table of light modes
+  for (unsigned corner = 0; corner < 16; ++corner) {
+    const auto sign = [&](unsigned bit) { return corner >> bit & 1 ? weight_error : -weight_error; };
+    std::vector<Item> moved = items;
+    for (Item& item : moved) {
+      const float texels = std::exp2(level(item));
+      item.uv[0] += sign(0) * texels / float(info.width);
+      item.uv[1] += sign(1) * texels / float(info.height);
+      if (item.light[2] <= 0) continue;
+      const material::ParabolicPoint p =
+          material::to_parabolic({item.light[0], item.light[1], item.light[2]});
+      put(item.light,
+          material::from_parabolic({p.x + 2 * sign(2) / light_texels, p.y + 2 * sign(3) / light_texels}));
+    }
+    std::vector<nook_material_value> values = evaluate(moved);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      values[i].visibility = wanted[i].visibility;  // it steps
+      reaches[i] = std::max(reaches[i], difference(values[i], wanted[i]));
+    }
+  }
+  return reaches;
+}
+
 // The mapping (26) steps from weight times threshold to 1; on either side both may be right. Visibility is
 // weight times the VOTF's value: so much larger is its difference. With RGTC it is that of the value which
 // the driver's levels gave.
 void check_agreement(const std::vector<GpuValue>& got, const std::vector<nook_material_value>& wanted,
-                     const Uploaded& form) {
+                     const std::vector<float>& reaches, const Uploaded& form) {
   REQUIRE(got.size() == wanted.size());
-  float sum = 0;
+  const bool is_coarse = form.weight_error > exact_weights;
+  const float largest =
+      is_coarse ? (form.is_rgtc ? coarse_rgtc_bound : coarse_bound) : (form.is_rgtc ? rgtc_bound : bound);
+  const float mean = !form.is_rgtc ? bound : is_coarse ? coarse_rgtc_mean_bound : rgtc_mean_bound;
+  float sum = 0, sum_of_reaches = 0;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     INFO("sample or pixel " << i);
     nook_material_value value = got[i].value;
-    if (form.is_rgtc) CHECK(std::abs(value.visibility - visibility_of(value.occlusion, form.info)) <= bound);
-    if (form.is_rgtc || std::abs(wanted[i].occlusion - form.info.visibility_threshold) < 1e-4f)
+    if (form.is_rgtc || is_coarse)
+      CHECK(std::abs(value.visibility - visibility_of(value.occlusion, form.info)) <= bound);
+    if (form.is_rgtc || is_coarse || std::abs(wanted[i].occlusion - form.info.visibility_threshold) < 1e-4f)
       value.visibility = wanted[i].visibility;
-    CHECK(difference(value, wanted[i]) <= (form.is_rgtc ? rgtc_bound : bound));
+    CHECK(difference(value, wanted[i]) <= largest + times_reach * reaches[i]);
     sum += difference(value, wanted[i]);
+    sum_of_reaches += reaches[i];
   }
-  CHECK(sum / float(wanted.size()) < (form.is_rgtc ? rgtc_mean_bound : bound));
+  CHECK(sum < mean * float(wanted.size()) + sum_of_reaches);
 }
 
 void check_samples(const Uploaded& form) {
   const std::vector<nook_material_sample> samples = samples_of(form.info, 2048);
-  std::vector<nook_material_value> wanted(samples.size());
-  NOOK_OK_OR_FAIL(
-      nook_material_evaluate(form.loaded, samples.data(), std::uint32_t(samples.size()), wanted.data()));
-  check_agreement(form.decoder.decode(samples), wanted, form);
+  const auto evaluate = [&](const std::vector<nook_material_sample>& of) {
+    std::vector<nook_material_value> values(of.size());
+    NOOK_OK_OR_FAIL(nook_material_evaluate(form.loaded, of.data(), std::uint32_t(of.size()), values.data()));
+    return values;
+  };
+  const std::vector<nook_material_value> wanted = evaluate(samples);
+  const auto level = [](const nook_material_sample& sample) { return sample.level; };
+  check_agreement(form.decoder.decode(samples), wanted,
+                  reaches_of(samples, wanted, form.weight_error, form.info, level, evaluate), form);
   float brightest = 0;
   for (const nook_material_value& value : wanted)
     for (const float radiance : value.radiance) brightest = std::max(brightest, std::abs(radiance));
@@ -188,10 +243,22 @@ void check_samples(const Uploaded& form) {
 
 void check_pixels(const Uploaded& form, int fetches) {
   const std::vector<nook_material_pixel> pixels = pixels_of(form.info, 512, fetches);
-  std::vector<nook_material_value> wanted(pixels.size());
-  NOOK_OK_OR_FAIL(nook_material_evaluate_anisotropic(form.loaded, pixels.data(), std::uint32_t(pixels.size()),
-                                                     std::uint32_t(fetches), wanted.data()));
-  check_agreement(form.decoder.decode(pixels, fetches), wanted, form);
+  const auto evaluate = [&](const std::vector<nook_material_pixel>& of) {
+    std::vector<nook_material_value> values(of.size());
+    NOOK_OK_OR_FAIL(nook_material_evaluate_anisotropic(form.loaded, of.data(), std::uint32_t(of.size()),
+                                                       std::uint32_t(fetches), values.data()));
+    return values;
+  };
+  const std::vector<nook_material_value> wanted = evaluate(pixels);
+  // Of the longer side, which is no less than that of the fetches.
+  const auto level = [&](const nook_material_pixel& p) {
+    const auto length = [&](float x, float y) {
+      return std::hypot(x * float(form.info.width), y * float(form.info.height));
+    };
+    return std::log2(std::max(length(p.dx[0], p.dx[1]), length(p.dy[0], p.dy[1])));
+  };
+  check_agreement(form.decoder.decode(pixels, fetches), wanted,
+                  reaches_of(pixels, wanted, form.weight_error, form.info, level, evaluate), form);
 }
 
 // A march ends where it meets the relief, after its first plane or later.
@@ -295,12 +362,24 @@ TEST_CASE("material: more layers than OpenGL 3.3 guarantees are split") {
                                                                                 .clusters = 20}));
   const nook_material_info info = info_of(loaded);
   const std::vector<nook_material_sample> samples = samples_of(info, 256);
-  std::vector<nook_material_value> wanted(samples.size());
-  NOOK_OK_OR_FAIL(nook_material_evaluate(loaded, samples.data(), 256, wanted.data()));
+  const auto evaluate = [&](const std::vector<nook_material_sample>& of) {
+    std::vector<nook_material_value> values(of.size());
+    NOOK_OK_OR_FAIL(nook_material_evaluate(loaded, of.data(), std::uint32_t(of.size()), values.data()));
+    return values;
+  };
+  const std::vector<nook_material_value> wanted = evaluate(samples);
+  const auto level = [](const nook_material_sample& sample) { return sample.level; };
+  const float weight_error = filter_weight_error(context.gl());
+  const std::vector<float> reaches = reaches_of(samples, wanted, weight_error, info, level, evaluate);
   const nook_gl_material split = fixture.upload(loaded, 256);
   CHECK(info_of(split).texture_count == 8);  // 320 layers in two arrays
   const std::vector<GpuValue> got = MaterialDecoder(context.gl(), split, info).decode(samples);
-  for (std::size_t i = 0; i < samples.size(); ++i) CHECK(difference(got[i].value, wanted[i]) <= bound);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    nook_material_value value = got[i].value;
+    const bool is_coarse = weight_error > exact_weights;
+    if (is_coarse) value.visibility = wanted[i].visibility;
+    CHECK(difference(value, wanted[i]) <= (is_coarse ? coarse_bound : bound) + times_reach * reaches[i]);
+  }
 }
 
 TEST_CASE("material: blocks are split in pairs of layers, and either form is uploaded or refused") {

@@ -197,9 +197,10 @@ TEST_CASE("AO arrives in a texture of the host, row by row") {
       float worst = 0;
       for (std::size_t v = 0; v < expected.size(); ++v)
         worst = std::max(worst, std::abs(texels[first + v] - expected[v]));
-      // OpenGL converts the upload, and may cut floats to halves instead of rounding them.
-      const bool cut = format == NOOK_AO_HALF && !is_es(f.api);
-      CHECK(worst <= tolerance_of(format) * (cut ? 2 : 1));
+      // OpenGL converts the upload. It may cut floats to halves instead of rounding them, and NVIDIA's driver
+      // comes within 0.55 of a step of a byte; Direct3D demands 0.6.
+      const float converted = is_es(f.api) ? 1.0f : format == NOOK_AO_HALF ? 2.0f : 1.2f;
+      CHECK(worst <= tolerance_of(format) * converted);
       CHECK(std::abs(texels[first - 1] - 0.25f) < 0.002f);
       CHECK(std::abs(texels[first + expected.size()] - 0.25f) < 0.002f);
     }

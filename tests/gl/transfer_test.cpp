@@ -25,6 +25,8 @@ extern "C" int nook_transfer_call_everything(const void* material_bytes, std::si
 namespace {
 
 constexpr int count = 64;  // vertices, one pixel each
+// The middle of a texel, where the weights of a driver's filter are exact. The fragment shader has it too.
+constexpr float place[2] = {0.3125f, 0.5625f};
 
 // Each vertex is a point on a pixel of its own.
 const char vertex_text[] =
@@ -46,7 +48,7 @@ const char fragment_text[] =
     "  vec3 given = texelFetch(views, ivec2(gl_FragCoord.xy), 0).xyz;\n"
     "  vec3 view = nook_transfer_tangent_space(vec3(0.0, 0.0, 2.0), vec4(3.0, 0.0, 1.0, 1.0), given);\n"
     "  vec4 modes[NOOK_LIGHT_VEC4_COUNT];\n"
-    "  nook_material_decode(vec2(0.3, 0.6), vec2(0.0), vec2(0.0), view, modes);\n"
+    "  nook_material_decode(vec2(0.3125, 0.5625), vec2(0.0), vec2(0.0), view, modes);\n"
     "  value = vec4(nook_transfer_radiance(modes, vectors), 1.0);\n"
     "  vec4 between[3 * NOOK_LIGHT_VEC4_COUNT];\n"
     "  nook_transfer_mix(corners, vec3(0.5, 0.3, 0.2), between);\n"
@@ -76,7 +78,7 @@ std::vector<nook_material_sample> views_of(const nook_material_info& info) {
       info.btf.view_map_side ? 256 / info.btf.view_map_side * info.btf.view_map_side : 256;
   std::vector<nook_material_sample> samples(count);
   for (nook_material_sample& s : samples) {
-    s = {{0.3f, 0.6f}, 0, {}, {0, 0, 1}};
+    s = {{place[0], place[1]}, 0, {}, {0, 0, 1}};
     material::ParabolicPoint p;
     do {
       p.x = (float(numbers.below(side)) + 0.5f) / float(side) * 2 - 1;
@@ -220,7 +222,7 @@ TEST_CASE("transfer: the GLSL agrees with the CPU reference to 1/255") {
   nook_transfer_response_info info{};
   info.struct_size = sizeof info;
   NOOK_OK_OR_FAIL(nook_transfer_response_describe(response, &info));
-  // Vectors whose radiances are near 1.
+  // Radiances of up to some thousands: the bound is 1e-6 of the largest.
   material::test::Numbers numbers(9);
   std::vector<float> vectors(std::size_t(count) * info.vector_floats);
   for (float& number : vectors) number = numbers.between(-0.3f, 0.3f);
