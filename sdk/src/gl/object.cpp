@@ -30,7 +30,8 @@ Buffer::~Buffer() {
   if (!device_->lost) device_->gl.DeleteBuffers(1, &name_);
 }
 
-void* Buffer::begin_write(std::uint64_t bytes) {
+// Gives the buffer a new store of at least so many bytes.
+void Buffer::renew(std::uint64_t bytes) {
   const Functions& gl = device_->gl;
   gl.BindBuffer(GL_ARRAY_BUFFER, name_);
   // Half as much again where it grows, so that a growing scene seldom comes here.
@@ -40,6 +41,16 @@ void* Buffer::begin_write(std::uint64_t bytes) {
   gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(kept), nullptr, gl_usage_);
   device_->buffer_bytes += kept - bytes_;
   bytes_ = kept;
+}
+
+void Buffer::send(std::uint64_t bytes, const void* data) {
+  renew(bytes);
+  device_->gl.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
+}
+
+void* Buffer::begin_write(std::uint64_t bytes) {
+  const Functions& gl = device_->gl;
+  renew(bytes);
   if (!gl.can.maps) {
     if (!staging_) staging_.emplace(device_->memory);
     staging_->resize(bytes);

@@ -30,8 +30,9 @@ class Buffer {
   GLuint name() const { return name_; }
   std::uint64_t bytes() const { return bytes_; }
   // Replaces the contents: fill(memory) writes `bytes` bytes, and what the GPU still reads of the old ones
-  // stays as it was. Nothing waits. OpenGL may lose what was written, as when the display changes; fill is
-  // then called again. Throws Failure if OpenGL gives no memory or keeps losing the contents.
+  // stays as it was. Nothing waits, unless a texture reads the buffer: NVIDIA's driver then waits for the GPU
+  // when it is mapped. OpenGL may lose what was written, as when the display changes; fill is then called
+  // again. Throws Failure if OpenGL gives no memory or keeps losing the contents.
   template <class Fill>
   void write(std::uint64_t bytes, Fill&& fill) {
     for (int attempt = 0; attempt < max_write_attempts; ++attempt) {
@@ -40,9 +41,12 @@ class Buffer {
     }
     fail_write(bytes);
   }
+  // The same from memory of the caller, for buffers that a texture reads: no driver waits for the GPU.
+  void send(std::uint64_t bytes, const void* data);
 
  private:
   static constexpr int max_write_attempts = 3;
+  void renew(std::uint64_t bytes);
   void* begin_write(std::uint64_t bytes);
   bool end_write();
   [[noreturn]] static void fail_write(std::uint64_t bytes);

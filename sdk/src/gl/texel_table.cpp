@@ -20,10 +20,12 @@ void TexelTable::reserve(Device& device, GLenum format, std::uint64_t texels, co
   format_ = format;
   label_ = label;
   if (made() && texels <= capacity_) return;
-  if (device.gl.can.texture_buffers)
+  if (device.gl.can.texture_buffers) {
     make_texture_buffer(device, texels, nullptr, GL_STREAM_DRAW);
-  else
+    staging_.resize(texels * bytes_of_texel());
+  } else {
     make_texture_2d(device, texels);
+  }
 }
 
 void TexelTable::replace(Device& device, GLenum format, std::uint64_t texels, const float* data,

@@ -34,12 +34,12 @@ class TexelTable {
     // Half as much again, so that a growing scene seldom comes here.
     if (texels > capacity_)
       reserve(device, format_, std::min(texels + texels / 2, std::uint64_t{device.max_texels}), label_);
-    if (device.gl.can.texture_buffers) {
-      buffer_.write(texels * bytes_of_texel(), fill);
-    } else {
-      fill(static_cast<void*>(staging_.data()));
+    staging_.resize(std::max(staging_.size(), std::size_t(texels * bytes_of_texel())));
+    fill(static_cast<void*>(staging_.data()));
+    if (device.gl.can.texture_buffers)
+      buffer_.send(texels * bytes_of_texel(), staging_.data());
+    else
       upload(device, texels);
-    }
   }
 
   // Replaces the table by exactly these texels, for good. If it fails, a texture buffer keeps what it had.
@@ -72,7 +72,7 @@ class TexelTable {
   const char* label_ = "";
   std::uint64_t capacity_ = 0;  // texels
   Buffer buffer_;               // of a texture buffer
-  Vector<std::byte> staging_;   // of a 2D texture
+  Vector<std::byte> staging_;   // of what is written
   Object texture_;
 };
 
