@@ -1,4 +1,4 @@
-// How exactly a driver weighs the texels between which it filters.
+// The error with which a driver weighs the texels between which it filters.
 #pragma once
 
 #include <glad/gl.h>
