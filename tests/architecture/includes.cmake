@@ -99,6 +99,7 @@ room(bakers/measure/material bakers/measure/material bakers/images bakers/materi
      ${ground} sdk/src/material)
 room(bakers/measure/gpu_cost bakers/measure/gpu_cost bakers/measure/nnao/baselines.h shaders sdk/src/gl/material/source.h
      sdk/src/gl/embedded_shaders.h)
+room(bakers/measure/gpu_time bakers/measure/gpu_time bakers/measure/nnao bakers/nnao bakers/raytrace platform sdk/src/core)
 room(bakers/measure/crowd bakers/measure/crowd bakers/measure/truth platform)
 # Pages show what the other measures have, and draw nothing.
 room(bakers/measure/report bakers/measure bakers/images platform ${makers})
