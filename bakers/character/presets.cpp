@@ -30,13 +30,17 @@ PresetValues preset_values(Preset preset, FitMethod fit) {
       v.settings.steps = paper ? 100 : 60000;
       v.auto_poses = 10000;
       v.clip_poses = 4000;
+      // Few clips keep their share of the poses.
+      v.max_samples_per_clip = 256;
       break;
   }
   return v;
 }
 
 std::size_t samples_per_clip(const PresetValues& values, std::size_t clips) {
-  return clips == 0 ? 0 : std::clamp<std::size_t>((values.clip_poses + clips / 2) / clips, 4, 64);
+  return clips == 0 ? 0
+                    : std::clamp<std::size_t>((values.clip_poses + clips / 2) / clips, 4,
+                                              values.max_samples_per_clip);
 }
 
 }  // namespace nook::bake

@@ -215,7 +215,7 @@ void add_bake_character(CLI::App& bake) {
       {{"draft", NOOK_BAKE_PRESET_DRAFT},
        {"standard", NOOK_BAKE_PRESET_STANDARD},
        {"production", NOOK_BAKE_PRESET_PRODUCTION}},
-      "draft (about 20 s), standard (up to 5 minutes, the default) or production (about half an hour)");
+      "draft (about 20 s), standard (up to 5 minutes, the default) or production (up to half an hour)");
   add_choice(*command, "--poses", o.poses,
              {{"auto", NOOK_BAKE_POSES_AUTO},
               {"single-joint", NOOK_BAKE_POSES_SINGLE_JOINT},

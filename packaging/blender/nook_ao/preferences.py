@@ -1,7 +1,7 @@
 """Where the command and the libraries are, and the settings of a scene."""
 import bpy
 
-PRESETS = (("draft", "Draft", "About 20 seconds"), ("standard", "Standard", "Up to 5 minutes"), ("production", "Production", "About half an hour"))
+PRESETS = (("draft", "Draft", "About 20 seconds"), ("standard", "Standard", "Up to 5 minutes"), ("production", "Production", "Up to half an hour"))
 POSES = (("all", "Generated and actions", "Generated poses, and those of the character's actions"), ("auto", "Generated", "Generated poses alone"),
          ("clips", "Actions", "Poses of the character's actions alone"))
 

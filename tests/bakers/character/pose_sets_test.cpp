@@ -1,6 +1,7 @@
 // Which clips are fitted and which are kept for measuring.
 #include "bakers/character/pose_sets.h"
 
+#include "bakers/character/presets.h"
 #include "tests/catch.h"
 
 using namespace nook::bake;
@@ -79,4 +80,15 @@ TEST_CASE("no family straddles the split, however its clips are named") {
   CHECK(split_of({"Walk_Start"}) == Split({"Walk_Start"}, {}));
   // Clips whose names have no word stay together.
   CHECK(split_of({"001", "002", "003"}) == Split({"001", "002", "003"}, {}));
+}
+
+TEST_CASE("clips get the preset's number of poses together, few clips no more than their limit each") {
+  const PresetValues standard = preset_values(Preset::standard, FitMethod::nook),
+                     production = preset_values(Preset::production, FitMethod::nook);
+  CHECK(samples_per_clip(standard, 0) == 0);
+  CHECK(samples_per_clip(standard, 21) == 52);
+  CHECK(samples_per_clip(standard, 1) == 64);
+  CHECK(samples_per_clip(standard, 5000) == 4);
+  CHECK(samples_per_clip(production, 21) == 190);
+  CHECK(samples_per_clip(production, 1) == 256);
 }

@@ -73,7 +73,7 @@ TEST_CASE("a crowd stands on the ground, and its neighbours darken it") {
   CHECK(among_others < alone - 0.005);
 }
 
-TEST_CASE("rows have names of their own, and only wanted rows are timed") {
+TEST_CASE("rows have names of their own, and rows that are left out are not timed") {
   const std::unique_ptr<platform::Context> context = platform::create_context({});
   const NookGl nook(*context);
   const GpuClock clock(context->gl(), 1, 0);
