@@ -327,3 +327,35 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE("a key point beside a sphere is shadowed by it, however little the sphere counts in a node") {
+  CharacterModel model = body(1);
+  model.spheres.resize(2);
+  model.spheres[0] = {{0, 0, 0}, 0.3f, 0};
+  model.spheres[1] = {{1, 0, 0}, 0.002f, 0};
+  const SphereTree tree(model);
+  const Posed posed(model, std::vector<Mat3x4>(model.bone_count()));
+  // They stand 3 mm above the small sphere and look down at it.
+  std::vector<float> lanes(6 * key_point_group, 0.0f);
+  std::fill_n(&lanes[0], key_point_group, 1.0f);
+  std::fill_n(&lanes[key_point_group], key_point_group, 0.003f);
+  std::fill_n(&lanes[4 * key_point_group], key_point_group, -1.0f);
+  const float* const at = lanes.data();
+  const KeyPointSoa points{at,
+                           at + key_point_group,
+                           at + 2 * key_point_group,
+                           at + 3 * key_point_group,
+                           at + 4 * key_point_group,
+                           at + 5 * key_point_group,
+                           key_point_group};
+  const float error = 1.0f / 256;
+  for (const ShadowKernels* kernels : available_kernels()) {
+    INFO(kernels->name);
+    PosedSphereTree pose;
+    std::vector<float> whole(key_point_group, 0.0f), merged = whole;
+    kernels->tree_sum(pose_tree(tree, posed.all, 0, pose), points, whole.data());
+    kernels->tree_sum(pose_tree(tree, posed.all, error, pose), points, merged.data());
+    CHECK(whole[0] > 0.2f);
+    CHECK(std::abs(merged[0] - whole[0]) < error);
+  }
+}

@@ -7,8 +7,10 @@
 namespace nook {
 namespace {
 
-// The share of the allowed error in the estimate of each node: several nodes add up.
-constexpr float share_of_node = 0.7f;
+// The estimate of each node may be so much of the allowed error. Measured on baked bodies the change of AO,
+// root mean square, is then 0.8 to 1.0 of the allowed error: nodes add up, and weights of key points take
+// less than their shadows.
+constexpr float share_of_node = 1.4f;
 
 using Spheres = std::span<std::uint32_t>;
 
@@ -70,14 +72,16 @@ struct Moments {
   Vec3 centre;       // by mass
   float spread = 0;  // metres^4: sum of mass * (distance from the centre)^2
   float fourth = 0;  // metres^4: sum of mass * radius^2
+  float extent = 0;  // metres: no sphere reaches farther from the centre
 };
 
 // `inverse` is that of the sum of their masses.
 Moments joined(const Moments& a, const Moments& b, float inverse) {
   const float share = b.mass * inverse;
   const Vec3 apart = b.centre - a.centre;
-  return {a.mass + b.mass, a.centre + apart * share, a.spread + b.spread + a.mass * share * dot(apart, apart),
-          a.fourth + b.fourth};
+  const float squared = dot(apart, apart), distance = std::sqrt(squared);
+  return {a.mass + b.mass, a.centre + apart * share, a.spread + b.spread + a.mass * share * squared,
+          a.fourth + b.fourth, std::max(a.extent + distance * share, b.extent + distance * (1 - share))};
 }
 
 void put_mass(const Moments& m, std::uint32_t i, float softness, float radius_squared, PosedSphereTree& out) {
@@ -96,11 +100,13 @@ constexpr float softness_of_variance = 0.21f;
 // The largest second derivative of cos / d^2 is 6 / d^4; half of all key points face away, and the mean
 // square of cos over the other half is 1/3, so that half of 6 * spread / d^4 becomes 1.2 * spread / d^4, root
 // mean square, which is the error at the squared distance sqrt(1.2 * spread / error). Nearer than three times
-// the extent the series has no meaning.
+// the deviation the series has no meaning, and nearer than the farthest sphere a key point may stand beside a
+// sphere so small that it hardly counts for the spread, and still be in the full shadow of it.
 void put_node(const Moments& m, std::uint32_t n, float inverse, float inverse_error, PosedSphereTree& out) {
   const float variance = m.spread * inverse, radius_squared = m.fourth * inverse;
   put_mass(m, n, radius_squared + softness_of_variance * variance, radius_squared, out);
-  out.reach[n] = std::max(std::sqrt(1.2f * inverse_error * m.spread), 9 * variance);
+  out.reach[n] =
+      std::max(std::sqrt(1.2f * inverse_error * m.spread), std::max(9 * variance, m.extent * m.extent));
 }
 
 }  // namespace
@@ -126,7 +132,11 @@ SphereTreeView pose_tree(const SphereTree& tree, const SphereSoa& spheres, float
     const std::uint32_t s = tree.order()[i];
     const float squared = 1 / (spheres.inverse_radius[s] * spheres.inverse_radius[s]);
     Moments& m = moments[nodes + i];
-    m = {squared, {spheres.x[s], spheres.y[s], spheres.z[s]}, 0, squared * squared};
+    m = {squared,
+         {spheres.x[s], spheres.y[s], spheres.z[s]},
+         0,
+         squared * squared,
+         1 / spheres.inverse_radius[s]};
     put_mass(m, nodes + i, squared, squared, out);
   }
   const float inverse_error = 1 / (share_of_node * error);
