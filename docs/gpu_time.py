@@ -36,6 +36,23 @@ def modelled_name(name):
     return f"{METHODS[method]} {taps}," if method in METHODS else None
 
 
+def shown_name(name):
+    """The name of a row in the document, as gpu_cost.md has it."""
+    if name.startswith("NNAO"):
+        return name
+    method, taps = name.split(" ", 1)
+    if method == "xegtao":
+        return modelled_name(name)
+    shipped = method.endswith("_shipped")
+    return f"{METHODS[method.removesuffix('_shipped')]} {taps}" + (", as shipped" if shipped else "")
+
+
+def is_repeated(name):
+    """XeGTAO with a denoiser that is its tuned one has two rows."""
+    taps, _, denoiser = name.removeprefix("xegtao ").partition(", ")
+    return name.startswith("xegtao") and denoiser != "" and DENOISED[denoiser] == TUNED_XEGTAO[taps]
+
+
 def modelled_cycles(passes, name):
     wanted = modelled_name(name)
     for row in passes:
@@ -57,13 +74,14 @@ def screen_table(small, large, passes):
     reference_ms, reference_cycles = small[REFERENCE]["gpu_ms"], modelled_cycles(passes, REFERENCE)
     rows = []
     for name, row in small.items():
-        if not is_of_the_screen(name):
+        if not is_of_the_screen(name) or is_repeated(name):
             continue
-        modelled = modelled_cycles(passes, name)
-        rows.append([name, f"{row['gpu_ms']:.2f}", f"{large[name]['gpu_ms']:.2f}",
-                     f"{row['gpu_ms'] / reference_ms:.2f}",
+        dispatched = "compute" in name
+        modelled = None if dispatched else modelled_cycles(passes, name)
+        rows.append([shown_name(name), f"{row['gpu_ms']:.2f}", f"{large[name]['gpu_ms']:.2f}",
+                     "" if dispatched else f"{row['gpu_ms'] / reference_ms:.2f}",
                      f"{modelled / reference_cycles:.2f}" if modelled else ""])
-    return table(["pass", "ms, 1920 x 1080", "ms, 3840 x 2160", f"of {REFERENCE}", "of it, by the model"], rows)
+    return table(["pass", "ms, 1920 x 1080", "ms, 3840 x 2160", "of HBAO 64", "of it, by the model"], rows)
 
 
 def other_table(small):
@@ -73,10 +91,13 @@ def other_table(small):
 
 
 def print_agreement(small, passes):
-    """Prints the distance of the measured ratios from the modelled ones, compute shaders left out."""
+    """Prints the distance of the measured ratios from the modelled ones; compute shaders, the reference itself and
+    repeated rows are left out."""
     ratios = {}
     for name, row in small.items():
-        if is_of_the_screen(name) and "compute" not in name and (modelled := modelled_cycles(passes, name)):
+        if not is_of_the_screen(name) or "compute" in name or name == REFERENCE or is_repeated(name):
+            continue
+        if modelled := modelled_cycles(passes, name):
             ratios[name] = row["gpu_ms"] / small[REFERENCE]["gpu_ms"] * modelled_cycles(passes, REFERENCE) / modelled
     logs = [math.log(r) for r in ratios.values()]
     mean = sum(logs) / len(logs)

@@ -95,7 +95,8 @@ float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 ra
   centre.viewer = nook_to_viewer(position);
   centre.half_nearness = 0.5 / radius.x;
   // At the border of the screen taps meet their own pixel. v is 0 there, but for what a compiler rounds otherwise at the one
-  // place than at the other, which would be a direction at random. Half a pixel is less than the distance of any other one.
+  // place than at the other, which would be a direction at random. Half a pixel is less than the distance of any other one,
+  // for fields of view up to 120 degrees.
   float half_pixel = 0.5 / max(abs(scale.x), abs(scale.y));
   centre.min_squared = half_pixel * half_pixel;
   for (int i = 0; i < NOOK_STEPS; ++i) centre.steps_px[i] = nook_step_distance(i, NOOK_STEPS, noise, radius.y);

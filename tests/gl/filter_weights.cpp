@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "platform/program.h"
 #include "tests/gl/host_textures.h"
@@ -24,8 +25,9 @@ float filter_weight_error(const GladGLContext& gl) {
   const GLuint program =
       platform::link_program(gl, {glsl_header(gl), vertex_text}, {glsl_header(gl), fragment_text});
   Textures textures(gl);
-  // Halves, which OpenGL ES 3.0 filters, as materials have them.
-  const GLuint two = textures.floats(is_es(gl) ? GL_R8 : GL_R16F, 1, 2, 1, {0, 1}),
+  // Halves 0 and 1, as materials have them: of bytes llvmpipe weighs with bytes.
+  const std::uint16_t halves[] = {0x0000, 0x3c00};
+  const GLuint two = textures.make(GL_R16F, GL_RED, GL_HALF_FLOAT, 2, 1, halves),
                value = textures.floats(GL_RGBA32F, 4, places, 1, {});
   GLuint framebuffer = 0, vertex_array = 0;
   gl.GenFramebuffers(1, &framebuffer);

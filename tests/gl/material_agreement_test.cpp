@@ -24,7 +24,7 @@ constexpr float rgtc_bound = 4.0f / 127, rgtc_mean_bound = 5e-4f;
 // Of a driver that weighs texels with few bits, beside what its weights explain (reaches_of): it filters
 // integers of 8 bits with few bits too, and the levels of RGTC are off by 1 / 127 more often. On NVIDIA's the
 // largest difference was 0.0195 where the weights explain none, and 2.2 times what they explain elsewhere,
-// because each fetch has errors of its own.
+// because each fetch has errors of its own; with RGTC the largest was 0.073 and the largest mean 0.006.
 constexpr float coarse_bound = 6.0f / 255, coarse_rgtc_bound = 10.0f / 127, coarse_rgtc_mean_bound = 0.01f;
 constexpr float times_reach = 2;
 // Weights with a smaller error are floats.

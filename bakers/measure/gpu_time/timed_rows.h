@@ -37,8 +37,8 @@ void need(nook_result result);
 // fragment shaders, over one view of a procedural room at a radius of 0.5 metres; and the compute path.
 std::vector<TimedRow> time_screen(const Timing& timing);
 
-// nook_gl_scene_update of crowds that stand on the ground, four neighbours each, with poses that change.
-// model: a file of nook_character_model_load.
+// nook_gl_scene_update of crowds that stand on the ground, without neighbours and with four, with poses that
+// change. model: a file of nook_character_model_load.
 std::vector<TimedRow> time_characters(const Timing& timing, const std::filesystem::path& model);
 
 // The world pass: 100 bodies darken the floor on which they stand.
@@ -47,7 +47,7 @@ std::vector<TimedRow> time_world(const Timing& timing, const std::filesystem::pa
 // The whole image in one material and one light, for each file of nook_material_load.
 std::vector<TimedRow> time_materials(const Timing& timing, const std::vector<std::filesystem::path>& files);
 
-// The whole image in the irradiance of a probe: a grid of lobes, one place, harmonics.
+// The whole image in the irradiance and in the glossy reflection of lobes, of a grid and of one place.
 std::vector<TimedRow> time_probes(const Timing& timing);
 
 }  // namespace nook::measure

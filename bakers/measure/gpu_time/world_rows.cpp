@@ -1,5 +1,6 @@
 #include <nook/nook_gl_world.h>
 
+#include <limits>
 #include <numbers>
 
 #include "bakers/measure/gpu_time/crowd.h"

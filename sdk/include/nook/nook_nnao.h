@@ -39,7 +39,7 @@ extern "C" {
 typedef struct nook_nnao_s* nook_nnao;
 
 /* The stage that evaluates the network; the other stages are draws in any case. Both paths give the same AO,
- * on Mesa's llvmpipe the same bits. No GPU was measured. */
+ * on Mesa's llvmpipe the same bits. */
 enum {
   /* Compute if OpenGL has it, else fragments; fragments on OpenGL ES. */
   NOOK_NNAO_PATH_AUTOMATIC = 0,

@@ -15,7 +15,8 @@ Device::Device(Context& host, const nook_gl_desc& desc)
   GLint value = 0;
   if (gl.can.texture_buffers) {
     gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &value);
-    max_texels = static_cast<std::uint32_t>(std::max(value, 65536));
+    // A table of 2 GiB is as much as 32 bits count.
+    max_texels = static_cast<std::uint32_t>(std::clamp(value, 65536, 1 << 27));
   } else {
     gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &value);
     max_texels = static_cast<std::uint32_t>(std::clamp(value, NOOK_TEXEL_ROW, 1 << 14)) * NOOK_TEXEL_ROW;

@@ -41,7 +41,8 @@ class Buffer {
     }
     fail_write(bytes);
   }
-  // The same from memory of the caller, for buffers that a texture reads: no driver waits for the GPU.
+  // The same from memory of the caller, for buffers that a texture reads: NVIDIA's driver does not wait here.
+  // Reports no failure: an update reads no error of OpenGL, which keeps it for the host.
   void send(std::uint64_t bytes, const void* data);
 
  private:

@@ -198,8 +198,10 @@ TappedTexel clamped_texel(const View& view, std::uint32_t x, std::uint32_t y, Ta
 HorizonTapInput horizon_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal,
                                   Vec3 viewer, float radius) {
   const Vec3 v = texel_position(view, texel) - position;
-  // At the border of the screen a tap can be the pixel itself, which is a tap on its own plane.
-  const float away = std::max(length(v), 1e-12f);
+  // At the border of the screen a tap can be the pixel itself, which is a tap on its own plane. Half a pixel
+  // then stands for its distance, since v may be a rounding error.
+  const PixelScale scale = pixel_scale(view.rays, -position.z);
+  const float away = std::max(length(v), 0.5f / std::max(std::abs(scale.x), std::abs(scale.y)));
   const float elevation = dot(v, normal) / away, angle = dot(v, viewer) / away;
   const float nearness = std::max(1 - 0.5f * away / radius, 0.0f);
   return {elevation, elevation * angle, elevation * nearness, elevation * angle * nearness};

@@ -76,7 +76,7 @@ struct ThresholdDense {
 // Nook's network. The taps lie along `directions` half-lines on the screen, with `steps` taps on each. A tap
 // off the screen is moved to the nearest pixel on it. With v = p_t - p, the direction to the viewer o = -p /
 // |p| (orthographic: +z), the elevation s = dot(v, n) / |v|, the angle c = dot(v, o) / |v| and the nearness
-// w = max(1 - |v| / 2r, 0), a tap's hidden units are tap(input) of
+// w = max(1 - |v| / 2r, 0), where |v| is at least half a pixel, a tap's hidden units are tap(input) of
 //   input = (s, s c, s w, s c w).
 // The sky is a surface at infinity. The input of `direction` is the maximum and the mean of the units over
 // the steps of a direction; its gate is (dot(n, t), dot(n, o)), where t is the unit vector perpendicular to o
