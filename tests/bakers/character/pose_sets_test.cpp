@@ -82,7 +82,7 @@ TEST_CASE("no family straddles the split, however its clips are named") {
   CHECK(split_of({"001", "002", "003"}) == Split({"001", "002", "003"}, {}));
 }
 
-TEST_CASE("clips get the preset's number of poses together, few clips no more than their limit each") {
+TEST_CASE("presets set the poses of all clips together, at most so many of each, and the key points") {
   const PresetValues standard = preset_values(Preset::standard, FitMethod::nook),
                      production = preset_values(Preset::production, FitMethod::nook);
   CHECK(samples_per_clip(standard, 0) == 0);
@@ -91,4 +91,7 @@ TEST_CASE("clips get the preset's number of poses together, few clips no more th
   CHECK(samples_per_clip(standard, 5000) == 4);
   CHECK(samples_per_clip(production, 21) == 190);
   CHECK(samples_per_clip(production, 1) == 256);
+  CHECK(standard.settings.key_points == 500);
+  CHECK(production.settings.key_points == 800);
+  CHECK(preset_values(Preset::production, FitMethod::paper).settings.key_points == 500);
 }
