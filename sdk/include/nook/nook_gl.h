@@ -148,10 +148,10 @@ NOOK_API nook_result nook_gl_scene_prepare(nook_gl gl, nook_scene scene);
  * replaces it: a host calls one of the two in a frame. The values agree with nook_scene_read_ao within 2e-3,
  * beside what far_error of the scene changes there.
  * The call allocates host memory only if instances were added, received their first light or have more lobes
- * than the lights had room for since the last prepare or update, and it never waits for the GPU. No other call may use the scene meanwhile.
- * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (as nook_gl_scene_prepare; also, the lights exceed
- * the texture buffer of this OpenGL: each takes 12 + 2 * lobes texels, and every OpenGL has 65,536), GL,
- * OUT_OF_MEMORY. */
+ * than the lights had room for since the last prepare or update, and it never waits for the GPU. No other
+ * call may use the scene meanwhile. Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (as
+ * nook_gl_scene_prepare; also, the lights exceed the texture buffer of this OpenGL: each takes 12 + 2 * lobes
+ * texels, and every OpenGL has 65,536), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_scene_update(nook_gl gl, nook_scene scene);
 
 /* The place of an instance's AO in an OpenGL buffer: count floats in [0, 1]. */

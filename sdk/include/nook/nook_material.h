@@ -208,9 +208,9 @@ typedef struct nook_material_pixel {
 } nook_material_pixel;
 
 /* Decodes samples on the CPU. This is the reference of the GLSL, which agrees within 1/255 for radiances up
- * to 1 where the driver weighs texels with floats; with RGTC see nook_material_load_with. GPUs weigh them with
- * about 8 bits, which is as if the place were moved by 1/512 of a texel.
- * Any thread. Errors: INVALID_ARGUMENT (also, a number of a sample is not finite). */
+ * to 1 where the driver weighs texels with floats; with RGTC see nook_material_load_with. GPUs weigh them
+ * with about 8 bits, which is as if the place were moved by 1/512 of a texel. Any thread. Errors:
+ * INVALID_ARGUMENT (also, a number of a sample is not finite). */
 NOOK_API nook_result nook_material_evaluate(nook_material material, const nook_material_sample* samples,
                                             uint32_t count, nook_material_value* values);
 
