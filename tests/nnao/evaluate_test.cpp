@@ -162,8 +162,8 @@ TEST_CASE("off the screen a tap is the nearest pixel on it, and the distance fro
       horizon_tap_input(pixel, clamped_texel(pixel, 0, 0, {9, 9}), {0, 0, -2}, {0, 0, 1}, {0, 0, 1}, 0.5f);
   CHECK((input == HorizonTapInput{0, 0, 0, 0}));
   // Where a compiler rounds the position otherwise at the pixel than at the tap, by a few units in the last
-  // place of 2 m, the direction between the two is at random. A pixel of one in 1,000 of the depth, as of 1080
-  // rows, is 2 mm.
+  // place of 2 m, the direction between the two is at random. A pixel of one in 1,000 of the depth, as of
+  // 1080 rows, is 2 mm.
   const View small{1, 1, {1e-3f, 0, 1e-3f, 0, false}, depth, normal};
   const float unit = 2.4e-7f;
   for (const float x : {-unit, unit})
