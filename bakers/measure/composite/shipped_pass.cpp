@@ -1,29 +1,6 @@
 #include "bakers/measure/composite/shipped_pass.h"
 
-#include "sdk/src/core/failure.h"
-
 namespace nook::measure {
-namespace {
-
-void succeed(nook_result result) {
-  if (result != NOOK_OK) throw Failure(result, "%s", nook_last_message());
-}
-
-void set_view(const Mat3x4& world_from_view, float (&view)[16]) {
-  const float* const m = world_from_view.m;
-  const Vec3 eye{m[3], m[7], m[11]};
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 column{m[axis], m[4 + axis], m[8 + axis]};
-    view[axis] = column.x;
-    view[4 + axis] = column.y;
-    view[8 + axis] = column.z;
-    view[12 + axis] = -dot(column, eye);
-    view[4 * axis + 3] = 0;
-  }
-  view[15] = 1;
-}
-
-}  // namespace
 
 ShippedPass::ShippedPass(const GladGLContext& functions, const NookGl& gl, std::span<const std::byte> model,
                          int width, int height, int taps, bool half_resolution, float radius)

@@ -1,6 +1,5 @@
 #include "bakers/measure/gpu_time/crowd.h"
 #include "bakers/measure/gpu_time/timed_rows.h"
-#include "sdk/src/core/failure.h"
 
 namespace nook::measure {
 namespace {
@@ -13,11 +12,11 @@ class Tier {
  public:
   Tier(platform::Context& context, nook_context made_by, nook_gl_tier tier) {
     nook_gl_desc desc;
-    need(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+    succeed(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
     desc.get_proc = platform::Context::loader;
     desc.get_proc_user = &context;
     desc.max_tier = tier;
-    need(nook_gl_create(made_by, &desc, &gl_));
+    succeed(nook_gl_create(made_by, &desc, &gl_));
   }
   ~Tier() { nook_gl_destroy(&gl_); }
   Tier(const Tier&) = delete;
@@ -31,10 +30,6 @@ class Tier {
 
 }  // namespace
 
-void need(nook_result result) {
-  if (result != NOOK_OK) throw Failure(result, "%s", nook_last_message());
-}
-
 std::vector<TimedRow> time_characters(const Timing& timing, const std::filesystem::path& model) {
   std::vector<TimedRow> rows;
   for (const nook_gl_tier tier : {NOOK_GL_TIER_43, NOOK_GL_TIER_33}) {
@@ -46,9 +41,9 @@ std::vector<TimedRow> time_characters(const Timing& timing, const std::filesyste
         if ((count == 1 && k > 0) || !timing.wanted(name)) continue;
         Crowd crowd(timing.nook, model, count, spacing);
         timing.add(
-            rows, name, [&] { need(nook_gl_scene_update(made.get(), crowd.scene())); },
+            rows, name, [&] { succeed(nook_gl_scene_update(made.get(), crowd.scene())); },
             [&] { crowd.pose(k); });
-        need(nook_gl_scene_release(made.get(), crowd.scene()));
+        succeed(nook_gl_scene_release(made.get(), crowd.scene()));
       }
   }
   return rows;

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "bakers/measure/gpu_time/timed_rows.h"
 #include "platform/file_bytes.h"
 #include "sdk/src/core/vec.h"
 
@@ -11,19 +10,19 @@ namespace nook::measure {
 Crowd::Crowd(const NookGl& gl, const std::filesystem::path& model, std::uint32_t count, float spacing)
     : spacing_(spacing) {
   const std::vector<unsigned char> bytes = platform::read_file(model);
-  need(nook_character_model_load(gl.context(), bytes.data(), bytes.size(), &model_));
+  succeed(nook_character_model_load(gl.context(), bytes.data(), bytes.size(), &model_));
   nook_character_model_info info{};
   info.struct_size = sizeof info;
-  need(nook_character_model_describe(model_, &info));
+  succeed(nook_character_model_describe(model_, &info));
   bone_count_ = info.bone_count;
   vertex_count_ = info.file_vertex_count;
   nook_scene_desc desc;
-  need(nook_scene_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  need(nook_scene_create(gl.context(), &desc, &scene_));
+  succeed(nook_scene_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  succeed(nook_scene_create(gl.context(), &desc, &scene_));
   const float ground[4] = {0, 1, 0, 0};
   for (std::uint32_t i = 0; i < count; ++i) {
-    need(nook_scene_add_instance(scene_, model_, &bodies_.emplace_back()));
-    need(nook_scene_set_ground(scene_, bodies_.back(), ground));
+    succeed(nook_scene_add_instance(scene_, model_, &bodies_.emplace_back()));
+    succeed(nook_scene_set_ground(scene_, bodies_.back(), ground));
   }
 }
 
@@ -41,9 +40,9 @@ void Crowd::pose(std::uint32_t k) {
     const float x = (float(i % side) - 0.5f * float(side - 1)) * spacing_,
                 z = (float(i / side) - 0.5f * float(side - 1)) * spacing_;
     for (Mat3x4& bone : bones) bone = {{c, 0, s, x, 0, 1, 0, 0, -s, 0, c, z}};
-    need(nook_scene_set_pose(scene_, bodies_[i], bones.front().m, bone_count_));
+    succeed(nook_scene_set_pose(scene_, bodies_[i], bones.front().m, bone_count_));
   }
-  if (k > 0) need(nook_scene_link_nearest(scene_, k, 4 * spacing_));
+  if (k > 0) succeed(nook_scene_link_nearest(scene_, k, 4 * spacing_));
 }
 
 }  // namespace nook::measure

@@ -20,10 +20,10 @@ class Uploaded {
  public:
   Uploaded(const NookGl& gl, const std::filesystem::path& file) {
     const std::vector<unsigned char> bytes = platform::read_file(file);
-    need(nook_material_load(gl.context(), bytes.data(), bytes.size(), &material_));
-    need(nook_gl_material_create(gl.get(), material_, nullptr, &uploaded_));
+    succeed(nook_material_load(gl.context(), bytes.data(), bytes.size(), &material_));
+    succeed(nook_gl_material_create(gl.get(), material_, nullptr, &uploaded_));
     info_.struct_size = sizeof info_;
-    need(nook_gl_material_describe(uploaded_, &info_));
+    succeed(nook_gl_material_describe(uploaded_, &info_));
   }
   ~Uploaded() {
     nook_gl_material_destroy(&uploaded_);
@@ -37,7 +37,7 @@ class Uploaded {
     for (std::uint32_t i = 0; i < info_.texture_count; ++i) {
       nook_gl_material_texture texture{};
       texture.struct_size = sizeof texture;
-      need(nook_gl_material_describe_texture(uploaded_, i, &texture));
+      succeed(nook_gl_material_describe_texture(uploaded_, i, &texture));
       image.bind(texture.target, texture.texture, texture.uniform);
     }
   }

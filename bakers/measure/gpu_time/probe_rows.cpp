@@ -17,14 +17,14 @@ class Probe {
  public:
   Probe(const NookGl& gl, const std::uint32_t (&counts)[3]) {
     nook_probe_fit_desc fit_desc;
-    need(nook_probe_fit_desc_init(&fit_desc, sizeof fit_desc, NOOK_VERSION));
+    succeed(nook_probe_fit_desc_init(&fit_desc, sizeof fit_desc, NOOK_VERSION));
     fit_desc.lobe_count = 12;
-    need(nook_probe_fit_create(gl.context(), &fit_desc, &fit_));
+    succeed(nook_probe_fit_create(gl.context(), &fit_desc, &fit_));
     nook_probe_fit_info info{};
     info.struct_size = sizeof info;
-    need(nook_probe_fit_describe(fit_, &info));
+    succeed(nook_probe_fit_describe(fit_, &info));
     nook_probe_desc desc;
-    need(nook_probe_desc_init(&desc, sizeof desc, NOOK_VERSION));
+    succeed(nook_probe_desc_init(&desc, sizeof desc, NOOK_VERSION));
     desc.functions = fit_;
     std::ranges::copy(counts, desc.counts);
     const float spacing = 1;
@@ -32,10 +32,10 @@ class Probe {
     std::vector<float> coefficients(std::size_t(3) * info.function_count * counts[0] * counts[1] * counts[2]);
     for (std::size_t i = 0; i < coefficients.size(); ++i) coefficients[i] = float(i % 7) / 7;
     desc.coefficients = coefficients.data();
-    need(nook_probe_create(gl.context(), &desc, &probe_));
-    need(nook_gl_probe_create(gl.get(), probe_, &uploaded_));
+    succeed(nook_probe_create(gl.context(), &desc, &probe_));
+    succeed(nook_gl_probe_create(gl.get(), probe_, &uploaded_));
     info_.struct_size = sizeof info_;
-    need(nook_gl_probe_describe(uploaded_, &info_));
+    succeed(nook_gl_probe_describe(uploaded_, &info_));
   }
   ~Probe() {
     nook_gl_probe_destroy(&uploaded_);

@@ -23,7 +23,9 @@ constexpr NamedForm forms[] = {{"NNAO 9", {9}},
                                {"NNAO 9, bent normals", {9, false, 1, true}},
                                {"NNAO 9, bent normals, half", {9, true, 1, true}},
                                {"NNAO 9, mean over frames", {9, false, 1, false, 4}},
-                               {"NNAO 9, filtered twice", {9, false, 2}}};
+                               {"NNAO 9, filtered twice", {9, false, 2}},
+                               {"NNAO 16, compute", {16, false, 1, false, 0, NOOK_NNAO_PATH_COMPUTE}},
+                               {"NNAO 64, compute", {64, false, 1, false, 0, NOOK_NNAO_PATH_COMPUTE}}};
 
 TracedView traced_room(std::uint32_t width, std::uint32_t height) {
   bake::Random random(seed);
@@ -31,33 +33,6 @@ TracedView traced_room(std::uint32_t width, std::uint32_t height) {
   const bake::RayScene rays(scene.soup);
   return trace_view(rays, place_camera(rays, scene, random, width, height));
 }
-
-// Of the compute path, which the comparison does not have.
-class ComputePass {
- public:
-  ComputePass(const NookGl& gl, int width, int height, int taps) {
-    nook_nnao_desc desc;
-    need(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
-    desc.max_width = width;
-    desc.max_height = height;
-    desc.taps = taps;
-    desc.path = NOOK_NNAO_PATH_COMPUTE;
-    need(nook_nnao_create(gl.get(), &desc, &pass_));
-  }
-  ~ComputePass() { nook_nnao_destroy(&pass_); }
-  ComputePass(const ComputePass&) = delete;
-  ComputePass& operator=(const ComputePass&) = delete;
-
-  void draw(const GpuView& view, const AoRequest& request) const {
-    nook_nnao_frame_desc frame = frame_of(view);
-    frame.radius = request.radius;
-    frame.max_radius_px = request.max_radius_px;
-    need(nook_nnao_render(pass_, &frame));
-  }
-
- private:
-  nook_nnao pass_ = nullptr;
-};
 
 }  // namespace
 
@@ -74,12 +49,6 @@ std::vector<TimedRow> time_screen(const Timing& timing) {
     NetworkPass pass(nook, width, height, named.form, {}, request.blur_sharpness);
     const Mat3x4 still;
     timing.add(rows, named.name, [&] { pass.draw(view, request, true, still); });
-  }
-  for (const int taps : {16, 64}) {
-    const std::string name = "NNAO " + std::to_string(taps) + ", compute";
-    if (!wanted(name)) continue;
-    const ComputePass pass(nook, width, height, taps);
-    timing.add(rows, name, [&] { pass.draw(view, request); });
   }
   BaselinePass baselines(gl, width, height);
   const auto add = [&](const BaselineMethod& method, const std::string& denoised) {

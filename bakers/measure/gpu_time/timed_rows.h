@@ -30,9 +30,6 @@ struct Timing {
   }
 };
 
-// Throws Failure with the text of nook_last_message.
-void need(nook_result result);
-
 // The screen pass in its forms and every method of the comparison with its own denoiser, all drawn with
 // fragment shaders, over one view of a procedural room at a radius of 0.5 metres; and the compute path.
 std::vector<TimedRow> time_screen(const Timing& timing);

@@ -29,26 +29,15 @@ TracedView floor_view(const Camera& camera) {
   return view;
 }
 
-// The inverse of a rotation and a translation, column by column.
-void put_view_matrix(float (&view)[16], const Mat3x4& world_from_view) {
-  const float* m = world_from_view.m;
-  for (int column = 0; column < 3; ++column)
-    for (int row = 0; row < 3; ++row) view[4 * column + row] = m[4 * column + row];
-  for (int row = 0; row < 3; ++row)
-    view[12 + row] = -(m[row] * m[3] + m[4 + row] * m[7] + m[8 + row] * m[11]);
-  view[3] = view[7] = view[11] = 0;
-  view[15] = 1;
-}
-
 class WorldPass {
  public:
   WorldPass(const NookGl& gl, int width, int height, bool half) {
     nook_world_pass_desc desc;
-    need(nook_world_pass_desc_init(&desc, sizeof desc, NOOK_VERSION));
+    succeed(nook_world_pass_desc_init(&desc, sizeof desc, NOOK_VERSION));
     desc.max_width = width;
     desc.max_height = height;
     desc.half_resolution = half;
-    need(nook_world_pass_create(gl.get(), &desc, &pass_));
+    succeed(nook_world_pass_create(gl.get(), &desc, &pass_));
   }
   ~WorldPass() { nook_world_pass_destroy(&pass_); }
   WorldPass(const WorldPass&) = delete;
@@ -72,10 +61,10 @@ std::vector<TimedRow> time_world(const Timing& timing, const std::filesystem::pa
   crowd.pose(0);
   const nook_nnao_frame_desc screen = frame_of(view);
   nook_world_frame_desc frame;
-  need(nook_world_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
+  succeed(nook_world_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
   frame.screen = &screen;
   frame.scene = crowd.scene();
-  put_view_matrix(frame.view, camera.world_from_view);
+  set_view(camera.world_from_view, frame.view);
   for (const bool half : {true, false})
     for (const float cutoff : {1.0f / 1024, 1.0f / 256}) {
       const std::string name = "world, 100 bodies, cutoff_error 1/" + std::to_string(int(1 / cutoff)) +
@@ -83,7 +72,7 @@ std::vector<TimedRow> time_world(const Timing& timing, const std::filesystem::pa
       if (!timing.wanted(name)) continue;
       const WorldPass pass(timing.nook, timing.width, timing.height, half);
       frame.cutoff_error = cutoff;
-      timing.add(rows, name, [&] { need(nook_world_render(pass.get(), &frame)); });
+      timing.add(rows, name, [&] { succeed(nook_world_render(pass.get(), &frame)); });
     }
   return rows;
 }

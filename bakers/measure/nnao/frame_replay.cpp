@@ -2,14 +2,8 @@
 
 #include <algorithm>
 
-#include "sdk/src/core/failure.h"
-
 namespace nook::measure {
 namespace {
-
-void succeed(nook_result result) {
-  if (result != NOOK_OK) throw Failure(result, "%s", nook_last_message());
-}
 
 std::unique_ptr<GpuImage> image_of(const GladGLContext& gl, GLint internal_format, GLenum format, int width,
                                    int height, const Vector<float>& texels) {

@@ -7,10 +7,6 @@
 namespace nook::measure {
 namespace {
 
-void succeed(nook_result result) {
-  if (result != NOOK_OK) throw Failure(result, "%s", nook_last_message());
-}
-
 // glFrustum's numbers for rays through the pixels; depth is linear, so the third row only has to be regular.
 void set_projection(const GpuView& view, float (&projection)[16]) {
   std::fill_n(projection, 16, 0.0f);
@@ -24,6 +20,24 @@ void set_projection(const GpuView& view, float (&projection)[16]) {
 }
 
 }  // namespace
+
+void succeed(nook_result result) {
+  if (result != NOOK_OK) throw Failure(result, "%s", nook_last_message());
+}
+
+void set_view(const Mat3x4& world_from_view, float (&view)[16]) {
+  const float* const m = world_from_view.m;
+  const Vec3 eye{m[3], m[7], m[11]};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 column{m[axis], m[4 + axis], m[8 + axis]};
+    view[axis] = column.x;
+    view[4 + axis] = column.y;
+    view[8 + axis] = column.z;
+    view[12 + axis] = -dot(column, eye);
+    view[4 * axis + 3] = 0;
+  }
+  view[15] = 1;
+}
 
 nook_nnao_frame_desc frame_of(const GpuView& view) {
   nook_nnao_frame_desc frame;
@@ -66,7 +80,7 @@ NetworkPass::NetworkPass(const NookGl& gl, int width, int height, const NetworkF
   desc.blur_sharpness = blur_sharpness;
   desc.bent_normals = form.bent;
   desc.temporal_frames = form.temporal_frames;
-  desc.path = NOOK_NNAO_PATH_FRAGMENT;  // as the baselines, so that times compare
+  desc.path = form.path;
   desc.network = network.empty() ? nullptr : network.data();
   desc.network_size = network.size();
   succeed(nook_nnao_create(gl.get(), &desc, &pass_));

@@ -12,6 +12,12 @@
 
 namespace nook::measure {
 
+// Throws Failure with the text of nook_last_message.
+void succeed(nook_result result);
+
+// The view matrix of a camera, the inverse of a rotation and a translation, column by column.
+void set_view(const Mat3x4& world_from_view, float (&view)[16]);
+
 // Owns what belongs to one OpenGL context.
 class NookGl {
  public:
@@ -38,6 +44,7 @@ struct NetworkForm {
   int blur = 1;       // how often the filter runs
   bool bent = false;  // with bent normals
   int temporal_frames = 0;
+  nook_nnao_path path = NOOK_NNAO_PATH_FRAGMENT;  // as the baselines, so that times compare
 };
 
 class NetworkPass {
