@@ -1,6 +1,6 @@
 #include "sdk/src/gl/material/neural_source.h"
 
-#include "sdk/src/gl/float_literal.h"
+#include "sdk/src/core/float_literal.h"
 #include "sdk/src/gl/material/formatted_text.h"
 
 namespace nook::gl {

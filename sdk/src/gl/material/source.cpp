@@ -1,7 +1,7 @@
 #include "sdk/src/gl/material/source.h"
 
+#include "sdk/src/core/float_literal.h"
 #include "sdk/src/gl/embedded_shaders.h"
-#include "sdk/src/gl/float_literal.h"
 #include "sdk/src/gl/material/formatted_text.h"
 #include "sdk/src/gl/material/neural_source.h"
 #include "sdk/src/material/footprint.h"
