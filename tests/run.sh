@@ -1,11 +1,22 @@
 #!/usr/bin/env bash
-# Builds everything and runs all tests from a fresh checkout: the format of the sources, the plain build with GCC, then the
-# library and the bakers under the address and undefined-behaviour sanitizers with Clang, then the library's threads under
-# the thread sanitizer. NOOK_BUILD_DIR is the folder (default: build).
+# Builds everything from a fresh checkout and runs all tests.
+#   tests/run.sh            installs packages.txt, checks the format of the sources, builds with GCC and runs every test
+#   tests/run.sh --all      adds what CI checks: the sources by the compilers of other platforms, the library and the bakers
+#                           under the address and undefined-behaviour sanitizers, and the library under the thread sanitizer
+# NOOK_BUILD_DIR is the build folder (default: build).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${NOOK_BUILD_DIR:-$root/build}
 jobs=$(nproc)
+
+all=OFF
+for argument in "$@"; do
+  case $argument in
+    --all) all=ON ;;
+    -h | --help) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
+    *) echo "run.sh: there is no option \"$argument\"; give --all, --help or nothing" >&2; exit 2 ;;
+  esac
+done
 
 "$root/install_packages.sh"
 
@@ -37,6 +48,19 @@ echo "== format"
 git -C "$root" ls-files -z -- '*.h' '*.hpp' '*.cpp' '*.c' '*.inl' |
   (cd "$root" && xargs -0 clang-format-14 --dry-run --Werror)
 
+echo "== build and tests"
+configure "$build" "-DCMAKE_C_COMPILER=$(command -v gcc)" "-DCMAKE_CXX_COMPILER=$(command -v g++)"
+ninja -C "$build"
+ctest --test-dir "$build" --output-on-failure -j "$jobs"
+
+if [ $all = OFF ]; then
+  echo "all tests passed; tests/run.sh --all adds other platforms and the sanitizers"
+  exit 0
+fi
+
+echo "== sources by the compilers of other platforms"
+NOOK_BUILD_DIR=$build "$root/tests/platforms_syntax.py"
+
 # A second compiler for the sanitized builds: it warns of other things, and has the fuzzers.
 clang=("-DCMAKE_C_COMPILER=$(command -v clang-16)" "-DCMAKE_CXX_COMPILER=$(command -v clang++-16)")
 # Sanitized code is compiled more than twice as fast as with -O2 -g, and its reports still name lines.
@@ -44,28 +68,6 @@ sanitized=(-DCMAKE_BUILD_TYPE=RelWithDebInfo)
 for language in C CXX; do
   sanitized+=("-DCMAKE_${language}_FLAGS_RELWITHDEBINFO=-O1 -g1 -DNDEBUG")
 done
-
-# The engines of samples/hosts are many packages: their tests run where all of them are installed. tests/hosts.sh installs them.
-hosts=OFF
-if dpkg-query -W $(sed 's/#.*//' "$root/samples/hosts/packages.txt") > /dev/null 2>&1; then hosts=ON; fi
-[ $hosts = ON ] || echo "== OGRE, OpenSceneGraph, VTK: LEFT OUT, packages of samples/hosts/packages.txt are missing"
-
-# So are those of the documents' site; links, snippets and lists of the documents are tested without them.
-dpkg-query -W $(sed 's/#.*//' "$root/docs/packages.txt") > /dev/null 2>&1 ||
-  echo "== the site of the documents: LEFT OUT, packages of docs/packages.txt are missing"
-
-echo "== build and tests"
-configure "$build" -DNOOK_HOSTS=$hosts "-DCMAKE_C_COMPILER=$(command -v gcc)" "-DCMAKE_CXX_COMPILER=$(command -v g++)"
-ninja -C "$build"
-ctest --test-dir "$build" --output-on-failure -j "$jobs"
-
-# Other platforms are many packages as well: MinGW with wine, the cross-compiler of ARM64 with qemu, Emscripten with node.
-if dpkg-query -W $(sed 's/#.*//' "$root/tests/portability/packages.txt") > /dev/null 2>&1; then
-  echo "== CPU results on other platforms"
-  NOOK_BUILD_DIR=$build NOOK_NATIVE=$build/tests/portability "$root/tests/portability.sh" --quick
-else
-  echo "== CPU results on other platforms: LEFT OUT, packages of tests/portability/packages.txt are missing"
-fi
 
 echo "== library and bakers under address and undefined-behaviour sanitizers"
 configure "$build-asan" "${clang[@]}" "${sanitized[@]}" -DNOOK_SANITIZE=ON -DNOOK_TOOL=OFF -DNOOK_SAMPLES=OFF
