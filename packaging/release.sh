@@ -4,6 +4,7 @@
 # Parts: source, python, blender, windows, debian, web, in this order; checksums and third-party notices always. A part whose tools are
 # missing is left out and named at the end; a part that fails ends the script. FOLDER (default: build-release) is emptied; the
 # files of the release end in FOLDER/release. NOOK_RELEASE (default: the version of nook.h) is the version in their names, such as 1.0.0-rc1.
+# It refuses a commit whose sources have not passed the runs that docs/platforms.md lists; docs/platforms_run.py makes them.
 # Files are the same on each run: their times are SOURCE_DATE_EPOCH, by default the time of the commit.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -20,6 +21,9 @@ export TZ=UTC LC_ALL=C.UTF-8 PYTHONDONTWRITEBYTECODE=1
 jobs=${NOOK_JOBS:-$(nproc)}
 name=nook-$version
 left_out=()
+
+# The checks of whole platforms have been run with these sources.
+"$root/docs/platforms_run.py" --check
 
 rm -rf "$out"
 mkdir -p "$out/release"
