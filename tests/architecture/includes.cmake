@@ -127,6 +127,7 @@ forbid(bakers "embree|[a-z]mmintrin|arm_neon|<intrin" "only sources of raytrace 
 foreach(folder platform samples tests)
   forbid(${folder} "embree[0-9]*/" "only sources of bakers/raytrace know Embree")
 endforeach()
+forbid(bakers/tool "CLI/" "CLI11 costs every file seconds: take bakers/tool/command_line.h" "/(command_line|main)[.]cpp$")
 forbid(bakers/measure/crowd "nook_gl|glad" "the sample draws what is measured")
 foreach(sample offscreen minimal)
   room(samples/${sample} samples/${sample})
