@@ -10,7 +10,7 @@
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${NOOK_BUILD_DIR:-$root/build}-portability
-all="linux clang libcxx windows windows-gl windows-static arm64 wasm msvc-syntax gl-zink gl-softpipe es30 es31 es32 es31-softpipe browser"
+all="linux clang libcxx windows windows-gl windows-static arm64 arm64-bakers wasm msvc-syntax gl-zink gl-softpipe es30 es31 es32 es31-softpipe browser"
 quick=OFF
 [ "${1:-}" = --quick ] && { quick=ON; build+=-quick; }
 native=$build-linux
@@ -137,6 +137,23 @@ row_arm64() {
   wrapper=()
   compile --toolchain "$root/cmake/toolchains/aarch64-linux-gnu.cmake" &&
     results qemu-aarch64-static -L /usr/aarch64-linux-gnu "$build-$row/cpu_results"
+}
+
+# The bakers and the tool as the ARM64 compiler reads them, without a link. Debian's packages have the same headers of Embree and
+# of the other libraries for both processors, so those of this machine serve.
+row_arm64-bakers() {
+  need aarch64-linux-gnu-g++
+  [ -d /usr/include/embree4 ] || [ -d /usr/include/embree3 ] || missing "libembree-dev is not installed"
+  local folder=$build-$row flags glad=$build-linux/nook/sdk/src/gl/glad/include
+  [ -d "$glad" ] || missing "the row linux has not made the header of OpenGL"
+  flags=(-std=c++20 -Wall -Wextra -Wshadow -Werror -DNOOK_STATIC "-DNOOK_SOURCE_ROOT=\"$root\"" -I. -Isdk/include
+         -isystem "$glad" -isystem /usr/include/eigen3 -idirafter /usr/include)
+  cd "$root" || return 1
+  printf '#include <%s>\n' algorithm filesystem functional map memory random string vector nlohmann/json.hpp > "$folder/common.h"
+  aarch64-linux-gnu-g++ "${flags[@]}" -x c++-header "$folder/common.h" -o "$folder/common.h.gch" || return 1
+  git ls-files 'bakers/*.cpp' 'platform/*.cpp' | tee "$folder/files" |
+    xargs -P "$jobs" -n 1 aarch64-linux-gnu-g++ "${flags[@]}" -include "$folder/common.h" -fsyntax-only || return 1
+  echo "$(wc -l < "$folder/files") files"
 }
 
 row_wasm() {

@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 
-#include "bakers/raytrace/embree.h"
+#include "bakers/raytrace/ray_scene.h"
 #include "platform/output_file.h"
 #include "sdk/src/core/failure.h"
 
@@ -30,35 +28,6 @@ Box bounds_of(std::span<const Vec3> points) {
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
   }
   return box;
-}
-
-void add_triangles(RTCDevice device, RTCScene scene, std::span<const std::array<std::uint32_t, 3>> triangles,
-                   std::span<const Vec3> positions) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  std::memcpy(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3),
-                                      positions.size()),
-              positions.data(), positions.size_bytes());
-  std::memcpy(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                      3 * sizeof(std::uint32_t), triangles.size()),
-              triangles.data(), triangles.size_bytes());
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);
-}
-
-RTCRayHit parallel_ray(Vec3 origin, Vec3 direction) {
-  RTCRayHit ray{};
-  ray.ray.org_x = origin.x;
-  ray.ray.org_y = origin.y;
-  ray.ray.org_z = origin.z;
-  ray.ray.dir_x = direction.x;
-  ray.ray.dir_y = direction.y;
-  ray.ray.dir_z = direction.z;
-  ray.ray.tfar = std::numeric_limits<float>::infinity();
-  ray.ray.mask = ~0u;
-  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  return ray;
 }
 
 std::uint8_t to_byte(float value) {
@@ -109,22 +78,17 @@ void BodyView::cast(std::span<const Vec3> positions_ws, const BodyCamera& camera
   const Vec3 right = normalised(cross(above, camera.towards)), up = cross(camera.towards, right);
   const float beyond =
       length(box.high - box.low) + length(0.5f * (box.low + box.high) - camera.centre_ws) + 1;
-  const EmbreeDevice device;
-  const EmbreeScene scene(device.get());
-  add_triangles(device.get(), scene.get(), triangles_, positions_ws);
+  const RayScene scene(RayDevice(), positions_ws, triangles_);
   const int columns = width_ * samples, rows = height_ * samples;
   hits_.resize(std::size_t(columns) * std::size_t(rows));
   tbb::parallel_for(0, rows, [&](int y) {
     for (int x = 0; x < columns; ++x) {
       const float to_right = ((float(x) + 0.5f) / samples - 0.5f * float(width_)) * camera.metres_per_pixel;
       const float to_top = (0.5f * float(height_) - (float(y) + 0.5f) / samples) * camera.metres_per_pixel;
-      RTCRayHit ray = parallel_ray(
+      const RayHit hit = scene.nearest(
           camera.centre_ws + to_right * right + to_top * up + beyond * camera.towards, -camera.towards);
-      intersect1(scene.get(), ray);
-      const bool hit = ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-      const Vec3 normal = normalised({ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z});
       hits_[std::size_t(y) * std::size_t(columns) + std::size_t(x)] = {
-          hit ? ray.hit.primID : nothing, ray.hit.u, ray.hit.v, std::fabs(dot(normal, camera.towards))};
+          hit.triangle, hit.u, hit.v, std::fabs(dot(hit.normal, camera.towards))};
     }
   });
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bakers/material/meso_surface.h"
-#include "bakers/raytrace/embree.h"
+#include "bakers/raytrace/ray_scene.h"
 
 namespace nook::bake::material {
 
@@ -37,8 +37,7 @@ class TiledScene {
  private:
   const MesoSurface& surface_;
   float top_, bottom_;
-  EmbreeDevice device_;
-  EmbreeScene tile_, plane_;
+  RayScene tile_, plane_;
 };
 
 // A vertex attribute at a hit.

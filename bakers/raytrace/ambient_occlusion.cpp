@@ -5,53 +5,36 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <mutex>
 
 #include "bakers/import/skinning.h"
-#include "bakers/raytrace/embree.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {
 
 // open_sum, where given, receives the sum of the directions of open rays.
-float trace_point(RTCScene scene, Vec3 position, Vec3 normal, const HemispherePatterns& patterns,
+float trace_point(const RayScene& scene, Vec3 position, Vec3 normal, const HemispherePatterns& patterns,
                   float radius, float origin_offset, std::uint64_t random, Vec3* open_sum = nullptr) {
   const float angle = 6.2831853f * unit_float(random);
   const Frame frame = turned_frame(normal, std::cos(angle), std::sin(angle));
   const Vec3* local = patterns.pattern(std::uint32_t(random));
   const Vec3 origin = position + origin_offset * normal;
   const std::uint32_t rays = patterns.rays();
-  std::uint32_t open = 0;
-  alignas(64) RTCRay16 packet;
-  alignas(64) int valid[16];
-  for (std::uint32_t first = 0; first < rays; first += 16) {
-    for (std::uint32_t lane = 0; lane < 16; ++lane) {
-      const bool used = first + lane < rays;
-      const Vec3 d = used ? local[first + lane] : Vec3{0, 0, 1};
-      const Vec3 direction = d.x * frame.x + d.y * frame.y + d.z * frame.z;
-      valid[lane] = used ? -1 : 0;
-      packet.org_x[lane] = origin.x;
-      packet.org_y[lane] = origin.y;
-      packet.org_z[lane] = origin.z;
-      packet.dir_x[lane] = direction.x;
-      packet.dir_y[lane] = direction.y;
-      packet.dir_z[lane] = direction.z;
-      packet.tnear[lane] = 0;
-      packet.tfar[lane] = used ? radius : -1;
-      packet.time[lane] = 0;
-      packet.mask[lane] = ~0u;
-      packet.id[lane] = lane;
-      packet.flags[lane] = 0;
-    }
-    occluded16(scene, valid, packet);
-    for (std::uint32_t lane = 0; lane < 16; ++lane) {
-      const bool is_open = valid[lane] && packet.tfar[lane] >= 0;
-      open += is_open;
-      if (open_sum && is_open) *open_sum += Vec3{packet.dir_x[lane], packet.dir_y[lane], packet.dir_z[lane]};
-    }
+  int open = 0;
+  std::array<Vec3, RayScene::packet_size> direction;
+  for (std::uint32_t first = 0; first < rays; first += std::uint32_t(direction.size())) {
+    const std::uint32_t count = std::min(rays - first, std::uint32_t(direction.size()));
+    for (std::uint32_t i = 0; i < count; ++i) direction[i] = to_world(frame, local[first + i]);
+    const std::uint32_t is_open = scene.open_rays(origin, {direction.data(), count}, radius);
+    open += std::popcount(is_open);
+    if (open_sum)
+      for (std::uint32_t i = 0; i < count; ++i)
+        if (is_open >> i & 1) *open_sum += direction[i];
   }
   return float(open) / float(rays);
 }
@@ -67,7 +50,7 @@ void trace_receivers(const RayScene& scene, const Receivers& receivers, const Ao
       const float offset =
           receivers.origin_offset.empty() ? settings.origin_offset : receivers.origin_offset[i];
       Vec3 open_sum;
-      ao[i] = trace_point(scene.get(), receivers.position[i], receivers.normal[i], patterns, radius, offset,
+      ao[i] = trace_point(scene, receivers.position[i], receivers.normal[i], patterns, radius, offset,
                           mix_bits(settings.seed ^ mix_bits(i)), direction.empty() ? nullptr : &open_sum);
       if (!direction.empty() && ao[i] > 0) direction[i] = open_sum * (1 / (ao[i] * float(settings.rays)));
     }
@@ -110,7 +93,7 @@ AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> pose
   targets.value.resize(poses.size() * mesh.vertex_count());
   const float offset = ray_origin_offset(mesh.position);
   const HemispherePatterns patterns(rays, seed);
-  const EmbreeDevice device;
+  const RayDevice device;
   struct Workspace {
     std::vector<Vec3> position, normal;
   };
@@ -126,12 +109,11 @@ AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> pose
         for (std::size_t p = range.begin(); p < range.end() && !cancelled; ++p) {
           skin_positions(mesh, poses[p], work.position);
           vertex_normals(mesh.triangle, work.position, work.normal);
-          const EmbreeScene scene(device.get());
-          build_scene(device.get(), scene.get(), work.position, mesh.triangle);
+          const RayScene scene(device, work.position, mesh.triangle);
           std::uint16_t* row = &targets.value[p * targets.vertex_count];
           for (std::size_t v = 0; v < targets.vertex_count; ++v) {
             const std::uint64_t random = mix_bits(mix_bits(seed + p) ^ v);
-            const float ao = trace_point(scene.get(), work.position[v], work.normal[v], patterns,
+            const float ao = trace_point(scene, work.position[v], work.normal[v], patterns,
                                          std::numeric_limits<float>::infinity(), offset, random);
             row[v] = std::uint16_t(std::lround(ao * 65535));
           }

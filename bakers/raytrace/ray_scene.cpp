@@ -1,5 +1,12 @@
 #include "bakers/raytrace/ray_scene.h"
 
+// Debian 12 has Embree 3, Debian 13 has Embree 4.
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -20,10 +27,45 @@ RTCRay unbounded_ray(Vec3 origin, Vec3 direction) {
   return ray;
 }
 
-}  // namespace
+// tfar of an occluded ray becomes -infinity.
+void occluded16(RTCScene scene, const int* valid, RTCRay16& rays) {
+#if RTC_VERSION_MAJOR >= 4
+  rtcOccluded16(valid, scene, &rays, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded16(valid, scene, &context, &rays);
+#endif
+}
 
-void build_scene(RTCDevice device, RTCScene scene, std::span<const Vec3> positions,
-                 std::span<const std::array<std::uint32_t, 3>> triangles) {
+void occluded1(RTCScene scene, RTCRay& ray) {
+#if RTC_VERSION_MAJOR >= 4
+  rtcOccluded1(scene, &ray, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene, &context, &ray);
+#endif
+}
+
+void intersect1(RTCScene scene, RTCRayHit& ray) {
+#if RTC_VERSION_MAJOR >= 4
+  rtcIntersect1(scene, &ray, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &ray);
+#endif
+}
+
+void attach(RTCScene scene, RTCGeometry geometry) {
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+}
+
+void attach_triangles(RTCDevice device, RTCScene scene, std::span<const Vec3> positions,
+                      std::span<const std::array<std::uint32_t, 3>> triangles) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                            sizeof(Vec3), positions.size());
@@ -31,18 +73,48 @@ void build_scene(RTCDevice device, RTCScene scene, std::span<const Vec3> positio
   void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                           3 * sizeof(std::uint32_t), triangles.size());
   std::memcpy(indices, triangles.data(), triangles.size_bytes());
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);
+  attach(scene, geometry);
 }
 
-RayScene::RayScene(const TriangleSoup& soup) : scene_(device_.get()) {
+}  // namespace
+
+// The device is single-threaded inside. Callers parallelise over scenes, so that results do not depend on
+// Embree's scheduling.
+RayDevice::RayDevice() : handle_(rtcNewDevice("threads=1,set_affinity=0")) {}
+
+RayDevice::~RayDevice() {
+  rtcReleaseDevice(handle_);
+}
+
+RayScene::RayScene(RTCDevice device) : device_(device), scene_(rtcNewScene(device)) {
+  rtcRetainDevice(device);
+}
+
+RayScene::RayScene(const TriangleSoup& soup) : RayScene(RayDevice(), soup.position, soup.triangle) {}
+
+RayScene::RayScene(const RayDevice& device, std::span<const Vec3> positions,
+                   std::span<const std::array<std::uint32_t, 3>> triangles)
+    : RayScene(device.handle_) {
   const FlushDenormals flush;
-  if (soup.triangle.empty())
-    rtcCommitScene(scene_.get());
-  else
-    build_scene(device_.get(), scene_.get(), soup.position, soup.triangle);
+  if (!triangles.empty()) attach_triangles(device_, scene_, positions, triangles);
+  rtcCommitScene(scene_);
+}
+
+RayScene::RayScene(const RayScene& original, std::span<const Vec3> offsets) : RayScene(original.device_) {
+  const FlushDenormals flush;
+  for (Vec3 offset : offsets) {
+    RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, original.scene_);
+    const float columns[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, offset.x, offset.y, offset.z};
+    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+    attach(scene_, instance);
+  }
+  rtcCommitScene(scene_);
+}
+
+RayScene::~RayScene() {
+  rtcReleaseScene(scene_);
+  rtcReleaseDevice(device_);
 }
 
 RayHit RayScene::nearest(Vec3 origin, Vec3 direction, float beyond) const {
@@ -51,7 +123,7 @@ RayHit RayScene::nearest(Vec3 origin, Vec3 direction, float beyond) const {
   if (beyond > 0) ray.ray.tnear = std::nextafter(beyond, std::numeric_limits<float>::infinity());
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  intersect1(scene_.get(), ray);
+  intersect1(scene_, ray);
   RayHit hit;
   hit.distance = std::numeric_limits<float>::infinity();
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
@@ -62,8 +134,35 @@ RayHit RayScene::nearest(Vec3 origin, Vec3 direction, float beyond) const {
 
 bool RayScene::occluded(Vec3 origin, Vec3 direction) const {
   alignas(16) RTCRay ray = unbounded_ray(origin, direction);
-  occluded1(scene_.get(), ray);
+  occluded1(scene_, ray);
   return ray.tfar < 0;
+}
+
+std::uint32_t RayScene::open_rays(Vec3 origin, std::span<const Vec3> directions, float reach) const {
+  alignas(64) RTCRay16 packet;
+  alignas(64) int valid[packet_size];
+  for (std::uint32_t lane = 0; lane < packet_size; ++lane) {
+    const bool used = lane < directions.size();
+    const Vec3 direction = used ? directions[lane] : Vec3{0, 0, 1};
+    valid[lane] = used ? -1 : 0;
+    packet.org_x[lane] = origin.x;
+    packet.org_y[lane] = origin.y;
+    packet.org_z[lane] = origin.z;
+    packet.dir_x[lane] = direction.x;
+    packet.dir_y[lane] = direction.y;
+    packet.dir_z[lane] = direction.z;
+    packet.tnear[lane] = 0;
+    packet.tfar[lane] = used ? reach : -1;
+    packet.time[lane] = 0;
+    packet.mask[lane] = ~0u;
+    packet.id[lane] = lane;
+    packet.flags[lane] = 0;
+  }
+  occluded16(scene_, valid, packet);
+  std::uint32_t open = 0;
+  for (std::uint32_t lane = 0; lane < directions.size(); ++lane)
+    open |= std::uint32_t(packet.tfar[lane] >= 0) << lane;
+  return open;
 }
 
 }  // namespace nook::bake

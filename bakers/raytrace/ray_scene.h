@@ -1,15 +1,17 @@
-// Triangles for ray tracing, and the camera rays of a picture.
+// Triangles for ray tracing, and the rays that meet them.
 #pragma once
-
-#include <pmmintrin.h>
 
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "bakers/raytrace/embree.h"
+#include "bakers/raytrace/flush_denormals.h"
 #include "sdk/src/core/vec.h"
+
+// Embree's handles. Only ray_scene.cpp includes Embree.
+struct RTCDeviceTy;
+struct RTCSceneTy;
 
 namespace nook::bake {
 
@@ -18,24 +20,6 @@ struct TriangleSoup {
   std::vector<Vec3> position;
   std::vector<std::array<std::uint32_t, 3>> triangle;
 };
-
-// Embree needs denormals flushed on every thread that traces. The caller's mode is restored afterwards.
-class FlushDenormals {
- public:
-  FlushDenormals() : saved_(_mm_getcsr()) {
-    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-  }
-  ~FlushDenormals() { _mm_setcsr(saved_); }
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
-
- private:
-  unsigned saved_;
-};
-
-void build_scene(RTCDevice device, RTCScene scene, std::span<const Vec3> positions,
-                 std::span<const std::array<std::uint32_t, 3>> triangles);
 
 // The first hit of a ray.
 struct RayHit {
@@ -46,18 +30,46 @@ struct RayHit {
   bool from_behind = false;  // the ray hit the side from which the vertices are clockwise
 };
 
-// A soup with its BVH, which may be empty. Any thread may trace.
+// Embree's device. Scenes that are built one after the other share one, because it takes longer to make than
+// a small scene. Any thread may use it.
+class RayDevice {
+ public:
+  RayDevice();
+  ~RayDevice();
+  RayDevice(const RayDevice&) = delete;
+  RayDevice& operator=(const RayDevice&) = delete;
+
+ private:
+  friend class RayScene;
+  RTCDeviceTy* handle_;
+};
+
+// Triangles with their BVH; there may be none. Any thread may trace, with FlushDenormals.
 class RayScene {
  public:
   explicit RayScene(const TriangleSoup& soup);
-  RTCScene get() const { return scene_.get(); }
-  // Hits up to and at `beyond`, in lengths of the direction, do not count.
+  RayScene(const RayDevice& device, std::span<const Vec3> positions,
+           std::span<const std::array<std::uint32_t, 3>> triangles);
+  // Copies of `original`, moved by these offsets. Hits have the triangles of `original`.
+  RayScene(const RayScene& original, std::span<const Vec3> offsets);
+  ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+
+  // Hits up to and at `beyond`, in lengths of the direction, do not count. Both sides of triangles count.
   RayHit nearest(Vec3 origin, Vec3 direction, float beyond = 0) const;
   bool occluded(Vec3 origin, Vec3 direction) const;  // by any triangle at any distance
 
+  // Traces up to 16 rays from one origin. Bit i of the result is 1 if no triangle is within `reach` along
+  // directions[i], in lengths of the direction.
+  static constexpr std::size_t packet_size = 16;
+  std::uint32_t open_rays(Vec3 origin, std::span<const Vec3> directions, float reach) const;
+
  private:
-  EmbreeDevice device_;
-  EmbreeScene scene_;
+  explicit RayScene(RTCDeviceTy* device);
+
+  RTCDeviceTy* device_;
+  RTCSceneTy* scene_;
 };
 
 }  // namespace nook::bake

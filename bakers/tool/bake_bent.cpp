@@ -1,11 +1,11 @@
 // nook bake bent: bent normals for a model that is already baked.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
 #include "bakers/job/bent_bake.h"
 #include "bakers/job/character_model.h"
 #include "bakers/tool/baking.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
@@ -47,31 +47,31 @@ void run(Options o) {
 
 }  // namespace
 
-void add_bake_bent(CLI::App& bake_command) {
-  CLI::App* command =
+void add_bake_bent(Command bake_command) {
+  const Command command =
       bake_command.add_subcommand("bent",
                                   "bent normals for a baked character: for each vertex two vectors of the "
                                   "directions that its body blocks, "
                                   "by ray tracing in a few poses. All else in the model stays as it is");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command->add_option("character", o.input, "the rigged character, .glb or .gltf")->required();
-  command->add_option("model", o.model, "its model, .nook")->required();
-  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
-  command->add_option("--auto-poses", o.task.auto_poses, "generated poses to fit to")
-      ->check(CLI::Range(8, 100000))
-      ->capture_default_str();
+  command.add_option("character", o.input, "the rigged character, .glb or .gltf").required();
+  command.add_option("model", o.model, "its model, .nook").required();
+  command.add_option("-o,--output", o.output, "the .nook file to write").required();
+  command.add_option("--auto-poses", o.task.auto_poses, "generated poses to fit to")
+      .check(in_range(8, 100000))
+      .capture_default_str();
   command
-      ->add_option("--samples-per-clip", o.task.samples_per_clip,
-                   "poses of each clip that the model was fitted to")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--rays", o.task.rays, "rays for each vertex and pose")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
-  add_linked_files_option(*command, o.linked);
-  add_common_options(*command, o.common);
-  command->callback([options] { run(*options); });
+      .add_option("--samples-per-clip", o.task.samples_per_clip,
+                  "poses of each clip that the model was fitted to")
+      .check(in_range(1, 100000))
+      .capture_default_str();
+  command.add_option("--rays", o.task.rays, "rays for each vertex and pose")
+      .check(in_range(1, 65536))
+      .capture_default_str();
+  add_linked_files_option(command, o.linked);
+  add_common_options(command, o.common);
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace nook::tool

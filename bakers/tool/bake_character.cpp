@@ -2,7 +2,6 @@
 // may name.
 #include <nook/nook_bake_character.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -12,6 +11,7 @@
 
 #include "bakers/api/import.h"
 #include "bakers/tool/character/clip_names.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
 #include "bakers/tool/distinct_files.h"
@@ -167,19 +167,19 @@ void run(const Options& options) {
 
 using Names = std::map<std::string, std::int32_t>;
 
-void add_choice(CLI::App& command, const char* name, std::int32_t& value, const Names& names,
+void add_choice(Command command, const char* name, std::int32_t& value, const Names& names,
                 const char* help) {
   std::vector<std::string> keys;
   for (const auto& entry : names) keys.push_back(entry.first);
   command
-      .add_option_function<std::string>(
+      .add_option_function(
           name, [&value, names](const std::string& key) { value = names.at(key); }, help)
-      ->check(CLI::IsMember(keys))
-      ->type_name("NAME");
+      .check(one_of(keys))
+      .type_name("NAME");
 }
 
 // The form of the model and how it is fitted.
-void add_form_options(CLI::App& command, Options& o) {
+void add_form_options(Command command, Options& o) {
   add_choice(command, "--kernel", o.kernel,
              {{"nook", NOOK_BAKE_KERNEL_NOOK},
               {"paper", NOOK_BAKE_KERNEL_PAPER},
@@ -188,35 +188,35 @@ void add_form_options(CLI::App& command, Options& o) {
   add_choice(command, "--fit", o.fit, {{"nook", NOOK_BAKE_FIT_NOOK}, {"paper", NOOK_BAKE_FIT_PAPER}},
              "nook (mini-batches, default) or paper (block coordinate descent with L-BFGS)");
   command
-      .add_option_function<std::string>(
+      .add_option_function(
           "--gamma", [&o](const std::string& text) { o.gamma = gamma_of(text); },
           "exponent of the shadow norm, 1 to 8 (default 1), or learned: the best of several short fits")
-      ->type_name("G|learned")
-      ->check(CLI::Range(1.0, 8.0) | CLI::IsMember({"learned"}));
+      .type_name("G|learned")
+      .check(in_range(1.0, 8.0) | one_of({"learned"}));
   command
       .add_option("--saturation", o.saturation,
                   "saturation of the key points before the fit (default 0.5, and none with --fit paper or "
                   "another --gamma than 1), which the fit changes; 0: none")
-      ->check(CLI::Range(0.0, 64.0));
+      .check(in_range(0.0, 64.0));
 }
 
 }  // namespace
 
-void add_bake_character(CLI::App& bake) {
-  CLI::App* command =
+void add_bake_character(Command bake) {
+  const Command command =
       bake.add_subcommand("character", "bake a rigged character for dynamic ambient occlusion");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command->add_option("input", o.input, "character, .glb or .gltf")->required();
-  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
-  add_linked_files_option(*command, o.linked);
+  command.add_option("input", o.input, "character, .glb or .gltf").required();
+  command.add_option("-o,--output", o.output, "the .nook file to write").required();
+  add_linked_files_option(command, o.linked);
   add_choice(
-      *command, "--preset", o.preset,
+      command, "--preset", o.preset,
       {{"draft", NOOK_BAKE_PRESET_DRAFT},
        {"standard", NOOK_BAKE_PRESET_STANDARD},
        {"production", NOOK_BAKE_PRESET_PRODUCTION}},
       "draft (about 20 s), standard (up to 5 minutes, the default) or production (up to half an hour)");
-  add_choice(*command, "--poses", o.poses,
+  add_choice(command, "--poses", o.poses,
              {{"auto", NOOK_BAKE_POSES_AUTO},
               {"single-joint", NOOK_BAKE_POSES_SINGLE_JOINT},
               {"clips", NOOK_BAKE_POSES_CLIPS},
@@ -224,30 +224,29 @@ void add_bake_character(CLI::App& bake) {
              "what to fit: auto (generated poses), single-joint (a grid of rotations of each joint alone), "
              "clips, or all (auto "
              "and clips, the default)");
-  command->add_option("--clips", o.clips, "fit only these clips of the file")->delimiter(',');
+  command.add_option("--clips", o.clips, "fit only these clips of the file").delimiter(',');
   add_choice(
-      *command, "--split", o.split,
+      command, "--split", o.split,
       {{"all", NOOK_BAKE_SPLIT_ALL}, {"half", NOOK_BAKE_SPLIT_HALF}, {"families", NOOK_BAKE_SPLIT_FAMILIES}},
       "without --clips: all motion clips (default), or half: every second one in byte order of the names, "
       "so that `evaluate` measures on the others, or families: the same with clips whose names begin with "
       "the same word, behind a prefix that all of them share, taken together, such as Jump_Start and "
       "Jump_Land. T- and A-poses are never fitted");
-  command->add_option("--spheres", o.spheres, "proxy spheres at most")->check(CLI::Range(1, 1024));
-  command->add_option("--key-points", o.key_points, "key points at most")->check(CLI::Range(1, 4096));
-  command->add_option("--rays", o.rays, "rays for each vertex and pose")->check(CLI::Range(1, 65536));
-  command->add_option("--auto-poses", o.auto_poses, "number of generated poses")
-      ->check(CLI::Range(1, 1000000));
-  command->add_option("--samples-per-clip", o.samples_per_clip, "poses of each clip")
-      ->check(CLI::Range(1, 1000000));
-  command->add_option("--steps", o.steps, "steps of the fit (--fit paper: rounds)")
-      ->check(CLI::Range(1, 10000000));
-  add_form_options(*command, o);
+  command.add_option("--spheres", o.spheres, "proxy spheres at most").check(in_range(1, 1024));
+  command.add_option("--key-points", o.key_points, "key points at most").check(in_range(1, 4096));
+  command.add_option("--rays", o.rays, "rays for each vertex and pose").check(in_range(1, 65536));
+  command.add_option("--auto-poses", o.auto_poses, "number of generated poses").check(in_range(1, 1000000));
+  command.add_option("--samples-per-clip", o.samples_per_clip, "poses of each clip")
+      .check(in_range(1, 1000000));
+  command.add_option("--steps", o.steps, "steps of the fit (--fit paper: rounds)")
+      .check(in_range(1, 10000000));
+  add_form_options(command, o);
   command
-      ->add_option("--time-limit", o.time_limit_s,
-                   "end the fit after so many seconds; such a bake is not reproducible bit for bit")
-      ->check(CLI::PositiveNumber);
-  add_common_options(*command, o.common);
-  command->callback([options] { run(*options); });
+      .add_option("--time-limit", o.time_limit_s,
+                  "end the fit after so many seconds; such a bake is not reproducible bit for bit")
+      .check(positive_number());
+  add_common_options(command, o.common);
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace nook::tool

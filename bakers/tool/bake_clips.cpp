@@ -1,5 +1,4 @@
 // nook bake clips: the AO and the poses of a character's clips, for crowds without bones on the CPU.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 #include "bakers/job/clip_bake.h"
 #include "bakers/job/worker_arena.h"
 #include "bakers/tool/character/clip_names.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
 #include "bakers/tool/distinct_files.h"
@@ -84,40 +84,40 @@ void run(Options o) {
 
 }  // namespace
 
-void add_bake_clips(CLI::App& bake_command) {
-  CLI::App* command = bake_command.add_subcommand(
+void add_bake_clips(Command bake_command) {
+  const Command command = bake_command.add_subcommand(
       "clips",
       "the ray-traced AO and the poses of a character's clips as a small table over frames: a crowd that is "
       "drawn from baked animation needs no bones on the CPU");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command->add_option("input", o.input, "the character, .glb or .gltf")->required();
-  command->add_option("model", o.model, "its baked model, .nook")->required();
-  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
-  command->add_option("--clips", o.task.clips, "only these clips (default: all but T- and A-poses)")
-      ->delimiter(',');
-  command->add_option("--frames-per-second", o.task.frames_per_second, "frames of each second of a clip")
-      ->check(CLI::Range(0.1, 1000.0))
-      ->capture_default_str();
-  command->add_option("--rays", o.task.rays, "rays for each vertex and frame")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
+  command.add_option("input", o.input, "the character, .glb or .gltf").required();
+  command.add_option("model", o.model, "its baked model, .nook").required();
+  command.add_option("-o,--output", o.output, "the .nook file to write").required();
+  command.add_option("--clips", o.task.clips, "only these clips (default: all but T- and A-poses)")
+      .delimiter(',');
+  command.add_option("--frames-per-second", o.task.frames_per_second, "frames of each second of a clip")
+      .check(in_range(0.1, 1000.0))
+      .capture_default_str();
+  command.add_option("--rays", o.task.rays, "rays for each vertex and frame")
+      .check(in_range(1, 65536))
+      .capture_default_str();
   command
-      ->add_option("--max-error", o.task.tables.max_error,
-                   "AO, root mean square: the file takes as many modes as this needs")
-      ->check(CLI::Range(1e-4, 1.0))
-      ->capture_default_str();
+      .add_option("--max-error", o.task.tables.max_error,
+                  "AO, root mean square: the file takes as many modes as this needs")
+      .check(in_range(1e-4, 1.0))
+      .capture_default_str();
   command
-      ->add_option("--max-bytes", o.task.tables.max_bytes,
-                   "bytes of the file for each frame and vertex; modes beyond it are left out")
-      ->check(CLI::Range(1e-4, 100.0))
-      ->capture_default_str();
-  command->add_option("--max-modes", o.task.tables.max_modes, "modes of AO, a multiple of 4")
-      ->check(CLI::Range(4u, ClipSet::max_ao_modes))
-      ->capture_default_str();
-  add_linked_files_option(*command, o.linked);
-  add_common_options(*command, o.common);
-  command->callback([options] { run(*options); });
+      .add_option("--max-bytes", o.task.tables.max_bytes,
+                  "bytes of the file for each frame and vertex; modes beyond it are left out")
+      .check(in_range(1e-4, 100.0))
+      .capture_default_str();
+  command.add_option("--max-modes", o.task.tables.max_modes, "modes of AO, a multiple of 4")
+      .check(in_range(4u, ClipSet::max_ao_modes))
+      .capture_default_str();
+  add_linked_files_option(command, o.linked);
+  add_common_options(command, o.common);
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace nook::tool

@@ -1,10 +1,10 @@
 // nook bake lod: the model of a mesh of less detail, from the bake of the full mesh.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
 #include "bakers/job/lod_bake.h"
 #include "bakers/tool/baking.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
@@ -46,28 +46,28 @@ void run(Options o) {
 
 }  // namespace
 
-void add_bake_lod(CLI::App& bake_command) {
-  CLI::App* command = bake_command.add_subcommand(
+void add_bake_lod(Command bake_command) {
+  const Command command = bake_command.add_subcommand(
       "lod",
       "the model of another mesh of a baked character, such as a level of detail: the mesh keeps the "
       "character's spheres, key points and casters, and its vertices are fitted to its own shape in seconds");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command->add_option("model", o.model, "the baked full mesh, .nook")->required();
-  command->add_option("mesh", o.input, "the other mesh with the same skeleton, .glb or .gltf")->required();
-  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
-  command->add_option("--auto-poses", o.task.auto_poses, "generated poses to fit to")
-      ->check(CLI::Range(8, 100000))
-      ->capture_default_str();
-  command->add_option("--samples-per-clip", o.task.samples_per_clip, "poses of each clip of the mesh's file")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--rays", o.task.rays, "rays for each vertex and pose")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
-  add_linked_files_option(*command, o.linked);
-  add_common_options(*command, o.common);
-  command->callback([options] { run(*options); });
+  command.add_option("model", o.model, "the baked full mesh, .nook").required();
+  command.add_option("mesh", o.input, "the other mesh with the same skeleton, .glb or .gltf").required();
+  command.add_option("-o,--output", o.output, "the .nook file to write").required();
+  command.add_option("--auto-poses", o.task.auto_poses, "generated poses to fit to")
+      .check(in_range(8, 100000))
+      .capture_default_str();
+  command.add_option("--samples-per-clip", o.task.samples_per_clip, "poses of each clip of the mesh's file")
+      .check(in_range(1, 100000))
+      .capture_default_str();
+  command.add_option("--rays", o.task.rays, "rays for each vertex and pose")
+      .check(in_range(1, 65536))
+      .capture_default_str();
+  add_linked_files_option(command, o.linked);
+  add_common_options(command, o.common);
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace nook::tool

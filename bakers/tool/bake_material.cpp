@@ -1,6 +1,5 @@
 // nook bake material: ray traces a meso-structure or the maps of a physically based material, or reads a
 // measured BTF, and compresses it.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "bakers/job/worker_arena.h"
 #include "bakers/measure/material/pictures.h"
 #include "bakers/measure/material/report.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
 #include "bakers/tool/distinct_files.h"
@@ -286,8 +286,8 @@ void run(Options& o) {
 
 }  // namespace
 
-void add_bake_material(CLI::App& bake) {
-  CLI::App* command = bake.add_subcommand(
+void add_bake_material(Command bake) {
+  const Command command = bake.add_subcommand(
       "material",
       "compress a meso-structure, the maps of a material or a measured BTF for real-time decoding");
   const auto options = std::make_shared<Options>();
@@ -295,73 +295,73 @@ void add_bake_material(CLI::App& bake) {
   std::string names;
   for (const std::string_view name : meso_names()) names.append(names.empty() ? "" : ", ").append(name);
   command
-      ->add_option(
+      .add_option(
           "--meso", o.meso,
           "a meso-structure, ray traced: " + names + ", or one tile as a closed mesh, y up, .glb or .gltf")
-      ->type_name("NAME|TILE.glb");
-  command->add_option(
+      .type_name("NAME|TILE.glb");
+  command.add_option(
       "--pbr", o.pbr,
       "a folder with the maps of a physically based material, ray traced: base colour, normal, "
       "roughness or gloss, metalness, height, by their names");
   command
-      ->add_option("--height-scale", o.height_scale_m,
-                   "of --pbr and of an image of --relief: metres from 0 to 1 of the height map; 1 where it "
-                   "holds metres")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+      .add_option("--height-scale", o.height_scale_m,
+                  "of --pbr and of an image of --relief: metres from 0 to 1 of the height map; 1 where it "
+                  "holds metres")
+      .check(non_negative_number())
+      .capture_default_str();
   command
-      ->add_option("--tile-size", o.tile_side_m,
-                   "metres after which the mesh of --meso repeats along x and z, and the maps of --pbr and "
-                   "the image of --relief")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  add_linked_files_option(*command, o.linked);
-  command->add_option("--btf", o.btf,
-                      "a folder of measured images, tl pl tv pv in their names (UBO 2003, UTIA), or a .btf "
-                      "file (UBO 2014)");
+      .add_option("--tile-size", o.tile_side_m,
+                  "metres after which the mesh of --meso repeats along x and z, and the maps of --pbr and "
+                  "the image of --relief")
+      .check(positive_number())
+      .capture_default_str();
+  add_linked_files_option(command, o.linked);
+  command.add_option("--btf", o.btf,
+                     "a folder of measured images, tl pl tv pv in their names (UBO 2003, UTIA), or a .btf "
+                     "file (UBO 2014)");
   command
-      ->add_option_function<std::string>(
+      .add_option_function(
           "--btf-colours",
           [&o](const std::string& v) { o.colours = v == "xyz" ? FloatColours::xyz : FloatColours::rgb; },
           "of float images of --btf: linear rgb (default), or xyz under D65 (UTIA)")
-      ->check(CLI::IsMember({"rgb", "xyz"}))
-      ->type_name("NAME");
-  command->add_option("--raw", o.raw, "a raw material that --keep-raw wrote");
-  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
-  command->add_option("--keep-raw", o.keep_raw, "write the uncompressed material, for `evaluate material`");
-  command->add_option("--images", o.images,
-                      "write pictures of the raw and the decoded material to this folder");
-  command->add_option("--directions", o.directions, "light and view directions of --meso and --pbr")
-      ->check(CLI::Range(4, 1024))
-      ->capture_default_str();
-  command->add_option("--lights", o.lights, "light directions, where they are to be others than the views")
-      ->check(CLI::Range(4, 1024));
-  command->add_option("--max-tilt", o.max_tilt_deg, "their largest angle to the normal, degrees")
-      ->check(CLI::Range(10.0, 80.0))
-      ->capture_default_str();
+      .check(one_of({"rgb", "xyz"}))
+      .type_name("NAME");
+  command.add_option("--raw", o.raw, "a raw material that --keep-raw wrote");
+  command.add_option("-o,--output", o.output, "the .nook file to write").required();
+  command.add_option("--keep-raw", o.keep_raw, "write the uncompressed material, for `evaluate material`");
+  command.add_option("--images", o.images,
+                     "write pictures of the raw and the decoded material to this folder");
+  command.add_option("--directions", o.directions, "light and view directions of --meso and --pbr")
+      .check(in_range(4, 1024))
+      .capture_default_str();
+  command.add_option("--lights", o.lights, "light directions, where they are to be others than the views")
+      .check(in_range(4, 1024));
+  command.add_option("--max-tilt", o.max_tilt_deg, "their largest angle to the normal, degrees")
+      .check(in_range(10.0, 80.0))
+      .capture_default_str();
   command
-      ->add_option("--texels", o.texels,
-                   "--meso, --pbr: texels a side, default 96; --btf: a square from the middle, default all")
-      ->check(CLI::Range(1, 1024));
-  command->add_option("--samples", o.trace.samples, "view rays along a texel's side")
-      ->check(CLI::Range(1, 16))
-      ->capture_default_str();
-  command->add_option("--bounces", o.trace.bounces, "diffuse inter-reflections")
-      ->check(CLI::Range(0, 16))
-      ->capture_default_str();
-  command->add_option("--bounce-rays", o.trace.bounce_rays, "rays that gather light at a vertex")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
-  command->add_option("--count", o.count, "of --meso: fibres; holes a side; yarns a side")
-      ->check(CLI::Range(1, 1000));
-  command->add_option("--radius", o.radius, "of --meso: of a fibre; of a hole; half a yarn's width; tiles");
-  command->add_option("--thickness", o.thickness, "of --meso: of the mat; of the plate; of a yarn; tiles");
-  command->add_option("--roughness", o.roughness, "of --meso: wander of fibres; noise; depth of plies");
-  command->add_option("--detail", o.detail, "of --meso: triangles along a length, relative to the default")
-      ->check(CLI::Range(0.1, 4.0));
+      .add_option("--texels", o.texels,
+                  "--meso, --pbr: texels a side, default 96; --btf: a square from the middle, default all")
+      .check(in_range(1, 1024));
+  command.add_option("--samples", o.trace.samples, "view rays along a texel's side")
+      .check(in_range(1, 16))
+      .capture_default_str();
+  command.add_option("--bounces", o.trace.bounces, "diffuse inter-reflections")
+      .check(in_range(0, 16))
+      .capture_default_str();
+  command.add_option("--bounce-rays", o.trace.bounce_rays, "rays that gather light at a vertex")
+      .check(in_range(1, 4096))
+      .capture_default_str();
+  command.add_option("--count", o.count, "of --meso: fibres; holes a side; yarns a side")
+      .check(in_range(1, 1000));
+  command.add_option("--radius", o.radius, "of --meso: of a fibre; of a hole; half a yarn's width; tiles");
+  command.add_option("--thickness", o.thickness, "of --meso: of the mat; of the plate; of a yarn; tiles");
+  command.add_option("--roughness", o.roughness, "of --meso: wander of fibres; noise; depth of plies");
+  command.add_option("--detail", o.detail, "of --meso: triangles along a length, relative to the default")
+      .check(in_range(0.1, 4.0));
   CompressionSettings& s = o.compression.settings;
   command
-      ->add_option_function<std::string>(
+      .add_option_function(
           "--method",
           [&s](const std::string& v) {
             s.method = v == "n-svd"    ? Method::n_svd
@@ -372,20 +372,20 @@ void add_bake_material(CLI::App& bake) {
           "k-cta (default), cta, n-svd, or neural: a small network over features of the texels, for flat and "
           "glossy "
           "materials, which trains for minutes; its visibility is that of k-cta")
-      ->check(CLI::IsMember({"k-cta", "cta", "n-svd", "neural"}))
-      ->type_name("NAME");
+      .check(one_of({"k-cta", "cta", "n-svd", "neural"}))
+      .type_name("NAME");
   command
-      ->add_option(
+      .add_option(
           "--channels", s.neural_channels,
           "of --method neural: channels of the features, a multiple of 4 up to 64; half a byte of the file "
           "each for a texel")
-      ->check(CLI::Range(4, 64))
-      ->capture_default_str();
-  command->add_option("--steps", s.neural_steps, "of --method neural: steps of the training")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+      .check(in_range(4, 64))
+      .capture_default_str();
+  command.add_option("--steps", s.neural_steps, "of --method neural: steps of the training")
+      .check(in_range(1, 1000000))
+      .capture_default_str();
   command
-      ->add_option_function<std::string>(
+      .add_option_function(
           "--votf",
           [&s](const std::string& v) {
             s.visibility = v == "none"     ? VisibilityForm::none
@@ -393,29 +393,29 @@ void add_bake_material(CLI::App& bake) {
                                            : VisibilityForm::distance;
           },
           "visibility as distance (default), binary or none")
-      ->check(CLI::IsMember({"distance", "binary", "none"}))
-      ->type_name("NAME");
+      .check(one_of({"distance", "binary", "none"}))
+      .type_name("NAME");
   command
-      ->add_option(
+      .add_option(
           "--visibility-mapping", o.visibility_mapping,
           "threshold and weight that make visibility of the VOTF's values; paper: 0.5,1 of masks, 0.05,12 of "
           "distances. Default: 0.5,1 of masks; of distances T half a texel, W = 1 / T")
-      ->type_name("T,W|paper");
+      .type_name("T,W|paper");
   command
-      ->add_option("--view-map", s.map_side,
-                   "cells along the side of K-CTA's resampled view maps; 0: none, decoding then "
-                   "mixes the three nearest views, for up to three times the work")
-      ->check(CLI::Range(0, 512))
-      ->capture_default_str();
+      .add_option("--view-map", s.map_side,
+                  "cells along the side of K-CTA's resampled view maps; 0: none, decoding then "
+                  "mixes the three nearest views, for up to three times the work")
+      .check(in_range(0, 512))
+      .capture_default_str();
   command
-      ->add_option(
+      .add_option(
           "--step-penalty", s.step_penalty,
           "of the steps between cells of the BTF's view map, for a calmer picture as the view moves; 10 "
           "halves the largest for some error")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
+      .check(in_range(0.0, 1000.0))
+      .capture_default_str();
   command
-      ->add_option_function<std::string>(
+      .add_option_function(
           "--relief",
           [&o, &s](const std::string& v) {
             s.relief = v == "none"        ? ReliefSource::none
@@ -426,10 +426,10 @@ void add_bake_material(CLI::App& bake) {
           "estimated: views are aligned by heights that they agree on, which pixels march, so that what lies "
           "between them is sharper; no relief where that predicts no view better. known: by the heights of "
           "--meso or --pbr; or those of an image, as --pbr reads them. none (default)")
-      ->type_name("none|estimated|known|IMAGE");
-  add_compression_options(*command, o.compression);
-  add_common_options(*command, o.common);
-  command->callback([options] { run(*options); });
+      .type_name("none|estimated|known|IMAGE");
+  add_compression_options(command, o.compression);
+  add_common_options(command, o.common);
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace nook::tool

@@ -1,7 +1,7 @@
 // nook bake probe: one probe of an environment map, or a grid of them in a path-traced scene.
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/probe/bake.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
@@ -46,73 +46,73 @@ void run(const BakeProbeOptions& options) {
 
 }  // namespace
 
-void add_bake_probe(CLI::App& bake_command) {
-  CLI::App* command = bake_command.add_subcommand(
+void add_bake_probe(Command bake_command) {
+  const Command command = bake_command.add_subcommand(
       "probe", "spherical-Gaussian light probes of an environment map, or of a path-traced scene");
   const auto options = std::make_shared<BakeProbeOptions>();
   BakeProbeOptions& o = *options;
-  command->add_option("input", o.input, "a latitude-longitude map, .hdr or .exr, or a scene, .glb or .gltf")
-      ->required();
-  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
-  add_probe_options(*command, o.probe);
+  command.add_option("input", o.input, "a latitude-longitude map, .hdr or .exr, or a scene, .glb or .gltf")
+      .required();
+  command.add_option("-o,--output", o.output, "the .nook file to write").required();
+  add_probe_options(command, o.probe);
   command
-      ->add_option(
+      .add_option(
           "--sampling", o.sampling,
           "of a map: texels takes each once, luminance and uniform draw; automatic: texels where the method "
           "solves, else luminance")
-      ->check(CLI::IsMember({"automatic", "texels", "luminance", "uniform"}))
-      ->capture_default_str();
+      .check(one_of({"automatic", "texels", "luminance", "uniform"}))
+      .capture_default_str();
   command
-      ->add_option(
+      .add_option(
           "--samples", o.samples,
           "of a map: how many to draw (default 1048576); of a scene: at most for each probe (default 65536)")
-      ->check(CLI::Range(64u, 1u << 30));
-  command->add_option(
+      .check(in_range(64u, 1u << 30));
+  command.add_option(
       "--picture", o.picture,
       "of a map: write its picture, the probe's radiance and irradiance and the error as one .png");
   command
-      ->add_option_function<std::string>(
+      .add_option_function(
           "--grid", [&o](const std::string& text) { o.grid = parse_grid_counts(text); },
           "of a scene: probes along x, y and z, AxBxC")
-      ->type_name("AxBxC");
-  command->add_option("--light", o.light, "of a scene: the map round it");
+      .type_name("AxBxC");
+  command.add_option("--light", o.light, "of a scene: the map round it");
   command
-      ->add_option_function<std::string>(
+      .add_option_function(
           "--box", [&o](const std::string& text) { o.box = parse_grid_box(text); },
           "of a scene: what the grid fills, x0,y0,z0,x1,y1,z1 in metres; default all of it")
-      ->type_name("BOX");
+      .type_name("BOX");
   command
-      ->add_option("--error", o.error,
-                   "of a scene: stop at this statistical error, relative to the light there is")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+      .add_option("--error", o.error,
+                  "of a scene: stop at this statistical error, relative to the light there is")
+      .check(in_range(0.0, 1.0))
+      .capture_default_str();
   command
-      ->add_option("--preview-every", o.preview_every_s,
-                   "of a scene: seconds after which the output is written as far as it is")
-      ->check(CLI::Range(0.0, 1e9));
-  command->add_option("--max-bounces", o.max_bounces, "of a scene: reflections that count; default all");
+      .add_option("--preview-every", o.preview_every_s,
+                  "of a scene: seconds after which the output is written as far as it is")
+      .check(in_range(0.0, 1e9));
+  command.add_option("--max-bounces", o.max_bounces, "of a scene: reflections that count; default all");
   command
-      ->add_option(
+      .add_option(
           "--direct", o.direct,
           "of a scene: what probes hold of the map's light that reaches them straight: none, the sky without "
           "suns, "
           "or all; reflected light always counts, and the report names the suns that are left to the host")
-      ->check(CLI::IsMember(measure::direct_names()))
-      ->capture_default_str();
-  command->add_flag(
+      .check(one_of(measure::direct_names()))
+      .capture_default_str();
+  command.add_flag(
       "--walls", o.walls,
       "of a scene: move probes out of solids, learn at which side of a wall which probe counts, and "
       "fit the probes to the light on surfaces; needs --basis harmonics --order 2");
   command
-      ->add_option("--training-paths", o.training_paths,
-                   "with --walls: for each place that walls and probes are fitted to")
-      ->check(CLI::Range(1u, 1u << 24))
-      ->capture_default_str();
-  add_linked_files_option(*command, o.linked);
-  command->add_flag("--no-textures", o.no_textures,
-                    "of a scene: colour factors stand for textures, and alpha masks are solid");
-  add_common_options(*command, o.common);
-  command->callback([options] { run(*options); });
+      .add_option("--training-paths", o.training_paths,
+                  "with --walls: for each place that walls and probes are fitted to")
+      .check(in_range(1u, 1u << 24))
+      .capture_default_str();
+  add_linked_files_option(command, o.linked);
+  command.add_flag("--no-textures", o.no_textures,
+                   "of a scene: colour factors stand for textures, and alpha masks are solid");
+  add_common_options(command, o.common);
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace nook::tool

@@ -1,10 +1,10 @@
 // nook bake synthesis: a coordinate texture that spreads a material over a plane.
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "bakers/job/synthesis_bake.h"
 #include "bakers/measure/synthesis/plane_picture.h"
 #include "bakers/tool/baking.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/image_folder.h"
 #include "bakers/tool/input_file.h"
@@ -59,37 +59,36 @@ void run(Options& o) {
 
 }  // namespace
 
-void add_bake_synthesis(CLI::App& bake_command) {
-  CLI::App* command = bake_command.add_subcommand(
+void add_bake_synthesis(Command bake_command) {
+  const Command command = bake_command.add_subcommand(
       "synthesis", "a coordinate texture that spreads a material over a plane without visible repeats");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command
-      ->add_option("input", o.input,
-                   "the material, a .nook file of `bake material`, or what --keep-raw wrote")
-      ->required();
-  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
+      .add_option("input", o.input, "the material, a .nook file of `bake material`, or what --keep-raw wrote")
+      .required();
+  command.add_option("-o,--output", o.output, "the .nook file to write").required();
   command
-      ->add_option("--size", o.settings.side,
-                   "texels along a side of the plane, which repeats after them: a multiple of 64")
-      ->check(CLI::Range(bake::synthesis::side_step, nook::synthesis::max_side))
-      ->capture_default_str();
-  command->add_flag("!--no-tile", o.is_tiling,
-                    "the material does not repeat without a seam, as measured ones");
-  command->add_option("--crop", o.crop, "X Y WIDTH HEIGHT: the part of the material that may show, in texels")
-      ->expected(4);
+      .add_option("--size", o.settings.side,
+                  "texels along a side of the plane, which repeats after them: a multiple of 64")
+      .check(in_range(bake::synthesis::side_step, nook::synthesis::max_side))
+      .capture_default_str();
+  command.add_flag("!--no-tile", o.is_tiling,
+                   "the material does not repeat without a seam, as measured ones");
+  command.add_option("--crop", o.crop, "X Y WIDTH HEIGHT: the part of the material that may show, in texels")
+      .expected(4);
   command
-      ->add_option("--jitter", o.settings.jitter,
-                   "random movement, 0 to 1: more of it repeats less and has more seams")
-      ->check(CLI::Range(0.0f, 1.0f))
-      ->capture_default_str();
-  command->add_option("--passes", o.settings.passes, "corrections at each level")
-      ->check(CLI::Range(1u, 16u))
-      ->capture_default_str();
-  command->add_option("--images", o.images,
-                      "write a picture of the plane without and with the coordinates to this folder");
-  add_common_options(*command, o.common);
-  command->callback([options] { run(*options); });
+      .add_option("--jitter", o.settings.jitter,
+                  "random movement, 0 to 1: more of it repeats less and has more seams")
+      .check(in_range(0.0f, 1.0f))
+      .capture_default_str();
+  command.add_option("--passes", o.settings.passes, "corrections at each level")
+      .check(in_range(1u, 16u))
+      .capture_default_str();
+  command.add_option("--images", o.images,
+                     "write a picture of the plane without and with the coordinates to this folder");
+  add_common_options(command, o.common);
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace nook::tool

@@ -1,10 +1,10 @@
 // nook bake transfer: the visibility of lobes at the vertices of a static shape.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
 #include "bakers/job/transfer_bake.h"
 #include "bakers/tool/baking.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
@@ -67,54 +67,53 @@ void run(const Options& o) {
 
 }  // namespace
 
-void add_bake_transfer(CLI::App& bake_command) {
-  CLI::App* command = bake_command.add_subcommand(
+void add_bake_transfer(Command bake_command) {
+  const Command command = bake_command.add_subcommand(
       "transfer", "the visibility of a static shape, which lights its materials under any light");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command->add_option("input", o.input, "the shape, .glb or .gltf, with texture coordinates")->required();
-  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
+  command.add_option("input", o.input, "the shape, .glb or .gltf, with texture coordinates").required();
+  command.add_option("-o,--output", o.output, "the .nook file to write").required();
   command
-      ->add_option("--lobes", o.settings.lobes,
-                   "lobes that will hold the light; the file has a byte for each lobe and vertex")
-      ->check(CLI::Range(transfer::min_lobes, transfer::max_lobes))
-      ->capture_default_str();
+      .add_option("--lobes", o.settings.lobes,
+                  "lobes that will hold the light; the file has a byte for each lobe and vertex")
+      .check(in_range(transfer::min_lobes, transfer::max_lobes))
+      .capture_default_str();
   command
-      ->add_option("--ray-side", o.settings.side,
-                   "cells along a face of the cube of ray directions; a vertex has 6 times its square")
-      ->check(CLI::Range(8u, bake::transfer::max_ray_side))
-      ->capture_default_str();
+      .add_option("--ray-side", o.settings.side,
+                  "cells along a face of the cube of ray directions; a vertex has 6 times its square")
+      .check(in_range(8u, bake::transfer::max_ray_side))
+      .capture_default_str();
   command
-      ->add_option("--bounces", o.settings.bounces,
-                   "reflections of the shape onto itself; each adds 18 bytes for a vertex")
-      ->check(CLI::Range(0u, transfer::max_bounces))
-      ->capture_default_str();
-  command->add_option("--votf", o.votf,
-                      "the .nook file of the material that the shape wears: light falls through its holes");
+      .add_option("--bounces", o.settings.bounces,
+                  "reflections of the shape onto itself; each adds 18 bytes for a vertex")
+      .check(in_range(0u, transfer::max_bounces))
+      .capture_default_str();
+  command.add_option("--votf", o.votf,
+                     "the .nook file of the material that the shape wears: light falls through its holes");
+  command.add_option("--tiles", o.settings.tiles, "tiles of that material in one unit of texture coordinates")
+      .check(in_range(0.01f, 1000.0f))
+      .capture_default_str();
   command
-      ->add_option("--tiles", o.settings.tiles, "tiles of that material in one unit of texture coordinates")
-      ->check(CLI::Range(0.01f, 1000.0f))
-      ->capture_default_str();
+      .add_option("--form", o.form,
+                  "separated: takes any material; paper: matrices of one --material, compressed by CTA")
+      .check(one_of({"separated", "paper"}))
+      .capture_default_str();
+  command.add_option("--material", o.material, "the .nook file of the material, for --form paper");
   command
-      ->add_option("--form", o.form,
-                   "separated: takes any material; paper: matrices of one --material, compressed by CTA")
-      ->check(CLI::IsMember({"separated", "paper"}))
-      ->capture_default_str();
-  command->add_option("--material", o.material, "the .nook file of the material, for --form paper");
-  command
-      ->add_option("--clusters", o.paper.clusters,
-                   "clusters of vertices, of --form paper; 0: one for each 360")
-      ->check(CLI::Range(0u, transfer::max_clusters))
-      ->capture_default_str();
-  command->add_option("--lobe-rank", o.paper.lobe_rank, "lobe modes of a cluster, of --form paper")
-      ->check(CLI::Range(1u, transfer::max_lobe_rank))
-      ->capture_default_str();
-  command->add_option("--vertex-rank", o.paper.vertex_rank, "vertex modes of a cluster, of --form paper")
-      ->check(CLI::Range(1u, transfer::max_vertex_rank))
-      ->capture_default_str();
-  add_linked_files_option(*command, o.linked);
-  add_common_options(*command, o.common);
-  command->callback([options] { run(*options); });
+      .add_option("--clusters", o.paper.clusters,
+                  "clusters of vertices, of --form paper; 0: one for each 360")
+      .check(in_range(0u, transfer::max_clusters))
+      .capture_default_str();
+  command.add_option("--lobe-rank", o.paper.lobe_rank, "lobe modes of a cluster, of --form paper")
+      .check(in_range(1u, transfer::max_lobe_rank))
+      .capture_default_str();
+  command.add_option("--vertex-rank", o.paper.vertex_rank, "vertex modes of a cluster, of --form paper")
+      .check(in_range(1u, transfer::max_vertex_rank))
+      .capture_default_str();
+  add_linked_files_option(command, o.linked);
+  add_common_options(command, o.common);
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace nook::tool

@@ -6,11 +6,9 @@
 
 #include "bakers/import/linked_files.h"
 
-namespace CLI {
-class App;
-}
-
 namespace nook::tool {
+
+class Command;
 
 struct CommonOptions {
   std::uint32_t threads = 0;  // 0: all cores
@@ -19,9 +17,9 @@ struct CommonOptions {
   bool quiet = false;
 };
 
-void add_common_options(CLI::App& command, CommonOptions& options);
+void add_common_options(Command command, CommonOptions& options);
 
 // The choice of every command that reads glTF.
-void add_linked_files_option(CLI::App& command, bake::LinkedFiles& linked);
+void add_linked_files_option(Command command, bake::LinkedFiles& linked);
 
 }  // namespace nook::tool

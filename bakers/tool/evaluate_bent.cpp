@@ -1,5 +1,4 @@
 // nook evaluate bent: bent normals of a character, and what they do for glossy reflections.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,6 +10,7 @@
 #include "bakers/measure/character/report.h"
 #include "bakers/tool/character/clip_names.h"
 #include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/interrupt.h"
@@ -81,45 +81,45 @@ Json evaluate(const Options& options) {
 
 }  // namespace
 
-void add_evaluate_bent(CLI::App& evaluate_command) {
-  CLI::App* command = evaluate_command.add_subcommand(
+void add_evaluate_bent(Command evaluate_command) {
+  const Command command = evaluate_command.add_subcommand(
       "bent",
       "bent normals of a character against ray tracing, and specular occlusion from them beside S. Lagarde's "
       "form of the same AO, at five values of roughness, under uniform light and under maps");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   o.poses.most = 24;
-  add_evaluated_files(*command, o.files);
-  CLI::Option* const maps =
-      command->add_option("--maps", o.maps, "latitude-longitude maps to be glossy under, at most 8")
-          ->delimiter(',')
-          ->expected(1, int(bake::max_glossy_maps));
-  command->add_option("--clips", o.poses.clips, "measure only these clips")->delimiter(',');
-  command->add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
-      ->check(CLI::Range(1, 10000000))
-      ->capture_default_str();
-  command->add_option("--points", o.study.points, "vertices of each pose")
-      ->check(CLI::Range(1, 10000000))
-      ->capture_default_str();
-  command->add_option("--rays", o.study.rays, "rays for the AO of a vertex; a reflection takes a quarter")
-      ->check(CLI::Range(8, 65536))
-      ->capture_default_str();
+  add_evaluated_files(command, o.files);
+  const Option maps =
+      command.add_option("--maps", o.maps, "latitude-longitude maps to be glossy under, at most 8")
+          .delimiter(',')
+          .expected(1, int(bake::max_glossy_maps));
+  command.add_option("--clips", o.poses.clips, "measure only these clips").delimiter(',');
+  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
+      .check(in_range(1, 100000))
+      .capture_default_str();
+  command.add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
+      .check(in_range(1, 10000000))
+      .capture_default_str();
+  command.add_option("--points", o.study.points, "vertices of each pose")
+      .check(in_range(1, 10000000))
+      .capture_default_str();
+  command.add_option("--rays", o.study.rays, "rays for the AO of a vertex; a reflection takes a quarter")
+      .check(in_range(8, 65536))
+      .capture_default_str();
   command
-      ->add_option("--images", o.images,
-                   "draw the body as a glossy mirror under the first map, not occluded, by S. Lagarde's "
-                   "form, by bent normals and path traced: PNG files in this directory")
-      ->needs(maps);
-  command->add_option("--image-count", o.image_count, "poses to draw")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command->add_option("--image-roughness", o.image_roughness, "perceptual roughness of the drawn body")
-      ->check(CLI::Range(0.01, 1.0))
-      ->capture_default_str();
-  add_common_options(*command, o.common);
-  command->callback([options] {
+      .add_option("--images", o.images,
+                  "draw the body as a glossy mirror under the first map, not occluded, by S. Lagarde's "
+                  "form, by bent normals and path traced: PNG files in this directory")
+      .needs(maps);
+  command.add_option("--image-count", o.image_count, "poses to draw")
+      .check(in_range(1, 1000))
+      .capture_default_str();
+  command.add_option("--image-roughness", o.image_roughness, "perceptual roughness of the drawn body")
+      .check(in_range(0.01, 1.0))
+      .capture_default_str();
+  add_common_options(command, o.common);
+  command.callback([options] {
     std::vector<NamedFile> read = named_files(options->files);
     for (const std::filesystem::path& map : options->maps) read.push_back({"a map", map});
     run_evaluation(options->common, {read, {}, options->images}, [&] { return evaluate(*options); });

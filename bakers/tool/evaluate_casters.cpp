@@ -1,5 +1,4 @@
 // nook evaluate casters: how much a lone neighbour darkens, by each form and by ray tracing.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "bakers/measure/character/pictures.h"
 #include "bakers/measure/character/report.h"
 #include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/interrupt.h"
@@ -76,50 +76,49 @@ Json evaluate(const Options& options) {
 
 }  // namespace
 
-void add_evaluate_casters(CLI::App& evaluate_command) {
-  CLI::App* command =
+void add_evaluate_casters(Command evaluate_command) {
+  const Command command =
       evaluate_command.add_subcommand("casters",
                                       "a lone neighbour from 0.3 to 10 m away: mean darkening of the body "
                                       "by each form and by ray tracing, and its error, over several "
                                       "bearings and poses");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  add_evaluated_files(*command, o.files);
-  command->add_option("--rays", o.study.rays, "rays for each vertex")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
-  CLI::Option* const bearings =
-      command->add_option("--bearings", o.study.bearings, "directions of the neighbour")
-          ->check(CLI::Range(1, 360))
-          ->capture_default_str();
-  CLI::Option* const poses = command->add_option("--poses", o.poses, "poses, spread over the clips")
-                                 ->check(CLI::Range(1, 1000))
-                                 ->capture_default_str();
-  CLI::Option* const distances =
+  add_evaluated_files(command, o.files);
+  command.add_option("--rays", o.study.rays, "rays for each vertex")
+      .check(in_range(1, 65536))
+      .capture_default_str();
+  const Option bearings = command.add_option("--bearings", o.study.bearings, "directions of the neighbour")
+                              .check(in_range(1, 360))
+                              .capture_default_str();
+  const Option poses = command.add_option("--poses", o.poses, "poses, spread over the clips")
+                           .check(in_range(1, 1000))
+                           .capture_default_str();
+  const Option distances =
       command
-          ->add_option(
+          .add_option(
               "--distances", o.study.distances,
               "metres between the bodies' middles along the ground, separated by commas; vertices that "
               "lie inside the neighbour are left out")
-          ->delimiter(',')
-          ->check(CLI::Range(0.01, 1000.0))
-          ->default_str("0.3,0.5,0.75,1,2,3,5,10");
-  CLI::Option* const radii = command->add_flag(
-      "--radii", o.study.in_radii,
-      "distances are in bounding radii of the body instead of metres, so that bodies of any "
-      "size compare; a person's is about 1 m");
-  CLI::Option* const contact = command->add_option(
+          .delimiter(',')
+          .check(in_range(0.01, 1000.0))
+          .default_str("0.3,0.5,0.75,1,2,3,5,10");
+  const Option radii =
+      command.add_flag("--radii", o.study.in_radii,
+                       "distances are in bounding radii of the body instead of metres, so that bodies of any "
+                       "size compare; a person's is about 1 m");
+  const Option contact = command.add_option(
       "--contact", o.contact,
       "two bodies in the middles of two clips instead, each darkened by the other: the names of "
       "both clips, the place of the second body seen from the first one's middle (x, y and z in "
       "metres), and its turn about the vertical axis in degrees");
-  contact->type_name("CLIP CLIP X Y Z DEGREES");
-  for (CLI::Option* const unused : {bearings, poses, distances, radii}) contact->excludes(unused);
-  command->add_option("--images", o.images,
-                      "draw both bodies of the contact, or of a pair at each distance: PNG files in this "
-                      "directory");
-  add_common_options(*command, o.common);
-  command->callback([options] {
+  contact.type_name("CLIP CLIP X Y Z DEGREES");
+  for (const Option unused : {bearings, poses, distances, radii}) contact.excludes(unused);
+  command.add_option("--images", o.images,
+                     "draw both bodies of the contact, or of a pair at each distance: PNG files in this "
+                     "directory");
+  add_common_options(command, o.common);
+  command.callback([options] {
     run_evaluation(options->common, {named_files(options->files), {}, options->images},
                    [&] { return evaluate(*options); });
   });

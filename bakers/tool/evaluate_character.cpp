@@ -1,5 +1,4 @@
 // nook evaluate character: a model against ray tracing, beside what a team would use instead.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 #include "bakers/measure/character/report.h"
 #include "bakers/tool/character/clip_names.h"
 #include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
@@ -71,8 +71,8 @@ Json evaluate(const Options& options) {
 
 }  // namespace
 
-void add_evaluate_character(CLI::App& evaluate_command) {
-  CLI::App* command =
+void add_evaluate_character(Command evaluate_command) {
+  const Command command =
       evaluate_command.add_subcommand("character",
                                       "measure a baked character against ray tracing.\n"
                                       "mse is over all vertices and poses, mse_visible over those that ray "
@@ -82,34 +82,34 @@ void add_evaluate_character(CLI::App& evaluate_command) {
                                       "mse_oracle the best that any static bake could do");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  add_evaluated_files(*command, o.files);
+  add_evaluated_files(command, o.files);
   command
-      ->add_option_function<std::string>(
+      .add_option_function(
           "--poses", [&o](const std::string& name) { o.poses.training = name == "training"; },
           "clips (default: without --clips those that were not fitted, or all if all were), or training (the "
           "poses it was "
           "fitted to)")
-      ->check(CLI::IsMember({"clips", "training"}))
-      ->type_name("NAME");
-  command->add_option("--clips", o.poses.clips, "measure only these clips")->delimiter(',');
-  command->add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
-      ->check(CLI::Range(1, 10000000));
-  command->add_option("--rays", o.rays, "rays for each vertex and pose")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
-  command->add_flag(
+      .check(one_of({"clips", "training"}))
+      .type_name("NAME");
+  command.add_option("--clips", o.poses.clips, "measure only these clips").delimiter(',');
+  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
+      .check(in_range(1, 100000))
+      .capture_default_str();
+  command.add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
+      .check(in_range(1, 10000000));
+  command.add_option("--rays", o.rays, "rays for each vertex and pose")
+      .check(in_range(1, 65536))
+      .capture_default_str();
+  command.add_flag(
       "--peers", o.peers,
       "also fit a linear pose model (Kontkanen & Aila 2006) and pose clusters (Kirk & Arikan 2007) to the "
       "model's training poses, tuned by cross-validation, and measure them");
-  command->add_option("--images", o.images, "draw the error on the body: PNG files in this directory");
-  command->add_option("--image-count", o.image_count, "poses to draw")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  add_common_options(*command, o.common);
-  command->callback([options] {
+  command.add_option("--images", o.images, "draw the error on the body: PNG files in this directory");
+  command.add_option("--image-count", o.image_count, "poses to draw")
+      .check(in_range(1, 1000))
+      .capture_default_str();
+  add_common_options(command, o.common);
+  command.callback([options] {
     run_evaluation(options->common, {named_files(options->files), {}, options->images},
                    [&] { return evaluate(*options); });
   });

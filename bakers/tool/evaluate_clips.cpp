@@ -1,11 +1,11 @@
 // nook evaluate clips: baked clips against ray tracing, beside the live model.
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "bakers/measure/character/clips.h"
 #include "bakers/measure/character/report.h"
 #include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
@@ -86,30 +86,30 @@ Json evaluate(const Options& options) {
 
 }  // namespace
 
-void add_evaluate_clips(CLI::App& evaluate_command) {
-  CLI::App* command = evaluate_command.add_subcommand(
+void add_evaluate_clips(Command evaluate_command) {
+  const Command command = evaluate_command.add_subcommand(
       "clips",
       "measure baked clips against ray tracing at the frames, half-way between frames, and with one "
       "neighbour of the same clips, beside the live model in the same poses. mse_visible is over the "
       "vertex-poses with a traced AO of at least 0.01");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  add_evaluated_files(*command, o.files);
-  command->add_option("clips", o.clips, "the baked clips, .nook")->required();
-  command->add_option("--rays", o.study.rays, "rays for each vertex and pose")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
-  command->add_option("--max-poses", o.study.max_poses, "poses at the frames and half-way, evenly picked")
-      ->check(CLI::Range(1, 10000000))
-      ->capture_default_str();
-  command->add_option("--pairs", o.study.max_pairs, "poses with a neighbour at each distance")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--distances", o.study.distances_m, "metres from body to body")
-      ->delimiter(',')
-      ->check(CLI::Range(0.01, 1000.0));
-  add_common_options(*command, o.common);
-  command->callback([options] {
+  add_evaluated_files(command, o.files);
+  command.add_option("clips", o.clips, "the baked clips, .nook").required();
+  command.add_option("--rays", o.study.rays, "rays for each vertex and pose")
+      .check(in_range(1, 65536))
+      .capture_default_str();
+  command.add_option("--max-poses", o.study.max_poses, "poses at the frames and half-way, evenly picked")
+      .check(in_range(1, 10000000))
+      .capture_default_str();
+  command.add_option("--pairs", o.study.max_pairs, "poses with a neighbour at each distance")
+      .check(in_range(1, 100000))
+      .capture_default_str();
+  command.add_option("--distances", o.study.distances_m, "metres from body to body")
+      .delimiter(',')
+      .check(in_range(0.01, 1000.0));
+  add_common_options(command, o.common);
+  command.callback([options] {
     std::vector<NamedFile> read = named_files(options->files);
     read.push_back({"the clips", options->clips});
     run_evaluation(options->common, {read, {}, {}}, [&] { return evaluate(*options); });

@@ -1,5 +1,4 @@
 // nook evaluate grid: ways to look up a grid of probes, in a building of closed rooms or in a scene.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "bakers/images/picture.h"
 #include "bakers/job/probe_bake.h"
 #include "bakers/measure/probe/lookup_report.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/interrupt.h"
@@ -103,50 +103,50 @@ Json evaluate(const Options& options) {
 
 }  // namespace
 
-void add_evaluate_grid(CLI::App& evaluate_command) {
-  CLI::App* command = evaluate_command.add_subcommand(
+void add_evaluate_grid(Command evaluate_command) {
+  const Command command = evaluate_command.add_subcommand(
       "grid", "ways to look up a grid of light probes near walls, in built-in closed rooms or in a scene");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command->add_option("--scene", o.scene, "a scene in place of the rooms, .glb or .gltf");
-  command->add_option("--light", o.light, "of a scene: the map round it");
+  command.add_option("--scene", o.scene, "a scene in place of the rooms, .glb or .gltf");
+  command.add_option("--light", o.light, "of a scene: the map round it");
   command
-      ->add_option_function<std::string>(
+      .add_option_function(
           "--grid", [&o](const std::string& text) { o.counts = parse_grid_counts(text); },
           "probes along x, y and z, AxBxC; default 6x2x5, eight a room")
-      ->type_name("AxBxC");
+      .type_name("AxBxC");
   command
-      ->add_option_function<std::string>(
+      .add_option_function(
           "--box", [&o](const std::string& text) { o.box = parse_grid_box(text); },
           "what the grid fills, x0,y0,z0,x1,y1,z1 in metres; default all of the scene")
-      ->type_name("BOX");
-  command->add_option("--points", o.settings.points, "random points on surfaces, and as many in the open")
-      ->check(CLI::Range(1u, 1u << 24))
-      ->capture_default_str();
-  command->add_option("--paths", o.settings.paths, "for each point")
-      ->check(CLI::Range(2u, 1u << 24))
-      ->capture_default_str();
-  command->add_option("--samples", o.settings.samples, "for each probe")
-      ->check(CLI::Range(64u, 1u << 30))
-      ->capture_default_str();
+      .type_name("BOX");
+  command.add_option("--points", o.settings.points, "random points on surfaces, and as many in the open")
+      .check(in_range(1u, 1u << 24))
+      .capture_default_str();
+  command.add_option("--paths", o.settings.paths, "for each point")
+      .check(in_range(2u, 1u << 24))
+      .capture_default_str();
+  command.add_option("--samples", o.settings.samples, "for each probe")
+      .check(in_range(64u, 1u << 30))
+      .capture_default_str();
   command
-      ->add_option("--training-paths", o.settings.training_paths,
-                   "for each place that walls and coefficients are fitted to")
-      ->check(CLI::Range(1u, 1u << 24))
-      ->capture_default_str();
+      .add_option("--training-paths", o.settings.training_paths,
+                  "for each place that walls and coefficients are fitted to")
+      .check(in_range(1u, 1u << 24))
+      .capture_default_str();
   command
-      ->add_option("--direct", o.direct,
-                   "what both sides hold of the map's light that comes straight: none, the sky without suns, "
-                   "or all")
-      ->check(CLI::IsMember(measure::direct_names()))
-      ->capture_default_str();
-  command->add_option(
+      .add_option("--direct", o.direct,
+                  "what both sides hold of the map's light that comes straight: none, the sky without suns, "
+                  "or all")
+      .check(one_of(measure::direct_names()))
+      .capture_default_str();
+  command.add_option(
       "--picture", o.picture,
       "of the rooms: write the light on their floor as one .png, path traced, trilinear and with walls");
-  add_linked_files_option(*command, o.linked);
-  command->add_flag("--no-textures", o.no_textures, "colour factors stand for textures");
-  add_common_options(*command, o.common);
-  command->callback([options] {
+  add_linked_files_option(command, o.linked);
+  command.add_flag("--no-textures", o.no_textures, "colour factors stand for textures");
+  add_common_options(command, o.common);
+  command.callback([options] {
     const CommandFiles files{
         {{"--scene", options->scene}, {"--light", options->light}}, {{"--picture", options->picture}}, {}};
     run_evaluation(options->common, files, [&] { return evaluate(*options); });

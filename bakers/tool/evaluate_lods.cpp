@@ -1,5 +1,4 @@
 // nook evaluate lods: the AO of meshes of less detail from the bake of the full mesh.
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -7,6 +6,7 @@
 #include "bakers/measure/character/lods.h"
 #include "bakers/measure/character/report.h"
 #include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/interrupt.h"
@@ -89,8 +89,8 @@ Json evaluate(const Options& options) {
 
 }  // namespace
 
-void add_evaluate_lods(CLI::App& evaluate_command) {
-  CLI::App* command = evaluate_command.add_subcommand(
+void add_evaluate_lods(Command evaluate_command) {
+  const Command command = evaluate_command.add_subcommand(
       "lods",
       "measure the AO of meshes with fewer triangles, made from the character by meshoptimizer, that take "
       "their weights from the bake of the full mesh (nook_character_model_resample), against ray tracing of "
@@ -100,24 +100,24 @@ void add_evaluate_lods(CLI::App& evaluate_command) {
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   o.poses.samples_per_clip = 4;
-  add_evaluated_files(*command, o.files);
-  command->add_option("--shares", o.shares, "shares of the triangles")
-      ->delimiter(',')
-      ->check(CLI::Range(0.001, 1.0))
-      ->capture_default_str();
-  command->add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
-      ->check(CLI::Range(1, 10000000));
-  command->add_option("--training-poses", o.training_poses, "poses that the refitted form is fitted to")
-      ->check(CLI::Range(8, 100000))
-      ->capture_default_str();
-  command->add_option("--rays", o.rays, "rays for each vertex and pose")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
-  add_common_options(*command, o.common);
-  command->callback([options] {
+  add_evaluated_files(command, o.files);
+  command.add_option("--shares", o.shares, "shares of the triangles")
+      .delimiter(',')
+      .check(in_range(0.001, 1.0))
+      .capture_default_str();
+  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
+      .check(in_range(1, 100000))
+      .capture_default_str();
+  command.add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
+      .check(in_range(1, 10000000));
+  command.add_option("--training-poses", o.training_poses, "poses that the refitted form is fitted to")
+      .check(in_range(8, 100000))
+      .capture_default_str();
+  command.add_option("--rays", o.rays, "rays for each vertex and pose")
+      .check(in_range(1, 65536))
+      .capture_default_str();
+  add_common_options(command, o.common);
+  command.callback([options] {
     run_evaluation(options->common, {named_files(options->files), {}, {}},
                    [&] { return evaluate(*options); });
   });

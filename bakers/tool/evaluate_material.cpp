@@ -1,6 +1,5 @@
 // nook evaluate material: a compressed material against the raw one, beside its baselines, with pictures and
 // plots.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -8,6 +7,7 @@
 
 #include "bakers/measure/material/baselines.h"
 #include "bakers/measure/material/pictures.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/image_folder.h"
@@ -150,68 +150,66 @@ Json evaluate(const Options& o) {
   return report;
 }
 
-void add_mode_options(CLI::App& command, nook::material::ModeForm& form) {
+void add_mode_options(Command command, nook::material::ModeForm& form) {
   command
-      .add_option("--modes", form.blocks,
+      .add_choice("--modes", form.blocks, block_forms,
                   "draw with spatial modes as the file has them (plain), or in blocks of a context: rgtc or "
                   "eac; for all that is measured as it is drawn")
-      ->transform(CLI::CheckedTransformer(block_forms))
-      ->type_name("FORM");
+      .type_name("FORM");
   command
       .add_option("--whole-light-modes", form.whole_light_modes,
                   "with blocks, the first light modes that stay whole, in steps of 4")
-      ->check(CLI::Range(0u, nook::material::max_light_modes))
-      ->capture_default_str();
+      .check(in_range(0u, nook::material::max_light_modes))
+      .capture_default_str();
 }
 
 }  // namespace
 
-void add_evaluate_material(CLI::App& evaluate_command) {
-  CLI::App* command =
+void add_evaluate_material(Command evaluate_command) {
+  const Command command =
       evaluate_command.add_subcommand("material", "measure a compressed material against the raw one");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command->add_option("raw", o.raw, "the raw material, written by `bake material --keep-raw`")->required();
-  command->add_option("material", o.material, "the .nook file")->required();
-  command->add_flag(
+  command.add_option("raw", o.raw, "the raw material, written by `bake material --keep-raw`").required();
+  command.add_option("material", o.material, "the .nook file").required();
+  command.add_flag(
       "--peers", o.peers,
       "compress by N-SVD, CTA, K-CTA with K = 2, 3, 4 at the file's ranks, by N-SVD and PCA at the bytes of "
       "the whole file, and fit the maps of a physically based material with parallax");
   command
-      ->add_option("--methods", o.methods,
-                   "only these baselines: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca, pbr, and "
-                   "neural, networks of a small size and of the bytes of the whole file, which train for "
-                   "minutes and are not among those of --peers")
-      ->delimiter(',')
-      ->check(CLI::IsMember(measure::material_baseline_names()))
-      ->type_name("NAME,...");
-  command->add_option("--unseen", o.unseen,
-                      "a raw material of other views, and of other lights where they differ, for the error "
-                      "between the samples");
+      .add_option("--methods", o.methods,
+                  "only these baselines: n-svd, cta, k-cta-2, k-cta-3, k-cta-4, n-svd-filled, pca, pbr, and "
+                  "neural, networks of a small size and of the bytes of the whole file, which train for "
+                  "minutes and are not among those of --peers")
+      .delimiter(',')
+      .check(one_of(measure::material_baseline_names()))
+      .type_name("NAME,...");
+  command.add_option("--unseen", o.unseen,
+                     "a raw material of other views, and of other lights where they differ, for the error "
+                     "between the samples");
   command
-      ->add_option("--votf-refits", o.votf_refits,
-                   "further fits of the VOTF of the methods beside the file, as in bake material")
-      ->check(CLI::Range(0, 16))
-      ->capture_default_str();
-  command->add_flag(
+      .add_option("--votf-refits", o.votf_refits,
+                  "further fits of the VOTF of the methods beside the file, as in bake material")
+      .check(in_range(0, 16))
+      .capture_default_str();
+  command.add_flag(
       "--jumps", o.jumps,
       "measure jumps as the view moves by 0.1 degrees, with and without view maps, which CTA has "
       "then as well; with --images a picture of the largest of each method");
-  command->add_flag(
+  command.add_flag(
       "--mipmaps", o.mipmaps,
       "measure pixels that cover 2 x 2, 4 x 4 and more texels, at their mipmap level and at the finest");
-  command->add_flag(
+  command.add_flag(
       "--grazing", o.grazing,
       "measure pixels of views between 60 and 85 degrees against supersampling, with 1 to 8 fetches along "
       "them");
-  add_mode_options(*command, o.form);
-  command->add_flag("--compare-seeding", o.seeding,
-                    "CTA and K-CTA from clusters of directions and of values");
-  command->add_option("--sweep", o.sweep, "total view ranks, for all methods (plots with --images)")
-      ->delimiter(',');
-  command->add_option("--images", o.images, "write pictures and plots to this folder");
-  add_common_options(*command, o.common);
-  command->callback([options] {
+  add_mode_options(command, o.form);
+  command.add_flag("--compare-seeding", o.seeding, "CTA and K-CTA from clusters of directions and of values");
+  command.add_option("--sweep", o.sweep, "total view ranks, for all methods (plots with --images)")
+      .delimiter(',');
+  command.add_option("--images", o.images, "write pictures and plots to this folder");
+  add_common_options(command, o.common);
+  command.callback([options] {
     const CommandFiles files{{{"the raw material", options->raw},
                               {"the material", options->material},
                               {"--unseen", options->unseen}},

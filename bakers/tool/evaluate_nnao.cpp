@@ -1,9 +1,9 @@
 // nook evaluate nnao: the screen-space pass and its baselines against ray tracing, on OpenGL without a
 // display.
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/nnao/evaluate.h"
@@ -41,15 +41,16 @@ void run(EvaluateNnaoOptions& options) {
 
 }  // namespace
 
-void add_evaluate_nnao(CLI::App& evaluate_command) {
-  CLI::App* command = evaluate_command.add_subcommand("nnao",
-                                                      "the screen-space pass, and SSAO, SSAO+, HBAO, GTAO, "
-                                                      "GTAO with a visibility bitmask, XeGTAO, and forms of "
-                                                      "what N8AO, Godot, VTK, QGIS and Filament ship, "
-                                                      "against ray tracing");
+void add_evaluate_nnao(Command evaluate_command) {
+  const Command command =
+      evaluate_command.add_subcommand("nnao",
+                                      "the screen-space pass, and SSAO, SSAO+, HBAO, GTAO, "
+                                      "GTAO with a visibility bitmask, XeGTAO, and forms of "
+                                      "what N8AO, Godot, VTK, QGIS and Filament ship, "
+                                      "against ray tracing");
   const auto options = std::make_shared<EvaluateNnaoOptions>();
-  add_options(*command, *options);
-  command->callback([options] { run(*options); });
+  add_options(command, *options);
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace nook::tool

@@ -1,5 +1,4 @@
 // nook evaluate probe: every way to fit a probe, and baked ones, against the maps that they stand for.
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -8,6 +7,7 @@
 #include "bakers/job/probe_bake.h"
 #include "bakers/measure/probe/glossy_error.h"
 #include "bakers/measure/probe/report.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
@@ -109,60 +109,60 @@ Json evaluate(const Options& options) {
 
 }  // namespace
 
-void add_evaluate_probe(CLI::App& evaluate_command) {
-  CLI::App* command = evaluate_command.add_subcommand("probe",
-                                                      "all forms of fitting, spherical harmonics, ambient "
-                                                      "dice and baked probes against environment maps; baked "
-                                                      "grids against path tracing");
+void add_evaluate_probe(Command evaluate_command) {
+  const Command command =
+      evaluate_command.add_subcommand("probe",
+                                      "all forms of fitting, spherical harmonics, ambient "
+                                      "dice and baked probes against environment maps; baked "
+                                      "grids against path tracing");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command
-      ->add_option(
+      .add_option(
           "files", o.files,
           "latitude-longitude maps, .hdr or .exr, each followed by .nook files that were baked from it; with "
           "--scene: .nook files of grids")
-      ->required();
-  command->add_option("--scene", o.grid.scene,
-                      "of grids: the scene that they were baked from, .glb or .gltf");
-  command->add_option("--light", o.grid.light, "of grids: the map round it");
+      .required();
+  command.add_option("--scene", o.grid.scene, "of grids: the scene that they were baked from, .glb or .gltf");
+  command.add_option("--light", o.grid.light, "of grids: the map round it");
   command
-      ->add_option("--points", o.grid.points, "of grids: random points on surfaces, and as many in the open")
-      ->check(CLI::Range(1u, 1u << 24))
-      ->capture_default_str();
-  command->add_option("--paths", o.grid.paths, "of grids: for each point")
-      ->check(CLI::Range(2u, 1u << 24))
-      ->capture_default_str();
-  command->add_option("--max-bounces", o.grid.max_bounces, "of grids: reflections that count; default all");
+      .add_option("--points", o.grid.points, "of grids: random points on surfaces, and as many in the open")
+      .check(in_range(1u, 1u << 24))
+      .capture_default_str();
+  command.add_option("--paths", o.grid.paths, "of grids: for each point")
+      .check(in_range(2u, 1u << 24))
+      .capture_default_str();
+  command.add_option("--max-bounces", o.grid.max_bounces, "of grids: reflections that count; default all");
   command
-      ->add_option("--direct", o.grid.direct,
-                   "of grids: what both sides hold of the map's light that comes straight: none, the sky "
-                   "without suns, or all; default as the grid was baked")
-      ->check(CLI::IsMember(measure::direct_names()));
-  add_linked_files_option(*command, o.grid.linked);
-  command->add_flag("--no-textures", o.grid.no_textures,
-                    "of grids: colour factors stand for textures, and alpha masks are solid");
-  command->add_option("--lobes", o.lobes, "spherical Gaussians of the forms that are fitted here")
-      ->check(CLI::Range(1u, nook::probe::max_functions - 1))
-      ->capture_default_str();
-  command->add_option("--seeds", o.comparison.seeds, "independent sets of samples")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+      .add_option("--direct", o.grid.direct,
+                  "of grids: what both sides hold of the map's light that comes straight: none, the sky "
+                  "without suns, or all; default as the grid was baked")
+      .check(one_of(measure::direct_names()));
+  add_linked_files_option(command, o.grid.linked);
+  command.add_flag("--no-textures", o.grid.no_textures,
+                   "of grids: colour factors stand for textures, and alpha masks are solid");
+  command.add_option("--lobes", o.lobes, "spherical Gaussians of the forms that are fitted here")
+      .check(in_range(1u, nook::probe::max_functions - 1))
+      .capture_default_str();
+  command.add_option("--seeds", o.comparison.seeds, "independent sets of samples")
+      .check(in_range(1, 1000))
+      .capture_default_str();
   command
-      ->add_option(
+      .add_option(
           "--rotations", o.comparison.rotations,
           "solve the lobes' forms again with their axes rotated at random, this often, and report the "
           "spread")
-      ->check(CLI::Range(0, 1000))
-      ->capture_default_str();
-  command->add_flag("--glossy", o.glossy,
-                    "of maps: what random glossy surfaces reflect of the lobes and of the map, beside "
-                    "prefiltered cube maps, in place of all forms of fitting");
-  command->add_option("--surfaces", o.surfaces.surfaces, "with --glossy: random ones of each kind")
-      ->check(CLI::Range(1u, 1u << 20))
-      ->capture_default_str();
-  command->add_option("--images", o.images, "write a picture of each map and its lobes here");
-  add_common_options(*command, o.common);
-  command->callback([options] {
+      .check(in_range(0, 1000))
+      .capture_default_str();
+  command.add_flag("--glossy", o.glossy,
+                   "of maps: what random glossy surfaces reflect of the lobes and of the map, beside "
+                   "prefiltered cube maps, in place of all forms of fitting");
+  command.add_option("--surfaces", o.surfaces.surfaces, "with --glossy: random ones of each kind")
+      .check(in_range(1u, 1u << 20))
+      .capture_default_str();
+  command.add_option("--images", o.images, "write a picture of each map and its lobes here");
+  add_common_options(command, o.common);
+  command.callback([options] {
     options->comparison.seed = options->common.seed;
     CommandFiles files{
         {{"--scene", options->grid.scene}, {"--light", options->grid.light}}, {}, options->images};

@@ -1,5 +1,4 @@
 // nook evaluate transfer: baked radiance transfer against direct sums and path tracing, beside simpler forms.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -7,6 +6,7 @@
 
 #include "bakers/measure/transfer/pictures.h"
 #include "bakers/measure/transfer/vector_error.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/image_folder.h"
@@ -143,44 +143,44 @@ Json evaluate(const Options& o) {
 
 }  // namespace
 
-void add_evaluate_transfer(CLI::App& evaluate_command) {
-  CLI::App* command = evaluate_command.add_subcommand(
+void add_evaluate_transfer(Command evaluate_command) {
+  const Command command = evaluate_command.add_subcommand(
       "transfer", "measure baked radiance transfer against direct sums and path tracing");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command->add_option("mesh", o.mesh, "the shape, .glb or .gltf")->required();
-  command->add_option("transfer", o.transfer, "the .nook file that was baked from it")->required();
-  command->add_option("--material", o.material, "the .nook file of the material that it wears")->required();
-  command->add_option(
+  command.add_option("mesh", o.mesh, "the shape, .glb or .gltf").required();
+  command.add_option("transfer", o.transfer, "the .nook file that was baked from it").required();
+  command.add_option("--material", o.material, "the .nook file of the material that it wears").required();
+  command.add_option(
       "--raw", o.raw,
       "the raw material, written by `bake material --keep-raw`: pictures are compared with it in "
       "place of the decoded material");
-  command->add_option("--light", o.lights, "latitude-longitude maps, .hdr or .exr")->required();
-  command->add_flag("--without-suns", o.without_suns,
-                    "take suns out of the maps first, as a host does that draws them with shadow maps");
-  command->add_option("--images", o.images, "write a picture of each light, truth and forms side by side");
-  command->add_flag("--no-pictures", o.no_pictures, "measure vectors only");
-  command->add_option("--width", o.picture.width, "pixels of a picture")
-      ->check(CLI::Range(16, 4096))
-      ->capture_default_str();
-  command->add_option("--height", o.picture.height, "pixels of a picture")
-      ->check(CLI::Range(16, 4096))
-      ->capture_default_str();
-  command->add_option("--paths", o.picture.paths, "light samples of a pixel of the truth")
-      ->check(CLI::Range(2u, 1u << 20))
-      ->capture_default_str();
+  command.add_option("--light", o.lights, "latitude-longitude maps, .hdr or .exr").required();
+  command.add_flag("--without-suns", o.without_suns,
+                   "take suns out of the maps first, as a host does that draws them with shadow maps");
+  command.add_option("--images", o.images, "write a picture of each light, truth and forms side by side");
+  command.add_flag("--no-pictures", o.no_pictures, "measure vectors only");
+  command.add_option("--width", o.picture.width, "pixels of a picture")
+      .check(in_range(16, 4096))
+      .capture_default_str();
+  command.add_option("--height", o.picture.height, "pixels of a picture")
+      .check(in_range(16, 4096))
+      .capture_default_str();
+  command.add_option("--paths", o.picture.paths, "light samples of a pixel of the truth")
+      .check(in_range(2u, 1u << 20))
+      .capture_default_str();
   command
-      ->add_option("--truth-bounces", o.truth_bounces,
-                   "reflections that the truth of pictures follows, in place of the file's")
-      ->check(CLI::Range(0u, 8u));
-  command->add_flag("--truth-holes", o.truth_holes,
-                    "light falls through the holes of the material in the truth, also if the file has none");
-  command->add_option("--tiles", o.tiles, "tiles of the material in one unit of texture coordinates")
-      ->check(CLI::Range(0.01f, 1000.0f))
-      ->capture_default_str();
-  add_linked_files_option(*command, o.linked);
-  add_common_options(*command, o.common);
-  command->callback([options] {
+      .add_option("--truth-bounces", o.truth_bounces,
+                  "reflections that the truth of pictures follows, in place of the file's")
+      .check(in_range(0u, 8u));
+  command.add_flag("--truth-holes", o.truth_holes,
+                   "light falls through the holes of the material in the truth, also if the file has none");
+  command.add_option("--tiles", o.tiles, "tiles of the material in one unit of texture coordinates")
+      .check(in_range(0.01f, 1000.0f))
+      .capture_default_str();
+  add_linked_files_option(command, o.linked);
+  add_common_options(command, o.common);
+  command.callback([options] {
     CommandFiles files{
         {{"the mesh", options->mesh}, {"the transfer", options->transfer}, {"--material", options->material}},
         {},

@@ -1,5 +1,4 @@
 // nook evaluate world: what a character darkens besides itself, against ray tracing and what engines use.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include "bakers/measure/world/report.h"
 #include "bakers/tool/character/clip_names.h"
 #include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
@@ -131,8 +131,8 @@ Json evaluate(const Options& options) {
 
 }  // namespace
 
-void add_evaluate_world(CLI::App& evaluate_command) {
-  CLI::App* command = evaluate_command.add_subcommand(
+void add_evaluate_world(Command evaluate_command) {
+  const Command command = evaluate_command.add_subcommand(
       "world",
       "measure what a baked character darkens besides itself: a floor, a wall at 0.3 m, the contact ring, a "
       "neighbour and cones of light, by its world casters and by what engines use, against ray tracing.\n"
@@ -141,50 +141,50 @@ void add_evaluate_world(CLI::App& evaluate_command) {
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   o.poses.most = 48;
-  add_evaluated_files(*command, o.files);
-  command->add_option("--clips", o.poses.clips, "measure only these clips")->delimiter(',');
-  command->add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--points", o.study.points, "points of each surface and pose")
-      ->check(CLI::Range(1, 90000))
-      ->capture_default_str();
-  command->add_option("--rays", o.study.rays, "rays for each point; a cone takes an eighth")
-      ->check(CLI::Range(8, 65536))
-      ->capture_default_str();
-  command->add_option(
+  add_evaluated_files(command, o.files);
+  command.add_option("--clips", o.poses.clips, "measure only these clips").delimiter(',');
+  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
+      .check(in_range(1, 100000))
+      .capture_default_str();
+  command.add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
+      .check(in_range(1, 100000))
+      .capture_default_str();
+  command.add_option("--points", o.study.points, "points of each surface and pose")
+      .check(in_range(1, 90000))
+      .capture_default_str();
+  command.add_option("--rays", o.study.rays, "rays for each point; a cone takes an eighth")
+      .check(in_range(8, 65536))
+      .capture_default_str();
+  command.add_option(
       "--images", o.images,
       "draw floor and wall by ray tracing, Nook, capsules and blobs, with --composite a view of each room by "
       "ray tracing, Nook and the screen pass alone, with --light a view of each room in its light by ray "
       "tracing, Nook, AO times the probe and capsules: PNG files in this directory");
-  command->add_option("--image-count", o.image_count, "poses to draw")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  CLI::Option* const composite = command->add_flag(
+  command.add_option("--image-count", o.image_count, "poses to draw")
+      .check(in_range(1, 1000))
+      .capture_default_str();
+  const Option composite = command.add_flag(
       "--composite", o.composite,
       "measure instead the darkening by characters and the screen pass together, in rooms with "
       "characters, over pixels that the characters darken and elsewhere");
   command
-      ->add_option("--light", o.lights,
-                   "measure instead the irradiance of floor and wall under this latitude-longitude map, "
-                   "channel by channel against path tracing; any number of maps")
-      ->check(CLI::ExistingFile)
-      ->excludes(composite);
-  command->add_option("--scene", o.scenes, "a room in glTF, with +y up, beside the built-in one")
-      ->check(CLI::ExistingFile);
-  command->add_option("--scene-metres", o.scene_metres, "metres of a unit of each --scene, default 1")
-      ->check(CLI::Range(1e-4f, 1e4f));
-  command->add_option("--views", o.rooms.views, "views of each room")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command->add_option("--figures", o.rooms.figures, "characters in each room")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
-  add_common_options(*command, o.common);
-  command->callback([options] {
+      .add_option("--light", o.lights,
+                  "measure instead the irradiance of floor and wall under this latitude-longitude map, "
+                  "channel by channel against path tracing; any number of maps")
+      .check(existing_file())
+      .excludes(composite);
+  command.add_option("--scene", o.scenes, "a room in glTF, with +y up, beside the built-in one")
+      .check(existing_file());
+  command.add_option("--scene-metres", o.scene_metres, "metres of a unit of each --scene, default 1")
+      .check(in_range(1e-4f, 1e4f));
+  command.add_option("--views", o.rooms.views, "views of each room")
+      .check(in_range(1, 1000))
+      .capture_default_str();
+  command.add_option("--figures", o.rooms.figures, "characters in each room")
+      .check(in_range(1, 100))
+      .capture_default_str();
+  add_common_options(command, o.common);
+  command.callback([options] {
     std::vector<NamedFile> inputs = named_files(options->files);
     for (const std::filesystem::path& light : options->lights) inputs.push_back({"--light", light});
     run_evaluation(options->common, {inputs, {}, options->images}, [&] { return evaluate(*options); });

@@ -1,7 +1,7 @@
 // nook export casters: the world casters of a model as text for other engines.
 #include "bakers/measure/world/export_casters.h"
+#include "bakers/tool/command_line.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -62,24 +62,21 @@ void run(const Options& o) {
 
 }  // namespace
 
-void add_export_casters(CLI::App& export_command) {
-  CLI::App* command = export_command.add_subcommand(
+void add_export_casters(Command export_command) {
+  const Command command = export_command.add_subcommand(
       "casters",
       "write the world casters of a baked character for engines that do not link Nook: a physics asset of "
       "Unreal as text, a list of capsules for Source 2, extras of a glTF file.\n"
       "rms and largest are the AO by which the floor below the rest pose differs from that of Nook's own "
       "casters, over_none its mean squared error over that of no darkening");
   const auto options = std::make_shared<Options>();
-  command->add_option("model", options->model, "a .nook file of nook bake character")->required();
-  command->add_option("-o,--output", options->output, "the file to write")->required();
-  command->add_option("--format", options->format, "unreal, source2 or gltf (default)")
-      ->transform(CLI::CheckedTransformer(formats));
-  command
-      ->add_option("--radii", options->radii,
-                   "ao (default) or light: which radii capsules of Unreal and Source 2 have")
-      ->transform(CLI::CheckedTransformer(radii_names));
-  add_common_options(*command, options->common);
-  command->callback([options] { run(*options); });
+  command.add_option("model", options->model, "a .nook file of nook bake character").required();
+  command.add_option("-o,--output", options->output, "the file to write").required();
+  command.add_choice("--format", options->format, formats, "unreal, source2 or gltf (default)");
+  command.add_choice("--radii", options->radii, radii_names,
+                     "ao (default) or light: which radii capsules of Unreal and Source 2 have");
+  add_common_options(command, options->common);
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace nook::tool

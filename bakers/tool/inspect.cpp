@@ -1,9 +1,9 @@
 // nook inspect: what is inside a .nook file.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <optional>
 
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
 #include "bakers/tool/distinct_files.h"
@@ -33,12 +33,12 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_inspect(CLI::App& tool) {
-  CLI::App* command = tool.add_subcommand("inspect", "show what a .nook file holds");
+void add_inspect(Command tool) {
+  const Command command = tool.add_subcommand("inspect", "show what a .nook file holds");
   const auto options = std::make_shared<Options>();
-  command->add_option("file", options->input, "a .nook file")->required();
-  add_common_options(*command, options->common);
-  command->callback([options] { run(*options); });
+  command.add_option("file", options->input, "a .nook file").required();
+  add_common_options(command, options->common);
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace nook::tool

@@ -4,6 +4,7 @@
 #include <new>
 #include <sstream>
 
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/tool_error.h"
@@ -24,34 +25,34 @@ int run(int argc, char** argv) {
   CLI::App* bake = tool.add_subcommand("bake", "make .nook files")->require_subcommand(1);
   CLI::App* evaluate =
       tool.add_subcommand("evaluate", "measure .nook files against ray tracing")->require_subcommand(1);
-  nook::tool::add_bake_character(*bake);
-  nook::tool::add_bake_bent(*bake);
-  nook::tool::add_bake_clips(*bake);
-  nook::tool::add_bake_lod(*bake);
-  nook::tool::add_bake_probe(*bake);
-  nook::tool::add_bake_material(*bake);
-  nook::tool::add_bake_synthesis(*bake);
-  nook::tool::add_bake_transfer(*bake);
-  nook::tool::add_evaluate_character(*evaluate);
-  nook::tool::add_evaluate_bent(*evaluate);
-  nook::tool::add_evaluate_casters(*evaluate);
-  nook::tool::add_evaluate_clips(*evaluate);
-  nook::tool::add_evaluate_lods(*evaluate);
-  nook::tool::add_evaluate_nnao(*evaluate);
-  nook::tool::add_evaluate_grid(*evaluate);
-  nook::tool::add_evaluate_probe(*evaluate);
-  nook::tool::add_evaluate_material(*evaluate);
-  nook::tool::add_evaluate_transfer(*evaluate);
-  nook::tool::add_evaluate_world(*evaluate);
+  nook::tool::add_bake_character(nook::tool::Command(*bake));
+  nook::tool::add_bake_bent(nook::tool::Command(*bake));
+  nook::tool::add_bake_clips(nook::tool::Command(*bake));
+  nook::tool::add_bake_lod(nook::tool::Command(*bake));
+  nook::tool::add_bake_probe(nook::tool::Command(*bake));
+  nook::tool::add_bake_material(nook::tool::Command(*bake));
+  nook::tool::add_bake_synthesis(nook::tool::Command(*bake));
+  nook::tool::add_bake_transfer(nook::tool::Command(*bake));
+  nook::tool::add_evaluate_character(nook::tool::Command(*evaluate));
+  nook::tool::add_evaluate_bent(nook::tool::Command(*evaluate));
+  nook::tool::add_evaluate_casters(nook::tool::Command(*evaluate));
+  nook::tool::add_evaluate_clips(nook::tool::Command(*evaluate));
+  nook::tool::add_evaluate_lods(nook::tool::Command(*evaluate));
+  nook::tool::add_evaluate_nnao(nook::tool::Command(*evaluate));
+  nook::tool::add_evaluate_grid(nook::tool::Command(*evaluate));
+  nook::tool::add_evaluate_probe(nook::tool::Command(*evaluate));
+  nook::tool::add_evaluate_material(nook::tool::Command(*evaluate));
+  nook::tool::add_evaluate_transfer(nook::tool::Command(*evaluate));
+  nook::tool::add_evaluate_world(nook::tool::Command(*evaluate));
   CLI::App* train = tool.add_subcommand("train", "train networks")->require_subcommand(1);
-  nook::tool::add_train_bent(*train);
-  nook::tool::add_train_nnao(*train);
-  nook::tool::add_train_specular(*train);
+  nook::tool::add_train_bent(nook::tool::Command(*train));
+  nook::tool::add_train_nnao(nook::tool::Command(*train));
+  nook::tool::add_train_specular(nook::tool::Command(*train));
   CLI::App* write =
       tool.add_subcommand("export", "write what .nook files hold for other engines")->require_subcommand(1);
-  nook::tool::add_export_casters(*write);
-  nook::tool::add_inspect(tool);
-  nook::tool::add_report(tool);
+  nook::tool::add_export_casters(nook::tool::Command(*write));
+  nook::tool::add_inspect(nook::tool::Command(tool));
+  nook::tool::add_report(nook::tool::Command(tool));
   try {
     tool.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

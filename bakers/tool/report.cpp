@@ -1,5 +1,4 @@
 // nook report: a page for artists on what a .nook file holds, and on how right it is.
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 
@@ -11,6 +10,7 @@
 #include "bakers/measure/report/probe_page.h"
 #include "bakers/measure/report/transfer_page.h"
 #include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
 #include "bakers/tool/distinct_files.h"
@@ -164,27 +164,28 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_report(CLI::App& tool) {
-  CLI::App* command = tool.add_subcommand("report",
-                                          "write one HTML page for artists: pictures of the error beside ray "
-                                          "tracing, worst clips and places, a view that turns, "
-                                          "sizes, and advice");
+void add_report(Command tool) {
+  const Command command =
+      tool.add_subcommand("report",
+                          "write one HTML page for artists: pictures of the error beside ray "
+                          "tracing, worst clips and places, a view that turns, "
+                          "sizes, and advice");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command->add_option("file", o.file, "a .nook file")->required();
-  command->add_option("sources", o.sources, "what it was baked from; see docs/guide/artists.md");
-  command->add_option("-o,--output", o.output, "the page")->required();
-  command->add_option("--rays", o.body.rays, "of a character: rays for each vertex and pose")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
+  command.add_option("file", o.file, "a .nook file").required();
+  command.add_option("sources", o.sources, "what it was baked from; see docs/guide/artists.md");
+  command.add_option("-o,--output", o.output, "the page").required();
+  command.add_option("--rays", o.body.rays, "of a character: rays for each vertex and pose")
+      .check(in_range(1, 65536))
+      .capture_default_str();
   command
-      ->add_option("--samples-per-clip", o.body.samples_per_clip,
-                   "of a character: poses of each clip; default as many as take about a minute, up to 20")
-      ->check(CLI::Range(1, 100000));
-  command->add_option("--licence", o.licence, "words about the licence of what is shown, for the page");
-  add_linked_files_option(*command, o.linked);
-  add_common_options(*command, o.common);
-  command->callback([options] {
+      .add_option("--samples-per-clip", o.body.samples_per_clip,
+                  "of a character: poses of each clip; default as many as take about a minute, up to 20")
+      .check(in_range(1, 100000));
+  command.add_option("--licence", o.licence, "words about the licence of what is shown, for the page");
+  add_linked_files_option(command, o.linked);
+  add_common_options(command, o.common);
+  command.callback([options] {
     try {
       run(*options);
     } catch (const Failure& failure) {

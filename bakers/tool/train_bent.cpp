@@ -1,5 +1,4 @@
 // nook train bent: fits the specular occlusion of characters and writes its numbers as a header.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 #include "bakers/measure/character/evaluated_poses.h"
 #include "bakers/measure/character/specular_numbers.h"
 #include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/interrupt.h"
@@ -54,26 +54,26 @@ Json train(const Options& options) {
 
 }  // namespace
 
-void add_train_bent(CLI::App& train_command) {
-  CLI::App* command = train_command.add_subcommand("bent",
-                                                   "fit the specular occlusion by AO and bent normals of "
-                                                   "characters to ray tracing of one with bent normals");
+void add_train_bent(Command train_command) {
+  const Command command = train_command.add_subcommand("bent",
+                                                       "fit the specular occlusion by AO and bent normals of "
+                                                       "characters to ray tracing of one with bent normals");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  add_evaluated_files(*command, o.files);
-  command->add_option("-o,--output", o.output, "the header to write, shaders/character/specular_numbers.h")
-      ->required();
-  command->add_option("--max-poses", o.poses, "poses, evenly picked over the clips")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--points", o.study.points, "vertices of each pose")
-      ->check(CLI::Range(1, 10000000))
-      ->capture_default_str();
-  command->add_option("--steps", o.fit.steps, "steps of the fit")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  add_common_options(*command, o.common);
-  command->callback([options] {
+  add_evaluated_files(command, o.files);
+  command.add_option("-o,--output", o.output, "the header to write, shaders/character/specular_numbers.h")
+      .required();
+  command.add_option("--max-poses", o.poses, "poses, evenly picked over the clips")
+      .check(in_range(1, 100000))
+      .capture_default_str();
+  command.add_option("--points", o.study.points, "vertices of each pose")
+      .check(in_range(1, 10000000))
+      .capture_default_str();
+  command.add_option("--steps", o.fit.steps, "steps of the fit")
+      .check(in_range(1, 1000000))
+      .capture_default_str();
+  add_common_options(command, o.common);
+  command.callback([options] {
     options->study.seed = options->fit.seed = options->common.seed;
     run_evaluation(options->common, {named_files(options->files), {{"-o", options->output.string()}}, {}},
                    [&] { return train(*options); });

@@ -1,7 +1,6 @@
 // nook train nnao: makes the training set, trains a screen-space network and tells its validation error.
 #include <tbb/task_arena.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -10,6 +9,7 @@
 
 #include "bakers/job/network_training.h"
 #include "bakers/measure/nnao/validation_report.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
 #include "bakers/tool/distinct_files.h"
@@ -134,42 +134,41 @@ void run(Options& options) {
 
 }  // namespace
 
-void add_train_nnao(CLI::App& train) {
-  CLI::App* command = train.add_subcommand(
+void add_train_nnao(Command train) {
+  const Command command = train.add_subcommand(
       "nnao", "train a screen-space network on procedural scenes; Ctrl-C stops, the same command goes on");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command->add_option("-o,--output", o.output, "the .nook file to write")->required();
+  command.add_option("-o,--output", o.output, "the .nook file to write").required();
   command
-      ->add_option_function<std::string>(
+      .add_option_function(
           "--form",
           [&o](const std::string& name) {
             o.training.form = name == "paper" ? NetworkForm::paper : NetworkForm::horizon;
           },
           "horizon (default; the embedded network) or paper (Holden et al. 2016)")
-      ->check(CLI::IsMember({"horizon", "paper"}))
-      ->type_name("NAME");
-  command->add_option("--scenes", o.data.scenes, "procedural scenes, a sixth of them for validation")
-      ->check(CLI::Range(48, 100000));
-  command->add_option("--views", o.data.views, "cameras over all scenes")->check(CLI::Range(16, 1000000));
-  command->add_option("--points", o.data.points_per_view, "points of each view")
-      ->check(CLI::Range(1, 100000));
-  command->add_option("--rays", o.data.rays, "rays of each point")->check(CLI::Range(1, 65536));
-  command->add_option("--epochs", o.training.epochs, "passes over the training points")
-      ->check(CLI::Range(1, 100000));
+      .check(one_of({"horizon", "paper"}))
+      .type_name("NAME");
+  command.add_option("--scenes", o.data.scenes, "procedural scenes, a sixth of them for validation")
+      .check(in_range(48, 100000));
+  command.add_option("--views", o.data.views, "cameras over all scenes").check(in_range(16, 1000000));
+  command.add_option("--points", o.data.points_per_view, "points of each view").check(in_range(1, 100000));
+  command.add_option("--rays", o.data.rays, "rays of each point").check(in_range(1, 65536));
+  command.add_option("--epochs", o.training.epochs, "passes over the training points")
+      .check(in_range(1, 100000));
   command
-      ->add_option("--time-limit", o.time_limit_s,
-                   "stop after so many seconds of training, as Ctrl-C does: the same command goes on")
-      ->check(CLI::PositiveNumber);
+      .add_option("--time-limit", o.time_limit_s,
+                  "stop after so many seconds of training, as Ctrl-C does: the same command goes on")
+      .check(positive_number());
   command
-      ->add_option("--dark-weight", o.training.dark_weight,
-                   "horizon form: a point counts 1 + this x (1 - AO)^2 times")
-      ->check(CLI::Range(0.0, 100.0))
-      ->capture_default_str();
-  command->add_option("--batch", o.training.batch, "points a step, a multiple of 16")
-      ->check(CLI::Range(16, 65536));
-  add_common_options(*command, o.common);
-  command->callback([options] { run(*options); });
+      .add_option("--dark-weight", o.training.dark_weight,
+                  "horizon form: a point counts 1 + this x (1 - AO)^2 times")
+      .check(in_range(0.0, 100.0))
+      .capture_default_str();
+  command.add_option("--batch", o.training.batch, "points a step, a multiple of 16")
+      .check(in_range(16, 65536));
+  add_common_options(command, o.common);
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace nook::tool

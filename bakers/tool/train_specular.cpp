@@ -2,13 +2,13 @@
 // header.
 #include <tbb/task_arena.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bakers/job/specular_training.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
 #include "bakers/tool/distinct_files.h"
@@ -60,22 +60,22 @@ void run(Options& options) {
 
 }  // namespace
 
-void add_train_specular(CLI::App& train) {
-  CLI::App* command = train.add_subcommand(
+void add_train_specular(Command train) {
+  const Command command = train.add_subcommand(
       "specular", "fit the specular occlusion by AO and bent normals to ray tracing in procedural scenes");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command->add_option("-o,--output", o.output, "the header to write, shaders/nnao/specular_numbers.h")
-      ->required();
-  command->add_option("--scenes", o.fit.data.scenes, "procedural scenes, a sixth of them for validation")
-      ->check(CLI::Range(48, 100000));
-  command->add_option("--views", o.fit.data.views, "cameras over all scenes")->check(CLI::Range(48, 1000000));
-  command->add_option("--points", o.fit.data.points_per_view, "points of each view")
-      ->check(CLI::Range(1, 100000));
-  command->add_option("--rays", o.fit.rays, "rays of each reflection")->check(CLI::Range(1, 65536));
-  command->add_option("--steps", o.fit.steps, "steps of the fit")->check(CLI::Range(1, 1000000));
-  add_common_options(*command, o.common);
-  command->callback([options] { run(*options); });
+  command.add_option("-o,--output", o.output, "the header to write, shaders/nnao/specular_numbers.h")
+      .required();
+  command.add_option("--scenes", o.fit.data.scenes, "procedural scenes, a sixth of them for validation")
+      .check(in_range(48, 100000));
+  command.add_option("--views", o.fit.data.views, "cameras over all scenes").check(in_range(48, 1000000));
+  command.add_option("--points", o.fit.data.points_per_view, "points of each view")
+      .check(in_range(1, 100000));
+  command.add_option("--rays", o.fit.rays, "rays of each reflection").check(in_range(1, 65536));
+  command.add_option("--steps", o.fit.steps, "steps of the fit").check(in_range(1, 1000000));
+  add_common_options(command, o.common);
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace nook::tool

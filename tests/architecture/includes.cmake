@@ -29,10 +29,14 @@ function(room folder)
   set(violations "${violations}" PARENT_SCOPE)
 endfunction()
 
-# forbid(FOLDER PATTERN REASON): no include line of the files below FOLDER matches PATTERN.
+# forbid(FOLDER PATTERN REASON [EXCEPT]): no include line of the files below FOLDER matches PATTERN, but in files whose paths match
+# EXCEPT.
 function(forbid folder pattern reason)
   file(GLOB_RECURSE files ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.cpp ${ROOT}/${folder}/*.inl
        ${ROOT}/${folder}/*.c)
+  if(ARGC GREATER 3)
+    list(FILTER files EXCLUDE REGEX "${ARGV3}")
+  endif()
   foreach(file ${files})
     file(STRINGS ${file} lines REGEX "^[ ]*#[ ]*include.*(${pattern})")
     foreach(line ${lines})
@@ -118,6 +122,12 @@ endforeach()
 foreach(folder import raytrace tensor character world nnao probe material synthesis transfer job api measure tool)
   forbid(bakers/${folder} "OpenImageIO" "only images knows OpenImageIO")
 endforeach()
+# Headers with Embree or with the instructions of one processor would keep half of the bakers from ARM64.
+forbid(bakers "embree|[a-z]mmintrin|arm_neon|<intrin" "only sources of raytrace know Embree and the processor" "/bakers/raytrace/[^/]*[.]cpp$")
+foreach(folder platform samples tests)
+  forbid(${folder} "embree[0-9]*/" "only sources of bakers/raytrace know Embree")
+endforeach()
+forbid(bakers/tool "CLI/" "CLI11 costs every file seconds: take bakers/tool/command_line.h" "/(command_line|main)[.]cpp$")
 forbid(bakers/measure/crowd "nook_gl|glad" "the sample draws what is measured")
 foreach(sample offscreen minimal)
   room(samples/${sample} samples/${sample})

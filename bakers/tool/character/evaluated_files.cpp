@@ -1,15 +1,14 @@
 #include "bakers/tool/character/evaluated_files.h"
 
-#include <CLI/CLI.hpp>
-
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/common_options.h"
 #include "bakers/tool/input_file.h"
 
 namespace nook::tool {
 
-void add_evaluated_files(CLI::App& command, EvaluatedFiles& files) {
-  command.add_option("input", files.character, "the character it was baked from, .glb or .gltf")->required();
-  command.add_option("model", files.model, "the .nook file")->required();
+void add_evaluated_files(Command command, EvaluatedFiles& files) {
+  command.add_option("input", files.character, "the character it was baked from, .glb or .gltf").required();
+  command.add_option("model", files.model, "the .nook file").required();
   add_linked_files_option(command, files.linked);
 }
 

@@ -8,18 +8,16 @@
 #include "bakers/measure/character/baked_character.h"
 #include "bakers/tool/distinct_files.h"
 
-namespace CLI {
-class App;
-}
-
 namespace nook::tool {
+
+class Command;
 
 struct EvaluatedFiles {
   std::filesystem::path character, model;
   bake::LinkedFiles linked = bake::LinkedFiles::folder;
 };
 
-void add_evaluated_files(CLI::App& command, EvaluatedFiles& files);
+void add_evaluated_files(Command command, EvaluatedFiles& files);
 
 // Returns both as inputs of the command.
 std::vector<NamedFile> named_files(const EvaluatedFiles& files);

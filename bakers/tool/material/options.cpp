@@ -1,11 +1,11 @@
 #include "bakers/tool/material/options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <map>
 
 #include "bakers/job/material_source.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/tool_error.h"
 
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> read_numbers(const std::string& text, std::size_t cou
 
 }  // namespace
 
-void add_compression_options(CLI::App& command, CompressionOptions& o) {
+void add_compression_options(Command command, CompressionOptions& o) {
   CompressionSettings& s = o.settings;
   s.bits = default_bits;
   command
@@ -42,39 +42,39 @@ void add_compression_options(CLI::App& command, CompressionOptions& o) {
           "--ranks", o.ranks,
           "L,V,X,Y: ranks of the BTF's modes, V in total over the clusters; auto: by --threshold. Built-in "
           "materials have ranks of their own, others auto")
-      ->type_name("L,V,X,Y|auto");
-  command.add_option("--votf-ranks", o.votf_ranks, "X,Y: ranks of the VOTF")->type_name("X,Y");
+      .type_name("L,V,X,Y|auto");
+  command.add_option("--votf-ranks", o.votf_ranks, "X,Y: ranks of the VOTF").type_name("X,Y");
   command
       .add_option("--threshold", o.threshold,
                   "squared error that --ranks auto allows in each mode, a share of the square norm")
-      ->check(CLI::Range(1e-6, 0.5))
-      ->capture_default_str();
+      .check(in_range(1e-6, 0.5))
+      .capture_default_str();
   command.add_option("--cluster-rank", s.cluster_rank_view, "view rank of one cluster")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
+      .check(in_range(1, 64))
+      .capture_default_str();
   command.add_option("--clusters", s.clusters, "clusters of views; default V / cluster rank")
-      ->check(CLI::Range(1, 1024));
+      .check(in_range(1, 1024));
   command.add_option("--mixture", s.mixture, "clusters K that a view is mixed from")
-      ->check(CLI::Range(1, 8))
-      ->capture_default_str();
+      .check(in_range(1, 8))
+      .capture_default_str();
   command
       .add_option("--votf-refits", s.votf_refits,
                   "further fits of the VOTF, which count on which side of the threshold values lie")
-      ->check(CLI::Range(0, 16))
-      ->capture_default_str();
+      .check(in_range(0, 16))
+      .capture_default_str();
   command
       .add_option("--bits", s.bits,
                   "of a number: 8, integers in the file and in textures, or 16, half floats, for twice the "
                   "room and 0.1 dB")
-      ->check(CLI::IsMember({8, 16}))
-      ->capture_default_str();
+      .check(one_of_numbers({8, 16}))
+      .capture_default_str();
   command
-      .add_option_function<std::string>(
+      .add_option_function(
           "--seeding",
           [&s](const std::string& v) { s.seeding = v == "values" ? Seeding::values : Seeding::directions; },
           "first clusters by view directions (default) or by k-means of values")
-      ->check(CLI::IsMember({"directions", "values"}))
-      ->type_name("NAME");
+      .check(one_of({"directions", "values"}))
+      .type_name("NAME");
 }
 
 namespace {

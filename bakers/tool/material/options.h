@@ -6,11 +6,9 @@
 #include "bakers/measure/material/report.h"
 #include "platform/progress_bar.h"
 
-namespace CLI {
-class App;
-}
-
 namespace nook::tool {
+
+class Command;
 
 struct CompressionOptions {
   std::string ranks, votf_ranks;  // as given; empty: the material's defaults
@@ -18,7 +16,7 @@ struct CompressionOptions {
   bake::material::CompressionSettings settings;
 };
 
-void add_compression_options(CLI::App& command, CompressionOptions& options);
+void add_compression_options(Command command, CompressionOptions& options);
 
 // The settings for a material: given ranks, or those of the built-in materials, or ranks by threshold. Throws
 // ToolError for ranks that cannot be read, Failure for ranks that do not fit.

@@ -1,11 +1,11 @@
 #include "bakers/tool/nnao/options.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "bakers/measure/nnao/comparison.h"
 #include "bakers/measure/nnao/frame_comparison.h"
 #include "bakers/measure/nnao/oracle_pass.h"
+#include "bakers/tool/command_line.h"
 #include "bakers/tool/tool_error.h"
 
 namespace nook::tool {
@@ -68,7 +68,7 @@ void check_options(const EvaluateNnaoOptions& options) {
     throw ToolError(exit_bad_arguments, "evaluate nnao: --views: its scenes take the place of files");
 }
 
-void add_options(CLI::App& command, EvaluateNnaoOptions& options) {
+void add_options(Command command, EvaluateNnaoOptions& options) {
   command.add_option("scene", options.scenes.files,
                      "scenes in metres, y up, .glb or .gltf; of several, the means are reported as well");
   add_linked_files_option(command, options.scenes.linked);
@@ -78,54 +78,54 @@ void add_options(CLI::App& command, EvaluateNnaoOptions& options) {
                      "where the scenes of --views lie, each as NAME.glb; default: here");
   command
       .add_option("--sources", options.sources, "measure these sources of --views alone, separated by commas")
-      ->delimiter(',');
+      .delimiter(',');
   command.add_flag("--thin", options.scenes.thin,
                    "a built-in scene of thin things, called thin; it enters no mean");
   command
       .add_option("--frame", options.frames,
                   "replay frames that nook_nnao_record wrote, instead of scenes: against the recorded AO and "
                   "the oracle; any number of times")
-      ->type_name("FILE.nook");
+      .type_name("FILE.nook");
   std::vector<std::string> baselines{"all"};
   for (const Baseline baseline : all_baselines) baselines.push_back(baseline_name(baseline));
   command
       .add_option("--tune", options.tune,
                   "tune one baseline, or all, on training scenes and print their table instead")
-      ->check(CLI::IsMember(baselines));
+      .check(one_of(baselines));
   command
       .add_option(
           "--camera", options.scenes.cameras,
           "eye, target and vertical field of view in degrees: [SCENE:]ox,oy,oz,tx,ty,tz,fov; any number "
           "of times. SCENE is a file's name without .glb, or thin; without it, of every scene")
-      ->type_name("CAMERA");
+      .type_name("CAMERA");
   command.add_option("--cameras", options.placed_cameras, "how many to place where none is given")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+      .check(in_range(1, 1000))
+      .capture_default_str();
   command.add_option("--radius", options.scenes.radii, "of the AO, metres, 0.5 by default: [SCENE:]R")
-      ->type_name("RADIUS");
+      .type_name("RADIUS");
   command
       .add_option("--max-radius-px", options.max_radius_px,
                   "where the radius covers more pixels, every method shrinks it; 0: half the height")
-      ->check(CLI::Range(0.0, 1e4));
+      .check(in_range(0.0, 1e4));
   command
       .add_option(
           "--intensity", options.intensity,
           "nook_nnao_frame_desc.intensity of the library's pass with its filter; the others have none")
-      ->check(CLI::Range(0.0, 16.0))
-      ->capture_default_str();
+      .check(in_range(0.0, 16.0))
+      .capture_default_str();
   command
-      .add_option_function<std::string>(
+      .add_option_function(
           "--size",
           [&options](const std::string& text) {
             parse_size(text, options.truth);
             options.sized = true;
           },
           "pixels; 640x360, or what the list of --views has")
-      ->type_name("WxH");
+      .type_name("WxH");
   command
       .add_option("--rays", options.truth.rays, "rays for each pixel; 128, or what the list of --views has")
-      ->check(CLI::Range(1, 65536))
-      ->each([&options](const std::string&) { options.rays_given = true; });
+      .check(in_range(1, 65536))
+      .each([&options](const std::string&) { options.rays_given = true; });
   command.add_option("--references", options.references,
                      "keep the ray-traced references in this folder, and take those that are there");
   std::vector<std::string> methods{"all", "nnao", half_name, twice_name, "nnao_paper", "nnao_file"};
@@ -139,15 +139,13 @@ void add_options(CLI::App& command, EvaluateNnaoOptions& options) {
           "--methods", options.methods,
           "measure these alone, NAME or NAME:TAPS, separated by commas; default: all, which leaves out "
           "the slow oracle and oracle_bitmask; with --frame replayed, fast, default, best and oracle")
-      ->delimiter(',')
-      ->check([methods](const std::string& text) {
-        return CLI::IsMember(methods)(text.substr(0, text.find(':')));
-      });
+      .delimiter(',')
+      .check([methods](const std::string& text) { return one_of(methods)(text.substr(0, text.find(':'))); });
   command
       .add_option("--ratio", options.ratios,
                   "report the ratio of two methods' errors with its bounds, besides those of --views: "
                   "METHOD:TAPS,METHOD:TAPS; any number of times")
-      ->type_name("RATIO");
+      .type_name("RATIO");
   command.add_flag("--bent-normals", options.bent,
                    "measure bent normals and specular occlusion in place of AO, at every 16th pixel");
   command.add_flag("--temporal", options.temporal,
@@ -156,18 +154,18 @@ void add_options(CLI::App& command, EvaluateNnaoOptions& options) {
       .add_option("--path-step", options.truth.path.step_px,
                   "with --temporal: pixels by which surfaces at the median depth move in a frame; 0: the "
                   "camera stands still")
-      ->check(CLI::Range(0.0, 100.0))
-      ->capture_default_str();
+      .check(in_range(0.0, 100.0))
+      .capture_default_str();
   command
       .add_option("--mover", options.movers,
                   "with --temporal, instead of scenes: a character that walks before a wall, .glb or .gltf "
                   "with clips; any number of times")
-      ->type_name("FILE");
+      .type_name("FILE");
   command.add_option("--clip", options.clip,
                      "the clip of --mover; default: the first whose name has walk in it, or the first");
   command.add_option("--walk-speed", options.walk_speed, "of --mover along its way, metres a second")
-      ->check(CLI::Range(0.0, 100.0))
-      ->capture_default_str();
+      .check(in_range(0.0, 100.0))
+      .capture_default_str();
   command.add_flag("!--no-raw", options.raw, "measure each method with its blur alone");
   command.add_option("--network", options.network,
                      "a file of `nook train nnao`, such as the paper's form, measured as well");

@@ -10,11 +10,9 @@
 #include "bakers/tool/common_options.h"
 #include "bakers/tool/nnao/scenes.h"
 
-namespace CLI {
-class App;
-}
-
 namespace nook::tool {
+
+class Command;
 
 // The settings of `nook evaluate nnao` from the command line.
 struct EvaluateNnaoOptions {
@@ -42,7 +40,7 @@ struct EvaluateNnaoOptions {
 };
 
 // Adds the options to the command. They stay where they are until the command has run.
-void add_options(CLI::App& command, EvaluateNnaoOptions& options);
+void add_options(Command command, EvaluateNnaoOptions& options);
 
 // Reads WxH, pixels. Throws ToolError (bad arguments).
 void parse_size(const std::string& text, measure::TruthSettings& truth);

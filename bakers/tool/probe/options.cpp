@@ -1,6 +1,7 @@
 #include "bakers/tool/probe/options.h"
 
-#include <CLI/CLI.hpp>
+#include "bakers/tool/command_line.h"
+
 #include <vector>
 
 namespace nook::tool {
@@ -20,33 +21,33 @@ std::size_t index_of(const std::vector<std::string>& names, const std::string& n
 
 }  // namespace
 
-void add_probe_options(CLI::App& command, ProbeOptions& options) {
+void add_probe_options(Command command, ProbeOptions& options) {
   command.add_option("--lobes", options.lobes, "spherical Gaussians, on a Vogel spiral")
-      ->check(CLI::Range(1u, probe::max_functions))
-      ->capture_default_str();
+      .check(in_range(1u, probe::max_functions))
+      .capture_default_str();
   command.add_option("--sharpness", options.sharpness, "of all lobes; 0: by their number")
-      ->check(CLI::Range(0.0f, probe::max_sharpness))
-      ->capture_default_str();
+      .check(in_range(0.0f, probe::max_sharpness))
+      .capture_default_str();
   command.add_flag("--ambient", options.ambient, "a constant term after the lobes");
   command.add_flag("--hemisphere", options.hemisphere, "only directions above the horizon (+y)");
   command.add_option("--method", options.method, "how coefficients are fitted")
-      ->check(CLI::IsMember(method_names))
-      ->capture_default_str();
+      .check(one_of(method_names))
+      .capture_default_str();
   command
       .add_option(
           "--constraint", options.constraint,
           "bands: lobes keep the light's spherical harmonics of bands 0 to 2; none: least squares alone")
-      ->check(CLI::IsMember(constraint_names))
-      ->capture_default_str();
+      .check(one_of(constraint_names))
+      .capture_default_str();
   command.add_option("--basis", options.basis, "what the probe is made of")
-      ->check(CLI::IsMember(basis_names))
-      ->capture_default_str();
+      .check(one_of(basis_names))
+      .capture_default_str();
   command.add_option("--order", options.order, "harmonics: the highest band")
-      ->check(CLI::Range(1u, probe::max_order))
-      ->capture_default_str();
+      .check(in_range(1u, probe::max_order))
+      .capture_default_str();
   command.add_option("--packing", options.packing, "of coefficients in the file")
-      ->check(CLI::IsMember(packing_names))
-      ->capture_default_str();
+      .check(one_of(packing_names))
+      .capture_default_str();
 }
 
 probe::Basis basis_of(const ProbeOptions& options) {

@@ -8,11 +8,9 @@
 #include "sdk/src/probe/fit.h"
 #include "sdk/src/probe/packing.h"
 
-namespace CLI {
-class App;
-}
-
 namespace nook::tool {
+
+class Command;
 
 struct ProbeOptions {
   std::uint32_t lobes = 12;
@@ -22,7 +20,7 @@ struct ProbeOptions {
   std::uint32_t order = 2;
 };
 
-void add_probe_options(CLI::App& command, ProbeOptions& options);
+void add_probe_options(Command command, ProbeOptions& options);
 
 // The hemisphere's axis is +y.
 probe::Basis basis_of(const ProbeOptions& options);

@@ -1,0 +1,130 @@
+#include "bakers/tool/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <tuple>
+
+namespace nook::tool {
+
+Check::Check(const CLI::Validator& validator)
+    : validator_(std::make_shared<const CLI::Validator>(validator)) {}
+
+std::string Check::operator()(const std::string& text) const {
+  return validator()(text);
+}
+
+Check Check::operator|(const Check& other) const {
+  return Check(validator() | other.validator());
+}
+
+template <class T>
+Check in_range(T low, T high) {
+  return Check(CLI::Range(low, high));
+}
+template Check in_range(int, int);
+template Check in_range(unsigned, unsigned);
+template Check in_range(float, float);
+template Check in_range(double, double);
+
+Check one_of(const std::vector<std::string>& names) {
+  return Check(CLI::IsMember(names));
+}
+Check one_of_numbers(const std::vector<int>& numbers) {
+  return Check(CLI::IsMember(numbers));
+}
+Check positive_number() {
+  return Check(CLI::PositiveNumber);
+}
+Check non_negative_number() {
+  return Check(CLI::NonNegativeNumber);
+}
+Check existing_file() {
+  return Check(CLI::ExistingFile);
+}
+
+Option Option::required() const {
+  return Option(option_->required());
+}
+Option Option::check(const Check& check) const {
+  return Option(option_->check(check.validator()));
+}
+Option Option::check(const std::function<std::string(const std::string&)>& fault) const {
+  return Option(option_->check(fault));
+}
+Option Option::each(const std::function<void(std::string)>& seen) const {
+  return Option(option_->each(seen));
+}
+Option Option::capture_default_str() const {
+  return Option(option_->capture_default_str());
+}
+Option Option::default_str(const std::string& text) const {
+  return Option(option_->default_str(text));
+}
+Option Option::type_name(const std::string& name) const {
+  return Option(option_->type_name(name));
+}
+Option Option::delimiter(char between) const {
+  return Option(option_->delimiter(between));
+}
+Option Option::expected(int count) const {
+  return Option(option_->expected(count));
+}
+Option Option::expected(int least, int most) const {
+  return Option(option_->expected(least, most));
+}
+Option Option::needs(Option other) const {
+  return Option(option_->needs(other.option_));
+}
+Option Option::excludes(Option other) const {
+  return Option(option_->excludes(other.option_));
+}
+Option Option::number_of(const std::map<std::string, int>& numbers) const {
+  return Option(option_->transform(CLI::CheckedTransformer(numbers)));
+}
+
+Command Command::add_subcommand(const char* name, const std::string& help) const {
+  return Command(*app_->add_subcommand(name, help));
+}
+void Command::callback(const std::function<void()>& run) const {
+  app_->callback(run);
+}
+
+// The pose of evaluate casters: two clips, a place and an angle.
+using TwoNamesFourNumbers = std::tuple<std::string, std::string, float, float, float, float>;
+
+template <class T>
+requires(!std::is_enum_v<T>) Option Command::add_option(const char* names, T& value, const std::string& help)
+const {
+  return Option(app_->add_option(names, value, help));
+}
+template Option Command::add_option(const char*, std::string&, const std::string&) const;
+template Option Command::add_option(const char*, std::filesystem::path&, const std::string&) const;
+template Option Command::add_option(const char*, int&, const std::string&) const;
+template Option Command::add_option(const char*, unsigned&, const std::string&) const;
+template Option Command::add_option(const char*, std::uint64_t&, const std::string&) const;
+template Option Command::add_option(const char*, float&, const std::string&) const;
+template Option Command::add_option(const char*, double&, const std::string&) const;
+template Option Command::add_option(const char*, std::optional<unsigned>&, const std::string&) const;
+template Option Command::add_option(const char*, std::optional<float>&, const std::string&) const;
+template Option Command::add_option(const char*, std::vector<std::string>&, const std::string&) const;
+template Option Command::add_option(const char*, std::vector<std::filesystem::path>&,
+                                    const std::string&) const;
+template Option Command::add_option(const char*, std::vector<unsigned>&, const std::string&) const;
+template Option Command::add_option(const char*, std::vector<float>&, const std::string&) const;
+template Option Command::add_option(const char*, std::vector<double>&, const std::string&) const;
+template Option Command::add_option(const char*, TwoNamesFourNumbers&, const std::string&) const;
+
+Option Command::add_option_function(const char* names, const std::function<void(const std::string&)>& set,
+                                    const std::string& help) const {
+  return Option(app_->add_option_function<std::string>(names, set, help));
+}
+Option Command::add_flag(const char* names, bool& value, const std::string& help) const {
+  return Option(app_->add_flag(names, value, help));
+}
+Option Command::add_flag_callback(const char* names, const std::function<void()>& set,
+                                  const std::string& help) const {
+  return Option(app_->add_flag_callback(names, set, help));
+}
+
+}  // namespace nook::tool

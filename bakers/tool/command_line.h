@@ -1,0 +1,102 @@
+// Commands and their options, by CLI11. Its headers cost every file that includes them four seconds, so that
+// only command_line.cpp and main.cpp do.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+class Validator;
+}  // namespace CLI
+
+namespace nook::tool {
+
+// A condition on the text of an option, which help shows.
+class Check {
+ public:
+  explicit Check(const CLI::Validator& validator);
+  const CLI::Validator& validator() const { return *validator_; }
+  std::string operator()(const std::string& text) const;  // returns what is wrong, or nothing
+  Check operator|(const Check& other) const;
+
+ private:
+  std::shared_ptr<const CLI::Validator> validator_;
+};
+
+// T is int, unsigned, float or double, and names the type in help.
+template <class T>
+Check in_range(T low, T high);
+Check one_of(const std::vector<std::string>& names);
+Check one_of_numbers(const std::vector<int>& numbers);
+Check positive_number();
+Check non_negative_number();
+Check existing_file();
+
+// Refers to an option of a command; copies refer to the same.
+class Option {
+ public:
+  explicit Option(CLI::Option* option) : option_(option) {}
+
+  Option required() const;
+  Option check(const Check& check) const;
+  Option check(const std::function<std::string(const std::string&)>& fault)
+      const;                                                        // returns what is wrong, or nothing
+  Option each(const std::function<void(std::string)>& seen) const;  // calls it for each text
+  Option capture_default_str() const;  // the variable's value is the default that help shows
+  Option default_str(const std::string& text) const;
+  Option type_name(const std::string& name) const;
+  Option delimiter(char between) const;
+  Option expected(int count) const;
+  Option expected(int least, int most) const;
+  Option needs(Option other) const;
+  Option excludes(Option other) const;
+  // A name of the map becomes its number.
+  Option number_of(const std::map<std::string, int>& numbers) const;
+
+ private:
+  CLI::Option* option_;
+};
+
+// Refers to a command; copies refer to the same. Variables and functions must outlive the parsing.
+class Command {
+ public:
+  explicit Command(CLI::App& app) : app_(&app) {}
+
+  Command add_subcommand(const char* name, const std::string& help) const;
+  void callback(const std::function<void()>& run) const;
+
+  // The values that command_line.cpp instantiates it for: text, paths, numbers, and vectors and optionals of
+  // them.
+  template <class T>
+  requires(!std::is_enum_v<T>) Option add_option(const char* names, T& value, const std::string& help)
+  const;
+  Option add_option_function(const char* names, const std::function<void(const std::string&)>& set,
+                             const std::string& help) const;
+  Option add_flag(const char* names, bool& value, const std::string& help) const;
+  Option add_flag_callback(const char* names, const std::function<void()>& set,
+                           const std::string& help) const;
+
+  // An option whose values are the names of the map.
+  template <class T>
+  Option add_choice(const char* option_names, T& value, const std::map<std::string, T>& values,
+                    const std::string& help) const {
+    std::map<std::string, int> numbers;
+    for (const auto& [name, of_name] : values) numbers[name] = int(of_name);
+    return add_option_function(
+               option_names, [&value](const std::string& number) { value = T(std::stoi(number)); }, help)
+        .number_of(numbers)
+        .type_name("ENUM");
+  }
+
+ private:
+  CLI::App* app_;
+};
+
+}  // namespace nook::tool
