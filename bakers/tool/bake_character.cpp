@@ -222,8 +222,7 @@ void add_bake_character(CLI::App& bake) {
               {"clips", NOOK_BAKE_POSES_CLIPS},
               {"all", NOOK_BAKE_POSES_ALL}},
              "what to fit: auto (generated poses), single-joint (a grid of rotations of each joint alone), "
-             "clips, or all (auto "
-             "and clips, the default)");
+             "clips, or all (auto and clips, the default)");
   command->add_option("--clips", o.clips, "fit only these clips of the file")->delimiter(',');
   add_choice(
       *command, "--split", o.split,

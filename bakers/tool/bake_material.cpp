@@ -370,8 +370,7 @@ void add_bake_material(CLI::App& bake) {
                                        : Method::k_cta;
           },
           "k-cta (default), cta, n-svd, or neural: a small network over features of the texels, for flat and "
-          "glossy "
-          "materials, which trains for minutes; its visibility is that of k-cta")
+          "glossy materials, which trains for minutes; its visibility is that of k-cta")
       ->check(CLI::IsMember({"k-cta", "cta", "n-svd", "neural"}))
       ->type_name("NAME");
   command

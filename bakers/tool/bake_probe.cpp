@@ -95,8 +95,8 @@ void add_bake_probe(CLI::App& bake_command) {
       ->add_option(
           "--direct", o.direct,
           "of a scene: what probes hold of the map's light that reaches them straight: none, the sky without "
-          "suns, "
-          "or all; reflected light always counts, and the report names the suns that are left to the host")
+          "suns, or all; reflected light always counts, and the report names the suns that are left to the "
+          "host")
       ->check(CLI::IsMember(measure::direct_names()))
       ->capture_default_str();
   command->add_flag(

@@ -106,8 +106,8 @@ void add_evaluate_casters(CLI::App& evaluate_command) {
           ->default_str("0.3,0.5,0.75,1,2,3,5,10");
   CLI::Option* const radii = command->add_flag(
       "--radii", o.study.in_radii,
-      "distances are in bounding radii of the body instead of metres, so that bodies of any "
-      "size compare; a person's is about 1 m");
+      "distances are in bounding radii of the body instead of metres, so that bodies of any size compare; a "
+      "person's is about 1 m");
   CLI::Option* const contact = command->add_option(
       "--contact", o.contact,
       "two bodies in the middles of two clips instead, each darkened by the other: the names of "
