@@ -24,7 +24,7 @@ vec2 nook_material_relief(vec2 uv, vec3 view, float level) {
 }
 #endif
 
-vec4 nook_btf_mean(int cluster, int mode, nook_material_fetches at) {
+vec4 nook_btf_mean(int cluster, int mode, NookMaterialFetches at) {
   vec4 mean = nook_btf_mode(cluster, mode, at.place[0], at.level);
   for (int i = 1; i < at.count; ++i)
     mean += (nook_btf_mode(cluster, mode, at.place[i], at.level) - mean) / float(i + 1);
@@ -33,7 +33,7 @@ vec4 nook_btf_mean(int cluster, int mode, nook_material_fetches at) {
 
 // Computes the mean light modes of places for the view. On a relief the view's ray through each place meets a point of
 // its own.
-void nook_material_decode_at(nook_material_fetches at, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
+void nook_material_decode_at(NookMaterialFetches at, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   vec2 place = nook_parabolic_place(view, NOOK_BTF_SIDE);
   ivec2 cell = min(ivec2(place), ivec2(NOOK_BTF_SIDE - 1));
 #if NOOK_RELIEF
@@ -43,7 +43,7 @@ void nook_material_decode_at(nook_material_fetches at, vec3 view, out vec4 modes
   uvec4 clusters = uvec4(0u);
 #if NOOK_BTF_BLENDED
   uvec4 last = texelFetch(nook_btf_membership, ivec3(cell, NOOK_BTF_TERMS / 4), 0);
-  nook_material_cell blend = nook_material_blend(place, cell, int(last[NOOK_BTF_TERMS % 4]));
+  NookMaterialCell blend = nook_material_blend(place, cell, int(last[NOOK_BTF_TERMS % 4]));
 #endif
   for (int k = 0; k < NOOK_BTF_TERMS; ++k) {
 #if NOOK_BTF_CLUSTERS > 1

@@ -1,6 +1,6 @@
 // Decoding of a VOTF.
 #if NOOK_VOTF_TERMS > 0
-vec4 nook_votf_mean(int cluster, int mode, nook_material_fetches at) {
+vec4 nook_votf_mean(int cluster, int mode, NookMaterialFetches at) {
   vec4 mean = nook_votf_mode(cluster, mode, at.place[0], at.level);
   for (int i = 1; i < at.count; ++i)
     mean += (nook_votf_mode(cluster, mode, at.place[i], at.level) - mean) / float(i + 1);
@@ -8,14 +8,14 @@ vec4 nook_votf_mean(int cluster, int mode, nook_material_fetches at) {
 }
 
 // Returns the mean of the VOTF over places.
-float nook_material_occlusion_at(nook_material_fetches at, vec3 view) {
+float nook_material_occlusion_at(NookMaterialFetches at, vec3 view) {
   vec2 place = nook_parabolic_place(view, NOOK_VOTF_SIDE);
   ivec2 cell = min(ivec2(place), ivec2(NOOK_VOTF_SIDE - 1));
   float value = 0.0;
   uvec4 clusters = uvec4(0u);
 #if NOOK_VOTF_BLENDED
   uvec4 last = texelFetch(nook_votf_membership, ivec3(cell, NOOK_VOTF_TERMS / 4), 0);
-  nook_material_cell blend = nook_material_blend(place, cell, int(last[NOOK_VOTF_TERMS % 4]));
+  NookMaterialCell blend = nook_material_blend(place, cell, int(last[NOOK_VOTF_TERMS % 4]));
 #endif
   for (int k = 0; k < NOOK_VOTF_TERMS; ++k) {
 #if NOOK_VOTF_CLUSTERS > 1
