@@ -28,3 +28,10 @@ vec4 nook_material_blended(highp sampler2DArray coefficients, NookMaterialCell c
          texelFetch(coefficients, ivec3(c.x, layer), 0) * c.weight_x +
          texelFetch(coefficients, ivec3(c.y, layer), 0) * c.weight_y;
 }
+
+// Where the terms of a tensor for a view are: the cell of the view, the clusters of the four terms that are being evaluated,
+// and of the last four, where the cell's neighbours stand too.
+struct NookMaterialTerms {
+  NookMaterialCell cell;
+  uvec4 clusters, last;
+};
