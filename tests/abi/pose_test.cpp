@@ -69,9 +69,9 @@ TEST_CASE("a model's info counts its skins and check vertices") {
   CHECK(nook_character_model_rest_vertex(stage.model, stage.info.check_vertex_count, &vertex) ==
         NOOK_ERROR_INVALID_ARGUMENT);
 
-  CharacterModel unbound = sample_model();
-  unbound.bind = BindData();
-  const std::vector<std::byte> bytes = write_character_model(unbound);
+  nook::CharacterModel unbound = sample_model();
+  unbound.bind = nook::BindData();
+  const std::vector<std::byte> bytes = nook::write_character_model(unbound);
   nook_character_model model = nullptr;
   REQUIRE(nook_character_model_load(stage.context, bytes.data(), bytes.size(), &model) == NOOK_OK);
   CHECK(info_of(model).skin_count == 0);
