@@ -12,7 +12,8 @@ import textwrap
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 HEADERS = sorted((ROOT / "sdk/include/nook").glob("*.h"))
 PAGES = ROOT / "docs/api"
-NAME = re.compile(r"\b((?:nook|NOOK)_\w+)(?:\(\))?")
+# A header, such as nook_bake.h, or a name that headers declare.
+NAME = re.compile(r"\b(?:(nook(?:_\w+)?)\.(?:hpp|h)\b|((?:nook|NOOK)_\w+)(?:\(\))?)")
 # First sentences that do not describe the function.
 CONTRACT = re.compile(r"(Any thread|One at a time|Context thread|On failure|Errors)\b")
 
@@ -119,10 +120,16 @@ def prose(lines, link):
 
 
 def page(name, blocks, places):
+    headers = {header.name for header in HEADERS}
+
     def link_from(item):
         def link(match):
-            target = places.get(match.group(1))
-            if not target or item and match.group(1) in item.names:
+            header = match.group(1)
+            if header:
+                has_page = header != name and match.group(0) in headers
+                return f"[`{match.group(0)}`]({header}.md)" if has_page else f"`{match.group(0)}`"
+            target = places.get(match.group(2))
+            if not target or item and match.group(2) in item.names:
                 return f"`{match.group(0)}`"
             where = "" if target[0] == name else f"{target[0]}.md"
             return f"[`{match.group(0)}`]({where}#{target[1]})"

@@ -22,6 +22,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::array preset_names{"draft", "standard", "production"};
 constexpr std::array pose_names{"auto", "single-joint", "clips", "all", "extra"};
 constexpr std::array kernel_names{"paper", "nook", "rational"};
+static_assert(kernel_names.size() == kernel_form_count);
 constexpr std::array fit_names{"nook", "paper"};
 
 template <std::size_t N>

@@ -170,8 +170,8 @@ Recipe recipe_of(const nook_bake_job_desc& desc, const ImportedCharacter& charac
   const bool clips = recipe.poses == PoseMode::clips || recipe.poses == PoseMode::all;
   if (!clips && desc.clip_count > 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.clip_names are given but desc.pose_mode uses no clips; use "
-                  "NOOK_BAKE_POSES_CLIPS or NOOK_BAKE_POSES_ALL");
+                  "desc.clip_names are given but desc.pose_mode uses no clips; use NOOK_BAKE_POSES_CLIPS or "
+                  "NOOK_BAKE_POSES_ALL");
   if (clips) recipe.clips = chosen_clips(desc, character);
   if (recipe.poses == PoseMode::clips && recipe.clips.empty())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

@@ -60,8 +60,7 @@ TrainingState read_checkpoint(std::span<const std::byte> bytes, std::string_view
     if (!is_reachable(state.parameter[i], state.adam.mean[i], state.adam.square[i]))
       throw Failure(NOOK_ERROR_BAD_FILE,
                     "parameter %zu of the checkpoint is no number that training leaves (got %g, its mean "
-                    "gradient %g, mean "
-                    "squared gradient %g); remove it",
+                    "gradient %g, mean squared gradient %g); remove it",
                     i, double(state.parameter[i]), double(state.adam.mean[i]), double(state.adam.square[i]));
   }
   numbers.check_end();

@@ -25,8 +25,7 @@ Environment::Environment(std::uint32_t width, std::uint32_t height, std::vector<
     if (!(rgb_[i] >= 0 && double(rgb_[i]) <= max_radiance))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "an environment's texel is out of range (got %g in row %zu, column %zu, need 0 to %g); "
-                    "repair the map "
-                    "or scale its light down",
+                    "repair the map or scale its light down",
                     double(rgb_[i]), i / 3 / width, i / 3 % width, max_radiance);
 }
 

@@ -51,8 +51,8 @@ void add_bake_bent(Command bake_command) {
   const Command command =
       bake_command.add_subcommand("bent",
                                   "bent normals for a baked character: for each vertex two vectors of the "
-                                  "directions that its body blocks, "
-                                  "by ray tracing in a few poses. All else in the model stays as it is");
+                                  "directions that its body blocks, by ray tracing in a few poses. All else "
+                                  "in the model stays as it is");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_option("character", o.input, "the rigged character, .glb or .gltf").required();

@@ -77,9 +77,9 @@ void add_evaluate_character(Command evaluate_command) {
                                       "measure a baked character against ray tracing.\n"
                                       "mse is over all vertices and poses, mse_visible over those that ray "
                                       "tracing does not find black (AO of at least 0.01; visible_share is "
-                                      "their share); mse_area weights vertices by "
-                                      "area; mse_static is the AO baked in the rest pose, "
-                                      "mse_oracle the best that any static bake could do");
+                                      "their share); mse_area weights vertices by area; mse_static is the AO "
+                                      "baked in the rest pose, mse_oracle the best that any static bake "
+                                      "could do");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(command, o.files);

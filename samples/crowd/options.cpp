@@ -63,8 +63,8 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
       ->check(CLI::IsMember({"on", "off"}));
   app.add_option("--light", o.lights,
                  "probe (.nook) or environment (.hdr, .exr). The first one lights the frames, and each is "
-                 "compared with path "
-                 "tracing. The option may repeat. Without it a built-in sky lights the frames")
+                 "compared with path tracing. The option may repeat. Without it a built-in sky lights the "
+                 "frames")
       ->check(CLI::ExistingFile)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_flag("!--no-light", o.probe_light,

@@ -22,7 +22,7 @@ assert.throws(() => nook.createGl({}), /no WebGL2RenderingContext/);
 
 // Both ways to give a pose agree.
 const model = nook.loadCharacter(readFileSync(join(data, "character.nook")));
-const { boneCount, fileVertexCount } = model.info;
+const { boneCount, fileVertexCount, skinCount, checkVertexCount } = model.info;
 const bones = new Float32Array(12 * boneCount), skinning = new Float32Array(16 * boneCount);
 for (let b = 0; b < boneCount; ++b) {
   bones.set([1, 0, 0, 0.25, 0, 1, 0, 0, 0, 0, 1, 0], 12 * b);
@@ -40,8 +40,11 @@ assert.equal(ao.length, fileVertexCount);
 assert.ok(ao.every((value, i) => Math.abs(value - other[i]) < 1e-5));
 assert.deepEqual([...model.mapBones(model.boneNames).transformOfBone], [...Array(boneCount).keys()]);
 const check = model.checkPose({ transforms: bones }, {
-  positions: Array.from({ length: 8 }, (_, i) => model.restVertex(i).position).flatMap((p) => [p[0] + 0.25, p[1], p[2]]) });
+  positions: Array.from({ length: checkVertexCount }, (_, i) => model.restVertex(i).position).flatMap((p) => [p[0] + 0.25, p[1], p[2]]) });
 assert.equal(check.fault, "right", check.text);
+assert.throws(() => model.restVertex(checkVertexCount), /nook_character_model_rest_vertex: index is out of range/);
+assert.equal(skinCount, 1);
+assert.throws(() => model.skin(skinCount), /nook_character_model_skin: skin is out of range/);
 assert.throws(() => scene.setPose(first, bones.fill(NaN, 0, 12)), /nook_scene_set_pose: /);
 scene.destroy();
 scene.destroy();

@@ -24,43 +24,20 @@ vec2 nook_material_relief(vec2 uv, vec3 view, float level) {
 }
 #endif
 
-vec4 nook_btf_mean(int cluster, int mode, nook_material_fetches at) {
-  vec4 mean = nook_btf_mode(cluster, mode, at.place[0], at.level);
-  for (int i = 1; i < at.count; ++i)
-    mean += (nook_btf_mode(cluster, mode, at.place[i], at.level) - mean) / float(i + 1);
-  return mean;
-}
-
 // Computes the mean light modes of places for the view. On a relief the view's ray through each place meets a point of
 // its own.
-void nook_material_decode_at(nook_material_fetches at, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
+void nook_material_decode_at(NookMaterialFetches at, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   vec2 place = nook_parabolic_place(view, NOOK_BTF_SIDE);
   ivec2 cell = min(ivec2(place), ivec2(NOOK_BTF_SIDE - 1));
 #if NOOK_RELIEF
   for (int i = 0; i < at.count; ++i) at.place[i] = nook_material_relief(at.place[i], view, at.level);
 #endif
   for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a) modes[a] = vec4(0.0);
-  uvec4 clusters = uvec4(0u);
-#if NOOK_BTF_BLENDED
-  uvec4 last = texelFetch(nook_btf_membership, ivec3(cell, NOOK_BTF_TERMS / 4), 0);
-  nook_material_cell blend = nook_material_blend(place, cell, int(last[NOOK_BTF_TERMS % 4]));
-#endif
+  NookMaterialTerms terms = nook_btf_terms(place, cell);
   for (int k = 0; k < NOOK_BTF_TERMS; ++k) {
-#if NOOK_BTF_CLUSTERS > 1
-#if NOOK_BTF_BLENDED
-    if (k % 4 == 0)
-      clusters = k / 4 == NOOK_BTF_TERMS / 4 ? last : texelFetch(nook_btf_membership, ivec3(cell, k / 4), 0);
-#else
-    if (k % 4 == 0) clusters = texelFetch(nook_btf_membership, ivec3(cell, k / 4), 0);
-#endif
-#endif
-    int cluster = int(clusters[k % 4]);
+    int cluster = nook_btf_cluster(terms, k);
     for (int b = 0; b < NOOK_BTF_VIEW_VEC4_COUNT; ++b) {
-#if NOOK_BTF_BLENDED
-      vec4 coefficients = nook_material_blended(nook_btf_coefficients, blend, k * NOOK_BTF_VIEW_VEC4_COUNT + b);
-#else
-      vec4 coefficients = texelFetch(nook_btf_coefficients, ivec3(cell, k * NOOK_BTF_VIEW_VEC4_COUNT + b), 0);
-#endif
+      vec4 coefficients = nook_btf_weights(terms, k, b);
       for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a) {
         int mode = a * 4 * NOOK_BTF_VIEW_VEC4_COUNT + b;
         modes[a] += vec4(dot(coefficients, nook_btf_mean(cluster, mode, at)),

@@ -1,15 +1,15 @@
 // The places of the tile that a pixel reads. sdk/src/material/footprint.h describes them and has the same functions.
 
 // The mean over the first `count` places is read; they share one mipmap level.
-struct nook_material_fetches {
+struct NookMaterialFetches {
   int count;
   float level;
   vec2 place[NOOK_MATERIAL_MAX_FETCHES];
 };
 
 // One place, for a pixel whose sides are taken to be as long as the longer one.
-nook_material_fetches nook_material_one_fetch(vec2 uv, vec2 dx, vec2 dy, vec2 texels) {
-  nook_material_fetches at;
+NookMaterialFetches nook_material_one_fetch(vec2 uv, vec2 dx, vec2 dy, vec2 texels) {
+  NookMaterialFetches at;
   at.count = 1;
   at.level = nook_mipmap_level(dx, dy, texels);
   at.place[0] = uv;
@@ -17,14 +17,14 @@ nook_material_fetches nook_material_one_fetch(vec2 uv, vec2 dx, vec2 dy, vec2 te
 }
 
 // Places along the longer axis of the pixel's footprint, `fetches` of them, from 1 to NOOK_MATERIAL_MAX_FETCHES.
-nook_material_fetches nook_material_fetches_along(vec2 uv, vec2 dx, vec2 dy, vec2 texels, int fetches) {
+NookMaterialFetches nook_material_fetches_along(vec2 uv, vec2 dx, vec2 dy, vec2 texels, int fetches) {
   vec2 across = vec2(dx.x, dy.x) * texels.x, up = vec2(dx.y, dy.y) * texels.y;
   float xx = dot(across, across), yy = dot(up, up), xy = dot(across, up);
   float mean = 0.5 * (xx + yy), half_difference = 0.5 * (xx - yy);
   float from_mean = sqrt(half_difference * half_difference + xy * xy), longer2 = mean + from_mean;
   // False for what is no number.
   bool is_in_range = longer2 < 1e18;
-  nook_material_fetches at;
+  NookMaterialFetches at;
   at.count = clamp(fetches, 1, NOOK_MATERIAL_MAX_FETCHES);
   float side2 = max(mean - from_mean, longer2 / float(at.count * at.count));
   at.level = is_in_range ? 0.5 * log2(max(side2, 1e-30)) : 30.0;

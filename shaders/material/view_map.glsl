@@ -10,21 +10,28 @@ float nook_mipmap_level(vec2 dx, vec2 dy, vec2 texels) {
 }
 
 // A cell of a view map, with the neighbours along x and y that it blends with and their weights.
-struct nook_material_cell {
+struct NookMaterialCell {
   ivec2 cell, x, y;
   float weight_x, weight_y;
 };
 
 // Finds the cell of a view and its neighbours, whose steps are two bits for each half of the cell, plus 1.
 // sdk/src/material/view_cells.h has the same function.
-nook_material_cell nook_material_blend(vec2 place, ivec2 cell, int neighbours) {
+NookMaterialCell nook_material_blend(vec2 place, ivec2 cell, int neighbours) {
   vec2 at = place - vec2(cell) - 0.5;
   int x = (neighbours >> (at.x > 0.0 ? 2 : 0) & 3) - 1, y = (neighbours >> (at.y > 0.0 ? 6 : 4) & 3) - 1;
-  return nook_material_cell(cell, cell + ivec2(x, 0), cell + ivec2(0, y), at.x * float(x), at.y * float(y));
+  return NookMaterialCell(cell, cell + ivec2(x, 0), cell + ivec2(0, y), at.x * float(x), at.y * float(y));
 }
 
-vec4 nook_material_blended(highp sampler2DArray coefficients, nook_material_cell c, int layer) {
+vec4 nook_material_blended(highp sampler2DArray coefficients, NookMaterialCell c, int layer) {
   return texelFetch(coefficients, ivec3(c.cell, layer), 0) * (1.0 - c.weight_x - c.weight_y) +
          texelFetch(coefficients, ivec3(c.x, layer), 0) * c.weight_x +
          texelFetch(coefficients, ivec3(c.y, layer), 0) * c.weight_y;
 }
+
+// Where the terms of a tensor for a view are: the cell of the view, the clusters of the four terms that are being evaluated,
+// and of the last four, where the cell's neighbours stand too.
+struct NookMaterialTerms {
+  NookMaterialCell cell;
+  uvec4 clusters, last;
+};

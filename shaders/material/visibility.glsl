@@ -1,40 +1,15 @@
 // Decoding of a VOTF.
 #if NOOK_VOTF_TERMS > 0
-vec4 nook_votf_mean(int cluster, int mode, nook_material_fetches at) {
-  vec4 mean = nook_votf_mode(cluster, mode, at.place[0], at.level);
-  for (int i = 1; i < at.count; ++i)
-    mean += (nook_votf_mode(cluster, mode, at.place[i], at.level) - mean) / float(i + 1);
-  return mean;
-}
-
 // Returns the mean of the VOTF over places.
-float nook_material_occlusion_at(nook_material_fetches at, vec3 view) {
+float nook_material_occlusion_at(NookMaterialFetches at, vec3 view) {
   vec2 place = nook_parabolic_place(view, NOOK_VOTF_SIDE);
   ivec2 cell = min(ivec2(place), ivec2(NOOK_VOTF_SIDE - 1));
+  NookMaterialTerms terms = nook_votf_terms(place, cell);
   float value = 0.0;
-  uvec4 clusters = uvec4(0u);
-#if NOOK_VOTF_BLENDED
-  uvec4 last = texelFetch(nook_votf_membership, ivec3(cell, NOOK_VOTF_TERMS / 4), 0);
-  nook_material_cell blend = nook_material_blend(place, cell, int(last[NOOK_VOTF_TERMS % 4]));
-#endif
   for (int k = 0; k < NOOK_VOTF_TERMS; ++k) {
-#if NOOK_VOTF_CLUSTERS > 1
-#if NOOK_VOTF_BLENDED
-    if (k % 4 == 0)
-      clusters = k / 4 == NOOK_VOTF_TERMS / 4 ? last : texelFetch(nook_votf_membership, ivec3(cell, k / 4), 0);
-#else
-    if (k % 4 == 0) clusters = texelFetch(nook_votf_membership, ivec3(cell, k / 4), 0);
-#endif
-#endif
-    int cluster = int(clusters[k % 4]);
-    for (int b = 0; b < NOOK_VOTF_VIEW_VEC4_COUNT; ++b) {
-#if NOOK_VOTF_BLENDED
-      vec4 coefficients = nook_material_blended(nook_votf_coefficients, blend, k * NOOK_VOTF_VIEW_VEC4_COUNT + b);
-#else
-      vec4 coefficients = texelFetch(nook_votf_coefficients, ivec3(cell, k * NOOK_VOTF_VIEW_VEC4_COUNT + b), 0);
-#endif
-      value += dot(coefficients, nook_votf_mean(cluster, b, at));
-    }
+    int cluster = nook_votf_cluster(terms, k);
+    for (int b = 0; b < NOOK_VOTF_VIEW_VEC4_COUNT; ++b)
+      value += dot(nook_votf_weights(terms, k, b), nook_votf_mean(cluster, b, at));
   }
   return value;
 }

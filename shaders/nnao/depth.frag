@@ -19,7 +19,7 @@ void main() {
   texel *= 2;
 #endif
 #ifdef NOOK_NORMAL_SAMPLES
-  nook_depth_sample chosen = nook_chosen_sample(texel);
+  NookDepthSample chosen = nook_chosen_sample(texel);
   float depth = chosen.depth;
 #else
   float depth = nook_screen_depth(texel);

@@ -3,17 +3,17 @@
 #include "shaders/nnao/depth.glsl"
 
 // Left, right, below, above.
-struct nook_neighbours {
+struct NookNeighbours {
   // The change of depth of a step to the left, right, ..., divided by the extent at the neighbour and counted
   // along +x or +y. On a plane both sides of an axis are equal: 1 / depth (orthographic: depth) is linear.
   vec4 slope;
   vec4 connected;  // 1: the same surface; 0: an edge, or no neighbour
 };
 
-nook_neighbours nook_neighbours_of(ivec2 texel, float depth) {
+NookNeighbours nook_neighbours_of(ivec2 texel, float depth) {
   vec4 depths = vec4(nook_depth_near(texel - ivec2(1, 0)), nook_depth_near(texel + ivec2(1, 0)),
                      nook_depth_near(texel - ivec2(0, 1)), nook_depth_near(texel + ivec2(0, 1)));
-  nook_neighbours found;
+  NookNeighbours found;
   found.slope = (depths - depth) / (nook_spread.x * depths + nook_spread.y) * vec4(-1.0, 1.0, -1.0, 1.0);
   // Beyond the border of the screen the surface is taken to continue.
   vec4 inside = vec4(vec2(texel), nook_surface_last - vec2(texel)).xzyw;

@@ -11,13 +11,13 @@ vec4 nook_edges_of(uint bits) {
   return vec4(bits >> 6u, bits >> 4u & 3u, bits >> 2u & 3u, bits & 3u);
 }
 
-struct nook_filter_sum {
+struct NookFilterSum {
   float ao, weight;
   vec2 bent;
 };
 
 // centre, texel: values of nook_ao.
-void nook_add_texel(inout nook_filter_sum sum, vec4 centre, vec4 texel, float connected) {
+void nook_add_texel(inout NookFilterSum sum, vec4 centre, vec4 texel, float connected) {
   float weight = connected * clamp(2.0 - nook_range_sharpness * abs(texel.r - centre.r), 0.0, 1.0);
   sum.ao += weight * texel.r;
   sum.weight += weight;
@@ -28,7 +28,7 @@ void nook_add_texel(inout nook_filter_sum sum, vec4 centre, vec4 texel, float co
 
 // One of the corners. horizontal and vertical: the edges of the centre on the way to it; back: those of the
 // corner on its way to the centre's neighbours, (along x, along y).
-void nook_add_corner(inout nook_filter_sum sum, vec4 centre, vec4 texel, float horizontal, float vertical, vec2 back) {
+void nook_add_corner(inout NookFilterSum sum, vec4 centre, vec4 texel, float horizontal, float vertical, vec2 back) {
   nook_add_texel(sum, centre, texel, max(horizontal * back.y, vertical * back.x) / 9.0);
 }
 
@@ -37,7 +37,7 @@ vec4 nook_filtered(ivec2 texel, ivec2 last) {
   ivec2 low = max(texel - 1, ivec2(0)), high = min(texel + 1, last);
   vec4 centre = texelFetch(nook_ao, texel, 0);
   vec4 edges = nook_filter_strength * nook_edges_of(nook_edge_bits(centre.g));
-  nook_filter_sum sum = nook_filter_sum(centre.r, 1.0, centre.ba);
+  NookFilterSum sum = NookFilterSum(centre.r, 1.0, centre.ba);
   nook_add_texel(sum, centre, texelFetch(nook_ao, ivec2(low.x, texel.y), 0), edges.x / 3.0);
   nook_add_texel(sum, centre, texelFetch(nook_ao, ivec2(high.x, texel.y), 0), edges.y / 3.0);
   nook_add_texel(sum, centre, texelFetch(nook_ao, ivec2(texel.x, low.y), 0), edges.z / 3.0);

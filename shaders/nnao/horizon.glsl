@@ -14,7 +14,7 @@ uniform int nook_tap_groups;
 const vec2 nook_turn = vec2(cos(6.2831853 / float(NOOK_DIRECTIONS)), sin(6.2831853 / float(NOOK_DIRECTIONS)));
 
 // A pixel, as its taps see it.
-struct nook_centre {
+struct NookCentre {
   vec2 place;  // the texel's centre
   vec3 position, normal, viewer;
   float half_nearness;          // 1 / 2r
@@ -32,12 +32,12 @@ vec4 nook_leaky(vec4 x, int slope) {
 }
 
 // The findings of the taps of a direction.
-struct nook_horizon {
+struct NookHorizon {
   vec4 most, sum;  // of the units
   float bound;     // the greatest elevation times nearness, at least 0
 };
 
-void nook_add_tap(inout nook_horizon found, nook_centre centre, vec2 place) {
+void nook_add_tap(inout NookHorizon found, NookCentre centre, vec2 place) {
   vec2 texel = clamp(floor(place), vec2(0.0), nook_surface_last);
   vec3 v = nook_position(nook_surface_rays, texel, nook_depth_at(ivec2(texel))) - centre.position;
   float squared = max(dot(v, v), centre.min_squared), per_metre = inversesqrt(squared);
@@ -52,7 +52,7 @@ void nook_add_tap(inout nook_horizon found, nook_centre centre, vec2 place) {
 }
 
 // The sums over the directions.
-struct nook_sums {
+struct NookSums {
   vec4 units;
   float bound;
   vec3 bent;
@@ -60,9 +60,9 @@ struct nook_sums {
 
 // direction: a unit vector of view space. gate, bent_gate: those of the layers, but for what differs between
 // directions.
-void nook_add_direction(inout nook_sums sums, nook_centre centre, vec2 direction, vec2 scale, vec4 gate, vec2 bent_gate) {
+void nook_add_direction(inout NookSums sums, NookCentre centre, vec2 direction, vec2 scale, vec4 gate, vec2 bent_gate) {
   vec2 along_px = nook_horizon_tap(direction, 1.0, scale);
-  nook_horizon found = nook_horizon(vec4(0.0), vec4(0.0), 0.0);
+  NookHorizon found = NookHorizon(vec4(0.0), vec4(0.0), 0.0);
   for (int i = 0; i < NOOK_STEPS; ++i) nook_add_tap(found, centre, centre.place + along_px * centre.steps_px[i]);
   // The unit vector across the direction to the viewer, in the plane of the direction, times the normal.
   float towards = dot(direction, centre.viewer.xy), per_length = inversesqrt(1.0 - towards * towards);
@@ -88,7 +88,7 @@ float nook_border_distance(vec2 place) {
 // Returns AO. bent becomes the bent normal, not normalised, in passes that have it.
 float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 radius, out vec3 bent) {
   vec2 noise = nook_tap_noise(texel);
-  nook_centre centre;
+  NookCentre centre;
   centre.place = vec2(texel) + 0.5;
   centre.position = position;
   centre.normal = normal;
@@ -105,7 +105,7 @@ float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 ra
   float angle = nook_direction_angle(0, NOOK_DIRECTIONS, noise);
   vec2 direction = vec2(cos(angle), sin(angle));
   vec2 bent_gate = 1.0 + facing * nook_network[NOOK_HORIZON_BENT_GATE].zw;
-  nook_sums sums = nook_sums(vec4(0.0), 0.0, normal);
+  NookSums sums = NookSums(vec4(0.0), 0.0, normal);
   for (int i = 0; i < NOOK_LOOPED_DIRECTIONS; ++i) {
     nook_add_direction(sums, centre, direction, scale, gate, bent_gate);
     direction = vec2(direction.x * nook_turn.x - direction.y * nook_turn.y,

@@ -18,23 +18,23 @@ float nook_view_depth(float stored) {
 
 #ifdef NOOK_SAMPLES
 // A sample of a pixel and its depth.
-struct nook_depth_sample {
+struct NookDepthSample {
   float depth;
   int number;
 };
 
-nook_depth_sample nook_sample_at(ivec2 pixel, int number) {
-  return nook_depth_sample(nook_view_depth(nook_host_sample(nook_host_depth, pixel, number).r), number);
+NookDepthSample nook_sample_at(ivec2 pixel, int number) {
+  return NookDepthSample(nook_view_depth(nook_host_sample(nook_host_depth, pixel, number).r), number);
 }
 
 // Returns the sample that nook_nnao_sample says; sdk/src/nnao/host_depth.h has the same on the CPU.
-nook_depth_sample nook_chosen_sample(ivec2 pixel) {
+NookDepthSample nook_chosen_sample(ivec2 pixel) {
 #if NOOK_SAMPLE_RULE == NOOK_SAMPLE_FIRST
   return nook_sample_at(pixel, 0);
 #elif NOOK_SAMPLE_RULE == NOOK_SAMPLE_NEAREST
-  nook_depth_sample nearest = nook_sample_at(pixel, 0);
+  NookDepthSample nearest = nook_sample_at(pixel, 0);
   for (int i = 1; i < NOOK_SAMPLES; ++i) {
-    nook_depth_sample other = nook_sample_at(pixel, i);
+    NookDepthSample other = nook_sample_at(pixel, i);
     if (other.depth < nearest.depth) nearest = other;
   }
   return nearest;
@@ -44,9 +44,9 @@ nook_depth_sample nook_chosen_sample(ivec2 pixel) {
   for (int i = 0; i < NOOK_SAMPLES; ++i) {
     int nearer = 0;
     for (int j = 0; j < NOOK_SAMPLES; ++j) nearer += int(depths[j] < depths[i] || (depths[j] == depths[i] && j < i));
-    if (nearer == (NOOK_SAMPLES - 1) / 2) return nook_depth_sample(depths[i], i);
+    if (nearer == (NOOK_SAMPLES - 1) / 2) return NookDepthSample(depths[i], i);
   }
-  return nook_depth_sample(depths[0], 0);
+  return NookDepthSample(depths[0], 0);
 #endif
 }
 

@@ -16,7 +16,7 @@ float nook_axis_slope(vec2 slope) {
   return dot(slope, steep.yx) / (steep.x + steep.y);
 }
 
-vec3 nook_rebuilt_normal(ivec2 texel, nook_neighbours around) {
+vec3 nook_rebuilt_normal(ivec2 texel, NookNeighbours around) {
   vec2 slope = vec2(nook_axis_slope(around.slope.xy), nook_axis_slope(around.slope.zw)) / nook_surface_rays.xz;
   vec2 ray = nook_surface_rays.xz * vec2(texel) + nook_surface_rays.yw;
   return normalize(vec3(slope, 1.0 + nook_spread.x * dot(ray, slope)));
@@ -31,7 +31,7 @@ vec3 nook_stored_normal(ivec2 texel, ivec2 pixel) {
 #endif
 }
 
-vec3 nook_texel_normal(ivec2 texel, nook_neighbours around) {
+vec3 nook_texel_normal(ivec2 texel, NookNeighbours around) {
   if (nook_has_normals) {
 #if NOOK_HALF
     ivec2 pixel = 2 * texel;

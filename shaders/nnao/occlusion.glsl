@@ -15,7 +15,7 @@
 vec4 nook_occlusion(ivec2 texel) {
   float depth = nook_depth_at(texel);
   if (depth == nook_no_surface) return vec4(1.0, 0.0, vec2(128.0 / 255.0));
-  nook_neighbours around = nook_neighbours_of(texel, depth);
+  NookNeighbours around = nook_neighbours_of(texel, depth);
 #if NOOK_HORIZON
   vec3 normal = nook_texel_normal(texel, around);
 #else

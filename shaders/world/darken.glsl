@@ -48,6 +48,8 @@ uniform int nook_world_first_light_tile;
 uniform int nook_world_first_shade;
 uniform int nook_world_light_columns;  // 0: there is no cone, or it is open
 
+// A texel of a list has four numbers of bodies. The loops turn it, so that the next number is always in x: an index that
+// changes at run time would make compilers keep the vector in memory or compare four times.
 float nook_world_tile_light(ivec2 pixel, vec3 point) {
   if (nook_world_light_columns == 0) return 1.0;
   for (int i = 0; i < NOOK_CONE_PARTS; ++i) nook_world_parts[i] = 1.0;
@@ -58,7 +60,7 @@ float nook_world_tile_light(ivec2 pixel, vec3 point) {
   for (int i = 0; i < count; ++i) {
     if ((i & 3) == 0) bodies = nook_texel(nook_world_casters, first + (i >> 2));
     nook_world_body_shade(nook_world_casters, nook_world_first_shade + NOOK_SHADE_TEXELS * int(bodies.x), point);
-    bodies = bodies.yzwx;
+    bodies = bodies.yzwx;  // the next body comes to x
   }
   return nook_world_open_cone();
 }
@@ -74,7 +76,7 @@ float nook_world_list_open(int first_tile, ivec2 pixel, vec3 point, vec3 normal)
   for (int i = 0; i < count; ++i) {
     if ((i & 3) == 0) bodies = nook_texel(nook_world_casters, first + (i >> 2));
     open *= nook_world_body_open(int(bodies.x), point, normal);
-    bodies = bodies.yzwx;
+    bodies = bodies.yzwx;  // the next body comes to x
   }
   return open;
 }

@@ -24,14 +24,20 @@ static void check_rest_pose(nook_character_model model, const nook_pose_desc* de
   float positions[3 * MAX_VERTICES];
   nook_pose_check check;
   nook_rest_vertex vertex;
-  uint32_t count = 0;
+  nook_character_model_info info;
+  uint32_t v;
+  memset(&info, 0, sizeof info);
+  info.struct_size = sizeof info;
+  EXPECT_OK(nook_character_model_describe(model, &info));
+  EXPECT(info.check_vertex_count >= 8 && info.check_vertex_count <= MAX_VERTICES);
   vertex.struct_size = sizeof vertex;
-  while (count < MAX_VERTICES && nook_character_model_rest_vertex(model, count, &vertex) == NOOK_OK)
-    memcpy(positions + 3 * count++, vertex.position, sizeof vertex.position);
-  EXPECT(count >= 8);
+  for (v = 0; v < info.check_vertex_count && v < MAX_VERTICES; ++v) {
+    EXPECT_OK(nook_character_model_rest_vertex(model, v, &vertex));
+    memcpy(positions + 3 * v, vertex.position, sizeof vertex.position);
+  }
   memset(&check, 0, sizeof check);
   check.struct_size = sizeof check;
-  check.vertex_count = count;
+  check.vertex_count = info.check_vertex_count;
   check.positions = positions;
   EXPECT_OK(nook_character_model_check_pose(model, desc, &check));
   EXPECT(check.fault == NOOK_POSE_RIGHT);

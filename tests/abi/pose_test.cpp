@@ -30,12 +30,21 @@ nook_pose_desc pose_desc(const Stage& stage) {
   return desc;
 }
 
+nook_character_model_info info_of(nook_character_model model) {
+  nook_character_model_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_character_model_describe(model, &info) == NOOK_OK);
+  return info;
+}
+
 std::vector<float> rest_positions(nook_character_model model) {
   std::vector<float> out;
   nook_rest_vertex vertex{};
   vertex.struct_size = sizeof vertex;
-  for (std::uint32_t v = 0; nook_character_model_rest_vertex(model, v, &vertex) == NOOK_OK; ++v)
+  for (std::uint32_t v = 0; v < info_of(model).check_vertex_count; ++v) {
+    REQUIRE(nook_character_model_rest_vertex(model, v, &vertex) == NOOK_OK);
     out.insert(out.end(), vertex.position, vertex.position + 3);
+  }
   return out;
 }
 
@@ -44,6 +53,31 @@ std::vector<float> rest_positions(nook_character_model model) {
 TEST_CASE("every function of the headers of poses and vertices works from C") {
   const Host host;
   CHECK(nook_call_every_pose_function(host.bytes.data(), host.bytes.size()) == 0);
+}
+
+TEST_CASE("a model's info counts its skins and check vertices") {
+  const Stage stage;
+  CHECK(stage.info.skin_count >= 1);
+  CHECK(stage.info.check_vertex_count >= 8);
+  nook_skin_info skin{};
+  skin.struct_size = sizeof skin;
+  nook_rest_vertex vertex{};
+  vertex.struct_size = sizeof vertex;
+  CHECK(nook_character_model_skin(stage.model, stage.info.skin_count - 1, &skin) == NOOK_OK);
+  CHECK(nook_character_model_skin(stage.model, stage.info.skin_count, &skin) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_character_model_rest_vertex(stage.model, stage.info.check_vertex_count - 1, &vertex) == NOOK_OK);
+  CHECK(nook_character_model_rest_vertex(stage.model, stage.info.check_vertex_count, &vertex) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+
+  nook::CharacterModel unbound = sample_model();
+  unbound.bind = nook::BindData();
+  const std::vector<std::byte> bytes = nook::write_character_model(unbound);
+  nook_character_model model = nullptr;
+  REQUIRE(nook_character_model_load(stage.context, bytes.data(), bytes.size(), &model) == NOOK_OK);
+  CHECK(info_of(model).skin_count == 0);
+  CHECK(info_of(model).check_vertex_count == 0);
+  CHECK(nook_character_model_skin(model, 0, &skin) == NOOK_ERROR_UNSUPPORTED);
+  nook_character_model_destroy(&model);
 }
 
 TEST_CASE("a pose that is refused leaves the instance as it was") {

@@ -104,9 +104,10 @@ void set_pose_from(Crowd& crowd, Script& script) {
   std::vector<float> positions;
   nook_rest_vertex vertex{};
   vertex.struct_size = sizeof vertex;
-  while (ok(nook_character_model_rest_vertex(crowd.model, check.vertex_count, &vertex))) {
+  check.vertex_count = crowd.info.check_vertex_count;
+  for (std::uint32_t v = 0; v < check.vertex_count; ++v) {
+    require(ok(nook_character_model_rest_vertex(crowd.model, v, &vertex)));
     positions.insert(positions.end(), vertex.mesh_position, vertex.mesh_position + 3);
-    ++check.vertex_count;
   }
   check.positions = positions.data();
   if (ok(nook_character_model_check_pose(crowd.model, &desc, &check))) require(check.text[0] != 0);
@@ -126,7 +127,9 @@ void use_bind_data(const Crowd& crowd) {
   std::vector<std::uint32_t> order;
   nook_rest_vertex vertex{};
   vertex.struct_size = sizeof vertex;
-  for (std::uint32_t v = 0; ok(nook_character_model_rest_vertex(crowd.model, v, &vertex)); ++v) {
+  require(!ok(nook_character_model_rest_vertex(crowd.model, crowd.info.check_vertex_count, &vertex)));
+  for (std::uint32_t v = 0; v < crowd.info.check_vertex_count; ++v) {
+    require(ok(nook_character_model_rest_vertex(crowd.model, v, &vertex)));
     require(vertex.vertex < crowd.info.file_vertex_count && vertex.bone < crowd.info.bone_count);
     order.push_back(vertex.vertex);
     nook_vertex_match match{};
@@ -140,8 +143,9 @@ void use_bind_data(const Crowd& crowd) {
   }
   nook_skin_info skin{};
   skin.struct_size = sizeof skin;
-  for (std::uint32_t s = 0; ok(nook_character_model_skin(crowd.model, s, &skin)); ++s) {
-  }
+  require(!ok(nook_character_model_skin(crowd.model, crowd.info.skin_count, &skin)));
+  for (std::uint32_t s = 0; s < crowd.info.skin_count; ++s)
+    require(ok(nook_character_model_skin(crowd.model, s, &skin)));
   nook_character_model remapped = nullptr;
   if (!order.empty()) {
     require(

@@ -149,8 +149,8 @@ TEST_CASE("high precision is that of 32-bit floats; the bits of medium precision
     const platform::Program program(
         gl,
         {glsl_header(gl),
-         "void main() { gl_Position = vec4(4.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - "
-         "1.0, 0.0, 1.0); }\n"},
+         "void main() { gl_Position = vec4(4.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0, 0.0, 1.0); "
+         "}\n"},
         {glsl_header(gl), text});
     program.use();
     for (const char* name : {"medium_one", "high_one"}) gl.Uniform1f(program.uniform(name), 1);

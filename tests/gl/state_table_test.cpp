@@ -37,8 +37,8 @@ std::string table() {
   using namespace nook::gl;
   std::ostringstream out;
   out << "# OpenGL state that Nook touches\n\n"
-         "The test `state_table_test` generates this page from `sdk/src/gl/touched_state.h`; "
-         "`NOOK_BLESS=1 nook_gl_tests` writes it.\n\n"
+         "The test `state_table_test` generates this page from `sdk/src/gl/touched_state.h`; `NOOK_BLESS=1 "
+         "nook_gl_tests` writes it.\n\n"
          "| state | used by | purpose, and the default that `NOOK_GL_STATE_DEFAULTS` leaves |\n"
          "|---|---|---|\n";
 #define NOOK_X(name, users, what, note) \
@@ -46,23 +46,17 @@ std::string table() {
   NOOK_GL_TOUCHED_STATE(NOOK_X)
 #undef NOOK_X
   out << "\n33 and 43 are the tiers of nook_gl_create and the nook_gl_scene functions; ES30 touches what 33 "
-         "does, "
-         "ES31 what 43 does. Tables on OpenGL ES are the uploads of 33, 43, probe and nook_nnao_create. nnao "
-         "is "
-         "nook_nnao_create "
-         "and nook_nnao_render; its compute path is that of nook_nnao_render if nook_nnao_info.path is "
-         "NOOK_NNAO_PATH_COMPUTE. nook_world_pass_create and nook_world_render touch what nnao does, and at "
-         "half "
-         "resolution what its compute path does where there are compute shaders. material is "
-         "nook_gl_material_create. probe is nook_gl_probe_create and "
+         "does, ES31 what 43 does. Tables on OpenGL ES are the uploads of 33, 43, probe and "
+         "nook_nnao_create. nnao is nook_nnao_create and nook_nnao_render; its compute path is that of "
+         "nook_nnao_render if nook_nnao_info.path is NOOK_NNAO_PATH_COMPUTE. nook_world_pass_create and "
+         "nook_world_render touch what nnao does, and at half resolution what its compute path does where "
+         "there are compute shaders. material is nook_gl_material_create. probe is nook_gl_probe_create and "
          "nook_gl_probe_update. grid is nook_gl_probe_grid_create and nook_gl_probe_grid_update. capture is "
-         "nook_gl_probe_capture_create and _add; _read and _solve touch a part of it. "
-         "nook_nnao_record touches what nnao does as well. output is "
-         "nook_gl_scene_write_ao.\n\n"
+         "nook_gl_probe_capture_create and _add; _read and _solve touch a part of it. nook_nnao_record "
+         "touches what nnao does as well. output is nook_gl_scene_write_ao.\n\n"
          "No other state changes: no parameter of a host's texture or sampler, no other pixel-store value, "
-         "and "
-         "no depth, stencil or scissor parameter. Viewports and draw buffers other than the first keep their "
-         "state, viewports from OpenGL 4.1 on and draw buffers from 4.0 on.\n\n"
+         "and no depth, stencil or scissor parameter. Viewports and draw buffers other than the first keep "
+         "their state, viewports from OpenGL 4.1 on and draw buffers from 4.0 on.\n\n"
          "With `NOOK_GL_STATE_PRESERVE`, each call queries this state once and restores it. With "
          "`NOOK_GL_STATE_DEFAULTS` and `NOOK_GL_STATE_HOST`, calls query nothing.\n\n"
          "At each call, no transform feedback may be active unless it is paused, and neither conditional "

@@ -144,8 +144,7 @@ int run(int argc, char** argv) {
       "Counts the instructions of every shader as compiled for GPUs that are not there, by RADV's null "
       "device.\n"
       "Exit codes: 0 done, 77 no RADV or another version of it than the old numbers', 2 bad arguments, 1 "
-      "anything "
-      "else.",
+      "anything else.",
       "nook_gpu_cost");
   tool.add_option("--root", options.root, "tree of the shaders")->check(CLI::ExistingDirectory);
   tool.add_option("--family", options.families, "GPU families that RADV knows")

@@ -203,8 +203,7 @@ Json bent_rows(platform::Context& context, std::span<const MeasuredView> views, 
 std::string bent_markdown(const Json& rows) {
   std::string text =
       "| method | taps | denoiser | angle, median | angle, mean | specular mse | Lagarde's form of the same "
-      "AO | "
-      "ratio |\n|---|---|---|---|---|---|---|---|\n";
+      "AO | ratio |\n|---|---|---|---|---|---|---|---|\n";
   for (const Json& row : rows) {
     if (row["scene"] != "mean") continue;
     text.append("| ").append(row["method"].get<std::string>()).append(" | ").append(row["taps"].dump());

@@ -93,8 +93,7 @@ PageParts transfer_parts(std::size_t bytes, const Transfer& baked, const Surface
   if (baked.paper.is_used()) {
     parts.sections = Html(
         "<section id=\"shape\"><h2>The shape</h2>\n<p>The file has the paper's form, whose numbers belong to "
-        "one material; "
-        "<code>nook evaluate transfer --images</code> draws it under a map.</p>\n</section>\n");
+        "one material; <code>nook evaluate transfer --images</code> draws it under a map.</p>\n</section>\n");
   } else {
     const std::vector<float> open = mean_shares(baked, mesh), traced = traced_openness(mesh);
     double sum = 0, square = 0;
@@ -109,8 +108,8 @@ PageParts transfer_parts(std::size_t bytes, const Transfer& baked, const Surface
     parts.sections =
         Html(
             "<section id=\"shape\"><h2>The shape</h2>\n<p>The share of an even sky that reaches each vertex: "
-            "black none, white all. "
-            "Under a real sky the file has this share for each lobe by itself.</p>\n<div class=\"row\">") +
+            "black none, white all. Under a real sky the file has this share for each lobe by "
+            "itself.</p>\n<div class=\"row\">") +
         pictures(mesh, open, traced) + Html("</div></section>\n");
   }
   parts.advice = advice_list(Subject::transfer, measures);

@@ -67,8 +67,7 @@ Turnable turnable_body(const SkinnedMesh& mesh, const MeasuredBody& body, std::s
                     pose_bytes = 4 * (mesh.vertex_count() * 8) / 3;
   if (triangle_bytes + pose_bytes > max_bytes || poses.empty())
     return {Html("<p>The body has too many triangles for a view within this page; <code>nook evaluate "
-                 "character --images</code> "
-                 "draws it at any size.</p>\n"),
+                 "character --images</code> draws it at any size.</p>\n"),
             {}};
   const std::size_t count = std::min(poses.size(), (max_bytes - triangle_bytes) / pose_bytes);
   Json data;

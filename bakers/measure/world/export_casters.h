@@ -19,8 +19,8 @@ enum class CasterFormat {
 // The radii of what is written: Unreal and Source 2 have one for AO and light.
 enum class CasterRadii { ao, light };
 
-// The capsules of such a file, in rest space. In Unreal's and Source 2's
-// formats a capsule has one radius, with which its mean projected area is that of Nook's.
+// The capsules of such a file, in rest space. In Unreal's and Source 2's formats a capsule has one radius,
+// with which its mean projected area is that of Nook's.
 std::vector<Capsule> engine_capsules(const CharacterModel& model, CasterFormat format, CasterRadii radii);
 
 // The AO on the floor below the rest pose by what is written against the model's own casters, both by the

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace nook::tool {
@@ -22,6 +23,12 @@ Row describe_synthesis(std::span<const std::byte> bytes);
 Row describe_transfer(std::span<const std::byte> bytes);
 Row describe_raw_material(std::span<const std::byte> bytes);
 Row describe_recording(std::span<const std::byte> bytes);
+
+// Returns the text of a value that a file holds, or "unknown (N)" for a value that has no text yet.
+template <std::size_t count>
+std::string text_of(const char* const (&texts)[count], std::size_t value) {
+  return value < count ? texts[value] : "unknown (" + std::to_string(value) + ")";
+}
 
 // Adds the entries of a recipe, a JSON object, to row, those of an object in it as object_entry; anything
 // else adds nothing.

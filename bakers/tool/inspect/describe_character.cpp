@@ -10,6 +10,7 @@ namespace nook::tool {
 namespace {
 
 constexpr const char* kernel_names[] = {"paper", "nook", "rational"};
+static_assert(std::size(kernel_names) == kernel_form_count);
 
 }  // namespace
 
@@ -29,7 +30,7 @@ Row describe_character(std::span<const std::byte> bytes) {
   row["world_casters"] = model.world_casters.size();
   row["bent_normals"] = !model.blocked.empty();
   row["influences"] = model.influences;
-  row["kernel"] = kernel_names[std::size_t(model.kernel.form)];
+  row["kernel"] = text_of(kernel_names, std::size_t(model.kernel.form));
   row["gamma"] = model.kernel.gamma;
   row["max_saturation"] = max_saturation_of(model);
   row["bounding_radius_m"] = model.bounding_radius;

@@ -44,7 +44,7 @@ Row describe_material(std::span<const std::byte> bytes) {
   row["width"] = is_neural ? material.neural.shape.width : material.btf.shape.width;
   row["height"] = is_neural ? material.neural.shape.height : material.btf.shape.height;
   is_neural ? describe_neural(row, material.neural) : describe_tensor(row, "btf", material.btf);
-  row["visibility"] = forms[std::size_t(material.visibility)];
+  row["visibility"] = text_of(forms, std::size_t(material.visibility));
   if (material.visibility != material::VisibilityForm::none) {
     row["visibility_mapping"] = Row::array({material.mapping.threshold, material.mapping.weight});
     describe_tensor(row, "votf", material.votf);

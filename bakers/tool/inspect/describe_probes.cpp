@@ -27,8 +27,8 @@ Row describe_probes(std::span<const std::byte> bytes) {
     row["origin_m"] = {grid.origin_ws.x, grid.origin_ws.y, grid.origin_ws.z};
     row["spacing_m"] = {grid.spacing_ws.x, grid.spacing_ws.y, grid.spacing_ws.z};
   }
-  row["basis"] = basis_names[std::size_t(basis.kind)];
-  row["domain"] = domain_names[std::size_t(basis.domain)];
+  row["basis"] = text_of(basis_names, std::size_t(basis.kind));
+  row["domain"] = text_of(domain_names, std::size_t(basis.domain));
   row["functions"] = basis.count;
   row["ambient"] = basis.ambient;
   if (basis.kind == probe::BasisKind::gaussians) {
@@ -37,7 +37,7 @@ Row describe_probes(std::span<const std::byte> bytes) {
     row["sharpness_lowest"] = *low;
     row["sharpness_highest"] = *high;
   }
-  row["packing"] = packing_names[std::size_t(probe::packing_of(bytes))];
+  row["packing"] = text_of(packing_names, std::size_t(probe::packing_of(bytes)));
   if (probes.walls.any()) {
     row["cells"] = grid.cells();
     row["wall_cells"] =

@@ -111,16 +111,19 @@ Row describe_recording(std::span<const std::byte> bytes) {
   row["max_radius_px"] = frame.max_radius_px;
   row["intensity"] = frame.intensity;
   row["power"] = frame.power;
-  constexpr const char* layers[] = {"none", "minimum", "remainder", "replace"};
+  constexpr const char* layers[] = {"none", "minimum", "remainder", "replace", "apart"};
   constexpr const char* views[] = {"result", "raw", "blurred"};
   constexpr const char* paths[] = {"unknown", "fragment", "compute"};
-  row["layer"] = layers[frame.layer];
-  row["view"] = views[frame.view];
+  static_assert(std::size(layers) == nnao::last_recorded_layer + 1);
+  static_assert(std::size(views) == nnao::last_recorded_view + 1);
+  static_assert(std::size(paths) == nnao::last_recorded_path + 1);
+  row["layer"] = text_of(layers, std::size_t(frame.layer));
+  row["view"] = text_of(views, std::size_t(frame.view));
   row["taps"] = pass.taps;
   row["half_resolution"] = pass.half_resolution != 0;
   row["blur"] = pass.blur;
   row["blur_sharpness"] = pass.blur_sharpness;
-  row["path"] = paths[pass.path];
+  row["path"] = text_of(paths, std::size_t(pass.path));
   add_network(row, recording);
   return row;
 }

@@ -306,6 +306,8 @@ class nook_character_model_info(ctypes.Structure):
         ("lod_count", ctypes.c_uint32),
         ("bounding_radius", ctypes.c_float),
         ("gamma", ctypes.c_float),
+        ("skin_count", ctypes.c_uint32),
+        ("check_vertex_count", ctypes.c_uint32),
     ]
 
 

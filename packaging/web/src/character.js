@@ -56,7 +56,7 @@ export class CharacterModel extends Owned {
       this.library.module._nook_character_model_static_ao(this.handle, address, count));
   }
 
-  // The joint count and rest space of skin number `index`; an error past the last one.
+  // The joint count and rest space of skin number `index`, one of info.skinCount.
   skin(index) {
     return this.library.info("nook_skin_info", (info) => this.library.module._nook_character_model_skin(this.handle, index, info));
   }
@@ -64,6 +64,7 @@ export class CharacterModel extends Owned {
     return this.library.readFloats(12, undefined, (address) =>
       this.library.module._nook_character_model_bone_bind(this.handle, bone, address));
   }
+  // Vertex number `index` of checkPose, one of info.checkVertexCount.
   restVertex(index) {
     return this.library.info("nook_rest_vertex", (info) =>
       this.library.module._nook_character_model_rest_vertex(this.handle, index, info));

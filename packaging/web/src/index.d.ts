@@ -51,6 +51,10 @@ export interface CharacterModelInfo {
   lodCount: number;
   boundingRadius: number;
   gamma: number;
+  /** The number of skins of `skin`; 0 without bind data. */
+  skinCount: number;
+  /** The number of vertices of `restVertex`; 0 without bind data. */
+  checkVertexCount: number;
 }
 export type PoseKind = "rest-to-world" | "joint-to-world" | "skinning";
 export type TransformLayout = "rows-3x4" | "rows-4x4" | "columns-4x4" | "columns-4x3" | "dual-quaternion" | "trs";

@@ -101,8 +101,7 @@ bool vtkNookAoPass::PostReplaceShaderValues(std::string&, std::string&, std::str
   vtkShaderProgram::Substitute(
       fragment, "void main()",
       "uniform sampler2D nook_ao;\nuniform ivec2 nook_origin;\nuniform float nook_share;\n"
-      "float nook_ambient() { return texelFetch(nook_ao, ivec2(gl_FragCoord.xy) - "
-      "nook_origin, 0).r; }\n"
+      "float nook_ambient() { return texelFetch(nook_ao, ivec2(gl_FragCoord.xy) - nook_origin, 0).r; }\n"
       "float nook_direct() { return mix(1.0, nook_ambient(), nook_share); }\n"
       "void main()");
   return true;

@@ -26,9 +26,8 @@ extern "C" {
 /* The text behind the numbers: "-rc1" for the first candidate of a release, "" for the release. */
 #define NOOK_VERSION_SUFFIX "-rc1"
 /* The caller passes this value to every *_desc_init, so that the library knows with which header the caller
- * was compiled. */
-#define NOOK_VERSION \
-  ((uint32_t)((NOOK_VERSION_MAJOR << 22) | (NOOK_VERSION_MINOR << 12) | NOOK_VERSION_PATCH))
+ * was compiled. Unsigned, and without a cast, so that #if can compare it too. */
+#define NOOK_VERSION (((NOOK_VERSION_MAJOR + 0u) << 22) | (NOOK_VERSION_MINOR << 12) | NOOK_VERSION_PATCH)
 
 /* Hosts of the static library define NOOK_STATIC; the CMake target and the pkg-config file do it for them.
  * The functions then stay inside the program or plug-in that links the library. */

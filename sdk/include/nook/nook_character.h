@@ -51,6 +51,10 @@ typedef struct nook_character_model_info {
   float bounding_radius;
   /* The exponent of the shadow norm (Le et al. 2019, slide 20). */
   float gamma;
+  /* The number of skins of nook_character_model_skin; 0 without bind data. */
+  uint32_t skin_count;
+  /* The number of vertices of nook_character_model_rest_vertex, at most 64; 0 without bind data. */
+  uint32_t check_vertex_count;
 } nook_character_model_info;
 
 /* Describes a model.
@@ -197,7 +201,7 @@ NOOK_API nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id inst
 /* Links two instances, so that caster darkens receiver until nook_scene_unlink; a second call for the same
  * pair changes nothing. The call allocates.
  * One at a time. Errors: INVALID_ARGUMENT (receiver and caster are the same), INVALID_HANDLE, OUT_OF_MEMORY.
- *   */
+ */
 NOOK_API nook_result nook_scene_link(nook_scene scene, nook_instance_id receiver, nook_instance_id caster);
 
 /* Removes a link of nook_scene_link.

@@ -73,15 +73,19 @@ class CharacterModel : public Unique<nook_character_model, nook_character_model_
                                          nullptr));
     return map;
   }
-  // Returns false past the last rest vertex.
-  bool rest_vertex(std::uint32_t index, nook_rest_vertex& vertex) const {
+  // index is less than info().check_vertex_count.
+  nook_rest_vertex rest_vertex(std::uint32_t index) const {
+    nook_rest_vertex vertex{};
     vertex.struct_size = sizeof vertex;
-    return nook_character_model_rest_vertex(get(), index, &vertex) == NOOK_OK;
+    check(nook_character_model_rest_vertex(get(), index, &vertex));
+    return vertex;
   }
-  // Returns false past the last skin.
-  bool skin(std::uint32_t index, nook_skin_info& skin) const {
+  // index is less than info().skin_count.
+  nook_skin_info skin(std::uint32_t index) const {
+    nook_skin_info skin{};
     skin.struct_size = sizeof skin;
-    return nook_character_model_skin(get(), index, &skin) == NOOK_OK;
+    check(nook_character_model_skin(get(), index, &skin));
+    return skin;
   }
   // Fills the answers in `answer`.
   void check_pose(const nook_pose_desc& desc, nook_pose_check& answer) const {

@@ -182,8 +182,8 @@ typedef struct nook_gl_ao_target {
   /* sizeof(nook_gl_ao_target); the caller sets it, and the other fields to 0 first. */
   uint32_t struct_size;
   /* The numbers in a buffer. A texture's own format decides instead; but on OpenGL ES, where uploads do not
-   * convert, this must be the texture's: NOOK_AO_FLOAT for GL_R32F, NOOK_AO_HALF
-   * for GL_R16F, NOOK_AO_UNORM8 for GL_R8. */
+   * convert, this must be the texture's: NOOK_AO_FLOAT for GL_R32F, NOOK_AO_HALF for GL_R16F, NOOK_AO_UNORM8
+   * for GL_R8. */
   nook_ao_format format;
   /* The OpenGL name of a buffer of the host, or 0. It must not be mapped. */
   uint32_t buffer;
@@ -226,7 +226,8 @@ NOOK_API nook_result nook_gl_scene_read_ao(nook_gl gl, nook_scene scene, nook_in
  * Nook owns, so that the host uploads nothing. The host puts the view's glsl after the #version line of a
  * vertex or fragment shader, sets the uniform nook_scene_lights to a texture unit, and binds the texture to
  * GL_TEXTURE_BUFFER of that unit, on OpenGL ES to GL_TEXTURE_2D. For each draw it sets the values as an
- * attribute and view.light as a uniform: glBindBuffer(GL_ARRAY_BUFFER, view.buffer);
+ * attribute and view.light as a uniform:
+ *     glBindBuffer(GL_ARRAY_BUFFER, view.buffer);
  *     glVertexAttribPointer(slot, 3, GL_FLOAT, GL_FALSE, view.stride, (const void*)(uintptr_t)view.offset);
  * In the shader, n is the unit normal in world space:
  *     vec3 e = nook_scene_irradiance(light, n, directional_ao);
@@ -251,8 +252,8 @@ typedef struct nook_gl_light_view {
   /* The first argument of the GLSL functions; it is valid until the next update. */
   int32_t light;
   /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions: the uniform samplerBuffer (OpenGL ES:
-   * sampler2D) nook_scene_lights and the functions above. The text
-   * is the same for every scene and valid as long as the library is loaded. */
+   * sampler2D) nook_scene_lights and the functions above. The text is the same for every scene and valid as
+   * long as the library is loaded. */
   const char* glsl;
 } nook_gl_light_view;
 

@@ -76,10 +76,10 @@ typedef struct nook_gl_material_info {
   /* The memory of all textures. */
   uint64_t texture_bytes;
   /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions: constants, uniforms and the functions
-   * above. Every name in it begins with nook_ or NOOK_. Materials of the same sizes and mapping have the same
-   * text and may share a program; that of a neural material has constants for its weights, and no other
-   * material has it. The uniform vec2 nook_visibility_mapping, a constant on OpenGL ES, holds threshold and
-   * weight and starts with those of the material; the paper uses 0.5 and 1 for masks, and 0.05 and 12 for
+   * above. Every name in it begins with nook_, Nook or NOOK_. Materials of the same sizes and mapping have
+   * the same text and may share a program; that of a neural material has constants for its weights, and no
+   * other material has it. The uniform vec2 nook_visibility_mapping, a constant on OpenGL ES, holds threshold
+   * and weight and starts with those of the material; the paper uses 0.5 and 1 for masks, and 0.05 and 12 for
    * distances. The text is valid while the material lives. */
   const char* glsl;
 } nook_gl_material_info;

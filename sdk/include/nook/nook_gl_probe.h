@@ -67,8 +67,8 @@ typedef struct nook_gl_probe_info {
   /* The size of the texture's buffer; on OpenGL ES of the texture, in rows of 2048 texels. */
   uint64_t bytes;
   /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions: the uniform samplerBuffer (OpenGL ES:
-   * sampler2D) nook_probe_texels and the functions above. The text
-   * is the same for every probe and valid as long as the library is loaded. */
+   * sampler2D) nook_probe_texels and the functions above. The text is the same for every probe and valid as
+   * long as the library is loaded. */
   const char* glsl;
 } nook_gl_probe_info;
 

@@ -5,7 +5,8 @@
  * shape turns. It puts the GLSL of nook_gl_transfer_describe after the #version line of the vertex shader,
  * and after the material's GLSL in the fragment shader, and sets the uniform nook_transfer_texels to a
  * texture unit. For each draw it binds the texture to GL_TEXTURE_BUFFER of that unit, on OpenGL ES to
- * GL_TEXTURE_2D. The vertex shader: out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT];
+ * GL_TEXTURE_2D. The vertex shader:
+ *     out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT];
  *     nook_transfer_vectors(gl_VertexID, vectors);
  * The fragment shader:
  *     vec3 view = nook_transfer_tangent_space(normal, tangent, normalize(eye - position));

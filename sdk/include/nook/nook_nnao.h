@@ -255,11 +255,10 @@ enum {
 typedef int32_t nook_nnao_view;
 
 /* One frame. Textures are 2D and single-sampled, unless nook_nnao_desc has depth_samples, normal_samples or
- * layers; level 0
- * with width x height texels is read. The pass reads them through its own samplers: it changes none of their
- * parameters, and their filter, wrap and compare modes do not matter. The pass queries the size and format of
- * textures and targets when a name, kind or size here differs from that of the last call. If the host creates
- * a texture anew under its old name, it must call nook_nnao_recheck. */
+ * layers; level 0 with width x height texels is read. The pass reads them through its own samplers: it
+ * changes none of their parameters, and their filter, wrap and compare modes do not matter. The pass queries
+ * the size and format of textures and targets when a name, kind or size here differs from that of the last
+ * call. If the host creates a texture anew under its old name, it must call nook_nnao_recheck. */
 typedef struct nook_nnao_frame_desc {
   /* nook_nnao_frame_desc_init sets these two. */
   uint32_t struct_size;
@@ -377,11 +376,12 @@ typedef struct nook_nnao_info {
   /* 1: the texture has bent normals. */
   int32_t bent_normals;
   /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, for the host's shader that lights.
-   * Directions are unit vectors in one space, roughness is perceptual (the GGX width is its square): vec3
-   * nook_nnao_bent_normal(vec4 texel)                    view space, of a texel with bent normals float
-   * nook_nnao_cone_cosine(float ao)                     cosine of the open cone's half angle vec3
-   * nook_nnao_multi_bounce(float ao, vec3 albedo)        AO with light that the surroundings reflect float
-   * nook_nnao_specular_occlusion(vec3 bent_normal, float ao, vec3 normal, vec3 to_viewer, float roughness)
+   * Directions are unit vectors in one space, roughness is perceptual (the GGX width is its square):
+   *     vec3 nook_nnao_bent_normal(vec4 texel)               view space, of a texel with bent normals
+   *     float nook_nnao_cone_cosine(float ao)                cosine of the open cone's half angle
+   *     vec3 nook_nnao_multi_bounce(float ao, vec3 albedo)   AO with light that the surroundings reflect
+   *     float nook_nnao_specular_occlusion(vec3 bent_normal, float ao, vec3 normal, vec3 to_viewer,
+   *                                        float roughness)
    * The irradiance of a probe is looked up along the bent normal and multiplied by AO; what a glossy surface
    * reflects is multiplied by the specular occlusion. The text is the same for every pass and valid as long
    * as the library is loaded. */

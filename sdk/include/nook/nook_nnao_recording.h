@@ -59,7 +59,7 @@ typedef struct nook_nnao_recording_desc {
   float radius;
   float max_radius_px;
   float intensity, power;
-  /* 0 none, 1 minimum, 2 remainder, 3 replace. */
+  /* 0 none, 1 minimum, 2 remainder, 3 replace, 4 apart, as nook_nnao_layer. */
   int32_t layer;
   /* The view that ao holds: 0 the result, 1 raw, 2 blurred. */
   int32_t view;

@@ -157,7 +157,8 @@ typedef struct nook_skin_info {
   float rest_from_mesh_3x4[12];
 } nook_skin_info;
 
-/* Describes skin number `skin` of the model, from 0 on; skins that no mesh uses are left out of a model.
+/* Describes skin number `skin` of the model, which is less than nook_character_model_info.skin_count. A model
+ * leaves out skins that no mesh uses.
  * Any thread. Errors: INVALID_ARGUMENT (also for a number past the last skin), UNSUPPORTED (no bind data). */
 NOOK_API nook_result nook_character_model_skin(nook_character_model model, uint32_t skin,
                                                nook_skin_info* info);
@@ -180,8 +181,8 @@ typedef struct nook_rest_vertex {
   uint32_t bone;
 } nook_rest_vertex;
 
-/* Describes rest vertex number `index`, from 0 on: one of up to 64 vertices, spread over the bones, that
- * nook_character_model_check_pose compares.
+/* Describes rest vertex number `index`, which is less than nook_character_model_info.check_vertex_count: one
+ * of the vertices, spread over the bones, that nook_character_model_check_pose compares.
  * Any thread. Errors: INVALID_ARGUMENT (also for an index past the last one), UNSUPPORTED (no bind data). */
 NOOK_API nook_result nook_character_model_rest_vertex(nook_character_model model, uint32_t index,
                                                       nook_rest_vertex* vertex);

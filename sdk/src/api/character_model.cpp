@@ -48,6 +48,8 @@ nook_result nook_character_model_describe(nook_character_model model, nook_chara
     answer.lod_count = static_cast<uint32_t>(1 + m.levels.size());
     answer.bounding_radius = m.bounding_radius;
     answer.gamma = m.kernel.gamma;
+    answer.skin_count = static_cast<uint32_t>(m.bind.skins.size());
+    answer.check_vertex_count = static_cast<uint32_t>(m.bind.vertices.size());
     write_info(info, offsetof(nook_character_model_info, gamma) + sizeof info->gamma, answer);
   });
 }

@@ -29,9 +29,8 @@ SphericalGaussian from_public(const nook_probe_lobe& lobe, std::size_t index) {
   check_unit(g.axis, "the axis of lobe", index);
   if (!(g.sharpness >= 0) || !std::isfinite(g.sharpness))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the sharpness of lobe %zu is out of range (got %g, need 0 or "
-                  "more)",
-                  index, double(g.sharpness));
+                  "the sharpness of lobe %zu is out of range (got %g, need 0 or more)", index,
+                  double(g.sharpness));
   for (const float channel : lobe.amplitude)
     if (!(std::abs(channel) <= max_coefficient))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

@@ -106,8 +106,7 @@ bool explain_by_map(Check& check, PoseFinding& finding) {
     finding.fault = NOOK_POSE_WRONG_UNIT;
     say(finding,
         "the pose is in another unit than the vertices: it fits when multiplied by %.6g%s; scale "
-        "desc.place_3x4 "
-        "or the vertices' place",
+        "desc.place_3x4 or the vertices' place",
         scale, is_mirrored ? " and mirrored" : "");
     return true;
   }
@@ -160,8 +159,7 @@ bool explain_by_order(const Check& check, PoseFinding& finding) {
   finding.fault = NOOK_POSE_WRONG_ORDER;
   say(finding,
       "transforms go to the wrong bones: %zu of %zu vertices fit under the transform of another bone; bone "
-      "%u "
-      "(\"%s\") fits with transform %lld; map bones by name",
+      "%u (\"%s\") fits with transform %lld; map bones by name",
       found, off, bone, check.model.bone_names[bone].c_str(), static_cast<long long>(transform_index));
   return true;
 }

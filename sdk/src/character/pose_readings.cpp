@@ -1,5 +1,6 @@
 #include "sdk/src/character/pose_readings.h"
 
+#include <iterator>
 #include <utility>
 
 namespace nook {
@@ -7,6 +8,7 @@ namespace {
 
 const char* kind_name(nook_pose_kind kind) {
   constexpr const char* names[] = {"rest-to-world matrices", "joint world matrices", "skinning matrices"};
+  static_assert(std::size(names) == NOOK_POSE_SKINNING + 1);
   return names[kind];
 }
 

@@ -5,7 +5,9 @@
 #include <nook/nook_character.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -40,9 +42,6 @@ struct SphereLanes {
   std::uint32_t count = 0;
 };
 
-inline constexpr std::size_t sphere_lanes = 4, group_lanes = 6, point_lanes = 17,
-                             code_lanes = 4;  // pointers of a struct
-
 // Key points in world space, each array padded_count long. Padding holds finite numbers. Pointers are into
 // InstanceArrays::storage.
 struct PointLanes {
@@ -60,6 +59,38 @@ struct PointLanes {
   std::uint32_t count = 0;
   std::uint32_t padded_count = 0;
 };
+
+// The pointers of each struct, in the order in which their lanes lie in InstanceArrays::storage and codes.
+// The numbers of lanes follow from these lists.
+inline constexpr float* SphereLanes::*sphere_members[] = {&SphereLanes::x, &SphereLanes::y, &SphereLanes::z,
+                                                          &SphereLanes::inverse_radius};
+inline constexpr float* GroupLanes::*group_members[] = {&GroupLanes::x,
+                                                        &GroupLanes::y,
+                                                        &GroupLanes::z,
+                                                        &GroupLanes::inverse_radius,
+                                                        &GroupLanes::caster_weight,
+                                                        &GroupLanes::moment};
+inline constexpr float* PointLanes::*point_members[] = {
+    &PointLanes::x,          &PointLanes::y,          &PointLanes::z,
+    &PointLanes::nx,         &PointLanes::ny,         &PointLanes::nz,
+    &PointLanes::surface_x,  &PointLanes::surface_y,  &PointLanes::surface_z,
+    &PointLanes::surface_nx, &PointLanes::surface_ny, &PointLanes::surface_nz,
+    &PointLanes::norm_sum,   &PointLanes::shadow,     &PointLanes::optical_depth,
+    &PointLanes::open,       &PointLanes::added};
+inline constexpr PointCodes PointLanes::*point_code_members[] = {&PointLanes::shadow_codes,
+                                                                 &PointLanes::added_codes};
+inline constexpr std::int32_t* PointCodes::*code_members[] = {&PointCodes::low, &PointCodes::high};
+
+inline constexpr std::size_t sphere_lanes = std::size(sphere_members), group_lanes = std::size(group_members),
+                             point_lanes = std::size(point_members),
+                             code_lanes = std::size(point_code_members) * std::size(code_members);
+
+// A pointer that is added to a struct fails here until its list has it too.
+static_assert(sizeof(SphereLanes) / sizeof(float*) == sphere_lanes + 1);
+static_assert(sizeof(GroupLanes) / sizeof(float*) == group_lanes + 1);
+static_assert(sizeof(PointLanes) == point_lanes * sizeof(float*) +
+                                        std::size(point_code_members) * sizeof(PointCodes) +
+                                        2 * sizeof(std::uint32_t));
 
 struct InstanceArrays {
   SphereLanes spheres;  // full detail

@@ -118,12 +118,6 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory) {
   PointLanes& points = arrays.points;
   points.count = static_cast<std::uint32_t>(model.model.key_points.size());
   points.padded_count = model.rest_key_points.padded_count();
-  float** const of_points[] = {
-      &points.x,          &points.y,          &points.z,         &points.nx,        &points.ny,
-      &points.nz,         &points.surface_x,  &points.surface_y, &points.surface_z, &points.surface_nx,
-      &points.surface_ny, &points.surface_nz, &points.norm_sum,  &points.shadow,    &points.optical_depth,
-      &points.open,       &points.added};
-  static_assert(std::size(of_points) == point_lanes);
   arrays.spheres.count = static_cast<std::uint32_t>(model.model.spheres.size());
   std::size_t size = sphere_lanes * padded_count(arrays.spheres.count) + point_lanes * points.padded_count;
   for (std::size_t l = 0; l < model.levels.size(); ++l) {
@@ -138,28 +132,24 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory) {
 
   arrays.storage = AlignedArray<float>(size, memory);
   float* at = arrays.storage.data();
-  const auto take = [&](float** lane, std::size_t count) {
-    *lane = at;
-    at += count;
+  const auto take = [&](auto& lanes, const auto& members, std::size_t count) {
+    for (const auto lane : members) {
+      lanes.*lane = at;
+      at += count;
+    }
   };
-  const auto take_spheres = [&](SphereLanes& spheres) {
-    for (float** lane : {&spheres.x, &spheres.y, &spheres.z, &spheres.inverse_radius})
-      take(lane, padded_count(spheres.count));
-  };
-  take_spheres(arrays.spheres);
-  for (std::size_t l = 0; l < model.levels.size(); ++l) take_spheres(arrays.coarse_spheres[l]);
-  for (GroupLanes& groups : arrays.groups)
-    for (float** lane :
-         {&groups.x, &groups.y, &groups.z, &groups.inverse_radius, &groups.caster_weight, &groups.moment})
-      take(lane, padded_count(groups.count));
-  for (float** lane : of_points) take(lane, points.padded_count);
+  take(arrays.spheres, sphere_members, padded_count(arrays.spheres.count));
+  for (std::size_t l = 0; l < model.levels.size(); ++l)
+    take(arrays.coarse_spheres[l], sphere_members, padded_count(arrays.coarse_spheres[l].count));
+  for (GroupLanes& groups : arrays.groups) take(groups, group_members, padded_count(groups.count));
+  take(points, point_members, points.padded_count);
   arrays.codes = AlignedArray<std::int32_t>(code_lanes * points.padded_count, memory);
   std::int32_t* code = arrays.codes.data();
-  for (std::int32_t** lane : {&points.shadow_codes.low, &points.shadow_codes.high, &points.added_codes.low,
-                              &points.added_codes.high}) {
-    *lane = code;
-    code += points.padded_count;
-  }
+  for (const auto codes : point_code_members)
+    for (const auto lane : code_members) {
+      points.*codes.*lane = code;
+      code += points.padded_count;
+    }
   return arrays;
 }
 

@@ -118,10 +118,9 @@ struct SphereTreeView {
 // 16 vertices of the linear layer as a small dense matrix with one column for each key point that any of them
 // uses. A column takes few instructions for all 16 vertices, while looking up key points for each vertex
 // takes a load for each. Columns come in pairs, because processors have one instruction for the sum of two
-// products of 16-bit numbers. Pair p of the block has the
-// two key points of key_points[first_pair + p]; the two alphas of each of its 16 vertices are side by side
-// from alpha[32 (first_pair + p)] on, their blend weights from blend[32 (first_pair + p)] on. The last column
-// may have no weights.
+// products of 16-bit numbers. Pair p of the block has the two key points of key_points[first_pair + p]; the
+// two alphas of each of its 16 vertices are side by side from alpha[32 (first_pair + p)] on, their blend
+// weights from blend[32 (first_pair + p)] on. The last column may have no weights.
 struct LinearBlock {
   std::uint32_t first_pair = 0;
   std::uint32_t pairs = 0;

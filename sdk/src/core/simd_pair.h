@@ -1,6 +1,5 @@
 // Two SIMD vectors as one number type. Formulas run on both, instruction by instruction, so that the latency
-// of one hides behind the other. V is a vector of
-// an instruction set, from its folder in sdk/src/isa.
+// of one hides behind the other. V is a vector of an instruction set, from its folder in sdk/src/isa.
 #pragma once
 
 namespace nook::simd {

@@ -19,8 +19,7 @@ class TexelTable {
   TexelTable& operator=(TexelTable&&) noexcept = default;
 
   // Makes room for at least `texels` texels; what was written before is lost where it grows. format is
-  // GL_RG32F or GL_RGBA32F, the same at every call. label must outlive the table. Throws
-  // Failure.
+  // GL_RG32F or GL_RGBA32F, the same at every call. label must outlive the table. Throws Failure.
   void reserve(Device& device, GLenum format, std::uint64_t texels, const char* label);
   bool made() const { return texture_.name() != 0; }
   std::uint64_t capacity() const { return capacity_; }

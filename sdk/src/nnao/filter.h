@@ -40,8 +40,8 @@ constexpr float filter_range_sharpness(std::uint32_t taps) {
 
 // Returns the weights of the 3 x 3 pixels around one in its filtered value, row by row from the lower left;
 // the pixel's own is 1. edges are packed_edges of every pixel, 0 where there is no surface. A corner counts
-// by the better of the two ways around. Beyond the border the
-// sides' weights are 0, and a corner counts as the pixel beside it within the image.
+// by the better of the two ways around. Beyond the border the sides' weights are 0, and a corner counts as
+// the pixel beside it within the image.
 std::array<float, 9> filter_weights(std::span<const float> ao, std::span<const std::uint8_t> edges,
                                     std::uint32_t width, std::uint32_t height, std::uint32_t x,
                                     std::uint32_t y, float range_sharpness);

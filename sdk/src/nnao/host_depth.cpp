@@ -103,8 +103,8 @@ void check_projection(const float (&m)[16], DepthKind kind) {
   if (zero(0) || zero(5) || (perspective ? m[11] > 0 : !(m[15] > 0)))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.projection is no projection of a camera that looks along -z, or singular (got [0] "
-                  "%g, [5] %g, [11] "
-                  "%g, [15] %g; need [0] and [5] other than 0, and [11] below 0 or [15] above 0)",
+                  "%g, [5] %g, [11] %g, [15] %g; need [0] and [5] other than 0, and [11] below 0 or [15] "
+                  "above 0)",
                   double(m[0]), double(m[5]), double(m[11]), double(m[15]));
   // Clip x depends on x and z, clip y on y and z, and depth on z alone: there is no roll, no shear and no
   // oblique clip plane.

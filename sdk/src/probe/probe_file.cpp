@@ -72,9 +72,8 @@ std::uint32_t read_choice(ByteReader& in, const char* what, std::uint32_t count)
   const std::uint32_t value = in.u8();
   if (value >= count)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the %s of the probe is unknown (got %u, need less than %u); bake it "
-                  "again",
-                  what, value, count);
+                  "the %s of the probe is unknown (got %u, need less than %u); bake it again", what, value,
+                  count);
   return value;
 }
 

@@ -29,7 +29,7 @@ float nook_neural_height(vec2 uv, float level, vec3 view) {
   return height;
 }
 
-vec4 nook_neural_mean(int layer, nook_material_fetches at) {
+vec4 nook_neural_mean(int layer, NookMaterialFetches at) {
   vec4 mean = nook_neural_feature(layer, at.place[0], at.level);
   for (int i = 1; i < at.count; ++i)
     mean += (nook_neural_feature(layer, at.place[i], at.level) - mean) / float(i + 1);
@@ -37,7 +37,7 @@ vec4 nook_neural_mean(int layer, nook_material_fetches at) {
 }
 
 // Computes the numbers of places for the view, of the mean of their features. Each place has a height of its own.
-void nook_material_decode_at(nook_material_fetches at, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
+void nook_material_decode_at(NookMaterialFetches at, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   view = nook_neural_raised(view, nook_neural_lowest_view_z);
   for (int i = 0; i < at.count; ++i) {
     float height = nook_neural_height(at.place[i], at.level, view);

@@ -2,7 +2,7 @@
 
 #include "tests/abi/layout/layout.h"
 
-NOOK_SIZE(nook_character_model_info, 40);
+NOOK_SIZE(nook_character_model_info, 48);
 NOOK_AT(nook_character_model_info, bone_count, 4);
 NOOK_AT(nook_character_model_info, sphere_count, 8);
 NOOK_AT(nook_character_model_info, key_point_count, 12);
@@ -12,6 +12,8 @@ NOOK_AT(nook_character_model_info, primitive_count, 24);
 NOOK_AT(nook_character_model_info, lod_count, 28);
 NOOK_AT(nook_character_model_info, bounding_radius, 32);
 NOOK_AT(nook_character_model_info, gamma, 36);
+NOOK_AT(nook_character_model_info, skin_count, 40);
+NOOK_AT(nook_character_model_info, check_vertex_count, 44);
 
 NOOK_SIZE(nook_scene_desc, 56);
 NOOK_AT(nook_scene_desc, struct_size, 0);

@@ -92,6 +92,7 @@ struct Host {
   nook_character_model model = nullptr;
   nook_scene scene = nullptr;
   nook_instance_id instance = 0;
+  nook_character_model_info info{};
   std::uint32_t bones = 0, vertices = 0;
 
   explicit Host(const std::filesystem::path& path) : Host(path, {}) {}
@@ -108,7 +109,6 @@ struct Host {
     scene_desc.cutoff_error = 0;
     REQUIRE(nook_scene_create(context, &scene_desc, &scene) == NOOK_OK);
     REQUIRE(nook_scene_add_instance(scene, model, &instance) == NOOK_OK);
-    nook_character_model_info info{};
     info.struct_size = sizeof info;
     REQUIRE(nook_character_model_describe(model, &info) == NOOK_OK);
     bones = info.bone_count;
@@ -164,7 +164,8 @@ void set_engine_pose(Host& host, const std::vector<Affine>& globals, const float
   REQUIRE(nook_scene_set_pose_from(host.scene, host.instance, &desc) == NOOK_OK);
   nook_skin_info skin{};
   skin.struct_size = sizeof skin;
-  for (std::uint32_t s = 0; nook_character_model_skin(host.model, s, &skin) == NOOK_OK; ++s) {
+  for (std::uint32_t s = 0; s < host.info.skin_count; ++s) {
+    REQUIRE(nook_character_model_skin(host.model, s, &skin) == NOOK_OK);
     const std::vector<float> matrices = columns_4x4(host.engine.skinning_matrices(skin.file_index, globals));
     desc = pose_desc(NOOK_POSE_SKINNING, matrices);
     desc.skin = skin.file_index;
@@ -192,9 +193,11 @@ std::vector<float> engine_vertices(const Host& host, const std::vector<Affine>& 
   std::vector<float> out;
   nook_rest_vertex rest{};
   rest.struct_size = sizeof rest;
-  for (std::uint32_t v = 0; nook_character_model_rest_vertex(host.model, v, &rest) == NOOK_OK; ++v)
+  for (std::uint32_t v = 0; v < host.info.check_vertex_count; ++v) {
+    REQUIRE(nook_character_model_rest_vertex(host.model, v, &rest) == NOOK_OK);
     for (const double coordinate : host.engine.skinned(host.engine.vertices[rest.vertex], globals))
       out.push_back(static_cast<float>(coordinate));
+  }
   return out;
 }
 
@@ -345,7 +348,8 @@ TEST_CASE("the check of a pose passes what is right, in any unit and place") {
     }
     nook_skin_info skin{};
     skin.struct_size = sizeof skin;
-    for (std::uint32_t s = 0; nook_character_model_skin(host.model, s, &skin) == NOOK_OK; ++s) {
+    for (std::uint32_t s = 0; s < host.info.skin_count; ++s) {
+      REQUIRE(nook_character_model_skin(host.model, s, &skin) == NOOK_OK);
       const std::vector<float> matrices =
           columns_4x4(host.engine.skinning_matrices(skin.file_index, globals));
       nook_pose_desc desc = pose_desc(NOOK_POSE_SKINNING, matrices);
@@ -366,8 +370,10 @@ TEST_CASE("the check of a pose names what is wrong") {
     std::vector<nook_skin_info> skins;
     nook_skin_info skin{};
     skin.struct_size = sizeof skin;
-    for (std::uint32_t s = 0; nook_character_model_skin(host.model, s, &skin) == NOOK_OK; ++s)
+    for (std::uint32_t s = 0; s < host.info.skin_count; ++s) {
+      REQUIRE(nook_character_model_skin(host.model, s, &skin) == NOOK_OK);
       skins.push_back(skin);
+    }
     for (std::size_t s = 0; s < skins.size(); ++s) {
       std::vector<float> matrices = columns_4x4(host.engine.skinning_matrices(skins[s].file_index, globals));
       nook_pose_desc right = pose_desc(NOOK_POSE_SKINNING, matrices);

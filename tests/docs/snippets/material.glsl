@@ -18,4 +18,14 @@ uniform usampler2DArray nook_btf_membership, nook_votf_membership;
 uniform vec2 nook_visibility_mapping;
 vec4 nook_btf_mode(int cluster, int mode, vec2 uv, float level);
 vec4 nook_votf_mode(int cluster, int mode, vec2 uv, float level);
+#include "shaders/material/base/host.glsl"
+
+vec4 nook_btf_mean(int cluster, int mode, NookMaterialFetches at);
+NookMaterialTerms nook_btf_terms(vec2 place, ivec2 cell);
+int nook_btf_cluster(inout NookMaterialTerms terms, int k);
+vec4 nook_btf_weights(NookMaterialTerms terms, int k, int b);
+vec4 nook_votf_mean(int cluster, int mode, NookMaterialFetches at);
+NookMaterialTerms nook_votf_terms(vec2 place, ivec2 cell);
+int nook_votf_cluster(inout NookMaterialTerms terms, int k);
+vec4 nook_votf_weights(NookMaterialTerms terms, int k, int b);
 #include "shaders/material/host.glsl"

@@ -72,8 +72,8 @@ TEST_CASE("a window bakes its model, loads it again and shows errors") {
   const std::string glb = glb_tube({"bend"});
   std::ofstream(out / "tube.glb", std::ios::binary).write(glb.data(), std::streamsize(glb.size()));
   REQUIRE(run("'" XVFB_RUN "' -a -s '-screen 0 640x480x24' '" CROWD
-              "' --quiet --context window --size 640x480 "
-              "--characters 2 --bake draft --debug spheres,links,error --window-picture '" +
+              "' --quiet --context window --size 640x480 --characters 2 --bake draft --debug "
+              "spheres,links,error --window-picture '" +
               (out / "window.png").string() + "' --out '" + out.string() + "' '" +
               (out / "tube.glb").string() + "'") == 0);
   CHECK(std::filesystem::file_size(out / "model.nook") > 1000);

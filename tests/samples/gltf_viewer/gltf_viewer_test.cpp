@@ -58,10 +58,8 @@ TEST_CASE("sample gltf_viewer: its skinning is what Nook expects of the same mat
     const viewer::Pose pose = file.pose(&clip, 0.4f * clip.duration_s);
     const std::vector<glm::vec3> skinned = file.skinned(pose);
     std::vector<glm::vec3> rest_vertices;
-    nook_rest_vertex rest{};
-    rest.struct_size = sizeof rest;
-    for (std::uint32_t v = 0; nook_character_model_rest_vertex(model.get(), v, &rest) == NOOK_OK; ++v)
-      rest_vertices.push_back(skinned[rest.vertex]);
+    for (std::uint32_t v = 0; v < model.info().check_vertex_count; ++v)
+      rest_vertices.push_back(skinned[model.rest_vertex(v).vertex]);
     nook_pose_desc desc = nook::pose_desc();
     desc.kind = NOOK_POSE_SKINNING;
     desc.layout = NOOK_TRANSFORM_COLUMNS_4X4;

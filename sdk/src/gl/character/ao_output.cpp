@@ -106,8 +106,7 @@ void AoOutput::write_strided(const VertexValues& source, const BufferTarget& tar
   if (!gl.can.compute)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "target.stride needs compute shaders (OpenGL 4.3 or OpenGL ES 3.1), which this context has "
-                  "not; write "
-                  "tightly packed values and read them as a vertex attribute of their own");
+                  "not; write tightly packed values and read them as a vertex attribute of their own");
   Object& program = strided_[static_cast<std::size_t>(target.format)];
   if (!program.name())
     program = compute_program(device_, "character/pack_strided.comp", PackDefines(target.format).text);

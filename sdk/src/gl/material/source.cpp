@@ -1,5 +1,8 @@
 #include "sdk/src/gl/material/source.h"
 
+#include <algorithm>
+#include <string_view>
+
 #include "sdk/src/core/float_literal.h"
 #include "sdk/src/gl/embedded_shaders.h"
 #include "sdk/src/gl/material/formatted_text.h"
@@ -50,6 +53,26 @@ void add_modes(String& out, const material::TensorTables& t, const char* name, s
   out += "}\n";
 }
 
+const char* host_text(std::string_view path) {
+  for (const EmbeddedShader* shader = embedded_shaders_begin(); shader != embedded_shaders_end(); ++shader)
+    if (std::string_view(shader->path) == path) return shader->text;
+  return "";
+}
+
+// Writes tensor/host.glsl with the names of one tensor.
+void add_terms(String& out, std::string_view name, std::string_view capital_name) {
+  std::string_view text = host_text("material/tensor/host.glsl");
+  while (!text.empty()) {
+    const std::size_t at = std::min(text.find("nook_tensor_"), text.find("NOOK_TENSOR_"));
+    out += text.substr(0, at);
+    if (at == text.npos) return;
+    constexpr std::size_t head = 5, length = 11;  // of "nook_" and of "nook_tensor"
+    out += text.substr(at, head);
+    out += text[at] == 'n' ? name : capital_name;
+    text.remove_prefix(at + length);
+  }
+}
+
 // name is "btf" and prefix "NOOK_BTF", or the same of the VOTF.
 void add_tensor(String& out, const material::TensorTables& t, const char* name, const char* prefix,
                 std::uint32_t max_layers) {
@@ -73,12 +96,6 @@ void add_relief(String& out, const material::ReliefTables& relief) {
   if (relief.steps > 0) out += "uniform highp sampler2DArray nook_relief_heights;\n";
 }
 
-const char* host_text(std::string_view path) {
-  for (const EmbeddedShader* shader = embedded_shaders_begin(); shader != embedded_shaders_end(); ++shader)
-    if (std::string_view(shader->path) == path) return shader->text;
-  return "";
-}
-
 }  // namespace
 
 String material_source(const material::MaterialTables& tables, std::uint32_t max_layers, Memory* memory) {
@@ -98,6 +115,9 @@ String material_source(const material::MaterialTables& tables, std::uint32_t max
     // OpenGL ES gives uniforms no first value.
     add(out, "#ifdef GL_ES\nconst\n#else\nuniform\n#endif\nvec2 nook_visibility_mapping = vec2(%s, %s);\n",
         float_literal(tables.mapping.threshold).text, float_literal(tables.mapping.weight).text);
+  out += host_text("material/base/host.glsl");
+  if (!is_neural) add_terms(out, "btf", "BTF");
+  if (tables.votf.terms != 0) add_terms(out, "votf", "VOTF");
   out += host_text(is_neural ? "material/neural/host.glsl" : "material/host.glsl");
   return out;
 }

@@ -169,6 +169,8 @@ void NnaoPass::render_layer(const nook_nnao_frame_desc& frame, int layer) {
 
   if (frame.view == NOOK_NNAO_VIEW_NORMALS) {
     bind_normals(frame.normal_texture);
+    // The timer counts four stages in every frame. This view has no occlusion and no blur, so both end at
+    // once.
     end_stage();
     end_stage();
     draw_output(show_normals_stage_, frame, constants, layer);

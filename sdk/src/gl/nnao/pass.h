@@ -2,9 +2,8 @@
 //
 // The network's stage, AO, is a draw or a dispatch; the other stages are draws.
 //   full resolution  host depth -> depth -> AO and edges -> [mean ->] [filter ->] filter and resolve
-//   half resolution  host depth -> depth of every fourth pixel -> AO and edges -> [mean ->] filter [->
-//   filter] ->
-//                    upsample and resolve
+//   half resolution  host depth -> depth of every fourth pixel -> AO and edges -> [mean ->] filter ->
+//                    [filter ->] upsample and resolve
 // The mean over frames belongs to passes with temporal_frames. Passes with layers draw them one after the
 // other. The paper's form reads the normals of its taps: a stage between depth and AO writes them.
 #pragma once
