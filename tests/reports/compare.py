@@ -65,9 +65,14 @@ def main():
     before, after = read(options.before), read(options.after)
     names = [n for n in dict.fromkeys([*before, *after]) if not re.search(options.ignore, n)]
     different = [n for n in names if before.get(n) != after.get(n)]
+    report_of = lambda name: name if name.startswith("files/") else name.split(".")[0]
+    sides = [{report_of(n) for n in names if n in values} for values in (before, after)]
+    for report in sorted(sides[0] ^ sides[1]):
+        print(f"{report}: only {'before' if report in sides[0] else 'after'}")
     for name in different:
-        print(f"{name}: {shown(before.get(name))} before, {shown(after.get(name))} after")
-    reports = {n.split(".")[0] for n in names if not n.startswith(("files/", "written_"))}
+        if report_of(name) in sides[0] & sides[1]:
+            print(f"{name}: {shown(before.get(name))} before, {shown(after.get(name))} after")
+    reports = {report_of(n) for n in names if not n.startswith(("files/", "written_"))}
     files = [n for n in names if n.startswith(("files/", "written_"))]
     print(f"{len(different)} of {len(names)} values differ ({len(reports)} reports, {len(files)} files)")
     sys.exit(1 if different else 0)
