@@ -51,8 +51,8 @@ def shapes(run):
 
 
 def library(run, model):
-    """What the library computes without a GPU, and the values that the page in a browser is compared with, which need those
-    of the sample web."""
+    """Evaluates the library on the CPU, and writes the values that tests compare the page in a browser with. web_picture
+    needs the files of the sample web."""
     run.program("write_portability", "write_portability_inputs", "cpu_character.nook", "cpu_material.nook")
     run.program("cpu_results", "cpu_results", "run", "cpu_character.nook", "cpu_material.nook", "cpu.values")
     if run.due("web_picture"):

@@ -49,7 +49,7 @@ def without_timed_cells(text):
 
 
 def describe_file(path):
-    """The hash of a file. A page is told apart from the pictures that it holds, so that a difference can be placed."""
+    """Hashes a file. The text of a page and each picture in it have their own hashes, so that you see which one differs."""
     data = path.read_bytes()
     if path.suffix == ".md":
         return hash_of(without_timed_cells(data))
@@ -62,7 +62,7 @@ def describe_file(path):
 
 
 def processor_seconds():
-    """Of all commands that have ended."""
+    """Returns the processor time of all commands that have ended."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 

@@ -40,7 +40,7 @@ def mannequin(run, glb, sky):
 
 
 def darkened_world(run, glb, model, sky):
-    """What a character darkens besides itself."""
+    """Measures how a character darkens its surroundings, and exports its casters."""
     world = ["evaluate", "world", glb, model]
     run.report("evaluate_world_pictures", *world, "--rays", 16, "--points", 40, "--max-poses", 1, "--clips", "Walk",
                "--images", "world_pictures", "--image-count", 1)
