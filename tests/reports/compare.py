@@ -5,8 +5,9 @@
 
 Every number must be equal to its last digit. Times, memory and paths are left out: the keys seconds*, ms*, *_ms, *_per_s,
 ratio_to_nnao (a ratio of times) and peak_bytes, and what a text holds up to its last slash. The .nook files are compared as
-well, byte by byte, under files/. --ignore leaves out further keys, by a regular expression for the dotted path, such as
-'evaluate_sky.*luminance'.
+well, byte by byte, under files/. Other files that a command wrote, such as pictures, pages, tables and recordings, are
+compared by their hashes, under written_COMMAND; where one differs, look at it in files/ of both folders. --ignore leaves out
+further keys, by a regular expression for the dotted path, such as 'evaluate_sky.*luminance'.
 """
 import argparse
 import json
@@ -64,10 +65,15 @@ def main():
     before, after = read(options.before), read(options.after)
     names = [n for n in dict.fromkeys([*before, *after]) if not re.search(options.ignore, n)]
     different = [n for n in names if before.get(n) != after.get(n)]
+    report_of = lambda name: name if name.startswith("files/") else name.split(".")[0]
+    sides = [{report_of(n) for n in names if n in values} for values in (before, after)]
+    for report in sorted(sides[0] ^ sides[1]):
+        print(f"{report}: only {'before' if report in sides[0] else 'after'}")
     for name in different:
-        print(f"{name}: {shown(before.get(name))} before, {shown(after.get(name))} after")
-    reports = {n.split(".")[0] for n in names if not n.startswith("files/")}
-    files = [n for n in names if n.startswith("files/")]
+        if report_of(name) in sides[0] & sides[1]:
+            print(f"{name}: {shown(before.get(name))} before, {shown(after.get(name))} after")
+    reports = {report_of(n) for n in names if not n.startswith(("files/", "written_"))}
+    files = [n for n in names if n.startswith(("files/", "written_"))]
     print(f"{len(different)} of {len(names)} values differ ({len(reports)} reports, {len(files)} files)")
     sys.exit(1 if different else 0)
 
