@@ -261,7 +261,7 @@ def frame():
     """The life of a frame."""
     d = Drawing(900, 330, "The life of a frame: poses, update, AO of vertices, depth, world pass, screen pass, light")
     y = 40
-    for x, words, fill in ((20, "set_pose_from\nfor each body", PALE), (200, "link_nearest,\nset_camera", PALE),
+    for x, words, fill in ((20, "set_pose\nfor each body", PALE), (200, "link_nearest,\nset_camera", PALE),
                            (380, "scene update:\ncull, levels,\nshadows at\nkey points", "#f9e7e1"),
                            (560, "vertex pass:\nmix key points\ninto AO", "#e5f2e7"), (740, "buffer:\na vertex attribute", PALE)):
         d.box(x, y, 140, 84, words, fill)

@@ -10,7 +10,8 @@ import sys
 import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-HEADERS = sorted((ROOT / "sdk/include/nook").glob("*.h"))
+INCLUDE = ROOT / "sdk/include/nook"
+HEADERS = sorted(INCLUDE.glob("*.h")) + sorted((INCLUDE / "experimental").glob("*.h"))
 PAGES = ROOT / "docs/api"
 # A header, such as nook_bake.h, or a name that headers declare.
 NAME = re.compile(r"\b(?:(nook(?:_\w+)?)\.(?:hpp|h)\b|((?:nook|NOOK)_\w+)(?:\(\))?)")
@@ -46,7 +47,7 @@ class Item:
 def declared_names(code):
     """The names of a block of declarations: functions and types, or constants if nothing else has a name."""
     code = re.sub(r"/\*.*?\*/", "", code, flags=re.S)
-    functions = re.findall(r"^NOOK_API [^;(]*?(nook_\w+)\(", code, re.M)
+    functions = re.findall(r"^(?:NOOK_API|static inline) [^;(]*?(nook_\w+)\(", code, re.M)
     types = re.findall(r"^typedef [^;{]*\(\*(nook_\w+)\)", code, re.M)
     types += re.findall(r"^typedef [^;{(]*?(nook_\w+);", code, re.M)
     types += re.findall(r"^\} (nook_\w+);", code, re.M)
@@ -119,6 +120,10 @@ def prose(lines, link):
     return "\n".join(out).strip()
 
 
+def where_of(name):
+    return next(h.relative_to(ROOT).as_posix() for h in HEADERS if h.stem == name)
+
+
 def page(name, blocks, places):
     headers = {header.name for header in HEADERS}
 
@@ -136,7 +141,7 @@ def page(name, blocks, places):
 
         return link
 
-    out = [f"# {name}.h", "", f"Made from `sdk/include/nook/{name}.h` by `docs/generate_api.py`.", "",
+    out = [f"# {name}.h", "", f"Made from `{where_of(name)}` by `docs/generate_api.py`.", "",
            prose(blocks[0], link_from(None)), ""]
     for block in blocks[1:]:
         if isinstance(block, list):

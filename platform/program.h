@@ -24,6 +24,7 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   void use() const { gl_.UseProgram(name_); }
+  GLuint name() const { return name_; }
   GLint uniform(const char* name) const { return gl_.GetUniformLocation(name_, name); }
 
  private:

@@ -8,9 +8,10 @@ install(TARGETS nook EXPORT nook_targets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 # Headers of the bakers come with the library of the bakers.
-set(nook_absent_headers PATTERN "nook_bake*.h" EXCLUDE)
+set(nook_absent_headers PATTERN "nook_bake*.h*" EXCLUDE PATTERN "nook_trace.h*" EXCLUDE)
 if(NOT NOOK_GL)
-  list(APPEND nook_absent_headers PATTERN "nook_gl*" EXCLUDE PATTERN "nook_nnao.h*" EXCLUDE PATTERN "nook_nnao_stages*" EXCLUDE)
+  list(APPEND nook_absent_headers PATTERN "nook_gl.h*" EXCLUDE PATTERN "nook_nnao.h*" EXCLUDE PATTERN "nook_world.h*" EXCLUDE
+       PATTERN "nook_stages.h*" EXCLUDE PATTERN "nook_capture.h*" EXCLUDE PATTERN "nook_transfer.hpp" EXCLUDE PATTERN "nook_synthesis.hpp" EXCLUDE)
 endif()
 install(DIRECTORY include/nook DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp" ${nook_absent_headers})

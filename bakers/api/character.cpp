@@ -1,9 +1,12 @@
 // Characters: import, creation from memory, and all queries.
-#include <nook/nook_bake_character.h>
+#include <nook/experimental/nook_trace.h>
+#include <nook/nook_bake.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
+#include "bakers/api/descriptor_list.h"
 #include "bakers/api/entry.h"
 #include "bakers/api/handles.h"
 #include "bakers/api/import.h"
@@ -12,23 +15,11 @@
 #include "bakers/import/skinning.h"
 #include "bakers/job/mesh_arrays.h"
 #include "bakers/job/pose_arrays.h"
-#include "sdk/src/core/descriptors.h"
 
 using namespace nook;
 using namespace nook::bake;
 
 namespace {
-
-constexpr std::size_t first_mesh_desc = offsetof(nook_bake_mesh_desc, primitive_count) + sizeof(uint32_t);
-constexpr std::size_t first_info = offsetof(nook_bake_character_info, bounds_max) + 3 * sizeof(float);
-
-nook_bake_mesh_desc default_mesh_desc() {
-  nook_bake_mesh_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.header_version = NOOK_VERSION;
-  desc.influences = 4;
-  return desc;
-}
 
 void hand_out(ImportedCharacter imported, nook_bake_character* out) {
   *out = new nook_bake_character_s{std::make_shared<const ImportedCharacter>(std::move(imported))};
@@ -45,6 +36,104 @@ void need_index(const char* name, std::size_t index, std::size_t count) {
                   count);
 }
 
+ImportedCharacter import_file(const char* path, LinkedFiles linked) {
+  try {
+    return import_gltf(std::filesystem::path(reinterpret_cast<const char8_t*>(path)), linked);
+  } catch (const Failure& failure) {
+    // The message of the importer may already contain the name of the file.
+    if (std::string_view(failure.what()).find(path) != std::string_view::npos) throw;
+    throw Failure(failure.code(), "%s: %s", path, failure.what());
+  }
+}
+
+ImportedCharacter character_of(const nook_bake_source_desc& desc, LinkedFiles linked) {
+  const bool has_arrays = desc.positions || desc.indices || desc.joints || desc.weights ||
+                          desc.bone_parents || desc.bone_frames_3x4;
+  const int sources = int(desc.path != nullptr) + int(desc.bytes != nullptr) + int(has_arrays);
+  if (sources != 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc has %s of desc.path, desc.bytes and arrays such as desc.positions; give exactly one",
+                  sources == 0 ? "none" : "more than one");
+  if (desc.path) return import_file(desc.path, linked);
+  if (desc.bytes) return import_gltf(std::span(static_cast<const std::byte*>(desc.bytes), desc.byte_count));
+  return character_of_arrays(desc);
+}
+
+// Copies elements of `size` bytes to where the caller wants each.
+class Rows {
+ public:
+  Rows(void* out, std::size_t size, std::size_t stride) : at_(static_cast<std::byte*>(out)), size_(size) {
+    if (stride != 0 && stride < size)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "stride is too small (got %zu, need 0 or at least %zu)",
+                    stride, size);
+    stride_ = stride ? stride : size;
+  }
+  void add(const void* element) {
+    std::memcpy(at_, element, size_);
+    at_ += stride_;
+  }
+
+ private:
+  std::byte* at_;
+  std::size_t size_, stride_ = 0;
+};
+
+void read_bones(const std::vector<Bone>& bones, nook_bake_array array, void* out, std::size_t stride) {
+  const bool parents = array == NOOK_BAKE_ARRAY_PARENTS;
+  Rows rows(out, parents ? sizeof(std::int32_t) : 12 * sizeof(float), stride);
+  for (const Bone& bone : bones) {
+    const std::int32_t parent = bone.parent;
+    parents ? rows.add(&parent) : rows.add(bone.frame_rest.m);
+  }
+}
+
+void read_primitives(const SkinnedMesh& mesh, void* out, std::size_t stride) {
+  Rows rows(out, sizeof(nook_range), stride);
+  for (const Primitive& primitive : mesh.primitives) {
+    const nook_range range{primitive.first_vertex, primitive.vertex_count};
+    rows.add(&range);
+  }
+}
+
+void read_vertices(const SkinnedMesh& mesh, nook_bake_array array, void* out, std::size_t stride) {
+  Rows rows(out, 3 * sizeof(float), stride);
+  std::vector<Vec3> normal;
+  if (array == NOOK_BAKE_ARRAY_NORMALS) vertex_normals(mesh.triangle, mesh.position, normal);
+  const std::vector<Vec3>& of = array == NOOK_BAKE_ARRAY_NORMALS ? normal : mesh.position;
+  for (const std::uint32_t welded : mesh.file_to_welded) {
+    const float xyz[] = {of[welded].x, of[welded].y, of[welded].z};
+    rows.add(xyz);
+  }
+}
+
+void read_triangles(const SkinnedMesh& mesh, void* out, std::size_t stride) {
+  Rows rows(out, 3 * sizeof(std::uint32_t), stride);
+  std::vector<std::uint32_t> file_of_welded(mesh.vertex_count());
+  for (std::size_t f = mesh.file_to_welded.size(); f-- > 0;)
+    file_of_welded[mesh.file_to_welded[f]] = std::uint32_t(f);
+  for (const auto& triangle : mesh.triangle) {
+    const std::uint32_t corners[] = {file_of_welded[triangle[0]], file_of_welded[triangle[1]],
+                                     file_of_welded[triangle[2]]};
+    rows.add(corners);
+  }
+}
+
+void read_skin(const SkinnedMesh& mesh, nook_bake_array array, void* out, std::size_t stride) {
+  const bool joints = array == NOOK_BAKE_ARRAY_JOINTS;
+  Rows rows(out, joints ? 4 * sizeof(std::uint16_t) : 4 * sizeof(float), stride);
+  for (const std::uint32_t welded : mesh.file_to_welded) {
+    const SkinWeights& w = mesh.weights[welded];
+    const float sum = w.weight[0] + w.weight[1] + w.weight[2] + w.weight[3];
+    std::uint16_t bone[4];
+    float weight[4];
+    for (std::size_t s = 0; s < 4; ++s) {
+      bone[s] = w.bone[s];
+      weight[s] = w.weight[s] / sum;
+    }
+    joints ? rows.add(bone) : rows.add(weight);
+  }
+}
+
 // Writes values of welded vertices in file order.
 void write_vertices(const SkinnedMesh& mesh, const std::vector<Vec3>& position, float* positions,
                     float* normals) {
@@ -57,48 +146,17 @@ void write_vertices(const SkinnedMesh& mesh, const std::vector<Vec3>& position, 
 
 }  // namespace
 
-nook_result api::import_character(const char* path, LinkedFiles linked, nook_bake_character* out) noexcept {
-  return enter("nook_bake_import_gltf", [&] {
+nook_result api::create_character(const nook_bake_source_desc* desc, LinkedFiles linked,
+                                  nook_bake_character* out) noexcept {
+  return enter("nook_bake_character_create", [&] {
     need(out, "out");
     *out = nullptr;
-    need(path, "path");
-    try {
-      hand_out(import_gltf(std::filesystem::path(reinterpret_cast<const char8_t*>(path)), linked), out);
-    } catch (const Failure& failure) {
-      // The message of the importer may already contain the name of the file.
-      if (std::string_view(failure.what()).find(path) != std::string_view::npos) throw;
-      throw Failure(failure.code(), "%s: %s", path, failure.what());
-    }
+    hand_out(character_of(read_descriptor(desc), linked), out);
   });
 }
 
-nook_result nook_bake_import_gltf(const char* path, nook_bake_character* out) {
-  return api::import_character(path, LinkedFiles::folder, out);
-}
-
-nook_result nook_bake_import_gltf_bytes(const void* bytes, size_t size, nook_bake_character* out) {
-  return api::enter("nook_bake_import_gltf_bytes", [&] {
-    need(out, "out");
-    *out = nullptr;
-    need(bytes, "bytes");
-    hand_out(import_gltf(std::span(static_cast<const std::byte*>(bytes), size)), out);
-  });
-}
-
-nook_result nook_bake_mesh_desc_init(nook_bake_mesh_desc* desc, size_t size, uint32_t header_version) {
-  return api::enter("nook_bake_mesh_desc_init", [&] {
-    init_descriptor(desc, size, header_version, first_mesh_desc, default_mesh_desc());
-  });
-}
-
-nook_result nook_bake_character_create(const nook_bake_mesh_desc* desc, nook_bake_character* out) {
-  return api::enter("nook_bake_character_create", [&] {
-    need(out, "out");
-    *out = nullptr;
-    hand_out(character_of_arrays(
-                 read_descriptor(desc, "nook_bake_mesh_desc_init", first_mesh_desc, default_mesh_desc())),
-             out);
-  });
+nook_result nook_bake_character_create(const nook_bake_source_desc* desc, nook_bake_character* out) {
+  return api::create_character(desc, LinkedFiles::folder, out);
 }
 
 void nook_bake_character_destroy(nook_bake_character* character) {
@@ -126,49 +184,55 @@ nook_result nook_bake_character_describe(nook_bake_character character, nook_bak
     const float bounds[] = {low.x, low.y, low.z, high.x, high.y, high.z};
     std::copy_n(bounds, 3, answer.bounds_min);
     std::copy_n(bounds + 3, 3, answer.bounds_max);
-    write_info(info, first_info, answer);
+    write_info(info, answer);
   });
 }
 
-const char* nook_bake_character_bone_name(nook_bake_character character, uint32_t bone) {
-  if (!character || bone >= character->character->mesh.bones.size()) return nullptr;
-  return character->character->mesh.bones[bone].name.c_str();
+const char* nook_bake_character_name(nook_bake_character character, nook_bake_name kind, uint32_t index) {
+  if (!character) return nullptr;
+  const ImportedCharacter& c = *character->character;
+  switch (kind) {
+    case NOOK_BAKE_NAME_BONE:
+      return index < c.mesh.bones.size() ? c.mesh.bones[index].name.c_str() : nullptr;
+    case NOOK_BAKE_NAME_CLIP:
+      return index < c.clips.size() ? c.clips[index].name.c_str() : nullptr;
+    case NOOK_BAKE_NAME_PRIMITIVE:
+      return index < c.mesh.primitives.size() ? c.mesh.primitives[index].mesh_name.c_str() : nullptr;
+    case NOOK_BAKE_NAME_WARNING:
+      return index < c.warnings.size() ? c.warnings[index].c_str() : nullptr;
+    default:
+      return nullptr;
+  }
 }
 
-const char* nook_bake_character_clip_name(nook_bake_character character, uint32_t clip) {
-  if (!character || clip >= character->character->clips.size()) return nullptr;
-  return character->character->clips[clip].name.c_str();
-}
-
-const char* nook_bake_character_primitive_name(nook_bake_character character, uint32_t primitive) {
-  if (!character || primitive >= character->character->mesh.primitives.size()) return nullptr;
-  return character->character->mesh.primitives[primitive].mesh_name.c_str();
-}
-
-const char* nook_bake_character_warning(nook_bake_character character, uint32_t warning) {
-  if (!character || warning >= character->character->warnings.size()) return nullptr;
-  return character->character->warnings[warning].c_str();
-}
-
-nook_result nook_bake_character_read_bones(nook_bake_character character, int32_t* parents, float* frames_3x4,
-                                           uint32_t bone_count) {
-  return api::enter("nook_bake_character_read_bones", [&] {
-    const std::vector<Bone>& bones = get(character).mesh.bones;
-    need_count("bone_count", bone_count, bones.size());
-    for (std::size_t b = 0; b < bones.size(); ++b) {
-      if (parents) parents[b] = bones[b].parent;
-      if (frames_3x4) std::copy_n(bones[b].frame_rest.m, 12, frames_3x4 + 12 * b);
-    }
-  });
-}
-
-nook_result nook_bake_character_describe_primitive(nook_bake_character character, uint32_t primitive,
-                                                   nook_bake_primitive* out) {
-  return api::enter("nook_bake_character_describe_primitive", [&] {
-    const std::vector<Primitive>& primitives = get(character).mesh.primitives;
+nook_result nook_bake_character_read(nook_bake_character character, nook_bake_array array, void* out,
+                                     uint32_t count, size_t stride) {
+  return api::enter("nook_bake_character_read", [&] {
+    const SkinnedMesh& mesh = get(character).mesh;
     need(out, "out");
-    need_index("primitive", primitive, primitives.size());
-    *out = {primitives[primitive].first_vertex, primitives[primitive].vertex_count};
+    switch (array) {
+      case NOOK_BAKE_ARRAY_PARENTS:
+      case NOOK_BAKE_ARRAY_FRAMES:
+        need_count("count", count, mesh.bones.size());
+        return read_bones(mesh.bones, array, out, stride);
+      case NOOK_BAKE_ARRAY_PRIMITIVES:
+        need_count("count", count, mesh.primitives.size());
+        return read_primitives(mesh, out, stride);
+      case NOOK_BAKE_ARRAY_POSITIONS:
+      case NOOK_BAKE_ARRAY_NORMALS:
+        need_count("count", count, mesh.file_to_welded.size());
+        return read_vertices(mesh, array, out, stride);
+      case NOOK_BAKE_ARRAY_TRIANGLES:
+        need_count("count", count, mesh.triangle.size());
+        return read_triangles(mesh, out, stride);
+      case NOOK_BAKE_ARRAY_JOINTS:
+      case NOOK_BAKE_ARRAY_WEIGHTS:
+        need_count("count", count, mesh.file_to_welded.size());
+        return read_skin(mesh, array, out, stride);
+      default:
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "array is unknown (got %d); use a NOOK_BAKE_ARRAY_",
+                      int(array));
+    }
   });
 }
 
@@ -225,47 +289,6 @@ nook_result nook_bake_character_single_joint_poses(nook_bake_character character
         write_pose(poses[p], bones_3x4 + 12 * p * mesh.bones.size());
     }
     *pose_count = std::uint32_t(poses.size());
-  });
-}
-
-nook_result nook_bake_character_read_vertices(nook_bake_character character, float* positions, float* normals,
-                                              uint32_t vertex_count) {
-  return api::enter("nook_bake_character_read_vertices", [&] {
-    const SkinnedMesh& mesh = get(character).mesh;
-    need_count("vertex_count", vertex_count, mesh.file_to_welded.size());
-    write_vertices(mesh, mesh.position, positions, normals);
-  });
-}
-
-nook_result nook_bake_character_read_triangles(nook_bake_character character, uint32_t* indices,
-                                               uint32_t index_count) {
-  return api::enter("nook_bake_character_read_triangles", [&] {
-    const SkinnedMesh& mesh = get(character).mesh;
-    need(indices, "indices");
-    need_count("index_count", index_count, 3 * mesh.triangle.size());
-    std::vector<std::uint32_t> file_of_welded(mesh.vertex_count());
-    for (std::size_t f = mesh.file_to_welded.size(); f-- > 0;)
-      file_of_welded[mesh.file_to_welded[f]] = std::uint32_t(f);
-    for (const auto& triangle : mesh.triangle)
-      for (std::uint32_t corner : triangle) *indices++ = file_of_welded[corner];
-  });
-}
-
-nook_result nook_bake_character_read_skin(nook_bake_character character, uint16_t* joints, float* weights,
-                                          uint32_t vertex_count) {
-  return api::enter("nook_bake_character_read_skin", [&] {
-    const SkinnedMesh& mesh = get(character).mesh;
-    need(joints, "joints");
-    need(weights, "weights");
-    need_count("vertex_count", vertex_count, mesh.file_to_welded.size());
-    for (std::uint32_t welded : mesh.file_to_welded) {
-      const SkinWeights& w = mesh.weights[welded];
-      const float sum = w.weight[0] + w.weight[1] + w.weight[2] + w.weight[3];
-      for (std::size_t s = 0; s < 4; ++s) {
-        *joints++ = w.bone[s];
-        *weights++ = w.weight[s] / sum;
-      }
-    }
   });
 }
 

@@ -22,6 +22,3 @@ nook_result fail(const char* function, const Outcome& outcome) noexcept {
 const char* nook_bake_last_message(void) {
   return nook::bake::api::last_message;
 }
-uint32_t nook_bake_version(void) {
-  return NOOK_VERSION;
-}

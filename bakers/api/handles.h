@@ -1,7 +1,7 @@
 // The objects behind the public handles.
 #pragma once
 
-#include <nook/nook_bake_character.h>
+#include <nook/nook_bake.h>
 
 #include <memory>
 

@@ -1,34 +1,21 @@
 // Path-traced irradiance of a scene.
-#include <nook/nook_bake_trace.h>
+#include <nook/experimental/nook_trace.h>
 
 #include <cmath>
 
+#include "bakers/api/descriptor_list.h"
 #include "bakers/api/entry.h"
 #include "bakers/job/pose_arrays.h"
 #include "bakers/job/trace_arrays.h"
 #include "bakers/job/worker_arena.h"
 #include "bakers/raytrace/path_tracer.h"
-#include "sdk/src/core/descriptors.h"
 
 using namespace nook;
 using namespace nook::bake;
 
 namespace {
 
-constexpr std::size_t first_irradiance_desc =
-    offsetof(nook_bake_irradiance_desc, origin_offset) + sizeof(float);
 constexpr std::uint32_t most_columns = 16384, most_rows = 8192;
-
-nook_bake_irradiance_desc default_irradiance_desc() {
-  nook_bake_irradiance_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.header_version = NOOK_VERSION;
-  desc.rays = 64;
-  desc.seed = 1;
-  desc.max_bounces = UINT32_MAX;
-  desc.origin_offset = 1e-4f;
-  return desc;
-}
 
 Environment read_environment(const nook_bake_environment& map) {
   if (map.width == 0 && !map.rgb) return Environment(1, 1, {0, 0, 0});
@@ -69,18 +56,10 @@ LitTriangles read_lit_meshes(const nook_bake_lit_mesh* meshes, std::uint32_t cou
 
 }  // namespace
 
-nook_result nook_bake_irradiance_desc_init(nook_bake_irradiance_desc* desc, size_t size,
-                                           uint32_t header_version) {
-  return api::enter("nook_bake_irradiance_desc_init", [&] {
-    init_descriptor(desc, size, header_version, first_irradiance_desc, default_irradiance_desc());
-  });
-}
-
 nook_result nook_bake_trace_irradiance(const nook_bake_irradiance_desc* desc, float* irradiance,
                                        uint32_t count) {
   return api::enter("nook_bake_trace_irradiance", [&] {
-    const nook_bake_irradiance_desc d = read_descriptor(desc, "nook_bake_irradiance_desc_init",
-                                                        first_irradiance_desc, default_irradiance_desc());
+    const nook_bake_irradiance_desc d = read_descriptor(desc);
     need(irradiance, "irradiance");
     need_count("count", count, d.point_count);
     if (d.mesh_count) need(d.meshes, "desc.meshes");

@@ -1,30 +1,35 @@
-// Bake jobs: the conversion of a descriptor to a recipe, and the life of a job.
-#include <nook/nook_bake_character.h>
+// Bake jobs: their start by the type of a descriptor, the bake of a character's model, and the life of a job.
+#include <nook/nook_bake.h>
 
+#include "bakers/api/descriptor_list.h"
 #include "bakers/api/entry.h"
 #include "bakers/api/handles.h"
+#include "bakers/api/starters.h"
 #include "bakers/job/bake_pipeline.h"
 #include "bakers/job/job_progress.h"
 #include "bakers/job/job_recipe.h"
 #include "bakers/job/pose_arrays.h"
-#include "sdk/src/core/descriptors.h"
 
 using namespace nook;
 using namespace nook::bake;
 
 namespace {
 
-constexpr std::size_t first_job_desc = offsetof(nook_bake_job_desc, progress_user) + sizeof(void*);
-constexpr std::size_t first_progress = offsetof(nook_bake_progress, total) + sizeof(std::uint64_t);
-
-nook_bake_job_desc default_job_desc() {
-  nook_bake_job_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.header_version = NOOK_VERSION;
-  desc.preset = NOOK_BAKE_PRESET_STANDARD;
-  desc.pose_mode = NOOK_BAKE_POSES_ALL;
-  desc.seed = 1;
-  return desc;
+[[noreturn]] void refuse_type(std::uint32_t type) {
+  switch (type) {
+#define NOOK_REFUSE_DESCRIPTOR(name, struct_type)                                                        \
+  case NOOK_DESC_##name:                                                                                 \
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc is a " #struct_type                                 \
+                                               ", which starts no bake; pass the descriptor of a bake, " \
+                                               "such as nook_bake_character_desc");
+    NOOK_BAKE_DESCRIPTORS(NOOK_REFUSE_DESCRIPTOR)
+#undef NOOK_REFUSE_DESCRIPTOR
+    default:
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.type is unknown (got %u); call the init function of your descriptor, such as "
+                    "nook_bake_character_desc_init",
+                    type);
+  }
 }
 
 const BakeJob& get(nook_bake_job job) {
@@ -34,33 +39,38 @@ const BakeJob& get(nook_bake_job job) {
 
 }  // namespace
 
-nook_result nook_bake_job_desc_init(nook_bake_job_desc* desc, size_t size, uint32_t header_version) {
-  return api::enter("nook_bake_job_desc_init",
-                    [&] { init_descriptor(desc, size, header_version, first_job_desc, default_job_desc()); });
+nook_bake_job_s* api::start_character(const void* desc) {
+  using Study = nook_bake_character_study_desc;
+  const auto settings =
+      read_descriptor<nook_bake_character_desc, Study>(static_cast<const nook_bake_character_desc*>(desc));
+  const Study* const given = find_extension<Study>(settings.next);
+  const Study study = given ? read_descriptor(given) : default_desc<Study>();
+  need(settings.character, "desc.character");
+  const ImportedCharacter& imported = *settings.character->character;
+  Recipe recipe = recipe_of(settings, study, imported);
+  std::vector<Pose> extra =
+      read_poses(settings.extra_poses_3x4, settings.extra_pose_count, imported.mesh.bones.size());
+  auto bake = [shared = settings.character->character, recipe = std::move(recipe), extra = std::move(extra)](
+                  const StageReport& report) { return bake_by_recipe(*shared, recipe, extra, report); };
+  return new nook_bake_job_s{
+      BakeJob(std::move(bake), settings.threads, listener_of(settings.progress, settings.progress_user))};
 }
 
-nook_result nook_bake_job_start(nook_bake_character character, const nook_bake_job_desc* desc,
-                                nook_bake_job* out) {
-  return api::enter("nook_bake_job_start", [&] {
+nook_result nook_bake_start(const void* desc, nook_bake_job* out) {
+  return api::enter("nook_bake_start", [&] {
     need(out, "out");
     *out = nullptr;
-    need(character, "character");
-    const nook_bake_job_desc settings =
-        read_descriptor(desc, "nook_bake_job_desc_init", first_job_desc, default_job_desc());
-    const ImportedCharacter& imported = *character->character;
-    Recipe recipe = recipe_of(settings, imported);
-    std::vector<Pose> extra =
-        read_poses(settings.extra_poses_3x4, settings.extra_pose_count, imported.mesh.bones.size());
-    auto bake = [shared = character->character, recipe = std::move(recipe), extra = std::move(extra)](
-                    const StageReport& report) { return bake_by_recipe(*shared, recipe, extra, report); };
-    *out = new nook_bake_job_s{
-        BakeJob(std::move(bake), settings.threads, listener_of(settings.progress, settings.progress_user))};
+    need(desc, "desc");
+    const std::uint32_t type = head_of(desc).type;
+    const api::Starter start = api::starter_of(type);
+    if (!start) refuse_type(type);
+    *out = start(desc);
   });
 }
 
 nook_result nook_bake_job_poll(nook_bake_job job, nook_bake_progress* progress) {
   return api::enter("nook_bake_job_poll",
-                    [&] { write_info(progress, first_progress, public_progress(get(job).progress())); });
+                    [&] { write_info(progress, public_progress(get(job).progress())); });
 }
 
 nook_result nook_bake_job_cancel(nook_bake_job job) {
@@ -77,8 +87,8 @@ nook_result nook_bake_job_wait(nook_bake_job job) {
   });
 }
 
-nook_result nook_bake_job_model(nook_bake_job job, const void** bytes, size_t* size) {
-  return api::enter("nook_bake_job_model", [&] {
+nook_result nook_bake_job_file(nook_bake_job job, const void** bytes, size_t* size) {
+  return api::enter("nook_bake_job_file", [&] {
     need(bytes, "bytes");
     need(size, "size");
     const BakedFile& file = get(job).file();

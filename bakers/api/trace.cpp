@@ -1,45 +1,23 @@
 // Ray-traced ambient occlusion of a scene.
-#include <nook/nook_bake_trace.h>
+#include <nook/experimental/nook_trace.h>
 
 #include <limits>
 
+#include "bakers/api/descriptor_list.h"
 #include "bakers/api/entry.h"
 #include "bakers/job/pose_arrays.h"
 #include "bakers/job/trace_arrays.h"
 #include "bakers/job/worker_arena.h"
 #include "bakers/raytrace/ambient_occlusion.h"
-#include "sdk/src/core/descriptors.h"
 
 using namespace nook;
 using namespace nook::bake;
 
-namespace {
-
-constexpr std::size_t first_trace_desc = offsetof(nook_bake_trace_desc, origin_offset) + sizeof(float);
-
-nook_bake_trace_desc default_trace_desc() {
-  nook_bake_trace_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.header_version = NOOK_VERSION;
-  desc.rays = 64;
-  desc.seed = 1;
-  desc.radius = std::numeric_limits<float>::infinity();
-  desc.origin_offset = 1e-4f;
-  return desc;
-}
-
-}  // namespace
-
-nook_result nook_bake_trace_desc_init(nook_bake_trace_desc* desc, size_t size, uint32_t header_version) {
-  return api::enter("nook_bake_trace_desc_init", [&] {
-    init_descriptor(desc, size, header_version, first_trace_desc, default_trace_desc());
-  });
-}
+namespace {}  // namespace
 
 nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float* ao, uint32_t count) {
   return api::enter("nook_bake_trace_ao", [&] {
-    const nook_bake_trace_desc d =
-        read_descriptor(desc, "nook_bake_trace_desc_init", first_trace_desc, default_trace_desc());
+    const nook_bake_trace_desc d = read_descriptor(desc);
     need(ao, "ao");
     need_count("count", count, d.point_count);
     if (d.mesh_count) need(d.meshes, "desc.meshes");

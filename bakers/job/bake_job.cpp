@@ -18,9 +18,8 @@ void BakeJob::run(const Bake& bake, std::size_t threads) {
   Outcome outcome;
   try {
     run_with_threads(threads, [&] {
-      file = bake([this](nook_bake_stage stage, std::size_t done, std::size_t total) {
-        return report(stage, done, total);
-      });
+      file = bake(
+          [this](JobStage stage, std::size_t done, std::size_t total) { return report(stage, done, total); });
     });
     // A request to cancel after the last report of progress still counts, because the caller does not need
     // the file.
@@ -32,11 +31,11 @@ void BakeJob::run(const Bake& bake, std::size_t threads) {
   file_ = std::move(file);
   outcome_ = outcome;
   progress_.finished = true;
-  progress_.stage = NOOK_BAKE_STAGE_DONE;
+  progress_.stage = JobStage::done;
   changed_.notify_all();
 }
 
-bool BakeJob::report(nook_bake_stage stage, std::size_t done, std::size_t total) {
+bool BakeJob::report(JobStage stage, std::size_t done, std::size_t total) {
   JobProgress now{false, stage, done, total};
   {
     const std::lock_guard lock(mutex_);

@@ -16,7 +16,7 @@ namespace nook::bake {
 // The stage of a job; it is finished once its result is known.
 struct JobProgress {
   bool finished = false;
-  nook_bake_stage stage = NOOK_BAKE_STAGE_WAITING;
+  JobStage stage = JobStage::waiting;
   std::size_t done = 0, total = 0;
 };
 
@@ -42,7 +42,7 @@ class BakeJob {
 
  private:
   void run(const Bake& bake, std::size_t threads);
-  bool report(nook_bake_stage stage, std::size_t done, std::size_t total);
+  bool report(JobStage stage, std::size_t done, std::size_t total);
 
   Listener listener_;
   std::atomic<bool> cancelled_{false};

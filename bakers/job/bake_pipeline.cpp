@@ -14,18 +14,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-nook_bake_stage stage_of(BakeStage stage) {
+JobStage stage_of(BakeStage stage) {
   switch (stage) {
     case BakeStage::raytrace:
-      return NOOK_BAKE_STAGE_RAYTRACE;
+      return JobStage::raytrace;
     case BakeStage::initialise:
-      return NOOK_BAKE_STAGE_INITIALISE;
+      return JobStage::initialise;
     case BakeStage::fit:
-      return NOOK_BAKE_STAGE_FIT;
+      return JobStage::fit;
     case BakeStage::casters:
       break;
   }
-  return NOOK_BAKE_STAGE_CASTERS;
+  return JobStage::casters;
 }
 
 std::string report_text(const ImportedCharacter& character, const Recipe& recipe, const CharacterModel& model,
@@ -97,7 +97,7 @@ BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recip
       character.mesh.bones.size() == 1 ? turned_poses(caster_settings(recipe).poses, 0) : std::move(poses);
   const std::vector<WorldCaster> casters = fit_world_casters(
       character.mesh, caster_poses, caster_settings(recipe), &caster_report,
-      [&](std::size_t done, std::size_t total) { return progress(NOOK_BAKE_STAGE_CASTERS, done, total); });
+      [&](std::size_t done, std::size_t total) { return progress(JobStage::casters, done, total); });
   baked.model.world_casters.assign(casters.begin(), casters.end());
   baked.model.bind = bind_data_of(character);
   baked.model.rest = rest_surface_of(character.mesh);

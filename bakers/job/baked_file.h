@@ -1,9 +1,8 @@
 // The result of a bake, and its report of progress.
 #pragma once
 
-#include <nook/nook_bake.h>
-
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -15,7 +14,21 @@ struct BakedFile {
   std::string report;            // JSON
 };
 
+// The stage of a job.
+enum class JobStage : std::uint8_t {
+  waiting,
+  raytrace,
+  initialise,
+  fit,
+  casters,
+  btf,
+  votf,
+  view_map,
+  relief,
+  done,
+};
+
 // Returns false to stop.
-using StageReport = std::function<bool(nook_bake_stage stage, std::size_t done, std::size_t total)>;
+using StageReport = std::function<bool(JobStage stage, std::size_t done, std::size_t total)>;
 
 }  // namespace nook::bake

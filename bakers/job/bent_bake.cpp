@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "bakers/character/blocked_fit.h"
+#include "bakers/character/occluded_fit.h"
 #include "bakers/character/pose_sets.h"
 #include "bakers/character/recipe.h"
 #include "platform/stopwatch.h"
@@ -46,10 +46,10 @@ BakedFile bake_bent_file(const ImportedCharacter& character, CharacterModel mode
                          const StageReport& progress) {
   const platform::Stopwatch watch;
   const std::vector<Pose> poses = poses_of(character, model, task);
-  const std::vector<BlockedEnds> ends = fit_blocked(
+  const std::vector<OccludedEnds> ends = fit_occluded(
       character.mesh, poses, {task.rays, task.seed},
-      [&](std::size_t done, std::size_t total) { return progress(NOOK_BAKE_STAGE_RAYTRACE, done, total); });
-  model.blocked.assign(ends.begin(), ends.end());
+      [&](std::size_t done, std::size_t total) { return progress(JobStage::raytrace, done, total); });
+  model.occluded.assign(ends.begin(), ends.end());
   BakedFile file;
   file.model = write_character_model(model);
   Json report;

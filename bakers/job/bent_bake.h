@@ -1,7 +1,7 @@
 // Bent normals for a model that is already baked.
 #pragma once
 
-#include <nook/nook_bake_bent.h>
+#include <nook/nook_bake.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -22,10 +22,10 @@ struct BentTask {
 // Throws Failure(INVALID_ARGUMENT) for a number out of its range.
 BentTask bent_task_of(const nook_bake_bent_desc& desc);
 
-// Adds blocked vectors to the model of `character` (character_model.h), fitted to ray tracing in automatic
-// poses and those of the clips that the model was fitted to, or of all clips where it has no recipe. What the
-// model has besides stays as it is. The stage is NOOK_BAKE_STAGE_RAYTRACE and counts poses. Throws Failure:
-// BAD_FILE (a recipe that is not that of the character), CANCELLED.
+// Adds occluded directions to the model of `character` (character_model.h), fitted to ray tracing in
+// automatic poses and those of the clips that the model was fitted to, or of all clips where it has no
+// recipe. What the model has besides stays as it is. The stage is JobStage::raytrace and counts poses.
+// Throws Failure: BAD_FILE (a recipe that is not that of the character), CANCELLED.
 BakedFile bake_bent_file(const ImportedCharacter& character, CharacterModel model, const BentTask& task,
                          const StageReport& progress);
 

@@ -83,7 +83,7 @@ BakedFile bake_clips_file(const ImportedCharacter& character, const CharacterMod
   const platform::Stopwatch watch;
   const AoTargets targets = trace_character_ao(
       character.mesh, frames.poses, task.rays, task.tables.seed,
-      [&](std::size_t done, std::size_t total) { return progress(NOOK_BAKE_STAGE_RAYTRACE, done, total); });
+      [&](std::size_t done, std::size_t total) { return progress(JobStage::raytrace, done, total); });
   const double seconds_raytrace = watch.seconds();
   const double noise =
       measure_noise_floor(character.mesh, frames.poses, targets, task.rays, task.tables.seed);

@@ -1,7 +1,7 @@
 // Baked clips of a character as a file.
 #pragma once
 
-#include <nook/nook_bake_clips.h>
+#include <nook/nook_bake.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +32,7 @@ ClipTask clip_task_of(const nook_bake_clips_desc& desc);
 // frames.
 ClipFrames frames_of(const ImportedCharacter& character, const ClipTask& task);
 
-// model and frames are those of the character and the task. The stage is NOOK_BAKE_STAGE_RAYTRACE and counts
+// model and frames are those of the character and the task. The stage is JobStage::raytrace and counts
 // frames. Throws Failure: CANCELLED.
 BakedFile bake_clips_file(const ImportedCharacter& character, const CharacterModel& model,
                           const ClipFrames& frames, const ClipTask& task, const StageReport& progress);

@@ -17,7 +17,7 @@ constexpr std::uint32_t max_spheres = 1024, max_key_points = 4096, max_rays = 65
 
 [[noreturn]] void unknown(const char* name, int value) {
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                "%s has an unknown value (got %d); use a constant of nook_bake_character.h", name, value);
+                "%s has an unknown value (got %d); use a constant of nook_bake.h", name, value);
 }
 
 void at_most(const char* name, std::uint32_t value, std::uint32_t most) {
@@ -56,31 +56,23 @@ PoseMode mode_of(nook_bake_pose_mode mode) {
   }
 }
 
-KernelForm kernel_of(nook_bake_kernel kernel) {
-  switch (kernel) {
-    case NOOK_BAKE_KERNEL_NOOK:
-      return KernelForm::nook;
-    case NOOK_BAKE_KERNEL_PAPER:
-      return KernelForm::paper;
-    case NOOK_BAKE_KERNEL_RATIONAL:
-      return KernelForm::rational;
-    default:
-      unknown("desc.kernel", kernel);
-  }
+bool is_paper(const char* name, nook_form form) {
+  if (form != NOOK_FORM_DEFAULT && form != NOOK_FORM_PAPER) unknown(name, form);
+  return form == NOOK_FORM_PAPER;
 }
 
-FitMethod fit_of(nook_bake_fit fit) {
-  switch (fit) {
-    case NOOK_BAKE_FIT_NOOK:
-      return FitMethod::nook;
-    case NOOK_BAKE_FIT_PAPER:
-      return FitMethod::paper;
-    default:
-      unknown("desc.fit", fit);
-  }
+FitMethod fit_of(const nook_bake_character_desc& desc, const nook_bake_character_study_desc& study) {
+  const bool whole = is_paper("desc.form", desc.form), part = is_paper("desc.next: fit", study.fit);
+  return whole || part ? FitMethod::paper : FitMethod::nook;
 }
 
-std::vector<std::size_t> chosen_clips(const nook_bake_job_desc& desc, const ImportedCharacter& character) {
+KernelForm kernel_of(const nook_bake_character_desc& desc, const nook_bake_character_study_desc& study) {
+  const bool whole = is_paper("desc.form", desc.form), part = is_paper("desc.next: kernel", study.kernel);
+  return whole || part ? KernelForm::paper : KernelForm::nook;
+}
+
+std::vector<std::size_t> chosen_clips(const nook_bake_character_desc& desc, nook_bake_clip_split clip_split,
+                                      const ImportedCharacter& character) {
   std::vector<std::size_t> clips;
   if (desc.clip_count > 0) {
     need(desc.clip_names, "desc.clip_names");
@@ -95,22 +87,23 @@ std::vector<std::size_t> chosen_clips(const nook_bake_job_desc& desc, const Impo
     return clips;
   }
   clips = motion_clips(character);
-  if (desc.clip_split == NOOK_BAKE_SPLIT_HALF) return split_clips(clips).fitted;
-  if (desc.clip_split == NOOK_BAKE_SPLIT_FAMILIES) {
+  if (clip_split == NOOK_BAKE_SPLIT_HALF) return split_clips(clips).fitted;
+  if (clip_split == NOOK_BAKE_SPLIT_FAMILIES) {
     const ClipSplit split = split_families(character, clips);
     if (!clips.empty() && split.measured.empty())
-      throw Failure(
-          NOOK_ERROR_INVALID_ARGUMENT,
-          "desc.clip_split: the names of all clips (%zu) begin with the same word and are one family, which "
-          "leaves none to measure; split by half, or name the clips to fit",
-          clips.size());
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.next: clip_split: the names of all clips (%zu) begin with the same word and are "
+                    "one family, which "
+                    "leaves none to measure; split by half, or name the clips to fit",
+                    clips.size());
     return split.fitted;
   }
-  if (desc.clip_split != NOOK_BAKE_SPLIT_ALL) unknown("desc.clip_split", desc.clip_split);
+  if (clip_split != NOOK_BAKE_SPLIT_ALL) unknown("desc.next: clip_split", clip_split);
   return clips;
 }
 
-void choose_settings(const nook_bake_job_desc& desc, BakeSettings& settings) {
+void choose_settings(const nook_bake_character_desc& desc, const nook_bake_character_study_desc& study,
+                     BakeSettings& settings) {
   at_most("desc.spheres", desc.spheres, max_spheres);
   at_most("desc.key_points", desc.key_points, max_key_points);
   at_most("desc.rays", desc.rays, max_rays);
@@ -119,8 +112,8 @@ void choose_settings(const nook_bake_job_desc& desc, BakeSettings& settings) {
   if (desc.spheres) settings.spheres = desc.spheres;
   if (desc.key_points) settings.key_points = desc.key_points;
   if (desc.rays) settings.rays = desc.rays;
-  settings.kernel.form = kernel_of(desc.kernel);
-  settings.fit = fit_of(desc.fit);
+  settings.kernel.form = kernel_of(desc, study);
+  settings.fit = fit_of(desc, study);
   if (desc.steps) settings.steps = desc.steps;
   settings.seed = desc.seed;
   if (desc.saturation == NOOK_BAKE_UNSATURATED) {
@@ -130,19 +123,22 @@ void choose_settings(const nook_bake_job_desc& desc, BakeSettings& settings) {
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "desc.saturation is out of range (got %g, need 0 to %g, or NOOK_BAKE_UNSATURATED)",
                     double(desc.saturation), double(max_saturation));
-    if (desc.fit != NOOK_BAKE_FIT_NOOK || (desc.gamma != 0 && desc.gamma != 1))
+    if (settings.fit != FitMethod::nook || (desc.gamma != 0 && desc.gamma != 1))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "desc.saturation needs fit NOOK and a gamma of 1 (got %g, fit %d, gamma %g)",
-                    double(desc.saturation), int(desc.fit), double(desc.gamma));
+                    "desc.saturation needs the default form and a gamma of 1 (got %g, fit %s, gamma %g)",
+                    double(desc.saturation), name_of(settings.fit), double(desc.gamma));
     settings.saturation = desc.saturation;
   }
   settings.learn_gamma = desc.gamma == NOOK_BAKE_GAMMA_LEARNED;
   if (desc.gamma != 0 && !settings.learn_gamma) {
     if (!(desc.gamma >= 1 && desc.gamma <= 8))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "desc.gamma is out of range (got %g, need 1 to 8, NOOK_BAKE_GAMMA_LEARNED, or 0 for 1)",
+                    "desc.gamma is out of range (got %g, need 1 to 8, NOOK_BAKE_GAMMA_LEARNED, or 0 for the "
+                    "default)",
                     double(desc.gamma));
     settings.kernel.gamma = desc.gamma;
+  } else if (!settings.learn_gamma && desc.form == NOOK_FORM_PAPER) {
+    settings.kernel.gamma = 2;
   }
   if (!(desc.time_limit_s >= 0) || !std::isfinite(desc.time_limit_s))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -153,12 +149,15 @@ void choose_settings(const nook_bake_job_desc& desc, BakeSettings& settings) {
 
 }  // namespace
 
-Recipe recipe_of(const nook_bake_job_desc& desc, const ImportedCharacter& character) {
+Recipe recipe_of(const nook_bake_character_desc& desc, const nook_bake_character_study_desc& study,
+                 const ImportedCharacter& character) {
   Recipe recipe;
+  if (study.reserved != 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.next: reserved is %u, need 0", study.reserved);
   recipe.preset = preset_of(desc.preset);
-  const PresetValues preset = preset_values(recipe.preset, fit_of(desc.fit));
+  const PresetValues preset = preset_values(recipe.preset, fit_of(desc, study));
   recipe.settings = preset.settings;
-  choose_settings(desc, recipe.settings);
+  choose_settings(desc, study, recipe.settings);
   recipe.poses = mode_of(desc.pose_mode);
   recipe.source_hash = character.source_hash;
   recipe.extra_poses = desc.extra_pose_count;
@@ -172,7 +171,7 @@ Recipe recipe_of(const nook_bake_job_desc& desc, const ImportedCharacter& charac
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.clip_names are given but desc.pose_mode uses no clips; use NOOK_BAKE_POSES_CLIPS or "
                   "NOOK_BAKE_POSES_ALL");
-  if (clips) recipe.clips = chosen_clips(desc, character);
+  if (clips) recipe.clips = chosen_clips(desc, study.clip_split, character);
   if (recipe.poses == PoseMode::clips && recipe.clips.empty())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.pose_mode is NOOK_BAKE_POSES_CLIPS but the character has no clip that "

@@ -51,7 +51,7 @@ BakedFile bake_lod_file(const ImportedCharacter& lod, std::span<const std::byte>
   const std::vector<Pose> poses = training_poses(lod, task);
   CharacterModel model = refit_vertices(
       full, lod.mesh, poses, {task.rays, task.seed},
-      [&](std::size_t done, std::size_t total) { return progress(NOOK_BAKE_STAGE_RAYTRACE, done, total); });
+      [&](std::size_t done, std::size_t total) { return progress(JobStage::raytrace, done, total); });
   model.bind = bind_data_of(lod);
   model.rest = rest_surface_of(lod.mesh);
   BakedFile file;

@@ -19,7 +19,7 @@ struct LodTask {
 
 // `lod` has the bones of the model in the same order, as a mesh of the same rig has. The result has the
 // spheres, key points, levels and casters of the model, and vertices that are fitted to ray tracing of `lod`
-// in automatic poses and those of its clips. The stage is NOOK_BAKE_STAGE_RAYTRACE and counts poses. Throws
+// in automatic poses and those of its clips. The stage is JobStage::raytrace and counts poses. Throws
 // Failure: BAD_FILE (no model, other bones), CANCELLED.
 BakedFile bake_lod_file(const ImportedCharacter& lod, std::span<const std::byte> model_bytes,
                         const LodTask& task, const StageReport& progress);

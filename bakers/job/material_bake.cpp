@@ -22,7 +22,7 @@ RawMaterial obtain(MaterialTask& task, const StageReport& progress) {
   }
   RawMaterial raw = trace_material(
       make_meso_surface(*task.meso), task.raw.lights, task.raw.views, task.trace,
-      [&](std::size_t done, std::size_t total) { return progress(NOOK_BAKE_STAGE_RAYTRACE, done, total); });
+      [&](std::size_t done, std::size_t total) { return progress(JobStage::raytrace, done, total); });
   raw.name = task.meso->name;
   return raw;
 }
@@ -66,10 +66,10 @@ Json source_of(const MaterialTask& task, const RawMaterial& raw) {
   return source;
 }
 
-nook_bake_stage stage_of(std::string_view stage) {
-  if (stage == "BTF" || stage == "offset" || stage == "network") return NOOK_BAKE_STAGE_BTF;
-  if (stage == "relief" || stage == "views on the relief") return NOOK_BAKE_STAGE_RELIEF;
-  return stage == "VOTF" ? NOOK_BAKE_STAGE_VOTF : NOOK_BAKE_STAGE_VIEW_MAP;
+JobStage stage_of(std::string_view stage) {
+  if (stage == "BTF" || stage == "offset" || stage == "network") return JobStage::btf;
+  if (stage == "relief" || stage == "views on the relief") return JobStage::relief;
+  return stage == "VOTF" ? JobStage::votf : JobStage::view_map;
 }
 
 }  // namespace

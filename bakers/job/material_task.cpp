@@ -41,28 +41,19 @@ Method method_of(nook_bake_method method) {
   }
 }
 
-ReliefSource relief_source_of(nook_bake_relief relief) {
-  switch (relief) {
-    case NOOK_BAKE_RELIEF_NONE:
-      return ReliefSource::none;
-    case NOOK_BAKE_RELIEF_ESTIMATED:
-      return ReliefSource::estimated;
-    case NOOK_BAKE_RELIEF_KNOWN:
-      return ReliefSource::known;
-    default:
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.relief is unknown (got %d); use a NOOK_BAKE_RELIEF_",
-                    int(relief));
-  }
+// The heights of a structure are known, and those of measured data where the caller gives them.
+ReliefSource relief_source_of(const nook_bake_material_desc& desc) {
+  in_range("desc.relief", desc.relief, 0, 1);
+  if (desc.heights && desc.relief == 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.heights are given, but desc.relief is 0; set it to 1, or heights to NULL");
+  if (desc.relief == 0) return ReliefSource::none;
+  return desc.meso || desc.heights ? ReliefSource::known : ReliefSource::estimated;
 }
 
 // Of measured data; ray tracing finds those of a structure.
 void read_heights(const nook_bake_material_desc& desc, RawMaterial& raw) {
-  if (desc.relief != NOOK_BAKE_RELIEF_KNOWN && desc.heights)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.heights are given, but desc.relief is %d; set it to NOOK_BAKE_RELIEF_KNOWN",
-                  int(desc.relief));
-  if (desc.relief != NOOK_BAKE_RELIEF_KNOWN) return;
-  need(desc.heights, "desc.heights");
+  if (!desc.heights) return;
   for (std::size_t x = 0; x < raw.width; ++x)
     for (std::size_t y = 0; y < raw.height; ++y) raw.heights.push_back(desc.heights[y * raw.width + x]);
   check_heights(raw);
@@ -160,6 +151,16 @@ void read_meso(const nook_bake_material_desc& desc, MaterialTask& task) {
                 task.settings.relief == ReliefSource::known};
 }
 
+void set_paper_form(CompressionSettings& s) {
+  if (s.method == Method::neural || s.relief != ReliefSource::none)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.form is NOOK_FORM_PAPER, which has no method NEURAL and no relief; use another "
+                  "method, and 0 for desc.relief");
+  s.bits = 16;
+  s.map_side = 0;
+  if (!s.mapping) s.mapping = nook::material::paper_mapping(s.visibility);
+}
+
 CompressionSettings settings_of(const nook_bake_material_desc& desc) {
   CompressionSettings s;
   s.method = method_of(desc.method);
@@ -177,10 +178,16 @@ CompressionSettings settings_of(const nook_bake_material_desc& desc) {
   if (desc.bits != 8 && desc.bits != 16)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.bits is out of range (got %u, need 8 or 16)", desc.bits);
   s.bits = desc.bits;
-  s.relief = relief_source_of(desc.relief);
+  s.relief = relief_source_of(desc);
   s.neural_channels = desc.neural_channels;
   s.neural_steps = desc.neural_steps;
   s.seed = desc.seed;
+  if (desc.form == NOOK_FORM_PAPER) {
+    set_paper_form(s);
+  } else if (desc.form != NOOK_FORM_DEFAULT) {
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.form is unknown (got %d); use a NOOK_FORM_",
+                  int(desc.form));
+  }
   return s;
 }
 

@@ -1,7 +1,7 @@
 // The task of a material job, from its descriptor.
 #pragma once
 
-#include <nook/nook_bake_material.h>
+#include <nook/nook_bake.h>
 
 #include <optional>
 #include <vector>

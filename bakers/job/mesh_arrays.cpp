@@ -16,7 +16,7 @@ std::vector<Vec3> points(const float* xyz, std::size_t count) {
   return result;
 }
 
-std::vector<Bone> bones_of(const nook_bake_mesh_desc& desc) {
+std::vector<Bone> bones_of(const nook_bake_source_desc& desc) {
   std::vector<Bone> bones(desc.bone_count);
   for (std::size_t b = 0; b < bones.size(); ++b) {
     const char* name = desc.bone_names ? desc.bone_names[b] : nullptr;
@@ -29,7 +29,7 @@ std::vector<Bone> bones_of(const nook_bake_mesh_desc& desc) {
 
 }  // namespace
 
-ImportedCharacter character_of_arrays(const nook_bake_mesh_desc& desc) {
+ImportedCharacter character_of_arrays(const nook_bake_source_desc& desc) {
   need(desc.positions, "desc.positions");
   need(desc.indices, "desc.indices");
   need(desc.joints, "desc.joints");
@@ -52,7 +52,7 @@ ImportedCharacter character_of_arrays(const nook_bake_mesh_desc& desc) {
   arrays.weight = {desc.weights, pairs};
   for (std::uint32_t p = 0; p < desc.primitive_count; ++p)
     arrays.primitives.push_back(
-        {"primitive_" + std::to_string(p), desc.primitives[p].first_vertex, desc.primitives[p].vertex_count});
+        {"primitive_" + std::to_string(p), desc.primitives[p].first, desc.primitives[p].count});
 
   ImportedCharacter character;
   character.mesh = weld(to_file_mesh(arrays, NOOK_ERROR_INVALID_ARGUMENT), character.warnings,

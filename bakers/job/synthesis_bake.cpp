@@ -106,7 +106,7 @@ BakedFile bake_synthesis_file(const SynthesisTask& task, const StageReport& prog
   platform::Stopwatch watch;
   const std::vector<Texel> plane = synthesis::synthesise(
       synthesis::balanced(task.exemplar), task.settings,
-      [&](std::size_t done, std::size_t total) { return progress(NOOK_BAKE_STAGE_FIT, done, total); });
+      [&](std::size_t done, std::size_t total) { return progress(JobStage::fit, done, total); });
   const double seconds = watch.seconds();
   const synthesis::Seams before = synthesis::measure_tiled(task.exemplar),
                          after =

@@ -1,7 +1,7 @@
 // The bake of a coordinate texture, from a material to the bytes of a file and its report.
 #pragma once
 
-#include <nook/nook_bake_synthesis.h>
+#include <nook/experimental/nook_bake_materials.h>
 
 #include <span>
 #include <string>
@@ -33,7 +33,7 @@ SynthesisTask synthesis_task(std::span<const std::byte> material, const Crop& cr
 // Throws what synthesis_task throws, and INVALID_ARGUMENT for a NULL material.
 SynthesisTask synthesis_task_of(const nook_bake_synthesis_desc& desc);
 
-// The stage is NOOK_BAKE_STAGE_FIT and counts texels. Throws Failure: CANCELLED.
+// The stage is JobStage::fit and counts texels. Throws Failure: CANCELLED.
 BakedFile bake_synthesis_file(const SynthesisTask& task, const StageReport& progress);
 
 }  // namespace nook::bake

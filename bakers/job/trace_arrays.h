@@ -2,7 +2,7 @@
 // Failure(INVALID_ARGUMENT).
 #pragma once
 
-#include <nook/nook_bake_trace.h>
+#include <nook/experimental/nook_trace.h>
 
 #include <cstdint>
 #include <vector>

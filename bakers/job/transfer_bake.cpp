@@ -1,6 +1,6 @@
 #include "bakers/job/transfer_bake.h"
 
-#include <nook/nook_bake_transfer.h>
+#include <nook/experimental/nook_bake_materials.h>
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -82,6 +82,14 @@ TransferTask transfer_task_of(const nook_bake_transfer_desc& desc) {
     transfer::check_bake(mesh, task.settings);
     mesh.tangent = surface_tangents(mesh, task.warnings);
   }
+  if (desc.form != NOOK_FORM_DEFAULT && desc.form != NOOK_FORM_PAPER)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.form is unknown (got %d); use a NOOK_FORM_",
+                  int(desc.form));
+  if ((desc.form == NOOK_FORM_PAPER) != (desc.material != nullptr))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  desc.material ? "desc.material is given, but desc.form is NOOK_FORM_DEFAULT; set it to "
+                                  "NOOK_FORM_PAPER"
+                                : "desc.material is NULL; NOOK_FORM_PAPER needs the file of a material");
   if (desc.material) {
     task.material = tables_of_material({static_cast<const std::byte*>(desc.material), desc.material_size});
     task.paper.clusters = desc.clusters;
@@ -94,13 +102,13 @@ TransferTask transfer_task_of(const nook_bake_transfer_desc& desc) {
 
 BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progress) {
   platform::Stopwatch watch;
-  const auto stage = [&](nook_bake_stage at) {
+  const auto stage = [&](JobStage at) {
     return [&progress, at](std::size_t done, std::size_t total) { return progress(at, done, total); };
   };
-  const nook_bake_stage tracing = NOOK_BAKE_STAGE_RAYTRACE;
+  const JobStage tracing = JobStage::raytrace;
   nook::transfer::Transfer transfer =
       task.material ? transfer::bake_paper(task.mesh, task.settings, task.paper, *task.material,
-                                           stage(tracing), stage(NOOK_BAKE_STAGE_FIT))
+                                           stage(tracing), stage(JobStage::fit))
                     : transfer::bake_transfer(task.mesh, task.settings, stage(tracing));
   const double seconds = watch.seconds();
   const char* const form = task.material ? "paper" : "separated";

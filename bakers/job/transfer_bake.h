@@ -1,7 +1,7 @@
 // The bake of radiance transfer, from a mesh to the bytes of a file and its report.
 #pragma once
 
-#include <nook/nook_bake_transfer.h>
+#include <nook/experimental/nook_bake_materials.h>
 #include <string>
 #include <vector>
 
@@ -30,8 +30,8 @@ std::shared_ptr<const nook::material::MaterialTables> tables_of_material(std::sp
 // read_material throws, and INVALID_ARGUMENT if the material has no VOTF.
 std::shared_ptr<const transfer::HoleTable> holes_of_material(std::span<const std::byte> bytes);
 
-// The stage is NOOK_BAKE_STAGE_RAYTRACE and counts vertices, once for the direct light and once for each
-// reflection; in the paper's form NOOK_BAKE_STAGE_FIT counts clusters after that. Throws Failure:
+// The stage is JobStage::raytrace and counts vertices, once for the direct light and once for each
+// reflection; in the paper's form JobStage::fit counts clusters after that. Throws Failure:
 // INVALID_ARGUMENT, CANCELLED.
 BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progress);
 

@@ -26,7 +26,7 @@ bake::BakedFile bake(const Options& o, const bake::ImportedCharacter& character)
   CharacterModel model = bake::model_of_character(read_file(o.model), character);
   platform::ProgressBar bar(o.common.quiet);
   return bake::bake_bent_file(character, std::move(model), o.task,
-                              [&](nook_bake_stage, std::size_t done, std::size_t total) {
+                              [&](bake::JobStage, std::size_t done, std::size_t total) {
                                 bar.show("ray tracing", "poses", done, total);
                                 return !interrupted();
                               });

@@ -1,6 +1,7 @@
-// nook bake character: a thin user of nook_bake_character.h, but for the choice of the files that a glTF file
+// nook bake character: a thin user of nook_bake.h, but for the choice of the files that a glTF file
 // may name.
-#include <nook/nook_bake_character.h>
+#include <nook/experimental/nook_trace.h>
+#include <nook/nook_bake.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -8,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 
 #include "bakers/api/import.h"
 #include "bakers/tool/character/clip_names.h"
@@ -30,7 +32,7 @@ struct Options {
   std::string input, output;
   bake::LinkedFiles linked = bake::LinkedFiles::folder;
   std::int32_t preset = NOOK_BAKE_PRESET_STANDARD, poses = NOOK_BAKE_POSES_ALL, split = NOOK_BAKE_SPLIT_ALL;
-  std::int32_t kernel = NOOK_BAKE_KERNEL_NOOK, fit = NOOK_BAKE_FIT_NOOK;
+  std::int32_t kernel = NOOK_FORM_DEFAULT, fit = NOOK_FORM_DEFAULT;
   std::vector<std::string> clips;
   std::uint32_t spheres = 0, key_points = 0, rays = 0, steps = 0, auto_poses = 0, samples_per_clip = 0;
   float gamma = 0;
@@ -60,15 +62,19 @@ using Character = std::unique_ptr<nook_bake_character_s, CharacterRelease>;
 using Job = std::unique_ptr<nook_bake_job_s, JobRelease>;
 
 Character import_character(const Options& options) {
+  nook_bake_source_desc desc;
+  require(nook_bake_source_desc_init(&desc));
+  desc.path = options.input.c_str();
   nook_bake_character handle = nullptr;
-  require(bake::api::import_character(options.input.c_str(), options.linked, &handle));
+  require(bake::api::create_character(&desc, options.linked, &handle));
   Character character(handle);
   if (!options.common.quiet)
-    for (std::uint32_t i = 0; const char* text = nook_bake_character_warning(handle, i); ++i)
+    for (std::uint32_t i = 0; const char* text = nook_bake_character_name(handle, NOOK_BAKE_NAME_WARNING, i);
+         ++i)
       std::fprintf(stderr, "%s: %s\n", platform::printable(options.input).c_str(),
                    platform::printable(text).c_str());
   std::vector<std::string> present;
-  for (std::uint32_t i = 0; const char* name = nook_bake_character_clip_name(handle, i); ++i)
+  for (std::uint32_t i = 0; const char* name = nook_bake_character_name(handle, NOOK_BAKE_NAME_CLIP, i); ++i)
     present.emplace_back(name);
   require_clips(options.clips, present);
   return character;
@@ -86,27 +92,25 @@ class Follower {
 
  private:
   void show(const nook_bake_progress& progress) {
-    const auto done = std::size_t(progress.done), total = std::size_t(progress.total);
-    switch (progress.stage) {
-      case NOOK_BAKE_STAGE_RAYTRACE:
-        return bar_.show("ray tracing", "poses", done, total);
-      case NOOK_BAKE_STAGE_INITIALISE:
-        return bar_.show("initialising", "steps", done, total);
-      case NOOK_BAKE_STAGE_FIT:
-        return bar_.show("fitting", "steps", done, total);
-      case NOOK_BAKE_STAGE_CASTERS:
-        return bar_.show("fitting casters", "steps", done, total);
-      default:
-        return;
-    }
+    if (progress.state != NOOK_BAKE_RUNNING) return;
+    const bool traces = std::string_view(progress.stage) == "ray tracing";
+    bar_.show(progress.stage, traces ? "poses" : "steps", std::size_t(progress.done),
+              std::size_t(progress.total));
   }
 
   platform::ProgressBar bar_;
 };
 
 Job start(const Options& options, nook_bake_character character, Follower& follower) {
-  nook_bake_job_desc desc;
-  require(nook_bake_job_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  nook_bake_character_desc desc;
+  require(nook_bake_character_desc_init(&desc));
+  nook_bake_character_study_desc study;
+  require(nook_bake_character_study_desc_init(&study));
+  study.clip_split = options.split;
+  study.kernel = options.kernel;
+  study.fit = options.fit;
+  desc.next = &study;
+  desc.character = character;
   desc.preset = options.preset;
   desc.spheres = options.spheres;
   desc.key_points = options.key_points;
@@ -119,11 +123,8 @@ Job start(const Options& options, nook_bake_character character, Follower& follo
   for (const std::string& name : options.clips) names.push_back(name.c_str());
   desc.clip_names = names.data();
   desc.clip_count = std::uint32_t(names.size());
-  desc.clip_split = options.split;
   desc.seed = options.common.seed;
   desc.threads = options.common.threads;
-  desc.kernel = options.kernel;
-  desc.fit = options.fit;
   desc.gamma = options.gamma;
   if (options.saturation)
     desc.saturation = *options.saturation > 0 ? *options.saturation : NOOK_BAKE_UNSATURATED;
@@ -131,7 +132,7 @@ Job start(const Options& options, nook_bake_character character, Follower& follo
   desc.progress = Follower::call;
   desc.progress_user = &follower;
   nook_bake_job handle = nullptr;
-  require(nook_bake_job_start(character, &desc, &handle));
+  require(nook_bake_start_character(&desc, &handle));
   return Job(handle);
 }
 
@@ -158,7 +159,7 @@ void run(const Options& options) {
   const void* bytes = nullptr;
   std::size_t size = 0;
   const char* report = nullptr;
-  require(nook_bake_job_model(job.get(), &bytes, &size));
+  require(nook_bake_job_file(job.get(), &bytes, &size));
   require(nook_bake_job_report(job.get(), &report));
   output.commit(std::span(static_cast<const std::byte*>(bytes), size));
   if (report_file) report_file->commit(std::string(report) + "\n");
@@ -180,12 +181,9 @@ void add_choice(Command command, const char* name, std::int32_t& value, const Na
 
 // The form of the model and how it is fitted.
 void add_form_options(Command command, Options& o) {
-  add_choice(command, "--kernel", o.kernel,
-             {{"nook", NOOK_BAKE_KERNEL_NOOK},
-              {"paper", NOOK_BAKE_KERNEL_PAPER},
-              {"rational", NOOK_BAKE_KERNEL_RATIONAL}},
-             "shadow of a sphere: nook (default), paper (Le et al. 2019) or rational");
-  add_choice(command, "--fit", o.fit, {{"nook", NOOK_BAKE_FIT_NOOK}, {"paper", NOOK_BAKE_FIT_PAPER}},
+  add_choice(command, "--kernel", o.kernel, {{"nook", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
+             "shadow of a sphere: nook (default) or paper (Le et al. 2019)");
+  add_choice(command, "--fit", o.fit, {{"nook", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
              "nook (mini-batches, default) or paper (block coordinate descent with L-BFGS)");
   command
       .add_option_function(

@@ -51,7 +51,7 @@ bake::BakedFile bake(const Options& o, const bake::ImportedCharacter& character)
     const bake::ClipFrames frames = bake::frames_of(character, o.task);
     platform::ProgressBar bar(o.common.quiet);
     return bake::bake_clips_file(character, model, frames, o.task,
-                                 [&](nook_bake_stage, std::size_t done, std::size_t total) {
+                                 [&](bake::JobStage, std::size_t done, std::size_t total) {
                                    bar.show("ray tracing", "frames", done, total);
                                    return !interrupted();
                                  });

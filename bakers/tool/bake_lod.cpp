@@ -24,7 +24,7 @@ struct Options {
 bake::BakedFile bake(const Options& o, const std::vector<std::byte>& model,
                      const bake::ImportedCharacter& lod) {
   platform::ProgressBar bar(o.common.quiet);
-  return bake::bake_lod_file(lod, model, o.task, [&](nook_bake_stage, std::size_t done, std::size_t total) {
+  return bake::bake_lod_file(lod, model, o.task, [&](bake::JobStage, std::size_t done, std::size_t total) {
     bar.show("ray tracing", "poses", done, total);
     return !interrupted();
   });

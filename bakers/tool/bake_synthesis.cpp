@@ -48,7 +48,7 @@ void run(Options& o) {
     task.source = o.input.filename().string();
     platform::ProgressBar bar(o.common.quiet);
     bake::BakedFile file =
-        bake::bake_synthesis_file(task, [&](nook_bake_stage, std::size_t done, std::size_t total) {
+        bake::bake_synthesis_file(task, [&](bake::JobStage, std::size_t done, std::size_t total) {
           bar.show("synthesis", "texels", done, total);
           return !interrupted();
         });

@@ -57,8 +57,8 @@ void run(const Options& o) {
   run_bake(o.common, o.output, files, [&] {
     const bake::TransferTask task = read_task(o);
     platform::ProgressBar bar(o.common.quiet);
-    return bake::bake_transfer_file(task, [&](nook_bake_stage stage, std::size_t done, std::size_t total) {
-      const bool is_fit = stage == NOOK_BAKE_STAGE_FIT;
+    return bake::bake_transfer_file(task, [&](bake::JobStage stage, std::size_t done, std::size_t total) {
+      const bool is_fit = stage == bake::JobStage::fit;
       bar.show(is_fit ? "fitting" : "ray tracing", is_fit ? "clusters" : "vertices", done, total);
       return !interrupted();
     });

@@ -93,9 +93,9 @@ void add_evaluate_lods(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "lods",
       "measure the AO of meshes with fewer triangles, made from the character by meshoptimizer, that take "
-      "their weights from the bake of the full mesh (nook_character_model_resample), against ray tracing of "
+      "their weights from the bake of the full mesh (nook_model_resample), against ray tracing of "
       "those meshes. refitted: the vertices are fitted to ray tracing of their own mesh, as nook bake lod "
-      "does; resampled: they lie between baked vertices (nook_character_model_resample); nearest: each takes "
+      "does; resampled: they lie between baked vertices (nook_model_resample); nearest: each takes "
       "the AO of the baked vertex at its place");
   const auto options = std::make_shared<Options>();
   Options& o = *options;

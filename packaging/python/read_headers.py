@@ -14,8 +14,10 @@ ROOT = HERE.parents[1]
 sys.path.insert(0, str(ROOT / "tests/abi"))
 from describe import constants, declarations  # noqa: E402
 
-HEADERS = ["nook", "nook_probe", "nook_character", "nook_pose", "nook_vertices", "nook_material", "nook_transfer", "nook_bake",
-           "nook_bake_character", "nook_bake_material", "nook_bake_trace", "nook_bake_transfer"]
+HEADERS = ["nook", "nook_probe", "nook_character", "nook_material", "nook_bake", "experimental/nook_bake_materials",
+           "experimental/nook_debug", "experimental/nook_lod", "experimental/nook_sg", "experimental/nook_trace", "experimental/nook_transfer"]
+# The functions of experimental headers that need OpenGL, which the module's library lacks.
+LEFT_OUT = re.compile(r"nook_gl_")
 PAGE = HERE / "nook/_layouts.py"
 SCALARS = {"void": "None", "char": "ctypes.c_char", "float": "ctypes.c_float", "double": "ctypes.c_double", "size_t": "ctypes.c_size_t",
            "int32_t": "ctypes.c_int32", "uint8_t": "ctypes.c_uint8", "uint16_t": "ctypes.c_uint16", "uint32_t": "ctypes.c_uint32",
@@ -111,7 +113,7 @@ def page():
             elif function_type:
                 known.add(function_type.group(2))
                 body.append(f"{function_type.group(2)} = {callback(function_type.group(1), function_type.group(3), known)}\n")
-            elif function:
+            elif function and not LEFT_OUT.match(function.group(2)):
                 kinds = []
                 for text in split(function.group(3), ","):
                     if text != "void":

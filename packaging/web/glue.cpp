@@ -1,12 +1,15 @@
 // What JavaScript needs beside the library's own functions: the layouts of its structs and the values of its
 // constants as tables in memory, the loader of WebGL functions, and a log.
 #include <emscripten.h>
+#include <nook/experimental/nook_debug.h>
+#include <nook/experimental/nook_lod.h>
+#include <nook/experimental/nook_recording.h>
+#include <nook/experimental/nook_sg.h>
+#include <nook/nook_character.h>
 #include <nook/nook_gl.h>
-#include <nook/nook_gl_material.h>
-#include <nook/nook_gl_probe.h>
+#include <nook/nook_material.h>
 #include <nook/nook_nnao.h>
-#include <nook/nook_pose.h>
-#include <nook/nook_vertices.h>
+#include <nook/nook_probe.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -4,8 +4,8 @@
 // node read_headers.mjs INCLUDE_FOLDER OUTPUT_FOLDER
 import { readFileSync, writeFileSync } from "node:fs";
 
-const headers = ["nook", "nook_character", "nook_pose", "nook_vertices", "nook_gl", "nook_nnao_recording", "nook_nnao", "nook_probe", "nook_gl_probe",
-  "nook_material", "nook_gl_material"];
+const headers = ["nook", "nook_character", "nook_gl", "nook_nnao", "nook_probe", "nook_material", "experimental/nook_debug",
+  "experimental/nook_recording", "experimental/nook_lod", "experimental/nook_sg"];
 const [include, output] = process.argv.slice(2);
 const text = headers.map((name) => readFileSync(`${include}/nook/${name}.h`, "utf8")).join("\n")
   .replace(/\/\*[\s\S]*?\*\//g, "");
@@ -16,7 +16,10 @@ function membersOf(body) {
     const pointer = /\(\*(\w+)\)/.exec(line);
     if (pointer) return [{ type: "", name: pointer[1] }];
     const [, type, names] = /^(.*?[ *])(\w+(?:\[\d+\])?(?:, ?\w+(?:\[\d+\])?)*)$/.exec(line);
-    return names.split(",").map((name) => ({ type: type.trim(), name: /\w+/.exec(name)[0] }));
+    return names.split(",").map((name) => {
+      const [, word, count] = /(\w+)(?:\[(\d+)\])?/.exec(name);
+      return { type: type.trim(), name: word, count: Number(count ?? 0) };
+    });
   });
 }
 
@@ -31,12 +34,13 @@ for (const [, body, name] of text.matchAll(/enum \{([^}]*)\};\s*(?:typedef int32
 const lines = [];
 for (const [struct, members] of structs) {
   lines.push(`STRUCT(${struct})`);
-  const add = (path, type) => {
-    if (structs.has(type)) for (const inner of structs.get(type)) add(`${path}.${inner.name}`, inner.type);
+  const add = (path, type, count) => {
+    if (structs.has(type) && count) for (let i = 0; i < count; ++i) add(`${path}[${i}]`, type, 0);
+    else if (structs.has(type)) for (const inner of structs.get(type)) add(`${path}.${inner.name}`, inner.type, inner.count);
     else if (enums.has(type)) lines.push(`CHOICE(${struct}, ${path}, "${type}")`);
     else lines.push(`MEMBER(${struct}, ${path})`);
   };
-  for (const { name, type } of members) add(name, type);
+  for (const { name, type, count } of members) add(name, type, count);
 }
 for (const [name, names] of enums) for (const constant of names) lines.push(`CONSTANT(${constant}, "${name}")`);
 writeFileSync(`${output}/layouts.inc`, `${lines.join("\n")}\n`);

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <string_view>
 #include <thread>
 
 #include "platform/file_bytes.h"
@@ -16,9 +17,9 @@ void follow(const ModelBake& bake, bool quiet) {
   platform::ProgressBar bar(quiet);
   for (;;) {
     const nook_bake_progress progress = bake.progress();
-    if (progress.stage == NOOK_BAKE_STAGE_DONE) return;
-    bar.show(stage_label(progress.stage), progress.stage == NOOK_BAKE_STAGE_RAYTRACE ? "poses" : "steps",
-             progress.done, progress.total);
+    if (progress.state == NOOK_BAKE_DONE) return;
+    const bool traces = std::string_view(progress.stage) == "ray tracing";
+    bar.show(progress.stage, traces ? "poses" : "steps", progress.done, progress.total);
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
 }
@@ -29,8 +30,8 @@ std::filesystem::path cached_path(const Hero& hero, const ModelRequest& request)
   const auto built = std::filesystem::last_write_time("/proc/self/exe", unknown).time_since_epoch().count();
   char name[112];
   std::snprintf(name, sizeof name, "draft_%016llx_gamma%g_%08x_%016llx.nook",
-                static_cast<unsigned long long>(hero.source_hash()), double(request.gamma),
-                nook_bake_version(), static_cast<unsigned long long>(built));
+                static_cast<unsigned long long>(hero.source_hash()), double(request.gamma), NOOK_VERSION,
+                static_cast<unsigned long long>(built));
   return request.cache / name;
 }
 

@@ -128,8 +128,8 @@ platform::Image Panels::draw(const measure::Group& group, const measure::AoPanel
   if (panel.screen_space != measure::ScreenSpace::kNowhere)
     look.screen_ao = stage_.screen_space->draw_screen(stage_.renderer, drawn, camera,
                                                       panel.screen_space == measure::ScreenSpace::kEverywhere
-                                                          ? NOOK_NNAO_LAYER_NONE
-                                                          : NOOK_NNAO_LAYER_REPLACE);
+                                                          ? NOOK_GBUFFER_AO_NONE
+                                                          : NOOK_GBUFFER_AO_REPLACE);
   stage_.target.bind();
   stage_.renderer.draw(drawn, camera, look, camera.target_ws, 6.0f);
   return stage_.target.read();
@@ -174,7 +174,7 @@ class Evaluated final : public measure::EvaluatedCrowd {
   std::vector<float> static_ao() const override { return scene_.model().static_ao(); }
   float gamma() const override { return scene_.model().info().gamma; }
   measure::VertexValues directional_ao(std::span<const std::uint32_t> characters,
-                                       std::span<const nook_probe_lobe> lobes) override {
+                                       std::span<const nook_lobe> lobes) override {
     return scene_.directional_ao(characters, lobes);
   }
 
@@ -207,7 +207,7 @@ std::optional<measure::ScreenSpaceSettings> settings_of(const ScreenSpaceAo* scr
 CrowdScene one_norm_scene(platform::Context& context, const std::vector<Bones>& poses,
                           const ComparisonRequest& request, std::span<const unsigned char> model) {
   return CrowdScene(context, model,
-                    {std::uint32_t(poses.size()), request.neighbours, request.tier, NOOK_COMBINE_PAPER, 0});
+                    {std::uint32_t(poses.size()), request.neighbours, request.tier, NOOK_FORM_PAPER, 0});
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ nook_context_desc host_services() {
 
 nook_scene_desc scene_settings(const CrowdSceneRequest& request) {
   nook_scene_desc desc = nook::scene_desc();
-  desc.combine = request.combine;
+  desc.form = request.form;
   desc.lod_error = request.lod_error;
   return desc;
 }
@@ -58,7 +58,7 @@ CrowdScene::CrowdScene(platform::Context& context, std::span<const unsigned char
 
 void CrowdScene::set_model(std::span<const unsigned char> model_bytes) {
   nook::CharacterModel model(context_, model_bytes.data(), model_bytes.size());
-  const nook_character_model_info before = model_.info(), now = model.info();
+  const nook_model_info before = model_.info(), now = model.info();
   if (now.file_vertex_count != before.file_vertex_count || now.bone_count != before.bone_count)
     throw std::runtime_error(
         "crowd: the model is of another character (got " + std::to_string(now.file_vertex_count) +
@@ -106,12 +106,18 @@ void CrowdScene::link_nearest(std::uint32_t neighbours) {
 }
 
 void CrowdScene::set_poses(const std::vector<Bones>& poses) {
-  for (std::size_t i = 0; i < instances_.size(); ++i)
-    scene_.set_pose(instances_[i], poses[i].data(), std::uint32_t(poses[i].size() / 12));
+  nook_pose_desc desc = nook::pose_desc();
+  desc.kind = NOOK_POSE_REST_TO_WORLD;
+  desc.layout = NOOK_TRANSFORM_ROWS_3X4;
+  for (std::size_t i = 0; i < instances_.size(); ++i) {
+    desc.transforms = poses[i].data();
+    desc.transform_count = std::uint32_t(poses[i].size() / 12);
+    scene_.set_pose(instances_[i], desc);
+  }
 }
 
 void CrowdScene::update(std::uint32_t terms) {
-  scene_.set_terms(terms);
+  nook::set_terms(scene_, terms);
   gl_.update(scene_);
 }
 
@@ -126,7 +132,7 @@ std::vector<float> CrowdScene::read_ao(std::size_t character) const {
   return ao;
 }
 
-void CrowdScene::set_light(std::span<const nook_probe_lobe> lobes) {
+void CrowdScene::set_light(std::span<const nook_lobe> lobes) {
   for (const nook_instance_id id : instances_)
     scene_.set_light(id, lobes.data(), std::uint32_t(lobes.size()));
 }
@@ -136,10 +142,10 @@ nook_gl_light_view CrowdScene::light(std::size_t character) const {
 }
 
 std::vector<std::vector<float>> CrowdScene::directional_ao(std::span<const std::uint32_t> characters,
-                                                           std::span<const nook_probe_lobe> lobes) {
+                                                           std::span<const nook_lobe> lobes) {
   for (const std::uint32_t c : characters)
     scene_.set_light(instances_[c], lobes.data(), std::uint32_t(lobes.size()));
-  scene_.set_terms(NOOK_TERM_ALL);
+  nook::set_terms(scene_, NOOK_TERM_ALL);
   scene_.update();
   std::vector<std::vector<float>> occlusion;
   const std::uint32_t count = model_.info().file_vertex_count;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nook/nook_gl.h>
+#include <nook/experimental/nook_debug.hpp>
 
 #include <glm/glm.hpp>
 #include <nook/nook.hpp>
@@ -17,7 +18,7 @@ namespace crowd {
 struct CrowdSceneRequest {
   std::uint32_t characters = 1, neighbours = 4;
   int tier = 0;  // 33, 43, or 0 for the best that the context has
-  nook_combine combine = NOOK_COMBINE_COMPOSED;
+  nook_form form = NOOK_FORM_DEFAULT;
   float lod_error = 0;  // AO, rms at 10 m from the camera; 0 keeps full detail
 };
 
@@ -42,14 +43,14 @@ class CrowdScene {
   std::vector<float> read_ao(std::size_t character) const;
 
   // Lights all characters by the same lobes from the next update on. Without lobes there is no light.
-  void set_light(std::span<const nook_probe_lobe> lobes);
+  void set_light(std::span<const nook_lobe> lobes);
   // The light after the last update, which needs a light to have been set before it.
   nook_gl_light_view light(std::size_t character) const;
 
   // The directional occlusion of some characters under one light, three floats for each vertex. The CPU
   // evaluates it.
   std::vector<std::vector<float>> directional_ao(std::span<const std::uint32_t> characters,
-                                                 std::span<const nook_probe_lobe> lobes);
+                                                 std::span<const nook_lobe> lobes);
 
   void link_nearest(std::uint32_t neighbours);
 
@@ -64,7 +65,7 @@ class CrowdScene {
 
   nook_scene handle() const { return scene_.get(); }
   const nook::Gl& gl() const { return gl_; }
-  nook_scene_stats stats() const { return scene_.stats(); }
+  nook_scene_info stats() const { return scene_.info(); }
   const nook::CharacterModel& model() const { return model_; }
   const nook::Context& context() const { return context_; }
 

@@ -33,15 +33,22 @@ void check_bake(nook_result result) {
 }
 
 Hero::Hero(std::span<const unsigned char> glb_bytes) : source_hash_(hash_of(glb_bytes)) {
+  nook_bake_source_desc desc;
+  check_bake(nook_bake_source_desc_init(&desc));
+  desc.bytes = glb_bytes.data();
+  desc.byte_count = glb_bytes.size();
   nook_bake_character handle = nullptr;
-  check_bake(nook_bake_import_gltf_bytes(glb_bytes.data(), glb_bytes.size(), &handle));
+  check_bake(nook_bake_character_create(&desc, &handle));
   character_.reset(handle);
   read();
 }
 
 Hero::Hero(const std::filesystem::path& path) : source_hash_(hash_of(platform::read_file(path))) {
+  nook_bake_source_desc desc;
+  check_bake(nook_bake_source_desc_init(&desc));
+  desc.path = path.c_str();
   nook_bake_character handle = nullptr;
-  check_bake(nook_bake_import_gltf(path.c_str(), &handle));
+  check_bake(nook_bake_character_create(&desc, &handle));
   character_.reset(handle);
   read();
 }
@@ -55,11 +62,16 @@ void Hero::read() {
   joints.resize(4 * n);
   weights.resize(4 * n);
   triangles.resize(3 * info_.triangle_count);
-  check_bake(nook_bake_character_read_vertices(handle(), positions_m.data(), normals.data(), n));
-  check_bake(nook_bake_character_read_skin(handle(), joints.data(), weights.data(), n));
-  check_bake(nook_bake_character_read_triangles(handle(), triangles.data(), std::uint32_t(triangles.size())));
+  const auto read_array = [&](nook_bake_array array, void* out, std::uint32_t count) {
+    check_bake(nook_bake_character_read(handle(), array, out, count, 0));
+  };
+  read_array(NOOK_BAKE_ARRAY_POSITIONS, positions_m.data(), n);
+  read_array(NOOK_BAKE_ARRAY_NORMALS, normals.data(), n);
+  read_array(NOOK_BAKE_ARRAY_JOINTS, joints.data(), n);
+  read_array(NOOK_BAKE_ARRAY_WEIGHTS, weights.data(), n);
+  read_array(NOOK_BAKE_ARRAY_TRIANGLES, triangles.data(), info_.triangle_count);
   for (std::uint32_t i = 0; i < info_.clip_count; ++i) {
-    Clip clip{i, nook_bake_character_clip_name(handle(), i), 0};
+    Clip clip{i, nook_bake_character_name(handle(), NOOK_BAKE_NAME_CLIP, i), 0};
     check_bake(nook_bake_character_clip_duration(handle(), i, &clip.duration_s));
     if (!is_unfit(clip.name)) clips_.push_back(clip);
   }

@@ -1,7 +1,7 @@
 // The sample's character through the public interface of the bakers: its shape and its clips.
 #pragma once
 
-#include <nook/nook_bake_character.h>
+#include <nook/nook_bake.h>
 
 #include <cstdint>
 #include <filesystem>

@@ -1,4 +1,5 @@
 #include "samples/crowd/light.h"
+#include <nook/experimental/nook_sg.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +35,7 @@ float texel_share(std::uint32_t y, std::uint32_t width, std::uint32_t height) {
 }
 
 // A hazy sun 30 degrees high, about 15 degrees wide.
-constexpr nook_probe_lobe kSun{{0.62f, 0.5f, 0.605f}, 30, {40, 30, 18}, 0};
+constexpr nook_lobe kSun{{0.62f, 0.5f, 0.605f}, 30, {40, 30, 18}, 0};
 
 // The sky without its sun is blue above and white at the horizon, and dry ground reflects its light.
 void sky_radiance(const float direction[3], float* rgb) {
@@ -106,8 +107,8 @@ void Light::read_probe(const nook::Context& context, const std::filesystem::path
     for (std::uint32_t x = 0; x < width_; ++x)
       texel_direction(x, y, width_, height_, &directions[3 * (std::size_t(y) * width_ + x)]);
   rgb_.resize(directions.size());
-  nook::check(nook_probe_lobes_radiance(lobes_.data(), std::uint32_t(lobes_.size()), directions.data(),
-                                        rgb_.data(), directions.size() / 3));
+  nook::check(nook_sg_radiance(lobes_.data(), std::uint32_t(lobes_.size()), directions.data(), rgb_.data(),
+                               directions.size() / 3));
   for (float& channel : rgb_) channel = std::max(channel, 0.0f);
 }
 
@@ -124,9 +125,7 @@ void Light::read_map(const std::filesystem::path& path) {
 }
 
 void Light::fit_lobes(const nook::Context& context) {
-  nook_probe_fit_desc desc = nook::probe_fit_desc();
-  desc.method = NOOK_PROBE_LEAST_SQUARES;
-  nook::ProbeFit fit(context, desc);
+  nook::ProbeFit fit(context);
   std::vector<float> directions(3 * std::size_t(width_)), weights(width_);
   for (std::uint32_t y = 0; y < height_; ++y) {
     for (std::uint32_t x = 0; x < width_; ++x) texel_direction(x, y, width_, height_, &directions[3 * x]);
@@ -138,9 +137,8 @@ void Light::fit_lobes(const nook::Context& context) {
 
 std::vector<float> Light::irradiance(const std::vector<float>& normals) const {
   std::vector<float> e(normals.size());
-  nook::check(nook_probe_lobes_irradiance(lobes_.data(), std::uint32_t(lobes_.size()),
-                                          NOOK_PROBE_IRRADIANCE_BANDS, normals.data(), e.data(),
-                                          normals.size() / 3));
+  nook::check(nook_sg_irradiance(lobes_.data(), std::uint32_t(lobes_.size()), NOOK_PROBE_IRRADIANCE_BANDS,
+                                 normals.data(), e.data(), normals.size() / 3));
   for (float& channel : e) channel = std::max(channel, 0.0f);
   return e;
 }
@@ -149,13 +147,12 @@ SplitLight Light::split() const {
   SplitLight parts;
   parts.soft = lobes_;
   const float up[3] = {0, 1, 0};
-  const auto irradiance_up = [&](const nook_probe_lobe* of, std::size_t count, float* rgb) {
-    nook::check(
-        nook_probe_lobes_irradiance(of, std::uint32_t(count), NOOK_PROBE_IRRADIANCE_BANDS, up, rgb, 1));
+  const auto irradiance_up = [&](const nook_lobe* of, std::size_t count, float* rgb) {
+    nook::check(nook_sg_irradiance(of, std::uint32_t(count), NOOK_PROBE_IRRADIANCE_BANDS, up, rgb, 1));
     for (int c = 0; c < 3; ++c) rgb[c] = std::max(rgb[c], 0.0f);
   };
   if (has_sun_) {
-    const nook_probe_lobe& sun = parts.soft.back();
+    const nook_lobe& sun = parts.soft.back();
     std::copy_n(sun.axis, 3, parts.to_sun);
     // A cone whose directions are as far from its axis in the mean: 1 / sharpness = (1 - cos(half angle))
     // / 2.
@@ -169,8 +166,7 @@ SplitLight Light::split() const {
 
 std::vector<float> Light::radiance(const float direction[3]) const {
   std::vector<float> rgb(3);
-  nook::check(
-      nook_probe_lobes_radiance(lobes_.data(), std::uint32_t(lobes_.size()), direction, rgb.data(), 1));
+  nook::check(nook_sg_radiance(lobes_.data(), std::uint32_t(lobes_.size()), direction, rgb.data(), 1));
   for (float& channel : rgb) channel = std::max(channel, 0.0f);
   return rgb;
 }

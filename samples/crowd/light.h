@@ -1,7 +1,7 @@
 // A light of the crowd: the lobes of a probe, and the environment that the lobes stand for.
 #pragma once
 
-#include <nook/nook_bake_trace.h>
+#include <nook/experimental/nook_trace.h>
 #include <nook/nook_probe.h>
 
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace crowd {
 
 // A light in two parts: soft light, and a cone that stands for the lobe of a sun.
 struct SplitLight {
-  std::vector<nook_probe_lobe> soft;
+  std::vector<nook_lobe> soft;
   float to_sun[3] = {0, 1, 0};
   float sun_degrees = 0;                  // full angle; 0: there is no such lobe
   float soft_up[3] = {}, sun_up[3] = {};  // the irradiance of open ground
@@ -29,7 +29,7 @@ class Light {
   static Light built_in_sky(const nook::Context& context);
 
   const std::string& name() const { return name_; }
-  const std::vector<nook_probe_lobe>& lobes() const { return lobes_; }
+  const std::vector<nook_lobe>& lobes() const { return lobes_; }
   nook_bake_environment environment() const { return {rgb_.data(), width_, height_}; }
   // The mean over the sphere and the channels, which a constant light of the same power has.
   float mean_radiance() const { return mean_radiance_; }
@@ -50,7 +50,7 @@ class Light {
   void measure_mean();
 
   std::string name_;
-  std::vector<nook_probe_lobe> lobes_;
+  std::vector<nook_lobe> lobes_;
   std::vector<float> rgb_;  // the environment
   std::uint32_t width_ = 0, height_ = 0;
   float mean_radiance_ = 0;

@@ -23,7 +23,7 @@ Hero load_hero(const Options& o) {
 }
 
 void require_same_character(const Hero& hero, const nook::CharacterModel& model) {
-  const nook_character_model_info info = model.info();
+  const nook_model_info info = model.info();
   if (info.file_vertex_count == hero.vertex_count() && info.bone_count == hero.bone_count()) return;
   throw std::runtime_error("crowd: the model does not belong to the character (got " +
                            std::to_string(info.file_vertex_count) + " vertices and " +
@@ -34,7 +34,7 @@ void require_same_character(const Hero& hero, const nook::CharacterModel& model)
 
 nlohmann::ordered_json describe(const platform::Context& context, const CrowdScene& scene, const Options& o) {
   const nook_gl_info gl = scene.gl().info();
-  const nook_character_model_info model = scene.model().info();
+  const nook_model_info model = scene.model().info();
   return {{"characters", o.characters},
           {"neighbours", o.neighbours},
           {"frames", o.frames},
@@ -115,7 +115,7 @@ void run(const Options& o) {
       o.hero_nook.empty() ? cached_model(hero, {o.cache, 0, o.quiet}) : platform::read_file(o.hero_nook);
   const std::unique_ptr<platform::Context> context = create_context(o);
   const std::vector<Placement> places = make_layout(clip_outlines(hero), o.characters, o.seed);
-  CrowdScene scene(*context, model, {o.characters, o.neighbours, o.tier, NOOK_COMBINE_COMPOSED, o.lod_error});
+  CrowdScene scene(*context, model, {o.characters, o.neighbours, o.tier, NOOK_FORM_DEFAULT, o.lod_error});
   require_same_character(hero, scene.model());
   Renderer renderer(context->gl(), hero);
 #ifdef CROWD_HAS_WINDOW_LOOP

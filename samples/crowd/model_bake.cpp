@@ -3,12 +3,13 @@
 namespace crowd {
 
 ModelBake::ModelBake(const Hero& hero, nook_bake_preset preset, float gamma) {
-  nook_bake_job_desc desc;
-  check_bake(nook_bake_job_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  nook_bake_character_desc desc;
+  check_bake(nook_bake_character_desc_init(&desc));
+  desc.character = hero.handle();
   desc.preset = preset;
   desc.gamma = gamma;
   nook_bake_job handle = nullptr;
-  check_bake(nook_bake_job_start(hero.handle(), &desc, &handle));
+  check_bake(nook_bake_start_character(&desc, &handle));
   job_.reset(handle);
 }
 
@@ -27,24 +28,9 @@ std::vector<unsigned char> ModelBake::model() const {
   check_bake(nook_bake_job_wait(job_.get()));
   const void* bytes = nullptr;
   std::size_t size = 0;
-  check_bake(nook_bake_job_model(job_.get(), &bytes, &size));
+  check_bake(nook_bake_job_file(job_.get(), &bytes, &size));
   const auto* const first = static_cast<const unsigned char*>(bytes);
   return {first, first + size};
-}
-
-const char* stage_label(nook_bake_stage stage) {
-  switch (stage) {
-    case NOOK_BAKE_STAGE_RAYTRACE:
-      return "ray tracing";
-    case NOOK_BAKE_STAGE_INITIALISE:
-      return "initialising";
-    case NOOK_BAKE_STAGE_FIT:
-      return "fitting";
-    case NOOK_BAKE_STAGE_CASTERS:
-      return "casters";
-    default:
-      return "waiting";
-  }
 }
 
 }  // namespace crowd

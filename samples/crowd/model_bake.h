@@ -14,7 +14,7 @@ class ModelBake {
   ModelBake(const Hero& hero, nook_bake_preset preset, float gamma);
 
   nook_bake_progress progress() const;
-  bool is_done() const { return progress().stage == NOOK_BAKE_STAGE_DONE; }
+  bool is_done() const { return progress().state == NOOK_BAKE_DONE; }
   void cancel();
   // Waits for the bytes of the .nook file. Throws BakeError, also if the bake was cancelled.
   std::vector<unsigned char> model() const;
@@ -25,8 +25,5 @@ class ModelBake {
   };
   std::unique_ptr<nook_bake_job_s, Release> job_;
 };
-
-// The name of a stage for the user.
-const char* stage_label(nook_bake_stage stage);
 
 }  // namespace crowd

@@ -27,8 +27,8 @@ nook_nnao_desc pass_settings(int width, int height, const ScreenSpaceQuality& qu
   return desc;
 }
 
-nook_world_pass_desc world_settings(int width, int height, const ScreenSpaceQuality& quality) {
-  nook_world_pass_desc desc = nook::world_pass_desc();
+nook_world_desc world_settings(int width, int height, const ScreenSpaceQuality& quality) {
+  nook_world_desc desc = nook::world_pass_desc();
   desc.max_width = width;
   desc.max_height = height;
   desc.half_resolution = quality.half_resolution;
@@ -79,12 +79,11 @@ ScreenSpaceAo::~ScreenSpaceAo() {
 
 ScreenAo ScreenSpaceAo::draw(Renderer& renderer, std::span<const DrawnInstance> instances,
                              const Camera& camera, nook_scene scene, const SplitLight* light) {
-  draw_screen(renderer, instances, camera, NOOK_NNAO_LAYER_APART);
+  draw_screen(renderer, instances, camera, NOOK_GBUFFER_AO_EXCLUDE);
   nook_world_frame_desc& frame = world_frame_;
   frame = nook::world_frame_desc();
-  frame.screen = &frame_;
   const glm::mat4 view = view_from_world(camera);
-  std::copy_n(glm::value_ptr(view), 16, frame.view);
+  std::copy_n(glm::value_ptr(view), 16, frame_.view);
   frame.scene = scene;
   frame.ao_texture = pass_.info().texture;
   if (light) {
@@ -93,7 +92,7 @@ ScreenAo ScreenSpaceAo::draw(Renderer& renderer, std::span<const DrawnInstance> 
     std::copy_n(light->to_sun, 3, frame.light_axis);
     frame.light_degrees = light->sun_degrees;
   }
-  world_.render(frame);
+  world_.render(frame_, frame);
   return {world_.info().texture, textures_[kDepth]};
 }
 
@@ -124,7 +123,7 @@ double ScreenSpaceAo::mean_count(nook_world_view view) {
   frame.lobes = nullptr;
   frame.lobe_count = 0;
   frame.light_degrees = 0;
-  world_.render(frame);
+  world_.render(frame_, frame);
   const std::vector<float> counts = read_red(world_.info().texture);
   const std::vector<bool> there = read_surfaces();
   double sum = 0, surfaces = 0;
@@ -142,11 +141,11 @@ double ScreenSpaceAo::rms_to_every_caster(const nook::Gl& gl) {
   frame.lobe_count = 0;
   frame.light_degrees = 0;
   frame.ao_texture = 0;
-  world_.render(frame);
+  world_.render(frame_, frame);
   const std::vector<float> found = read_red(world_.info().texture);
   frame.cutoff_error = frame.level_error = 0;
   nook::WorldPass exact(gl, world_settings(width_px_, height_px_, {}));
-  exact.render(frame);
+  exact.render(frame_, frame);
   const std::vector<float> wanted = read_red(exact.info().texture);
   const std::vector<bool> there = read_surfaces();
   double sum = 0, surfaces = 0;
@@ -159,7 +158,7 @@ double ScreenSpaceAo::rms_to_every_caster(const nook::Gl& gl) {
 }
 
 ScreenAo ScreenSpaceAo::draw_screen(Renderer& renderer, std::span<const DrawnInstance> instances,
-                                    const Camera& camera, nook_nnao_layer layer) {
+                                    const Camera& camera, nook_gbuffer_ao layer) {
   const float aspect = float(width_px_) / float(height_px_);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   gl_.Viewport(0, 0, width_px_, height_px_);
@@ -168,8 +167,8 @@ ScreenAo ScreenSpaceAo::draw_screen(Renderer& renderer, std::span<const DrawnIns
   gl_.ClearBufferfv(GL_COLOR, 1, open);
   gl_.ClearBufferfv(GL_DEPTH, 0, &far_plane);
   renderer.draw_surfaces(instances, camera, aspect);
-  nook_nnao_frame_desc& frame = frame_;
-  frame = nook::nnao_frame_desc();
+  nook_gl_frame_desc& frame = frame_;
+  frame = nook::gl_frame_desc();
   frame.width = width_px_;
   frame.height = height_px_;
   frame.depth_texture = textures_[kDepth];
@@ -180,10 +179,11 @@ ScreenAo ScreenSpaceAo::draw_screen(Renderer& renderer, std::span<const DrawnIns
   const glm::mat4 projection = clip_from_view(camera, aspect);
   std::copy_n(glm::value_ptr(vs_from_ws), 9, frame.normal_matrix);
   std::copy_n(glm::value_ptr(projection), 16, frame.projection);
-  frame.radius = kRadius_m;
-  frame.layer = layer;
-  frame.layer_texture = textures_[kLayer];
-  pass_.render(frame);
+  desc_ = nook::nnao_frame_desc();
+  desc_.radius = kRadius_m;
+  frame.gbuffer_ao = layer;
+  frame.gbuffer_ao_texture = textures_[kLayer];
+  pass_.render(frame, desc_);
   return {pass_.info().texture, textures_[kDepth]};
 }
 

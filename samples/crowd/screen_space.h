@@ -39,9 +39,9 @@ class ScreenSpaceAo {
   // and alpha is that of its sun.
   ScreenAo draw(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
                 nook_scene scene, const SplitLight* light = nullptr);
-  // The screen-space pass alone. With NOOK_NNAO_LAYER_NONE the texture has its AO on characters too.
+  // The screen-space pass alone. With NOOK_GBUFFER_AO_NONE the texture has its AO on characters too.
   ScreenAo draw_screen(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
-                       nook_nnao_layer layer);
+                       nook_gbuffer_ao layer);
 
   // The mean of a number that the last frame of draw counts at a pixel with a surface. Waits for the GPU.
   double mean_count(nook_world_view view);
@@ -51,7 +51,7 @@ class ScreenSpaceAo {
   double rms_to_every_caster(const nook::Gl& gl);
 
   // Records the frame that was drawn last. Waits for the GPU.
-  nook::Recording record(const char* note) { return pass_.record(frame_, note); }
+  nook::Recording record(const char* note) { return pass_.record(frame_, desc_, note); }
 
  private:
   enum Texture { kDepth, kNormals, kLayer, kTextures };
@@ -67,7 +67,8 @@ class ScreenSpaceAo {
   GLuint framebuffer_ = 0;
   nook::Nnao pass_;
   nook::WorldPass world_;
-  nook_nnao_frame_desc frame_{};         // of the last draw
+  nook_nnao_frame_desc desc_{};          // of the last draw
+  nook_gl_frame_desc frame_{};           // of the last draw
   nook_world_frame_desc world_frame_{};  // the same
 };
 

@@ -1,6 +1,6 @@
 #include "samples/crowd/traced_ao.h"
 
-#include <nook/nook_bake_trace.h>
+#include <nook/experimental/nook_trace.h>
 
 namespace crowd {
 namespace {
@@ -33,7 +33,7 @@ std::vector<nook_bake_occluder_mesh> occluders(const Hero& hero, const std::vect
 
 std::vector<float> traced(const std::vector<nook_bake_occluder_mesh>& meshes, const Body& body) {
   nook_bake_trace_desc desc;
-  check_bake(nook_bake_trace_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  check_bake(nook_bake_trace_desc_init(&desc));
   desc.meshes = meshes.data();
   desc.mesh_count = std::uint32_t(meshes.size());
   desc.positions = body.positions_ws.data();

@@ -1,4 +1,5 @@
 #include "samples/crowd/window_controls.h"
+#include <nook/experimental/nook_debug.h>
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -60,7 +61,7 @@ void show_model(Controls& c, const Readings& r) {
   ImGui::TextUnformatted(r.model_name.c_str());
   if (r.bake) {
     const float share = r.bake->total > 0 ? float(r.bake->done) / float(r.bake->total) : 0;
-    ImGui::ProgressBar(share, ImVec2(-1, 0), stage_label(r.bake->stage));
+    ImGui::ProgressBar(share, ImVec2(-1, 0), r.bake->stage);
     c.cancel = ImGui::Button("cancel");
   } else {
     c.bake = ImGui::Button("bake");

@@ -105,7 +105,7 @@ void Window::make_scene() {
   scene_ = std::make_unique<CrowdScene>(
       stage_.context, model_,
       CrowdSceneRequest{std::uint32_t(stage_.places.size()), std::uint32_t(controls_.link_count),
-                        controls_.tier, NOOK_COMBINE_COMPOSED, controls_.lod_error});
+                        controls_.tier, NOOK_FORM_DEFAULT, controls_.lod_error});
   applied_ = controls_;
   lit_ = false;
 }
@@ -118,7 +118,7 @@ void Window::follow_settings() {
   }
   const bool want_light = stage_.light && controls_.probe_light;
   if (want_light == lit_) return;
-  scene_->set_light(want_light ? std::span(stage_.light->lobes()) : std::span<const nook_probe_lobe>());
+  scene_->set_light(want_light ? std::span(stage_.light->lobes()) : std::span<const nook_lobe>());
   lit_ = want_light;
 }
 

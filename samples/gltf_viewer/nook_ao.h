@@ -49,11 +49,11 @@ class NookAo {
   std::uint32_t screen(std::uint32_t depth, std::uint32_t layer, const glm::mat4& projection,
                        float radius_m) {
     frame_.depth_texture = depth;
-    frame_.layer = NOOK_NNAO_LAYER_REPLACE;
-    frame_.layer_texture = layer;
+    frame_.gbuffer_ao = NOOK_GBUFFER_AO_REPLACE;
+    frame_.gbuffer_ao_texture = layer;
     std::copy_n(glm::value_ptr(projection), 16, frame_.projection);
-    frame_.radius = radius_m;
-    screen_->render(frame_);
+    desc_.radius = radius_m;
+    screen_->render(frame_, desc_);
     return screen_->info().texture;
   }
 
@@ -68,7 +68,7 @@ class NookAo {
     desc.skin = skin;
     desc.transform_of_bone = map.data();
     desc.bone_count = std::uint32_t(map.size());
-    desc.flags = NOOK_POSE_PARTIAL;
+    desc.flags = NOOK_POSE_FLAG_PARTIAL;
     scene_.set_pose(character_, desc);
   }
 
@@ -79,7 +79,8 @@ class NookAo {
   nook_instance_id character_;
   std::optional<nook::Gl> gl_;
   std::optional<nook::Nnao> screen_;
-  nook_nnao_frame_desc frame_ = nook::nnao_frame_desc();
+  nook_gl_frame_desc frame_ = nook::gl_frame_desc();
+  nook_nnao_frame_desc desc_ = nook::nnao_frame_desc();
   std::vector<std::int32_t> node_of_bone_;
 };
 

@@ -29,7 +29,7 @@ struct Loaded {
   std::string name;
   std::vector<unsigned char> bytes;
   nook::Material material;
-  nook::GlMaterial uploaded;
+  nook::Upload uploaded;
   MaterialProgram program;
 };
 
@@ -42,7 +42,7 @@ Json describe(const Loaded& loaded, std::uint32_t fetches, const FrameTimes& tim
           {"terms", info.btf.terms},
           {"bytes", info.compressed_bytes},
           {"view_map_bytes", info.view_map_bytes},
-          {"texture_bytes", loaded.uploaded.info().texture_bytes},
+          {"texture_bytes", loaded.uploaded.info().bytes},
           {"textures", loaded.uploaded.info().texture_count},
           {"fetches_along", fetches},
           {"decode_fetches", info.decode_fetches + further * info.further_decode_fetches},

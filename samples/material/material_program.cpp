@@ -1,5 +1,6 @@
 #include "samples/material/material_program.h"
 
+#include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 #include <string>
 
@@ -69,28 +70,33 @@ constexpr const char* pass_choice[] = {"#define PASS DEPTH\n", "#define PASS COL
 
 }  // namespace
 
-MaterialProgram::MaterialProgram(const GladGLContext& gl, const nook::GlMaterial& material,
-                                 std::uint32_t fetches)
-    : gl_(gl), textures_(material.textures()) {
+MaterialProgram::MaterialProgram(const GladGLContext& gl, const nook::Upload& material, std::uint32_t fetches)
+    : gl_(gl), material_(material) {
   const std::string fetch_count = "#define FETCHES " + std::to_string(fetches) + "\n";
   for (const char* choice : pass_choice) {
-    const platform::Program& program = programs_.emplace_back(
+    programs_.emplace_back(
         gl, std::initializer_list<const char*>{version, vertex_text},
         std::initializer_list<const char*>{version, pass_names, choice, fetch_count.c_str(),
                                            material.info().glsl, fragment_text});
-    program.use();
-    for (std::size_t i = 0; i < textures_.size(); ++i)
-      gl.Uniform1i(program.uniform(textures_[i].uniform), GLint(i));
   }
+}
+
+// The depth pass of a material without a VOTF reads none of its textures, and nook_gl_upload_bind refuses a
+// program without samplers of the upload.
+bool MaterialProgram::samples_material(const platform::Program& program) const {
+  const nook_gl_upload_info info = material_.info();
+  const auto first = info.textures, last = info.textures + info.texture_count;
+  return std::any_of(first, last, [&](const nook_gl_upload_texture& texture) {
+    return program.uniform(texture.uniform) >= 0;
+  });
 }
 
 void MaterialProgram::begin(const View& view, Pass pass) const {
   const platform::Program& program = programs_[std::size_t(pass == Pass::whole ? Pass::colour : pass)];
-  program.use();
-  for (std::size_t i = 0; i < textures_.size(); ++i) {
-    gl_.ActiveTexture(GL_TEXTURE0 + GLenum(i));
-    gl_.BindTexture(textures_[i].target, textures_[i].texture);
-  }
+  if (samples_material(program))
+    material_.bind(program.name(), 0);
+  else
+    gl_.UseProgram(program.name());
   gl_.UniformMatrix4fv(program.uniform("view_projection"), 1, GL_FALSE, glm::value_ptr(view.view_projection));
   gl_.Uniform3fv(program.uniform("eye"), 1, glm::value_ptr(view.eye));
   gl_.Uniform3fv(program.uniform("key_direction"), 1, glm::value_ptr(view.key_direction));

@@ -23,15 +23,17 @@ enum class Pass {
 
 class MaterialProgram {
  public:
-  // fetches along the longer side of a pixel; 0: the isotropic functions.
-  MaterialProgram(const GladGLContext& gl, const nook::GlMaterial& material, std::uint32_t fetches);
+  // fetches along the longer side of a pixel; 0: the isotropic functions. The material outlives the program.
+  MaterialProgram(const GladGLContext& gl, const nook::Upload& material, std::uint32_t fetches);
 
   // Binds the pass's program and the textures, and sets the OpenGL state that the pass needs.
   void begin(const View& view, Pass pass) const;
 
  private:
+  bool samples_material(const platform::Program& program) const;
+
   const GladGLContext& gl_;
-  std::vector<nook_gl_material_texture> textures_;
+  const nook::Upload& material_;
   std::vector<platform::Program> programs_;  // one for each of the first three passes
 };
 

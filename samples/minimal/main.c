@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* An engine passes its own skinning matrices. Here they are the rest pose, moved sideways: twelve floats for
- * each bone, three rows of four. */
+/* An engine passes its own skinning matrices. Here they are rest-to-world matrices of the rest pose, moved
+ * sideways: twelve floats for each bone, three rows of four. */
 static float* rest_pose(uint32_t bone_count, float x_m) {
   float* const bones = calloc(bone_count, 12 * sizeof(float));
   for (uint32_t b = 0; bones && b < bone_count; ++b) {
@@ -46,8 +46,9 @@ static double mean(const float* values, uint32_t count) {
 
 typedef struct Character {
   nook_context context;
-  nook_character_model model;
+  nook_model model;
   nook_scene scene;
+  nook_pose_desc pose;
   nook_instance_id left, right;
 } Character;
 
@@ -56,10 +57,10 @@ static nook_result start(Character* c, const void* bytes, size_t size) {
   const float ground[4] = {0, 1, 0, 0}; /* the plane y = 0 */
   nook_context_desc context_desc;
   nook_scene_desc scene_desc;
-  nook_result r = nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION);
+  nook_result r = nook_context_desc_init(&context_desc);
   if (!r) r = nook_context_create(&context_desc, &c->context);
-  if (!r) r = nook_character_model_load(c->context, bytes, size, &c->model);
-  if (!r) r = nook_scene_desc_init(&scene_desc, sizeof scene_desc, NOOK_VERSION);
+  if (!r) r = nook_model_load(c->context, bytes, size, &c->model);
+  if (!r) r = nook_scene_desc_init(&scene_desc);
   if (!r) r = nook_scene_create(c->context, &scene_desc, &c->scene);
   if (!r) r = nook_scene_add_instance(c->scene, c->model, &c->left);
   if (!r) r = nook_scene_add_instance(c->scene, c->model, &c->right);
@@ -68,34 +69,41 @@ static nook_result start(Character* c, const void* bytes, size_t size) {
   /* These are two fixed links. For a crowd, nook_scene_link_nearest finds the neighbours. */
   if (!r) r = nook_scene_link(c->scene, c->left, c->right);
   if (!r) r = nook_scene_link(c->scene, c->right, c->left);
+  if (!r) r = nook_pose_desc_init(&c->pose);
+  c->pose.kind = NOOK_POSE_REST_TO_WORLD; /* an engine: NOOK_POSE_SKINNING, with its shader's matrices */
+  c->pose.layout = NOOK_TRANSFORM_ROWS_3X4;
   return r;
 }
 
 /* ---- 2. Each frame: hand over the poses, evaluate, read one value a vertex ---- */
 static nook_result frame(Character* c, const float* left_pose, const float* right_pose, uint32_t bone_count,
                          float* ao, uint32_t vertex_count) {
-  nook_result r = nook_scene_set_pose(c->scene, c->left, left_pose, bone_count);
-  if (!r) r = nook_scene_set_pose(c->scene, c->right, right_pose, bone_count);
+  nook_result r;
+  c->pose.transform_count = bone_count;
+  c->pose.transforms = left_pose;
+  r = nook_scene_set_pose(c->scene, c->left, &c->pose);
+  c->pose.transforms = right_pose;
+  if (!r) r = nook_scene_set_pose(c->scene, c->right, &c->pose);
   if (!r) r = nook_scene_update(c->scene);
-  if (!r) r = nook_scene_read_ao(c->scene, c->left, ao, vertex_count, 0);
+  if (!r) r = nook_scene_read(c->scene, c->left, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, ao, vertex_count, 0);
   return r;
 }
 
 /* ---- 3. At the end, in any order ---- */
 static void stop(Character* c) {
   nook_scene_destroy(&c->scene);
-  nook_character_model_destroy(&c->model);
+  nook_model_destroy(&c->model);
   nook_context_destroy(&c->context);
 }
 
 /* The other instance comes nearer from frame to frame, and the mean AO falls. */
 static nook_result approach(Character* c) {
   static const float distances_m[] = {4.0F, 2.0F, 1.0F, 0.6F};
-  nook_character_model_info info;
+  nook_model_info info;
   nook_result r;
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
-  r = nook_character_model_describe(c->model, &info);
+  r = nook_model_describe(c->model, &info);
   if (r) return r;
   printf("%u vertices, %u bones, %u spheres, %u key points\n", (unsigned)info.file_vertex_count,
          (unsigned)info.bone_count, (unsigned)info.sphere_count, (unsigned)info.key_point_count);
@@ -119,10 +127,11 @@ static nook_result approach(Character* c) {
 }
 
 int main(int argc, char** argv) {
-  Character character = {NULL, NULL, NULL, 0, 0};
+  Character character;
   size_t size = 0;
   void* bytes;
   nook_result result;
+  memset(&character, 0, sizeof character);
   if (argc != 2) {
     fputs("usage: minimal MODEL.nook\n", stderr);
     return 2;

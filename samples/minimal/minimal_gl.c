@@ -6,7 +6,7 @@
 /* ---- 1. Once for each OpenGL context ---- */
 nook_result minimal_gl_start(nook_context context, nook_gl_proc_fn get_proc, void* user, nook_gl* gl) {
   nook_gl_desc desc;
-  nook_result r = nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION);
+  nook_result r = nook_gl_desc_init(&desc);
   if (r) return r;
   desc.get_proc = get_proc; /* for example a wrapper of glfwGetProcAddress */
   desc.get_proc_user = user;

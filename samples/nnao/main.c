@@ -7,6 +7,7 @@
  * An engine needs the first three marked regions, and the fourth for reports of wrong pictures. The rest of
  * this file, room.c and samples/offscreen stand in for the engine. */
 #include <math.h>
+#include <nook/experimental/nook_recording.h>
 #include <nook/nook_nnao.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -124,12 +125,12 @@ static nook_result start_pass(Pass* p) {
   nook_context_desc context_desc;
   nook_gl_desc gl_desc;
   nook_nnao_desc nnao_desc;
-  nook_result r = nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION);
+  nook_result r = nook_context_desc_init(&context_desc);
   if (!r) r = nook_context_create(&context_desc, &p->context);
-  if (!r) r = nook_gl_desc_init(&gl_desc, sizeof gl_desc, NOOK_VERSION);
+  if (!r) r = nook_gl_desc_init(&gl_desc);
   gl_desc.get_proc = offscreen_proc;
   if (!r) r = nook_gl_create(p->context, &gl_desc, &p->gl);
-  if (!r) r = nook_nnao_desc_init(&nnao_desc, sizeof nnao_desc, NOOK_VERSION);
+  if (!r) r = nook_nnao_desc_init(&nnao_desc);
   nnao_desc.max_width = width;
   nnao_desc.max_height = height;
   if (!r) r = nook_nnao_create(p->gl, &nnao_desc, &p->nnao);
@@ -137,38 +138,42 @@ static nook_result start_pass(Pass* p) {
 }
 
 /* ---- 2. Each frame, after depth has been drawn ---- */
-static nook_result describe_frame(const Engine* e, float radius_m, nook_nnao_frame_desc* frame) {
-  nook_result r = nook_nnao_frame_desc_init(frame, sizeof *frame, NOOK_VERSION);
+static nook_result describe_frame(const Engine* e, float radius_m, nook_gl_frame_desc* frame,
+                                  nook_nnao_frame_desc* desc) {
+  nook_result r = nook_gl_frame_desc_init(frame);
+  if (!r) r = nook_nnao_frame_desc_init(desc);
   if (r) return r;
   frame->width = width;
   frame->height = height;
   frame->depth_texture = e->depth;
   memcpy(frame->projection, e->projection, sizeof frame->projection);
-  frame->radius = radius_m;
+  desc->radius = radius_m;
   return NOOK_OK;
 }
 
 /* Returns in *ao the texture that the lighting reads. */
 static nook_result run_pass(Pass* p, const Engine* e, float radius_m, GLuint* ao) {
-  nook_nnao_frame_desc frame;
+  nook_gl_frame_desc frame;
+  nook_nnao_frame_desc desc;
   nook_nnao_info info = {0};
-  nook_result r = describe_frame(e, radius_m, &frame);
+  nook_result r = describe_frame(e, radius_m, &frame, &desc);
   if (r) return r;
-  r = nook_nnao_render(p->nnao, &frame);
+  r = nook_nnao_render(p->nnao, &frame, &desc);
   info.struct_size = sizeof info;
   if (!r) r = nook_nnao_describe(p->nnao, &info);
   *ao = info.texture;
   return r;
 }
 
-/* Writes the AO alone over the colours, which is what NOOK_NNAO_TARGET_TEXTURE is for. */
+/* Writes the AO alone over the colours, which is what NOOK_TARGET_TEXTURE is for. */
 static nook_result show_ao(Pass* p, const Engine* e, float radius_m) {
-  nook_nnao_frame_desc frame;
-  nook_result r = describe_frame(e, radius_m, &frame);
+  nook_gl_frame_desc frame;
+  nook_nnao_frame_desc desc;
+  nook_result r = describe_frame(e, radius_m, &frame, &desc);
   if (r) return r;
-  frame.target = NOOK_NNAO_TARGET_TEXTURE;
+  frame.target = NOOK_TARGET_TEXTURE;
   frame.target_name = e->colour;
-  return nook_nnao_render(p->nnao, &frame);
+  return nook_nnao_render(p->nnao, &frame, &desc);
 }
 
 /* ---- 3. At the end, in any order ---- */
@@ -180,10 +185,11 @@ static void stop_pass(Pass* p) {
 
 /* ---- 4. When a picture is wrong: the frame in a file, for nook evaluate nnao --frame ---- */
 static nook_result record_frame(Pass* p, const Engine* e, float radius_m, void** bytes, size_t* size) {
-  nook_nnao_frame_desc frame;
+  nook_gl_frame_desc frame;
+  nook_nnao_frame_desc desc;
   nook_nnao_recording recording = NULL;
-  nook_result r = describe_frame(e, radius_m, &frame);
-  if (!r) r = nook_nnao_record(p->nnao, &frame, "the room of samples/nnao", &recording);
+  nook_result r = describe_frame(e, radius_m, &frame, &desc);
+  if (!r) r = nook_nnao_record(p->nnao, &frame, &desc, "the room of samples/nnao", &recording);
   if (!r) r = nook_nnao_recording_save(recording, NULL, size);
   if (!r) *bytes = malloc(*size);
   if (!r && *bytes) r = nook_nnao_recording_save(recording, *bytes, size);

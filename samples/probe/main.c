@@ -8,7 +8,8 @@
  * grows from left to right. The character has the directional occlusion that its model gives under the same
  * lobes. An engine needs the marked regions, here and in shapes.c. */
 #include <math.h>
-#include <nook/nook_gl_probe.h>
+#include <nook/experimental/nook_sg.h>
+#include <nook/nook_gl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -55,9 +56,9 @@ typedef struct Light {
   nook_context context;
   nook_gl gl;
   nook_probe probe;
-  nook_gl_probe uploaded;
-  nook_gl_probe_info info;
-  nook_probe_lobe lobes[NOOK_PROBE_MAX_FUNCTIONS];
+  nook_gl_upload uploaded;
+  nook_gl_upload_info info;
+  nook_lobe lobes[NOOK_PROBE_MAX_FUNCTIONS];
   unsigned lobe_count;
 } Light;
 
@@ -66,9 +67,9 @@ static nook_result start_light(Light* l, const void* bytes, size_t size) {
   nook_context_desc context_desc;
   nook_gl_desc gl_desc;
   nook_probe_info info;
-  nook_result r = nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION);
+  nook_result r = nook_context_desc_init(&context_desc);
   if (!r) r = nook_context_create(&context_desc, &l->context);
-  if (!r) r = nook_gl_desc_init(&gl_desc, sizeof gl_desc, NOOK_VERSION);
+  if (!r) r = nook_gl_desc_init(&gl_desc);
   gl_desc.get_proc = offscreen_proc;
   if (!r) r = nook_gl_create(l->context, &gl_desc, &l->gl);
   if (!r) r = nook_probe_load(l->context, bytes, size, &l->probe);
@@ -77,15 +78,15 @@ static nook_result start_light(Light* l, const void* bytes, size_t size) {
   if (!r) r = nook_probe_describe(l->probe, &info);
   if (!r) r = nook_probe_read_lobes(l->probe, NULL, l->lobes, info.function_count);
   l->lobe_count = info.function_count;
-  if (!r) r = nook_gl_probe_create(l->gl, l->probe, &l->uploaded);
+  if (!r) r = nook_gl_upload_probe(l->gl, l->probe, NOOK_GL_PROBE_LOBES, &l->uploaded);
   l->info.struct_size = sizeof l->info;
-  if (!r) r = nook_gl_probe_describe(l->uploaded, &l->info);
+  if (!r) r = nook_gl_upload_describe(l->uploaded, &l->info);
   return r;
 }
 
 /* ---- At the end, in any order ---- */
 static void stop_light(Light* l) {
-  nook_gl_probe_destroy(&l->uploaded);
+  nook_gl_upload_destroy(&l->uploaded);
   nook_probe_destroy(&l->probe);
   nook_gl_destroy(&l->gl);
   nook_context_destroy(&l->context);
@@ -97,7 +98,7 @@ static float exposure_for(const Light* l) {
   float sum = 0;
   for (unsigned i = 0; i < l->lobe_count; ++i) {
     float rgb[3] = {0, 0, 0};
-    nook_probe_lobe_integral(&l->lobes[i], rgb);
+    nook_sg_integral(&l->lobes[i], rgb);
     sum += (rgb[0] + rgb[1] + rgb[2]) / (3 * 4 * 3.14159265F);
   }
   return sum > 0 ? 1.4F / sum : 1;
@@ -160,10 +161,7 @@ static void draw_all(GLuint program, const Light* l, const Shape* sphere, const 
   const float tall = 1 / tanf(0.5F * 0.3F);
   const Material sky = {{0, 0, 0}, 1, 0, 1};
   const GLuint sphere_array = drawable(sphere);
-  glUseProgram(program);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_BUFFER, l->info.texture);
-  glUniform1i(glGetUniformLocation(program, "nook_probe_texels"), 0);
+  if (nook_gl_upload_bind(l->uploaded, program, 0)) fprintf(stderr, "%s\n", nook_last_message());
   glUniform2f(glGetUniformLocation(program, "scale"), tall * height / width, tall);
   glUniform3fv(glGetUniformLocation(program, "eye_ws"), 1, eye);
   glUniform1f(glGetUniformLocation(program, "exposure"), exposure_for(l));

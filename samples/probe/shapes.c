@@ -1,7 +1,7 @@
 #include "samples/probe/shapes.h"
 
 #include <math.h>
-#include <nook/nook_bake_character.h>
+#include <nook/nook_bake.h>
 #include <nook/nook_character.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -82,46 +82,62 @@ static nook_result pose_character(Shape* shape, nook_bake_character character,
   if (!r)
     r = nook_bake_character_skin(character, bones, info->bone_count, shape->position, shape->normal,
                                  info->file_vertex_count);
-  if (!r) r = nook_bake_character_read_triangles(character, shape->index, (unsigned)shape->index_count);
+  if (!r)
+    r = nook_bake_character_read(character, NOOK_BAKE_ARRAY_TRIANGLES, shape->index, info->triangle_count, 0);
   return r;
 }
 
 /* ---- What an engine does: the light, the pose, the update ---- */
 static nook_result occlude(Shape* shape, nook_context context, const void* model_bytes, size_t model_size,
-                           const float* bones, unsigned bone_count, const nook_probe_lobe* lobes,
+                           const float* bones, unsigned bone_count, const nook_lobe* lobes,
                            unsigned lobe_count) {
   const float ground[4] = {0, 1, 0, 0};
-  nook_character_model model = NULL;
+  nook_model model = NULL;
   nook_scene scene = NULL;
   nook_scene_desc desc;
+  nook_pose_desc pose;
   nook_instance_id id = 0;
-  nook_result r = nook_character_model_load(context, model_bytes, model_size, &model);
-  if (!r) r = nook_scene_desc_init(&desc, sizeof desc, NOOK_VERSION);
+  nook_result r = nook_model_load(context, model_bytes, model_size, &model);
+  if (!r) r = nook_scene_desc_init(&desc);
   if (!r) r = nook_scene_create(context, &desc, &scene);
   if (!r) r = nook_scene_add_instance(scene, model, &id);
   if (!r) r = nook_scene_set_ground(scene, id, ground);
   if (!r) r = nook_scene_set_light(scene, id, lobes, lobe_count);
-  if (!r) r = nook_scene_set_pose(scene, id, bones, bone_count);
+  if (!r) r = nook_pose_desc_init(&pose);
+  if (!r) {
+    pose.kind = NOOK_POSE_REST_TO_WORLD;
+    pose.layout = NOOK_TRANSFORM_ROWS_3X4;
+    pose.transforms = bones;
+    pose.transform_count = bone_count;
+    r = nook_scene_set_pose(scene, id, &pose);
+  }
   if (!r) r = nook_scene_update(scene);
-  if (!r) r = nook_scene_read_directional_ao(scene, id, shape->occlusion, (unsigned)shape->vertex_count, 0);
+  if (!r)
+    r = nook_scene_read(scene, id, NOOK_CHANNEL_DIRECTIONAL_AO, NOOK_FORMAT_FLOAT, shape->occlusion,
+                        (unsigned)shape->vertex_count, 0);
   nook_scene_destroy(&scene);
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
   return r;
 }
 
 int character_make(Shape* shape, nook_context context, const char* glb_path, const char* model_path,
-                   const nook_probe_lobe* lobes, unsigned lobe_count) {
+                   const nook_lobe* lobes, unsigned lobe_count) {
   size_t model_size = 0;
   unsigned char* const model_bytes = read_bytes(model_path, &model_size);
+  nook_bake_source_desc source;
   nook_bake_character character = NULL;
   nook_bake_character_info info;
   float* bones = NULL;
   int made = 0;
+  nook_result r;
   memset(&info, 0, sizeof info);
   memset(shape, 0, sizeof *shape);
   info.struct_size = sizeof info;
   if (!model_bytes) return 0;
-  if (nook_bake_import_gltf(glb_path, &character) || nook_bake_character_describe(character, &info)) {
+  r = nook_bake_source_desc_init(&source);
+  source.path = glb_path;
+  if (r || nook_bake_character_create(&source, &character) ||
+      nook_bake_character_describe(character, &info)) {
     fprintf(stderr, "%s\n", nook_bake_last_message());
   } else if ((bones = malloc((size_t)info.bone_count * 12 * sizeof *bones)) == NULL ||
              !shape_allocate(shape, (int)info.file_vertex_count, (int)(3 * info.triangle_count), 1)) {

@@ -18,7 +18,7 @@ int sphere_make(Shape* shape);
 /* Makes a character in the middle of its file's first clip, on the ground plane y = 0, with the directional
  * occlusion that its model gives under the lobes. Returns 0 on failure and prints the reason to stderr. */
 int character_make(Shape* shape, nook_context context, const char* glb_path, const char* model_path,
-                   const nook_probe_lobe* lobes, unsigned lobe_count);
+                   const nook_lobe* lobes, unsigned lobe_count);
 void shape_free(Shape* shape);
 
 /* Reads a whole file, which the caller frees. Returns NULL on failure and prints the reason to stderr. */

@@ -6,7 +6,8 @@
  * light of all probes: so light that comes in through the window spreads from wall to wall. FRAMES, 240 by
  * default, is the length of the day; the picture has four times of it. An engine needs the marked regions. */
 #include <math.h>
-#include <nook/nook_gl_probe.h>
+#include <nook/experimental/nook_capture.h>
+#include <nook/nook_gl.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -79,11 +80,11 @@ static const float first_probe[3] = {-2.1F, 0.95F, -1.6F}, spacing[3] = {1.4F, 1
 typedef struct Light {
   nook_context context;
   nook_gl gl;
-  nook_gl_probe lobes;     /* for glossy surfaces */
-  nook_gl_probe_grid grid; /* for matt ones */
-  nook_gl_probe_capture capture;
-  nook_gl_probe_info lobes_info;
-  nook_gl_probe_grid_info grid_info;
+  nook_gl_upload lobes; /* for glossy surfaces */
+  nook_gl_upload grid;  /* for matt ones */
+  nook_gl_capture capture;
+  nook_gl_upload_info lobes_info;
+  nook_gl_upload_info grid_info;
 } Light;
 
 static nook_result black_grid(nook_context context, nook_probe* out) {
@@ -91,10 +92,10 @@ static nook_result black_grid(nook_context context, nook_probe* out) {
   nook_probe_fit_desc fit_desc;
   nook_probe_desc desc;
   nook_probe_fit functions = NULL;
-  nook_result r = nook_probe_fit_desc_init(&fit_desc, sizeof fit_desc, NOOK_VERSION);
+  nook_result r = nook_probe_fit_desc_init(&fit_desc);
   fit_desc.lobe_count = 12;
   if (!r) r = nook_probe_fit_create(context, &fit_desc, &functions);
-  if (!r) r = nook_probe_desc_init(&desc, sizeof desc, NOOK_VERSION);
+  if (!r) r = nook_probe_desc_init(&desc);
   if (!r) {
     desc.functions = functions;
     desc.counts[0] = across;
@@ -112,49 +113,44 @@ static nook_result black_grid(nook_context context, nook_probe* out) {
 static nook_result start_light(Light* l) {
   nook_context_desc context_desc;
   nook_gl_desc gl_desc;
-  nook_gl_probe_capture_desc capture_desc;
+  nook_gl_capture_desc capture_desc;
   nook_probe probe = NULL;
-  nook_result r = nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION);
+  nook_result r = nook_context_desc_init(&context_desc);
   if (!r) r = nook_context_create(&context_desc, &l->context);
-  if (!r) r = nook_gl_desc_init(&gl_desc, sizeof gl_desc, NOOK_VERSION);
+  if (!r) r = nook_gl_desc_init(&gl_desc);
   gl_desc.get_proc = offscreen_proc;
   if (!r) r = nook_gl_create(l->context, &gl_desc, &l->gl);
   if (!r) r = black_grid(l->context, &probe);
-  if (!r) r = nook_gl_probe_create(l->gl, probe, &l->lobes);
-  if (!r) r = nook_gl_probe_grid_create(l->gl, probe, NOOK_GL_PROBE_GRID_HARMONICS, &l->grid);
+  if (!r) r = nook_gl_upload_probe(l->gl, probe, NOOK_GL_PROBE_LOBES, &l->lobes);
+  if (!r) r = nook_gl_upload_probe(l->gl, probe, NOOK_GL_PROBE_SH, &l->grid);
   nook_probe_destroy(&probe);
-  if (!r) r = nook_gl_probe_capture_desc_init(&capture_desc, sizeof capture_desc, NOOK_VERSION);
+  if (!r) r = nook_gl_capture_desc_init(&capture_desc);
   if (!r) {
     capture_desc.probe = l->lobes;
     capture_desc.grid = l->grid;
     capture_desc.face_size_px = face_size;
-    r = nook_gl_probe_capture_create(l->gl, &capture_desc, &l->capture);
+    r = nook_gl_capture_create(l->gl, &capture_desc, &l->capture);
   }
   l->lobes_info.struct_size = sizeof l->lobes_info;
   l->grid_info.struct_size = sizeof l->grid_info;
-  if (!r) r = nook_gl_probe_describe(l->lobes, &l->lobes_info);
-  if (!r) r = nook_gl_probe_grid_describe(l->grid, &l->grid_info);
+  if (!r) r = nook_gl_upload_describe(l->lobes, &l->lobes_info);
+  if (!r) r = nook_gl_upload_describe(l->grid, &l->grid_info);
   return r;
 }
 
 /* ---- At the end, in any order ---- */
 static void stop_light(Light* l) {
-  nook_gl_probe_capture_destroy(&l->capture);
-  nook_gl_probe_grid_destroy(&l->grid);
-  nook_gl_probe_destroy(&l->lobes);
+  nook_gl_capture_destroy(&l->capture);
+  nook_gl_upload_destroy(&l->grid);
+  nook_gl_upload_destroy(&l->lobes);
   nook_gl_destroy(&l->gl);
   nook_context_destroy(&l->context);
 }
 
 /* ---- In each draw: both textures ---- */
 static void bind_light(const Light* l, GLuint program) {
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_BUFFER, l->lobes_info.texture);
-  glUniform1i(glGetUniformLocation(program, "nook_probe_texels"), 0);
-  glActiveTexture(GL_TEXTURE1);
-  glBindTexture(GL_TEXTURE_3D, l->grid_info.texture);
-  glUniform1i(glGetUniformLocation(program, "nook_grid_texels"), 1);
-  glUniform4fv(glGetUniformLocation(program, "nook_grid_frame"), 4, l->grid_info.frame);
+  if (nook_gl_upload_bind(l->lobes, program, 0) || nook_gl_upload_bind(l->grid, program, 1))
+    fprintf(stderr, "%s\n", nook_last_message());
 }
 
 /* ---- The rest stands in for the engine ---- */
@@ -280,7 +276,7 @@ static nook_result relight_probe(const Engine* e, const Light* l, const Sun* sun
     project(camera, 1, 1);
     draw_room(e, l, sun, camera, eye, 0);
   }
-  return nook_gl_probe_capture_add(l->capture, index, e->cube);
+  return nook_gl_capture_add(l->capture, index, e->cube, 0);
 }
 
 static GLuint program_of(const Light* l) {

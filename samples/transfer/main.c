@@ -6,8 +6,9 @@
  * `nook bake material --meso fiber -o MATERIAL.nook` makes a material. The map is a sky with a window of
  * bright cloud, made here. An engine needs the marked regions. */
 #include <math.h>
-#include <nook/nook_bake_transfer.h>
-#include <nook/nook_gl_transfer.h>
+#include <nook/experimental/nook_bake_materials.h>
+#include <nook/experimental/nook_transfer.h>
+#include <nook/nook_gl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,9 +50,8 @@ typedef struct App {
   nook_context context;
   nook_gl gl;
   nook_material material;
-  nook_gl_material textures;
+  nook_gl_upload textures;
   nook_transfer transfer;
-  nook_transfer_fit fit;
   nook_transfer_light light;
   nook_transfer_response response;
   nook_gl_transfer uploaded;
@@ -70,7 +70,7 @@ static int ok(nook_result result, const char* message) {
 /* ---- Offline: `nook bake transfer` does the same from a .glb file ---- */
 static int bake(const Shape* shape, nook_bake_job* job) {
   nook_bake_transfer_desc desc;
-  nook_result r = nook_bake_transfer_desc_init(&desc, sizeof desc, NOOK_VERSION);
+  nook_result r = nook_bake_transfer_desc_init(&desc);
   desc.positions = shape->position;
   desc.normals = shape->normal;
   desc.uvs = shape->uv;
@@ -78,33 +78,32 @@ static int bake(const Shape* shape, nook_bake_job* job) {
   desc.vertex_count = shape->vertex_count;
   desc.index_count = shape->index_count;
   desc.lobes = lobes;
-  if (!r) r = nook_bake_transfer_start(&desc, job);
+  if (!r) r = nook_bake_start_transfer(&desc, job);
   if (!r) r = nook_bake_job_wait(*job);
   return ok(r, nook_bake_last_message());
 }
 
-/* ---- Once: the material, the baked shape, the lobes' fit, the response ---- */
+/* ---- Once: the material, the baked shape, the response ---- */
 static int start(App* a, const void* material, size_t material_size, const void* baked, size_t baked_size) {
   nook_context_desc context_desc;
   nook_gl_desc gl_desc;
   nook_transfer_response_desc response_desc;
   nook_transfer_response_info info;
   nook_transfer_info shape;
-  nook_result r = nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION);
+  nook_result r = nook_context_desc_init(&context_desc);
   memset(&info, 0, sizeof info);
   memset(&shape, 0, sizeof shape);
   info.struct_size = sizeof info;
   shape.struct_size = sizeof shape;
   if (!r) r = nook_context_create(&context_desc, &a->context);
-  if (!r) r = nook_gl_desc_init(&gl_desc, sizeof gl_desc, NOOK_VERSION);
+  if (!r) r = nook_gl_desc_init(&gl_desc);
   gl_desc.get_proc = offscreen_proc;
   if (!r) r = nook_gl_create(a->context, &gl_desc, &a->gl);
-  if (!r) r = nook_material_load(a->context, material, material_size, &a->material);
-  if (!r) r = nook_gl_material_create(a->gl, a->material, NULL, &a->textures);
+  if (!r) r = nook_material_load(a->context, material, material_size, NULL, &a->material);
+  if (!r) r = nook_gl_upload_material(a->gl, a->material, &a->textures);
   if (!r) r = nook_transfer_load(a->context, baked, baked_size, &a->transfer);
   if (!r) r = nook_transfer_describe(a->transfer, &shape);
-  if (!r) r = nook_transfer_fit_create(a->context, lobes, &a->fit);
-  if (!r) r = nook_transfer_response_desc_init(&response_desc, sizeof response_desc, NOOK_VERSION);
+  if (!r) r = nook_transfer_response_desc_init(&response_desc);
   response_desc.material = a->material;
   response_desc.lobe_count = lobes;
   if (!r) r = nook_transfer_response_create(a->context, &response_desc, &a->response);
@@ -123,12 +122,18 @@ static int start(App* a, const void* material, size_t material_size, const void*
 /* ---- When the light or the shape turns ---- */
 static int relight(App* a, uint32_t vertex_count, int with_shadows) {
   const size_t floats = (size_t)vertex_count * a->vector_floats;
-  nook_result r = nook_transfer_fit_light(a->fit, a->light, NULL, a->amplitudes, lobes, NULL);
-  if (!r && with_shadows)
-    r = nook_transfer_vectors(a->transfer, a->response, a->amplitudes, lobes, 0, vertex_count, a->vectors, 0);
-  if (!r && !with_shadows)
-    r = nook_transfer_open_vectors(a->response, a->amplitudes, lobes, a->normals, a->tangents, vertex_count,
-                                   a->vectors, 0);
+  nook_transfer_vectors_desc desc;
+  nook_result r = nook_transfer_light_project(a->light, lobes, NULL, a->amplitudes, NULL);
+  if (!r) r = nook_transfer_vectors_desc_init(&desc);
+  desc.amplitudes = a->amplitudes;
+  desc.lobe_count = lobes;
+  if (with_shadows) {
+    desc.transfer = a->transfer;
+  } else {
+    desc.normals = a->normals;
+    desc.tangents = a->tangents;
+  }
+  if (!r) r = nook_transfer_read_vectors(a->response, &desc, a->vectors, vertex_count, 0);
   if (!r) r = nook_gl_transfer_update(a->uploaded, a->vectors, floats);
   return ok(r, nook_last_message());
 }
@@ -138,9 +143,8 @@ static void stop(App* a) {
   nook_gl_transfer_destroy(&a->uploaded);
   nook_transfer_response_destroy(&a->response);
   nook_transfer_light_destroy(&a->light);
-  nook_transfer_fit_destroy(&a->fit);
   nook_transfer_destroy(&a->transfer);
-  nook_gl_material_destroy(&a->textures);
+  nook_gl_upload_destroy(&a->textures);
   nook_material_destroy(&a->material);
   nook_gl_destroy(&a->gl);
   nook_context_destroy(&a->context);
@@ -153,8 +157,8 @@ static void stop(App* a) {
 /* A sky that is brighter at its top, a brown ground, and a bright window. */
 static int make_light(App* a) {
   float* const rgb = malloc(3 * (size_t)map_width * map_height * sizeof *rgb);
-  nook_transfer_map_desc desc;
-  nook_result r = nook_transfer_map_desc_init(&desc, sizeof desc, NOOK_VERSION);
+  nook_transfer_light_desc desc;
+  nook_result r = nook_transfer_light_desc_init(&desc);
   if (!rgb) return 0;
   for (int row = 0; row < map_height; ++row)
     for (int column = 0; column < map_width; ++column) {
@@ -170,7 +174,7 @@ static int make_light(App* a) {
   desc.rgb = rgb;
   desc.width = map_width;
   desc.height = map_height;
-  if (!r) r = nook_transfer_light_create_map(a->context, &desc, &a->light);
+  if (!r) r = nook_transfer_light_create(a->context, &desc, &a->light);
   free(rgb);
   return ok(r, nook_last_message());
 }
@@ -211,12 +215,13 @@ static char* joined(const char* a, const char* b, const char* c, const char* d) 
 static GLuint make_program(const App* a) {
   static const float eye[3] = {0.85F, 1.35F, 1.75F}, centre[3] = {0, 0.04F, 0};
   const float tall = 1 / tanf(0.5F * 0.75F);
-  nook_gl_material_info material = {sizeof material, 0, 0, NULL};
+  nook_gl_upload_info material = {0};
   nook_gl_transfer_info transfer = {sizeof transfer, 0, 0, NULL, 0, 0};
   char *vertex, *fragment;
   GLuint program;
   float forward[3], right[3], up[3], size = 0, flat;
-  if (nook_gl_material_describe(a->textures, &material) || nook_gl_transfer_describe(a->uploaded, &transfer))
+  material.struct_size = sizeof material;
+  if (nook_gl_upload_describe(a->textures, &material) || nook_gl_transfer_describe(a->uploaded, &transfer))
     return 0;
   vertex = joined(version_text, transfer.glsl, vertex_text, "");
   fragment = joined(version_text, material.glsl, transfer.glsl, fragment_text);
@@ -224,14 +229,7 @@ static GLuint make_program(const App* a) {
   free(vertex);
   free(fragment);
   if (!program) return 0;
-  glUseProgram(program);
-  for (uint32_t i = 0; i < material.texture_count; ++i) {
-    nook_gl_material_texture texture = {sizeof texture, 0, 0, NULL};
-    if (nook_gl_material_describe_texture(a->textures, i, &texture)) return 0;
-    glActiveTexture(GL_TEXTURE0 + i);
-    glBindTexture(texture.target, texture.texture);
-    glUniform1i(glGetUniformLocation(program, texture.uniform), (GLint)i);
-  }
+  if (nook_gl_upload_bind(a->textures, program, 0)) return 0;
   glActiveTexture(GL_TEXTURE0 + material.texture_count);
   glBindTexture(GL_TEXTURE_BUFFER, transfer.texture);
   glUniform1i(glGetUniformLocation(program, "nook_transfer_texels"), (GLint)material.texture_count);
@@ -333,7 +331,7 @@ int main(int argc, char** argv) {
     free(bytes);
     return 1;
   }
-  if (shape_make(&shape) && bake(&shape, &job) && !nook_bake_job_model(job, &baked, &baked_size) &&
+  if (shape_make(&shape) && bake(&shape, &job) && !nook_bake_job_file(job, &baked, &baked_size) &&
       start(&app, bytes, size, baked, baked_size) && make_light(&app)) {
     const GLuint colour =
         offscreen_texture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 2 * width * across, height * across);

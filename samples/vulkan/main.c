@@ -7,7 +7,7 @@
  * mean of AO over four frames.
  *
  * An engine needs nook_vulkan.h and the marked regions. engine.h stands in for the engine. */
-#include <nook/nook_nnao_recording.h>
+#include <nook/experimental/nook_recording.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,11 +35,11 @@ typedef struct Pass {
 static VkResult start_pass(Pass* p, const engine* e, const Settings* s) {
   const nook_vulkan_inputs inputs = {.depth = e->depth.view, .normal = e->normal.view};
   nook_context_desc context_desc;
-  nook_result r = nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION);
+  nook_result r = nook_context_desc_init(&context_desc);
   if (!r) r = nook_context_create(&context_desc, &p->context);
-  if (!r) r = nook_nnao_desc_init(&p->desc, sizeof p->desc, NOOK_VERSION);
+  if (!r) r = nook_nnao_desc_init(&p->desc);
   if (!r) r = nook_nnao_desc_set_preset(&p->desc, s->preset);
-  p->desc.temporal_frames = s->mean ? frames_of_mean : 0;
+  p->desc.max_history_frames = s->mean ? frames_of_mean : 0;
   p->desc.max_width = e->width;
   p->desc.max_height = e->height;
   if (r) return VK_ERROR_UNKNOWN;
@@ -53,16 +53,17 @@ static void rotation(const float view[16], float out[9]) {
 
 /* ---- 2. Each frame, after depth has been drawn ---- */
 static VkResult record_pass(Pass* p, const engine* e, const Settings* s) {
-  nook_nnao_frame_desc frame;
-  if (nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION)) return VK_ERROR_UNKNOWN;
+  nook_gl_frame_desc frame;
+  nook_nnao_frame_desc desc;
+  if (nook_gl_frame_desc_init(&frame) || nook_nnao_frame_desc_init(&desc)) return VK_ERROR_UNKNOWN;
   frame.width = e->width;
   frame.height = e->height;
-  frame.clip = NOOK_NNAO_CLIP_ZERO_TO_ONE;
+  frame.clip_space = NOOK_CLIP_SPACE_ZERO_TO_ONE;
   memcpy(frame.projection, e->projection, sizeof frame.projection);
-  frame.radius = s->radius_m;
+  desc.radius = s->radius_m;
   frame.normal_texture = s->normals ? 1 : 0; /* 0: normals that follow from depth */
   rotation(e->view, frame.normal_matrix);
-  return nook_vulkan_record(&p->vulkan, e->commands, &frame);
+  return nook_vulkan_record(&p->vulkan, e->commands, &frame, &desc);
 }
 
 /* ---- 3. At the end, when no frame is running ---- */
@@ -81,14 +82,14 @@ static nook_result record_frame(const Pass* p, const engine* e, float radius_m, 
                                 void** bytes, size_t* size) {
   nook_nnao_recording_desc desc;
   nook_nnao_recording recording = NULL;
-  nook_result r = nook_nnao_recording_desc_init(&desc, sizeof desc, NOOK_VERSION);
+  nook_result r = nook_nnao_recording_desc_init(&desc);
   desc.width = e->width;
   desc.height = e->height;
   desc.depth = texels->depth;
   desc.normals = texels->normals;
   rotation(e->view, desc.normal_matrix);
-  desc.ao = p->desc.temporal_frames ? NULL : texels->ao; /* a recording is one frame */
-  desc.clip = NOOK_NNAO_CLIP_ZERO_TO_ONE;
+  desc.ao = p->desc.max_history_frames ? NULL : texels->ao; /* a recording is one frame */
+  desc.clip = NOOK_CLIP_SPACE_ZERO_TO_ONE;
   memcpy(desc.projection, e->projection, sizeof desc.projection);
   desc.radius = radius_m;
   desc.taps = p->desc.taps;

@@ -5,7 +5,7 @@
 
 #include "samples/vulkan/spirv.h"
 
-/* The bindings of nook_nnao_stages.h, and the places of both blocks in one buffer: 1024 is a multiple of
+/* The bindings of nook_stages.h, and the places of both blocks in one buffer: 1024 is a multiple of
  * every device's alignment. */
 enum { first_image = 2, bindings = first_image + NOOK_NNAO_STAGE_MAX_INPUTS, network_offset = 1024 };
 
@@ -52,7 +52,7 @@ static VkFormat vulkan_format(nook_nnao_format format) {
 
 static VkResult describe_image(const nook_vulkan* v, nook_nnao_image which, nook_nnao_image_info* info) {
   info->struct_size = sizeof *info;
-  return from_nook(nook_nnao_stages_image(v->stages, which, info));
+  return from_nook(nook_nnao_stages_describe_image(v->stages, which, info));
 }
 
 /* Stages write each image as a colour attachment and read it as a texture. */
@@ -88,11 +88,11 @@ static VkResult make_image(nook_vulkan* v, nook_nnao_image which) {
 
 /* The images whose contents outlive a frame change their places in every second one. */
 static const nook_vulkan_image* image_of(const nook_vulkan* v, nook_nnao_image which, int odd) {
-  const int swaps = odd && v->images[NOOK_NNAO_IMAGE_EARLIER_MEAN].image;
-  if (swaps && (which == NOOK_NNAO_IMAGE_DEPTH || which == NOOK_NNAO_IMAGE_EARLIER_DEPTH))
-    which = NOOK_NNAO_IMAGE_DEPTH + NOOK_NNAO_IMAGE_EARLIER_DEPTH - which;
-  else if (swaps && (which == NOOK_NNAO_IMAGE_MEAN || which == NOOK_NNAO_IMAGE_EARLIER_MEAN))
-    which = NOOK_NNAO_IMAGE_MEAN + NOOK_NNAO_IMAGE_EARLIER_MEAN - which;
+  const int swaps = odd && v->images[NOOK_NNAO_IMAGE_HISTORY_AO].image;
+  if (swaps && (which == NOOK_NNAO_IMAGE_DEPTH || which == NOOK_NNAO_IMAGE_HISTORY_DEPTH))
+    which = NOOK_NNAO_IMAGE_DEPTH + NOOK_NNAO_IMAGE_HISTORY_DEPTH - which;
+  else if (swaps && (which == NOOK_NNAO_IMAGE_ACCUMULATED_AO || which == NOOK_NNAO_IMAGE_HISTORY_AO))
+    which = NOOK_NNAO_IMAGE_ACCUMULATED_AO + NOOK_NNAO_IMAGE_HISTORY_AO - which;
   return &v->images[which];
 }
 
@@ -281,7 +281,7 @@ static VkResult make_set(nook_vulkan* v, nook_vulkan_stage* stage, const nook_vu
 static VkResult make_stage(nook_vulkan* v, uint32_t index, const nook_vulkan_inputs* inputs) {
   nook_vulkan_stage* const stage = &v->stage[index];
   stage->info.struct_size = sizeof stage->info;
-  VkResult r = from_nook(nook_nnao_stages_stage(v->stages, index, &stage->info));
+  VkResult r = from_nook(nook_nnao_stages_describe_stage(v->stages, index, &stage->info));
   if (!r) r = make_render_pass(v, stage);
   if (!r) r = make_pipeline(v, stage);
   for (int odd = 0; !r && odd < 2; ++odd) {
@@ -374,10 +374,11 @@ static void record_stage(const nook_vulkan* v, const nook_vulkan_stage* stage, V
   vkCmdEndRenderPass(commands);
 }
 
-VkResult nook_vulkan_record(nook_vulkan* pass, VkCommandBuffer commands, const nook_nnao_frame_desc* frame) {
+VkResult nook_vulkan_record(nook_vulkan* pass, VkCommandBuffer commands, const nook_gl_frame_desc* frame,
+                            const nook_nnao_frame_desc* desc) {
   nook_nnao_frame_values values;
   values.struct_size = sizeof values;
-  if (nook_nnao_stages_frame(pass->stages, frame, pass->frames ? &pass->earlier : NULL, pass->frames, 0,
+  if (nook_nnao_stages_frame(pass->stages, frame, desc, pass->frames ? &pass->earlier : NULL, pass->frames, 0,
                              &values))
     return VK_ERROR_UNKNOWN;
   if (pass->frames == 0) record_first_layouts(pass, commands);

@@ -1,10 +1,10 @@
 /* Nook's screen-space pass in a Vulkan 1.1 host: images, pipelines and commands made of what
- * nook_nnao_stages.h hands out. Copy this header, nook_vulkan.c, and spirv.h with its source or your own
+ * nook_stages.h hands out. Copy this header, nook_vulkan.c, and spirv.h with its source or your own
  * compiler of GLSL. */
 #ifndef NOOK_VULKAN_H
 #define NOOK_VULKAN_H
 
-#include <nook/nook_nnao_stages.h>
+#include <nook/experimental/nook_stages.h>
 #include <vulkan/vulkan.h>
 
 /* Images of the host, of the size of its frames, which shaders may read without a filter. They are in
@@ -45,11 +45,11 @@ typedef struct nook_vulkan {
   VkPipelineLayout pipeline_layout;
   VkDescriptorPool descriptor_pool;
   VkShaderModule vertex_shader;
-  nook_nnao_frame_desc earlier;
+  nook_gl_frame_desc earlier;
   uint32_t frames;
 } nook_vulkan;
 
-/* Makes the objects of a pass. desc has no layers; it and the context may go afterwards. Returns
+/* Makes the objects of a pass. desc has no views; it and the context may go afterwards. Returns
  * VK_ERROR_UNKNOWN where Nook refuses, with the reason in nook_last_message(). On failure *pass is all 0. */
 VkResult nook_vulkan_create(VkPhysicalDevice physical, VkDevice device, nook_context context,
                             const nook_nnao_desc* desc, const nook_vulkan_inputs* inputs, nook_vulkan* pass);
@@ -57,9 +57,10 @@ VkResult nook_vulkan_create(VkPhysicalDevice physical, VkDevice device, nook_con
 /* Records the draws of a frame, outside of render passes. Frames follow each other on one queue. The host's
  * barriers stand before: the inputs are written, and visible to fragment shaders. Afterwards fragment shaders
  * may read images[NOOK_NNAO_IMAGE_TARGET], which is in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; outside of
- * the frame's viewport it keeps what it had. normal_texture and motion_texture of the frame are 1 where the
- * frame has these images. */
-VkResult nook_vulkan_record(nook_vulkan* pass, VkCommandBuffer commands, const nook_nnao_frame_desc* frame);
+ * the frame's viewport it keeps what it had. frame->normal_texture and desc->motion_vectors are 1 where
+ * the frame has these images. */
+VkResult nook_vulkan_record(nook_vulkan* pass, VkCommandBuffer commands, const nook_gl_frame_desc* frame,
+                            const nook_nnao_frame_desc* desc);
 
 /* Destroys what nook_vulkan_create made. No command of it may be running. */
 void nook_vulkan_destroy(nook_vulkan* pass);

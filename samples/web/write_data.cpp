@@ -5,8 +5,8 @@
 //   web_data CHARACTER.glb CHARACTER.nook FOLDER
 //
 // FOLDER/character.json names arrays in FOLDER/character.bin: type, offset in bytes, length.
-#include <nook/nook_bake_character.h>
-#include <nook/nook_bake_trace.h>
+#include <nook/experimental/nook_trace.h>
+#include <nook/nook_bake.h>
 #include <nook/nook_character.h>
 
 #include <algorithm>
@@ -76,7 +76,10 @@ std::vector<std::uint8_t> as_bytes(const std::vector<float>& values) {
 
 struct Character {
   explicit Character(const std::string& path) {
-    check_bake(nook_bake_import_gltf(path.c_str(), &handle));
+    nook_bake_source_desc desc;
+    check_bake(nook_bake_source_desc_init(&desc));
+    desc.path = path.c_str();
+    check_bake(nook_bake_character_create(&desc, &handle));
     info.struct_size = sizeof info;
     check_bake(nook_bake_character_describe(handle, &info));
   }
@@ -91,8 +94,8 @@ struct Character {
 
 std::vector<std::uint32_t> triangles_of(const Character& character) {
   std::vector<std::uint32_t> indices(3 * character.info.triangle_count);
-  check_bake(nook_bake_character_read_triangles(character.handle, indices.data(),
-                                                static_cast<std::uint32_t>(indices.size())));
+  check_bake(nook_bake_character_read(character.handle, NOOK_BAKE_ARRAY_TRIANGLES, indices.data(),
+                                      character.info.triangle_count, 0));
   return indices;
 }
 
@@ -100,8 +103,13 @@ void add_geometry(const Character& character, Arrays& arrays) {
   const std::uint32_t count = character.info.file_vertex_count;
   std::vector<float> positions(3 * count), normals(3 * count), weights(4 * count);
   std::vector<std::uint16_t> joints(4 * count);
-  check_bake(nook_bake_character_read_vertices(character.handle, positions.data(), normals.data(), count));
-  check_bake(nook_bake_character_read_skin(character.handle, joints.data(), weights.data(), count));
+  const auto read = [&](nook_bake_array array, void* out) {
+    check_bake(nook_bake_character_read(character.handle, array, out, count, 0));
+  };
+  read(NOOK_BAKE_ARRAY_POSITIONS, positions.data());
+  read(NOOK_BAKE_ARRAY_NORMALS, normals.data());
+  read(NOOK_BAKE_ARRAY_JOINTS, joints.data());
+  read(NOOK_BAKE_ARRAY_WEIGHTS, weights.data());
   arrays.add("positions", positions);
   arrays.add("normals", normals);
   arrays.add("joints", joints);
@@ -123,7 +131,7 @@ std::vector<float> trace(const Character& character, const std::vector<float>& b
       {positions.data(), body.data(), count, static_cast<std::uint32_t>(body.size())},
       {corners, halves, 4, 6}};
   nook_bake_trace_desc desc;
-  check_bake(nook_bake_trace_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  check_bake(nook_bake_trace_desc_init(&desc));
   desc.meshes = meshes;
   desc.mesh_count = 2;
   desc.positions = positions.data();
@@ -142,7 +150,7 @@ nlohmann::json add_clips(const Character& character, Arrays& arrays) {
     check_bake(nook_bake_character_clip_duration(character.handle, clip, &seconds));
     const auto count = static_cast<std::uint32_t>(std::max(1.f, std::round(seconds * frames_per_second)));
     const std::uint32_t middle = count / 2;
-    clips.push_back({{"name", nook_bake_character_clip_name(character.handle, clip)},
+    clips.push_back({{"name", nook_bake_character_name(character.handle, NOOK_BAKE_NAME_CLIP, clip)},
                      {"first_frame", frames.size() / (12 * character.info.bone_count)},
                      {"frames", count},
                      {"seconds", seconds},
@@ -169,13 +177,13 @@ void add_expected(const Character& character, const std::string& model_path, Arr
   nook_context_desc context_desc;
   nook_scene_desc scene_desc;
   nook_context context = nullptr;
-  nook_character_model model = nullptr;
+  nook_model model = nullptr;
   nook_scene scene = nullptr;
   nook_instance_id ids[2] = {};
-  check(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+  check(nook_context_desc_init(&context_desc));
   check(nook_context_create(&context_desc, &context));
-  check(nook_character_model_load(context, file.data(), file.size(), &model));
-  check(nook_scene_desc_init(&scene_desc, sizeof scene_desc, NOOK_VERSION));
+  check(nook_model_load(context, file.data(), file.size(), &model));
+  check(nook_scene_desc_init(&scene_desc));
   check(nook_scene_create(context, &scene_desc, &scene));
   const float ground[4] = {0, 1, 0, 0};
   std::vector<float> poses, ao;
@@ -193,7 +201,13 @@ void add_expected(const Character& character, const std::string& model_path, Arr
           m[8 + c] = -m[8 + c] + (c == 3 ? neighbour_z_m : 0);
         }
       }
-    check(nook_scene_set_pose(scene, ids[i], pose.data(), bones));
+    nook_pose_desc pose_desc;
+    check(nook_pose_desc_init(&pose_desc));
+    pose_desc.kind = NOOK_POSE_REST_TO_WORLD;
+    pose_desc.layout = NOOK_TRANSFORM_ROWS_3X4;
+    pose_desc.transforms = pose.data();
+    pose_desc.transform_count = bones;
+    check(nook_scene_set_pose(scene, ids[i], &pose_desc));
     poses.insert(poses.end(), pose.begin(), pose.end());
   }
   check(nook_scene_link(scene, ids[0], ids[1]));
@@ -202,13 +216,13 @@ void add_expected(const Character& character, const std::string& model_path, Arr
   const std::uint32_t count = character.info.file_vertex_count;
   for (const nook_instance_id id : ids) {
     std::vector<float> values(count);
-    check(nook_scene_read_ao(scene, id, values.data(), count, 0));
+    check(nook_scene_read(scene, id, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, values.data(), count, 0));
     ao.insert(ao.end(), values.begin(), values.end());
   }
   arrays.add("expected_poses", poses);
   arrays.add("expected_ao", ao);
   nook_scene_destroy(&scene);
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
   nook_context_destroy(&context);
 }
 

@@ -17,7 +17,7 @@ vec3 nook_scene_open_irradiance(int light, vec3 normal_ws) {
     int lobe = light + NOOK_LIGHT_LOBES + NOOK_LIGHT_LOBE_TEXELS * i;
     vec4 shape = nook_texel(nook_scene_lights, lobe);
     vec3 amplitude = nook_texel(nook_scene_lights, lobe + 1).xyz;
-    sum += nook_probe_lobe_irradiance(NookLobe(shape.xyz, shape.w, amplitude, 0.0), normal_ws);
+    sum += nook_sg_lobe_irradiance(NookLobe(shape.xyz, shape.w, amplitude, 0.0), normal_ws);
   }
   return max(sum, 0.0);
 }

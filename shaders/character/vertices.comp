@@ -76,9 +76,9 @@ void main() {
   }
   uint vertex = record.place * nook_file_vertex_count + file_vertex;
 #if NOOK_OUTPUT == NOOK_OUTPUT_AO
-  nook_ao[vertex] = nook_combine(shadow, added, bias);
+  nook_ao[vertex] = nook_form(shadow, added, bias);
 #elif NOOK_OUTPUT == NOOK_OUTPUT_GREY
-  float ao = nook_combine(shadow, added, bias);
+  float ao = nook_form(shadow, added, bias);
   for (uint c = 0u; c < 3u; ++c) nook_ao[3u * vertex + c] = ao;
 #else
   vec3 open = nook_combine_light(shadow, added, bias);

@@ -65,7 +65,7 @@ void main() {
 #if NOOK_LIGHT
   nook_directional_ao = nook_combine_light(sum.shadow, sum.added, bias);
 #else
-  nook_ao = nook_combine(sum.shadow, sum.added, bias);
+  nook_ao = nook_form(sum.shadow, sum.added, bias);
 #endif
   gl_Position = vec4(0.0);
 }

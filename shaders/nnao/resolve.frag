@@ -33,7 +33,7 @@ float nook_strengthened(float ao) {
 }
 
 #ifdef NOOK_LAYERED
-// The modes of nook_nnao_layer.
+// The modes of nook_gbuffer_ao.
 float nook_combined(float ao, ivec2 pixel) {
   vec2 layer = nook_host_texel(nook_layer, pixel).rg;
   if (nook_layer_mode >= 3) return mix(ao, layer.r, layer.g);

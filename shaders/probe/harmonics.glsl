@@ -1,7 +1,7 @@
-#ifndef NOOK_PROBE_HARMONICS
-#define NOOK_PROBE_HARMONICS
-// Light as real spherical harmonics, orthonormal, without the Condon-Shortley phase, as nook_probe_lobes_to_harmonics and fits
-// of NOOK_PROBE_HARMONICS write them: 1, then y, z, x, then xy, yz, 3zz - 1, xz, xx - yy. Directions are unit vectors.
+#ifndef NOOK_PROBE_BASIS_SH
+#define NOOK_PROBE_BASIS_SH
+// Light as real spherical harmonics, orthonormal, without the Condon-Shortley phase, as nook_sg_to_sh and fits
+// of NOOK_PROBE_BASIS_SH write them: 1, then y, z, x, then xy, yz, 3zz - 1, xz, xx - yy. Directions are unit vectors.
 
 #include "shaders/probe/constants.h"
 
@@ -18,12 +18,12 @@ struct NookZonalHarmonics {
 };
 
 // Sums with one factor for each band: 1 for radiance, the clamped cosine's for irradiance.
-vec3 nook_probe_linear_harmonics(vec3 c0, vec3 c1, vec3 c2, vec3 c3, vec3 s, vec2 factor) {
+vec3 nook_sh_linear(vec3 c0, vec3 c1, vec3 c2, vec3 c3, vec3 s, vec2 factor) {
   return factor.x * NOOK_HARMONICS_0 * c0 + factor.y * NOOK_HARMONICS_1 * (s.y * c1 + s.z * c2 + s.x * c3);
 }
 
-vec3 nook_probe_harmonics_sum(NookHarmonics light, vec3 s, vec3 factor) {
-  vec3 sum = nook_probe_linear_harmonics(light.coefficient[0], light.coefficient[1], light.coefficient[2],
+vec3 nook_sh_sum(NookHarmonics light, vec3 s, vec3 factor) {
+  vec3 sum = nook_sh_linear(light.coefficient[0], light.coefficient[1], light.coefficient[2],
                                          light.coefficient[3], s, factor.xy);
   vec3 band2 = NOOK_HARMONICS_2_MIXED * (s.x * s.y * light.coefficient[4] + s.y * s.z * light.coefficient[5] +
                              s.x * s.z * light.coefficient[7]) +
@@ -32,8 +32,8 @@ vec3 nook_probe_harmonics_sum(NookHarmonics light, vec3 s, vec3 factor) {
   return sum + factor.z * band2;
 }
 
-vec3 nook_probe_zonal_harmonics_sum(NookZonalHarmonics light, vec3 s, vec3 factor) {
-  vec3 sum = nook_probe_linear_harmonics(light.coefficient[0], light.coefficient[1], light.coefficient[2],
+vec3 nook_zh3_sum(NookZonalHarmonics light, vec3 s, vec3 factor) {
+  vec3 sum = nook_sh_linear(light.coefficient[0], light.coefficient[1], light.coefficient[2],
                                          light.coefficient[3], s, factor.xy);
   const vec3 luminance = vec3(NOOK_LUMINANCE_RED, NOOK_LUMINANCE_GREEN, NOOK_LUMINANCE_BLUE);
   vec3 axis = vec3(dot(light.coefficient[3], luminance), dot(light.coefficient[1], luminance),
@@ -44,18 +44,18 @@ vec3 nook_probe_zonal_harmonics_sum(NookZonalHarmonics light, vec3 s, vec3 facto
 }
 
 // Radiance from a direction.
-vec3 nook_probe_harmonics_radiance(NookHarmonics light, vec3 s) {
-  return nook_probe_harmonics_sum(light, s, vec3(1.0));
+vec3 nook_sh_radiance(NookHarmonics light, vec3 s) {
+  return nook_sh_sum(light, s, vec3(1.0));
 }
-vec3 nook_probe_zonal_harmonics_radiance(NookZonalHarmonics light, vec3 s) {
-  return nook_probe_zonal_harmonics_sum(light, s, vec3(1.0));
+vec3 nook_zh3_radiance(NookZonalHarmonics light, vec3 s) {
+  return nook_zh3_sum(light, s, vec3(1.0));
 }
 
 // Irradiance on a surface, exact for these bands; opposite a sun they ring below 0, which is cut off.
-vec3 nook_probe_harmonics_irradiance(NookHarmonics light, vec3 n) {
-  return max(nook_probe_harmonics_sum(light, n, vec3(3.14159265, 2.09439510, 0.78539816)), 0.0);
+vec3 nook_sh_irradiance(NookHarmonics light, vec3 n) {
+  return max(nook_sh_sum(light, n, vec3(3.14159265, 2.09439510, 0.78539816)), 0.0);
 }
-vec3 nook_probe_zonal_harmonics_irradiance(NookZonalHarmonics light, vec3 n) {
-  return max(nook_probe_zonal_harmonics_sum(light, n, vec3(3.14159265, 2.09439510, 0.78539816)), 0.0);
+vec3 nook_zh3_irradiance(NookZonalHarmonics light, vec3 n) {
+  return max(nook_zh3_sum(light, n, vec3(3.14159265, 2.09439510, 0.78539816)), 0.0);
 }
 #endif

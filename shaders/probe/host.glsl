@@ -8,27 +8,27 @@
 // Returns the radiance from a direction.
 vec3 nook_probe_radiance(NookProbePlace place, vec3 direction) {
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < place.lobe_count; ++i) sum += nook_probe_lobe_radiance(nook_probe_lobe_at(place, i), direction);
+  for (int i = 0; i < place.lobe_count; ++i) sum += nook_sg_lobe_radiance(nook_probe_lobe_at(place, i), direction);
   return sum;
 }
 
 // Returns the irradiance on a surface. Fits of probes may ring slightly below 0; negative values are clamped.
 vec3 nook_probe_irradiance(NookProbePlace place, vec3 normal) {
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < place.lobe_count; ++i) sum += nook_probe_lobe_irradiance(nook_probe_lobe_at(place, i), normal);
+  for (int i = 0; i < place.lobe_count; ++i) sum += nook_sg_lobe_irradiance(nook_probe_lobe_at(place, i), normal);
   return max(sum, 0.0);
 }
 // The same by S. Hill's fit alone, and with the clamped cosine as a lobe.
 vec3 nook_probe_irradiance_fitted(NookProbePlace place, vec3 normal) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < place.lobe_count; ++i)
-    sum += nook_probe_lobe_irradiance_fitted(nook_probe_lobe_at(place, i), normal);
+    sum += nook_sg_lobe_irradiance_fitted(nook_probe_lobe_at(place, i), normal);
   return max(sum, 0.0);
 }
 vec3 nook_probe_irradiance_inner_product(NookProbePlace place, vec3 normal) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < place.lobe_count; ++i)
-    sum += nook_probe_lobe_irradiance_inner_product(nook_probe_lobe_at(place, i), normal);
+    sum += nook_sg_lobe_irradiance_inner_product(nook_probe_lobe_at(place, i), normal);
   return max(sum, 0.0);
 }
 
@@ -37,14 +37,14 @@ vec3 nook_probe_specular_isotropic(NookProbePlace place, NookProbeSurface surfac
   NookProbeReflection reflection = nook_probe_reflection_isotropic(surface);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < place.lobe_count; ++i)
-    sum += nook_probe_lobe_specular_isotropic(nook_probe_lobe_at(place, i), reflection);
+    sum += nook_sg_lobe_specular_isotropic(nook_probe_lobe_at(place, i), reflection);
   return max(sum, 0.0);
 }
 vec3 nook_probe_specular_anisotropic(NookProbePlace place, NookProbeSurface surface) {
   NookProbeReflection reflection = nook_probe_reflection_anisotropic(surface);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < place.lobe_count; ++i)
-    sum += nook_probe_lobe_specular_anisotropic(nook_probe_lobe_at(place, i), reflection);
+    sum += nook_sg_lobe_specular_anisotropic(nook_probe_lobe_at(place, i), reflection);
   return max(sum, 0.0);
 }
 

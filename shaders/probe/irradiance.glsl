@@ -5,9 +5,9 @@
 #include "shaders/probe/lobe.glsl"
 
 // The clamped cosine as a lobe: cheaper, and not 0 behind sharp lights.
-vec3 nook_probe_lobe_irradiance_inner_product(NookLobe lobe, vec3 n) {
+vec3 nook_sg_lobe_irradiance_inner_product(NookLobe lobe, vec3 n) {
   return lobe.amplitude * (NOOK_COSINE_LOBE_AMPLITUDE *
-                           nook_probe_lobe_product_integral(lobe.sharpness, NOOK_COSINE_LOBE_SHARPNESS,
+                           nook_sg_product_integral(lobe.sharpness, NOOK_COSINE_LOBE_SHARPNESS,
                                                             nook_probe_apart(lobe.axis, n)));
 }
 
@@ -43,16 +43,16 @@ float nook_probe_unit_irradiance_fitted(float sharpness, float cosine) {
   return max((1.0 - rest) * y + bias, 0.0);
 }
 
-vec3 nook_probe_lobe_irradiance_fitted(NookLobe lobe, vec3 n) {
-  return lobe.amplitude * (nook_probe_lobe_integral(lobe.sharpness) *
+vec3 nook_sg_lobe_irradiance_fitted(NookLobe lobe, vec3 n) {
+  return lobe.amplitude * (nook_sg_integral(lobe.sharpness) *
                            nook_probe_unit_irradiance_fitted(lobe.sharpness, dot(lobe.axis, n)));
 }
 
 // The better of both.
-vec3 nook_probe_lobe_irradiance(NookLobe lobe, vec3 n) {
+vec3 nook_sg_lobe_irradiance(NookLobe lobe, vec3 n) {
   float cosine = dot(lobe.axis, n);
   float unit = lobe.sharpness <= NOOK_BANDS_MAX_SHARPNESS ? nook_probe_unit_irradiance_bands(lobe.sharpness, cosine)
                                       : nook_probe_unit_irradiance_fitted(lobe.sharpness, cosine);
-  return lobe.amplitude * (nook_probe_lobe_integral(lobe.sharpness) * unit);
+  return lobe.amplitude * (nook_sg_integral(lobe.sharpness) * unit);
 }
 #endif

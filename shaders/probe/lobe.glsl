@@ -1,7 +1,7 @@
 #ifndef NOOK_PROBE_LOBE
 #define NOOK_PROBE_LOBE
 // Spherical Gaussians and their closed forms; the same as sdk/src/core/spherical_gaussian.h. The layout of
-// NookLobe is that of nook_probe_lobe in std140 and std430.
+// NookLobe is that of nook_lobe in std140 and std430.
 struct NookLobe {
   vec3 axis;       // unit
   float sharpness; // >= 0; 0 is constant over the sphere
@@ -16,12 +16,12 @@ float nook_probe_apart(vec3 a, vec3 b) {
 }
 
 // Radiance from the unit direction s.
-vec3 nook_probe_lobe_radiance(NookLobe lobe, vec3 s) {
+vec3 nook_sg_lobe_radiance(NookLobe lobe, vec3 s) {
   return lobe.amplitude * exp(-lobe.sharpness * nook_probe_apart(lobe.axis, s));
 }
 
 // Integral over the sphere at amplitude 1: 2 pi (1 - e^(-2 sharpness)) / sharpness.
-float nook_probe_lobe_integral(float sharpness) {
+float nook_sg_integral(float sharpness) {
   float x = sharpness;
   // Where the difference would cancel, its series.
   float share = x < 0.05 ? 2.0 - x * (2.0 - x * (1.3333333 - 0.6666667 * x)) : (1.0 - exp(-2.0 * x)) / x;
@@ -30,10 +30,10 @@ float nook_probe_lobe_integral(float sharpness) {
 
 // Integral of the product of two lobes at amplitudes 1, in the form that never overflows; apart is 1 - cosine
 // between their axes.
-float nook_probe_lobe_product_integral(float a, float b, float apart) {
+float nook_sg_product_integral(float a, float b, float apart) {
   float sum = a + b;
   float sharpness = sqrt(max(sum * sum - 2.0 * a * b * apart, 0.0));
   float drop = sum > 0.0 ? -2.0 * a * b * apart / (sharpness + sum) : 0.0;
-  return exp(drop) * nook_probe_lobe_integral(sharpness);
+  return exp(drop) * nook_sg_integral(sharpness);
 }
 #endif

@@ -10,7 +10,7 @@ struct NookProbeReflection {
   vec4 amplitude;   // the lobes' integrals add up to the directional albedo: masking and Fresnel
 };
 
-// Integrals over the sphere at amplitude 1, as nook_probe_lobe_integral.
+// Integrals over the sphere at amplitude 1, as nook_sg_integral.
 vec4 nook_probe_four_integrals(vec4 x) {
   vec4 series = 2.0 - x * (2.0 - x * (1.3333333 - 0.6666667 * x));
   return 6.2831853 * mix((1.0 - exp(-2.0 * x)) / max(x, 1e-6), series, lessThan(x, vec4(0.05)));
@@ -57,12 +57,12 @@ NookProbeReflection nook_probe_reflection_isotropic(NookProbeSurface surface) {
   return nook_probe_reflection_of(surface, view, nook_probe_middle_normal(view, surface));
 }
 
-vec3 nook_probe_lobe_specular_isotropic(NookLobe lobe, NookProbeReflection r) {
+vec3 nook_sg_lobe_specular_isotropic(NookLobe lobe, NookProbeReflection r) {
   float apart = nook_probe_apart(vec3(r.x.x, r.y.x, r.z.x), lobe.axis);
-  return lobe.amplitude * (r.amplitude.x * nook_probe_lobe_product_integral(r.sharpness.x, lobe.sharpness, apart));
+  return lobe.amplitude * (r.amplitude.x * nook_sg_product_integral(r.sharpness.x, lobe.sharpness, apart));
 }
 
-vec3 nook_probe_lobe_specular_anisotropic(NookLobe lobe, NookProbeReflection r) {
+vec3 nook_sg_lobe_specular_anisotropic(NookLobe lobe, NookProbeReflection r) {
   vec4 dx = r.x - lobe.axis.x, dy = r.y - lobe.axis.y, dz = r.z - lobe.axis.z;
   vec4 sum = r.sharpness + lobe.sharpness;
   vec4 cross_term = r.sharpness * lobe.sharpness * (dx * dx + dy * dy + dz * dz);

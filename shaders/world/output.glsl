@@ -1,7 +1,7 @@
 // From the openness of a pixel to the result: strength, the composition with AO of another kind, the layer.
 
 uniform sampler2D nook_other_ao;
-uniform int nook_world_composition;  // 0: there is no other AO; otherwise 1 + nook_world_composition
+uniform int nook_world_combine;  // 0: there is no other AO; otherwise 1 + nook_world_combine
 #ifdef NOOK_LAYERED
 uniform sampler2D nook_layer;
 #endif
@@ -13,13 +13,13 @@ float nook_world_strengthened(float ao) {
 }
 
 float nook_world_composed(float ao, ivec2 pixel) {
-  if (nook_world_composition == 0) return ao;
+  if (nook_world_combine == 0) return ao;
   float other = texelFetch(nook_other_ao, pixel + nook_origin, 0).r;
-  return nook_world_composition == 1 ? ao * other : min(ao, other);
+  return nook_world_combine == 1 ? ao * other : min(ao, other);
 }
 
 #ifdef NOOK_LAYERED
-// The modes of nook_nnao_layer.
+// The modes of nook_gbuffer_ao.
 float nook_world_combined(float ao, ivec2 pixel) {
   vec2 layer = texelFetch(nook_layer, pixel + nook_origin, 0).rg;
   if (nook_layer_mode >= 3) return mix(ao, layer.r, layer.g);

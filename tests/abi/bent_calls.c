@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-int nook_bent_call_everything(nook_character_model model, nook_scene scene, nook_instance_id instance);
+int nook_bent_call_everything(nook_model model, nook_scene scene, nook_instance_id instance);
 
 static int failures;
 static void expect(int condition, const char* what, int line) {
@@ -13,16 +13,17 @@ static void expect(int condition, const char* what, int line) {
 }
 #define EXPECT(condition) expect((condition), #condition, __LINE__)
 
-int nook_bent_call_everything(nook_character_model model, nook_scene scene, nook_instance_id instance) {
-  nook_character_model_info info;
+int nook_bent_call_everything(nook_model model, nook_scene scene, nook_instance_id instance) {
+  nook_model_info info;
   int8_t* bytes;
   failures = 0;
   info.struct_size = sizeof info;
-  EXPECT(nook_character_model_describe(model, &info) == NOOK_OK);
+  EXPECT(nook_model_describe(model, &info) == NOOK_OK);
   bytes = (int8_t*)malloc(8 * (size_t)info.file_vertex_count);
-  EXPECT(nook_character_model_blocked_vectors(model, bytes, info.file_vertex_count, 0) == NOOK_OK);
+  EXPECT(nook_model_read(model, NOOK_MODEL_OCCLUDED_DIRECTIONS, bytes, info.file_vertex_count, 0) == NOOK_OK);
   EXPECT(bytes[3] == 0 && bytes[7] == 0);
-  EXPECT(nook_scene_read_bent_normals(scene, instance, bytes, info.file_vertex_count, 8) == NOOK_OK);
+  EXPECT(nook_scene_read(scene, instance, NOOK_CHANNEL_BENT_NORMAL, NOOK_FORMAT_SNORM8, bytes,
+                         info.file_vertex_count, 8) == NOOK_OK);
   EXPECT(bytes[3] >= 0);
   free(bytes);
   return failures;

@@ -10,8 +10,7 @@
 using namespace nook;
 using namespace nook::test;
 
-extern "C" int nook_bent_call_everything(nook_character_model model, nook_scene scene,
-                                         nook_instance_id instance);
+extern "C" int nook_bent_call_everything(nook_model model, nook_scene scene, nook_instance_id instance);
 
 namespace {
 
@@ -21,7 +20,7 @@ constexpr float byte_error = 0.5f / 127 * 1.7320508f + 1e-6f;
 CharacterModel bent_model() {
   CharacterModel model = sample_model(3);
   Numbers numbers(23);
-  add_blocked(model, numbers);
+  add_occluded(model, numbers);
   return quantise(model);
 }
 
@@ -30,20 +29,20 @@ struct BentStage {
     const std::vector<std::byte> bytes = write_character_model(of);
     const nook_scene_desc desc = Host::scene_desc();
     nook_context_desc context_desc;
-    REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+    REQUIRE(nook_context_desc_init(&context_desc) == NOOK_OK);
     REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
-    REQUIRE(nook_character_model_load(context, bytes.data(), bytes.size(), &model) == NOOK_OK);
+    REQUIRE(nook_model_load(context, bytes.data(), bytes.size(), &model) == NOOK_OK);
     REQUIRE(nook_scene_create(context, &desc, &scene) == NOOK_OK);
     REQUIRE(nook_scene_add_instance(scene, model, &id) == NOOK_OK);
   }
   ~BentStage() {
     nook_scene_destroy(&scene);
-    nook_character_model_destroy(&model);
+    nook_model_destroy(&model);
     nook_context_destroy(&context);
   }
 
   nook_context context = nullptr;
-  nook_character_model model = nullptr;
+  nook_model model = nullptr;
   nook_scene scene = nullptr;
   nook_instance_id id = 0;
   std::uint32_t count;  // file vertices
@@ -67,19 +66,22 @@ TEST_CASE("bent normals turn with the pose and hold the AO of the update") {
   std::vector<float> ao(stage.count);
   const auto read = [&](const Mat3x4& bone) {
     const std::vector<Mat3x4> pose(model.bone_count(), bone);
-    REQUIRE(nook_scene_set_pose(stage.scene, stage.id, pose[0].m, std::uint32_t(pose.size())) == NOOK_OK);
+    REQUIRE(nook::test::set_rows(stage.scene, stage.id, pose[0].m, pose.size()) == NOOK_OK);
     REQUIRE(nook_scene_update(stage.scene) == NOOK_OK);
-    REQUIRE(nook_scene_read_ao(stage.scene, stage.id, ao.data(), stage.count, 0) == NOOK_OK);
+    REQUIRE(nook_scene_read(stage.scene, stage.id, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, ao.data(), stage.count,
+                            0) == NOOK_OK);
     std::vector<std::int8_t> bytes(4 * stage.count);
-    REQUIRE(nook_scene_read_bent_normals(stage.scene, stage.id, bytes.data(), stage.count, 0) == NOOK_OK);
+    REQUIRE(nook_scene_read(stage.scene, stage.id, NOOK_CHANNEL_BENT_NORMAL, NOOK_FORMAT_SNORM8, bytes.data(),
+                            stage.count, 0) == NOOK_OK);
     return bytes;
   };
   const std::vector<std::int8_t> rest = read({}), turned = read(turn_90);
   for (std::uint32_t i = 0; i < stage.count; ++i) {
     const std::size_t v = model.file_to_welded[i];
-    const Vec3 left = open_hemisphere * model.rest.normal[v] - model.blocked[v].at(ao[i]);
-    // AO goes through a byte of 255 steps, which moves the blocked vector by at most 1 / 510 of its change.
-    const float change = length(model.blocked[v].dark - model.blocked[v].open) / 510 / length(left);
+    const Vec3 left = open_hemisphere * model.rest.normal[v] - model.occluded[v].at(ao[i]);
+    // AO goes through a byte of 255 steps, which moves the occluded direction by at most 1 / 510 of its
+    // change.
+    const float change = length(model.occluded[v].dark - model.occluded[v].open) / 510 / length(left);
     const Vec3 bent = decoded(&rest[4 * i]);
     CHECK(length(bent - normalised(left)) < byte_error + change);
     CHECK(std::abs(decode_coordinate(rest[4 * i + 3]) - ao[i]) < 0.5f / 127 + 0.5f / 255 + 1e-6f);
@@ -90,14 +92,19 @@ TEST_CASE("bent normals turn with the pose and hold the AO of the update") {
 TEST_CASE("models without bent normals are refused, and so are wrong arguments") {
   const BentStage with(bent_model()), without(sample_model(3));
   std::vector<std::int8_t> out(8 * with.count);
-  const auto blocked = nook_character_model_blocked_vectors;
-  const auto bent = nook_scene_read_bent_normals;
-  CHECK(blocked(without.model, out.data(), without.count, 0) == NOOK_ERROR_UNSUPPORTED);
+  const auto occluded = [](nook_model model, std::int8_t* to, std::uint32_t count, std::size_t stride) {
+    return nook_model_read(model, NOOK_MODEL_OCCLUDED_DIRECTIONS, to, count, stride);
+  };
+  const auto bent = [](nook_scene scene, nook_instance_id id, std::int8_t* to, std::uint32_t count,
+                       std::size_t stride) {
+    return nook_scene_read(scene, id, NOOK_CHANNEL_BENT_NORMAL, NOOK_FORMAT_SNORM8, to, count, stride);
+  };
+  CHECK(occluded(without.model, out.data(), without.count, 0) == NOOK_ERROR_UNSUPPORTED);
   CHECK(bent(without.scene, without.id, out.data(), without.count, 0) == NOOK_ERROR_UNSUPPORTED);
-  CHECK(blocked(nullptr, out.data(), with.count, 0) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(blocked(with.model, nullptr, with.count, 0) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(blocked(with.model, out.data(), with.count - 1, 0) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(blocked(with.model, out.data(), with.count, 7) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(occluded(nullptr, out.data(), with.count, 0) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(occluded(with.model, nullptr, with.count, 0) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(occluded(with.model, out.data(), with.count - 1, 0) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(occluded(with.model, out.data(), with.count, 7) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(bent(nullptr, with.id, out.data(), with.count, 0) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(bent(with.scene, with.id, nullptr, with.count, 0) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(bent(with.scene, with.id, out.data(), with.count + 1, 0) == NOOK_ERROR_INVALID_ARGUMENT);

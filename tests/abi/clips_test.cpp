@@ -1,5 +1,8 @@
 // Baked clips through the public interface.
+#include <nook/experimental/nook_stages.h>
+#include <nook/experimental/nook_world_sample.h>
 #include <nook/nook_clips.h>
+#include <nook/nook_world.h>
 
 #include <cmath>
 #include <cstring>
@@ -20,7 +23,7 @@ std::vector<std::byte> nook_test_clips_bytes() {
   return nook::write_clip_set(sample_clips(sample_model()).set);
 }
 
-extern "C" int nook_clips_call_everything(nook_context context, nook_character_model model, nook_scene scene,
+extern "C" int nook_clips_call_everything(nook_context context, nook_model model, nook_scene scene,
                                           nook_instance_id instance, const void* bytes, std::size_t size);
 
 namespace {
@@ -37,7 +40,7 @@ struct ClipStage {
     host.bytes = nook::write_character_model(plain);
     const nook_context_desc desc = host.context_desc();
     REQUIRE(nook_context_create(&desc, &context) == NOOK_OK);
-    REQUIRE(nook_character_model_load(context, host.bytes.data(), host.bytes.size(), &model) == NOOK_OK);
+    REQUIRE(nook_model_load(context, host.bytes.data(), host.bytes.size(), &model) == NOOK_OK);
     const nook_scene_desc scene_desc = Host::scene_desc();
     REQUIRE(nook_scene_create(context, &scene_desc, &scene) == NOOK_OK);
     for (nook_instance_id& id : ids) REQUIRE(nook_scene_add_instance(scene, model, &id) == NOOK_OK);
@@ -48,7 +51,7 @@ struct ClipStage {
   ~ClipStage() {
     nook_scene_destroy(&scene);
     nook_clips_destroy(&clips);
-    nook_character_model_destroy(&model);
+    nook_model_destroy(&model);
     nook_context_destroy(&context);
   }
   ClipStage(const ClipStage&) = delete;
@@ -56,8 +59,8 @@ struct ClipStage {
 
   std::vector<float> ao(const nook_clip_time& time) const {
     std::vector<float> values(plain.file_to_welded.size(), -1.0f);
-    REQUIRE(nook_clips_read_ao(clips, &time, NOOK_AO_FLOAT, values.data(), std::uint32_t(values.size()), 0) ==
-            NOOK_OK);
+    REQUIRE(nook_clips_read_ao(clips, &time, NOOK_FORMAT_FLOAT, values.data(), std::uint32_t(values.size()),
+                               0) == NOOK_OK);
     return values;
   }
 
@@ -66,7 +69,7 @@ struct ClipStage {
   Host host;
   std::vector<std::byte> bytes;
   nook_context context = nullptr;
-  nook_character_model model = nullptr;
+  nook_model model = nullptr;
   nook_scene scene = nullptr;
   nook_instance_id ids[2] = {0, 0};
   nook_clips clips = nullptr;
@@ -92,8 +95,8 @@ TEST_CASE("clips: the AO of a time is that of the formula, in every format and w
   REQUIRE(stage.loaded == NOOK_OK);
   const std::vector<float> ao = stage.ao(in_walk);
   std::vector<unsigned char> bytes(8 * ao.size(), 0xcd);
-  REQUIRE(nook_clips_read_ao(stage.clips, &in_walk, NOOK_AO_UNORM8, bytes.data(), std::uint32_t(ao.size()),
-                             8) == NOOK_OK);
+  REQUIRE(nook_clips_read_ao(stage.clips, &in_walk, NOOK_FORMAT_UNORM8, bytes.data(),
+                             std::uint32_t(ao.size()), 8) == NOOK_OK);
   for (std::size_t i = 0; i < ao.size(); ++i) {
     // 0.6 s is 1.2 frames from the first of the clip, which is frame 1 of the set.
     CHECK(std::abs(double(ao[i]) - sample_ao(stage.sample.set, 2, 3, 0.2, stage.plain.file_to_welded[i])) <
@@ -113,12 +116,14 @@ TEST_CASE("clips: an instance takes AO and pose of its clip, as one with the sam
   REQUIRE(nook_scene_link(stage.scene, stage.ids[0], stage.ids[1]) == NOOK_OK);
   const auto count = std::uint32_t(stage.plain.file_to_welded.size());
   std::vector<float> by_bones(count), by_clip(count);
-  REQUIRE(nook_scene_set_pose(stage.scene, stage.ids[1], bones.data(), bone_count) == NOOK_OK);
+  REQUIRE(nook::test::set_rows(stage.scene, stage.ids[1], bones.data(), bone_count) == NOOK_OK);
   REQUIRE(nook_scene_update(stage.scene) == NOOK_OK);
-  REQUIRE(nook_scene_read_ao(stage.scene, stage.ids[0], by_bones.data(), count, 0) == NOOK_OK);
+  REQUIRE(nook_scene_read(stage.scene, stage.ids[0], NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, by_bones.data(),
+                          count, 0) == NOOK_OK);
   REQUIRE(nook_scene_set_clip(stage.scene, stage.ids[1], stage.clips, &in_walk, place) == NOOK_OK);
   REQUIRE(nook_scene_update(stage.scene) == NOOK_OK);
-  REQUIRE(nook_scene_read_ao(stage.scene, stage.ids[0], by_clip.data(), count, 0) == NOOK_OK);
+  REQUIRE(nook_scene_read(stage.scene, stage.ids[0], NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, by_clip.data(),
+                          count, 0) == NOOK_OK);
   CHECK(by_bones == by_clip);
   CHECK(by_clip != stage.ao(in_walk));
 }
@@ -127,17 +132,17 @@ TEST_CASE("clips: the casters of a time are those of the pose") {
   ClipStage stage;
   // At a frame: between two, a bone that turns by an angle shrinks by the cosine of half of it.
   const nook_clip_time at_frame{1, NOOK_CLIP_CLAMP, 0.5};
-  nook_world_capsule casters[NOOK_WORLD_MAX_CASTERS];
+  nook_capsule casters[NOOK_WORLD_MAX_CASTERS];
   std::uint32_t count = NOOK_WORLD_MAX_CASTERS;
   const float place[12] = {2, 0, 0, 3, 0, 2, 0, 0, 0, 0, 2, 0};
-  REQUIRE(nook_clips_read_casters(stage.clips, &at_frame, place, casters, &count) == NOOK_OK);
+  REQUIRE(nook_clips_read_capsules(stage.clips, &at_frame, place, casters, &count) == NOOK_OK);
   REQUIRE(count == stage.plain.world_casters.size());
   std::vector<float> bones(12 * stage.plain.bone_count());
   REQUIRE(nook_clips_read_pose(stage.clips, &at_frame, place, bones.data(),
                                std::uint32_t(stage.plain.bone_count())) == NOOK_OK);
-  nook_world_caster rest[NOOK_WORLD_MAX_CASTERS];
+  nook_model_capsule rest[NOOK_WORLD_MAX_CASTERS];
   std::uint32_t rest_count = NOOK_WORLD_MAX_CASTERS;
-  REQUIRE(nook_world_read_casters(stage.model, rest, &rest_count) == NOOK_OK);
+  REQUIRE(nook_model_read_capsules(stage.model, rest, &rest_count) == NOOK_OK);
   for (std::uint32_t i = 0; i < count; ++i) {
     const float* m = &bones[12 * rest[i].bone];
     const float* a = rest[i].capsule.a;
@@ -170,8 +175,10 @@ TEST_CASE("clips: times, clips and places that are out of range are refused") {
   CHECK(message_has("place_3x4"));
   CHECK(nook_scene_set_clip(stage.scene, 77, stage.clips, &in_walk, nullptr) == NOOK_ERROR_INVALID_HANDLE);
   float ao = 0;
-  CHECK(nook_clips_read_ao(stage.clips, &in_walk, NOOK_AO_FLOAT, &ao, 1, 0) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_clips_read_ao(stage.clips, nullptr, NOOK_AO_FLOAT, &ao, 1, 0) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_clips_read_ao(stage.clips, &in_walk, NOOK_FORMAT_FLOAT, &ao, 1, 0) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_clips_read_ao(stage.clips, nullptr, NOOK_FORMAT_FLOAT, &ao, 1, 0) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
   nook_clips none = stage.clips;
   CHECK(nook_clips_load(stage.context, stage.model, stage.bytes.data(), 100, &none) == NOOK_ERROR_BAD_FILE);
   CHECK(none == nullptr);
@@ -181,17 +188,16 @@ TEST_CASE("clips: a model without world casters has none to read") {
   ClipStage stage;
   const nook::CharacterModel bare = sample_model();
   const std::vector<std::byte> model_bytes = nook::write_character_model(bare);
-  nook_character_model model = nullptr;
-  REQUIRE(nook_character_model_load(stage.context, model_bytes.data(), model_bytes.size(), &model) ==
-          NOOK_OK);
+  nook_model model = nullptr;
+  REQUIRE(nook_model_load(stage.context, model_bytes.data(), model_bytes.size(), &model) == NOOK_OK);
   nook_clips clips = nullptr;
   REQUIRE(nook_clips_load(stage.context, model, stage.bytes.data(), stage.bytes.size(), &clips) == NOOK_OK);
-  nook_world_capsule caster;
+  nook_capsule caster;
   std::uint32_t count = 1;
-  CHECK(nook_clips_read_casters(clips, &in_walk, nullptr, &caster, &count) == NOOK_ERROR_UNSUPPORTED);
+  CHECK(nook_clips_read_capsules(clips, &in_walk, nullptr, &caster, &count) == NOOK_ERROR_UNSUPPORTED);
   CHECK(count == 0);
   nook_clips_destroy(&clips);
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }
 
 TEST_CASE("clips: every refused allocation of a load is reported, and nothing leaks") {
@@ -217,8 +223,9 @@ TEST_CASE("clips: frames in a scene do not allocate after the first") {
     for (const nook_instance_id id : stage.ids)
       CHECK(nook_scene_set_clip(stage.scene, id, stage.clips, &time, nullptr) == NOOK_OK);
     CHECK(nook_scene_update(stage.scene) == NOOK_OK);
-    CHECK(nook_scene_read_ao(stage.scene, stage.ids[0], ao.data(), count, 0) == NOOK_OK);
-    CHECK(nook_clips_read_ao(stage.clips, &time, NOOK_AO_FLOAT, ao.data(), count, 0) == NOOK_OK);
+    CHECK(nook_scene_read(stage.scene, stage.ids[0], NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, ao.data(), count,
+                          0) == NOOK_OK);
+    CHECK(nook_clips_read_ao(stage.clips, &time, NOOK_FORMAT_FLOAT, ao.data(), count, 0) == NOOK_OK);
     CHECK(nook_clips_read_pose(stage.clips, &time, nullptr, bones.data(),
                                std::uint32_t(stage.plain.bone_count())) == NOOK_OK);
   };

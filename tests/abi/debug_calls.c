@@ -1,6 +1,6 @@
 /* Every function of nook_debug.h, called from C; returns the number of failed expectations and prints each.
  */
-#include <nook/nook_debug.h>
+#include <nook/experimental/nook_debug.h>
 #include <stdio.h>
 
 int nook_debug_call_everything(nook_scene scene, nook_instance_id receiver, nook_instance_id caster);

@@ -1,5 +1,5 @@
 // Shapes for debug drawing through the public interface.
-#include <nook/nook_debug.h>
+#include <nook/experimental/nook_debug.h>
 
 #include <cstring>
 #include <string>

@@ -25,6 +25,8 @@ def declarations(text):
     defines = re.findall(r"^[ \t]*#[ \t]*define[ \t]+(NOOK_\w+)[ \t]+(\S.*)$", text, re.M)
     text = re.sub(r"^[ \t]*#.*$", "", text, flags=re.M)
     text = re.sub(r'extern "C" \{', "", text)
+    # Inline functions end without a semicolon.
+    text = re.sub(r"(static inline [^{]*?)\s*\{[^}]*\}", r"\1;", text)
     found, start, depth = [], 0, 0
     for i, letter in enumerate(text):
         depth += {"{": 1, "}": -1}.get(letter, 0)
@@ -65,13 +67,15 @@ def describe(paths):
                 lines.add(f"struct {structure.group(2)} {{ {fields} }}")
             elif code.startswith("NOOK_API ") or code.startswith("NOOK_BAKE_API "):
                 lines.add("function " + code.split(" ", 1)[1])
+            elif code.startswith("static inline "):
+                lines.add("inline " + code.removeprefix("static inline "))
             elif code.startswith("typedef "):
                 lines.add("type " + code.removeprefix("typedef "))
     return sorted(lines)
 
 
 def name_of(line):
-    if line.startswith("function"):
+    if line.startswith(("function", "inline")):
         return re.search(r"(\w+)\(", line).group(1)
     if line.startswith("type"):
         return re.search(r"\(\*(\w+)\)|(\w+)$", line).group(0).strip("(*)")
@@ -80,8 +84,7 @@ def name_of(line):
 
 def unnamed(before, now, changelog):
     """Names of what changed that the changelog does not name."""
-    latest = changelog.split("\n## ")[1]
-    words = set(re.findall(r"\w+\*?", latest))
+    words = set(re.findall(r"\w+\*?", changelog))
     beginnings = tuple(w[:-1] for w in words if w.endswith("*") and len(w) > 6)
     names = sorted({name_of(line) for line in set(before) ^ set(now)})
     return [n for n in names if n not in words and not n.startswith(beginnings or ("\0",))]
@@ -103,9 +106,11 @@ def main():
         print("\n".join([f"  gone: {line}" for line in known if line not in now] + [f"  new:  {line}" for line in now if line not in known]))
         print("If this is meant, run python3 tests/abi/describe.py --write and name the change in CHANGELOG.md.")
         return 1
-    missing = unnamed(read("released.txt"), now, (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"))
+    # The newest section of the changelog, and the page that has each old name beside its new one.
+    changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8").split("\n## ")[1]
+    missing = unnamed(read("released.txt"), now, changelog + (ROOT / "docs/from_rc1.md").read_text(encoding="utf-8"))
     if missing:
-        print("The newest section of CHANGELOG.md names none of these, which changed since the last release:\n  " + "\n  ".join(missing))
+        print("Neither the newest section of CHANGELOG.md nor docs/from_rc1.md names these, which changed since the last release:\n  " + "\n  ".join(missing))
         return 1
     functions = sum(line.startswith("function") for line in now)
     print(f"{functions} functions, {sum(line.startswith('struct') for line in now)} structures, {len(now)} lines")

@@ -1,6 +1,5 @@
 // Structs of older and newer headers, and the version handshake.
 #include <nook/nook_gl.h>
-#include <nook/nook_gl_material.h>
 
 #include <string>
 
@@ -22,24 +21,25 @@ constexpr std::uint32_t version_of(std::uint32_t major, std::uint32_t minor) {
 }  // namespace
 
 TEST_CASE("init functions fill what fits into the caller's struct, of every release") {
-  check_init(nook_context_desc_init, 72);
-  check_init(nook_scene_desc_init, 48);
-  check_init(nook_gl_desc_init, 40);
+  check_init<nook_context_desc>(nook_desc_init, NOOK_DESC_CONTEXT);
+  check_init<nook_scene_desc>(nook_desc_init, NOOK_DESC_SCENE);
+  check_init<nook_gl_desc>(nook_desc_init, NOOK_DESC_GL);
 
   nook_context_desc desc;
-  CHECK(nook_context_desc_init(&desc, sizeof desc - 1, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(last_mentions("nook_context_desc_init: size is out of range (got 71, need at least 72)"));
+  CHECK(nook_desc_init(NOOK_DESC_CONTEXT, &desc, sizeof desc - 1, NOOK_VERSION) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(last_mentions("nook_context_desc_init: size is out of range (got 79, need at least 80)"));
 }
 
 TEST_CASE("descriptors of every release are read, and what a newer one adds is refused unless 0") {
   Stage stage;
-  check_use(stage.host.context_desc(), 72, [](const nook_context_desc* desc) {
+  check_use(stage.host.context_desc(), [](const nook_context_desc* desc) {
     nook_context context = nullptr;
     const nook_result result = nook_context_create(desc, &context);
     nook_context_destroy(&context);
     return result;
   });
-  check_use(Host::scene_desc(), 48, [&](const nook_scene_desc* desc) {
+  check_use(Host::scene_desc(), [&](const nook_scene_desc* desc) {
     nook_scene scene = nullptr;
     const nook_result result = nook_scene_create(stage.context, desc, &scene);
     nook_scene_destroy(&scene);
@@ -47,9 +47,9 @@ TEST_CASE("descriptors of every release are read, and what a newer one adds is r
   });
   // A loader that finds nothing: a descriptor that is understood ends at UNSUPPORTED, without OpenGL.
   nook_gl_desc gl_desc;
-  REQUIRE(nook_gl_desc_init(&gl_desc, sizeof gl_desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_gl_desc_init(&gl_desc) == NOOK_OK);
   gl_desc.get_proc = [](void*, const char*) -> void* { return nullptr; };
-  check_use(gl_desc, 40, [&](const nook_gl_desc* desc) {
+  check_use(gl_desc, [&](const nook_gl_desc* desc) {
     nook_gl gl = nullptr;
     return nook_gl_create(stage.context, desc, &gl);
   });
@@ -57,17 +57,14 @@ TEST_CASE("descriptors of every release are read, and what a newer one adds is r
 
 TEST_CASE("answers are cut to the caller's struct") {
   Stage stage;
-  check_info<nook_character_model_info>(
-      40, [&](nook_character_model_info* info) { return nook_character_model_describe(stage.model, info); });
-  check_info<nook_character_memory>(
-      32, [&](nook_character_memory* memory) { return nook_character_model_memory(stage.model, memory); });
-  check_info<nook_scene_stats>(
-      32, [&](nook_scene_stats* stats) { return nook_scene_read_stats(stage.scene, stats); });
+  check_info<nook_model_info>([&](nook_model_info* info) { return nook_model_describe(stage.model, info); });
+  check_info<nook_scene_info>(
+      [&](nook_scene_info* stats) { return nook_scene_describe(stage.scene, stats); });
 }
 
 TEST_CASE("headers of another major or a newer minor version are refused with both numbers") {
   nook_context_desc desc;
-  CHECK(nook_context_desc_init(&desc, sizeof desc, version_of(NOOK_VERSION_MAJOR + 1, 0)) ==
+  CHECK(nook_desc_init(NOOK_DESC_CONTEXT, &desc, sizeof desc, version_of(NOOK_VERSION_MAJOR + 1, 0)) ==
         NOOK_ERROR_VERSION);
   const auto text_of = [](int major, int minor) {
     return std::to_string(major) + "." + std::to_string(minor);
@@ -75,14 +72,25 @@ TEST_CASE("headers of another major or a newer minor version are refused with bo
   const std::string message = "got version " + text_of(NOOK_VERSION_MAJOR + 1, 0) + ", need " +
                               text_of(NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR);
   CHECK(last_mentions(message.c_str()));
-  CHECK(nook_context_desc_init(&desc, sizeof desc, version_of(NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR + 1)) ==
-        NOOK_ERROR_VERSION);
-  CHECK(nook_context_desc_init(&desc, sizeof desc, version_of(NOOK_VERSION_MAJOR, 0)) == NOOK_OK);
-  CHECK(nook_context_desc_init(&desc, sizeof desc, NOOK_VERSION + 1) == NOOK_OK);  // another patch
+  CHECK(nook_desc_init(NOOK_DESC_CONTEXT, &desc, sizeof desc,
+                       version_of(NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR + 1)) == NOOK_ERROR_VERSION);
+  CHECK(nook_desc_init(NOOK_DESC_CONTEXT, &desc, sizeof desc, version_of(NOOK_VERSION_MAJOR, 0)) == NOOK_OK);
+  CHECK(nook_desc_init(NOOK_DESC_CONTEXT, &desc, sizeof desc, NOOK_VERSION + 1) == NOOK_OK);  // another patch
+}
 
+TEST_CASE("a descriptor of another type, and an unknown type, are refused by name") {
+  nook_scene_desc scene;
+  REQUIRE(nook_scene_desc_init(&scene) == NOOK_OK);
+  nook_context_desc desc;
+  REQUIRE(nook_context_desc_init(&desc) == NOOK_OK);
+  desc.type = scene.type;
   nook_context context = nullptr;
-  desc.header_version = version_of(NOOK_VERSION_MAJOR + 1, 0);
-  CHECK(nook_context_create(&desc, &context) == NOOK_ERROR_VERSION);
+  CHECK(nook_context_create(&desc, &context) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(last_mentions("desc.type is another descriptor's"));
+  CHECK(last_mentions("call nook_context_desc_init"));
+  CHECK(context == nullptr);
+  CHECK(nook_desc_init(0, &desc, sizeof desc, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(last_mentions("nook_desc_init: type is unknown (got 0"));
 }
 
 TEST_CASE("a descriptor that is not understood is refused with its field") {
@@ -97,7 +105,7 @@ TEST_CASE("a descriptor that is not understood is refused with its field") {
   CHECK(last_mentions("desc.next is not NULL"));
 
   Roomy<nook_scene_desc> newer;
-  nook_scene_desc_init(newer.get(), newer.newer_size, NOOK_VERSION);
+  nook_desc_init(NOOK_DESC_SCENE, newer.get(), newer.newer_size, NOOK_VERSION);
   newer.bytes[sizeof desc + 3] = 1;
   CHECK(nook_scene_create(stage.context, newer.get(), &scene) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(last_mentions("does not know"));
@@ -128,13 +136,13 @@ TEST_CASE("the last field of each struct counts") {
   nook_scene_add_instance(scene, stage.model, &id);
   REQUIRE(nook_scene_update(scene) == NOOK_OK);
   CHECK(calls > 0);
-  nook_scene_stats stats{};
+  nook_scene_info stats{};
   stats.struct_size = sizeof stats;
-  REQUIRE(nook_scene_read_stats(scene, &stats) == NOOK_OK);
+  REQUIRE(nook_scene_describe(scene, &stats) == NOOK_OK);
   CHECK(stats.evaluations > 0);
-  nook_character_model_info info{};
+  nook_model_info info{};
   info.struct_size = sizeof info;
-  REQUIRE(nook_character_model_describe(stage.model, &info) == NOOK_OK);
+  REQUIRE(nook_model_describe(stage.model, &info) == NOOK_OK);
   CHECK(info.gamma == 1);
   nook_scene_destroy(&scene);
   nook_context_destroy(&context);

@@ -1,4 +1,5 @@
 // Every error code with its text, and every parameter out of its range.
+#include <nook/experimental/nook_debug.h>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -41,40 +42,44 @@ TEST_CASE("context: bad parameters") {
 TEST_CASE("models: bad parameters and bad files") {
   Stage stage;
   const auto& bytes = stage.host.bytes;
-  nook_character_model model = stage.model;
-  CHECK(nook_character_model_load(nullptr, bytes.data(), bytes.size(), &model) == invalid);
+  nook_model model = stage.model;
+  CHECK(nook_model_load(nullptr, bytes.data(), bytes.size(), &model) == invalid);
   CHECK(model == nullptr);
-  CHECK(nook_character_model_load(stage.context, nullptr, 4, &model) == invalid);
-  CHECK(nook_character_model_load(stage.context, bytes.data(), bytes.size(), nullptr) == invalid);
-  CHECK(nook_character_model_load(stage.context, bytes.data(), bytes.size() - 1, &model) ==
-        NOOK_ERROR_BAD_FILE);
-  CHECK(last_is("nook_character_model_load: ", "size is wrong"));
+  CHECK(nook_model_load(stage.context, nullptr, 4, &model) == invalid);
+  CHECK(nook_model_load(stage.context, bytes.data(), bytes.size(), nullptr) == invalid);
+  CHECK(nook_model_load(stage.context, bytes.data(), bytes.size() - 1, &model) == NOOK_ERROR_BAD_FILE);
+  CHECK(last_is("nook_model_load: ", "size is wrong"));
   auto newer = bytes;
   newer[8] = std::byte{9};
-  CHECK(nook_character_model_load(stage.context, newer.data(), newer.size(), &model) ==
-        NOOK_ERROR_FILE_VERSION);
-  CHECK(last_is("nook_character_model_load: ", "got 9, need 4"));
+  CHECK(nook_model_load(stage.context, newer.data(), newer.size(), &model) == NOOK_ERROR_FILE_VERSION);
+  CHECK(last_is("nook_model_load: ", "got 9, need 4"));
 
-  std::uint32_t first = 0, count = 0;
-  CHECK(nook_character_model_primitive(stage.model, 2, &first, &count) == invalid);
-  CHECK(last_is("nook_character_model_primitive: ", "got 2, need less than 2"));
-  CHECK(nook_character_model_primitive(nullptr, 0, &first, &count) == invalid);
-  CHECK(nook_character_model_primitive(stage.model, 0, nullptr, &count) == invalid);
-  CHECK(nook_character_model_primitive(stage.model, 0, &first, nullptr) == invalid);
-  CHECK(nook_character_model_bone_name(nullptr, 0) == nullptr);
-  CHECK(nook_character_model_describe(nullptr, &stage.info) == invalid);
-  CHECK(nook_character_model_describe(stage.model, nullptr) == invalid);
-  CHECK(nook_character_model_static_ao(stage.model, stage.ao.data(), 3) == invalid);
-  CHECK(nook_character_model_static_ao(nullptr, stage.ao.data(), 3) == invalid);
-  CHECK(nook_character_model_static_ao(stage.model, nullptr, stage.info.file_vertex_count) == invalid);
+  nook_range range{};
+  CHECK(nook_model_describe_primitive(stage.model, 2, &range) == invalid);
+  CHECK(last_is("nook_model_describe_primitive: ", "got 2, need less than 2"));
+  CHECK(nook_model_describe_primitive(nullptr, 0, &range) == invalid);
+  CHECK(nook_model_describe_primitive(stage.model, 0, nullptr) == invalid);
+  CHECK(nook_model_bone_name(nullptr, 0) == nullptr);
+  CHECK(nook_model_describe(nullptr, &stage.info) == invalid);
+  CHECK(nook_model_describe(stage.model, nullptr) == invalid);
+  CHECK(nook_model_read(stage.model, NOOK_MODEL_STATIC_AO, stage.ao.data(), 3, 0) == invalid);
+  CHECK(last_is("nook_model_read: ", "count is not"));
+  CHECK(nook_model_read(stage.model, 2, stage.ao.data(), stage.info.file_vertex_count, 0) == invalid);
+  CHECK(last_is("nook_model_read: ", "array is unknown"));
+  CHECK(nook_model_read(stage.model, NOOK_MODEL_STATIC_AO, stage.ao.data(), stage.info.file_vertex_count,
+                        3) == invalid);
+  CHECK(last_is("nook_model_read: ", "stride is too small"));
+  CHECK(nook_model_read(nullptr, NOOK_MODEL_STATIC_AO, stage.ao.data(), 3, 0) == invalid);
+  CHECK(nook_model_read(stage.model, NOOK_MODEL_STATIC_AO, nullptr, stage.info.file_vertex_count, 0) ==
+        invalid);
 
   nook::CharacterModel bare = sample_model();
   bare.static_ao.clear();
   const auto bare_bytes = nook::write_character_model(bare);
-  REQUIRE(nook_character_model_load(stage.context, bare_bytes.data(), bare_bytes.size(), &model) == NOOK_OK);
-  CHECK(nook_character_model_static_ao(model, stage.ao.data(), stage.info.file_vertex_count) ==
+  REQUIRE(nook_model_load(stage.context, bare_bytes.data(), bare_bytes.size(), &model) == NOOK_OK);
+  CHECK(nook_model_read(model, NOOK_MODEL_STATIC_AO, stage.ao.data(), stage.info.file_vertex_count, 0) ==
         NOOK_ERROR_UNSUPPORTED);
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }
 
 TEST_CASE("scenes: every field out of its range") {
@@ -86,14 +91,12 @@ TEST_CASE("scenes: every field out of its range") {
     return nook_scene_create(stage.context, &desc, &scene) == invalid && scene == nullptr &&
            last_is("nook_scene_create: ", field);
   };
-  CHECK(refused([](auto& d) { d.combine = 2; }, "desc.combine"));
-  CHECK(refused([](auto& d) { d.combine = -1; }, "desc.combine"));
-  CHECK(refused([](auto& d) { d.isa = INT32_MAX; }, "desc.isa"));
+  CHECK(refused([](auto& d) { d.form = 2; }, "desc.form"));
+  CHECK(refused([](auto& d) { d.form = -1; }, "desc.form"));
   CHECK(refused([](auto& d) { d.cutoff_error = NAN; }, "desc.cutoff_error"));
   CHECK(refused([](auto& d) { d.cutoff_error = 1.1f; }, "desc.cutoff_error"));
   CHECK(refused([](auto& d) { d.far_error = NAN; }, "desc.far_error"));
   CHECK(refused([](auto& d) { d.far_error = -1; }, "desc.far_error"));
-  CHECK(refused([](auto& d) { d.reserved = 1; }, "desc.reserved"));
   CHECK(refused([](auto& d) { d.lod_error = -1; }, "desc.lod_error"));
   CHECK(refused([](auto& d) { d.lod_distance = 0; }, "desc.lod_distance"));
   CHECK(refused([](auto& d) { d.lod_max_interval = 0; }, "desc.lod_max_interval"));
@@ -102,29 +105,42 @@ TEST_CASE("scenes: every field out of its range") {
   nook_scene scene = nullptr;
   CHECK(nook_scene_create(nullptr, &good, &scene) == invalid);
   CHECK(nook_scene_create(stage.context, &good, nullptr) == invalid);
+}
 
+TEST_CASE("contexts: instruction sets and reserved fields") {
+  nook_context context = nullptr;
+  nook_context_desc desc;
+  REQUIRE(nook_context_desc_init(&desc) == NOOK_OK);
+  desc.reserved = 1;
+  CHECK(nook_context_create(&desc, &context) == invalid);
+  CHECK(last_is("nook_context_create: ", "desc.reserved"));
+  desc.reserved = 0;
   // No machine has all instruction sets. What is missing is named, with those that are there.
+  int unsupported = 0;
   for (nook_isa isa = NOOK_ISA_SCALAR;; ++isa) {
-    nook_scene_desc chosen = good;
-    chosen.isa = isa;
-    const nook_result result = nook_scene_create(stage.context, &chosen, &scene);
-    nook_scene_destroy(&scene);
+    desc.isa = isa;
+    const nook_result result = nook_context_create(&desc, &context);
+    CHECK((context != nullptr) == (result == NOOK_OK));
+    nook_context_destroy(&context);
     if (result == NOOK_OK) continue;
     if (result == NOOK_ERROR_UNSUPPORTED) {
-      CHECK(last_is("nook_scene_create: ", "need one of scalar"));
+      CHECK(last_is("nook_context_create: ", "need one of scalar"));
+      ++unsupported;
       continue;
     }
     CHECK((result == invalid && isa > NOOK_ISA_AVX512 &&
-           last_is("nook_scene_create: ", "desc.isa is unknown")));
+           last_is("nook_context_create: ", "desc.isa is unknown")));
     break;
   }
-  nook_scene_destroy(&scene);
+  CHECK(unsupported > 0);
+  desc.isa = -1;
+  CHECK(nook_context_create(&desc, &context) == invalid);
 }
 
 TEST_CASE("scenes: bad handles and parameters of every call") {
   Stage stage;
   nook_scene scene = stage.scene;
-  const float centre[3] = {0, 0, 0}, far[3] = {0, NAN, 0};
+  const float far[3] = {0, NAN, 0};
   const float plane[4] = {0, 1, 0, INFINITY};
   nook_occluder_id occluder = 77;
   nook_instance_id id = 77;
@@ -135,25 +151,25 @@ TEST_CASE("scenes: bad handles and parameters of every call") {
   CHECK(nook_scene_remove_instance(scene, 0) == no_handle);
   CHECK(nook_scene_remove_instance(scene, 12345) == no_handle);
   CHECK(last_is("nook_scene_remove_instance: ", "no instance 12345"));
-  CHECK(nook_scene_set_pose(scene, 99, stage.pose.data(), stage.info.bone_count) == no_handle);
-  CHECK(nook_scene_set_pose(scene, stage.first, nullptr, stage.info.bone_count) == invalid);
-  CHECK(nook_scene_set_pose(scene, stage.first, stage.pose.data(), stage.info.bone_count - 1) == invalid);
+  CHECK(nook::test::set_rows(scene, 99, stage.pose.data(), stage.info.bone_count) == no_handle);
+  CHECK(nook::test::set_rows(scene, stage.first, nullptr, stage.info.bone_count) == invalid);
+  CHECK(nook::test::set_rows(scene, stage.first, stage.pose.data(), stage.info.bone_count - 1) == invalid);
   CHECK(last_is("nook_scene_set_pose: ", "got 4, need 5"));
   stage.pose[12 * 2 + 5] = NAN;
-  CHECK(nook_scene_set_pose(scene, stage.first, stage.pose.data(), stage.info.bone_count) == invalid);
+  CHECK(nook::test::set_rows(scene, stage.first, stage.pose.data(), stage.info.bone_count) == invalid);
   CHECK(last_is("nook_scene_set_pose: ", "bone 2"));
   // The axes x and y have unit length and the cosine 0.1 between them.
   const float sheared[12] = {1, 0.1f, 0, 0, 0, 0.99498744f, 0, 0, 0, 0, 1, 0};
   std::copy_n(sheared, 12, stage.pose.begin() + 12 * 2);
-  CHECK(nook_scene_set_pose(scene, stage.first, stage.pose.data(), stage.info.bone_count) == NOOK_OK);
+  CHECK(nook::test::set_rows(scene, stage.first, stage.pose.data(), stage.info.bone_count) == NOOK_OK);
   nook_scene_desc strict_desc = Host::scene_desc();
   strict_desc.strict_poses = 1;
   nook_scene strict = nullptr;
   nook_instance_id stiff = 0;
   REQUIRE(nook_scene_create(stage.context, &strict_desc, &strict) == NOOK_OK);
   REQUIRE(nook_scene_add_instance(strict, stage.model, &stiff) == NOOK_OK);
-  CHECK(nook_scene_set_pose(strict, stiff, stage.pose.data(), stage.info.bone_count) == invalid);
-  CHECK(last_is("nook_scene_set_pose: ", "bones_3x4 is row-major"));
+  CHECK(nook::test::set_rows(strict, stiff, stage.pose.data(), stage.info.bone_count) == invalid);
+  CHECK(last_is("nook_scene_set_pose: ", "check desc.layout"));
   nook_scene_destroy(&strict);
   CHECK(nook_scene_link(scene, stage.first, stage.first) == invalid);
   CHECK(nook_scene_link(scene, stage.first, 99) == no_handle);
@@ -164,24 +180,37 @@ TEST_CASE("scenes: bad handles and parameters of every call") {
   CHECK(nook_scene_link_nearest(scene, 4, NAN) == invalid);
   CHECK(nook_scene_set_ground(scene, 99, nullptr) == no_handle);
   CHECK(nook_scene_set_ground(scene, stage.first, plane) == invalid);
-  CHECK(nook_scene_add_occluder(scene, nullptr, 1, &occluder) == invalid);
+  const nook_occluder ball{{0, 0, 0}, 1, 0}, lost{{0, NAN, 0}, 1, 0}, flat{{0, 0, 0}, 0, 0},
+      of_nobody{{0, 0, 0}, 1, 99};
+  CHECK(nook_scene_add_occluder(scene, nullptr, &occluder) == invalid);
   CHECK(occluder == 0);
-  CHECK(nook_scene_add_occluder(scene, far, 1, &occluder) == invalid);
-  CHECK(nook_scene_add_occluder(scene, centre, 0, &occluder) == invalid);
-  CHECK(nook_scene_add_occluder(scene, centre, 1, nullptr) == invalid);
-  CHECK(nook_scene_set_occluder(scene, 5, centre, 1) == no_handle);
+  CHECK(nook_scene_add_occluder(scene, &lost, &occluder) == invalid);
+  CHECK(nook_scene_add_occluder(scene, &flat, &occluder) == invalid);
+  CHECK(nook_scene_add_occluder(scene, &ball, nullptr) == invalid);
+  CHECK(nook_scene_add_occluder(scene, &of_nobody, &occluder) == no_handle);
+  CHECK(last_is("nook_scene_add_occluder: ", "no instance 99"));
+  CHECK(nook_scene_set_occluder(scene, 5, &ball) == no_handle);
+  CHECK(nook_scene_set_occluder(scene, 5, nullptr) == invalid);
+  REQUIRE(nook_scene_add_occluder(scene, &ball, &occluder) == NOOK_OK);
+  CHECK(nook_scene_set_occluder(scene, occluder, &flat) == invalid);
+  CHECK(nook_scene_set_occluder(scene, occluder, &of_nobody) == no_handle);
+  CHECK(nook_scene_remove_occluder(scene, occluder) == NOOK_OK);
   CHECK(nook_scene_remove_occluder(scene, 5) == no_handle);
   CHECK(nook_scene_set_camera(scene, far) == invalid);
   CHECK(nook_scene_set_camera(scene, nullptr) == NOOK_OK);
   CHECK(nook_scene_set_terms(scene, 16) == invalid);
   CHECK(nook_scene_update(nullptr) == invalid);
-  CHECK(nook_scene_read_ao(scene, 99, stage.ao.data(), stage.info.file_vertex_count, 0) == no_handle);
-  CHECK(nook_scene_read_ao(scene, stage.first, nullptr, stage.info.file_vertex_count, 0) == invalid);
-  CHECK(nook_scene_read_ao(scene, stage.first, stage.ao.data(), 1, 0) == invalid);
-  CHECK(nook_scene_read_ao(scene, stage.first, stage.ao.data(), stage.info.file_vertex_count, 3) == invalid);
+  CHECK(nook_scene_read(scene, 99, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, stage.ao.data(),
+                        stage.info.file_vertex_count, 0) == no_handle);
+  CHECK(nook_scene_read(scene, stage.first, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, nullptr,
+                        stage.info.file_vertex_count, 0) == invalid);
+  CHECK(nook_scene_read(scene, stage.first, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, stage.ao.data(), 1, 0) ==
+        invalid);
+  CHECK(nook_scene_read(scene, stage.first, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, stage.ao.data(),
+                        stage.info.file_vertex_count, 3) == invalid);
 
-  nook_probe_lobe lobes[NOOK_PROBE_MAX_FUNCTIONS + 1] = {};
-  for (nook_probe_lobe& lobe : lobes) lobe.axis[1] = 1;
+  nook_lobe lobes[NOOK_PROBE_MAX_FUNCTIONS + 1] = {};
+  for (nook_lobe& lobe : lobes) lobe.axis[1] = 1;
   std::vector<float> colour(3 * std::size_t(stage.info.file_vertex_count));
   CHECK(nook_scene_set_light(scene, 99, lobes, 1) == no_handle);
   CHECK(nook_scene_set_light(scene, stage.first, lobes, NOOK_PROBE_MAX_FUNCTIONS + 1) == invalid);
@@ -189,16 +218,31 @@ TEST_CASE("scenes: bad handles and parameters of every call") {
   CHECK(nook_scene_set_light(scene, stage.first, lobes, 2) == invalid);
   CHECK(std::string(nook_last_message()).find("lobe 1") != std::string::npos);
   CHECK(nook_scene_set_light(scene, stage.first, nullptr, 2) == NOOK_OK);
-  CHECK(nook_scene_read_directional_ao(scene, 99, colour.data(), stage.info.file_vertex_count, 0) ==
-        no_handle);
-  CHECK(nook_scene_read_directional_ao(scene, stage.first, nullptr, stage.info.file_vertex_count, 0) ==
-        invalid);
-  CHECK(nook_scene_read_directional_ao(scene, stage.first, colour.data(), 1, 0) == invalid);
-  CHECK(nook_scene_read_directional_ao(scene, stage.first, colour.data(), stage.info.file_vertex_count, 8) ==
-        invalid);
-  CHECK(nook_scene_read_stats(scene, nullptr) == invalid);
-  std::uint64_t bytes = 0;
-  CHECK(nook_scene_memory(scene, nullptr) == invalid);
-  CHECK(nook_scene_memory(nullptr, &bytes) == invalid);
+  CHECK(nook_scene_read(scene, 99, NOOK_CHANNEL_DIRECTIONAL_AO, NOOK_FORMAT_FLOAT, colour.data(),
+                        stage.info.file_vertex_count, 0) == no_handle);
+  CHECK(nook_scene_read(scene, stage.first, NOOK_CHANNEL_DIRECTIONAL_AO, NOOK_FORMAT_FLOAT, nullptr,
+                        stage.info.file_vertex_count, 0) == invalid);
+  CHECK(nook_scene_read(scene, stage.first, NOOK_CHANNEL_DIRECTIONAL_AO, NOOK_FORMAT_FLOAT, colour.data(), 1,
+                        0) == invalid);
+  CHECK(nook_scene_read(scene, stage.first, NOOK_CHANNEL_DIRECTIONAL_AO, NOOK_FORMAT_FLOAT, colour.data(),
+                        stage.info.file_vertex_count, 8) == invalid);
+  CHECK(nook_scene_describe(scene, nullptr) == invalid);
+  nook_scene_info info{};
+  info.struct_size = sizeof info;
+  CHECK(nook_scene_describe(nullptr, &info) == invalid);
+
+  const auto read = [&](nook_channel channel, nook_format format, const char* need) {
+    return nook_scene_read(scene, stage.first, channel, format, colour.data(), stage.info.file_vertex_count,
+                           0) == invalid &&
+           last_is("nook_scene_read: ", need);
+  };
+  CHECK(read(-1, NOOK_FORMAT_FLOAT, "channel is unknown"));
+  CHECK(read(3, NOOK_FORMAT_FLOAT, "channel is unknown"));
+  CHECK(read(NOOK_CHANNEL_AO, -1, "format is unknown"));
+  CHECK(read(NOOK_CHANNEL_AO, 4, "format is unknown"));
+  CHECK(read(NOOK_CHANNEL_AO, NOOK_FORMAT_SNORM8, "NOOK_CHANNEL_AO cannot be read as NOOK_FORMAT_SNORM8"));
+  CHECK(read(NOOK_CHANNEL_DIRECTIONAL_AO, NOOK_FORMAT_HALF, "use NOOK_FORMAT_FLOAT"));
+  CHECK(read(NOOK_CHANNEL_DIRECTIONAL_AO, NOOK_FORMAT_SNORM8, "cannot be read as NOOK_FORMAT_SNORM8"));
+  CHECK(read(NOOK_CHANNEL_BENT_NORMAL, NOOK_FORMAT_FLOAT, "use NOOK_FORMAT_SNORM8"));
   CHECK(nook_scene_update(scene) == NOOK_OK);  // still well
 }

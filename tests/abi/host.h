@@ -9,6 +9,7 @@
 
 #include "sdk/src/character/model_file.h"
 #include "tests/character/model_sample.h"
+#include "tests/pose_of_rows.h"
 
 namespace nook::test {
 
@@ -31,13 +32,13 @@ struct Host {
 
   nook_context_desc context_desc() {
     nook_context_desc desc;
-    nook_context_desc_init(&desc, sizeof desc, NOOK_VERSION);
+    nook_context_desc_init(&desc);
     desc.allocator = {this, allocate, release};
     return desc;
   }
   static nook_scene_desc scene_desc() {
     nook_scene_desc desc;
-    nook_scene_desc_init(&desc, sizeof desc, NOOK_VERSION);
+    nook_scene_desc_init(&desc);
     return desc;
   }
 };
@@ -46,22 +47,22 @@ struct Host {
 struct Stage {
   Host host;
   nook_context context = nullptr;
-  nook_character_model model = nullptr;
+  nook_model model = nullptr;
   nook_scene scene = nullptr;
   nook_instance_id first = 0, second = 0;
-  nook_character_model_info info{};
+  nook_model_info info{};
   std::vector<float> pose, ao;
 
   Stage() {
     const nook_context_desc desc = host.context_desc();
     nook_context_create(&desc, &context);
-    nook_character_model_load(context, host.bytes.data(), host.bytes.size(), &model);
+    nook_model_load(context, host.bytes.data(), host.bytes.size(), &model);
     const nook_scene_desc scene_desc = Host::scene_desc();
     nook_scene_create(context, &scene_desc, &scene);
     nook_scene_add_instance(scene, model, &first);
     nook_scene_add_instance(scene, model, &second);
     info.struct_size = sizeof info;
-    nook_character_model_describe(model, &info);
+    nook_model_describe(model, &info);
     ao.resize(info.file_vertex_count);
     const float moved[12] = {1, 0, 0, 0.1f, 0, 1, 0, 0, 0, 0, 1, 0};
     for (std::uint32_t bone = 0; bone < info.bone_count; ++bone)
@@ -69,7 +70,7 @@ struct Stage {
   }
   ~Stage() {
     nook_scene_destroy(&scene);
-    nook_character_model_destroy(&model);
+    nook_model_destroy(&model);
     nook_context_destroy(&context);
   }
   Stage(const Stage&) = delete;

@@ -1,7 +1,7 @@
 /* Every function of the headers of poses and vertices, called from C in the order a host would; returns the
  * number of failed expectations and prints each. bytes: a character model with bind data. */
-#include <nook/nook_pose.h>
-#include <nook/nook_vertices.h>
+#include <nook/experimental/nook_lod.h>
+#include <nook/nook_character.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,48 +20,48 @@ static void expect(int condition, const char* what, int line) {
 enum { MAX_VERTICES = 64 };
 
 /* The world is the rest space: every bone has the identity, and vertices stay where they are. */
-static void check_rest_pose(nook_character_model model, const nook_pose_desc* desc) {
+static void check_rest_pose(nook_model model, const nook_pose_desc* desc) {
   float positions[3 * MAX_VERTICES];
-  nook_pose_check check;
-  nook_rest_vertex vertex;
-  nook_character_model_info info;
+  nook_pose_check_desc check;
+  nook_pose_check_info fault;
+  nook_check_vertex_info vertex;
+  nook_model_info info;
   uint32_t v;
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
-  EXPECT_OK(nook_character_model_describe(model, &info));
+  EXPECT_OK(nook_model_describe(model, &info));
   EXPECT(info.check_vertex_count >= 8 && info.check_vertex_count <= MAX_VERTICES);
   vertex.struct_size = sizeof vertex;
   for (v = 0; v < info.check_vertex_count && v < MAX_VERTICES; ++v) {
-    EXPECT_OK(nook_character_model_rest_vertex(model, v, &vertex));
+    EXPECT_OK(nook_model_describe_check_vertex(model, v, &vertex));
     memcpy(positions + 3 * v, vertex.position, sizeof vertex.position);
   }
-  memset(&check, 0, sizeof check);
-  check.struct_size = sizeof check;
+  EXPECT_OK(nook_pose_check_desc_init(&check));
   check.vertex_count = info.check_vertex_count;
   check.positions = positions;
-  EXPECT_OK(nook_character_model_check_pose(model, desc, &check));
-  EXPECT(check.fault == NOOK_POSE_RIGHT);
-  EXPECT(check.text[0] != 0);
+  memset(&fault, 0, sizeof fault);
+  fault.struct_size = sizeof fault;
+  EXPECT_OK(nook_model_check_pose(model, desc, &check, &fault));
+  EXPECT(fault.fault == NOOK_POSE_FAULT_NONE);
+  EXPECT(fault.text[0] != 0);
 }
 
-static void match_rest_vertices(nook_character_model model) {
-  nook_rest_vertex vertex;
-  nook_vertex_match match;
-  nook_character_model remapped = NULL;
+static void match_rest_vertices(nook_model model) {
+  nook_check_vertex_info vertex;
+  nook_vertex_match_desc match;
+  nook_model remapped = NULL;
   uint32_t found = 0, unmatched = 9;
   vertex.struct_size = sizeof vertex;
-  EXPECT_OK(nook_character_model_rest_vertex(model, 0, &vertex));
-  memset(&match, 0, sizeof match);
-  match.struct_size = sizeof match;
+  EXPECT_OK(nook_model_describe_check_vertex(model, 0, &vertex));
+  EXPECT_OK(nook_vertex_match_desc_init(&match));
   match.vertex_count = 1;
   match.positions = vertex.mesh_position;
-  match.primitive = NOOK_ALL_PRIMITIVES;
-  EXPECT_OK(nook_character_model_match_vertices(model, &match, &found, &unmatched));
+  EXPECT_OK(nook_model_match_vertices(model, &match, &found, &unmatched));
   EXPECT(unmatched == 0);
-  EXPECT_OK(nook_character_model_remap(model, &found, 1, &remapped));
-  nook_character_model_destroy(&remapped);
-  EXPECT_OK(nook_character_model_resample(model, &match, &remapped));
-  nook_character_model_destroy(&remapped);
+  EXPECT_OK(nook_model_remap(model, &found, 1, &remapped));
+  nook_model_destroy(&remapped);
+  EXPECT_OK(nook_model_resample(model, &match, &remapped));
+  nook_model_destroy(&remapped);
 }
 
 int nook_call_every_pose_function(const void* bytes, size_t size) {
@@ -69,61 +69,61 @@ int nook_call_every_pose_function(const void* bytes, size_t size) {
   nook_scene_desc scene_desc;
   nook_pose_desc desc;
   nook_context context = NULL;
-  nook_character_model model = NULL;
+  nook_model model = NULL;
   nook_scene scene = NULL;
-  nook_character_model_info info;
+  nook_model_info info;
   nook_skin_info skin;
-  nook_bone_names names;
+  nook_bone_map_desc names;
   nook_instance_id instance = 0;
   const char** name;
-  float *pose, bind[12];
+  float* pose;
   int32_t* map;
   uint32_t i, unmatched = 9;
   failures = 0;
-  EXPECT_OK(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+  EXPECT_OK(nook_context_desc_init(&context_desc));
   EXPECT_OK(nook_context_create(&context_desc, &context));
-  EXPECT_OK(nook_character_model_load(context, bytes, size, &model));
-  EXPECT_OK(nook_scene_desc_init(&scene_desc, sizeof scene_desc, NOOK_VERSION));
+  EXPECT_OK(nook_model_load(context, bytes, size, &model));
+  EXPECT_OK(nook_scene_desc_init(&scene_desc));
   EXPECT_OK(nook_scene_create(context, &scene_desc, &scene));
   EXPECT_OK(nook_scene_add_instance(scene, model, &instance));
   info.struct_size = sizeof info;
-  EXPECT_OK(nook_character_model_describe(model, &info));
+  EXPECT_OK(nook_model_describe(model, &info));
 
   name = (const char**)malloc(info.bone_count * sizeof *name);
   map = (int32_t*)malloc(info.bone_count * sizeof *map);
   pose = (float*)calloc(info.bone_count, 12 * sizeof *pose);
   for (i = 0; i < info.bone_count; ++i) {
-    name[i] = nook_character_model_bone_name(model, i);
+    name[i] = nook_model_bone_name(model, i);
     pose[12 * i] = pose[12 * i + 5] = pose[12 * i + 10] = 1;
   }
-  memset(&names, 0, sizeof names);
-  names.struct_size = sizeof names;
+  EXPECT_OK(nook_bone_map_desc_init(&names));
   names.names = name;
   names.name_count = info.bone_count;
-  EXPECT_OK(nook_character_model_map_bones(model, &names, map, info.bone_count, &unmatched));
+  EXPECT_OK(nook_model_map_bones(model, &names, map, info.bone_count, &unmatched));
   EXPECT(unmatched == 0 && map[1] == 1);
 
-  EXPECT_OK(nook_pose_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  EXPECT_OK(nook_pose_desc_init(&desc));
+  desc.kind = NOOK_POSE_REST_TO_WORLD;
+  desc.layout = NOOK_TRANSFORM_ROWS_3X4;
   desc.transforms = pose;
   desc.transform_count = info.bone_count;
   desc.transform_of_bone = map;
   desc.bone_count = info.bone_count;
-  EXPECT_OK(nook_scene_set_pose_from(scene, instance, &desc));
-  EXPECT_OK(nook_character_model_convert_pose(model, &desc, pose, info.bone_count));
+  EXPECT_OK(nook_scene_set_pose(scene, instance, &desc));
+  EXPECT_OK(nook_model_convert_pose(model, &desc, pose, info.bone_count));
   EXPECT(pose[0] == 1 && pose[1] == 0);
   check_rest_pose(model, &desc);
   match_rest_vertices(model);
 
   skin.struct_size = sizeof skin;
-  EXPECT_OK(nook_character_model_skin(model, 0, &skin));
+  EXPECT_OK(nook_model_describe_skin(model, 0, &skin));
   EXPECT(skin.joint_count > 0);
-  EXPECT_OK(nook_character_model_bone_bind(model, 0, bind));
 
   free(pose);
   free(map);
   free((void*)name);
   nook_scene_destroy(&scene);
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
   nook_context_destroy(&context);
   return failures;
 }

@@ -1,7 +1,7 @@
 // The functions of poses and vertices: calls from C, bad arguments, refused allocations, frames without
 // allocation.
-#include <nook/nook_pose.h>
-#include <nook/nook_vertices.h>
+#include <nook/experimental/nook_lod.h>
+#include <nook/nook_character.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,26 +23,38 @@ bool last_mentions(const char* part) {
 }
 
 nook_pose_desc pose_desc(const Stage& stage) {
-  nook_pose_desc desc;
-  nook_pose_desc_init(&desc, sizeof desc, NOOK_VERSION);
-  desc.transforms = stage.pose.data();
-  desc.transform_count = stage.info.bone_count;
+  return pose_of_rows(stage.pose.data(), stage.info.bone_count);
+}
+
+nook_pose_check_desc check_desc(const std::vector<float>& positions) {
+  nook_pose_check_desc desc;
+  nook_pose_check_desc_init(&desc);
+  desc.vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
+  desc.positions = positions.data();
   return desc;
 }
 
-nook_character_model_info info_of(nook_character_model model) {
-  nook_character_model_info info{};
+nook_vertex_match_desc match_desc(const float* positions, std::uint32_t count) {
+  nook_vertex_match_desc desc;
+  nook_vertex_match_desc_init(&desc);
+  desc.vertex_count = count;
+  desc.positions = positions;
+  return desc;
+}
+
+nook_model_info info_of(nook_model model) {
+  nook_model_info info{};
   info.struct_size = sizeof info;
-  REQUIRE(nook_character_model_describe(model, &info) == NOOK_OK);
+  REQUIRE(nook_model_describe(model, &info) == NOOK_OK);
   return info;
 }
 
-std::vector<float> rest_positions(nook_character_model model) {
+std::vector<float> rest_positions(nook_model model) {
   std::vector<float> out;
-  nook_rest_vertex vertex{};
+  nook_check_vertex_info vertex{};
   vertex.struct_size = sizeof vertex;
   for (std::uint32_t v = 0; v < info_of(model).check_vertex_count; ++v) {
-    REQUIRE(nook_character_model_rest_vertex(model, v, &vertex) == NOOK_OK);
+    REQUIRE(nook_model_describe_check_vertex(model, v, &vertex) == NOOK_OK);
     out.insert(out.end(), vertex.position, vertex.position + 3);
   }
   return out;
@@ -61,36 +73,36 @@ TEST_CASE("a model's info counts its skins and check vertices") {
   CHECK(stage.info.check_vertex_count >= 8);
   nook_skin_info skin{};
   skin.struct_size = sizeof skin;
-  nook_rest_vertex vertex{};
+  nook_check_vertex_info vertex{};
   vertex.struct_size = sizeof vertex;
-  CHECK(nook_character_model_skin(stage.model, stage.info.skin_count - 1, &skin) == NOOK_OK);
-  CHECK(nook_character_model_skin(stage.model, stage.info.skin_count, &skin) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_character_model_rest_vertex(stage.model, stage.info.check_vertex_count - 1, &vertex) == NOOK_OK);
-  CHECK(nook_character_model_rest_vertex(stage.model, stage.info.check_vertex_count, &vertex) ==
+  CHECK(nook_model_describe_skin(stage.model, stage.info.skin_count - 1, &skin) == NOOK_OK);
+  CHECK(nook_model_describe_skin(stage.model, stage.info.skin_count, &skin) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_model_describe_check_vertex(stage.model, stage.info.check_vertex_count - 1, &vertex) == NOOK_OK);
+  CHECK(nook_model_describe_check_vertex(stage.model, stage.info.check_vertex_count, &vertex) ==
         NOOK_ERROR_INVALID_ARGUMENT);
 
   nook::CharacterModel unbound = sample_model();
   unbound.bind = nook::BindData();
   const std::vector<std::byte> bytes = nook::write_character_model(unbound);
-  nook_character_model model = nullptr;
-  REQUIRE(nook_character_model_load(stage.context, bytes.data(), bytes.size(), &model) == NOOK_OK);
+  nook_model model = nullptr;
+  REQUIRE(nook_model_load(stage.context, bytes.data(), bytes.size(), &model) == NOOK_OK);
   CHECK(info_of(model).skin_count == 0);
   CHECK(info_of(model).check_vertex_count == 0);
-  CHECK(nook_character_model_skin(model, 0, &skin) == NOOK_ERROR_UNSUPPORTED);
-  nook_character_model_destroy(&model);
+  CHECK(nook_model_describe_skin(model, 0, &skin) == NOOK_ERROR_UNSUPPORTED);
+  nook_model_destroy(&model);
 }
 
 TEST_CASE("a pose that is refused leaves the instance as it was") {
   Stage stage;
-  REQUIRE(nook_scene_set_pose(stage.scene, stage.first, stage.pose.data(), stage.info.bone_count) == NOOK_OK);
+  REQUIRE(set_rows(stage.scene, stage.first, stage.pose.data(), stage.info.bone_count) == NOOK_OK);
   REQUIRE(nook_scene_update(stage.scene) == NOOK_OK);
-  REQUIRE(nook_scene_read_ao(stage.scene, stage.first, stage.ao.data(), stage.info.file_vertex_count, 0) ==
-          NOOK_OK);
+  REQUIRE(nook_scene_read(stage.scene, stage.first, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, stage.ao.data(),
+                          stage.info.file_vertex_count, 0) == NOOK_OK);
   const std::vector<float> before = stage.ao;
   const auto refused = [&](auto&& spoil, nook_result result, const char* part) {
     nook_pose_desc desc = pose_desc(stage);
     spoil(desc);
-    CHECK(nook_scene_set_pose_from(stage.scene, stage.first, &desc) == result);
+    CHECK(nook_scene_set_pose(stage.scene, stage.first, &desc) == result);
     INFO(nook_last_message());
     CHECK(last_mentions(part));
   };
@@ -124,13 +136,89 @@ TEST_CASE("a pose that is refused leaves the instance as it was") {
       },
       "desc.skin");
   nook_pose_desc desc = pose_desc(stage);
-  CHECK(nook_scene_set_pose_from(stage.scene, 4711, &desc) == NOOK_ERROR_INVALID_HANDLE);
+  CHECK(nook_scene_set_pose(stage.scene, 4711, &desc) == NOOK_ERROR_INVALID_HANDLE);
   desc.struct_size = 8;
-  CHECK(nook_scene_set_pose_from(stage.scene, stage.first, &desc) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_scene_set_pose(stage.scene, stage.first, &desc) == NOOK_ERROR_INVALID_ARGUMENT);
   REQUIRE(nook_scene_update(stage.scene) == NOOK_OK);
-  REQUIRE(nook_scene_read_ao(stage.scene, stage.first, stage.ao.data(), stage.info.file_vertex_count, 0) ==
-          NOOK_OK);
+  REQUIRE(nook_scene_read(stage.scene, stage.first, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, stage.ao.data(),
+                          stage.info.file_vertex_count, 0) == NOOK_OK);
   CHECK(stage.ao == before);
+}
+
+TEST_CASE("a pose is of skinning matrices in columns unless its descriptor says otherwise") {
+  nook_pose_desc desc;
+  REQUIRE(nook_pose_desc_init(&desc) == NOOK_OK);
+  CHECK(desc.kind == NOOK_POSE_SKINNING);
+  CHECK(desc.layout == NOOK_TRANSFORM_COLUMNS_4X4);
+}
+
+TEST_CASE(
+    "the first bone that is projected is logged once for an instance, whatever the kind of its matrices") {
+  int lines = 0;
+  nook_context_desc context_desc;
+  REQUIRE(nook_context_desc_init(&context_desc) == NOOK_OK);
+  context_desc.log_user = &lines;
+  context_desc.log = [](void* user, nook_log_severity, const char* text) {
+    *static_cast<int*>(user) += std::string(text).find("bone 1 ") != std::string::npos;
+  };
+  nook_context context = nullptr;
+  nook_model model = nullptr;
+  nook_scene scene = nullptr;
+  nook_instance_id id = 0;
+  const Stage stage;
+  const nook_scene_desc scene_desc = Host::scene_desc();
+  REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
+  REQUIRE(nook_model_load(context, stage.host.bytes.data(), stage.host.bytes.size(), &model) == NOOK_OK);
+  REQUIRE(nook_scene_create(context, &scene_desc, &scene) == NOOK_OK);
+  REQUIRE(nook_scene_add_instance(scene, model, &id) == NOOK_OK);
+  std::vector<float> stretched = stage.pose;
+  stretched[12 + 5] = 1.5f;
+  nook_pose_desc desc = pose_of_rows(stretched.data(), stage.info.bone_count);
+  const float place[12] = {1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 0};
+  SECTION("Nook's own matrices") {}
+  SECTION("Nook's own matrices at a place") {
+    desc.place_3x4 = place;
+  }
+  for (int frame = 0; frame < 2; ++frame) CHECK(nook_scene_set_pose(scene, id, &desc) == NOOK_OK);
+  CHECK(lines == 1);
+  nook_scene_destroy(&scene);
+  nook_model_destroy(&model);
+  nook_context_destroy(&context);
+}
+
+TEST_CASE("a model without bind data takes rest-to-world matrices alone, and the message names the cure") {
+  const Stage stage;
+  nook::CharacterModel unbound = sample_model();
+  unbound.bind = nook::BindData();
+  const std::vector<std::byte> bytes = nook::write_character_model(unbound);
+  nook_model model = nullptr;
+  nook_instance_id id = 0;
+  REQUIRE(nook_model_load(stage.context, bytes.data(), bytes.size(), &model) == NOOK_OK);
+  REQUIRE(nook_scene_add_instance(stage.scene, model, &id) == NOOK_OK);
+  nook_model_destroy(&model);
+  nook_pose_desc desc = pose_desc(stage);
+  CHECK(nook_scene_set_pose(stage.scene, id, &desc) == NOOK_OK);
+  for (const nook_pose_kind kind : {NOOK_POSE_SKINNING, NOOK_POSE_JOINT_TO_WORLD}) {
+    desc.kind = kind;
+    CHECK(nook_scene_set_pose(stage.scene, id, &desc) == NOOK_ERROR_UNSUPPORTED);
+    INFO(nook_last_message());
+    CHECK(last_mentions("bake it again from the glTF file"));
+    CHECK(last_mentions("NOOK_POSE_REST_TO_WORLD"));
+  }
+}
+
+TEST_CASE("joint matrices of the identity give the bind matrix of each bone") {
+  const Stage stage;
+  const nook::CharacterModel model = sample_model();
+  const std::uint32_t count = stage.info.bone_count;
+  std::vector<float> identities(12 * std::size_t(count)), bind(12 * std::size_t(count));
+  for (std::size_t i = 0; i < identities.size(); i += 12)
+    identities[i] = identities[i + 5] = identities[i + 10] = 1;
+  nook_pose_desc desc = pose_of_rows(identities.data(), count);
+  desc.kind = NOOK_POSE_JOINT_TO_WORLD;
+  REQUIRE(nook_model_convert_pose(stage.model, &desc, bind.data(), count) == NOOK_OK);
+  for (std::uint32_t b = 0; b < count; ++b)
+    for (std::size_t i = 0; i < 12; ++i) CHECK(bind[12 * b + i] == model.bind.bones[b].node_from_rest.m[i]);
 }
 
 TEST_CASE("checks and matches refuse what they cannot compare") {
@@ -138,55 +226,49 @@ TEST_CASE("checks and matches refuse what they cannot compare") {
   std::vector<float> positions = rest_positions(stage.model);
   const nook_pose_desc desc = pose_desc(stage);
   const auto refused = [&](auto&& spoil, const char* part) {
-    nook_pose_check check{};
-    check.struct_size = sizeof check;
-    check.vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
-    check.positions = positions.data();
+    nook_pose_check_desc check = check_desc(positions);
+    nook_pose_check_info info{};
+    info.struct_size = sizeof info;
     spoil(check);
-    CHECK(nook_character_model_check_pose(stage.model, &desc, &check) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(nook_model_check_pose(stage.model, &desc, &check, &info) == NOOK_ERROR_INVALID_ARGUMENT);
     INFO(nook_last_message());
     CHECK(last_mentions(part));
   };
   const std::uint32_t far_index[8] = {0, 1, 2, 3, 4, 5, 6, 900};
-  refused([](nook_pose_check& c) { c.struct_size = 16; }, "check.struct_size");
-  refused([](nook_pose_check& c) { c.vertex_count = 7; }, "check.vertex_count");
-  refused([](nook_pose_check& c) { c.positions = nullptr; }, "check.positions");
-  refused([](nook_pose_check& c) { c.stride = 4; }, "check.stride");
-  refused([](nook_pose_check& c) { c.tolerance = -1; }, "check.tolerance");
+  refused([](nook_pose_check_desc& c) { c.struct_size = 16; }, "nook_pose_check_desc_init");
+  refused([](nook_pose_check_desc& c) { c.vertex_count = 7; }, "check.vertex_count");
+  refused([](nook_pose_check_desc& c) { c.positions = nullptr; }, "check.positions");
+  refused([](nook_pose_check_desc& c) { c.stride = 4; }, "check.stride");
+  refused([](nook_pose_check_desc& c) { c.tolerance = -1; }, "check.tolerance");
   refused(
-      [&](nook_pose_check& c) {
+      [&](nook_pose_check_desc& c) {
         c.vertex_count = 8;
-        c.rest_vertices = far_index;
+        c.check_vertices = far_index;
       },
-      "check.rest_vertices[7]");
+      "check.check_vertices[7]");
   positions[4] = INFINITY;
-  refused([](nook_pose_check&) {}, "position 1");
+  refused([](nook_pose_check_desc&) {}, "position 1");
 
   std::uint32_t found[2];
   const float two[6] = {};
   const auto no_match = [&](auto&& spoil, const char* part) {
-    nook_vertex_match match{};
-    match.struct_size = sizeof match;
-    match.vertex_count = 2;
-    match.positions = two;
-    match.primitive = NOOK_ALL_PRIMITIVES;
+    nook_vertex_match_desc match = match_desc(two, 2);
     spoil(match);
-    CHECK(nook_character_model_match_vertices(stage.model, &match, found, nullptr) ==
-          NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(nook_model_match_vertices(stage.model, &match, found, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
     INFO(nook_last_message());
     CHECK(last_mentions(part));
   };
   const float not_finite[6] = {0, 0, 0, 0, NAN, 0};
-  no_match([](nook_vertex_match& m) { m.struct_size = 8; }, "match.struct_size");
-  no_match([](nook_vertex_match& m) { m.positions = nullptr; }, "match.positions");
-  no_match([](nook_vertex_match& m) { m.position_stride = 8; }, "positions");
-  no_match([&](nook_vertex_match& m) { m.normals = not_finite; }, "match.normals[1]");
-  no_match([](nook_vertex_match& m) { m.primitive = 2; }, "match.primitive");
-  no_match([](nook_vertex_match& m) { m.tolerance = 2; }, "match.tolerance");
-  no_match([](nook_vertex_match& m) { m.in_rest_space = 2; }, "match.in_rest_space");
+  no_match([](nook_vertex_match_desc& m) { m.struct_size = 8; }, "nook_vertex_match_desc_init");
+  no_match([](nook_vertex_match_desc& m) { m.positions = nullptr; }, "desc.positions");
+  no_match([](nook_vertex_match_desc& m) { m.position_stride = 8; }, "positions");
+  no_match([&](nook_vertex_match_desc& m) { m.normals = not_finite; }, "desc.normals[1]");
+  no_match([](nook_vertex_match_desc& m) { m.primitive = 2; }, "desc.primitive");
+  no_match([](nook_vertex_match_desc& m) { m.tolerance = 2; }, "desc.tolerance");
+  no_match([](nook_vertex_match_desc& m) { m.in_rest_space = 2; }, "desc.in_rest_space");
   const std::uint32_t none[2] = {0, NOOK_NO_VERTEX};
-  nook_character_model remapped = nullptr;
-  CHECK(nook_character_model_remap(stage.model, none, 2, &remapped) == NOOK_ERROR_INVALID_ARGUMENT);
+  nook_model remapped = nullptr;
+  CHECK(nook_model_remap(stage.model, none, 2, &remapped) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(last_mentions("NOOK_NO_VERTEX"));
   CHECK(remapped == nullptr);
 }
@@ -196,53 +278,58 @@ TEST_CASE("a remapped model gives the same AO in the host's order") {
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < 3 * stage.info.file_vertex_count; ++i)
     order.push_back(i * 7919 % stage.info.file_vertex_count);
-  nook_character_model remapped = nullptr;
-  REQUIRE(nook_character_model_remap(stage.model, order.data(), static_cast<std::uint32_t>(order.size()),
-                                     &remapped) == NOOK_OK);
+  nook_model remapped = nullptr;
+  REQUIRE(nook_model_remap(stage.model, order.data(), static_cast<std::uint32_t>(order.size()), &remapped) ==
+          NOOK_OK);
   nook_instance_id id = 0;
   REQUIRE(nook_scene_add_instance(stage.scene, remapped, &id) == NOOK_OK);
-  nook_character_model_destroy(&remapped);
+  nook_model_destroy(&remapped);
   REQUIRE(nook_scene_update(stage.scene) == NOOK_OK);
-  REQUIRE(nook_scene_read_ao(stage.scene, stage.first, stage.ao.data(), stage.info.file_vertex_count, 0) ==
-          NOOK_OK);
+  REQUIRE(nook_scene_read(stage.scene, stage.first, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, stage.ao.data(),
+                          stage.info.file_vertex_count, 0) == NOOK_OK);
   std::vector<float> ao(order.size());
-  REQUIRE(nook_scene_read_ao(stage.scene, id, ao.data(), static_cast<std::uint32_t>(ao.size()), 0) ==
-          NOOK_OK);
+  REQUIRE(nook_scene_read(stage.scene, id, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, ao.data(),
+                          static_cast<std::uint32_t>(ao.size()), 0) == NOOK_OK);
   for (std::size_t i = 0; i < ao.size(); ++i) CHECK(ao[i] == stage.ao[order[i]]);
 }
 
 TEST_CASE("a mesh that cannot be resampled is refused, and the message names what is wrong") {
   Stage stage;
   const std::vector<float> positions = rest_positions(stage.model);
-  nook_vertex_match mesh{};
-  mesh.struct_size = sizeof mesh;
-  mesh.vertex_count = 2;
-  mesh.positions = positions.data();
-  mesh.primitive = NOOK_ALL_PRIMITIVES;
+  nook_vertex_match_desc mesh = match_desc(positions.data(), 2);
   mesh.in_rest_space = 1;
-  nook_character_model model = nullptr;
+  nook_model model = nullptr;
   const auto refused = [&](auto&& spoil, const char* part) {
-    nook_vertex_match spoiled = mesh;
+    nook_vertex_match_desc spoiled = mesh;
     spoil(spoiled);
-    CHECK(nook_character_model_resample(stage.model, &spoiled, &model) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(nook_model_resample(stage.model, &spoiled, &model) == NOOK_ERROR_INVALID_ARGUMENT);
     INFO(nook_last_message());
     CHECK(last_mentions(part));
     CHECK(model == nullptr);
   };
   const float far_away[6] = {0, 0, 0, 0, 1e4f, 0}, not_finite[6] = {0, 0, 0, 0, NAN, 0};
-  refused([](nook_vertex_match& m) { m.vertex_count = 0; }, "mesh.vertex_count");
-  refused([](nook_vertex_match& m) { m.positions = nullptr; }, "mesh.positions");
-  refused([&](nook_vertex_match& m) { m.positions = not_finite; }, "mesh.positions[1]");
-  refused([&](nook_vertex_match& m) { m.positions = far_away; }, "vertex 1 of mesh is too far");
-  refused([](nook_vertex_match& m) { m.primitive = 99; }, "mesh.primitive");
+  refused([](nook_vertex_match_desc& m) { m.vertex_count = 0; }, "desc.vertex_count");
+  refused([](nook_vertex_match_desc& m) { m.positions = nullptr; }, "desc.positions");
+  refused([&](nook_vertex_match_desc& m) { m.positions = not_finite; }, "desc.positions[1]");
+  refused([&](nook_vertex_match_desc& m) { m.positions = far_away; }, "vertex 1 of the mesh is too far");
+  refused([](nook_vertex_match_desc& m) { m.primitive = 99; }, "desc.primitive");
 }
 
-TEST_CASE("setting a pose from a host's transforms allocates nothing") {
+TEST_CASE("setting a pose allocates nothing in any form") {
   Stage stage;
-  const nook_pose_desc desc = pose_desc(stage);
+  nook_pose_desc desc = pose_desc(stage);
+  std::vector<float> columns(16 * std::size_t(stage.info.bone_count));
+  for (std::size_t i = 0; i < columns.size(); i += 16)
+    columns[i] = columns[i + 5] = columns[i + 10] = columns[i + 15] = 1;
+  SECTION("as Nook's own matrices") {}
+  SECTION("as joint matrices") {
+    desc.kind = NOOK_POSE_JOINT_TO_WORLD;
+    desc.layout = NOOK_TRANSFORM_COLUMNS_4X4;
+    desc.transforms = columns.data();
+  }
   const int before = stage.host.allocations;
   for (int frame = 0; frame < 3; ++frame)
-    REQUIRE(nook_scene_set_pose_from(stage.scene, stage.second, &desc) == NOOK_OK);
+    REQUIRE(nook_scene_set_pose(stage.scene, stage.second, &desc) == NOOK_OK);
   CHECK(stage.host.allocations == before);
 }
 
@@ -251,32 +338,27 @@ TEST_CASE("each allocation of the functions of poses refused in turn is one clea
   const std::vector<float> positions = rest_positions(stage.model);
   const nook_pose_desc desc = pose_desc(stage);
   const auto run = [&] {
-    nook_pose_check check{};
-    check.struct_size = sizeof check;
-    check.vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
-    check.positions = positions.data();
-    nook_result first = nook_character_model_check_pose(stage.model, &desc, &check);
+    const nook_pose_check_desc check = check_desc(positions);
+    nook_pose_check_info info{};
+    info.struct_size = sizeof info;
+    nook_result first = nook_model_check_pose(stage.model, &desc, &check, &info);
     std::vector<std::int32_t> map(stage.info.bone_count);
     const char* name = "skeleton:bone_1_with_a_name_that_is_longer_than_a_small_string";
-    nook_bone_names names{};
-    names.struct_size = sizeof names;
+    nook_bone_map_desc names;
+    nook_bone_map_desc_init(&names);
     names.names = &name;
     names.name_count = 1;
     if (first == NOOK_OK)
-      first = nook_character_model_map_bones(stage.model, &names, map.data(), stage.info.bone_count, nullptr);
-    nook_vertex_match match{};
-    match.struct_size = sizeof match;
-    match.vertex_count = 2;
-    match.positions = positions.data();
-    match.primitive = NOOK_ALL_PRIMITIVES;
+      first = nook_model_map_bones(stage.model, &names, map.data(), stage.info.bone_count, nullptr);
+    const nook_vertex_match_desc match = match_desc(positions.data(), 2);
     std::uint32_t found[2] = {0, 0};
-    if (first == NOOK_OK) first = nook_character_model_match_vertices(stage.model, &match, found, nullptr);
+    if (first == NOOK_OK) first = nook_model_match_vertices(stage.model, &match, found, nullptr);
     const std::uint32_t order[2] = {1, 0};
-    nook_character_model remapped = nullptr;
-    if (first == NOOK_OK) first = nook_character_model_remap(stage.model, order, 2, &remapped);
-    nook_character_model_destroy(&remapped);
-    if (first == NOOK_OK) first = nook_character_model_resample(stage.model, &match, &remapped);
-    nook_character_model_destroy(&remapped);
+    nook_model remapped = nullptr;
+    if (first == NOOK_OK) first = nook_model_remap(stage.model, order, 2, &remapped);
+    nook_model_destroy(&remapped);
+    if (first == NOOK_OK) first = nook_model_resample(stage.model, &match, &remapped);
+    nook_model_destroy(&remapped);
     return first;
   };
   const int before = stage.host.allocations, blocks = stage.host.blocks;
@@ -295,32 +377,37 @@ TEST_CASE("AO is read as bytes and halves, among a host's own attributes") {
   Stage stage;
   REQUIRE(nook_scene_update(stage.scene) == NOOK_OK);
   const std::uint32_t count = stage.info.file_vertex_count;
-  REQUIRE(nook_scene_read_ao(stage.scene, stage.first, stage.ao.data(), count, 0) == NOOK_OK);
-  for (const nook_ao_format format : {NOOK_AO_FLOAT, NOOK_AO_HALF, NOOK_AO_UNORM8})
+  REQUIRE(nook_scene_read(stage.scene, stage.first, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, stage.ao.data(),
+                          count, 0) == NOOK_OK);
+  for (const nook_format format : {NOOK_FORMAT_FLOAT, NOOK_FORMAT_HALF, NOOK_FORMAT_UNORM8})
     for (const std::size_t stride : {std::size_t{0}, std::size_t{24}}) {
       const std::size_t each = sizeof(float) >> format, step = stride ? stride : each;
       std::vector<unsigned char> out(step * count, 0xa5);
-      REQUIRE(nook_scene_read_ao_as(stage.scene, stage.first, format, out.data(), count, stride) == NOOK_OK);
+      REQUIRE(nook_scene_read(stage.scene, stage.first, NOOK_CHANNEL_AO, format, out.data(), count, stride) ==
+              NOOK_OK);
       for (std::uint32_t v = 0; v < count; ++v) {
         const unsigned char* const place = &out[v * step];
         float value = 0;
         std::uint16_t half = 0;
         std::memcpy(&value, place, std::min(each, sizeof value));
         std::memcpy(&half, place, std::min(each, sizeof half));
-        if (format == NOOK_AO_UNORM8) value = static_cast<float>(*place) / 255;
-        if (format == NOOK_AO_HALF) value = nook::from_half(half);
+        if (format == NOOK_FORMAT_UNORM8) value = static_cast<float>(*place) / 255;
+        if (format == NOOK_FORMAT_HALF) value = nook::from_half(half);
         // Half a step of a byte, and of a half below 1.
-        const float tolerance = format == NOOK_AO_UNORM8 ? 0.5f / 255 + 1e-6f
-                                : format == NOOK_AO_HALF ? 0.25f / 1024
-                                                         : 0;
+        const float tolerance = format == NOOK_FORMAT_UNORM8 ? 0.5f / 255 + 1e-6f
+                                : format == NOOK_FORMAT_HALF ? 0.25f / 1024
+                                                             : 0;
         CHECK(std::abs(value - stage.ao[v]) <= tolerance);
         for (std::size_t i = each; i < step; ++i) CHECK(place[i] == 0xa5);
       }
     }
-  CHECK(nook_scene_read_ao_as(stage.scene, stage.first, 3, stage.ao.data(), count, 0) ==
+  CHECK(nook_scene_read(stage.scene, stage.first, NOOK_CHANNEL_AO, 4, stage.ao.data(), count, 0) ==
         NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(last_mentions("format"));
-  CHECK(nook_scene_read_ao_as(stage.scene, stage.first, NOOK_AO_HALF, stage.ao.data(), count, 1) ==
-        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_scene_read(stage.scene, stage.first, NOOK_CHANNEL_AO, NOOK_FORMAT_SNORM8, stage.ao.data(), count,
+                        0) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(last_mentions("NOOK_FORMAT_SNORM8"));
+  CHECK(nook_scene_read(stage.scene, stage.first, NOOK_CHANNEL_AO, NOOK_FORMAT_HALF, stage.ao.data(), count,
+                        1) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(last_mentions("stride"));
 }

@@ -1,6 +1,6 @@
 /* Every function of the header of recorded frames, called from C in the order a host would; returns the
  * number of failed expectations and prints each. */
-#include <nook/nook_nnao_recording.h>
+#include <nook/experimental/nook_recording.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,9 +32,9 @@ int nook_call_every_recording_function(void) {
     depth[i] = 2.0f + 0.01f * (float)i;
     ao[i] = 0.5f;
   }
-  EXPECT_OK(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+  EXPECT_OK(nook_context_desc_init(&context_desc));
   EXPECT_OK(nook_context_create(&context_desc, &context));
-  EXPECT_OK(nook_nnao_recording_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  EXPECT_OK(nook_nnao_recording_desc_init(&desc));
   desc.width = WIDTH;
   desc.height = HEIGHT;
   desc.depth = depth;

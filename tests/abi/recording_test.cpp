@@ -1,5 +1,5 @@
 // Recorded frames through the C interface: bad parameters, structs of other releases, memory.
-#include <nook/nook_nnao_recording.h>
+#include <nook/experimental/nook_recording.h>
 
 #include <cmath>
 #include <string>
@@ -15,7 +15,6 @@ extern "C" int nook_call_every_recording_function(void);
 namespace {
 
 constexpr nook_result invalid = NOOK_ERROR_INVALID_ARGUMENT;
-constexpr std::size_t desc_size = 272;  // in the first release
 
 bool last_is(const char* start, const char* part) {
   const std::string text = nook_last_message();
@@ -32,7 +31,7 @@ struct Frame {
   nook_nnao_recording_desc desc{};
 
   Frame() {
-    nook_nnao_recording_desc_init(&desc, sizeof desc, NOOK_VERSION);
+    nook_nnao_recording_desc_init(&desc);
     desc.width = width;
     desc.height = height;
     desc.depth = depth.data();
@@ -100,17 +99,16 @@ TEST_CASE("a C program calls every function of recorded frames") {
 }
 
 TEST_CASE("recorded frames: structs of every release") {
-  check_init(nook_nnao_recording_desc_init, desc_size);
+  check_init<nook_nnao_recording_desc>(nook_desc_init, NOOK_DESC_NNAO_RECORDING);
   const RecordedStage stage;
-  check_use(stage.frame.desc, desc_size, [&](const nook_nnao_recording_desc* desc) {
+  check_use(stage.frame.desc, [&](const nook_nnao_recording_desc* desc) {
     nook_nnao_recording recording = nullptr;
     const nook_result result = nook_nnao_recording_create(stage.context, desc, &recording);
     nook_nnao_recording_destroy(&recording);
     return result;
   });
-  check_info<nook_nnao_recording_desc>(desc_size, [&](nook_nnao_recording_desc* desc) {
-    return nook_nnao_recording_describe(stage.recording, desc);
-  });
+  check_info<nook_nnao_recording_desc>(
+      [&](nook_nnao_recording_desc* desc) { return nook_nnao_recording_describe(stage.recording, desc); });
 }
 
 TEST_CASE("recorded frames: bad parameters name their field") {

@@ -1,6 +1,6 @@
 /* Every function of the header of coordinate textures, called from C in the order a host would; returns the
  * number of failed expectations and prints each. */
-#include <nook/nook_synthesis.h>
+#include <nook/experimental/nook_synthesis.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -25,17 +25,21 @@ int nook_call_every_synthesis_function(const void* synthesis_bytes, size_t synth
   nook_material material = NULL;
   nook_synthesis synthesis = NULL;
   nook_synthesis_info info;
+  nook_material_info worn;
   int i;
   failures = 0;
-  EXPECT_OK(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+  EXPECT_OK(nook_context_desc_init(&context_desc));
   EXPECT_OK(nook_context_create(&context_desc, &context));
-  EXPECT_OK(nook_material_load(context, material_bytes, material_size, &material));
+  EXPECT_OK(nook_material_load(context, material_bytes, material_size, NULL, &material));
   EXPECT_OK(nook_synthesis_load(context, synthesis_bytes, synthesis_size, &synthesis));
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
   EXPECT_OK(nook_synthesis_describe(synthesis, &info));
   EXPECT(info.side == 8 && info.texture_bytes == 8 * 8 * 4);
-  EXPECT_OK(nook_synthesis_check_material(synthesis, material));
+  memset(&worn, 0, sizeof worn);
+  worn.struct_size = sizeof worn;
+  EXPECT_OK(nook_material_describe(material, &worn));
+  EXPECT(info.material_width == worn.width && info.material_height == worn.height);
   EXPECT_OK(nook_synthesis_material_uvs(synthesis, plane, 2, uvs));
   for (i = 0; i < 4; ++i) EXPECT(uvs[i] >= 0 && uvs[i] <= 1);
   nook_synthesis_destroy(&synthesis);

@@ -1,7 +1,7 @@
 /* Every function of the header of radiance transfer, called from C in the order a host would; returns the
  * number of failed expectations and prints each. */
 #include <math.h>
-#include <nook/nook_transfer.h>
+#include <nook/experimental/nook_transfer.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,9 +37,9 @@ static nook_probe make_probe(nook_context context) {
   float coefficients[36];
   int i;
   for (i = 0; i < 36; ++i) coefficients[i] = 0.3f;
-  EXPECT_OK(nook_probe_fit_desc_init(&fit_desc, sizeof fit_desc, NOOK_VERSION));
+  EXPECT_OK(nook_probe_fit_desc_init(&fit_desc));
   EXPECT_OK(nook_probe_fit_create(context, &fit_desc, &fit));
-  EXPECT_OK(nook_probe_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  EXPECT_OK(nook_probe_desc_init(&desc));
   desc.functions = fit;
   desc.coefficients = coefficients;
   EXPECT_OK(nook_probe_create(context, &desc, &probe));
@@ -53,57 +53,71 @@ static void light_vertices(nook_context context, nook_transfer transfer, nook_ma
   static const float direction[3] = {0, 1, 0}, irradiance[3] = {2, 2, 2}, normal[3] = {0, 1, 0},
                      tangent[4] = {1, 0, 0, 1};
   static const float quarter_turn[9] = {0, 0, 1, 0, 1, 0, -1, 0, 0};
-  float rgb[3 * WIDTH * HEIGHT], amplitudes[3 * MOST_LOBES], axes[3 * MOST_LOBES], radiance[3];
-  const nook_material_sample sample = {{0.2f, 0.7f}, 0, {0, 0, 1}, {0, 0, 1}};
-  nook_transfer_map_desc map;
-  nook_transfer_light light = NULL, of_probe = NULL;
-  nook_transfer_fit fit = NULL;
-  nook_transfer_fit_quality quality;
+  float rgb[3 * WIDTH * HEIGHT], amplitudes[3 * MOST_LOBES], radiance[3];
+  const nook_material_pixel pixel = {{0.2f, 0.7f}, {0, 0}, {0, 0}, {0, 0, 1}, {0, 0, 1}};
+  nook_transfer_light_desc map, at_probe, from_side;
+  nook_transfer_vectors_desc baked, open;
+  nook_transfer_light light = NULL, of_probe = NULL, directional = NULL;
+  nook_transfer_projection_info quality;
   nook_transfer_response_desc response_desc;
   nook_transfer_response response = NULL;
   nook_transfer_response_info info;
   nook_transfer_sun sun;
   nook_probe probe = make_probe(context);
-  uint32_t suns = 1;
+  uint32_t suns = 0;
   memset(&quality, 0, sizeof quality);
   memset(&info, 0, sizeof info);
   quality.struct_size = sizeof quality;
   info.struct_size = sizeof info;
   make_map(rgb);
-  EXPECT_OK(nook_transfer_map_desc_init(&map, sizeof map, NOOK_VERSION));
+  EXPECT_OK(nook_transfer_light_desc_init(&map));
   map.rgb = rgb;
   map.width = WIDTH;
   map.height = HEIGHT;
   map.split_suns = 1;
-  EXPECT_OK(nook_transfer_light_create_map(context, &map, &light));
+  EXPECT_OK(nook_transfer_light_create(context, &map, &light));
+  EXPECT_OK(nook_transfer_light_read_suns(light, NULL, &suns));
+  EXPECT(suns == 1);
   EXPECT_OK(nook_transfer_light_read_suns(light, &sun, &suns));
   EXPECT(suns == 1 && sun.direction[1] > 0 && sun.irradiance[2] > sun.irradiance[0]);
-  EXPECT_OK(nook_transfer_light_create_probe(context, probe, NULL, &of_probe));
-  EXPECT_OK(nook_transfer_fit_create(context, lobes, &fit));
-  EXPECT_OK(nook_transfer_fit_read_axes(fit, axes, lobes));
-  EXPECT(fabsf(axes[0] * axes[0] + axes[1] * axes[1] + axes[2] * axes[2] - 1) < 1e-4f);
-  EXPECT_OK(nook_transfer_fit_light(fit, of_probe, NULL, amplitudes, lobes, NULL));
-  EXPECT_OK(nook_transfer_fit_directional(fit, direction, irradiance, amplitudes, lobes));
-  EXPECT_OK(nook_transfer_fit_light(fit, light, quarter_turn, amplitudes, lobes, &quality));
+  EXPECT_OK(nook_transfer_light_desc_init(&at_probe));
+  at_probe.probe = probe;
+  EXPECT_OK(nook_transfer_light_create(context, &at_probe, &of_probe));
+  EXPECT_OK(nook_transfer_light_desc_init(&from_side));
+  from_side.direction = direction;
+  memcpy(from_side.irradiance, irradiance, sizeof irradiance);
+  EXPECT_OK(nook_transfer_light_create(context, &from_side, &directional));
+  EXPECT_OK(nook_transfer_light_project(of_probe, lobes, NULL, amplitudes, NULL));
+  EXPECT_OK(nook_transfer_light_project(directional, lobes, NULL, amplitudes, NULL));
+  EXPECT_OK(nook_transfer_light_project(light, lobes, quarter_turn, amplitudes, &quality));
   /* 19 lobes are blurred. */
   EXPECT(quality.relative_error > 0 && quality.relative_error < 1 && quality.negative_share < 0.5f);
 
-  EXPECT_OK(nook_transfer_response_desc_init(&response_desc, sizeof response_desc, NOOK_VERSION));
+  EXPECT_OK(nook_transfer_response_desc_init(&response_desc));
   response_desc.material = material;
   response_desc.lobe_count = lobes;
   EXPECT_OK(nook_transfer_response_create(context, &response_desc, &response));
   EXPECT_OK(nook_transfer_response_describe(response, &info));
   EXPECT(info.vector_floats == 3 * info.light_modes && info.vector_floats * vertices <= MOST_FLOATS);
-  EXPECT_OK(nook_transfer_vectors(transfer, response, amplitudes, lobes, 0, vertices, vectors, 0));
-  EXPECT_OK(nook_transfer_open_vectors(response, amplitudes, lobes, normal, tangent, 1, vectors, 0));
-  EXPECT_OK(nook_transfer_shade(material, &sample, vectors, info.vector_floats, 1, radiance));
+  EXPECT_OK(nook_transfer_vectors_desc_init(&baked));
+  baked.transfer = transfer;
+  baked.amplitudes = amplitudes;
+  baked.lobe_count = lobes;
+  EXPECT_OK(nook_transfer_read_vectors(response, &baked, vectors, vertices, 0));
+  EXPECT_OK(nook_transfer_vectors_desc_init(&open));
+  open.amplitudes = amplitudes;
+  open.lobe_count = lobes;
+  open.normals = normal;
+  open.tangents = tangent;
+  EXPECT_OK(nook_transfer_read_vectors(response, &open, vectors, 1, 0));
+  EXPECT_OK(nook_transfer_shade(material, &pixel, vectors, info.vector_floats, 1, radiance));
   EXPECT(isfinite(radiance[0] + radiance[1] + radiance[2]));
   nook_transfer_response_destroy(&response);
-  nook_transfer_fit_destroy(&fit);
   nook_transfer_light_destroy(&light);
+  nook_transfer_light_destroy(&directional);
   nook_transfer_light_destroy(&of_probe);
   nook_probe_destroy(&probe);
-  EXPECT(!response && !fit && !light);
+  EXPECT(!response && !light);
 }
 
 int nook_call_every_transfer_function(const void* transfer_bytes, size_t transfer_size,
@@ -113,27 +127,26 @@ int nook_call_every_transfer_function(const void* transfer_bytes, size_t transfe
   nook_transfer transfer = NULL;
   nook_material material = NULL;
   nook_transfer_info info;
-  nook_transfer_mesh mesh;
+  nook_transfer_mesh_desc mesh;
   float* numbers;
   failures = 0;
   memset(&info, 0, sizeof info);
-  memset(&mesh, 0, sizeof mesh);
   info.struct_size = sizeof info;
-  mesh.struct_size = sizeof mesh;
-  EXPECT_OK(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+  EXPECT_OK(nook_context_desc_init(&context_desc));
   EXPECT_OK(nook_context_create(&context_desc, &context));
   EXPECT_OK(nook_transfer_load(context, transfer_bytes, transfer_size, &transfer));
-  EXPECT_OK(nook_material_load(context, material_bytes, material_size, &material));
+  EXPECT_OK(nook_material_load(context, material_bytes, material_size, NULL, &material));
   EXPECT_OK(nook_transfer_describe(transfer, &info));
   EXPECT(info.lobe_count <= MOST_LOBES && info.share_bytes == (uint64_t)info.lobe_count * info.vertex_count);
   numbers = malloc(7 * (size_t)info.vertex_count * sizeof *numbers);
   EXPECT_OK(nook_transfer_read_frames(transfer, numbers, numbers + 3 * info.vertex_count, info.vertex_count));
+  EXPECT_OK(nook_transfer_mesh_desc_init(&mesh));
   mesh.vertex_count = info.vertex_count;
-  EXPECT_OK(nook_transfer_check_mesh(transfer, &mesh));
+  EXPECT_OK(nook_transfer_check(transfer, &mesh, NULL));
   mesh.positions = numbers;
-  EXPECT(nook_transfer_check_mesh(transfer, &mesh) == NOOK_ERROR_INVALID_ARGUMENT);
+  EXPECT(nook_transfer_check(transfer, &mesh, NULL) == NOOK_ERROR_INVALID_ARGUMENT);
   EXPECT(strstr(nook_last_message(), "positions") != NULL);
-  EXPECT_OK(nook_transfer_check_material(transfer, material));
+  EXPECT_OK(nook_transfer_check(transfer, NULL, material));
   light_vertices(context, transfer, material, info.lobe_count, info.vertex_count);
   free(numbers);
   nook_material_destroy(&material);

@@ -20,6 +20,5 @@ static const uint32_t host_version = NOOK_VERSION;
 
 nook_result make_context_desc(nook_context_desc* desc);
 nook_result make_context_desc(nook_context_desc* desc) {
-  return host_version == NOOK_VERSION ? nook_context_desc_init(desc, sizeof *desc, NOOK_VERSION)
-                                      : NOOK_ERROR_VERSION;
+  return host_version == NOOK_VERSION ? nook_context_desc_init(desc) : NOOK_ERROR_VERSION;
 }

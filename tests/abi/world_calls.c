@@ -1,9 +1,10 @@
 /* Every function of nook_world.h, called from C; returns the number of failed expectations and prints each.
  */
+#include <nook/experimental/nook_world_sample.h>
 #include <nook/nook_world.h>
 #include <stdio.h>
 
-int nook_world_call_everything(nook_character_model model, nook_scene scene);
+int nook_world_call_everything(nook_model model, nook_scene scene);
 
 static int failures;
 static void expect(int condition, const char* what, int line) {
@@ -13,17 +14,17 @@ static void expect(int condition, const char* what, int line) {
 }
 #define EXPECT(condition) expect((condition), #condition, __LINE__)
 
-int nook_world_call_everything(nook_character_model model, nook_scene scene) {
-  nook_world_caster casters[NOOK_WORLD_MAX_CASTERS];
+int nook_world_call_everything(nook_model model, nook_scene scene) {
+  nook_model_capsule casters[NOOK_WORLD_MAX_CASTERS];
   uint32_t count = NOOK_WORLD_MAX_CASTERS;
   nook_world_sample_desc desc;
   const float position[3] = {0, -1, 0}, normal[3] = {0, 1, 0};
   float ao = -1, light = -1, rgb[3] = {-1, -1, -1};
-  const nook_probe_lobe lobe = {{0, 1, 0}, 2, {1, 1, 1}, 0};
+  const nook_lobe lobe = {{0, 1, 0}, 2, {1, 1, 1}, 0};
   failures = 0;
-  EXPECT(nook_world_read_casters(model, casters, &count) == NOOK_OK);
+  EXPECT(nook_model_read_capsules(model, casters, &count) == NOOK_OK);
   EXPECT(count > 0 && casters[0].ao_scale > 0);
-  EXPECT(nook_world_sample_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  EXPECT(nook_world_sample_desc_init(&desc) == NOOK_OK);
   desc.positions = position;
   desc.normals = normal;
   desc.point_count = 1;

@@ -1,4 +1,5 @@
 // AO and light at points through the public interface.
+#include <nook/experimental/nook_world_sample.h>
 #include <nook/nook_world.h>
 
 #include <cmath>
@@ -13,7 +14,7 @@
 using namespace nook;
 using namespace nook::test;
 
-extern "C" int nook_world_call_everything(nook_character_model model, nook_scene scene);
+extern "C" int nook_world_call_everything(nook_model model, nook_scene scene);
 
 namespace {
 
@@ -30,7 +31,7 @@ struct WorldStage {
     host.bytes = write_character_model(of);
     const nook_context_desc desc = host.context_desc();
     REQUIRE(nook_context_create(&desc, &context) == NOOK_OK);
-    REQUIRE(nook_character_model_load(context, host.bytes.data(), host.bytes.size(), &model) == NOOK_OK);
+    REQUIRE(nook_model_load(context, host.bytes.data(), host.bytes.size(), &model) == NOOK_OK);
     nook_scene_desc scene_desc = Host::scene_desc();
     scene_desc.cutoff_error = cutoff_error;
     REQUIRE(nook_scene_create(context, &scene_desc, &scene) == NOOK_OK);
@@ -49,7 +50,7 @@ struct WorldStage {
   }
   ~WorldStage() {
     nook_scene_destroy(&scene);
-    nook_character_model_destroy(&model);
+    nook_model_destroy(&model);
     nook_context_destroy(&context);
   }
   WorldStage(const WorldStage&) = delete;
@@ -58,11 +59,11 @@ struct WorldStage {
   nook_result place(nook_instance_id id, float x) {
     std::vector<float> pose;
     for (std::uint32_t b = 0; b < bones; ++b) pose.insert(pose.end(), {1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0});
-    return nook_scene_set_pose(scene, id, pose.data(), bones);
+    return nook::test::set_rows(scene, id, pose.data(), bones);
   }
   nook_world_sample_desc desc() const {
     nook_world_sample_desc d;
-    REQUIRE(nook_world_sample_desc_init(&d, sizeof d, NOOK_VERSION) == NOOK_OK);
+    REQUIRE(nook_world_sample_desc_init(&d) == NOOK_OK);
     d.positions = positions.data();
     d.normals = normals.data();
     d.point_count = std::uint32_t(positions.size() / 3);
@@ -76,7 +77,7 @@ struct WorldStage {
 
   Host host;
   nook_context context = nullptr;
-  nook_character_model model = nullptr;
+  nook_model model = nullptr;
   nook_scene scene = nullptr;
   std::uint32_t bones = 0;
   std::vector<nook_instance_id> ids;
@@ -98,14 +99,14 @@ TEST_CASE("world: every function is called from C") {
 
 TEST_CASE("world: a sphere over a plane has its closed form") {
   const float position[3] = {0.3f, 0, 0}, normal[3] = {0, 1, 0};
-  const nook_world_capsule sphere = {{0, 0.5f, 0}, 0.2f, {0, 0.5f, 0}, 0.2f};
+  const nook_capsule sphere = {{0, 0.5f, 0}, 0.2f, {0, 0.5f, 0}, 0.2f};
   nook_world_sample_desc desc;
-  REQUIRE(nook_world_sample_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_world_sample_desc_init(&desc) == NOOK_OK);
   desc.positions = position;
   desc.normals = normal;
   desc.point_count = 1;
-  desc.props = &sphere;
-  desc.prop_count = 1;
+  desc.capsules = &sphere;
+  desc.capsule_count = 1;
   float ao = 0;
   REQUIRE(nook_world_sample(nullptr, &desc, &ao, nullptr) == NOOK_OK);
   const double distance2 = 0.3 * 0.3 + 0.5 * 0.5;
@@ -122,20 +123,21 @@ TEST_CASE("world: bodies, occluders and props multiply, and the receiver is left
   for_first.receiver = stage.ids[0];
   for_second.receiver = stage.ids[1];
   const std::vector<float> second = stage.ao(for_first), first = stage.ao(for_second);
-  const float centre[3] = {0, -0.5f, 0};
-  const nook_world_capsule prop = {{0, -0.5f, 0}, 0.2f, {0, -0.5f, 0}, 0.2f};
+  nook_occluder ball{{0, -0.5f, 0}, 0.2f, 0};
+  const nook_capsule prop = {{0, -0.5f, 0}, 0.2f, {0, -0.5f, 0}, 0.2f};
   nook_world_sample_desc with_prop = desc;
-  with_prop.props = &prop;
-  with_prop.prop_count = 1;
+  with_prop.capsules = &prop;
+  with_prop.capsule_count = 1;
   const std::vector<float> propped = stage.ao(with_prop);
   nook_occluder_id occluder = 0;
-  REQUIRE(nook_scene_add_occluder(stage.scene, centre, 0.2f, &occluder) == NOOK_OK);
+  REQUIRE(nook_scene_add_occluder(stage.scene, &ball, &occluder) == NOOK_OK);
   const std::vector<float> occluded = stage.ao(desc);
-  REQUIRE(nook_scene_limit_occluder(stage.scene, occluder, stage.ids[0]) == NOOK_OK);
+  ball.receiver = stage.ids[0];
+  REQUIRE(nook_scene_set_occluder(stage.scene, occluder, &ball) == NOOK_OK);
   const std::vector<float> limited = stage.ao(desc), as_receiver = stage.ao(for_first);
   nook_world_sample_desc alone = for_first;
-  alone.props = &prop;
-  alone.prop_count = 1;
+  alone.capsules = &prop;
+  alone.capsule_count = 1;
   REQUIRE(nook_scene_remove_occluder(stage.scene, occluder) == NOOK_OK);
   const std::vector<float> second_with_prop = stage.ao(alone);
   for (std::size_t i = 0; i < both.size(); ++i) {
@@ -204,14 +206,14 @@ TEST_CASE("world: strides skip what lies between, and sampling does not allocate
 
 TEST_CASE("world: a light is hidden behind a body and open aside") {
   const float position[6] = {0, 0, 0, 3, 0, 0}, normal[6] = {0, 1, 0, 0, 1, 0};
-  const nook_world_capsule prop = {{-0.5f, 1, 0}, 0.4f, {0.5f, 1, 0}, 0.4f};
+  const nook_capsule prop = {{-0.5f, 1, 0}, 0.4f, {0.5f, 1, 0}, 0.4f};
   nook_world_sample_desc desc;
-  REQUIRE(nook_world_sample_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_world_sample_desc_init(&desc) == NOOK_OK);
   desc.positions = position;
   desc.normals = normal;
   desc.point_count = 2;
-  desc.props = &prop;
-  desc.prop_count = 1;
+  desc.capsules = &prop;
+  desc.capsule_count = 1;
   desc.light_axis[1] = 1;
   desc.light_degrees = 20;
   float light[2] = {-1, -1};
@@ -223,7 +225,7 @@ TEST_CASE("world: a light is hidden behind a body and open aside") {
 TEST_CASE("world: a model without casters is refused by name, and casts nothing") {
   WorldStage stage(0, sample_model());
   std::uint32_t count = 7;
-  CHECK(nook_world_read_casters(stage.model, nullptr, &count) == NOOK_ERROR_UNSUPPORTED);
+  CHECK(nook_model_read_capsules(stage.model, nullptr, &count) == NOOK_ERROR_UNSUPPORTED);
   CHECK(std::string(nook_last_message()).find("bake the character again") != std::string::npos);
   CHECK(count == 0);
   for (const float value : stage.ao(stage.desc())) CHECK(value == 1);
@@ -244,7 +246,7 @@ TEST_CASE("world: bad input is refused with the field's name") {
   refused(invalid, "desc.normals", [](auto& d) { d.normals = nullptr; });
   refused(invalid, "desc.stride", [](auto& d) { d.stride = 8; });
   refused(invalid, "desc.stride", [](auto& d) { d.stride = 13; });
-  refused(invalid, "desc.props is NULL", [](auto& d) { d.prop_count = 2; });
+  refused(invalid, "desc.capsules is NULL", [](auto& d) { d.capsule_count = 2; });
   refused(invalid, "desc.light_degrees", [](auto& d) { d.light_degrees = 179; });
   refused(invalid, "desc.light_degrees", [](auto& d) { d.light_degrees = NAN; });
   refused(invalid, "desc.light_axis", [](auto& d) { d.light_degrees = 5; });
@@ -253,30 +255,30 @@ TEST_CASE("world: bad input is refused with the field's name") {
     d.directional_ao = rgb;
     d.lobe_count = 1;
   });
-  nook_probe_lobe lobe{};
+  nook_lobe lobe{};
   refused(invalid, "the axis of lobe 0", [&](auto& d) {
     d.directional_ao = rgb;
     d.lobes = &lobe;
     d.lobe_count = 1;
   });
   refused(NOOK_ERROR_INVALID_HANDLE, "no instance", [](auto& d) { d.receiver = 77; });
-  const nook_world_capsule bad[] = {{{0, 0, 0}, 0, {0, 0, 0}, 1}, {{NAN, 0, 0}, 1, {0, 0, 0}, 1}};
-  for (const nook_world_capsule& prop : bad)
-    refused(invalid, "desc.props[0]", [&](auto& d) {
-      d.props = &prop;
-      d.prop_count = 1;
+  const nook_capsule bad[] = {{{0, 0, 0}, 0, {0, 0, 0}, 1}, {{NAN, 0, 0}, 1, {0, 0, 0}, 1}};
+  for (const nook_capsule& prop : bad)
+    refused(invalid, "desc.capsules[0]", [&](auto& d) {
+      d.capsules = &prop;
+      d.capsule_count = 1;
     });
   nook_world_sample_desc lit = stage.desc();
   lit.point_count = 1;
   CHECK(nook_world_sample(stage.scene, &lit, nullptr, &out) == invalid);
   CHECK(nook_world_sample(stage.scene, nullptr, &out, nullptr) == invalid);
-  lit.header_version = 99u << 24;
-  CHECK(nook_world_sample(stage.scene, &lit, &out, nullptr) == NOOK_ERROR_VERSION);
+  lit.type = 0;
+  CHECK(nook_world_sample(stage.scene, &lit, &out, nullptr) == invalid);
   std::uint32_t count = 1;
-  nook_world_caster caster;
-  CHECK(nook_world_read_casters(stage.model, &caster, &count) == invalid);
-  CHECK(nook_world_read_casters(nullptr, &caster, &count) == invalid);
-  CHECK(nook_world_read_casters(stage.model, nullptr, nullptr) == invalid);
+  nook_model_capsule caster;
+  CHECK(nook_model_read_capsules(stage.model, &caster, &count) == invalid);
+  CHECK(nook_model_read_capsules(nullptr, &caster, &count) == invalid);
+  CHECK(nook_model_read_capsules(stage.model, nullptr, nullptr) == invalid);
 }
 
 TEST_CASE("world: every refused allocation of an instance with casters leaves the scene as it was") {

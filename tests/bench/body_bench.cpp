@@ -173,7 +173,7 @@ void body_alone(benchmark::State& run) {
         reading.run(p, [&] { read_ao(merging, instance_of(merging, id), ao.data(), sizeof(float)); });
       });
       reading_bytes.run(
-          p, [&] { read_ao_as(merging, instance_of(merging, id), NOOK_AO_UNORM8, bytes.data(), 1); });
+          p, [&] { read_ao_as(merging, instance_of(merging, id), NOOK_FORMAT_UNORM8, bytes.data(), 1); });
       set_pose(exact, same, body->poses[p]);
       whole.run(p, [&] { update(exact); });
       change.add(ao, ao_of(exact, same));

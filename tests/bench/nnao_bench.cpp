@@ -18,6 +18,9 @@
 
 namespace {
 
+// Both descriptors of a frame of the screen-space pass.
+struct ScreenFrame : nook_gl_frame_desc, nook_nnao_frame_desc {};
+
 constexpr int width = 640, height = 360;
 
 void require(nook_result result) {
@@ -29,11 +32,11 @@ void require(nook_result result) {
 struct Gl {
   Gl() : context(platform::create_context({})) {
     nook_context_desc context_desc;
-    require(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+    require(nook_context_desc_init(&context_desc));
     nook_context nook = nullptr;
     require(nook_context_create(&context_desc, &nook));
     nook_gl_desc desc;
-    require(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+    require(nook_gl_desc_init(&desc));
     desc.get_proc = platform::Context::loader;
     desc.get_proc_user = context.get();
     require(nook_gl_create(nook, &desc, &handle));
@@ -68,7 +71,7 @@ class Pass {
  public:
   Pass(nook_nnao_path path, int taps, int half) : gl_(shared_gl().context->gl()) {
     nook_nnao_desc desc;
-    require(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+    require(nook_nnao_desc_init(&desc));
     desc.max_width = width;
     desc.max_height = height;
     desc.taps = taps;
@@ -81,11 +84,12 @@ class Pass {
     gl_.GenTextures(1, &depth_);
     gl_.BindTexture(GL_TEXTURE_2D, depth_);
     gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, depth.data());
-    require(nook_nnao_frame_desc_init(&frame_, sizeof frame_, NOOK_VERSION));
+    require(nook_gl_frame_desc_init(&frame_));
+    require(nook_nnao_frame_desc_init(&frame_));
     frame_.width = width;
     frame_.height = height;
     frame_.depth_texture = depth_;
-    frame_.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
+    frame_.depth_kind = NOOK_DEPTH_LINEAR;
     frame_.projection[0] = focal * height / width;
     frame_.projection[5] = focal;
     frame_.projection[10] = frame_.projection[11] = -1;
@@ -99,7 +103,7 @@ class Pass {
     gl_.DeleteTextures(1, &depth_);
   }
   void draw() {
-    require(nook_nnao_render(pass_, &frame_));
+    require(nook_nnao_render(pass_, &frame_, &frame_));
     gl_.Finish();
   }
 
@@ -107,7 +111,7 @@ class Pass {
   const GladGLContext& gl_;
   nook_nnao pass_ = nullptr;
   GLuint depth_ = 0;
-  nook_nnao_frame_desc frame_;
+  ScreenFrame frame_;
 };
 
 double process_ms() {

@@ -1,6 +1,7 @@
 // The cost of an instance against the size of the crowd, through the C ABI on one thread: constant
 // density, four nearest neighbours linked, ground, no level of detail, no cut-off.
 #include <benchmark/benchmark.h>
+#include <nook/experimental/nook_debug.h>
 #include <nook/nook_character.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/isa.h"
 #include "tests/bench/sample_character.h"
+#include "tests/pose_of_rows.h"
 
 namespace {
 
@@ -30,16 +32,16 @@ class Crowd {
   explicit Crowd(std::uint32_t count, nook_isa isa = NOOK_ISA_AUTO, float spacing = 1.4142f,
                  float far_error = 0) {
     nook_context_desc context_desc;
-    require(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+    require(nook_context_desc_init(&context_desc));
+    context_desc.isa = isa;
     require(nook_context_create(&context_desc, &context_));
     const CharacterModel model = sample_model();
     const std::vector<std::byte> file = write_character_model(model);
-    require(nook_character_model_load(context_, file.data(), file.size(), &model_));
+    require(nook_model_load(context_, file.data(), file.size(), &model_));
     nook_scene_desc scene_desc;
-    require(nook_scene_desc_init(&scene_desc, sizeof scene_desc, NOOK_VERSION));
+    require(nook_scene_desc_init(&scene_desc));
     scene_desc.cutoff_error = 0;
     scene_desc.far_error = far_error;
-    scene_desc.isa = isa;
     require(nook_scene_create(context_, &scene_desc, &scene_));
     require(nook_scene_link_nearest(scene_, 4, 10));
 
@@ -62,7 +64,7 @@ class Crowd {
   }
   ~Crowd() {
     nook_scene_destroy(&scene_);
-    nook_character_model_destroy(&model_);
+    nook_model_destroy(&model_);
     nook_context_destroy(&context_);
   }
   Crowd(const Crowd&) = delete;
@@ -70,7 +72,7 @@ class Crowd {
 
   // Twelve lobes round the crowd, each of another colour, as a probe has them.
   void set_light() {
-    std::vector<nook_probe_lobe> lobes(12);
+    std::vector<nook_lobe> lobes(12);
     for (std::size_t i = 0; i < lobes.size(); ++i) {
       const float y = 1 - (2 * float(i) + 1) / float(lobes.size()), r = std::sqrt(1 - y * y),
                   turn = 2.3999632f * float(i);
@@ -89,24 +91,25 @@ class Crowd {
     for (std::size_t i = 0; i < ids_.size(); ++i) {
       pose = poses_[(i + frame_) % poses_.size()];
       for (Mat3x4& bone : pose) bone.m[3] += places_[i].x, bone.m[11] += places_[i].z;
-      require(nook_scene_set_pose(scene_, ids_[i], pose.data()->m, static_cast<std::uint32_t>(bones_)));
+      require(nook::test::set_rows(scene_, ids_[i], pose.data()->m, bones_));
     }
   }
   void update() { require(nook_scene_update(scene_)); }
   void read() {
     for (const nook_instance_id id : ids_)
-      require(nook_scene_read_ao(scene_, id, ao_.data(), static_cast<std::uint32_t>(ao_.size()), 0));
+      require(nook_scene_read(scene_, id, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, ao_.data(),
+                              static_cast<std::uint32_t>(ao_.size()), 0));
   }
-  nook_scene_stats stats() {
-    nook_scene_stats stats{};
+  nook_scene_info stats() {
+    nook_scene_info stats{};
     stats.struct_size = sizeof stats;
-    require(nook_scene_read_stats(scene_, &stats));
+    require(nook_scene_describe(scene_, &stats));
     return stats;
   }
 
  private:
   nook_context context_ = nullptr;
-  nook_character_model model_ = nullptr;
+  nook_model model_ = nullptr;
   nook_scene scene_ = nullptr;
   std::size_t bones_ = 0, frame_ = 0;
   std::vector<std::vector<Mat3x4>> poses_;
@@ -132,7 +135,7 @@ void scene(benchmark::State& state) {
     update = std::min(update, seconds([&] { crowd.update(); }));
     read = std::min(read, seconds([&] { crowd.read(); }));
   }
-  const nook_scene_stats stats = crowd.stats();
+  const nook_scene_info stats = crowd.stats();
   state.counters["us_per_instance"] = 1e6 * (pose + update + read) / count;
   state.counters["set_pose_us"] = 1e6 * pose / count;
   state.counters["update_us"] = 1e6 * update / count;
@@ -190,7 +193,7 @@ void far_neighbours(benchmark::State& state) {
   constexpr std::uint32_t count = 25;
   constexpr float spacing = 2.8f;  // less the jitter of both ends
   nook_scene_desc defaults;
-  require(nook_scene_desc_init(&defaults, sizeof defaults, NOOK_VERSION));
+  require(nook_scene_desc_init(&defaults));
   Crowd grouped(count, isa, spacing, defaults.far_error), whole(count, isa, spacing, 0), alone(count, isa);
   for (Crowd* crowd : {&grouped, &whole}) crowd->only(NOOK_TERM_SELF | NOOK_TERM_LINKS);
   alone.only(NOOK_TERM_SELF);

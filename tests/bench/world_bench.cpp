@@ -3,7 +3,7 @@
 // CPU is that of this thread alone, without the renderer's own. Minima over all frames.
 #include <benchmark/benchmark.h>
 #include <glad/gl.h>
-#include <nook/nook_gl_world.h>
+#include <nook/nook_world.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,7 @@
 #include "platform/platform.h"
 #include "sdk/src/character/model_file.h"
 #include "tests/bench/sample_character.h"
+#include "tests/pose_of_rows.h"
 
 namespace {
 
@@ -57,18 +58,18 @@ CharacterModel model_with_casters() {
 struct WorldFrame {
   explicit WorldFrame(std::uint32_t count) : context_(platform::create_context({})) {
     nook_context_desc context_desc;
-    require(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+    require(nook_context_desc_init(&context_desc));
     require(nook_context_create(&context_desc, &nook_));
     nook_gl_desc gl_desc;
-    require(nook_gl_desc_init(&gl_desc, sizeof gl_desc, NOOK_VERSION));
+    require(nook_gl_desc_init(&gl_desc));
     gl_desc.get_proc = platform::Context::loader;
     gl_desc.get_proc_user = context_.get();
     require(nook_gl_create(nook_, &gl_desc, &gl_));
     const CharacterModel model = model_with_casters();
     const std::vector<std::byte> file = write_character_model(model);
-    require(nook_character_model_load(nook_, file.data(), file.size(), &model_));
+    require(nook_model_load(nook_, file.data(), file.size(), &model_));
     nook_scene_desc scene_desc;
-    require(nook_scene_desc_init(&scene_desc, sizeof scene_desc, NOOK_VERSION));
+    require(nook_scene_desc_init(&scene_desc));
     require(nook_scene_create(nook_, &scene_desc, &scene_));
     bones_ = model.bone_count();
     for (std::uint32_t i = 0; i < count; ++i)
@@ -76,9 +77,9 @@ struct WorldFrame {
     make_pass();
   }
   ~WorldFrame() {
-    nook_world_pass_destroy(&pass_);
+    nook_world_destroy(&pass_);
     nook_scene_destroy(&scene_);
-    nook_character_model_destroy(&model_);
+    nook_model_destroy(&model_);
     nook_gl_destroy(&gl_);
     nook_context_destroy(&nook_);
   }
@@ -94,55 +95,53 @@ struct WorldFrame {
         bone.m[3] += 1.4142f * float(i % side);
         bone.m[11] -= 1.4142f * float(i / side);
       }
-      require(nook_scene_set_pose(scene_, ids_[i], pose.data()->m, std::uint32_t(bones_)));
+      require(nook::test::set_rows(scene_, ids_[i], pose.data()->m, bones_));
     }
   }
   void update() { require(nook_scene_update(scene_)); }
-  void render() { require(nook_world_render(pass_, &frame_)); }
+  void render() { require(nook_world_render(pass_, &screen_, &frame_)); }
   void finish() { context_->gl().Finish(); }
   std::int32_t casters() const {
-    nook_world_pass_info info{};
+    nook_world_info info{};
     info.struct_size = sizeof info;
-    require(nook_world_pass_describe(pass_, &info));
+    require(nook_world_describe(pass_, &info));
     return info.caster_count;
   }
 
  private:
   void make_pass() {
-    nook_world_pass_desc desc;
-    require(nook_world_pass_desc_init(&desc, sizeof desc, NOOK_VERSION));
+    nook_world_desc desc;
+    require(nook_world_desc_init(&desc));
     desc.max_width = desc.max_height = side_px;
-    require(nook_world_pass_create(gl_, &desc, &pass_));
+    require(nook_world_create(gl_, &desc, &pass_));
     const std::vector<float> depth(side_px * side_px, 5.0f);
     const GladGLContext& gl = context_->gl();
     gl.GenTextures(1, &depth_);
     gl.BindTexture(GL_TEXTURE_2D, depth_);
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, side_px, side_px, 0, GL_RED, GL_FLOAT, depth.data());
-    require(nook_nnao_frame_desc_init(&screen_, sizeof screen_, NOOK_VERSION));
+    require(nook_gl_frame_desc_init(&screen_));
     screen_.width = screen_.height = side_px;
     screen_.depth_texture = depth_;
-    screen_.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
-    screen_.radius = 0.5f;
+    screen_.depth_kind = NOOK_DEPTH_LINEAR;
     const float projection[16] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1, -1, 0, 0, -0.02f, 0};
     std::memcpy(screen_.projection, projection, sizeof projection);
-    require(nook_world_frame_desc_init(&frame_, sizeof frame_, NOOK_VERSION));
-    frame_.screen = &screen_;
+    require(nook_world_frame_desc_init(&frame_));
     frame_.scene = scene_;
     frame_.cutoff_error = 1.0f / 256;
     // From a corner of the crowd, along its diagonal.
     const float c = 0.7071068f;
     const float view[16] = {c, 0, c, 0, 0, 1, 0, 0, -c, 0, c, 0, 0, -1.6f, 0, 1};
-    std::memcpy(frame_.view, view, sizeof view);
+    std::memcpy(screen_.view, view, sizeof view);
   }
 
   std::unique_ptr<platform::Context> context_;
   nook_context nook_ = nullptr;
   nook_gl gl_ = nullptr;
-  nook_character_model model_ = nullptr;
+  nook_model model_ = nullptr;
   nook_scene scene_ = nullptr;
-  nook_world_pass pass_ = nullptr;
+  nook_world pass_ = nullptr;
   GLuint depth_ = 0;
-  nook_nnao_frame_desc screen_{};
+  nook_gl_frame_desc screen_{};
   nook_world_frame_desc frame_{};
   std::vector<nook_instance_id> ids_;
   std::size_t bones_ = 0;

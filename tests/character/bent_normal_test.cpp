@@ -1,11 +1,11 @@
-// Bent normals and blocked vectors without ray tracing: closed forms, the file, and what hosts read.
+// Bent normals and occluded directions without ray tracing: closed forms, the file, and what hosts read.
 #include "sdk/src/character/bent_normal.h"
 
 #include <numbers>
 #include <vector>
 
-#include "sdk/src/character/blocked_vectors.h"
 #include "sdk/src/character/model_file.h"
+#include "sdk/src/character/occluded_directions.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"
 #include "tests/character/model_sample.h"
@@ -24,13 +24,13 @@ Vec3 decoded(const std::int8_t* bytes) {
 CharacterModel bent_model(std::uint32_t seed = 3) {
   CharacterModel model = test::sample_model(seed);
   test::Numbers numbers(seed + 20);
-  test::add_blocked(model, numbers);
+  test::add_occluded(model, numbers);
   return model;
 }
 
 }  // namespace
 
-TEST_CASE("a bent normal is the normal where nothing or everything is blocked") {
+TEST_CASE("a bent normal is the normal where nothing or everything is occluded") {
   const Vec3 normal = normalised({1, 2, 3});
   CHECK(length(bent_normal(normal, {}) - normal) < 1e-6f);
   CHECK(bent_normal(normal, open_hemisphere * normal) == normal);
@@ -44,50 +44,50 @@ TEST_CASE("a wall that rises from a point on a floor bends the normal by atan(2 
   CHECK(std::abs(bent.y) < 1e-6f);
 }
 
-TEST_CASE("blocked vectors come back from a file within half a step, in six bytes for each vertex") {
+TEST_CASE("occluded directions come back from a file within half a step, in six bytes for each vertex") {
   const CharacterModel model = bent_model();
   CharacterModel without = model;
-  without.blocked.clear();
-  CHECK(quantise(without).blocked.empty());
+  without.occluded.clear();
+  CHECK(quantise(without).occluded.empty());
   // A name, an offset and a size in the list of sections.
   CHECK(write_character_model(model).size() <=
         write_character_model(without).size() + 6 * model.vertex_count() + 32);
   const CharacterModel read = quantise(model);
-  REQUIRE(read.blocked.size() == model.blocked.size());
-  for (std::size_t i = 0; i < read.blocked.size(); ++i) {
-    CHECK(length(read.blocked[i].dark - model.blocked[i].dark) < byte_error);
-    CHECK(length(read.blocked[i].open - model.blocked[i].open) < byte_error);
+  REQUIRE(read.occluded.size() == model.occluded.size());
+  for (std::size_t i = 0; i < read.occluded.size(); ++i) {
+    CHECK(length(read.occluded[i].dark - model.occluded[i].dark) < byte_error);
+    CHECK(length(read.occluded[i].open - model.occluded[i].open) < byte_error);
   }
   CHECK(write_character_model(read) == write_character_model(quantise(read)));
 
   CharacterModel bad = model;
-  bad.blocked.pop_back();
+  bad.occluded.pop_back();
   CHECK_THROWS_AS(write_character_model(bad), Failure);
   bad = model;
-  bad.blocked[2].open.y = std::nanf("");
+  bad.occluded[2].open.y = std::nanf("");
   CHECK_THROWS_AS(write_character_model(bad), Failure);
-  bad.blocked[2].open.y = 1.5f;
+  bad.occluded[2].open.y = 1.5f;
   CHECK_THROWS_AS(write_character_model(bad), Failure);
 }
 
-TEST_CASE("a host reads blocked vectors in the space of its normals") {
+TEST_CASE("a host reads occluded directions in the space of its normals") {
   const CharacterModel model = quantise(bent_model());
-  std::vector<std::int8_t> bytes(blocked_bytes * model.file_to_welded.size());
-  copy_blocked_vectors(model, bytes.data(), blocked_bytes);
+  std::vector<std::int8_t> bytes(occluded_bytes * model.file_to_welded.size());
+  copy_occluded_directions(model, bytes.data(), occluded_bytes);
   for (std::size_t p = 0; p < model.primitives.size(); ++p) {
     const Mat3x4& rest_from_mesh = model.bind.rest_from_mesh[model.bind.primitive_space[p]];
     const float scale = length(transform_vector(rest_from_mesh, {1, 0, 0}));
     for (std::uint32_t i = 0; i < model.primitives[p].vertex_count; ++i) {
       const std::size_t file_vertex = model.primitives[p].first_vertex + i;
-      const BlockedEnds& want = model.blocked[model.file_to_welded[file_vertex]];
+      const OccludedEnds& want = model.occluded[model.file_to_welded[file_vertex]];
       const auto in_rest = [&](std::size_t byte) {
-        return transform_vector(rest_from_mesh, decoded(&bytes[file_vertex * blocked_bytes + byte])) *
+        return transform_vector(rest_from_mesh, decoded(&bytes[file_vertex * occluded_bytes + byte])) *
                (1 / scale);
       };
       // A vector with a coordinate near 1 may turn out of the box of the bytes, and is cut there.
       if (length(want.dark) < 1) CHECK(length(in_rest(0) - want.dark) < byte_error);
       if (length(want.open) < 1) CHECK(length(in_rest(4) - want.open) < byte_error);
-      CHECK(bytes[file_vertex * blocked_bytes + 3] == 0);
+      CHECK(bytes[file_vertex * occluded_bytes + 3] == 0);
     }
   }
 }

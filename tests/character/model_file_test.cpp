@@ -93,6 +93,14 @@ void put_u32(std::vector<std::byte>& file, std::size_t at, std::uint32_t value) 
 
 }  // namespace
 
+TEST_CASE("a file of every kernel loads and keeps its form, also the rational one, which no bake makes") {
+  for (const KernelForm form : {KernelForm::paper, KernelForm::nook, KernelForm::rational}) {
+    CharacterModel model = test::sample_model(3, {40, 60, 90, 700, 200, 8});
+    model.kernel.form = form;
+    CHECK(quantise(model).kernel.form == form);
+  }
+}
+
 TEST_CASE("a model comes back from its file within the steps of its codes") {
   const CharacterModel model = test::sample_model(3, {40, 60, 90, 700, 200, 8});
   const CharacterModel read = quantise(model);

@@ -88,10 +88,10 @@ inline void add_world_casters(CharacterModel& model, Numbers& numbers) {
 }
 
 // Vectors of any length up to 1.
-inline void add_blocked(CharacterModel& model, Numbers& numbers) {
+inline void add_occluded(CharacterModel& model, Numbers& numbers) {
   for (std::size_t v = 0; v < model.vertex_count(); ++v) {
     const Vec3 dark = numbers.direction() * numbers.between(0, 0.6f);
-    model.blocked.push_back({dark, numbers.direction() * numbers.between(0, 0.2f)});
+    model.occluded.push_back({dark, numbers.direction() * numbers.between(0, 0.2f)});
   }
 }
 

@@ -143,6 +143,7 @@ TEST_CASE("joint matrices, skinning matrices and a place compose as the header s
       given[j] = to_float(truth[bind.bone_of_joint[skin.first_joint + j]] *
                           to_double(bind.rest_from_mesh[skin.space]));
     source.kind = NOOK_POSE_SKINNING;
+    source.file_skin = skin.file_index;
   }
   SECTION("rest-to-world matrices in another order") {
     static const std::vector<std::int32_t> map{3, 1, 4, 0, 2};
@@ -189,7 +190,7 @@ TEST_CASE("what a pose cannot be made of is refused by name") {
   names(
       [](PoseSource& s) {
         s.kind = NOOK_POSE_SKINNING;
-        s.skin = 1;
+        s.file_skin = 3;
         s.transform_count = 1;
       },
       "has no transform");
@@ -240,7 +241,7 @@ TEST_CASE("bones are found by name, by prefixes and suffixes, and loosely") {
   CharacterModel model = test::sample_model();  // skeleton:bone_0 ... skeleton:bone_4
   model.bind.bones[4].first_of_joint = 1;
   std::vector<std::int32_t> map(model.bone_count());
-  const auto unmatched = [&](std::vector<const char*> host, nook_bone_names rules = {}) {
+  const auto unmatched = [&](std::vector<const char*> host, nook_bone_map_desc rules = {}) {
     rules.names = host.data();
     rules.name_count = static_cast<std::uint32_t>(host.size());
     return map_bones(model, rules, map, nook::default_memory());
@@ -251,13 +252,13 @@ TEST_CASE("bones are found by name, by prefixes and suffixes, and loosely") {
   // Bone 4 is of the joint of bone 1.
   CHECK(map == Map{2, 3, 4, 0, 3});
   CHECK(unmatched({"Bone 3", "BONE.0", "bone_1"}) == 5);
-  nook_bone_names rules{};
+  nook_bone_map_desc rules{};
   rules.model_prefix = "skeleton:";
   rules.host_suffix = "_jnt";
   CHECK(unmatched({"bone_2_jnt", "bone_1"}, rules) == 2);
   CHECK(map == Map{-1, 1, 0, -1, 1});
   rules = {};
-  rules.flags = NOOK_BONE_NAMES_LOOSE | NOOK_BONE_NAMES_DROP_SHARED_PREFIX;
+  rules.flags = NOOK_BONE_MAP_LOOSE | NOOK_BONE_MAP_DROP_SHARED_PREFIX;
   CHECK(unmatched({"rig|Bone_3", "rig|BONE.0", "rig|bone 1"}, rules) == 5);  // bone_ is shared by the model's
   rules.host_prefix = "rig|bone";
   CHECK(unmatched({"rig|bone3", "rig|bone0", "rig|bone1", "rig|bone4"}, rules) == 1);

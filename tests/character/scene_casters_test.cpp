@@ -159,8 +159,7 @@ TEST_CASE("the bound of a posed instance holds its spheres and key points") {
 
 TEST_CASE("what the cut-off leaves out darkens by less than it says") {
   const auto form = GENERATE(KernelForm::paper, KernelForm::nook, KernelForm::rational);
-  const nook_combine combine =
-      GENERATE(nook_combine{NOOK_COMBINE_COMPOSED}, nook_combine{NOOK_COMBINE_PAPER});
+  const nook_form combine = GENERATE(nook_form{NOOK_FORM_DEFAULT}, nook_form{NOOK_FORM_PAPER});
   CharacterModel data = sample_model(31, {4, 20, 40, 80, 0, 4});
   data.kernel.form = form;
   const auto model = load(std::move(data));
@@ -170,7 +169,7 @@ TEST_CASE("what the cut-off leaves out darkens by less than it says") {
       const auto run = [&](float cutoff_error) {
         SceneSettings settings;
         settings.cutoff_error = cutoff_error;
-        settings.combine = combine;
+        settings.form = combine;
         Scene scene = make_scene(settings);
         const nook_instance_id id = add_instance(scene, model);
         link(scene, id, place(scene, model, {distance, 0.2f, 0}, distance, 1.4f));
@@ -196,7 +195,7 @@ TEST_CASE("an occluder of one instance darkens no other") {
   const std::vector<float> dark = ao_of(scene, bearer);
   CHECK(dark[0] < 0.8f);
   CHECK(ao_of(scene, other) == dark);
-  limit_occluder(scene, shield, bearer);
+  set_occluder(scene, shield, {{0, 1, 0}, 0.5f}, bearer);
   update(scene);
   CHECK(ao_of(scene, bearer) == dark);
   CHECK(ao_of(scene, other)[0] > 0.99f);
@@ -205,7 +204,7 @@ TEST_CASE("an occluder of one instance darkens no other") {
   const nook_instance_id next = add_instance(scene, model);
   update(scene);
   CHECK(ao_of(scene, next)[0] > 0.99f);
-  limit_occluder(scene, shield, 0);
+  set_occluder(scene, shield, {{0, 1, 0}, 0.5f});
   update(scene);
   CHECK(ao_of(scene, next) == dark);
 }

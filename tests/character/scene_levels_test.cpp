@@ -134,7 +134,7 @@ TEST_CASE("a level may follow the paper's form and survives being flipped at eve
     try {
       SceneSettings settings;
       settings.lod_error = 1e6f;
-      settings.combine = i % 2 ? NOOK_COMBINE_PAPER : NOOK_COMBINE_COMPOSED;
+      settings.form = i % 2 ? NOOK_FORM_PAPER : NOOK_FORM_DEFAULT;
       Scene scene = make_scene(settings);
       scene.has_camera = true;
       const nook_instance_id id = place(scene, load(read_character_model(file)), {10, 0, 0});

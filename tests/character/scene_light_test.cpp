@@ -45,10 +45,10 @@ TEST_CASE("under constant light every vertex keeps its AO, in either form and at
   for (CharacterLevel& level : make_levels(data, poses)) data.levels.push_back(std::move(level));
   const auto model = load(std::move(data));
   REQUIRE(!model->model.levels.empty());
-  for (const nook_combine combine : {NOOK_COMBINE_COMPOSED, NOOK_COMBINE_PAPER})
+  for (const nook_form combine : {NOOK_FORM_DEFAULT, NOOK_FORM_PAPER})
     for (const float lod_error : {0.0f, 1.0f}) {
       SceneSettings settings;
-      settings.combine = combine;
+      settings.form = combine;
       settings.lod_error = lod_error;
       Scene scene = make_scene(settings);
       scene.has_camera = true;

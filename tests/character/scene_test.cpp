@@ -98,7 +98,7 @@ TEST_CASE("in the paper's form a linked caster joins the norm") {
   CharacterModel model = single_model({0, 1, 0}, 0.25f);
   model.kernel = {KernelForm::paper, 2.0f};
   SceneSettings settings;
-  settings.combine = NOOK_COMBINE_PAPER;
+  settings.form = NOOK_FORM_PAPER;
   Scene scene = make_scene(settings);
   const auto loaded = load(model);
   const nook_instance_id receiver = add_instance(scene, loaded);

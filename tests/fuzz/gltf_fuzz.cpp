@@ -1,7 +1,7 @@
 // Imports bytes as a rigged character through the C ABI and queries everything that can be read from it, or
 // as a static scene: nothing may crash, and every number in the answers is finite, whatever the bytes. Built
 // for libFuzzer with clang; elsewhere gltf_fuzz_replay.cpp drives it.
-#include <nook/nook_bake_character.h>
+#include <nook/experimental/nook_trace.h>
 
 #include <cmath>
 #include <cstdint>
@@ -34,12 +34,15 @@ bool is_small(const nook_bake_character_info& info) {
 }
 
 void read_texts(nook_bake_character character, const nook_bake_character_info& info) {
-  for (std::uint32_t i = 0; i < info.bone_count; ++i) require(nook_bake_character_bone_name(character, i));
-  for (std::uint32_t i = 0; i < info.clip_count; ++i) require(nook_bake_character_clip_name(character, i));
+  for (std::uint32_t i = 0; i < info.bone_count; ++i)
+    require(nook_bake_character_name(character, NOOK_BAKE_NAME_BONE, i));
+  for (std::uint32_t i = 0; i < info.clip_count; ++i)
+    require(nook_bake_character_name(character, NOOK_BAKE_NAME_CLIP, i));
   for (std::uint32_t i = 0; i < info.primitive_count; ++i)
-    require(nook_bake_character_primitive_name(character, i));
-  for (std::uint32_t i = 0; i < info.warning_count; ++i) require(nook_bake_character_warning(character, i));
-  require(!nook_bake_character_bone_name(character, info.bone_count));
+    require(nook_bake_character_name(character, NOOK_BAKE_NAME_PRIMITIVE, i));
+  for (std::uint32_t i = 0; i < info.warning_count; ++i)
+    require(nook_bake_character_name(character, NOOK_BAKE_NAME_WARNING, i));
+  require(!nook_bake_character_name(character, NOOK_BAKE_NAME_BONE, info.bone_count));
 }
 
 struct Arrays {
@@ -58,21 +61,25 @@ Arrays read_arrays(nook_bake_character character, const nook_bake_character_info
            std::vector<float>(4 * vertices),
            std::vector<std::uint32_t>(3 * std::size_t(info.triangle_count)),
            std::vector<std::uint16_t>(4 * vertices)};
-  require(ok(nook_bake_character_read_bones(character, a.parents.data(), a.frames.data(), info.bone_count)));
-  require(ok(nook_bake_character_read_vertices(character, a.positions.data(), a.normals.data(),
-                                               info.file_vertex_count)));
-  require(ok(nook_bake_character_read_triangles(character, a.indices.data(), 3 * info.triangle_count)));
-  require(ok(
-      nook_bake_character_read_skin(character, a.joints.data(), a.weights.data(), info.file_vertex_count)));
+  const auto read = [&](nook_bake_array array, void* out, std::uint32_t count) {
+    if (count > 0) require(ok(nook_bake_character_read(character, array, out, count, 0)));
+  };
+  read(NOOK_BAKE_ARRAY_PARENTS, a.parents.data(), info.bone_count);
+  read(NOOK_BAKE_ARRAY_FRAMES, a.frames.data(), info.bone_count);
+  read(NOOK_BAKE_ARRAY_POSITIONS, a.positions.data(), info.file_vertex_count);
+  read(NOOK_BAKE_ARRAY_NORMALS, a.normals.data(), info.file_vertex_count);
+  read(NOOK_BAKE_ARRAY_TRIANGLES, a.indices.data(), info.triangle_count);
+  read(NOOK_BAKE_ARRAY_JOINTS, a.joints.data(), info.file_vertex_count);
+  read(NOOK_BAKE_ARRAY_WEIGHTS, a.weights.data(), info.file_vertex_count);
+  std::vector<nook_range> primitives(info.primitive_count);
+  read(NOOK_BAKE_ARRAY_PRIMITIVES, primitives.data(), info.primitive_count);
   for (const auto* numbers : {&a.frames, &a.positions, &a.normals, &a.weights}) require_finite(*numbers);
   for (const std::uint32_t index : a.indices) require(index < info.file_vertex_count);
   for (const std::uint16_t joint : a.joints) require(joint < info.bone_count);
   std::uint32_t next = 0;
-  for (std::uint32_t p = 0; p < info.primitive_count; ++p) {
-    nook_bake_primitive primitive{};
-    require(ok(nook_bake_character_describe_primitive(character, p, &primitive)) &&
-            primitive.first_vertex == next);
-    next += primitive.vertex_count;
+  for (const nook_range& primitive : primitives) {
+    require(primitive.first == next);
+    next += primitive.count;
   }
   return a;
 }
@@ -116,8 +123,8 @@ void make_poses(nook_bake_character character, const nook_bake_character_info& i
 
 // The same character again, from its arrays.
 void create(const Arrays& a, const nook_bake_character_info& info) {
-  nook_bake_mesh_desc desc;
-  require(ok(nook_bake_mesh_desc_init(&desc, sizeof desc, NOOK_VERSION)));
+  nook_bake_source_desc desc;
+  require(ok(nook_bake_source_desc_init(&desc)));
   desc.positions = a.positions.data();
   desc.indices = a.indices.data();
   desc.joints = a.joints.data();
@@ -133,8 +140,13 @@ void create(const Arrays& a, const nook_bake_character_info& info) {
 }
 
 void import_character(const std::uint8_t* data, std::size_t size) {
+  const std::uint8_t none = 0;
+  nook_bake_source_desc desc;
+  require(ok(nook_bake_source_desc_init(&desc)));
+  desc.bytes = size > 0 ? data : &none;
+  desc.byte_count = size;
   nook_bake_character character = nullptr;
-  if (!ok(nook_bake_import_gltf_bytes(data, size, &character))) {
+  if (!ok(nook_bake_character_create(&desc, &character))) {
     require(character == nullptr && nook_bake_last_message()[0] != 0);
     return;
   }

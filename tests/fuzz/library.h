@@ -21,24 +21,26 @@ inline void run_backwards(void*, std::uint32_t count, nook_job_fn body, void* bo
 }
 
 // Made once: contexts hold no state that an input could change.
-inline nook_context context_with_jobs(bool with_jobs) {
-  static const auto make = [](nook_parallel_for_fn parallel_for) {
-    nook_context_desc desc;
-    ok(nook_context_desc_init(&desc, sizeof desc, NOOK_VERSION));
-    desc.parallel_for = parallel_for;
-    nook_context context = nullptr;
-    if (!ok(nook_context_create(&desc, &context))) std::abort();
-    return context;
-  };
-  static const nook_context plain = make(nullptr), with = make(run_backwards);
-  return with_jobs ? with : plain;
+// isa: 0 to 5; where the processor lacks the set, the best one is used.
+inline nook_context context_with_jobs(bool with_jobs, std::uint32_t isa = NOOK_ISA_AUTO) {
+  static nook_context made[2][6];
+  nook_context& context = made[with_jobs ? 1 : 0][isa];
+  if (context) return context;
+  nook_context_desc desc;
+  ok(nook_context_desc_init(&desc));
+  if (with_jobs) desc.parallel_for = run_backwards;
+  desc.isa = nook_isa(isa);
+  if (ok(nook_context_create(&desc, &context))) return context;
+  desc.isa = NOOK_ISA_AUTO;
+  if (!ok(nook_context_create(&desc, &context))) std::abort();
+  return context;
 }
 
 // tier: 33 or 43. Made once for each.
 inline nook_gl gl_of_tier(int tier) {
   static const auto make = [](int max_tier) {
     nook_gl_desc desc;
-    ok(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+    ok(nook_gl_desc_init(&desc));
     desc.get_proc = silent_gl_proc;
     desc.max_tier = max_tier;
     nook_gl gl = nullptr;

@@ -1,7 +1,7 @@
 // Loads bytes as a material, evaluates it and uploads it through the C ABI: nothing may crash, radiance is
 // finite and visibility lies in [0, 1], whatever the bytes. Built for libFuzzer with clang; elsewhere
 // material_fuzz_replay.cpp drives it.
-#include <nook/nook_gl_material.h>
+#include <nook/nook_gl.h>
 
 #include <cmath>
 
@@ -40,7 +40,15 @@ void fill(Script& script, float* numbers, int count) {
   for (int i = 0; i < count; ++i) numbers[i] = script.number();
 }
 
-bool is_reasonable(const nook_material_sample& sample) {
+// Numbers of the script, in the order of the corpus.
+struct Numbers {
+  float uv[2];
+  float level;
+  float view[3];
+  float light[3];
+};
+
+bool is_reasonable(const Numbers& sample) {
   for (const float uv : sample.uv)
     if (!(std::abs(uv) < 1e6f)) return false;
   for (int i = 0; i < 3; ++i)
@@ -48,9 +56,14 @@ bool is_reasonable(const nook_material_sample& sample) {
   return true;
 }
 
-void evaluate(nook_material material, const nook_material_sample& sample) {
+void evaluate(nook_material material, const Numbers& sample) {
   nook_material_value value{};
-  if (!ok(nook_material_evaluate(material, &sample, 1, &value))) return;
+  const nook_material_pixel round{{sample.uv[0], sample.uv[1]},
+                                  {sample.level, 0},
+                                  {0, sample.level},
+                                  {sample.view[0], sample.view[1], sample.view[2]},
+                                  {sample.light[0], sample.light[1], sample.light[2]}};
+  if (!ok(nook_material_evaluate(material, &round, 1, 1, &value))) return;
   require(value.visibility >= 0 && value.visibility <= 1);
   if (is_reasonable(sample))
     require(std::isfinite(value.radiance[0] + value.radiance[1] + value.radiance[2]));
@@ -60,7 +73,7 @@ void evaluate(nook_material material, const nook_material_sample& sample) {
                                   {sample.uv[1], sample.view[1]},
                                   {sample.view[0], sample.view[1], sample.view[2]},
                                   {sample.light[0], sample.light[1], sample.light[2]}};
-  require(ok(nook_material_evaluate_anisotropic(material, &pixel, 1, 2, &value)));
+  require(ok(nook_material_evaluate(material, &pixel, 1, 2, &value)));
   require(value.visibility >= 0 && value.visibility <= 1);
   if (is_reasonable(sample))
     require(std::isfinite(value.radiance[0] + value.radiance[1] + value.radiance[2]));
@@ -72,11 +85,11 @@ void for_each_sample(Script& script, Visit&& visit) {
   for (const float level : {0.0f, 0.5f, 40.0f})
     for (int i = 0; i < 5; ++i) {
       const float angle = 1.3f * float(i), z = 0.2f * float(i + 1), r = std::sqrt(1 - z * z);
-      visit(nook_material_sample{
-          {0.3f * float(i), -0.7f}, level, {r * std::cos(angle), r * std::sin(angle), z}, {0, r, z}});
+      visit(
+          Numbers{{0.3f * float(i), -0.7f}, level, {r * std::cos(angle), r * std::sin(angle), z}, {0, r, z}});
     }
   for (int i = 0; i < 32 && !script.at_end(); ++i) {
-    nook_material_sample sample;
+    Numbers sample;
     fill(script, sample.uv, 2);
     sample.level = script.number();
     fill(script, sample.view, 3);
@@ -90,7 +103,7 @@ void resample(const material::Material& material, Script& script) {
   constexpr std::uint32_t few_cells = 4;
   const material::MaterialTables tables =
       material::make_tables(material, Parallel(), default_memory(), few_cells);
-  for_each_sample(script, [&](const nook_material_sample& s) {
+  for_each_sample(script, [&](const Numbers& s) {
     if (!is_reasonable(s) || !std::isfinite(s.level)) return;  // the C interface refuses the others
     const material::Sample sample{
         s.uv[0], s.uv[1], s.level, {s.view[0], s.view[1], s.view[2]}, {s.light[0], s.light[1], s.light[2]}};
@@ -99,21 +112,14 @@ void resample(const material::Material& material, Script& script) {
   });
 }
 
-void upload(nook_gl gl, nook_material material, Script& script) {
-  nook_gl_material_desc desc;
-  ok(nook_gl_material_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  desc.max_layers = std::int32_t(script.byte());
-  nook_gl_material uploaded = nullptr;
-  if (!ok(nook_gl_material_create(gl, material, script.below(2) ? &desc : nullptr, &uploaded))) return;
-  nook_gl_material_info info{};
+void upload(nook_gl gl, nook_material material) {
+  nook_gl_upload uploaded = nullptr;
+  if (!ok(nook_gl_upload_material(gl, material, &uploaded))) return;
+  nook_gl_upload_info info{};
   info.struct_size = sizeof info;
-  require(ok(nook_gl_material_describe(uploaded, &info)) && info.texture_count <= 16);
-  for (std::uint32_t i = 0; i < info.texture_count; ++i) {
-    nook_gl_material_texture texture{};
-    texture.struct_size = sizeof texture;
-    require(ok(nook_gl_material_describe_texture(uploaded, i, &texture)) && texture.uniform);
-  }
-  nook_gl_material_destroy(&uploaded);
+  require(ok(nook_gl_upload_describe(uploaded, &info)) && info.texture_count <= 16);
+  for (std::uint32_t i = 0; i < info.texture_count; ++i) require(info.textures[i].uniform);
+  nook_gl_upload_destroy(&uploaded);
 }
 
 }  // namespace
@@ -129,19 +135,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   nook_material_desc desc;
-  require(ok(nook_material_desc_init(&desc, sizeof desc, NOOK_VERSION)));
-  desc.modes = std::int32_t(settings >> 2 & 3) % 3;
+  require(ok(nook_material_desc_init(&desc)));
+  desc.blocks = std::int32_t(settings >> 2 & 3) % 3;
   nook_material material = nullptr;
-  if (!ok(nook_material_load_with(context_with_jobs(settings & 1), input.file.data(), input.file.size(),
-                                  &desc, &material))) {
+  if (!ok(nook_material_load(context_with_jobs(settings & 1), input.file.data(), input.file.size(), &desc,
+                             &material))) {
     require(material == nullptr);
     return 0;
   }
   nook_material_info info{};
   info.struct_size = sizeof info;
   require(ok(nook_material_describe(material, &info)) && info.width > 0 && info.view_count > 0);
-  upload(gl_of_tier(settings & 2 ? 43 : 33), material, input.script);
-  for_each_sample(input.script, [&](const nook_material_sample& sample) { evaluate(material, sample); });
+  upload(gl_of_tier(settings & 2 ? 43 : 33), material);
+  for_each_sample(input.script, [&](const Numbers& sample) { evaluate(material, sample); });
   nook_material_destroy(&material);
   return 0;
 }

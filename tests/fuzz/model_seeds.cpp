@@ -17,7 +17,7 @@ std::vector<Seed> seeds() {
   Numbers numbers(5);
   add_world_casters(levels, numbers);
   CharacterModel bent = sample_model(6, {3, 4, 6, 14, 3, 4});
-  add_blocked(bent, numbers);
+  add_occluded(bent, numbers);
   CharacterModel paper = sample_model(4, {2, 3, 5, 9, 1, 2});
   paper.kernel.form = KernelForm(1);
   paper.kernel.gamma = 2;

@@ -1,6 +1,8 @@
 // Loads bytes as a network of the screen-space pass, renders frames with it through the C ABI and evaluates
 // it by the reference: nothing may crash, and AO lies in [0, 1], whatever the bytes. Built for libFuzzer with
 // clang; elsewhere network_fuzz_replay.cpp drives it.
+#include <nook/experimental/nook_recording.h>
+#include <nook/experimental/nook_stages.h>
 #include <nook/nook_nnao.h>
 
 #include "sdk/src/core/failure.h"
@@ -10,6 +12,9 @@
 #include "tests/fuzz/library.h"
 
 namespace {
+
+// Both descriptors of a frame of the screen-space pass.
+struct ScreenFrame : nook_gl_frame_desc, nook_nnao_frame_desc {};
 
 using namespace nook::test;
 
@@ -49,7 +54,7 @@ void evaluate(const std::vector<std::byte>& file, Script& script) {
 
 nook_nnao_desc pass_of(const std::vector<std::byte>& file, Script& script) {
   nook_nnao_desc desc;
-  ok(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  ok(nook_nnao_desc_init(&desc));
   desc.max_width = desc.max_height = 16;
   desc.network = file.data();
   desc.network_size = file.size();
@@ -61,7 +66,7 @@ nook_nnao_desc pass_of(const std::vector<std::byte>& file, Script& script) {
   if (settings & 32) desc.taps = 1 << script.below(10);
   if (settings & 64) desc.blur_sharpness = script.number();
   if (settings & 128) {
-    desc.layers = std::int32_t(script.below(10)) - 1;
+    desc.views = std::int32_t(script.below(10)) - 1;
     desc.depth_samples = std::int32_t(script.below(20)) - 2;
     desc.depth_sample = nook_nnao_sample(script.below(4));
     desc.normal_samples = script.below(4) ? desc.depth_samples : std::int32_t(script.below(20)) - 2;
@@ -70,9 +75,10 @@ nook_nnao_desc pass_of(const std::vector<std::byte>& file, Script& script) {
 }
 
 // A frame that is sound unless the script says otherwise.
-nook_nnao_frame_desc frame_of(Script& script) {
-  nook_nnao_frame_desc frame;
-  ok(nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
+ScreenFrame frame_of(Script& script) {
+  ScreenFrame frame;
+  ok(nook_gl_frame_desc_init(&frame));
+  ok(nook_nnao_frame_desc_init(&frame));
   frame.width = silent_gl().width;
   frame.height = silent_gl().height;
   frame.depth_texture = 1000;
@@ -82,23 +88,23 @@ nook_nnao_frame_desc frame_of(Script& script) {
   const std::uint32_t settings = script.byte();
   if (settings & 1) frame.normal_texture = 1001;
   if (settings & 2) {
-    frame.layer = nook_nnao_layer(script.below(6));
-    frame.layer_texture = 1002;
+    frame.gbuffer_ao = nook_gbuffer_ao(script.below(6));
+    frame.gbuffer_ao_texture = 1002;
   }
   if (settings & 4) {
-    frame.target = nook_nnao_target(script.below(4));
+    frame.target = nook_target(script.below(4));
     frame.target_name = 999 + script.below(6);
-    frame.blend = nook_nnao_blend(script.below(3));
+    frame.blend = nook_blend(script.below(3));
   }
-  if (settings & 8) frame.view = nook_nnao_view(script.below(5));
+  if (settings & 8) frame.show = nook_nnao_view(script.below(5));
   if (settings & 16) {
-    frame.depth_kind = nook_nnao_depth_kind(script.below(4));
+    frame.depth_kind = nook_depth_kind(script.below(4));
     frame.radius_kind = nook_nnao_radius_kind(script.below(4));
     for (float* number :
          {&frame.scene_size, &frame.depth_log_scale, &frame.depth_log_near, &frame.depth_log_far})
       *number = script.number();
     frame.sky_depth = script.number();
-    frame.clip = nook_nnao_clip(script.below(3));
+    frame.clip_space = nook_clip_space(script.below(3));
   }
   if (settings & 32) frame.projection[script.below(16)] = script.number();
   if (settings & 64)
@@ -122,14 +128,14 @@ void render(const std::vector<std::byte>& file, Script& script) {
   }
   int frames = 0;
   do {
-    const nook_nnao_frame_desc frame = frame_of(script);
-    ok(nook_nnao_render(pass, &frame));
-    if (script.below(4) == 3) require(ok(nook_nnao_recheck(pass)));
+    ScreenFrame frame = frame_of(script);
+    ok(nook_nnao_render(pass, &frame, &frame));
+    frame.textures_changed = script.below(4) == 3;
   } while (++frames < 4 && !script.at_end());
   if (script.below(2) == 1) {
-    const nook_nnao_frame_desc frame = frame_of(script);
+    ScreenFrame frame = frame_of(script);
     nook_nnao_recording recording = nullptr;
-    require(ok(nook_nnao_record(pass, &frame, nullptr, &recording)) == (recording != nullptr));
+    require(ok(nook_nnao_record(pass, &frame, &frame, nullptr, &recording)) == (recording != nullptr));
     nook_nnao_recording_destroy(&recording);
   }
   nook_nnao_info info{};

@@ -1,7 +1,8 @@
 // Loads bytes as light probes, evaluates, writes and uploads what loads, and fits other probes by a script,
 // through the C ABI: nothing may crash, light of a file is finite, and a file that was written loads again,
 // whatever the bytes. Built for libFuzzer with clang; elsewhere probe_fuzz_replay.cpp drives it.
-#include <nook/nook_gl_probe.h>
+#include <nook/experimental/nook_sg.h>
+#include <nook/nook_gl.h>
 
 #include <cmath>
 
@@ -30,19 +31,17 @@ void fill_direction(Script& script, float (&direction)[3]) {
   direction[2] = z;
 }
 
+// At one position, NULL for the first probe, and at others.
 void evaluate(nook_probe probe, const float* position) {
-  float light[3 * direction_count];
-  require(ok(nook_probe_radiance(probe, position, directions, light, direction_count)));
-  for (const float value : light) require(std::isfinite(value));
-  for (const nook_probe_irradiance_form form :
-       {NOOK_PROBE_IRRADIANCE_FITTED, NOOK_PROBE_IRRADIANCE_INNER_PRODUCT, NOOK_PROBE_IRRADIANCE_BANDS}) {
-    require(ok(nook_probe_irradiance(probe, position, form, directions, light, direction_count)));
+  float light[3 * direction_count], places[3 * direction_count] = {0, 0, 0, 1, 1, -1, -1e9f, 1e9f, 0.5f};
+  if (position) std::copy_n(position, 3, places);
+  for (const float* positions :
+       {static_cast<const float*>(position ? places : nullptr), static_cast<const float*>(places)}) {
+    require(ok(nook_probe_radiance(probe, positions, directions, light, direction_count)));
+    for (const float value : light) require(std::isfinite(value));
+    require(ok(nook_probe_irradiance(probe, positions, directions, light, direction_count)));
     for (const float value : light) require(std::isfinite(value));
   }
-  const float places[9] = {0, 0, 0, position ? position[0] : 1, 1, -1, -1e9f, 1e9f, 0.5f};
-  require(ok(nook_probe_surface_irradiance(probe, NOOK_PROBE_IRRADIANCE_BANDS, places, directions, light,
-                                           direction_count)));
-  for (const float value : light) require(std::isfinite(value));
 }
 
 void save(nook_context context, nook_probe probe) {
@@ -59,30 +58,28 @@ void save(nook_context context, nook_probe probe) {
 }
 
 // Lobes from anywhere may give anything, but no crash.
-void use_lobes(Script& script, std::vector<nook_probe_lobe>& lobes) {
+void use_lobes(Script& script, std::vector<nook_lobe>& lobes) {
   const auto count = std::uint32_t(lobes.size());
   float light[3 * direction_count], coefficients[75], rotation[9] = {0, -1, 0, 1, 0, 0, 0, 0, 1};
-  ok(nook_probe_lobes_radiance(lobes.data(), count, directions, light, direction_count));
-  ok(nook_probe_lobes_irradiance(lobes.data(), count, nook_probe_irradiance_form(script.below(4)), directions,
-                                 light, direction_count));
+  ok(nook_sg_radiance(lobes.data(), count, directions, light, direction_count));
+  ok(nook_sg_irradiance(lobes.data(), count, nook_probe_irradiance_form(script.below(4)), directions, light,
+                        direction_count));
   nook_probe_surface surface{};
   surface.normal[2] = surface.tangent[0] = 1;
   fill_direction(script, surface.view);
   surface.alpha_x = script.number();
   surface.alpha_y = script.below(2) ? surface.alpha_x : script.number();
   surface.reflectance = script.number();
-  ok(nook_probe_lobes_specular(lobes.data(), count, nook_probe_specular_form(script.below(3)), &surface,
-                               light, 1));
+  ok(nook_sg_specular(lobes.data(), count, nook_probe_specular_form(script.below(3)), &surface, light, 1));
   if (count >= 2) {
-    nook_probe_lobe out{};
-    ok(nook_probe_lobe_integral(&lobes[0], light));
-    ok(nook_probe_lobe_product_integral(&lobes[0], &lobes[1], light));
-    ok(nook_probe_lobe_product(&lobes[0], &lobes[1], &out));
-    ok(nook_probe_lobe_convolution(&lobes[0], &lobes[1], &out));
+    nook_lobe out{};
+    ok(nook_sg_integral(&lobes[0], light));
+    if (ok(nook_sg_product(&lobes[0], &lobes[1], &out))) ok(nook_sg_integral(&out, light));
+    ok(nook_sg_convolve(&lobes[0], &lobes[1], &out));
   }
-  ok(nook_probe_lobes_to_harmonics(lobes.data(), count, script.below(6), coefficients));
+  ok(nook_sg_to_sh(lobes.data(), count, script.below(6), coefficients));
   if (script.below(4) == 3) fill(script, rotation, 9);
-  ok(nook_probe_lobes_rotate(lobes.data(), count, rotation));
+  ok(nook_sg_rotate(lobes.data(), count, rotation));
 }
 
 void use_probe(nook_context context, nook_probe probe, Script& script) {
@@ -100,17 +97,17 @@ void use_probe(nook_context context, nook_probe probe, Script& script) {
   float place[3];
   fill(script, place, 3);
   if (std::isfinite(place[0] + place[1] + place[2])) evaluate(probe, place);
-  std::vector<nook_probe_lobe> lobes(info.function_count);
+  std::vector<nook_lobe> lobes(info.function_count);
   if (ok(nook_probe_read_lobes(probe, outside, lobes.data(), info.function_count))) use_lobes(script, lobes);
   save(context, probe);
-  nook_gl_probe_grid grid = nullptr;
-  if (ok(nook_gl_probe_grid_create(gl_of_tier(33), probe, nook_gl_probe_grid_form(script.below(2)), &grid)))
-    ok(nook_gl_probe_grid_update(grid, probe));
-  nook_gl_probe_grid_destroy(&grid);
-  nook_gl_probe uploaded = nullptr;
-  if (!ok(nook_gl_probe_create(gl_of_tier(33), probe, &uploaded))) return;
-  ok(nook_gl_probe_update(uploaded, probe));
-  nook_gl_probe_destroy(&uploaded);
+  nook_gl_upload grid = nullptr;
+  if (ok(nook_gl_upload_probe(gl_of_tier(33), probe, nook_gl_probe_form(script.below(2)), &grid)))
+    ok(nook_gl_update_probe(grid, probe));
+  nook_gl_upload_destroy(&grid);
+  nook_gl_upload uploaded = nullptr;
+  if (!ok(nook_gl_upload_probe(gl_of_tier(33), probe, NOOK_GL_PROBE_LOBES, &uploaded))) return;
+  ok(nook_gl_update_probe(uploaded, probe));
+  nook_gl_upload_destroy(&uploaded);
 }
 
 void load(nook_context context, const std::vector<std::byte>& file, Script& script) {
@@ -123,30 +120,40 @@ void load(nook_context context, const std::vector<std::byte>& file, Script& scri
   nook_probe_destroy(&probe);
 }
 
-struct Axes {
+// The arrays and the extension of a descriptor.
+struct Given {
   std::array<float, 3 * NOOK_PROBE_MAX_FUNCTIONS> axes{};
   std::array<float, NOOK_PROBE_MAX_FUNCTIONS> sharpnesses{};
+  nook_probe_fit_study_desc study;
 };
 
-nook_probe_fit_desc fit_desc(Script& script, Axes& given) {
+nook_probe_fit_desc fit_desc(Script& script, Given& given) {
   nook_probe_fit_desc desc;
-  ok(nook_probe_fit_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  desc.isa = nook_isa(script.below(6));
-  desc.method = nook_probe_method(script.below(8));
+  ok(nook_probe_fit_desc_init(&desc));
+  ok(nook_probe_fit_study_desc_init(&given.study));
+  desc.next = &given.study;
+  // The seven methods of fits and of studies, and one that does not exist.
+  const std::uint32_t method = script.below(8);
+  if (method <= NOOK_PROBE_FIT_RUNNING_AVERAGE_NON_NEGATIVE)
+    desc.method = nook_probe_method(method);
+  else
+    given.study.method = nook_probe_study_method(method) - NOOK_PROBE_FIT_RUNNING_AVERAGE_NON_NEGATIVE;
   // Dice are one in 256, because the products of their functions are sums over 8192 directions.
   const std::uint32_t basis = script.byte();
-  desc.basis = nook_probe_basis(basis < 4 ? basis : basis % 2);
+  desc.basis = nook_probe_basis(basis == 3 ? 2 : basis % 2);
+  given.study.dice = basis == 2;
   desc.domain = nook_probe_domain(script.below(3));
   const std::uint32_t settings = script.byte();
   // Few unless the script names a number: the integrals of their products are most of a fit's time.
   desc.lobe_count = settings & 1 ? script.byte() : 3 + (settings >> 6);
   desc.ambient = settings >> 1 & 1;
   if (settings & 4) fill_direction(script, desc.up);
+  if (settings & 32) desc.match_sh = 0;
   if (settings & 8) {
     desc.sharpness = script.number();
     desc.order = script.below(6);
-    desc.denominator = nook_probe_denominator(script.below(4));
-    desc.step = nook_probe_step(script.below(4));
+    given.study.denominator = nook_probe_denominator(script.below(4));
+    given.study.published_step = std::int32_t(script.below(4));
     desc.growing_samples = script.number();
   }
   const std::size_t lobes = std::min<std::size_t>(desc.lobe_count, NOOK_PROBE_MAX_FUNCTIONS);
@@ -191,15 +198,14 @@ void use_fit(nook_context context, nook_probe_fit fit, Script& script) {
   info.struct_size = sizeof info;
   require(ok(nook_probe_fit_describe(fit, &info)) &&
           info.skipped == info.skipped_direction + info.skipped_radiance + info.skipped_weight);
-  std::vector<float> coefficients(3 * std::size_t(info.function_count));
-  require(ok(nook_probe_fit_read(fit, coefficients.data(), info.function_count)));
   nook_probe probe = nullptr;
   if (ok(nook_probe_fit_solve(fit, &probe))) use_probe(context, probe, script);
   nook_probe_destroy(&probe);
   nook_probe_desc desc;
-  ok(nook_probe_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  desc.functions = fit;
-  desc.coefficients = coefficients.data();
+  ok(nook_probe_desc_init(&desc));
+  const nook_probe_fit fits[2] = {fit, fit};
+  desc.counts[script.below(3)] = desc.fit_count = 1 + script.below(2);
+  desc.fits = fits;
   fill(script, desc.spacing_ws, 3);
   fill(script, desc.origin_ws, 3);
   if (!ok(nook_probe_create(context, &desc, &probe))) return;
@@ -229,8 +235,9 @@ class Fits {
   nook_probe_fit fits_[2] = {};
 };
 
-void fit(nook_context context, Script& script) {
-  Axes given;
+void fit(bool with_jobs, Script& script) {
+  const nook_context context = context_with_jobs(with_jobs, script.below(6));
+  Given given;
   const nook_probe_fit_desc desc = fit_desc(script, given);
   Fits fits(context, desc);
   if (!fits.get(0)) return;
@@ -253,14 +260,23 @@ void fit(nook_context context, Script& script) {
   use_fit(context, fits.get(0), script);
 }
 
-void make_lobes(Script& script) {
-  std::vector<nook_probe_lobe> lobes(1 + script.below(4));
-  for (nook_probe_lobe& lobe : lobes) {
+void make_lobes(nook_context context, Script& script) {
+  std::vector<nook_lobe> lobes(1 + script.below(4));
+  for (nook_lobe& lobe : lobes) {
     fill_direction(script, lobe.axis);
     lobe.sharpness = script.number();
     fill(script, lobe.amplitude, 3);
   }
   use_lobes(script, lobes);
+  nook_probe_desc desc;
+  ok(nook_probe_desc_init(&desc));
+  desc.lobes = lobes.data();
+  desc.counts[0] = lobes.size() % 2 == 0 ? 1 + script.below(2) : 1;
+  desc.lobe_count = std::uint32_t(lobes.size()) / desc.counts[0];
+  nook_probe probe = nullptr;
+  if (!ok(nook_probe_create(context, &desc, &probe))) return;
+  evaluate(probe, nullptr);
+  nook_probe_destroy(&probe);
 }
 
 }  // namespace
@@ -271,7 +287,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const nook_context context = context_with_jobs(settings % 2 == 1);
   load(context, input.file, input.script);
   if (input.script.at_end()) return 0;
-  if ((settings & 6) == 6) fit(context, input.script);
-  make_lobes(input.script);
+  if ((settings & 6) == 6) fit(settings % 2 == 1, input.script);
+  make_lobes(context, input.script);
   return 0;
 }

@@ -1,6 +1,7 @@
 // Loads bytes as a recorded frame through the C ABI, writes what loads, makes another one with numbers of the
 // input's choice, and replays it as the tool does: nothing may crash, and a file that was written loads again
 // with the same bytes, whatever the bytes. Built for libFuzzer with clang; elsewhere replay.cpp drives it.
+#include <nook/experimental/nook_recording.h>
 #include <nook/nook_nnao.h>
 
 #include <cmath>
@@ -11,6 +12,9 @@
 #include "tests/fuzz/library.h"
 
 namespace {
+
+// Both descriptors of a frame of the screen-space pass.
+struct ScreenFrame : nook_gl_frame_desc, nook_nnao_frame_desc {};
 
 using namespace nook::test;
 
@@ -55,7 +59,7 @@ void replay(nook_gl gl, const nook_nnao_recording_desc& recorded) {
   silent_gl().width = recorded.width;
   silent_gl().height = recorded.height;
   nook_nnao_desc desc;
-  ok(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  ok(nook_nnao_desc_init(&desc));
   desc.max_width = recorded.width;
   desc.max_height = recorded.height;
   desc.taps = recorded.taps;
@@ -71,8 +75,9 @@ void replay(nook_gl gl, const nook_nnao_recording_desc& recorded) {
     desc.network_size = 0;
     require(ok(nook_nnao_create(gl, &desc, &pass)));
   }
-  nook_nnao_frame_desc frame;
-  ok(nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
+  ScreenFrame frame;
+  ok(nook_gl_frame_desc_init(&frame));
+  ok(nook_nnao_frame_desc_init(&frame));
   frame.width = recorded.width;
   frame.height = recorded.height;
   frame.depth_texture = first_texture;
@@ -83,17 +88,17 @@ void replay(nook_gl gl, const nook_nnao_recording_desc& recorded) {
   frame.normal_bias = recorded.normal_bias;
   std::copy_n(recorded.normal_matrix, 9, frame.normal_matrix);
   std::copy_n(recorded.projection, 16, frame.projection);
-  frame.clip = recorded.clip;
+  frame.clip_space = recorded.clip;
   frame.radius = recorded.radius;
   frame.radius_kind = recorded.radius_kind;
   frame.max_radius_px = recorded.max_radius_px;
   frame.intensity = recorded.intensity;
   frame.power = recorded.power;
-  frame.layer = recorded.layer;
-  frame.layer_texture = recorded.layer ? first_texture + 2 : 0;
-  frame.view = recorded.view;
+  frame.gbuffer_ao = recorded.layer;
+  frame.gbuffer_ao_texture = recorded.layer ? first_texture + 2 : 0;
+  frame.show = recorded.view;
   // A recording is a frame that the pass takes.
-  require(ok(nook_nnao_render(pass, &frame)));
+  require(ok(nook_nnao_render(pass, &frame, &frame)));
   nook_nnao_destroy(&pass);
   silent_gl() = {};
 }

@@ -1,6 +1,6 @@
 // Loads bytes as a coordinate texture and looks points up through the C ABI: nothing may crash, and
 // coordinates are finite, whatever the bytes.
-#include <nook/nook_synthesis.h>
+#include <nook/experimental/nook_synthesis.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Loads bytes as radiance transfer and lights it through the C ABI: nothing may crash, and vectors are
 // finite, whatever the bytes.
-#include <nook/nook_transfer.h>
+#include <nook/experimental/nook_transfer.h>
 
 #include <cmath>
 #include <vector>
@@ -23,9 +23,9 @@ nook_transfer_response response_of(std::uint32_t lobes) {
   const std::vector<std::byte> bytes =
       nook::material::write_material(nook::material::test::sample_material(2));
   nook_material material = nullptr;
-  require(ok(nook_material_load(context_with_jobs(false), bytes.data(), bytes.size(), &material)));
+  require(ok(nook_material_load(context_with_jobs(false), bytes.data(), bytes.size(), nullptr, &material)));
   nook_transfer_response_desc desc;
-  require(ok(nook_transfer_response_desc_init(&desc, sizeof desc, NOOK_VERSION)));
+  require(ok(nook_transfer_response_desc_init(&desc)));
   desc.material = material;
   desc.lobe_count = lobes;
   require(ok(nook_transfer_response_create(context_with_jobs(false), &desc, &made[lobes])));
@@ -50,7 +50,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<float> frames(std::size_t(7) * info.vertex_count);
     const nook_result read = nook_transfer_read_frames(
         transfer, frames.data(), frames.data() + 3 * info.vertex_count, info.vertex_count);
-    require(info.form == NOOK_TRANSFER_FORM_PAPER ? read == NOOK_ERROR_UNSUPPORTED : ok(read));
+    require(info.form == NOOK_FORM_PAPER ? read == NOOK_ERROR_UNSUPPORTED : ok(read));
     for (const float number : frames) require(std::isfinite(number));
     std::vector<float> amplitudes(3 * info.lobe_count);
     for (float& amplitude : amplitudes) amplitude = std::fmod(input.script.number(), 1e3f);
@@ -59,8 +59,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     described.struct_size = sizeof described;
     require(ok(nook_transfer_response_describe(response, &described)));
     std::vector<float> vectors(std::size_t(described.vector_floats) * info.vertex_count);
-    if (ok(nook_transfer_vectors(transfer, response, amplitudes.data(), info.lobe_count, 0, info.vertex_count,
-                                 vectors.data(), 0)))
+    nook_transfer_vectors_desc desc;
+    require(ok(nook_transfer_vectors_desc_init(&desc)));
+    desc.transfer = transfer;
+    desc.amplitudes = amplitudes.data();
+    desc.lobe_count = info.lobe_count;
+    if (ok(nook_transfer_read_vectors(response, &desc, vectors.data(), info.vertex_count, 0)))
       for (const float number : vectors) require(std::isfinite(number));
   }
   nook_transfer_destroy(&transfer);

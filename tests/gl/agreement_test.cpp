@@ -1,4 +1,5 @@
 // The CPU and the tiers of OpenGL give the same AO, whatever a scene is made of.
+#include <nook/experimental/nook_debug.h>
 #include "tests/gl/crowd.h"
 #include "tests/gl/test_context.h"
 #include "tests/gl/traced_loader.h"
@@ -32,7 +33,7 @@ float difference_of_tier(platform::Context& context, const Cast& cast, int tier,
     NOOK_OK_OR_FAIL(nook_scene_update(on_cpu.scene));
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, on_gpu.scene));
     largest = std::max(largest, difference(gl, on_gpu, on_cpu, cast));
-    const nook_scene_stats cpu = stats_of(on_cpu), gpu = stats_of(on_gpu);
+    const nook_scene_info cpu = stats_of(on_cpu), gpu = stats_of(on_gpu);
     CHECK(gpu.instances_updated == cpu.instances_updated);
     CHECK(gpu.links == cpu.links);
     CHECK(gpu.links_culled == cpu.links_culled);
@@ -60,10 +61,10 @@ TEST_CASE("GPU and CPU agree for every kernel, exponent and way to combine") {
   for (const KernelForm form : {KernelForm::paper, KernelForm::nook, KernelForm::rational})
     for (const float gamma : {1.0f, 1.5f, 2.0f, 1.7f}) {
       const Cast cast(form, gamma);
-      for (const nook_combine combine : {NOOK_COMBINE_COMPOSED, NOOK_COMBINE_PAPER}) {
+      for (const nook_form combine : {NOOK_FORM_DEFAULT, NOOK_FORM_PAPER}) {
         INFO("form " << static_cast<int>(form) << ", gamma " << gamma << ", combine " << combine);
         CrowdOptions options;
-        options.combine = combine;
+        options.form = combine;
         check_all_tiers(context, cast, options);
       }
     }
@@ -119,10 +120,10 @@ TEST_CASE("GPU and CPU agree at every level of detail") {
   options.instances = 16;
   // The coarsest level from about 2.5 m on; the crowd reaches to 5 m.
   options.lod_error = cast.coarsest_error / 2.5f;
-  for (const nook_combine combine : {NOOK_COMBINE_COMPOSED, NOOK_COMBINE_PAPER})
+  for (const nook_form combine : {NOOK_FORM_DEFAULT, NOOK_FORM_PAPER})
     for (const std::uint32_t terms : {15u, 15u - NOOK_TERM_SELF}) {
       INFO("combine " << combine << ", terms " << terms);
-      options.combine = combine;
+      options.form = combine;
       check_all_tiers(context, cast, options, terms);
     }
   Crowd coarse(cast.context.handle, cast.models, cast.bone_counts, options);
@@ -184,7 +185,7 @@ TEST_CASE("instances come and go without disturbing the others") {
     CHECK(after.buffer == before.buffer);
     CHECK(after.offset == before.offset);
     for (std::size_t i = 0; i < on_cpu.ids.size(); ++i) {
-      const nook_character_model model = i < 3 ? cast.models[1] : cast.model_of(i);
+      const nook_model model = i < 3 ? cast.models[1] : cast.model_of(i);
       INFO("instance " << i);
       CHECK(largest_difference(gpu_ao(gl, on_gpu, model, i), cpu_ao(on_cpu, model, i)) < promised_difference);
     }
@@ -206,7 +207,7 @@ TEST_CASE("crowds beyond one chunk of AO and one page of shadows agree too") {
   const Shape wide{{3, 4, 20, 70000, 10, 2}, 70};  // 280 KB of AO each, 59 in a chunk of 16 MiB
   const Shape dense{{3, 4, 2500, 40, 0, 2}, 40};   // 2,500 texels each, 26 in a page
   for (const Shape& shape : {wide, dense}) {
-    nook_character_model model = load_model(host.handle, sample_model(9, shape.size));
+    nook_model model = load_model(host.handle, sample_model(9, shape.size));
     CrowdOptions options;
     options.instances = shape.instances;
     options.links = false;
@@ -230,7 +231,7 @@ TEST_CASE("crowds beyond one chunk of AO and one page of shadows agree too") {
       CHECK((first.buffer != last.buffer) == expect_chunks);
       nook_gl_destroy(&gl);
     }
-    nook_character_model_destroy(&model);
+    nook_model_destroy(&model);
   }
 }
 
@@ -239,8 +240,8 @@ TEST_CASE("the GPU follows a new model under a living instance") {
   for (const int tier : tiers_of(context)) {
     INFO("tier " << tier);
     CountedContext host;
-    nook_character_model before = load_model(host.handle, sample_model(21));
-    nook_character_model after = load_model(host.handle, sample_model(22));
+    nook_model before = load_model(host.handle, sample_model(21));
+    nook_model after = load_model(host.handle, sample_model(22));
     Crowd crowd(host.handle, {before}, {5}, {});
     nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
@@ -249,7 +250,7 @@ TEST_CASE("the GPU follows a new model under a living instance") {
     CHECK(difference_to_cpu(gl, crowd, after, 2) < promised_difference);
     CHECK(difference_to_cpu(gl, crowd, before, 1) < promised_difference);
     nook_gl_destroy(&gl);
-    nook_character_model_destroy(&before);
-    nook_character_model_destroy(&after);
+    nook_model_destroy(&before);
+    nook_model_destroy(&after);
   }
 }

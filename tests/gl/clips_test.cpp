@@ -1,5 +1,7 @@
-// Baked clips in shaders: the GLSL of nook_gl_clips.h against the CPU.
-#include <nook/nook_gl_clips.h>
+// Baked clips in shaders: the GLSL of nook_gl.h against the CPU.
+#include <nook/experimental/nook_debug.h>
+#include <nook/experimental/nook_stages.h>
+#include <nook/nook_gl.h>
 
 #include <cmath>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "tests/gl/crowd.h"
 #include "tests/gl/host_textures.h"
 #include "tests/gl/test_context.h"
+#include "tests/pose_of_rows.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -33,57 +36,40 @@ struct Loaded {
     const CharacterModel plain = sample_model(4, {5, 7, 12, 900, 60, 4});
     const std::vector<std::byte> model_bytes = write_character_model(plain),
                                  bytes = write_clip_set(sample_clips(plain, 2, 12).set);
-    NOOK_OK_OR_FAIL(nook_character_model_load(host.handle, model_bytes.data(), model_bytes.size(), &model));
+    NOOK_OK_OR_FAIL(nook_model_load(host.handle, model_bytes.data(), model_bytes.size(), &model));
     NOOK_OK_OR_FAIL(nook_clips_load(host.handle, model, bytes.data(), bytes.size(), &clips));
     info.struct_size = sizeof info;
     NOOK_OK_OR_FAIL(nook_clips_describe(clips, &info));
   }
   ~Loaded() {
     nook_clips_destroy(&clips);
-    nook_character_model_destroy(&model);
+    nook_model_destroy(&model);
   }
   Loaded(const Loaded&) = delete;
   Loaded& operator=(const Loaded&) = delete;
 
   CountedContext host;
-  nook_character_model model = nullptr;
+  nook_model model = nullptr;
   nook_clips clips = nullptr;
   nook_clips_info info{};
 };
-
-// A texture as nook_gl_clips.h describes it.
-GLuint texture_of(const GladGLContext& gl, nook_clips clips, nook_clips_table table, GLuint unit) {
-  std::uint32_t width = 0, height = 0;
-  std::uint64_t bytes = 0;
-  NOOK_OK_OR_FAIL(nook_clips_texture_size(clips, table, &width, &height, &bytes));
-  std::vector<unsigned char> texels(static_cast<std::size_t>(bytes));
-  NOOK_OK_OR_FAIL(nook_clips_read_texture(clips, table, texels.data(), bytes));
-  GLuint name = 0;
-  gl.GenTextures(1, &name);
-  gl.ActiveTexture(GL_TEXTURE0 + unit);
-  gl.BindTexture(GL_TEXTURE_2D, name);
-  const bool is_modes = table == NOOK_CLIPS_MODES;
-  gl.TexImage2D(GL_TEXTURE_2D, 0, is_modes ? GL_RGBA8_SNORM : GL_RGBA16F, GLsizei(width), GLsizei(height), 0,
-                GL_RGBA, is_modes ? GL_BYTE : GL_HALF_FLOAT, texels.data());
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  return name;
-}
-
 }  // namespace
 
 TEST_CASE("clips in a vertex shader agree with the CPU") {
   NOOK_NEED_CONTEXT(context);
   const GladGLContext& gl = context.gl();
   Loaded loaded;
-  const GLuint modes = texture_of(gl, loaded.clips, NOOK_CLIPS_MODES, 0),
-               weights = texture_of(gl, loaded.clips, NOOK_CLIPS_WEIGHTS, 1);
-  const platform::Program program(gl, {glsl_header(gl), nook_gl_clips_glsl(), vertex_text},
+  nook_gl gl_half = create_gl(loaded.host.handle, platform::Context::loader, &context, 0);
+  nook_gl_upload upload = nullptr;
+  CHECK(nook_gl_upload_clips(gl_half, nullptr, &upload) == NOOK_ERROR_INVALID_ARGUMENT);
+  NOOK_OK_OR_FAIL(nook_gl_upload_clips(gl_half, loaded.clips, &upload));
+  nook_gl_upload_info described{};
+  described.struct_size = sizeof described;
+  NOOK_OK_OR_FAIL(nook_gl_upload_describe(upload, &described));
+  CHECK(described.texture_count == 2);
+  const platform::Program program(gl, {glsl_header(gl), described.glsl, vertex_text},
                                   {glsl_header(gl), fragment_text});
-  program.use();
-  gl.Uniform1i(program.uniform("nook_clip_modes"), 0);
-  gl.Uniform1i(program.uniform("nook_clip_weights"), 1);
-  gl.Uniform1i(program.uniform("nook_clip_vec4s"), GLint(loaded.info.mode_count / 4));
+  NOOK_OK_OR_FAIL(nook_gl_upload_bind(upload, program.name(), 0));
   const auto count = int(loaded.info.file_vertex_count);
   gl.Uniform1f(program.uniform("vertex_count"), float(count));
   Textures textures(gl);
@@ -107,7 +93,7 @@ TEST_CASE("clips in a vertex shader agree with the CPU") {
     const std::vector<float> drawn = read_texture(gl, target, count, 1, 1);
     std::vector<float> ao(std::size_t(count), -1.0f);
     NOOK_OK_OR_FAIL(
-        nook_clips_read_ao(loaded.clips, &time, NOOK_AO_FLOAT, ao.data(), std::uint32_t(count), 0));
+        nook_clips_read_ao(loaded.clips, &time, NOOK_FORMAT_FLOAT, ao.data(), std::uint32_t(count), 0));
     REQUIRE(drawn.size() == ao.size());
     float worst = 0;
     for (std::size_t i = 0; i < ao.size(); ++i) worst = std::max(worst, std::abs(drawn[i] - ao[i]));
@@ -119,8 +105,8 @@ TEST_CASE("clips in a vertex shader agree with the CPU") {
   gl.UseProgram(0);
   gl.DeleteVertexArrays(1, &array);
   gl.DeleteFramebuffers(1, &framebuffer);
-  gl.DeleteTextures(1, &modes);
-  gl.DeleteTextures(1, &weights);
+  nook_gl_upload_destroy(&upload);
+  nook_gl_destroy(&gl_half);
   gl.ActiveTexture(GL_TEXTURE0);
 }
 
@@ -130,7 +116,7 @@ TEST_CASE("an update on OpenGL leaves the whole AO of bones, and of clips what t
   const std::uint32_t count = loaded.info.file_vertex_count;
   Numbers numbers(5);
   nook_scene_desc desc;
-  NOOK_OK_OR_FAIL(nook_scene_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  NOOK_OK_OR_FAIL(nook_scene_desc_init(&desc));
   nook_scene scene = nullptr;
   NOOK_OK_OR_FAIL(nook_scene_create(loaded.host.handle, &desc, &scene));
   // Runs of both kinds, and a change between them.
@@ -148,7 +134,7 @@ TEST_CASE("an update on OpenGL leaves the whole AO of bones, and of clips what t
       NOOK_OK_OR_FAIL(nook_scene_set_clip(scene, ids[i], loaded.clips, &time, place));
     } else {
       const std::vector<Mat3x4> pose = random_pose(numbers, loaded.info.bone_count, {x, 0, 0});
-      NOOK_OK_OR_FAIL(nook_scene_set_pose(scene, ids[i], pose[0].m, loaded.info.bone_count));
+      NOOK_OK_OR_FAIL(nook::test::set_rows(scene, ids[i], pose[0].m, loaded.info.bone_count));
     }
   }
   for (const int tier : tiers_of(context)) {
@@ -164,7 +150,8 @@ TEST_CASE("an update on OpenGL leaves the whole AO of bones, and of clips what t
           nook_scene_set_terms(scene, has_clip[i] ? NOOK_TERM_ALL - NOOK_TERM_SELF : NOOK_TERM_ALL));
       NOOK_OK_OR_FAIL(nook_scene_update(scene));
       std::vector<float> ao(count);
-      NOOK_OK_OR_FAIL(nook_scene_read_ao(scene, ids[i], ao.data(), count, 0));
+      NOOK_OK_OR_FAIL(
+          nook_scene_read(scene, ids[i], NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, ao.data(), count, 0));
       CHECK(largest_difference(drawn[i], ao) < promised_difference);
     }
     NOOK_OK_OR_FAIL(nook_scene_set_terms(scene, NOOK_TERM_ALL));

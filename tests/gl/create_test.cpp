@@ -15,7 +15,7 @@ namespace {
 
 nook_gl_desc desc_of(Trace& trace, int tier) {
   nook_gl_desc desc;
-  NOOK_OK_OR_FAIL(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  NOOK_OK_OR_FAIL(nook_gl_desc_init(&desc));
   desc.get_proc = Trace::loader;
   desc.get_proc_user = &trace;
   desc.max_tier = tier;
@@ -176,7 +176,7 @@ TEST_CASE("the lower tier needs nothing of the higher one") {
 TEST_CASE("without the optional functions everything still agrees") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
-  nook_character_model model = load_model(host.handle, sample_model(3));
+  nook_model model = load_model(host.handle, sample_model(3));
   for (const int tier : tiers_of(context)) {
     Trace trace(context);
     for (const std::string& name : optional()) trace.hidden.insert(name);
@@ -186,13 +186,13 @@ TEST_CASE("without the optional functions everything still agrees") {
     CHECK(difference_to_cpu(gl, crowd, model, 1) < promised_difference);
     nook_gl_destroy(&gl);
   }
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }
 
 TEST_CASE("bad descriptors are refused with their field") {
   CountedContext host;
   nook_gl_desc good;
-  NOOK_OK_OR_FAIL(nook_gl_desc_init(&good, sizeof good, NOOK_VERSION));
+  NOOK_OK_OR_FAIL(nook_gl_desc_init(&good));
   CHECK(good.state_mode == NOOK_GL_STATE_PRESERVE);
   CHECK(good.max_tier == 0);
   good.get_proc = [](void*, const char*) -> void* { return nullptr; };
@@ -214,6 +214,6 @@ TEST_CASE("bad descriptors are refused with their field") {
   CHECK(nook_gl_create(host.handle, nullptr, &gl) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_gl_create(host.handle, &good, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_gl_create(host.handle, &good, &gl) == NOOK_ERROR_UNSUPPORTED);
-  CHECK(nook_gl_desc_init(nullptr, sizeof good, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_desc_init(&desc, 8, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_desc_init(nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_desc_init(NOOK_DESC_GL, &desc, 8, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
 }

@@ -4,6 +4,7 @@
 
 #include "sdk/src/character/levels.h"
 #include "sdk/src/character/model_file.h"
+#include "tests/pose_of_rows.h"
 
 namespace nook::test {
 namespace {
@@ -40,7 +41,7 @@ Mat3x4 turned(Vec3 axis, float angle, float scale, Vec3 move) {
 
 CountedContext::CountedContext() {
   nook_context_desc desc;
-  NOOK_OK_OR_FAIL(nook_context_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  NOOK_OK_OR_FAIL(nook_context_desc_init(&desc));
   desc.allocator = {this, counted_allocate, counted_release};
   desc.log = keep_log;
   desc.log_user = this;
@@ -58,19 +59,19 @@ std::vector<Mat3x4> random_pose(Numbers& numbers, std::size_t bones, Vec3 at, fl
   return pose;
 }
 
-nook_character_model load_model(nook_context context, const CharacterModel& model) {
+nook_model load_model(nook_context context, const CharacterModel& model) {
   const std::vector<std::byte> bytes = write_character_model(model);
-  nook_character_model loaded = nullptr;
-  NOOK_OK_OR_FAIL(nook_character_model_load(context, bytes.data(), bytes.size(), &loaded));
+  nook_model loaded = nullptr;
+  NOOK_OK_OR_FAIL(nook_model_load(context, bytes.data(), bytes.size(), &loaded));
   return loaded;
 }
 
-Crowd::Crowd(nook_context context, const std::vector<nook_character_model>& models,
+Crowd::Crowd(nook_context context, const std::vector<nook_model>& models,
              const std::vector<std::uint32_t>& bone_counts, const CrowdOptions& crowd_options)
     : options(crowd_options), models_(models), bone_counts_(bone_counts) {
   nook_scene_desc desc;
-  NOOK_OK_OR_FAIL(nook_scene_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  desc.combine = options.combine;
+  NOOK_OK_OR_FAIL(nook_scene_desc_init(&desc));
+  desc.form = options.form;
   desc.cutoff_error = options.cutoff_error;
   desc.far_error = 0;  // the compute tier merges nothing
   desc.lod_error = options.lod_error;
@@ -84,9 +85,9 @@ Crowd::Crowd(nook_context context, const std::vector<nook_character_model>& mode
   if (options.occluders)
     for (int i = 0; i < 3; ++i) {
       const Vec3 at = options.offset + Vec3{0.9f * static_cast<float>(i), 0.3f, 0.5f};
-      const float centre[3] = {at.x, at.y, at.z};
+      const nook_occluder ball{{at.x, at.y, at.z}, 0.2f + 0.1f * static_cast<float>(i), 0};
       nook_occluder_id occluder = 0;
-      NOOK_OK_OR_FAIL(nook_scene_add_occluder(scene, centre, 0.2f + 0.1f * static_cast<float>(i), &occluder));
+      NOOK_OK_OR_FAIL(nook_scene_add_occluder(scene, &ball, &occluder));
     }
   if (options.camera) {
     const float eye[3] = {options.offset.x, options.offset.y, options.offset.z};
@@ -116,8 +117,7 @@ void Crowd::pose_one(std::size_t index, std::uint32_t frame) {
                            (options.spacing * options.scale);
   const std::vector<Mat3x4> bones =
       random_pose(numbers, bone_counts_[index % bone_counts_.size()], at, options.scale);
-  NOOK_OK_OR_FAIL(
-      nook_scene_set_pose(scene, ids[index], bones.data()->m, static_cast<std::uint32_t>(bones.size())));
+  NOOK_OK_OR_FAIL(nook::test::set_rows(scene, ids[index], bones.data()->m, bones.size()));
 }
 
 namespace {
@@ -145,31 +145,31 @@ Cast::Cast(KernelForm form, float gamma, bool levels) {
 }
 
 Cast::~Cast() {
-  for (nook_character_model& model : models) nook_character_model_destroy(&model);
+  for (nook_model& model : models) nook_model_destroy(&model);
 }
 
-nook_scene_stats stats_of(const Crowd& crowd) {
-  nook_scene_stats stats{};
+nook_scene_info stats_of(const Crowd& crowd) {
+  nook_scene_info stats{};
   stats.struct_size = sizeof stats;
-  NOOK_OK_OR_FAIL(nook_scene_read_stats(crowd.scene, &stats));
+  NOOK_OK_OR_FAIL(nook_scene_describe(crowd.scene, &stats));
   return stats;
 }
 
-std::uint32_t file_vertices(nook_character_model model) {
-  nook_character_model_info info{};
+std::uint32_t file_vertices(nook_model model) {
+  nook_model_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_character_model_describe(model, &info));
+  NOOK_OK_OR_FAIL(nook_model_describe(model, &info));
   return info.file_vertex_count;
 }
 
-std::vector<float> cpu_ao(const Crowd& crowd, nook_character_model model, std::size_t index) {
+std::vector<float> cpu_ao(const Crowd& crowd, nook_model model, std::size_t index) {
   std::vector<float> ao(file_vertices(model), -1.0f);
-  NOOK_OK_OR_FAIL(
-      nook_scene_read_ao(crowd.scene, crowd.ids[index], ao.data(), static_cast<std::uint32_t>(ao.size()), 0));
+  NOOK_OK_OR_FAIL(nook_scene_read(crowd.scene, crowd.ids[index], NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT,
+                                  ao.data(), static_cast<std::uint32_t>(ao.size()), 0));
   return ao;
 }
 
-std::vector<float> gpu_ao(nook_gl gl, const Crowd& crowd, nook_character_model model, std::size_t index) {
+std::vector<float> gpu_ao(nook_gl gl, const Crowd& crowd, nook_model model, std::size_t index) {
   std::vector<float> ao(file_vertices(model), -1.0f);
   NOOK_OK_OR_FAIL(nook_gl_scene_read_ao(gl, crowd.scene, crowd.ids[index], ao.data(),
                                         static_cast<std::uint32_t>(ao.size())));
@@ -185,7 +185,7 @@ float largest_difference(const std::vector<float>& a, const std::vector<float>& 
   return largest;
 }
 
-float difference_to_cpu(nook_gl gl, const Crowd& crowd, nook_character_model model, std::size_t index) {
+float difference_to_cpu(nook_gl gl, const Crowd& crowd, nook_model model, std::size_t index) {
   const std::vector<float> gpu = gpu_ao(gl, crowd, model, index);
   NOOK_OK_OR_FAIL(nook_scene_update(crowd.scene));
   return largest_difference(gpu, cpu_ao(crowd, model, index));
@@ -201,7 +201,7 @@ nook_gl_info info_of(nook_gl gl) {
 nook_gl create_gl(nook_context context, nook_gl_proc_fn loader, void* user, int tier,
                   nook_gl_state_mode mode) {
   nook_gl_desc desc;
-  NOOK_OK_OR_FAIL(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  NOOK_OK_OR_FAIL(nook_gl_desc_init(&desc));
   desc.get_proc = loader;
   desc.get_proc_user = user;
   desc.max_tier = tier;

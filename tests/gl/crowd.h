@@ -36,11 +36,11 @@ struct CountedContext {
 // Bones turned and moved a little, and scaled, all about the same place.
 std::vector<Mat3x4> random_pose(Numbers& numbers, std::size_t bones, Vec3 at = {}, float scale = 1);
 
-nook_character_model load_model(nook_context context, const CharacterModel& model);
+nook_model load_model(nook_context context, const CharacterModel& model);
 
 struct CrowdOptions {
   std::uint32_t instances = 9;
-  nook_combine combine = NOOK_COMBINE_COMPOSED;
+  nook_form form = NOOK_FORM_DEFAULT;
   bool links = true, nearest = true, ground = true, occluders = true;
   float scale = 1;       // of every bone matrix
   float spacing = 1.1f;  // metres
@@ -52,7 +52,7 @@ struct CrowdOptions {
 };
 
 struct Crowd {
-  Crowd(nook_context context, const std::vector<nook_character_model>& models,
+  Crowd(nook_context context, const std::vector<nook_model>& models,
         const std::vector<std::uint32_t>& bone_counts, const CrowdOptions& crowd_options);
   ~Crowd() { nook_scene_destroy(&scene); }
   Crowd(const Crowd&) = delete;
@@ -68,7 +68,7 @@ struct Crowd {
   std::vector<nook_instance_id> ids;
 
  private:
-  std::vector<nook_character_model> models_;
+  std::vector<nook_model> models_;
   std::vector<std::uint32_t> bone_counts_;
 };
 
@@ -79,21 +79,21 @@ struct Cast {
   Cast(const Cast&) = delete;
   Cast& operator=(const Cast&) = delete;
 
-  nook_character_model model_of(std::size_t index) const { return models[index % models.size()]; }
+  nook_model model_of(std::size_t index) const { return models[index % models.size()]; }
 
   CountedContext context;
-  std::vector<nook_character_model> models;
+  std::vector<nook_model> models;
   std::vector<std::uint32_t> bone_counts;
   float coarsest_error = 0;  // of the last model
 };
 
-nook_scene_stats stats_of(const Crowd& crowd);
-std::uint32_t file_vertices(nook_character_model model);
-std::vector<float> cpu_ao(const Crowd& crowd, nook_character_model model, std::size_t index);
-std::vector<float> gpu_ao(nook_gl gl, const Crowd& crowd, nook_character_model model, std::size_t index);
+nook_scene_info stats_of(const Crowd& crowd);
+std::uint32_t file_vertices(nook_model model);
+std::vector<float> cpu_ao(const Crowd& crowd, nook_model model, std::size_t index);
+std::vector<float> gpu_ao(nook_gl gl, const Crowd& crowd, nook_model model, std::size_t index);
 float largest_difference(const std::vector<float>& a, const std::vector<float>& b);
 // Between the AO of the last nook_gl_scene_update and that of the CPU, which is evaluated here.
-float difference_to_cpu(nook_gl gl, const Crowd& crowd, nook_character_model model, std::size_t index);
+float difference_to_cpu(nook_gl gl, const Crowd& crowd, nook_model model, std::size_t index);
 // The error that nook_gl.h promises for it, and that a byte of a frame buffer (1 / 255) cannot show.
 constexpr float promised_difference = 2e-3f;
 

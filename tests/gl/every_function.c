@@ -1,9 +1,9 @@
-/* Every function of nook_gl.h, nook_gl_clips.h and nook_gl_probe.h, called from C in the order a host would;
+/* Every function of nook_gl.h and of captures, called from C in the order a host would;
  * returns the number of failed expectations and prints each. The OpenGL context is current; bytes: a
  * character model. */
+#include <nook/experimental/nook_capture.h>
+#include <nook/experimental/nook_debug.h>
 #include <nook/nook_gl.h>
-#include <nook/nook_gl_clips.h>
-#include <nook/nook_gl_probe.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +29,7 @@ static void read_ao(nook_gl gl, nook_scene scene, nook_instance_id instance, uin
 }
 
 static void light_instance(nook_gl gl, nook_scene scene, nook_instance_id instance, uint32_t count) {
-  const nook_probe_lobe lobe = {{0, 1, 0}, 6, {1, 2, 3}, 0};
+  const nook_lobe lobe = {{0, 1, 0}, 6, {1, 2, 3}, 0};
   float* rgb = (float*)malloc(3 * count * sizeof(float));
   nook_gl_light_view view;
   uint32_t i;
@@ -49,23 +49,22 @@ static void light_instance(nook_gl gl, nook_scene scene, nook_instance_id instan
 }
 
 /* A capture without a map: no name is that of a cube map here. */
-static void capture_probe(nook_gl gl, nook_gl_probe probe) {
-  nook_gl_probe_capture_desc desc;
-  nook_gl_probe_capture capture = NULL;
-  nook_gl_probe_capture_result result;
+static void capture_probe(nook_gl gl, nook_gl_upload probe) {
+  nook_gl_capture_desc desc;
+  nook_gl_capture capture = NULL;
+  nook_gl_capture_info result;
   nook_probe solved = NULL;
-  EXPECT_OK(nook_gl_probe_capture_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  EXPECT_OK(nook_gl_capture_desc_init(&desc));
   desc.probe = probe;
-  EXPECT_OK(nook_gl_probe_capture_create(gl, &desc, &capture));
-  EXPECT(nook_gl_probe_capture_add(capture, 0, 0) == NOOK_ERROR_INVALID_ARGUMENT);
-  EXPECT_OK(nook_gl_probe_capture_reset(capture, 0));
+  EXPECT_OK(nook_gl_capture_create(gl, &desc, &capture));
+  EXPECT(nook_gl_capture_add(capture, 0, 0, 0) == NOOK_ERROR_INVALID_ARGUMENT);
   memset(&result, 0, sizeof result);
   result.struct_size = sizeof result;
-  EXPECT_OK(nook_gl_probe_capture_read(capture, 0, &result));
+  EXPECT_OK(nook_gl_capture_read(capture, 0, &result));
   EXPECT(result.maps == 0);
-  EXPECT_OK(nook_gl_probe_capture_solve(capture, &solved));
+  EXPECT_OK(nook_gl_capture_solve(capture, &solved));
   nook_probe_destroy(&solved);
-  nook_gl_probe_capture_destroy(&capture);
+  nook_gl_capture_destroy(&capture);
 }
 
 static void upload_probe(nook_context context, nook_gl gl) {
@@ -74,34 +73,36 @@ static void upload_probe(nook_context context, nook_gl gl) {
   nook_probe_desc probe_desc;
   nook_probe_fit fit = NULL;
   nook_probe probe = NULL;
-  nook_gl_probe uploaded = NULL;
-  nook_gl_probe_info info;
-  nook_gl_probe_grid grid = NULL;
-  nook_gl_probe_grid_info grid_info;
-  EXPECT_OK(nook_probe_fit_desc_init(&fit_desc, sizeof fit_desc, NOOK_VERSION));
+  nook_gl_upload uploaded = NULL, clips = NULL;
+  nook_gl_upload_info info;
+  nook_gl_upload grid = NULL;
+  nook_gl_upload_info grid_info;
+  EXPECT_OK(nook_probe_fit_desc_init(&fit_desc));
   EXPECT_OK(nook_probe_fit_create(context, &fit_desc, &fit));
-  EXPECT_OK(nook_probe_desc_init(&probe_desc, sizeof probe_desc, NOOK_VERSION));
+  EXPECT_OK(nook_probe_desc_init(&probe_desc));
   probe_desc.functions = fit;
   probe_desc.coefficients = coefficients;
   EXPECT_OK(nook_probe_create(context, &probe_desc, &probe));
-  EXPECT_OK(nook_gl_probe_create(gl, probe, &uploaded));
-  EXPECT_OK(nook_gl_probe_update(uploaded, probe));
+  EXPECT_OK(nook_gl_upload_probe(gl, probe, NOOK_GL_PROBE_LOBES, &uploaded));
+  EXPECT_OK(nook_gl_update_probe(uploaded, probe));
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
-  EXPECT_OK(nook_gl_probe_describe(uploaded, &info));
+  EXPECT_OK(nook_gl_upload_describe(uploaded, &info));
   /* OpenGL ES has 2D textures with whole rows. */
-  EXPECT(info.texture != 0 && info.bytes >= 16 * (3 + 12 * 2) && strstr(info.glsl, "nook_probe_irradiance"));
+  EXPECT(info.textures[0].texture != 0 && info.bytes >= 16 * (3 + 12 * 2) &&
+         strstr(info.glsl, "nook_probe_irradiance"));
   capture_probe(gl, uploaded);
-  nook_gl_probe_destroy(&uploaded);
+  EXPECT(nook_gl_upload_clips(gl, NULL, &clips) == NOOK_ERROR_INVALID_ARGUMENT && clips == NULL);
+  nook_gl_upload_destroy(&uploaded);
   EXPECT(!uploaded);
-  EXPECT_OK(nook_gl_probe_grid_create(gl, probe, NOOK_GL_PROBE_GRID_ZONAL, &grid));
-  EXPECT_OK(nook_gl_probe_grid_update(grid, probe));
+  EXPECT_OK(nook_gl_upload_probe(gl, probe, NOOK_GL_PROBE_ZH3, &grid));
+  EXPECT_OK(nook_gl_update_probe(grid, probe));
   memset(&grid_info, 0, sizeof grid_info);
   grid_info.struct_size = sizeof grid_info;
-  EXPECT_OK(nook_gl_probe_grid_describe(grid, &grid_info));
-  EXPECT(grid_info.texture != 0 && grid_info.bytes == 4 * 8 &&
+  EXPECT_OK(nook_gl_upload_describe(grid, &grid_info));
+  EXPECT(grid_info.textures[0].texture != 0 && grid_info.bytes == 4 * 8 &&
          strstr(grid_info.glsl, "nook_grid_irradiance"));
-  nook_gl_probe_grid_destroy(&grid);
+  nook_gl_upload_destroy(&grid);
   EXPECT(!grid);
   nook_probe_destroy(&probe);
   nook_probe_fit_destroy(&fit);
@@ -112,7 +113,7 @@ static void write_ao(nook_gl gl, nook_scene scene, nook_instance_id instance) {
   nook_gl_ao_target target;
   memset(&target, 0, sizeof target);
   target.struct_size = sizeof target;
-  EXPECT(nook_gl_scene_write_ao(gl, scene, &instance, 1, &target) == NOOK_ERROR_INVALID_ARGUMENT);
+  EXPECT(nook_gl_scene_write(gl, scene, &instance, 1, &target) == NOOK_ERROR_INVALID_ARGUMENT);
 }
 
 int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_proc, void* user) {
@@ -123,20 +124,20 @@ int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_
   nook_gl_memory memory;
   nook_gl_ao_view view;
   nook_context context = NULL;
-  nook_character_model model = NULL;
+  nook_model model = NULL;
   nook_scene scene = NULL;
   nook_instance_id instance = 0;
   nook_gl gl = NULL;
 
   failures = 0;
-  EXPECT_OK(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+  EXPECT_OK(nook_context_desc_init(&context_desc));
   EXPECT_OK(nook_context_create(&context_desc, &context));
-  EXPECT_OK(nook_character_model_load(context, bytes, size, &model));
-  EXPECT_OK(nook_scene_desc_init(&scene_desc, sizeof scene_desc, NOOK_VERSION));
+  EXPECT_OK(nook_model_load(context, bytes, size, &model));
+  EXPECT_OK(nook_scene_desc_init(&scene_desc));
   EXPECT_OK(nook_scene_create(context, &scene_desc, &scene));
   EXPECT_OK(nook_scene_add_instance(scene, model, &instance));
 
-  EXPECT_OK(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  EXPECT_OK(nook_gl_desc_init(&desc));
   desc.get_proc = get_proc;
   desc.get_proc_user = user;
   EXPECT_OK(nook_gl_create(context, &desc, &gl));
@@ -159,7 +160,6 @@ int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_
   EXPECT(info.ao_bytes >= view.count * sizeof(float) && info.buffer_bytes > info.ao_bytes);
   write_ao(gl, scene, instance);
   light_instance(gl, scene, instance, view.count);
-  EXPECT(strstr(nook_gl_clips_glsl(), "nook_clip_ao") != NULL);
   upload_probe(context, gl);
   EXPECT_OK(nook_gl_scene_release(gl, scene));
   EXPECT(nook_gl_scene_ao_buffer(gl, scene, instance, &view) == NOOK_ERROR_INVALID_HANDLE);
@@ -171,7 +171,7 @@ int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_
   EXPECT(strncmp(nook_last_message(), "nook_gl_scene_update: ", 22) == 0);
   nook_gl_destroy(&gl);
   nook_scene_destroy(&scene);
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
   nook_context_destroy(&context);
   EXPECT(!gl && !scene && !model && !context);
   return failures;

@@ -32,7 +32,7 @@ TEST_CASE("destroying everything in any order leaves no OpenGL object and no mem
     for (const char* order : {"0123", "1023", "3210", "2310", "1320", "3102"}) {
       INFO("tier " << tier << ", order " << order);
       CountedContext host;
-      nook_character_model model = load_model(host.handle, sample_model(5));
+      nook_model model = load_model(host.handle, sample_model(5));
       auto crowd = std::make_unique<Crowd>(host.handle, std::vector{model}, std::vector<std::uint32_t>{5},
                                            CrowdOptions{});
       nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
@@ -41,7 +41,7 @@ TEST_CASE("destroying everything in any order leaves no OpenGL object and no mem
       for (const char* step = order; *step; ++step) {
         if (*step == '0') nook_gl_destroy(&gl);
         if (*step == '1') crowd.reset();
-        if (*step == '2') nook_character_model_destroy(&model);
+        if (*step == '2') nook_model_destroy(&model);
         if (*step == '3') nook_context_destroy(&host.handle);
       }
       CHECK(living_objects(context.gl()) == before);
@@ -55,7 +55,7 @@ TEST_CASE("destroying everything in any order leaves no OpenGL object and no mem
 TEST_CASE("a destroyed scene's objects go with the next update, a released one's at once") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
-  nook_character_model model = load_model(host.handle, sample_model(6));
+  nook_model model = load_model(host.handle, sample_model(6));
   for (const int tier : tiers_of(context)) {
     nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
     Crowd stays(host.handle, {model}, {5}, {});
@@ -74,13 +74,13 @@ TEST_CASE("a destroyed scene's objects go with the next update, a released one's
     CHECK(info_of(gl).buffer_bytes == one_scene);
     nook_gl_destroy(&gl);
   }
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }
 
 TEST_CASE("after the OpenGL context is lost nothing calls OpenGL, and destroy works") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
-  nook_character_model model = load_model(host.handle, sample_model(7));
+  nook_model model = load_model(host.handle, sample_model(7));
   Crowd crowd(host.handle, {model}, {5}, {});
   for (const int tier : tiers_of(context)) {
     nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
@@ -100,13 +100,13 @@ TEST_CASE("after the OpenGL context is lost nothing calls OpenGL, and destroy wo
     CHECK(difference_to_cpu(gl, crowd, model, 2) < promised_difference);
     nook_gl_destroy(&gl);
   }
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }
 
 TEST_CASE("views are refused where there is none, and hold 1 before the first update") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
-  nook_character_model model = load_model(host.handle, sample_model(8));
+  nook_model model = load_model(host.handle, sample_model(8));
   Crowd crowd(host.handle, {model}, {5}, {});
   nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
   nook_gl_ao_view view{};
@@ -124,13 +124,13 @@ TEST_CASE("views are refused where there is none, and hold 1 before the first up
   view.struct_size = 8;
   CHECK(nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[0], &view) == NOOK_ERROR_INVALID_ARGUMENT);
   nook_gl_destroy(&gl);
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }
 
 TEST_CASE("a view stays as it is while other instances come and go") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
-  nook_character_model model = load_model(host.handle, sample_model(8));
+  nook_model model = load_model(host.handle, sample_model(8));
   Crowd crowd(host.handle, {model}, {5}, {});
   nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
   nook_gl_info info{};
@@ -172,13 +172,13 @@ TEST_CASE("a view stays as it is while other instances come and go") {
   check_first();
   CHECK(info.version == version);
   nook_gl_destroy(&gl);
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }
 
 TEST_CASE("an empty scene is updated, and again after its last instance left") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
-  nook_character_model model = load_model(host.handle, sample_model(9));
+  nook_model model = load_model(host.handle, sample_model(9));
   for (const int tier : tiers_of(context)) {
     CrowdOptions options;
     options.instances = 0;
@@ -194,5 +194,5 @@ TEST_CASE("an empty scene is updated, and again after its last instance left") {
     CHECK(info_of(gl).ao_bytes == 0);
     nook_gl_destroy(&gl);
   }
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }

@@ -1,6 +1,8 @@
 // Directional occlusion on the GPU: every tier against the CPU, the GLSL for hosts against the CPU's
 // irradiance, and lights that come and go.
-#include <nook/nook_gl_probe.h>
+#include <nook/experimental/nook_debug.h>
+#include <nook/experimental/nook_sg.h>
+#include <nook/nook_gl.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,9 +26,9 @@ namespace {
 constexpr float promised_light_difference = 4e-3f;
 
 // Uneven, coloured, one constant; sharper and softer than a probe's.
-std::vector<nook_probe_lobe> lobes_of(std::uint32_t seed, std::size_t count = 9) {
+std::vector<nook_lobe> lobes_of(std::uint32_t seed, std::size_t count = 9) {
   Numbers numbers(seed);
-  std::vector<nook_probe_lobe> lobes;
+  std::vector<nook_lobe> lobes;
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 axis = numbers.direction();
     const float sharpness[] = {6, 0, 2, 14, 40};
@@ -38,20 +40,20 @@ std::vector<nook_probe_lobe> lobes_of(std::uint32_t seed, std::size_t count = 9)
   return lobes;
 }
 
-void light(const Crowd& crowd, std::size_t index, const std::vector<nook_probe_lobe>& lobes) {
+void light(const Crowd& crowd, std::size_t index, const std::vector<nook_lobe>& lobes) {
   NOOK_OK_OR_FAIL(
       nook_scene_set_light(crowd.scene, crowd.ids[index], lobes.data(), std::uint32_t(lobes.size())));
 }
 
-std::vector<float> cpu_colours(const Crowd& crowd, nook_character_model model, std::size_t index) {
+std::vector<float> cpu_colours(const Crowd& crowd, nook_model model, std::size_t index) {
   const std::uint32_t count = file_vertices(model);
   std::vector<float> rgb(3 * std::size_t(count));
-  NOOK_OK_OR_FAIL(nook_scene_read_directional_ao(crowd.scene, crowd.ids[index], rgb.data(), count, 0));
+  NOOK_OK_OR_FAIL(nook_scene_read(crowd.scene, crowd.ids[index], NOOK_CHANNEL_DIRECTIONAL_AO,
+                                  NOOK_FORMAT_FLOAT, rgb.data(), count, 0));
   return rgb;
 }
 
-std::vector<float> gpu_colours(nook_gl gl, const Crowd& crowd, nook_character_model model,
-                               std::size_t index) {
+std::vector<float> gpu_colours(nook_gl gl, const Crowd& crowd, nook_model model, std::size_t index) {
   const std::uint32_t count = file_vertices(model);
   std::vector<float> rgb(3 * std::size_t(count), -1.0f);
   NOOK_OK_OR_FAIL(nook_gl_scene_read_directional_ao(gl, crowd.scene, crowd.ids[index], rgb.data(), count));
@@ -91,7 +93,7 @@ void check_agreement(platform::Context& context, const Cast& cast, const CrowdOp
       NOOK_OK_OR_FAIL(nook_scene_update(on_cpu.scene));
       NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, on_gpu.scene));
       for (std::size_t i = 0; i < on_cpu.ids.size(); ++i) {
-        const nook_character_model model = cast.model_of(i);
+        const nook_model model = cast.model_of(i);
         const std::vector<float> ao = cpu_ao(on_cpu, model, i);
         ao_largest = std::max(ao_largest, largest_difference(gpu_ao(gl, on_gpu, model, i), ao));
         if (i % 3 == 0) {
@@ -162,25 +164,26 @@ std::vector<float> ask(const GladGLContext& gl, const nook_gl_light_view& view,
 // The source that hosts include for probes.
 std::string probe_glsl(nook_context context, nook_gl gl) {
   nook_probe_fit_desc desc;
-  NOOK_OK_OR_FAIL(nook_probe_fit_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  NOOK_OK_OR_FAIL(nook_probe_fit_desc_init(&desc));
   nook_probe_fit fit = nullptr;
   NOOK_OK_OR_FAIL(nook_probe_fit_create(context, &desc, &fit));
   const float up[3] = {0, 1, 0}, white[3] = {1, 1, 1};
   NOOK_OK_OR_FAIL(nook_probe_fit_add_samples(fit, up, white, nullptr, 1));
   nook_probe probe = nullptr;
   NOOK_OK_OR_FAIL(nook_probe_fit_solve(fit, &probe));
-  nook_gl_probe uploaded = nullptr;
-  NOOK_OK_OR_FAIL(nook_gl_probe_create(gl, probe, &uploaded));
-  nook_gl_probe_info info{};
+  nook_gl_upload uploaded = nullptr;
+  NOOK_OK_OR_FAIL(nook_gl_upload_probe(gl, probe, NOOK_GL_PROBE_LOBES, &uploaded));
+  nook_gl_upload_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_gl_probe_describe(uploaded, &info));
-  nook_gl_probe_destroy(&uploaded);
+  NOOK_OK_OR_FAIL(nook_gl_upload_describe(uploaded, &info));
+  nook_gl_upload_destroy(&uploaded);
   nook_probe_destroy(&probe);
   nook_probe_fit_destroy(&fit);
   return info.glsl;
 }
 
-// The blocked vectors and the AO of a point are functions of its normal, so that one texel holds its inputs.
+// The occluded directions and the AO of a point are functions of its normal, so that one texel holds its
+// inputs.
 const char* const bent_text =
     "uniform highp sampler2D normals; out vec4 answer;\n"
     "void main() {\n"
@@ -216,10 +219,10 @@ TEST_CASE("GPU and CPU agree on directional occlusion for every kernel and way t
   for (const KernelForm form : {KernelForm::paper, KernelForm::nook, KernelForm::rational})
     for (const float gamma : {1.0f, 1.7f}) {
       const Cast cast(form, gamma);
-      for (const nook_combine combine : {NOOK_COMBINE_COMPOSED, NOOK_COMBINE_PAPER}) {
+      for (const nook_form combine : {NOOK_FORM_DEFAULT, NOOK_FORM_PAPER}) {
         INFO("form " << static_cast<int>(form) << ", gamma " << gamma << ", combine " << combine);
         CrowdOptions options;
-        options.combine = combine;
+        options.form = combine;
         check_agreement(context, cast, options);
       }
     }
@@ -256,11 +259,10 @@ TEST_CASE("the GLSL for hosts gives the irradiance of an instance's lobes") {
     for (const std::size_t i : {1, 4}) light(crowd, i, lobes_of(std::uint32_t(20 + i)));
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
     for (const std::size_t i : {1, 4}) {
-      const std::vector<nook_probe_lobe> lobes = lobes_of(std::uint32_t(20 + i));
+      const std::vector<nook_lobe> lobes = lobes_of(std::uint32_t(20 + i));
       std::vector<float> want(normals.size());
-      NOOK_OK_OR_FAIL(nook_probe_lobes_irradiance(lobes.data(), std::uint32_t(lobes.size()),
-                                                  NOOK_PROBE_IRRADIANCE_BANDS, normals.data(), want.data(),
-                                                  64));
+      NOOK_OK_OR_FAIL(nook_sg_irradiance(lobes.data(), std::uint32_t(lobes.size()),
+                                         NOOK_PROBE_IRRADIANCE_BANDS, normals.data(), want.data(), 64));
       const float largest = *std::ranges::max_element(want);
       const nook_gl_light_view view = view_of(gl, crowd, i);
       const char* const version = glsl_header(context.gl());
@@ -272,7 +274,7 @@ TEST_CASE("the GLSL for hosts gives the irradiance of an instance's lobes") {
         for (std::size_t v = 0; v < 64; ++v)
           for (std::size_t c = 0; c < 3; ++c) {
             const float occlusion = 1 / float(1 << c);
-            // nook_gl_probe.h's promise for the same functions.
+            // nook_gl.h's promise for the same functions.
             CHECK(std::abs(found[4 * v + c] - occlusion * std::max(want[3 * v + c], 0.0f)) < 1e-4f * largest);
           }
     }
@@ -280,7 +282,7 @@ TEST_CASE("the GLSL for hosts gives the irradiance of an instance's lobes") {
   }
 }
 
-TEST_CASE("the GLSL for hosts gives the bent normal of blocked vectors and its specular occlusion") {
+TEST_CASE("the GLSL for hosts gives the bent normal of occluded directions and its specular occlusion") {
   NOOK_NEED_CONTEXT(context);
   const Cast cast(KernelForm::nook, 1);
   Crowd crowd(cast.context.handle, cast.models, cast.bone_counts, {});
@@ -305,7 +307,7 @@ TEST_CASE("the GLSL for hosts gives the bent normal of blocked vectors and its s
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const Vec3 n = normals[i], turned{n.y, n.z, n.x};
     const float ao = 0.5f + 0.5f * n.x;
-    const Vec3 bent = bent_normal(n, BlockedEnds{0.6f * turned, 0.2f * Vec3{n.z, n.x, n.y}}.at(ao));
+    const Vec3 bent = bent_normal(n, OccludedEnds{0.6f * turned, 0.2f * Vec3{n.z, n.x, n.y}}.at(ao));
     const nnao::LitPixel pixel{bent, n, normalised(n + 0.5f * turned), ao};
     // Sums of eight products of numbers below 8, in float.
     CHECK(length(Vec3{found[4 * i], found[4 * i + 1], found[4 * i + 2]} - bent) < 1e-5f);
@@ -374,7 +376,7 @@ TEST_CASE("lights beyond a texture buffer are refused, and fewer are fine again"
   }
   trace.limits[GL_MAX_TEXTURE_BUFFER_SIZE] = 65536;
   CountedContext host;
-  nook_character_model model = load_model(host.handle, sample_model(9, {3, 4, 20, 30, 5, 2}));
+  nook_model model = load_model(host.handle, sample_model(9, {3, 4, 20, 30, 5, 2}));
   CrowdOptions options;
   options.instances = 480;  // 12 + 2 * 64 texels each
   options.links = options.nearest = false;
@@ -391,5 +393,5 @@ TEST_CASE("lights beyond a texture buffer are refused, and fewer are fine again"
     CHECK(largest_difference(on_gpu, cpu_colours(crowd, model, 479)) < promised_light_difference);
     nook_gl_destroy(&gl);
   }
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }

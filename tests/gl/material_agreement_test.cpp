@@ -30,10 +30,10 @@ constexpr float times_reach = 2;
 // Weights with a smaller error are floats.
 constexpr float exact_weights = 1e-4f;
 
-constexpr nook_material_modes plain = NOOK_MATERIAL_MODES_PLAIN;
+constexpr nook_material_blocks plain = NOOK_MATERIAL_BLOCKS_NONE;
 
 struct Form : Size {
-  nook_material_modes modes = plain;
+  nook_material_blocks modes = plain;
   int whole_light_modes = 4;
 };
 
@@ -74,7 +74,7 @@ std::vector<Form> forms_of(const platform::Context& context) {
   std::vector<Form> all;
   for (const Size& size : forms) all.push_back({size});
   for (Form form : block_forms) {
-    form.modes = context.is_es() ? NOOK_MATERIAL_MODES_EAC : NOOK_MATERIAL_MODES_RGTC;
+    form.modes = context.is_es() ? NOOK_MATERIAL_BLOCKS_EAC : NOOK_MATERIAL_BLOCKS_RGTC;
     all.push_back(form);
   }
   return all;
@@ -88,13 +88,13 @@ void put(float (&out)[3], Vec3 v) {
 
 // Views lie inside cells of the view map, or of its parts, off their borders: there another order of rounding
 // may choose the other cell. Levels are whole, since OpenGL leaves how they mix to the driver.
-std::vector<nook_material_sample> samples_of(const nook_material_info& info, std::size_t count) {
+std::vector<LevelPixel> samples_of(const nook_material_info& info, std::size_t count) {
   material::test::Numbers numbers(17);
   const std::uint32_t side =
       info.btf.view_map_side ? 256 / info.btf.view_map_side * info.btf.view_map_side : 256;
   const auto levels = std::uint32_t(std::log2(float(std::max(info.width, info.height)))) + 1;
-  std::vector<nook_material_sample> samples(count);
-  for (nook_material_sample& s : samples) {
+  std::vector<LevelPixel> samples(count);
+  for (LevelPixel& s : samples) {
     s.uv[0] = numbers.between(-2, 3);
     s.uv[1] = numbers.between(-2, 3);
     s.level = float(numbers.below(levels + 1));
@@ -131,7 +131,7 @@ void put_sides(nook_material_pixel& pixel, const nook_material_info& info, float
 std::vector<nook_material_pixel> pixels_of(const nook_material_info& info, std::size_t count, int fetches) {
   material::test::Numbers numbers(23);
   std::vector<nook_material_pixel> pixels;
-  for (const nook_material_sample& s : samples_of(info, count)) {
+  for (const LevelPixel& s : samples_of(info, count)) {
     nook_material_pixel pixel{};
     std::copy_n(s.uv, 2, pixel.uv);
     std::copy_n(s.view, 3, pixel.view);
@@ -152,7 +152,7 @@ struct Uploaded {
       : weight_error(filter_weight_error(fixture.context.gl())),
         loaded(fixture.load(material::test::sample_material(21, form), form.modes, form.whole_light_modes)),
         info(info_of(loaded)),
-        is_rgtc(form.modes == NOOK_MATERIAL_MODES_RGTC),
+        is_rgtc(form.modes == NOOK_MATERIAL_BLOCKS_RGTC),
         decoder(fixture.context.gl(), fixture.upload(loaded), info, true) {}
 
   float weight_error;
@@ -225,14 +225,15 @@ void check_agreement(const std::vector<GpuValue>& got, const std::vector<nook_ma
 }
 
 void check_samples(const Uploaded& form) {
-  const std::vector<nook_material_sample> samples = samples_of(form.info, 2048);
-  const auto evaluate = [&](const std::vector<nook_material_sample>& of) {
+  const std::vector<LevelPixel> samples = samples_of(form.info, 2048);
+  const auto evaluate = [&](const std::vector<LevelPixel>& of) {
     std::vector<nook_material_value> values(of.size());
-    NOOK_OK_OR_FAIL(nook_material_evaluate(form.loaded, of.data(), std::uint32_t(of.size()), values.data()));
+    NOOK_OK_OR_FAIL(nook_material_evaluate(form.loaded, round_pixels(of, form.info).data(),
+                                           std::uint32_t(of.size()), 1, values.data()));
     return values;
   };
   const std::vector<nook_material_value> wanted = evaluate(samples);
-  const auto level = [](const nook_material_sample& sample) { return sample.level; };
+  const auto level = [](const LevelPixel& sample) { return sample.level; };
   check_agreement(form.decoder.decode(samples), wanted,
                   reaches_of(samples, wanted, form.weight_error, form.info, level, evaluate), form);
   float brightest = 0;
@@ -245,8 +246,8 @@ void check_pixels(const Uploaded& form, int fetches) {
   const std::vector<nook_material_pixel> pixels = pixels_of(form.info, 512, fetches);
   const auto evaluate = [&](const std::vector<nook_material_pixel>& of) {
     std::vector<nook_material_value> values(of.size());
-    NOOK_OK_OR_FAIL(nook_material_evaluate_anisotropic(form.loaded, of.data(), std::uint32_t(of.size()),
-                                                       std::uint32_t(fetches), values.data()));
+    NOOK_OK_OR_FAIL(nook_material_evaluate(form.loaded, of.data(), std::uint32_t(of.size()),
+                                           std::uint32_t(fetches), values.data()));
     return values;
   };
   const std::vector<nook_material_value> wanted = evaluate(pixels);
@@ -336,15 +337,15 @@ TEST_CASE("material: layers split over several textures give the same picture") 
   const nook_material loaded = fixture.load(material::test::sample_material(
       5, {.width = 8, .height = 8, .rank_light = 8, .clusters = 5, .mixture = 2}));
   const nook_material_info info = info_of(loaded);
-  const std::vector<nook_material_sample> samples = samples_of(info, 512);
-  const nook_gl_material whole = fixture.upload(loaded);
+  const std::vector<LevelPixel> samples = samples_of(info, 512);
+  const nook_gl_upload whole = fixture.upload(loaded);
   CHECK(info_of(whole).texture_count == 7);
   const std::vector<GpuValue> wanted = MaterialDecoder(context.gl(), whole, info).decode(samples);
   for (const int layers : {39, 16, 7}) {
-    const nook_gl_material split = fixture.upload(loaded, layers);
+    const nook_gl_upload split = fixture.upload(loaded, layers);
     // 40 layers of the BTF, 5 of the VOTF.
     CHECK(info_of(split).texture_count == 5u + std::uint32_t((40 + layers - 1) / layers + 1));
-    CHECK(info_of(split).texture_bytes == info_of(whole).texture_bytes);
+    CHECK(info_of(split).bytes == info_of(whole).bytes);
     const std::vector<GpuValue> got = MaterialDecoder(context.gl(), split, info).decode(samples);
     for (std::size_t i = 0; i < samples.size(); ++i) CHECK(difference(got[i].value, wanted[i].value) == 0);
   }
@@ -361,17 +362,18 @@ TEST_CASE("material: more layers than OpenGL 3.3 guarantees are split") {
                                                                                 .rank_view = 4,
                                                                                 .clusters = 20}));
   const nook_material_info info = info_of(loaded);
-  const std::vector<nook_material_sample> samples = samples_of(info, 256);
-  const auto evaluate = [&](const std::vector<nook_material_sample>& of) {
+  const std::vector<LevelPixel> samples = samples_of(info, 256);
+  const auto evaluate = [&](const std::vector<LevelPixel>& of) {
     std::vector<nook_material_value> values(of.size());
-    NOOK_OK_OR_FAIL(nook_material_evaluate(loaded, of.data(), std::uint32_t(of.size()), values.data()));
+    NOOK_OK_OR_FAIL(nook_material_evaluate(loaded, round_pixels(of, info).data(), std::uint32_t(of.size()), 1,
+                                           values.data()));
     return values;
   };
   const std::vector<nook_material_value> wanted = evaluate(samples);
-  const auto level = [](const nook_material_sample& sample) { return sample.level; };
+  const auto level = [](const LevelPixel& sample) { return sample.level; };
   const float weight_error = filter_weight_error(context.gl());
   const std::vector<float> reaches = reaches_of(samples, wanted, weight_error, info, level, evaluate);
-  const nook_gl_material split = fixture.upload(loaded, 256);
+  const nook_gl_upload split = fixture.upload(loaded, 256);
   CHECK(info_of(split).texture_count == 8);  // 320 layers in two arrays
   const std::vector<GpuValue> got = MaterialDecoder(context.gl(), split, info).decode(samples);
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -385,32 +387,31 @@ TEST_CASE("material: more layers than OpenGL 3.3 guarantees are split") {
 TEST_CASE("material: blocks are split in pairs of layers, and either form is uploaded or refused") {
   NOOK_NEED_CONTEXT(context);
   MaterialFixture fixture(context);
-  const nook_material_modes modes = context.is_es() ? NOOK_MATERIAL_MODES_EAC : NOOK_MATERIAL_MODES_RGTC;
+  const nook_material_blocks modes = context.is_es() ? NOOK_MATERIAL_BLOCKS_EAC : NOOK_MATERIAL_BLOCKS_RGTC;
   const material::Material sample = material::test::sample_material(
       5, {.width = 9, .height = 8, .rank_light = 8, .clusters = 5, .mixture = 2});
   const nook_material loaded = fixture.load(sample, modes);
   const nook_material_info info = info_of(loaded);
-  const std::vector<nook_material_sample> samples = samples_of(info, 256);
-  const nook_gl_material whole = fixture.upload(loaded);
-  CHECK(info_of(whole).texture_bytes == info.table_bytes);
+  const std::vector<LevelPixel> samples = samples_of(info, 256);
+  const nook_gl_upload whole = fixture.upload(loaded);
+  CHECK(info_of(whole).bytes == info.table_bytes);
   CHECK(info_of(whole).texture_count == 8);
   const std::vector<GpuValue> wanted = MaterialDecoder(context.gl(), whole, info).decode(samples);
   for (const int layers : {39, 21, 12}) {
     // 20 layers of the BTF as integers and 40 in blocks, 10 of the VOTF.
-    const nook_gl_material split = fixture.upload(loaded, layers);
+    const nook_gl_upload split = fixture.upload(loaded, layers);
     const int pairs = layers / 2;
     CHECK(int(info_of(split).texture_count) ==
           5 + (20 + layers - 1) / layers + (20 + pairs - 1) / pairs + (5 + pairs - 1) / pairs);
     const std::vector<GpuValue> got = MaterialDecoder(context.gl(), split, info).decode(samples);
     for (std::size_t i = 0; i < samples.size(); ++i) CHECK(difference(got[i].value, wanted[i].value) == 0);
   }
-  for (const nook_material_modes other : {NOOK_MATERIAL_MODES_RGTC, NOOK_MATERIAL_MODES_EAC}) {
-    nook_gl_material uploaded = nullptr;
-    const nook_result result =
-        nook_gl_material_create(fixture.gl, fixture.load(sample, other), nullptr, &uploaded);
+  for (const nook_material_blocks other : {NOOK_MATERIAL_BLOCKS_RGTC, NOOK_MATERIAL_BLOCKS_EAC}) {
+    nook_gl_upload uploaded = nullptr;
+    const nook_result result = nook_gl_upload_material(fixture.gl, fixture.load(sample, other), &uploaded);
     CHECK((result == NOOK_OK || (other != modes && result == NOOK_ERROR_UNSUPPORTED)));
     CHECK((uploaded != nullptr) == (result == NOOK_OK));
-    nook_gl_material_destroy(&uploaded);
+    nook_gl_upload_destroy(&uploaded);
   }
 }
 
@@ -422,11 +423,11 @@ TEST_CASE("material: a far view is the average of a near one") {
         3, {.width = texels, .height = texels, .rank_x = 5, .clusters = 4, .mixture = 3}));
     const nook_material_info info = info_of(loaded);
     const MaterialDecoder decoder(context.gl(), fixture.upload(loaded), info);
-    nook_material_sample sample{};
+    LevelPixel sample{};
     put(sample.view, normalised({0.4f, 0.3f, 0.7f}));
     put(sample.light, normalised({-0.2f, 0.5f, 0.6f}));
     // Near: a pixel for each texel. Far: the whole tile, and eight tiles, in one pixel.
-    std::vector<nook_material_sample> near;
+    std::vector<LevelPixel> near;
     for (std::uint32_t y = 0; y < texels; ++y)
       for (std::uint32_t x = 0; x < texels; ++x) {
         near.push_back(sample);
@@ -440,7 +441,7 @@ TEST_CASE("material: a far view is the average of a near one") {
     }
     sample.uv[0] = 0.31f;
     sample.level = std::ceil(std::log2(float(texels)));
-    std::vector<nook_material_sample> far{sample, sample};
+    std::vector<LevelPixel> far{sample, sample};
     far[1].level += 3;
     for (const GpuValue& pixel : decoder.decode(far)) {
       nook_material_value got = pixel.value;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "platform/program.h"
+#include "sdk/src/api/gl/upload.h"
 #include "sdk/src/material/material_file.h"
 #include "tests/gl/test_context.h"
 
@@ -56,32 +57,28 @@ MaterialFixture::MaterialFixture(platform::Context& made_in, nook_gl_state_mode 
     : context(made_in), gl(create_gl(host.handle, platform::Context::loader, &context, 0, mode)) {}
 
 MaterialFixture::~MaterialFixture() {
-  for (nook_gl_material& upload : uploads) nook_gl_material_destroy(&upload);
+  for (nook_gl_upload& upload : uploads) nook_gl_upload_destroy(&upload);
   for (nook_material& material : materials) nook_material_destroy(&material);
   nook_gl_destroy(&gl);
   CHECK(context.gl().GetError() == GL_NO_ERROR);
   for (const std::string& message : take_debug_messages()) FAIL_CHECK(message);
 }
 
-nook_material MaterialFixture::load(const material::Material& material, nook_material_modes modes,
+nook_material MaterialFixture::load(const material::Material& material, nook_material_blocks modes,
                                     int whole_light_modes) {
   const std::vector<std::byte> file = material::write_material(material);
   nook_material handle = nullptr;
   nook_material_desc desc;
-  NOOK_OK_OR_FAIL(nook_material_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  desc.modes = modes;
+  NOOK_OK_OR_FAIL(nook_material_desc_init(&desc));
+  desc.blocks = modes;
   desc.whole_light_modes = whole_light_modes;
-  NOOK_OK_OR_FAIL(nook_material_load_with(host.handle, file.data(), file.size(), &desc, &handle));
+  NOOK_OK_OR_FAIL(nook_material_load(host.handle, file.data(), file.size(), &desc, &handle));
   materials.push_back(handle);
   return handle;
 }
 
-nook_gl_material MaterialFixture::upload(nook_material material, int max_layers) {
-  nook_gl_material_desc desc;
-  NOOK_OK_OR_FAIL(nook_gl_material_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  desc.max_layers = max_layers;
-  nook_gl_material handle = nullptr;
-  NOOK_OK_OR_FAIL(nook_gl_material_create(gl, material, &desc, &handle));
+nook_gl_upload MaterialFixture::upload(nook_material material, int max_layers) {
+  nook_gl_upload handle = nook::api::upload_material(gl, material, static_cast<std::uint32_t>(max_layers));
   uploads.push_back(handle);
   return handle;
 }
@@ -92,23 +89,18 @@ nook_material_info info_of(nook_material material) {
   NOOK_OK_OR_FAIL(nook_material_describe(material, &info));
   return info;
 }
-nook_gl_material_info info_of(nook_gl_material material) {
-  nook_gl_material_info info{};
+nook_gl_upload_info info_of(nook_gl_upload material) {
+  nook_gl_upload_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_gl_material_describe(material, &info));
+  NOOK_OK_OR_FAIL(nook_gl_upload_describe(material, &info));
   return info;
 }
 
-MaterialDecoder::MaterialDecoder(const GladGLContext& gl, nook_gl_material material, nook_material_info info,
+MaterialDecoder::MaterialDecoder(const GladGLContext& gl, nook_gl_upload material, nook_material_info info,
                                  bool is_anisotropic)
     : gl_(gl), info_(info) {
-  const nook_gl_material_info uploaded = info_of(material);
-  for (std::uint32_t i = 0; i < uploaded.texture_count; ++i) {
-    nook_gl_material_texture texture{};
-    texture.struct_size = sizeof texture;
-    NOOK_OK_OR_FAIL(nook_gl_material_describe_texture(material, i, &texture));
-    textures_.push_back(texture);
-  }
+  const nook_gl_upload_info uploaded = info_of(material);
+  textures_.assign(uploaded.textures, uploaded.textures + uploaded.texture_count);
   program_ = platform::link_program(
       gl, {glsl_header(gl), vertex_text},
       {glsl_header(gl), counting_text, uploaded.glsl,
@@ -119,16 +111,22 @@ MaterialDecoder::~MaterialDecoder() {
   gl_.DeleteProgram(program_);
 }
 
-std::vector<GpuValue> MaterialDecoder::decode(const std::vector<nook_material_sample>& samples) const {
-  std::vector<float> numbers[4];
-  for (const nook_material_sample& s : samples) {
-    const float side = std::exp2(s.level);
-    numbers[0].insert(numbers[0].end(), {s.uv[0], s.uv[1], 0, 0});
-    numbers[1].insert(numbers[1].end(), {side / float(info_.width), 0, 0, side / float(info_.height)});
-    numbers[2].insert(numbers[2].end(), {s.view[0], s.view[1], s.view[2], 0});
-    numbers[3].insert(numbers[3].end(), {s.light[0], s.light[1], s.light[2], 0});
+std::vector<nook_material_pixel> round_pixels(const std::vector<LevelPixel>& of,
+                                              const nook_material_info& info) {
+  std::vector<nook_material_pixel> pixels;
+  for (const LevelPixel& p : of) {
+    const float side = std::exp2(p.level);
+    pixels.push_back({{p.uv[0], p.uv[1]},
+                      {side / float(info.width), 0},
+                      {0, side / float(info.height)},
+                      {p.view[0], p.view[1], p.view[2]},
+                      {p.light[0], p.light[1], p.light[2]}});
   }
-  return draw(numbers, samples.size(), 0);
+  return pixels;
+}
+
+std::vector<GpuValue> MaterialDecoder::decode(const std::vector<LevelPixel>& samples) const {
+  return decode(round_pixels(samples, info_), 0);
 }
 
 std::vector<GpuValue> MaterialDecoder::decode(const std::vector<nook_material_pixel>& pixels,
@@ -156,7 +154,7 @@ std::vector<GpuValue> MaterialDecoder::draw(std::vector<float> (&numbers)[4], st
                more = images.floats(GL_RGBA32F, 4, width, height, {});
   gl_.UseProgram(program_);
   GLint unit = 0;
-  for (const nook_gl_material_texture& texture : textures_) {
+  for (const nook_gl_upload_texture& texture : textures_) {
     gl_.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
     gl_.BindTexture(texture.target, texture.texture);
     const GLint at = gl_.GetUniformLocation(program_, texture.uniform);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <glad/gl.h>
-#include <nook/nook_gl_material.h>
+#include <nook/nook_gl.h>
 
 #include <vector>
 
@@ -20,19 +20,29 @@ struct MaterialFixture {
 
   // Kept to the end.
   nook_material load(const material::Material& material,
-                     nook_material_modes modes = NOOK_MATERIAL_MODES_PLAIN, int whole_light_modes = 4);
+                     nook_material_blocks modes = NOOK_MATERIAL_BLOCKS_NONE, int whole_light_modes = 4);
   // max_layers 0: the context's own.
-  nook_gl_material upload(nook_material material, int max_layers = 0);
+  nook_gl_upload upload(nook_material material, int max_layers = 0);
 
   platform::Context& context;
   CountedContext host;
   nook_gl gl;
   std::vector<nook_material> materials;
-  std::vector<nook_gl_material> uploads;
+  std::vector<nook_gl_upload> uploads;
 };
 
 nook_material_info info_of(nook_material material);
-nook_gl_material_info info_of(nook_gl_material material);
+nook_gl_upload_info info_of(nook_gl_upload material);
+
+// A pixel that reads one mipmap level.
+struct LevelPixel {
+  float uv[2];
+  float level;
+  float view[3];
+  float light[3];
+};
+std::vector<nook_material_pixel> round_pixels(const std::vector<LevelPixel>& of,
+                                              const nook_material_info& info);
 
 struct GpuValue {
   nook_material_value value{};
@@ -44,13 +54,13 @@ class MaterialDecoder {
  public:
   // is_anisotropic: the program has the functions with several fetches too, which drivers take long to
   // compile.
-  MaterialDecoder(const GladGLContext& gl, nook_gl_material material, nook_material_info info,
+  MaterialDecoder(const GladGLContext& gl, nook_gl_upload material, nook_material_info info,
                   bool is_anisotropic = false);
   ~MaterialDecoder();
   MaterialDecoder(const MaterialDecoder&) = delete;
   MaterialDecoder& operator=(const MaterialDecoder&) = delete;
 
-  std::vector<GpuValue> decode(const std::vector<nook_material_sample>& samples) const;
+  std::vector<GpuValue> decode(const std::vector<LevelPixel>& samples) const;
   // With that many fetches along each pixel of an anisotropic decoder; 0 is the isotropic form.
   std::vector<GpuValue> decode(const std::vector<nook_material_pixel>& pixels, int fetches) const;
 
@@ -60,7 +70,7 @@ class MaterialDecoder {
 
   const GladGLContext& gl_;
   nook_material_info info_;
-  std::vector<nook_gl_material_texture> textures_;
+  std::vector<nook_gl_upload_texture> textures_;
   GLuint program_ = 0;
 };
 

@@ -1,7 +1,7 @@
-/* Every function of nook_material.h and nook_gl_material.h, called from C in the order a host would; returns
+/* Every function of nook_material.h and nook_gl.h, called from C in the order a host would; returns
  * the number of failed expectations and prints each. The OpenGL context is current; bytes: a material with a
  * VOTF. */
-#include <nook/nook_gl_material.h>
+#include <nook/nook_gl.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -19,59 +19,50 @@ static void expect(int condition, const char* what, int line) {
 int nook_material_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_proc, void* user) {
   nook_context_desc context_desc;
   nook_gl_desc gl_desc;
-  nook_gl_material_desc desc;
-  nook_gl_material_info uploaded;
-  nook_gl_material_texture texture;
+  nook_gl_upload_info uploaded;
   nook_material_info info;
   nook_material_value value;
-  const nook_material_sample sample = {{0.5F, 0.5F}, 0, {0, 0, 1}, {0, 0, 1}};
   const nook_material_pixel pixel = {{0.5F, 0.5F}, {0.1F, 0}, {0, 0.2F}, {0, 0, 1}, {0, 0, 1}};
   nook_context context = NULL;
   nook_gl gl = NULL;
   nook_material_desc material_desc;
   nook_material material = NULL;
-  nook_gl_material on_gpu = NULL;
+  nook_gl_upload on_gpu = NULL;
   uint32_t i;
 
   failures = 0;
-  EXPECT_OK(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+  EXPECT_OK(nook_context_desc_init(&context_desc));
   EXPECT_OK(nook_context_create(&context_desc, &context));
-  EXPECT_OK(nook_gl_desc_init(&gl_desc, sizeof gl_desc, NOOK_VERSION));
+  EXPECT_OK(nook_gl_desc_init(&gl_desc));
   gl_desc.get_proc = get_proc;
   gl_desc.get_proc_user = user;
   EXPECT_OK(nook_gl_create(context, &gl_desc, &gl));
 
-  EXPECT_OK(nook_material_desc_init(&material_desc, sizeof material_desc, NOOK_VERSION));
-  EXPECT(material_desc.modes == NOOK_MATERIAL_MODES_PLAIN && material_desc.whole_light_modes == 4);
-  EXPECT_OK(nook_material_load_with(context, bytes, size, &material_desc, &material));
+  EXPECT_OK(nook_material_desc_init(&material_desc));
+  EXPECT(material_desc.blocks == NOOK_MATERIAL_BLOCKS_NONE && material_desc.whole_light_modes == 4);
+  EXPECT_OK(nook_material_load(context, bytes, size, &material_desc, &material));
   nook_material_destroy(&material);
-  EXPECT_OK(nook_material_load(context, bytes, size, &material));
+  EXPECT_OK(nook_material_load(context, bytes, size, NULL, &material));
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
   EXPECT_OK(nook_material_describe(material, &info));
   EXPECT(info.visibility != NOOK_MATERIAL_VISIBILITY_NONE && info.btf.terms > 0 && info.votf.terms > 0);
   EXPECT(info.decode_fetches > 0 && info.light_fetches > 0 && info.occlusion_fetches > 0);
   EXPECT(info.further_decode_fetches > 0 && info.further_occlusion_fetches > 0);
-  EXPECT_OK(nook_material_evaluate(material, &sample, 1, &value));
-  EXPECT(value.visibility >= 0 && value.visibility <= 1);
-  EXPECT_OK(nook_material_evaluate_anisotropic(material, &pixel, 1, NOOK_MATERIAL_MAX_FETCHES, &value));
+  EXPECT_OK(nook_material_evaluate(material, &pixel, 1, NOOK_MATERIAL_MAX_FETCHES, &value));
   EXPECT(value.visibility >= 0 && value.visibility <= 1);
 
-  EXPECT_OK(nook_gl_material_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  desc.max_layers = 256;
-  EXPECT_OK(nook_gl_material_create(gl, material, &desc, &on_gpu));
+  EXPECT_OK(nook_gl_upload_material(gl, material, &on_gpu));
   nook_material_destroy(&material);
   memset(&uploaded, 0, sizeof uploaded);
   uploaded.struct_size = sizeof uploaded;
-  EXPECT_OK(nook_gl_material_describe(on_gpu, &uploaded));
-  EXPECT(uploaded.texture_bytes == info.table_bytes && strstr(uploaded.glsl, "nook_material_decode"));
-  texture.struct_size = sizeof texture;
-  for (i = 0; i < uploaded.texture_count; ++i) {
-    EXPECT_OK(nook_gl_material_describe_texture(on_gpu, i, &texture));
-    EXPECT(texture.texture != 0 && strstr(uploaded.glsl, texture.uniform));
-  }
-  EXPECT(nook_gl_material_describe_texture(on_gpu, i, &texture) == NOOK_ERROR_INVALID_ARGUMENT);
-  nook_gl_material_destroy(&on_gpu);
+  EXPECT_OK(nook_gl_upload_describe(on_gpu, &uploaded));
+  EXPECT(uploaded.bytes == info.table_bytes && strstr(uploaded.glsl, "nook_material_decode"));
+  EXPECT(uploaded.texture_count > 0);
+  for (i = 0; i < uploaded.texture_count; ++i)
+    EXPECT(uploaded.textures[i].texture != 0 && strstr(uploaded.glsl, uploaded.textures[i].uniform));
+  EXPECT(nook_gl_upload_bind(on_gpu, 0, 0) == NOOK_ERROR_INVALID_ARGUMENT);
+  nook_gl_upload_destroy(&on_gpu);
   nook_gl_destroy(&gl);
   nook_context_destroy(&context);
   EXPECT(!material && !on_gpu && !gl && !context);

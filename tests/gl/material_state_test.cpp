@@ -20,22 +20,22 @@ void walk(platform::Context& context, nook_gl_state_mode mode, const Check& chec
   MaterialFixture fixture(context, mode);
   const nook_material loaded = fixture.load(material::test::sample_material(1));
   const nook_material_info info = info_of(loaded);
-  nook_material_sample sample{};
+  LevelPixel sample{};
   sample.view[2] = sample.light[2] = 1;
-  const auto decoded = [&](nook_gl_material uploaded) {
+  const auto decoded = [&](nook_gl_upload uploaded) {
     const nook_material_value value = MaterialDecoder(context.gl(), uploaded, info).decode({sample})[0].value;
     return std::vector<float>{value.radiance[0], value.radiance[1], value.radiance[2], value.occlusion};
   };
   const std::vector<float> wanted = decoded(fixture.upload(loaded));
-  nook_gl_material uploaded = nullptr;
+  nook_gl_upload uploaded = nullptr;
   {
     Poison poison(context, gl::materials);
-    check(poison, [&] { NOOK_OK_OR_FAIL(nook_gl_material_create(fixture.gl, loaded, nullptr, &uploaded)); });
+    check(poison, [&] { NOOK_OK_OR_FAIL(nook_gl_upload_material(fixture.gl, loaded, &uploaded)); });
     CHECK(context.gl().GetError() == GL_NO_ERROR);
   }
   CHECK(decoded(uploaded) == wanted);
   Poison poison(context, 0);
-  check(poison, [&] { nook_gl_material_destroy(&uploaded); });
+  check(poison, [&] { nook_gl_upload_destroy(&uploaded); });
 }
 
 }  // namespace

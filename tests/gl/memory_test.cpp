@@ -1,4 +1,5 @@
 // An update must not allocate host memory, read back, wait, or query state outside PRESERVE.
+#include <nook/experimental/nook_debug.h>
 #include <cstdio>
 
 #include "tests/gl/crowd.h"
@@ -22,7 +23,7 @@ bool maps_uploads(int tier) {
 TEST_CASE("an update allocates nothing, reads nothing back and queries only to preserve") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
-  nook_character_model model = load_model(host.handle, sample_model(11));
+  nook_model model = load_model(host.handle, sample_model(11));
   for (const int tier : tiers_of(context))
     for (const nook_gl_state_mode mode :
          {NOOK_GL_STATE_PRESERVE, NOOK_GL_STATE_DEFAULTS, NOOK_GL_STATE_HOST}) {
@@ -32,7 +33,7 @@ TEST_CASE("an update allocates nothing, reads nothing back and queries only to p
       options.camera = true;
       options.lod_max_interval = 3;
       Crowd crowd(host.handle, {model}, {5}, options);
-      const nook_probe_lobe lobe{{0, 1, 0}, 6, {1, 2, 3}, 0};
+      const nook_lobe lobe{{0, 1, 0}, 6, {1, 2, 3}, 0};
       NOOK_OK_OR_FAIL(nook_scene_set_light(crowd.scene, crowd.ids[1], &lobe, 1));
       nook_gl gl = create_gl(host.handle, Trace::loader, &trace, tier, mode);
       NOOK_OK_OR_FAIL(nook_gl_scene_prepare(gl, crowd.scene));
@@ -59,13 +60,13 @@ TEST_CASE("an update allocates nothing, reads nothing back and queries only to p
         CHECK(queries == 0);
       nook_gl_destroy(&gl);
     }
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }
 
 TEST_CASE("the first update after a prepare allocates nothing") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
-  nook_character_model model = load_model(host.handle, sample_model(12));
+  nook_model model = load_model(host.handle, sample_model(12));
   for (const int tier : tiers_of(context)) {
     Crowd crowd(host.handle, {model}, {5}, {});
     nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
@@ -75,17 +76,17 @@ TEST_CASE("the first update after a prepare allocates nothing") {
     CHECK(host.allocations == allocations);
     nook_gl_destroy(&gl);
   }
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }
 
 TEST_CASE("every allocation that is refused gives one error and leaves everything usable") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
-  nook_character_model model = load_model(host.handle, sample_model(13));
+  nook_model model = load_model(host.handle, sample_model(13));
   for (const int tier : tiers_of(context)) {
     Crowd crowd(host.handle, {model}, {5}, {});
     nook_gl_desc desc;
-    NOOK_OK_OR_FAIL(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+    NOOK_OK_OR_FAIL(nook_gl_desc_init(&desc));
     desc.get_proc = platform::Context::loader;
     desc.get_proc_user = &context;
     desc.max_tier = tier;
@@ -114,13 +115,13 @@ TEST_CASE("every allocation that is refused gives one error and leaves everythin
     // The object, its texts, a model, a chunk and the placements are separate allocations.
     CHECK(refusals >= 5);
   }
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }
 
 TEST_CASE("an update that OpenGL gives no memory fails, and the next one makes up for it") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
-  nook_character_model model = load_model(host.handle, sample_model(14));
+  nook_model model = load_model(host.handle, sample_model(14));
   for (const int tier : tiers_of(context)) {
     if (!maps_uploads(tier)) continue;
     Trace trace(context);
@@ -143,14 +144,14 @@ TEST_CASE("an update that OpenGL gives no memory fails, and the next one makes u
       CHECK(largest_difference(gpu[i], cpu_ao(crowd, model, i)) < promised_difference);
     nook_gl_destroy(&gl);
   }
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }
 
 TEST_CASE("an upload whose contents OpenGL loses is repeated, and fails with a reason if they stay lost") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
-  nook_character_model model = load_model(host.handle, sample_model(16));
-  const nook_probe_lobe lobe{{0, 1, 0}, 4, {1, 0.5f, 0.2f}, 0};
+  nook_model model = load_model(host.handle, sample_model(16));
+  const nook_lobe lobe{{0, 1, 0}, 4, {1, 0.5f, 0.2f}, 0};
   for (const int tier : tiers_of(context)) {
     if (!maps_uploads(tier)) continue;
     Trace trace(context);
@@ -181,7 +182,7 @@ TEST_CASE("an upload whose contents OpenGL loses is repeated, and fails with a r
     check();
     nook_gl_destroy(&gl);
   }
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }
 
 TEST_CASE("a crowd beyond the limits of the context is refused, and evaluated once it fits") {
@@ -191,7 +192,7 @@ TEST_CASE("a crowd beyond the limits of the context is refused, and evaluated on
   Trace trace(context);
   trace.limits[GL_MAX_SHADER_STORAGE_BLOCK_SIZE] = 1 << 24;
   // 30,000 spheres of 32 bytes: seventeen instances fit in 16 MiB, eighteen do not.
-  nook_character_model model = load_model(host.handle, sample_model(15, {2, 30000, 4, 10, 0, 2}));
+  nook_model model = load_model(host.handle, sample_model(15, {2, 30000, 4, 10, 0, 2}));
   CrowdOptions options;
   options.instances = 18;
   options.links = options.nearest = false;
@@ -203,17 +204,17 @@ TEST_CASE("a crowd beyond the limits of the context is refused, and evaluated on
   NOOK_OK_OR_FAIL(nook_scene_remove_instance(crowd.scene, crowd.ids.back()));
   NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
   nook_gl_destroy(&gl);
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }
 
 TEST_CASE("memory of models and scenes is what the allocator and OpenGL count") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
   const long long before = host.bytes;
-  nook_character_model model = load_model(host.handle, sample_model(16, {20, 130, 300, 5000, 200, 4}));
-  nook_character_memory told{};
+  nook_model model = load_model(host.handle, sample_model(16, {20, 130, 300, 5000, 200, 4}));
+  nook_model_info told{};
   told.struct_size = sizeof told;
-  NOOK_OK_OR_FAIL(nook_character_model_memory(model, &told));
+  NOOK_OK_OR_FAIL(nook_model_describe(model, &told));
   // A few bytes are the handle's own, which the two count apart.
   CHECK(std::abs(static_cast<long long>(told.model_bytes) - (host.bytes - before)) <= 256);
 
@@ -223,18 +224,17 @@ TEST_CASE("memory of models and scenes is what the allocator and OpenGL count") 
   options.links = options.nearest = options.occluders = false;
   const long long without_scene = host.bytes;
   Crowd crowd(host.handle, {model}, {20}, options);
-  std::uint64_t scene_bytes = 0;
-  NOOK_OK_OR_FAIL(nook_scene_memory(crowd.scene, &scene_bytes));
+  std::uint64_t scene_bytes = stats_of(crowd).memory_bytes;
   CHECK(std::abs(static_cast<long long>(scene_bytes) - (host.bytes - without_scene)) <= 256);
   const double told_before = double(count) * double(told.instance_bytes);
   // Lists of slots, and the room that arrays keep to grow.
   CHECK(double(scene_bytes) > told_before);
   CHECK(double(scene_bytes) < 1.15 * told_before);
 
-  const nook_probe_lobe lobe{{0, 1, 0}, 6, {1, 2, 3}, 0};
+  const nook_lobe lobe{{0, 1, 0}, 6, {1, 2, 3}, 0};
   for (const nook_instance_id id : crowd.ids)
     NOOK_OK_OR_FAIL(nook_scene_set_light(crowd.scene, id, &lobe, 1));
-  NOOK_OK_OR_FAIL(nook_scene_memory(crowd.scene, &scene_bytes));
+  scene_bytes = stats_of(crowd).memory_bytes;
   CHECK(double(scene_bytes) < 1.15 * count * double(told.lit_instance_bytes));
 
   for (const int tier : tiers_of(context)) {
@@ -252,5 +252,5 @@ TEST_CASE("memory of models and scenes is what the allocator and OpenGL count") 
     CHECK(held > (context.is_es() ? 0.5 : 0.95) * told_gl);
     nook_gl_destroy(&gl);
   }
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
 }

@@ -72,7 +72,7 @@ TEST_CASE("every program of every tier and form links within the minimum limits 
   for (const int tier : tiers_of(context)) {
     INFO("tier " << tier);
     Crowd crowd(cast.context.handle, cast.models, cast.bone_counts, {});
-    const nook_probe_lobe lobe{{0, 1, 0}, 6, {1, 2, 3}, 0};
+    const nook_lobe lobe{{0, 1, 0}, 6, {1, 2, 3}, 0};
     NOOK_OK_OR_FAIL(nook_scene_set_light(crowd.scene, crowd.ids[1], &lobe, 1));
     nook_gl gl = create_gl(cast.context.handle, Trace::loader, &trace, tier);
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
@@ -81,7 +81,7 @@ TEST_CASE("every program of every tier and form links within the minimum limits 
     context.gl().GenBuffers(1, &buffer);
     context.gl().BindBuffer(GL_ARRAY_BUFFER, buffer);
     context.gl().BufferData(GL_ARRAY_BUFFER, 1 << 20, nullptr, GL_STATIC_DRAW);
-    for (const nook_ao_format format : {NOOK_AO_FLOAT, NOOK_AO_HALF, NOOK_AO_UNORM8})
+    for (const nook_format format : {NOOK_FORMAT_FLOAT, NOOK_FORMAT_HALF, NOOK_FORMAT_UNORM8})
       for (const std::uint32_t stride : {0u, 36u}) {
         if (stride && !computes(tier)) continue;
         nook_gl_ao_target target{};
@@ -89,7 +89,7 @@ TEST_CASE("every program of every tier and form links within the minimum limits 
         target.buffer = buffer;
         target.format = format;
         target.stride = stride;
-        NOOK_OK_OR_FAIL(nook_gl_scene_write_ao(gl, crowd.scene, crowd.ids.data(), 1, &target));
+        NOOK_OK_OR_FAIL(nook_gl_scene_write(gl, crowd.scene, crowd.ids.data(), 1, &target));
       }
     std::vector<nook_nnao> passes;
     for (const nnao::NetworkForm form : {nnao::NetworkForm::horizon, nnao::NetworkForm::paper})

@@ -51,11 +51,11 @@ struct Fixture : NnaoFixture {
                              ? textures.floats(GL_R32F, 1, w, h, picture.depth)
                              : textures.floats(GL_DEPTH_COMPONENT32F, 1, w, h, stored_depth(camera, picture));
     const GLuint normal = textures.floats(GL_RGB32F, 3, w, h, flat(picture.normal));
-    nook_nnao_frame_desc frame = frame_desc(camera, w, h, depth, normal, setting.radius);
-    frame.view = NOOK_NNAO_VIEW_RAW;
+    ScreenFrame frame = frame_desc(camera, w, h, depth, normal, setting.radius);
+    frame.show = NOOK_NNAO_VIEW_RAW;
     frame.max_radius_px = setting.max_radius_px;
-    frame.depth_kind = linear_depth ? NOOK_NNAO_DEPTH_LINEAR : NOOK_NNAO_DEPTH_HARDWARE;
-    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+    frame.depth_kind = linear_depth ? NOOK_DEPTH_LINEAR : NOOK_DEPTH_HARDWARE;
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
     const float max_px =
         setting.max_radius_px > 0 ? setting.max_radius_px : std::max(0.25f * float(height), 1.0f);
     const std::vector<float> wanted = reference(network, picture, setting, max_px);
@@ -117,14 +117,14 @@ TEST_CASE("nnao: a part of an image is the same picture, and nothing outside it 
           placed(stored_depth(camera, picture), 1, picture, at, 0.3f));  // outside lies a near wall
       const GLuint target = fixture.textures.floats(
           GL_R32F, 1, at.width, at.height, std::vector<float>(std::size_t(at.width) * at.height, 0.7f));
-      nook_nnao_frame_desc frame = frame_desc(camera, at.width, at.height, depth, 0, 0.5f);
+      ScreenFrame frame = frame_desc(camera, at.width, at.height, depth, 0, 0.5f);
       frame.viewport[0] = at.x;
       frame.viewport[1] = at.y;
       frame.viewport[2] = int(picture.width);
       frame.viewport[3] = int(picture.height);
-      frame.target = NOOK_NNAO_TARGET_TEXTURE;
+      frame.target = NOOK_TARGET_TEXTURE;
       frame.target_name = target;
-      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
       return read_texture(fixture.context.gl(), target, at.width, at.height);
     };
     const std::vector<float> alone = draw({int(picture.width), int(picture.height), 0, 0});
@@ -143,10 +143,10 @@ TEST_CASE("nnao: half resolution is the reference on every second pixel") {
       const GLuint depth =
           fixture.textures.floats(GL_DEPTH_COMPONENT32F, 1, width, height, stored_depth(camera, picture));
       const GLuint normal = fixture.textures.floats(GL_RGB32F, 3, width, height, flat(picture.normal));
-      nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, normal, 0.6f);
-      frame.view = NOOK_NNAO_VIEW_RAW;
+      ScreenFrame frame = frame_desc(camera, width, height, depth, normal, 0.6f);
+      frame.show = NOOK_NNAO_VIEW_RAW;
       frame.max_radius_px = 20;
-      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
       const std::vector<float> ao = own_ao(context.gl(), pass, width, height);
       std::vector<float> even;
       for (int y = 0; y < height; y += 2)

@@ -1,4 +1,5 @@
 // Bent normals: the reference, closed forms, targets, half resolution, and the functions of a host's shader.
+#include <nook/experimental/nook_stages.h>
 #include <algorithm>
 
 #include "platform/program.h"
@@ -49,10 +50,10 @@ std::vector<Texel> texels(const std::vector<float>& rgba) {
 std::vector<Texel> draw(Bent& fixture, nook_nnao pass, const Camera& camera, const Picture& picture,
                         float radius, nook_nnao_view view = NOOK_NNAO_VIEW_AO) {
   const int w = int(picture.width), h = int(picture.height);
-  nook_nnao_frame_desc frame =
+  ScreenFrame frame =
       frame_desc(camera, w, h, fixture.depth_of(camera, picture), fixture.normals_of(picture), radius);
-  frame.view = view;
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  frame.show = view;
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   return texels(read_texture(fixture.context.gl(), info_of(pass).texture, w, h, 4));
 }
 
@@ -168,20 +169,20 @@ TEST_CASE("nnao: a host's target gets bent normals when it is written, and AO wh
   const Picture picture = look(camera, still_life(), 60, 40);
   nook_nnao pass = fixture.bent_pass(60, 40, 9, 0, NOOK_NNAO_PATH_AUTOMATIC, nullptr);
   const std::vector<Texel> own = draw(fixture, pass, camera, picture, 0.8f);
-  nook_nnao_frame_desc frame =
+  ScreenFrame frame =
       frame_desc(camera, 60, 40, fixture.depth_of(camera, picture), fixture.normals_of(picture), 0.8f);
-  frame.target = NOOK_NNAO_TARGET_TEXTURE;
+  frame.target = NOOK_TARGET_TEXTURE;
   frame.target_name = fixture.textures.floats(GL_RGBA32F, 4, 60, 40, std::vector<float>(60 * 40 * 4, 0.5f));
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   const std::vector<Texel> written = texels(read_texture(context.gl(), frame.target_name, 60, 40, 4));
   for (std::size_t i = 0; i < own.size(); ++i) {
     CHECK(std::abs(written[i].ao - own[i].ao) < step);
     // The own texture rounds three coordinates to 8 bits.
     CHECK(degrees_between(written[i].bent_normal, own[i].bent_normal) < 0.6f);
   }
-  frame.blend = NOOK_NNAO_MULTIPLY;
+  frame.blend = NOOK_BLEND_MULTIPLY;
   frame.target_name = fixture.textures.floats(GL_RGBA32F, 4, 60, 40, std::vector<float>(60 * 40 * 4, 0.5f));
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   const std::vector<float> multiplied = read_texture(context.gl(), frame.target_name, 60, 40, 4);
   for (std::size_t i = 0; i < own.size(); ++i) {
     for (std::size_t channel = 0; channel < 3; ++channel)

@@ -1,4 +1,5 @@
 // Kinds of depth besides those of the matrix: logarithmic depth.
+#include <nook/experimental/nook_recording.h>
 #include <cmath>
 
 #include "tests/gl/nnao_images.h"
@@ -43,19 +44,19 @@ TEST_CASE("nnao: logarithmic depth gives the AO of linear depth") {
         for (const float depth : picture.depth) stored.push_back(logarithm.stored(depth));
         const GLuint normals = fixture.normals_of(picture);
         nook_nnao pass = fixture.pass_of(9, half, 1, nullptr);
-        nook_nnao_frame_desc frame =
+        ScreenFrame frame =
             frame_desc(camera, width, height,
                        fixture.textures.floats(GL_R32F, 1, width, height, picture.depth), normals, 0.5f);
-        frame.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
-        NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+        frame.depth_kind = NOOK_DEPTH_LINEAR;
+        NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
         const std::vector<float> wanted = own_ao(context.gl(), pass, width, height);
-        frame.depth_kind = NOOK_NNAO_DEPTH_LOGARITHMIC;
+        frame.depth_kind = NOOK_DEPTH_LOGARITHMIC;
         frame.depth_log_scale = float(logarithm.scale);
         frame.depth_log_near = float(logarithm.near_m);
         frame.depth_log_far = float(logarithm.far_m);
         for (const GLint format : {GL_R32F, GL_DEPTH_COMPONENT32F}) {
           frame.depth_texture = fixture.textures.floats(format, 1, width, height, stored);
-          NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+          NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
           const std::vector<float> found = own_ao(context.gl(), pass, width, height);
           const Difference d = difference(found, wanted, bound);
           INFO(camera.name << ", " << logarithm.name << ", half " << half << ", format " << format
@@ -77,9 +78,9 @@ TEST_CASE("nnao: logarithmic depth is recorded as linear depth, a share of the s
   const Picture picture = look(camera, still_life(), width, height);
   std::vector<float> stored;
   for (const float depth : picture.depth) stored.push_back(logarithms[1].stored(depth));
-  nook_nnao_frame_desc frame = frame_desc(
-      camera, width, height, fixture.textures.floats(GL_R32F, 1, width, height, stored), 0, 0.125f);
-  frame.depth_kind = NOOK_NNAO_DEPTH_LOGARITHMIC;
+  ScreenFrame frame = frame_desc(camera, width, height,
+                                 fixture.textures.floats(GL_R32F, 1, width, height, stored), 0, 0.125f);
+  frame.depth_kind = NOOK_DEPTH_LOGARITHMIC;
   frame.depth_log_far = float(logarithms[1].far_m);
   frame.radius_kind = NOOK_NNAO_RADIUS_SCENE;
   frame.scene_size = 4;
@@ -88,11 +89,11 @@ TEST_CASE("nnao: logarithmic depth is recorded as linear depth, a share of the s
   desc.struct_size = sizeof desc;
   const auto record = [&] {
     nook_nnao_recording_destroy(&recording);
-    NOOK_OK_OR_FAIL(nook_nnao_record(fixture.pass_of(9, 0, 1, nullptr), &frame, nullptr, &recording));
+    NOOK_OK_OR_FAIL(nook_nnao_record(fixture.pass_of(9, 0, 1, nullptr), &frame, &frame, nullptr, &recording));
     NOOK_OK_OR_FAIL(nook_nnao_recording_describe(recording, &desc));
   };
   record();
-  CHECK(desc.depth_kind == NOOK_NNAO_DEPTH_LINEAR);
+  CHECK(desc.depth_kind == NOOK_DEPTH_LINEAR);
   CHECK(desc.radius == 0.5f);
   CHECK(desc.radius_kind == NOOK_NNAO_RADIUS_METRES);
   for (std::size_t i = 0; i < picture.depth.size(); ++i) {

@@ -1,4 +1,5 @@
 // Bad input: a message that names the field, what came and what is needed; no OpenGL error, nothing drawn.
+#include <nook/experimental/nook_stages.h>
 #include <cstdio>
 #include <cstring>
 #include <functional>
@@ -23,7 +24,7 @@ bool message_has(const std::string& part) {
 }
 
 struct Case {
-  std::function<void(nook_nnao_frame_desc&)> spoil;
+  std::function<void(ScreenFrame&)> spoil;
   const char* message;
 };
 
@@ -71,12 +72,12 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
   nook_nnao pass = create_pass(fixture.gl, pass_desc(width, height));
   const GLuint own = info_of(pass).texture;
 
-  using Frame = nook_nnao_frame_desc;
+  using Frame = ScreenFrame;
   const auto logarithmic = [](Frame& f) {
-    f.depth_kind = NOOK_NNAO_DEPTH_LOGARITHMIC;
+    f.depth_kind = NOOK_DEPTH_LOGARITHMIC;
     f.depth_log_far = 100;
   };
-  const auto to = [](Frame& f, nook_nnao_target target, GLuint name) {
+  const auto to = [](Frame& f, nook_target target, GLuint name) {
     f.target = target;
     f.target_name = name;
   };
@@ -101,9 +102,9 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
       {[&](Frame& f) { f.depth_texture = byte; },
        "frame.depth_texture has a format that does not fit (got 0x8229, need a depth format or GL_R32F"},
       {[&](Frame& f) { f.depth_texture = half_float; }, "frame.depth_texture has a format that does not fit"},
-      {[&](Frame& f) { f.depth_kind = NOOK_NNAO_DEPTH_LINEAR; }, "need red in floats, such as GL_R32F"},
+      {[&](Frame& f) { f.depth_kind = NOOK_DEPTH_LINEAR; }, "need red in floats, such as GL_R32F"},
       {[&](Frame& f) { f.depth_kind = 3; }, "frame.depth_kind is unknown (got 3"},
-      {[&](Frame& f) { f.depth_kind = NOOK_NNAO_DEPTH_LOGARITHMIC; },
+      {[&](Frame& f) { f.depth_kind = NOOK_DEPTH_LOGARITHMIC; },
        "frame.depth_log_far is out of range (got 0, need more metres than depth_log_near)"},
       {[&](Frame& f) { logarithmic(f), f.depth_log_near = 100; },
        "frame.depth_log_far is out of range (got 100"},
@@ -116,17 +117,16 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
       {[&](Frame& f) { logarithmic(f), f.projection[11] = 0, f.projection[15] = 1; },
        "frame.depth_kind 2 needs a perspective"},
       {[&](Frame& f) { logarithmic(f), f.depth_texture = half_float; },
-       "a depth format or GL_R32F for NOOK_NNAO_DEPTH_LOGARITHMIC"},
-      {[&](Frame& f) { f.radius_kind = 3; }, "frame.radius_kind is unknown (got 3, need 0 to 2)"},
+       "a depth format or GL_R32F for NOOK_DEPTH_LOGARITHMIC"},
+      {[&](Frame& f) { f.radius_kind = 3; }, "desc.radius_kind is unknown (got 3, need 0 to 2)"},
       {[&](Frame& f) { f.radius_kind = NOOK_NNAO_RADIUS_SCREEN, f.radius = 1.5f; },
-       "frame.radius is out of range (got 1.5, need a share of the screen, more than 0 up to 1)"},
+       "desc.radius is out of range (got 1.5, need a share of the screen, more than 0 up to 1)"},
       {[&](Frame& f) { f.radius_kind = NOOK_NNAO_RADIUS_SCENE; },
-       "frame.scene_size is out of range (got 0, need more than 0 metres)"},
-      {[&](Frame& f) { f.radius_kind = NOOK_NNAO_RADIUS_SCENE, f.scene_size = infinity; },
-       "frame.scene_size"},
+       "desc.scene_size is out of range (got 0, need more than 0 metres)"},
+      {[&](Frame& f) { f.radius_kind = NOOK_NNAO_RADIUS_SCENE, f.scene_size = infinity; }, "desc.scene_size"},
       {[&](Frame& f) { f.radius_kind = NOOK_NNAO_RADIUS_SCENE, f.scene_size = 5, f.radius = 0; },
        "need a share of the scene"},
-      {[&](Frame& f) { f.clip = -1; }, "frame.clip is unknown"},
+      {[&](Frame& f) { f.clip_space = -1; }, "frame.clip_space is unknown"},
       {[&](Frame& f) { f.normal_texture = integer; }, "frame.normal_texture has a format that does not fit"},
       {[&](Frame& f) { f.normal_texture = byte; }, "frame.normal_texture has a format that does not fit"},
       {[&](Frame& f) { f.normal_scale = 0; }, "frame.normal_scale is out of range (got 0"},
@@ -143,44 +143,48 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
       {[&](Frame& f) { f.projection[1] = 0.3f; }, "frame.projection[1] is 0.3, need 0"},
       {[&](Frame& f) { f.projection[2] = 0.1f; }, "with an oblique clip plane give linear depth"},
       {[&](Frame& f) { f.projection[12] = 2; }, "frame.projection[12] is 2, need 0"},
-      {[&](Frame& f) { f.radius = 0; }, "frame.radius is out of range (got 0, need more than 0 metres)"},
-      {[&](Frame& f) { f.radius = -1; }, "frame.radius is out of range (got -1"},
-      {[&](Frame& f) { f.radius = not_a_number; }, "frame.radius"},
-      {[&](Frame& f) { f.max_radius_px = 0.5f; }, "frame.max_radius_px"},
-      {[&](Frame& f) { f.intensity = 17; }, "frame.intensity"},
-      {[&](Frame& f) { f.power = 0; }, "frame.power"},
+      {[&](Frame& f) { f.radius = 0; }, "desc.radius is out of range (got 0, need more than 0 metres)"},
+      {[&](Frame& f) { f.radius = -1; }, "desc.radius is out of range (got -1"},
+      {[&](Frame& f) { f.radius = not_a_number; }, "desc.radius"},
+      {[&](Frame& f) { f.max_radius_px = 0.5f; }, "desc.max_radius_px"},
+      {[&](Frame& f) { f.intensity = 17; }, "desc.intensity"},
+      {[&](Frame& f) { f.power = 0; }, "desc.power"},
       {[&](Frame& f) { f.sky_depth = -2; }, "frame.sky_depth"},
-      {[&](Frame& f) { f.layer = 5; }, "frame.layer is unknown"},
-      {[&](Frame& f) { f.layer = NOOK_NNAO_LAYER_MIN; }, "frame.layer_texture is 0"},
-      {[&](Frame& f) { f.layer = NOOK_NNAO_LAYER_MIN, f.layer_texture = integer; },
-       "frame.layer_texture has a format"},
-      {[&](Frame& f) { f.layer = NOOK_NNAO_LAYER_REPLACE, f.layer_texture = byte; },
-       "need red and green for NOOK_NNAO_LAYER_REPLACE"},
-      {[&](Frame& f) { f.layer = NOOK_NNAO_LAYER_MIN, f.layer_texture = own; },
-       "frame.layer_texture is the pass's own texture as well"},
-      {[&](Frame& f) { f.blend = NOOK_NNAO_MULTIPLY; }, "frame.blend 1 needs a target of the host"},
-      {[&](Frame& f) { f.view = NOOK_NNAO_VIEW_NORMALS; }, "frame.view 3 needs a target of the host"},
-      {[&](Frame& f) { f.view = 9; }, "frame.view is unknown"},
+      {[&](Frame& f) { f.gbuffer_ao = 5; }, "frame.gbuffer_ao is unknown"},
+      {[&](Frame& f) { f.gbuffer_ao = NOOK_GBUFFER_AO_MIN; }, "frame.gbuffer_ao_texture is 0"},
+      {[&](Frame& f) { f.gbuffer_ao = NOOK_GBUFFER_AO_MIN, f.gbuffer_ao_texture = integer; },
+       "frame.gbuffer_ao_texture has a format"},
+      {[&](Frame& f) { f.gbuffer_ao = NOOK_GBUFFER_AO_REPLACE, f.gbuffer_ao_texture = byte; },
+       "need red and green for NOOK_GBUFFER_AO_REPLACE"},
+      {[&](Frame& f) { f.gbuffer_ao = NOOK_GBUFFER_AO_MIN, f.gbuffer_ao_texture = own; },
+       "frame.gbuffer_ao_texture is the pass's own texture as well"},
+      {[&](Frame& f) { f.blend = NOOK_BLEND_MULTIPLY; }, "frame.blend 1 needs a target of the host"},
+      {[&](Frame& f) { f.show = NOOK_NNAO_VIEW_NORMALS; }, "desc.show 3 needs a target of the host"},
+      {[&](Frame& f) { f.show = 9; }, "desc.show is unknown"},
       {[&](Frame& f) { to(f, 3, colour); }, "frame.target is unknown"},
-      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_TEXTURE, 0); }, "frame.target_name is 0"},
-      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_TEXTURE, own); }, "use NOOK_NNAO_TARGET_OWN"},
-      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_TEXTURE, depth); },
+      {[&](Frame& f) { to(f, NOOK_TARGET_TEXTURE, 0); }, "frame.target_name is 0"},
+      {[&](Frame& f) { to(f, NOOK_TARGET_TEXTURE, own); }, "use NOOK_TARGET_OWN"},
+      {[&](Frame& f) { to(f, NOOK_TARGET_TEXTURE, depth); },
        "frame.depth_texture is frame.target_name as well"},
-      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_TEXTURE, normal); },
+      {[&](Frame& f) { to(f, NOOK_TARGET_TEXTURE, normal); },
        "frame.normal_texture is frame.target_name as well"},
-      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_TEXTURE, small); }, "frame.target_name has another size"},
-      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_TEXTURE, integer); },
+      {[&](Frame& f) { to(f, NOOK_TARGET_TEXTURE, small); }, "frame.target_name has another size"},
+      {[&](Frame& f) { to(f, NOOK_TARGET_TEXTURE, integer); },
        "frame.target_name has a format that does not fit"},
-      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_FRAMEBUFFER, 777); },
+      {[&](Frame& f) { to(f, NOOK_TARGET_FRAMEBUFFER, 777); },
        "frame.target_name is no framebuffer of this OpenGL context (got 777"},
-      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_FRAMEBUFFER, framebuffers[0]); },
+      {[&](Frame& f) { to(f, NOOK_TARGET_FRAMEBUFFER, framebuffers[0]); },
        "frame.depth_texture is attached to frame.target_name as well"},
-      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_FRAMEBUFFER, framebuffers[1]); },
+      {[&](Frame& f) { to(f, NOOK_TARGET_FRAMEBUFFER, framebuffers[1]); },
        "frame.target_name cannot be drawn into"},
-      {[&](Frame& f) { to(f, NOOK_NNAO_TARGET_FRAMEBUFFER, framebuffers[2]); },
+      {[&](Frame& f) { to(f, NOOK_TARGET_FRAMEBUFFER, framebuffers[2]); },
        "frame.target_name draws into nothing"},
-      {[&](Frame& f) { f.struct_size = 20; }, "desc.struct_size is too small"},
-      {[&](Frame& f) { f.next = &f; }, "desc.next is not NULL"},
+      {[&](Frame& f) { static_cast<nook_gl_frame_desc&>(f).struct_size = 20; },
+       "desc.struct_size is too small"},
+      {[&](Frame& f) { static_cast<nook_gl_frame_desc&>(f).next = &f; }, "desc.next is not NULL"},
+      {[&](Frame& f) { static_cast<nook_nnao_frame_desc&>(f).struct_size = 20; },
+       "desc.struct_size is too small"},
+      {[&](Frame& f) { f.textures_changed = 2; }, "frame.textures_changed is neither on nor off (got 2"},
   };
   const bool knows_sizes = !context.is_es() || version_of(context) >= 31;
   int left_out = 0;
@@ -189,10 +193,10 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
       ++left_out;
       continue;
     }
-    nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, normal, 0.5f);
+    ScreenFrame frame = frame_desc(camera, width, height, depth, normal, 0.5f);
     bad.spoil(frame);
     INFO(bad.message);
-    CHECK(nook_nnao_render(pass, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(nook_nnao_render(pass, &frame, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
     CHECK(message_has("nook_nnao_render: "));
     CHECK(message_has(bad.message));
     REQUIRE(gl.GetError() == GL_NO_ERROR);
@@ -206,8 +210,8 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
   for (const float value : own_ao(gl, pass, width, height)) REQUIRE(value == 1);
   CHECK((read_texture(gl, colour, width, height, 4) == ones));
   // A good frame still works.
-  const nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, normal, 0.5f);
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  const ScreenFrame frame = frame_desc(camera, width, height, depth, normal, 0.5f);
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   nook_nnao_destroy(&pass);
   gl.DeleteTextures(1, &layered);
   gl.DeleteFramebuffers(3, framebuffers);
@@ -259,31 +263,30 @@ TEST_CASE("nnao: a bad description of a pass is refused with its field") {
   CHECK(nook_nnao_create(nullptr, &desc, &pass) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_nnao_create(fixture.gl, nullptr, &pass) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_nnao_create(fixture.gl, &desc, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_nnao_render(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_nnao_recheck(nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_render(nullptr, nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_nnao_describe(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_nnao_read_timings(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   nook_nnao_destroy(nullptr);
 }
 
-TEST_CASE("nnao: a texture made anew under its name is seen after a recheck") {
+TEST_CASE("nnao: a texture made anew under its name is seen with textures_changed") {
   NOOK_NEED_CONTEXT(context);
   if (context.is_es() && version_of(context) < 31) {
-    std::printf("OpenGL ES 3.0 does not tell the sizes of textures: no recheck finds another one\n");
+    std::printf("OpenGL ES 3.0 does not tell the sizes of textures: textures_changed finds no other one\n");
     return;
   }
   NnaoFixture fixture(context);
   const Camera camera = plain_camera(float(width) / height);
   const GLuint depth = fixture.depth_of(camera, look(camera, still_life(), width, height));
   nook_nnao pass = create_pass(fixture.gl, pass_desc(width, height));
-  const nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, 0, 0.5f);
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  ScreenFrame frame = frame_desc(camera, width, height, depth, 0, 0.5f);
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   const GladGLContext& gl = context.gl();
   gl.BindTexture(GL_TEXTURE_2D, depth);
   gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, 4, 4, 0, GL_RED, GL_UNSIGNED_BYTE, nullptr);
   gl.BindTexture(GL_TEXTURE_2D, 0);
-  NOOK_OK_OR_FAIL(nook_nnao_recheck(pass));
-  CHECK(nook_nnao_render(pass, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
+  frame.textures_changed = 1;
+  CHECK(nook_nnao_render(pass, &frame, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(message_has("frame.depth_texture has another size (got 4 x 4"));
   nook_nnao_destroy(&pass);
 }

@@ -14,7 +14,7 @@ constexpr float sky = std::numeric_limits<float>::infinity();
 constexpr float near_m = 0.2f, far_m = 40.0f;
 
 Camera perspective(std::string name, float aspect, float depth_row_z, float depth_row_w,
-                   nook_nnao_clip clip) {
+                   nook_clip_space clip) {
   Camera camera{std::move(name), {}, clip};
   camera.projection[0] = 1.4f / aspect;
   camera.projection[5] = 1.4f;
@@ -24,7 +24,7 @@ Camera perspective(std::string name, float aspect, float depth_row_z, float dept
   return camera;
 }
 
-Camera parallel(std::string name, float aspect, float depth_row_z, float depth_row_w, nook_nnao_clip clip) {
+Camera parallel(std::string name, float aspect, float depth_row_z, float depth_row_w, nook_clip_space clip) {
   Camera camera{std::move(name), {}, clip};
   camera.projection[0] = 0.4f / aspect;
   camera.projection[5] = 0.4f;
@@ -51,11 +51,11 @@ float distance_along(const Surface& surface, Vec3 origin, Vec3 direction) {
 
 Camera plain_camera(float aspect) {
   return perspective("perspective", aspect, (far_m + near_m) / (near_m - far_m),
-                     2 * far_m * near_m / (near_m - far_m), NOOK_NNAO_CLIP_NEGATIVE_ONE_TO_ONE);
+                     2 * far_m * near_m / (near_m - far_m), NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE);
 }
 
 std::vector<Camera> cameras(float aspect) {
-  const auto both = NOOK_NNAO_CLIP_NEGATIVE_ONE_TO_ONE, zero = NOOK_NNAO_CLIP_ZERO_TO_ONE;
+  const auto both = NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE, zero = NOOK_CLIP_SPACE_ZERO_TO_ONE;
   const float span = far_m - near_m;
   std::vector<Camera> all{
       plain_camera(aspect),
@@ -149,7 +149,7 @@ Picture halved(const Picture& picture) {
 
 std::vector<float> stored_depth(const Camera& camera, const Picture& picture) {
   const float* m = camera.projection;
-  const bool zero_to_one = camera.clip == NOOK_NNAO_CLIP_ZERO_TO_ONE;
+  const bool zero_to_one = camera.clip == NOOK_CLIP_SPACE_ZERO_TO_ONE;
   const auto stored = [&](double depth) {
     const double ndc = (-m[10] * depth + m[14]) / (-m[11] * depth + m[15]);
     return zero_to_one ? ndc : 0.5 * ndc + 0.5;
@@ -234,7 +234,7 @@ std::vector<nook_nnao_path> paths_of(const platform::Context& context) {
 
 nook_nnao_desc pass_desc(int width, int height) {
   nook_nnao_desc desc;
-  NOOK_OK_OR_FAIL(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  NOOK_OK_OR_FAIL(nook_nnao_desc_init(&desc));
   desc.max_width = width;
   desc.max_height = height;
   return desc;
@@ -253,16 +253,17 @@ nook_nnao create_pass(nook_gl gl, const nook_nnao_desc& desc) {
   return pass;
 }
 
-nook_nnao_frame_desc frame_desc(const Camera& camera, int width, int height, GLuint depth, GLuint normal,
-                                float radius) {
-  nook_nnao_frame_desc frame;
-  NOOK_OK_OR_FAIL(nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
+ScreenFrame frame_desc(const Camera& camera, int width, int height, GLuint depth, GLuint normal,
+                       float radius) {
+  ScreenFrame frame;
+  NOOK_OK_OR_FAIL(nook_gl_frame_desc_init(&frame));
+  NOOK_OK_OR_FAIL(nook_nnao_frame_desc_init(&frame));
   frame.width = width;
   frame.height = height;
   frame.depth_texture = depth;
   frame.normal_texture = normal;
   std::memcpy(frame.projection, camera.projection, sizeof frame.projection);
-  frame.clip = camera.clip;
+  frame.clip_space = camera.clip;
   frame.radius = radius;
   return frame;
 }

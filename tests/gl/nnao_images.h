@@ -21,7 +21,7 @@ namespace nook::test {
 struct Camera {
   std::string name;
   float projection[16] = {};
-  nook_nnao_clip clip = NOOK_NNAO_CLIP_NEGATIVE_ONE_TO_ONE;
+  nook_clip_space clip = NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE;
 };
 // Perspective, off-centre, orthographic, reversed depth, infinite far plane, both clip ranges, flipped,
 // scaled.
@@ -88,11 +88,14 @@ nnao::Network mild_network(nnao::NetworkForm form, std::uint32_t seed = 1);
 // The ways in which a pass can run on this context.
 std::vector<nook_nnao_path> paths_of(const platform::Context& context);
 
+// Both descriptors of a frame of the screen-space pass.
+struct ScreenFrame : nook_gl_frame_desc, nook_nnao_frame_desc {};
+
 nook_nnao_desc pass_desc(int width, int height);
 nook_nnao create_pass(nook_gl gl, nook_nnao_desc desc, const nnao::Network& network);
 nook_nnao create_pass(nook_gl gl, const nook_nnao_desc& desc);
-nook_nnao_frame_desc frame_desc(const Camera& camera, int width, int height, GLuint depth, GLuint normal,
-                                float radius);
+ScreenFrame frame_desc(const Camera& camera, int width, int height, GLuint depth, GLuint normal,
+                       float radius);
 nook_nnao_info info_of(nook_nnao pass);
 // The pass's own texture.
 std::vector<float> own_ao(const GladGLContext& gl, nook_nnao pass, int width, int height);

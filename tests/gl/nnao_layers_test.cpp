@@ -1,4 +1,6 @@
 // Texture arrays: two eyes in one call are the same as two frames.
+#include <nook/experimental/nook_recording.h>
+#include <nook/experimental/nook_stages.h>
 #include <cstring>
 
 #include "sdk/src/gl/touched_state.h"
@@ -50,9 +52,9 @@ nook_nnao_desc desc_of(const Settings& settings, int layers) {
   nook_nnao_desc desc = pass_desc(width, height);
   desc.half_resolution = settings.half;
   desc.blur = settings.blur;
-  desc.temporal_frames = settings.temporal;
+  desc.max_history_frames = settings.temporal;
   desc.bent_normals = settings.bent;
-  desc.layers = layers;
+  desc.views = layers;
   return desc;
 }
 
@@ -83,24 +85,24 @@ TEST_CASE("nnao: two eyes in one call have the AO of two calls") {
     CHECK((settings.temporal != 0 || two - one == std::uint64_t(width * height * channels)));
     for (const bool given : {false, true})
       for (int count = 0; count < 3; ++count) {
-        nook_nnao_frame_desc frame =
-            frame_desc(both.cameras[0], width, height, depth, given ? normals : 0, 0.6f);
-        frame.layer_projections = both.projections.data();
+        ScreenFrame frame = frame_desc(both.cameras[0], width, height, depth, given ? normals : 0, 0.6f);
+        frame.view_projections = both.projections.data();
         // Each eye has a movement of its own.
-        float earlier[eyes * 12] = {};
+        float views[eyes * 16] = {};
         for (int eye = 0; eye < eyes; ++eye)
-          for (int axis = 0; axis < 3; ++axis) earlier[12 * eye + 5 * axis] = 1;
-        earlier[3] = 0.02f;
-        earlier[12 + 3] = -0.03f;
-        frame.layer_earlier_from_view = earlier;
-        NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+          for (int axis = 0; axis < 4; ++axis) views[16 * eye + 5 * axis] = 1;
+        const auto drawn = float(given ? 3 + count : count);
+        views[12] = -0.02f * drawn;
+        views[16 + 12] = 0.03f * drawn;
+        frame.view_matrices = views;
+        NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
         for (int eye = 0; eye < eyes; ++eye) {
-          nook_nnao_frame_desc alone =
+          ScreenFrame alone =
               frame_desc(both.cameras[std::size_t(eye)], width, height,
                          fixture.depth_of(both.cameras[std::size_t(eye)], both.pictures[std::size_t(eye)]),
                          given ? fixture.normals_of(both.pictures[std::size_t(eye)]) : 0, 0.6f);
-          std::copy_n(earlier + 12 * eye, 12, alone.earlier_from_view);
-          NOOK_OK_OR_FAIL(nook_nnao_render(single[std::size_t(eye)], &alone));
+          std::copy_n(views + 16 * eye, 16, alone.view);
+          NOOK_OK_OR_FAIL(nook_nnao_render(single[std::size_t(eye)], &alone, &alone));
           INFO("eye " << eye << ", half " << settings.half << ", means " << settings.temporal << ", frame "
                       << count);
           CHECK((layer_of(context.gl(), info_of(pass).texture, eye, channels) ==
@@ -128,24 +130,23 @@ TEST_CASE("nnao: two eyes are multiplied into the layers of the host's array, by
   const float matrices[18] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0, 1};
   nook_nnao pass = create_pass(fixture.gl, desc_of({}, eyes)),
             plain = create_pass(fixture.gl, desc_of({}, 0));
-  nook_nnao_frame_desc frame =
-      frame_desc(both.cameras[0], width, height,
-                 fixture.textures.array(GL_DEPTH_COMPONENT32F, 1, width, height, both.depths),
-                 fixture.textures.array(GL_RGB32F, 3, width, height, stored), 0.6f);
-  frame.layer_projections = both.projections.data();
-  frame.layer_normal_matrices = matrices;
-  frame.layer = NOOK_NNAO_LAYER_MIN;
-  frame.layer_texture = fixture.textures.array(GL_R8, 1, width, height, {layer_value, open});
-  frame.target = NOOK_NNAO_TARGET_TEXTURE;
+  ScreenFrame frame = frame_desc(both.cameras[0], width, height,
+                                 fixture.textures.array(GL_DEPTH_COMPONENT32F, 1, width, height, both.depths),
+                                 fixture.textures.array(GL_RGB32F, 3, width, height, stored), 0.6f);
+  frame.view_projections = both.projections.data();
+  frame.view_normal_matrices = matrices;
+  frame.gbuffer_ao = NOOK_GBUFFER_AO_MIN;
+  frame.gbuffer_ao_texture = fixture.textures.array(GL_R8, 1, width, height, {layer_value, open});
+  frame.target = NOOK_TARGET_TEXTURE;
   frame.target_name = target;
-  frame.blend = NOOK_NNAO_MULTIPLY;
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  frame.blend = NOOK_BLEND_MULTIPLY;
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   for (int eye = 0; eye < eyes; ++eye) {
-    nook_nnao_frame_desc alone =
+    ScreenFrame alone =
         frame_desc(both.cameras[std::size_t(eye)], width, height,
                    fixture.depth_of(both.cameras[std::size_t(eye)], both.pictures[std::size_t(eye)]),
                    fixture.normals_of(both.pictures[std::size_t(eye)]), 0.6f);
-    NOOK_OK_OR_FAIL(nook_nnao_render(plain, &alone));
+    NOOK_OK_OR_FAIL(nook_nnao_render(plain, &alone, &alone));
     std::vector<float> wanted = own_ao(context.gl(), plain, width, height);
     for (float& ao : wanted) ao = 0.5f * (eye == 0 ? std::min(ao, 0.7f) : ao);
     // 8 bits of the target, of the layer and of the AO that is read back.
@@ -168,41 +169,41 @@ TEST_CASE("nnao: texture arrays are refused where they do not fit, and nothing i
   const GLuint flat_depth = fixture.depth_of(both.cameras[0], both.pictures[0]);
   nook_nnao pass = create_pass(fixture.gl, desc_of({}, eyes));
   const GLuint own = info_of(pass).texture;
-  const auto refused = [&](const nook_nnao_frame_desc& frame, const char* message) {
-    CHECK(nook_nnao_render(pass, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
+  const auto refused = [&](const ScreenFrame& frame, const char* message) {
+    CHECK(nook_nnao_render(pass, &frame, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
     CHECK(message_has(message));
     CHECK(context.gl().GetError() == GL_NO_ERROR);
     take_debug_messages();
   };
-  const nook_nnao_frame_desc good = frame_desc(both.cameras[0], width, height, depth, 0, 0.6f);
-  nook_nnao_frame_desc bad = good;
+  const ScreenFrame good = frame_desc(both.cameras[0], width, height, depth, 0, 0.6f);
+  ScreenFrame bad = good;
   bad.depth_texture = flat_depth;
   refused(bad, "frame.depth_texture is a texture of another kind");
   refused(bad, "need a 2D texture array");
   bad = good, bad.depth_texture = one;
-  if (knows_sizes) refused(bad, "frame.depth_texture has another size (got 1 layers, need desc.layers, 2)");
-  bad = good, bad.target = NOOK_NNAO_TARGET_FRAMEBUFFER;
-  refused(bad, "frame.target 2 does not go with desc.layers 2");
-  bad = good, bad.target = NOOK_NNAO_TARGET_TEXTURE, bad.target_name = own;
-  refused(bad, "use NOOK_NNAO_TARGET_OWN");
-  bad = good, bad.target = NOOK_NNAO_TARGET_TEXTURE, bad.target_name = depth;
+  if (knows_sizes) refused(bad, "frame.depth_texture has another size (got 1 layers, need desc.views, 2)");
+  bad = good, bad.target = NOOK_TARGET_FRAMEBUFFER;
+  refused(bad, "frame.target 2 does not go with desc.views 2");
+  bad = good, bad.target = NOOK_TARGET_TEXTURE, bad.target_name = own;
+  refused(bad, "use NOOK_TARGET_OWN");
+  bad = good, bad.target = NOOK_TARGET_TEXTURE, bad.target_name = depth;
   refused(bad, "frame.depth_texture is frame.target_name as well");
   std::vector<float> projections = both.projections;
   projections[16 + 5] = 0;
-  bad = good, bad.layer_projections = projections.data();
-  refused(bad, "layer 1: frame.projection is no projection");
+  bad = good, bad.view_projections = projections.data();
+  refused(bad, "view 1: frame.projection is no projection");
   nook_nnao_recording recording = nullptr;
-  CHECK(nook_nnao_record(pass, &good, nullptr, &recording) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_record(pass, &good, &good, nullptr, &recording) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(recording == nullptr);
   for (int eye = 0; eye < eyes; ++eye)
     for (const float value : layer_of(context.gl(), own, eye, 1)) REQUIRE(value == 1);
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &good));
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &good, &good));
   nook_nnao_destroy(&pass);
   const struct {
     int layers, samples, sample, normal_samples;
     const char* message;
-  } cases[] = {{9, 0, 0, 0, "desc.layers is out of range (got 9, need 0 to 8)"},
-               {-1, 0, 0, 0, "desc.layers is out of range"},
+  } cases[] = {{9, 0, 0, 0, "desc.views is out of range (got 9, need 0 to 8)"},
+               {-1, 0, 0, 0, "desc.views is out of range"},
                {2, 4, 0, 8, "desc.normal_samples differs from desc.depth_samples (got 8 and 4"},
                {0, 0, 0, 4, "desc.normal_samples differs from desc.depth_samples (got 4 and 0"},
                {0, 4, 0, -4, "desc.normal_samples differs"},
@@ -211,7 +212,7 @@ TEST_CASE("nnao: texture arrays are refused where they do not fit, and nothing i
                {0, 4, 3, 0, "desc.depth_sample is unknown (got 3, need 0 to 2)"}};
   for (const auto& bad_desc : cases) {
     nook_nnao_desc desc = pass_desc(width, height);
-    desc.layers = bad_desc.layers;
+    desc.views = bad_desc.layers;
     desc.depth_samples = bad_desc.samples;
     desc.depth_sample = bad_desc.sample;
     desc.normal_samples = bad_desc.normal_samples;
@@ -228,7 +229,7 @@ TEST_CASE(
   for (const nook_gl_state_mode mode : {NOOK_GL_STATE_PRESERVE, NOOK_GL_STATE_DEFAULTS, NOOK_GL_STATE_HOST}) {
     NnaoFixture fixture(context, mode);
     const GLuint depth = fixture.textures.array(GL_DEPTH_COMPONENT32F, 1, width, height, both.depths);
-    const nook_nnao_frame_desc frame = frame_desc(both.cameras[0], width, height, depth, 0, 0.6f);
+    const ScreenFrame frame = frame_desc(both.cameras[0], width, height, depth, 0, 0.6f);
     nook_nnao pass = nullptr;
     const auto check = [&](unsigned users, auto&& call) {
       Poison poison(context, users);
@@ -248,20 +249,20 @@ TEST_CASE(
     const unsigned compute = info_of(pass).path == NOOK_NNAO_PATH_COMPUTE ? unsigned{gl::screen_compute} : 0u;
     for (int i = 0; i < 2; ++i)
       check(gl::screen | gl::screen_layers | compute,
-            [&] { NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame)); });
+            [&] { NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame)); });
     nook_nnao_destroy(&pass);
   }
   NnaoFixture fixture(context);
   Trace trace(context);
   nook_gl gl = create_gl(fixture.host.handle, Trace::loader, &trace, 0, NOOK_GL_STATE_PRESERVE);
   const GLuint depth = fixture.textures.array(GL_DEPTH_COMPONENT32F, 1, width, height, both.depths);
-  const nook_nnao_frame_desc frame = frame_desc(both.cameras[0], width, height, depth, 0, 0.6f);
+  const ScreenFrame frame = frame_desc(both.cameras[0], width, height, depth, 0, 0.6f);
   const auto queries = [&](int layers) {
     nook_nnao pass = create_pass(gl, desc_of({}, layers));
-    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
     trace.reset();
     const long allocations = fixture.host.allocations;
-    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
     CHECK(fixture.host.allocations == allocations);
     CHECK(trace.calls_that_begin("glGen") == 0);
     const int count = trace.calls_that_begin("glGet") + trace.calls_that_begin("glIs");

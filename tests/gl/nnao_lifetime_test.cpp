@@ -1,4 +1,5 @@
 // Memory of a pass, any order of destruction, refused allocations, lost contexts.
+#include <nook/experimental/nook_stages.h>
 #include <cstring>
 
 #include "sdk/src/nnao/network_file.h"
@@ -144,8 +145,8 @@ TEST_CASE("nnao: after the OpenGL context is lost nothing calls OpenGL, and dest
   // Without a current context any OpenGL call would crash or be caught by the next check.
   context.clear_current();
   NOOK_OK_OR_FAIL(nook_gl_context_lost(gl));
-  const nook_nnao_frame_desc frame = frame_desc(plain_camera(1), 16, 16, 1, 0, 0.5f);
-  CHECK(nook_nnao_render(pass, &frame) == NOOK_ERROR_GL);
+  const ScreenFrame frame = frame_desc(plain_camera(1), 16, 16, 1, 0, 0.5f);
+  CHECK(nook_nnao_render(pass, &frame, &frame) == NOOK_ERROR_GL);
   nook_nnao_timings timings{};
   timings.struct_size = sizeof timings;
   CHECK(nook_nnao_read_timings(pass, &timings) == NOOK_ERROR_GL);

@@ -23,15 +23,15 @@ struct Output : NnaoFixture {
   }
   ~Output() { nook_nnao_destroy(&pass); }
 
-  nook_nnao_frame_desc frame() const { return frame_desc(camera, width, height, depth, 0, 0.8f); }
-  std::vector<float> draw(const nook_nnao_frame_desc& frame) {
-    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  ScreenFrame frame() const { return frame_desc(camera, width, height, depth, 0, 0.8f); }
+  std::vector<float> draw(const ScreenFrame& frame) {
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
     return own_ao(context.gl(), pass, width, height);
   }
-  std::vector<float> draw_into(nook_nnao_frame_desc frame, GLuint texture, int channels = 4) {
-    frame.target = NOOK_NNAO_TARGET_TEXTURE;
+  std::vector<float> draw_into(ScreenFrame frame, GLuint texture, int channels = 4) {
+    frame.target = NOOK_TARGET_TEXTURE;
     frame.target_name = texture;
-    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
     return read_texture(context.gl(), texture, width, height, channels);
   }
 
@@ -54,7 +54,7 @@ TEST_CASE("nnao: intensity and power are the formula of the header") {
   NOOK_NEED_CONTEXT(context);
   Output output(context);
   for (const auto& [intensity, power] : {std::pair{0.0f, 1.0f}, {0.5f, 1.0f}, {1.0f, 2.2f}, {2.5f, 0.5f}}) {
-    nook_nnao_frame_desc frame = output.frame();
+    ScreenFrame frame = output.frame();
     frame.intensity = intensity;
     frame.power = power;
     // In floats, so that only the rounding of the pass's own 8 bits remains: of the plain result, times the
@@ -76,20 +76,20 @@ TEST_CASE("nnao: each layer is the formula of the header") {
   Output output(context);
   const std::vector<float> layer = ramp(2);
   const GLuint layer_texture = output.textures.floats(GL_RG32F, 2, width, height, layer);
-  for (const nook_nnao_layer mode :
-       {NOOK_NNAO_LAYER_MIN, NOOK_NNAO_LAYER_REMAINDER, NOOK_NNAO_LAYER_REPLACE}) {
-    nook_nnao_frame_desc frame = output.frame();
-    frame.layer = mode;
-    frame.layer_texture = layer_texture;
+  for (const nook_gbuffer_ao mode :
+       {NOOK_GBUFFER_AO_MIN, NOOK_GBUFFER_AO_REMAINDER, NOOK_GBUFFER_AO_REPLACE}) {
+    ScreenFrame frame = output.frame();
+    frame.gbuffer_ao = mode;
+    frame.gbuffer_ao_texture = layer_texture;
     const std::vector<float> found = output.draw(frame);
     float largest = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
       const float s = output.plain[i], c = layer[2 * i], w = layer[2 * i + 1];
       float wanted = std::min(s, c);
-      if (mode == NOOK_NNAO_LAYER_REMAINDER) wanted = c > 0 ? std::min(s, c) / c : 1;
-      if (mode == NOOK_NNAO_LAYER_REPLACE) wanted = (1 - w) * s + w * c;
+      if (mode == NOOK_GBUFFER_AO_REMAINDER) wanted = c > 0 ? std::min(s, c) / c : 1;
+      if (mode == NOOK_GBUFFER_AO_REPLACE) wanted = (1 - w) * s + w * c;
       // s itself is known to half a step, which c divides.
-      const float slack = mode == NOOK_NNAO_LAYER_REMAINDER && c > 0 ? 1 / c : 1;
+      const float slack = mode == NOOK_GBUFFER_AO_REMAINDER && c > 0 ? 1 / c : 1;
       largest = std::max(largest, std::abs(found[i] - wanted) / slack);
     }
     INFO("layer " << mode);
@@ -101,15 +101,16 @@ TEST_CASE("nnao: targets are written, or multiplied with their alpha kept") {
   NOOK_NEED_CONTEXT(context);
   Output output(context);
   const std::vector<float> before = ramp(4);
-  for (const nook_nnao_blend blend : {NOOK_NNAO_WRITE, NOOK_NNAO_MULTIPLY}) {
-    nook_nnao_frame_desc frame = output.frame();
+  for (const nook_blend blend : {NOOK_BLEND_WRITE, NOOK_BLEND_MULTIPLY}) {
+    ScreenFrame frame = output.frame();
     frame.blend = blend;
     const std::vector<float> found =
         output.draw_into(frame, output.textures.floats(GL_RGBA32F, 4, width, height, before));
     for (std::size_t i = 0; i < found.size(); ++i) {
       const float ao = output.plain[i / 4];
       const bool alpha = i % 4 == 3;
-      const float wanted = blend == NOOK_NNAO_WRITE ? (alpha ? 1 : ao) : (alpha ? before[i] : before[i] * ao);
+      const float wanted =
+          blend == NOOK_BLEND_WRITE ? (alpha ? 1 : ao) : (alpha ? before[i] : before[i] * ao);
       REQUIRE(std::abs(found[i] - wanted) < 0.6f * step);
     }
   }
@@ -121,8 +122,8 @@ TEST_CASE("nnao: a target with sRGB is multiplied in linear light") {
   const std::vector<std::uint8_t> grey(std::size_t(width) * height * 4, 188);  // half of white, encoded
   const GLuint target =
       output.textures.make(GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, width, height, grey.data());
-  nook_nnao_frame_desc frame = output.frame();
-  frame.blend = NOOK_NNAO_MULTIPLY;
+  ScreenFrame frame = output.frame();
+  frame.blend = NOOK_BLEND_MULTIPLY;
   const std::vector<float> found = output.draw_into(frame, target);  // read as encoded
   const auto decode = [](float v) { return std::pow((v + 0.055f) / 1.055f, 2.4f); };
   for (std::size_t i = 0; i < found.size(); i += 4) {
@@ -140,10 +141,10 @@ TEST_CASE("nnao: a framebuffer of the host is a target") {
   gl.GenFramebuffers(1, &framebuffer);
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
   gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour, 0);
-  nook_nnao_frame_desc frame = output.frame();
-  frame.target = NOOK_NNAO_TARGET_FRAMEBUFFER;
+  ScreenFrame frame = output.frame();
+  frame.target = NOOK_TARGET_FRAMEBUFFER;
   frame.target_name = framebuffer;
-  NOOK_OK_OR_FAIL(nook_nnao_render(output.pass, &frame));
+  NOOK_OK_OR_FAIL(nook_nnao_render(output.pass, &frame, &frame));
   const std::vector<float> found = read_texture(gl, colour, width, height, 4);
   for (std::size_t i = 0; i < output.plain.size(); ++i)
     REQUIRE(std::abs(found[4 * i] - output.plain[i]) < 0.6f * step);
@@ -154,7 +155,7 @@ TEST_CASE("nnao: a framebuffer of the host is a target") {
 TEST_CASE("nnao: normals in other encodings and spaces are the same normals") {
   NOOK_NEED_CONTEXT(context);
   Output output(context);
-  nook_nnao_frame_desc frame = output.frame();
+  ScreenFrame frame = output.frame();
   frame.normal_texture = output.normals_of(output.picture);
   const std::vector<float> wanted = output.draw(frame);
   CHECK((wanted != output.plain));
@@ -189,7 +190,7 @@ TEST_CASE("nnao: depth in 24 bits and in a colour texture is depth as well") {
   NOOK_NEED_CONTEXT(context);
   Output output(context);
   const std::vector<float> stored = stored_depth(output.camera, output.picture);
-  nook_nnao_frame_desc frame = output.frame();
+  ScreenFrame frame = output.frame();
   frame.normal_texture = output.normals_of(output.picture);
   const std::vector<float> wanted = output.draw(frame);
   frame.depth_texture = output.textures.floats(GL_R32F, 1, width, height, stored);
@@ -211,14 +212,14 @@ TEST_CASE("nnao: sizes change from frame to frame as if the pass were made for e
     for (const auto& [w, h] : {std::pair{64, 64}, {31, 17}, {48, 64}, {1, 1}, {63, 33}}) {
       const Camera camera = plain_camera(float(w) / float(h));
       const Picture picture = look(camera, still_life(), std::uint32_t(w), std::uint32_t(h));
-      const nook_nnao_frame_desc frame = frame_desc(camera, w, h, fixture.depth_of(camera, picture), 0, 0.6f);
-      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+      const ScreenFrame frame = frame_desc(camera, w, h, fixture.depth_of(camera, picture), 0, 0.6f);
+      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
       if (w != 31 && w != 63) continue;
       nook_nnao_desc fitting = pass_desc(w, h);
       fitting.half_resolution = half;
       fitting.taps = 16;
       nook_nnao fresh = create_pass(fixture.gl, fitting, network);
-      NOOK_OK_OR_FAIL(nook_nnao_render(fresh, &frame));
+      NOOK_OK_OR_FAIL(nook_nnao_render(fresh, &frame, &frame));
       CHECK((own_ao(context.gl(), pass, w, h) == own_ao(context.gl(), fresh, w, h)));
       nook_nnao_destroy(&fresh);
     }

@@ -25,8 +25,8 @@ struct Setting {
 };
 
 // A frame of a picture that lies in a part of an image.
-nook_nnao_frame_desc part_of(const Camera& camera, const Picture& picture, const Place& place, GLuint depth) {
-  nook_nnao_frame_desc frame = frame_desc(camera, place.width, place.height, depth, 0, 0.5f);
+ScreenFrame part_of(const Camera& camera, const Picture& picture, const Place& place, GLuint depth) {
+  ScreenFrame frame = frame_desc(camera, place.width, place.height, depth, 0, 0.5f);
   frame.viewport[0] = place.x;
   frame.viewport[1] = place.y;
   frame.viewport[2] = int(picture.width);
@@ -68,8 +68,8 @@ struct BothPaths : NnaoFixture {
       CHECK(difference(fragment, compute, 1.1f / 255).beyond <= 0.01f);
   }
   // A frame on both, with a picture in it.
-  void check_frame(const nook_nnao_frame_desc& frame) {
-    for (nook_nnao pass : on_path) NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  void check_frame(const ScreenFrame& frame) {
+    for (nook_nnao pass : on_path) NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
     const std::vector<float> fragment = own(on_path[0]);
     check_same(fragment, own(on_path[1]));
     const auto [low, high] = std::minmax_element(fragment.begin(), fragment.end());
@@ -91,8 +91,8 @@ struct BothPaths : NnaoFixture {
         INFO(w << " x " << h << ", view " << view);
         const Camera camera = plain_camera(float(w) / float(h));
         const Picture picture = look(camera, still_life(), std::uint32_t(w), std::uint32_t(h));
-        nook_nnao_frame_desc frame = frame_desc(camera, w, h, depth_of(camera, picture), 0, 0.8f);
-        frame.view = view;
+        ScreenFrame frame = frame_desc(camera, w, h, depth_of(camera, picture), 0, 0.8f);
+        frame.show = view;
         check_frame(frame);
       }
   }
@@ -109,11 +109,11 @@ struct BothPaths : NnaoFixture {
       std::vector<float> found[2];
       for (int path = 0; path < 2; ++path) {
         const GLuint target = textures.floats(format, 4, place.width, place.height, grey);
-        nook_nnao_frame_desc frame = part_of(camera, picture, place, depth);
-        frame.target = NOOK_NNAO_TARGET_TEXTURE;
+        ScreenFrame frame = part_of(camera, picture, place, depth);
+        frame.target = NOOK_TARGET_TEXTURE;
         frame.target_name = target;
-        frame.blend = NOOK_NNAO_MULTIPLY;
-        NOOK_OK_OR_FAIL(nook_nnao_render(on_path[path], &frame));
+        frame.blend = NOOK_BLEND_MULTIPLY;
+        NOOK_OK_OR_FAIL(nook_nnao_render(on_path[path], &frame, &frame));
         found[path] = read_texture(context.gl(), target, place.width, place.height, 4);
       }
       check_same(found[0], found[1]);
@@ -171,8 +171,8 @@ TEST_CASE("nnao: the own texture changes in the viewport alone") {
         const GLuint depth =
             fixture.textures.floats(GL_DEPTH_COMPONENT32F, 1, at.width, at.height,
                                     placed(stored_depth(camera, picture), 1, picture, at, 0.3f));
-        const nook_nnao_frame_desc frame = part_of(camera, picture, at, depth);
-        NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+        const ScreenFrame frame = part_of(camera, picture, at, depth);
+        NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
         return own_ao(context.gl(), pass, 64, 50);
       };
       // Split screen: two views, neither of which touches the other.
@@ -210,7 +210,7 @@ TEST_CASE("nnao: compute is taken where OpenGL has it, and refused with a reason
       NOOK_OK_OR_FAIL(nook_nnao_create(gl, &desc, &pass));
       CHECK(info_of(pass).path == got);
       // Hosts of the first release end before the path.
-      check_info<nook_nnao_info>(24, [&](nook_nnao_info* info) { return nook_nnao_describe(pass, info); });
+      check_info<nook_nnao_info>([&](nook_nnao_info* info) { return nook_nnao_describe(pass, info); });
     }
     nook_nnao_destroy(&pass);
     nook_gl_destroy(&gl);

@@ -26,22 +26,22 @@ std::vector<float> draw(NnaoFixture& fixture, const Camera& camera, const Pictur
                         const Drawing& drawing, const nnao::Network* network) {
   const int w = int(picture.width), h = int(picture.height);
   nook_nnao pass = fixture.pass_of(drawing.taps, drawing.half, drawing.blur, network);
-  nook_nnao_frame_desc frame = frame_desc(camera, w, h, fixture.depth_of(camera, picture),
-                                          drawing.normals ? fixture.normals_of(picture) : 0, drawing.radius);
-  frame.view = drawing.view;
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  ScreenFrame frame = frame_desc(camera, w, h, fixture.depth_of(camera, picture),
+                                 drawing.normals ? fixture.normals_of(picture) : 0, drawing.radius);
+  frame.show = drawing.view;
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   return own_ao(fixture.context.gl(), pass, w, h);
 }
 
 std::vector<float> rebuilt_normals(NnaoFixture& fixture, const Camera& camera, const Picture& picture) {
   const int w = int(picture.width), h = int(picture.height);
   nook_nnao pass = fixture.pass_of(16, 0, 1, nullptr);
-  nook_nnao_frame_desc frame = frame_desc(camera, w, h, fixture.depth_of(camera, picture), 0, 0.5f);
-  frame.target = NOOK_NNAO_TARGET_TEXTURE;
+  ScreenFrame frame = frame_desc(camera, w, h, fixture.depth_of(camera, picture), 0, 0.5f);
+  frame.target = NOOK_TARGET_TEXTURE;
   frame.target_name =
       fixture.textures.floats(GL_RGBA32F, 4, w, h, std::vector<float>(std::size_t(w) * h * 4));
-  frame.view = NOOK_NNAO_VIEW_NORMALS;
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  frame.show = NOOK_NNAO_VIEW_NORMALS;
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   return read_texture(fixture.context.gl(), frame.target_name, w, h, 4);
 }
 
@@ -111,11 +111,11 @@ TEST_CASE("nnao: linear depth that is not finite, not positive or beyond sky_dep
                        1e35f};
   for (std::size_t i = 0; i < std::size(odd); ++i) depth[16 * (2 * i + 1) + 5] = odd[i];
   nook_nnao pass = create_pass(fixture.gl, pass_desc(16, 16), mild_network(nnao::NetworkForm::paper));
-  nook_nnao_frame_desc frame =
+  ScreenFrame frame =
       frame_desc(plain_camera(1), 16, 16, fixture.textures.floats(GL_R32F, 1, 16, 16, depth), 0, 0.5f);
-  frame.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
+  frame.depth_kind = NOOK_DEPTH_LINEAR;
   frame.sky_depth = 50;
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   const std::vector<float> ao = own_ao(context.gl(), pass, 16, 16);
   for (std::size_t i = 0; i < std::size(odd); ++i) {
     INFO(odd[i]);

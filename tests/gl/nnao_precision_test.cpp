@@ -84,13 +84,13 @@ void measure_stages(NnaoFixture& fixture, nook_nnao_stages stages, const Camera&
   const Picture picture = look(camera, still_life(), width, height);
   const std::vector<float> truth = truth_of(picture, still_life());
   const GLuint depth = nearest(gl, GL_TEXTURE_2D, fixture.depth_of(camera, picture));
-  const nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, 0, radius);
+  const ScreenFrame frame = frame_desc(camera, width, height, depth, 0, radius);
   auto info = sized<nook_nnao_stages_info>();
   NOOK_OK_OR_FAIL(nook_nnao_stages_describe(stages, &info));
   std::vector<std::string> names{"none"};
   for (std::uint32_t i = 0; i + 1 < info.stage_count; ++i) {
     auto stage = sized<nook_nnao_stage_info>();
-    NOOK_OK_OR_FAIL(nook_nnao_stages_stage(stages, i, &stage));
+    NOOK_OK_OR_FAIL(nook_nnao_stages_describe_stage(stages, i, &stage));
     if (names.back() != stage.name) names.push_back(stage.name);
   }
   std::vector<float> high;

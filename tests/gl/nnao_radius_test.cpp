@@ -18,17 +18,16 @@ constexpr int width = 72, height = 48;
 struct Fixture : NnaoFixture {
   using NnaoFixture::NnaoFixture;
 
-  nook_nnao_frame_desc linear(const Camera& camera, const Picture& picture, float scale, bool normals) {
+  ScreenFrame linear(const Camera& camera, const Picture& picture, float scale, bool normals) {
     std::vector<float> depth = picture.depth;
     for (float& metres : depth) metres *= scale;
-    nook_nnao_frame_desc frame =
-        frame_desc(camera, width, height, textures.floats(GL_R32F, 1, width, height, depth),
-                   normals ? normals_of(picture) : 0, 0.5f);
-    frame.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
+    ScreenFrame frame = frame_desc(camera, width, height, textures.floats(GL_R32F, 1, width, height, depth),
+                                   normals ? normals_of(picture) : 0, 0.5f);
+    frame.depth_kind = NOOK_DEPTH_LINEAR;
     return frame;
   }
-  std::vector<float> draw(nook_nnao pass, const nook_nnao_frame_desc& frame) {
-    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  std::vector<float> draw(nook_nnao pass, const ScreenFrame& frame) {
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
     return own_ao(context.gl(), pass, width, height);
   }
 };
@@ -45,10 +44,10 @@ TEST_CASE("nnao: a radius as a share of the screen is the reference's at each de
       for (const float share : {0.05f, 0.3f}) {
         const Camera& camera = all[index];
         const Picture picture = look(camera, still_life(), width, height);
-        nook_nnao_frame_desc frame = frame_desc(camera, width, height, fixture.depth_of(camera, picture),
-                                                fixture.normals_of(picture), share);
+        ScreenFrame frame = frame_desc(camera, width, height, fixture.depth_of(camera, picture),
+                                       fixture.normals_of(picture), share);
         frame.radius_kind = NOOK_NNAO_RADIUS_SCREEN;
-        frame.view = NOOK_NNAO_VIEW_RAW;
+        frame.show = NOOK_NNAO_VIEW_RAW;
         const std::vector<float> found = fixture.draw(fixture.pass_of(16, 0, 1, &network), frame);
         std::vector<float> wanted(picture.depth.size());
         nnao::evaluate(network, picture.view(), {nnao::endless_radius, share * height, 16}, wanted);
@@ -79,7 +78,7 @@ TEST_CASE(
         std::vector<float> first;
         // Powers of two scale every number of the arithmetic exactly, but for sky.
         for (const float scale : {1.0f, 16.0f, 1.0f / 8}) {
-          nook_nnao_frame_desc frame = fixture.linear(camera, picture, scale, normals);
+          ScreenFrame frame = fixture.linear(camera, picture, scale, normals);
           frame.radius_kind = NOOK_NNAO_RADIUS_SCREEN;
           frame.radius = 0.15f;
           const std::vector<float> ao = fixture.draw(pass, frame);
@@ -100,11 +99,11 @@ TEST_CASE("nnao: lengths may have any unit, if all of them have it") {
   const Picture picture = look(camera, still_life(), width, height);
   for (const int half : {0, 1}) {
     nook_nnao pass = fixture.pass_of(9, half, 1, nullptr);
-    nook_nnao_frame_desc metres = fixture.linear(camera, picture, 1, false);
+    ScreenFrame metres = fixture.linear(camera, picture, 1, false);
     metres.sky_depth = 6.5f;
     const std::vector<float> wanted = fixture.draw(pass, metres);
     for (const float scale : {1000.0f, 0.001f}) {
-      nook_nnao_frame_desc other = fixture.linear(camera, picture, scale, false);
+      ScreenFrame other = fixture.linear(camera, picture, scale, false);
       other.radius = metres.radius * scale;
       other.sky_depth = metres.sky_depth * scale;
       INFO("scale " << scale << ", half " << half);
@@ -120,7 +119,7 @@ TEST_CASE("nnao: a share of the scene is the radius in metres that follows from 
   const Camera camera = plain_camera(float(width) / height);
   const Picture picture = look(camera, still_life(), width, height);
   nook_nnao pass = fixture.pass_of(9, 0, 1, nullptr);
-  nook_nnao_frame_desc frame = fixture.linear(camera, picture, 1, true);
+  ScreenFrame frame = fixture.linear(camera, picture, 1, true);
   const std::vector<float> wanted = fixture.draw(pass, frame);
   frame.radius_kind = NOOK_NNAO_RADIUS_SCENE;
   frame.radius = 0.0625f;
@@ -138,7 +137,7 @@ TEST_CASE("nnao: the edges of a radius in pixels are those of its metres at each
   const float px_per_metre = std::abs(nnao::pixel_scale(picture.rays, 1).y);
   for (const int half : {0, 1}) {
     nook_nnao pass = fixture.pass_of(9, half, 1, nullptr);
-    nook_nnao_frame_desc frame = fixture.linear(camera, picture, 1, false);
+    ScreenFrame frame = fixture.linear(camera, picture, 1, false);
     frame.radius = 6 / px_per_metre;
     const std::vector<float> wanted = fixture.draw(pass, frame);
     frame.radius_kind = NOOK_NNAO_RADIUS_SCREEN;

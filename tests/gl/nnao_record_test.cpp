@@ -1,4 +1,5 @@
 // Recorded frames: what is read back, that a replay gives the same AO, and what the call may not do.
+#include <nook/experimental/nook_recording.h>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -26,8 +27,8 @@ struct Recorded {
   nook_nnao_recording handle = nullptr;
   nook_nnao_recording_desc desc{};
 
-  Recorded(nook_nnao pass, const nook_nnao_frame_desc& frame, const char* note = nullptr) {
-    NOOK_OK_OR_FAIL(nook_nnao_record(pass, &frame, note, &handle));
+  Recorded(nook_nnao pass, const ScreenFrame& frame, const char* note = nullptr) {
+    NOOK_OK_OR_FAIL(nook_nnao_record(pass, &frame, &frame, note, &handle));
     desc.struct_size = sizeof desc;
     NOOK_OK_OR_FAIL(nook_nnao_recording_describe(handle, &desc));
   }
@@ -62,8 +63,9 @@ std::vector<float> replayed(NnaoFixture& fixture, const nook_nnao_recording_desc
   pass_settings.network = desc.network;
   pass_settings.network_size = desc.network_size;
   nook_nnao pass = create_pass(fixture.gl, pass_settings);
-  nook_nnao_frame_desc frame;
-  NOOK_OK_OR_FAIL(nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
+  ScreenFrame frame;
+  NOOK_OK_OR_FAIL(nook_gl_frame_desc_init(&frame));
+  NOOK_OK_OR_FAIL(nook_nnao_frame_desc_init(&frame));
   frame.width = w;
   frame.height = h;
   frame.depth_texture = upload(GL_R32F, 1, desc.depth);
@@ -74,15 +76,15 @@ std::vector<float> replayed(NnaoFixture& fixture, const nook_nnao_recording_desc
   frame.normal_bias = desc.normal_bias;
   std::memcpy(frame.normal_matrix, desc.normal_matrix, sizeof frame.normal_matrix);
   std::memcpy(frame.projection, desc.projection, sizeof frame.projection);
-  frame.clip = desc.clip;
+  frame.clip_space = desc.clip;
   frame.radius = desc.radius;
   frame.max_radius_px = desc.max_radius_px;
   frame.intensity = desc.intensity;
   frame.power = desc.power;
-  frame.layer = desc.layer;
-  if (desc.layer) frame.layer_texture = upload(GL_RG32F, 2, desc.layer_texels);
-  frame.view = desc.view;
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  frame.gbuffer_ao = desc.layer;
+  if (desc.layer) frame.gbuffer_ao_texture = upload(GL_RG32F, 2, desc.layer_texels);
+  frame.show = desc.view;
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   std::vector<float> ao = own_ao(fixture.context.gl(), pass, w, h);
   nook_nnao_destroy(&pass);
   return ao;
@@ -116,8 +118,8 @@ float mean(const std::vector<float>& values) {
   return float(sum / double(values.size()));
 }
 
-void check_replay(NnaoFixture& fixture, nook_nnao pass, const nook_nnao_frame_desc& frame) {
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+void check_replay(NnaoFixture& fixture, nook_nnao pass, const ScreenFrame& frame) {
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   const std::vector<float> drawn = own_ao(fixture.context.gl(), pass, frame.width, frame.height);
   const Recorded recorded(pass, frame);
   const std::vector<float> ao = recorded.image(recorded.desc.ao);
@@ -141,7 +143,7 @@ TEST_CASE("nnao: a recorded frame has the host's depth and normals bit for bit, 
     INFO(camera.name);
     const Picture picture = look(camera, still_life(), width, height);
     const GLuint depth = fixture.depth_of(camera, picture), normal = fixture.normals_of(picture);
-    const nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, normal, 0.7f);
+    const ScreenFrame frame = frame_desc(camera, width, height, depth, normal, 0.7f);
     nook_nnao pass = fixture.pass_of(16, 0, 1, nullptr);
     const Recorded recorded(pass, frame, "a remark");
     CHECK(same_bits(recorded.image(recorded.desc.depth), stored_depth(camera, picture)));
@@ -176,15 +178,15 @@ TEST_CASE("nnao: frames of every setting replay to the same AO") {
   const GLuint layer = fixture.textures.make(GL_RG8, GL_RG, GL_UNSIGNED_BYTE, width, height,
                                              normalised_integers<GLubyte>(levels).data());
   const nnao::Network paper = mild_network(nnao::NetworkForm::paper);
-  const auto frame_with = [&](const std::function<void(nook_nnao_frame_desc&)>& change) {
-    nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, normal, 0.6f);
+  const auto frame_with = [&](const std::function<void(ScreenFrame&)>& change) {
+    ScreenFrame frame = frame_desc(camera, width, height, depth, normal, 0.6f);
     change(frame);
     return frame;
   };
   const struct {
     const char* name;
     nook_nnao pass;
-    nook_nnao_frame_desc frame;
+    ScreenFrame frame;
   } settings[] = {
       {"normals of depth", fixture.pass_of(9, 0, 1, nullptr),
        frame_with([](auto& f) { f.normal_texture = 0; })},
@@ -196,13 +198,13 @@ TEST_CASE("nnao: frames of every setting replay to the same AO") {
          f.power = 1.6f;
        })},
       {"a layer", fixture.pass_of(16, 0, 1, nullptr), frame_with([&](auto& f) {
-         f.layer = NOOK_NNAO_LAYER_REPLACE;
-         f.layer_texture = layer;
+         f.gbuffer_ao = NOOK_GBUFFER_AO_REPLACE;
+         f.gbuffer_ao_texture = layer;
        })},
-      {"raw", fixture.pass_of(16, 0, 1, nullptr), frame_with([](auto& f) { f.view = NOOK_NNAO_VIEW_RAW; })},
+      {"raw", fixture.pass_of(16, 0, 1, nullptr), frame_with([](auto& f) { f.show = NOOK_NNAO_VIEW_RAW; })},
       {"linear depth", fixture.pass_of(16, 0, 1, nullptr), frame_with([&](auto& f) {
          f.depth_texture = linear;
-         f.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
+         f.depth_kind = NOOK_DEPTH_LINEAR;
          f.sky_depth = 6;
          f.max_radius_px = 9;
        })},
@@ -235,7 +237,7 @@ TEST_CASE("nnao: depth and normals of every format are recorded as the shaders r
   for (const GLuint depth : depths)
     for (const GLuint normal : normals) {
       INFO("depth " << depth - depths[0] << ", normals " << normal - normals[0]);
-      nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, normal, 0.6f);
+      ScreenFrame frame = frame_desc(camera, width, height, depth, normal, 0.6f);
       frame.normal_scale = 2;
       frame.normal_bias = -1;
       check_replay(fixture, fixture.pass_of(16, 0, 1, nullptr), frame);
@@ -251,7 +253,7 @@ TEST_CASE("nnao: of a part of an image the part alone is recorded") {
   const GLuint depth =
       fixture.textures.floats(GL_DEPTH_COMPONENT32F, 1, place.width, place.height,
                               placed(stored_depth(camera, picture), 1, picture, place, 0.3f));
-  nook_nnao_frame_desc frame = frame_desc(camera, place.width, place.height, depth, 0, 0.5f);
+  ScreenFrame frame = frame_desc(camera, place.width, place.height, depth, 0, 0.5f);
   frame.viewport[0] = place.x;
   frame.viewport[1] = place.y;
   frame.viewport[2] = 45;
@@ -279,10 +281,10 @@ TEST_CASE("nnao: recording writes no target of the host and keeps the OpenGL sta
       nook_nnao_desc desc = pass_desc(width, height);
       desc.path = path;
       nook_nnao pass = create_pass(fixture.gl, desc);
-      nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, normal, 0.5f);
-      frame.target = NOOK_NNAO_TARGET_TEXTURE;
+      ScreenFrame frame = frame_desc(camera, width, height, depth, normal, 0.5f);
+      frame.target = NOOK_TARGET_TEXTURE;
       frame.target_name = target;
-      frame.blend = NOOK_NNAO_MULTIPLY;
+      frame.blend = NOOK_BLEND_MULTIPLY;
       const unsigned users = gl::screen | gl::screen_reads |
                              (path == NOOK_NNAO_PATH_COMPUTE ? unsigned{gl::screen_compute} : 0u);
       nook_nnao_recording recording = nullptr;
@@ -290,7 +292,7 @@ TEST_CASE("nnao: recording writes no target of the host and keeps the OpenGL sta
         Poison poison(context, users);
         if (mode == NOOK_GL_STATE_DEFAULTS) poison.reset_touched();
         const StateValues touched = poison.touched(), untouched = poison.untouched();
-        NOOK_OK_OR_FAIL(nook_nnao_record(pass, &frame, nullptr, &recording));
+        NOOK_OK_OR_FAIL(nook_nnao_record(pass, &frame, &frame, nullptr, &recording));
         if (mode == NOOK_GL_STATE_PRESERVE) CHECK(poison.touched() == touched);
         if (mode == NOOK_GL_STATE_DEFAULTS) {
           StateValues left = poison.touched();
@@ -311,7 +313,7 @@ TEST_CASE("nnao: recording writes no target of the host and keeps the OpenGL sta
       CHECK(difference(replayed(fixture, held), ao, bound).largest <= bound);
       nook_nnao_recording_destroy(&recording);
       // The next frame goes to its target.
-      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
       CHECK(mean(read_texture(context.gl(), target, width, height)) < 0.69f);
       nook_nnao_destroy(&pass);
     }
@@ -330,21 +332,21 @@ TEST_CASE("nnao: recording refuses what it cannot record, and every refused allo
       textures.floats(GL_DEPTH_COMPONENT32F, 1, width, height, stored_depth(camera, picture));
   const GLuint normal = textures.floats(GL_RGB32F, 3, width, height, flat(picture.normal));
   nook_nnao pass = create_pass(gl, pass_desc(width, height));
-  nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, normal, 0.5f);
+  ScreenFrame frame = frame_desc(camera, width, height, depth, normal, 0.5f);
 
   nook_nnao_recording recording = nullptr;
   const std::string long_note(1001, 'x');
-  CHECK(nook_nnao_record(nullptr, &frame, nullptr, &recording) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_nnao_record(pass, nullptr, nullptr, &recording) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_nnao_record(pass, &frame, nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_nnao_record(pass, &frame, long_note.c_str(), &recording) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_nnao_record(pass, &frame, "two\nlines", &recording) == NOOK_ERROR_INVALID_ARGUMENT);
-  nook_nnao_frame_desc bad = frame;
+  CHECK(nook_nnao_record(nullptr, &frame, &frame, nullptr, &recording) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_record(pass, nullptr, &frame, nullptr, &recording) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_record(pass, &frame, &frame, nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_record(pass, &frame, &frame, long_note.c_str(), &recording) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_record(pass, &frame, &frame, "two\nlines", &recording) == NOOK_ERROR_INVALID_ARGUMENT);
+  ScreenFrame bad = frame;
   bad.radius = -1;
-  CHECK(nook_nnao_record(pass, &bad, nullptr, &recording) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_record(pass, &bad, &bad, nullptr, &recording) == NOOK_ERROR_INVALID_ARGUMENT);
   bad = frame;
   bad.depth_texture = 999999;
-  CHECK(nook_nnao_record(pass, &bad, nullptr, &recording) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_record(pass, &bad, &bad, nullptr, &recording) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(recording == nullptr);
 
   const auto programs = [&] {
@@ -361,7 +363,7 @@ TEST_CASE("nnao: recording refuses what it cannot record, and every refused allo
   for (long n = 0; recording == nullptr; ++n) {
     host.refuse_after = n;
     const nook_result result =
-        nook_nnao_record(pass, &frame, "a remark that is longer than a short string", &recording);
+        nook_nnao_record(pass, &frame, &frame, "a remark that is longer than a short string", &recording);
     host.refuse_after = -1;
     CHECK(programs() == living);
     if (result == NOOK_OK) break;
@@ -375,7 +377,7 @@ TEST_CASE("nnao: recording refuses what it cannot record, and every refused allo
   // The recording outlives everything, and needs no OpenGL.
   trace.shaders_fail = true;
   nook_nnao_recording second = nullptr;
-  CHECK(nook_nnao_record(pass, &frame, nullptr, &second) == NOOK_ERROR_GL);
+  CHECK(nook_nnao_record(pass, &frame, &frame, nullptr, &second) == NOOK_ERROR_GL);
   CHECK(second == nullptr);
   CHECK(programs() == living);
   trace.shaders_fail = false;
@@ -403,8 +405,8 @@ TEST_CASE("nnao: a frame with numbers that are none is recorded as it is") {
   depth[41] = -1;
   depth[42] = INFINITY;
   const GLuint texture = fixture.textures.floats(GL_R32F, 1, width, height, depth);
-  nook_nnao_frame_desc frame = frame_desc(camera, width, height, texture, 0, 0.5f);
-  frame.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
+  ScreenFrame frame = frame_desc(camera, width, height, texture, 0, 0.5f);
+  frame.depth_kind = NOOK_DEPTH_LINEAR;
   const Recorded recorded(fixture.pass_of(16, 0, 1, nullptr), frame);
   CHECK(std::isnan(recorded.desc.depth[40]));
   CHECK(recorded.desc.depth[41] == -1);

@@ -78,7 +78,7 @@ nook_nnao_desc sampled_desc(int samples, nook_nnao_sample rule, Normals normals,
   desc.depth_sample = rule;
   desc.normal_samples = normals == Normals::sampled ? samples : 0;
   desc.half_resolution = settings.half;
-  desc.temporal_frames = settings.temporal;
+  desc.max_history_frames = settings.temporal;
   desc.bent_normals = settings.bent;
   desc.taps = settings.taps;
   desc.path = settings.path;
@@ -90,8 +90,8 @@ nook_nnao make_sampled_pass(NnaoFixture& fixture, int samples, nook_nnao_sample 
   return create_pass(fixture.gl, sampled_desc(samples, rule, normals, settings));
 }
 
-nook_nnao_frame_desc sampled_frame(const Camera& camera, GLuint depth, GLuint normals) {
-  nook_nnao_frame_desc frame = frame_desc(camera, sampled_width, sampled_height, depth, normals, 0.5f);
+ScreenFrame sampled_frame(const Camera& camera, GLuint depth, GLuint normals) {
+  ScreenFrame frame = frame_desc(camera, sampled_width, sampled_height, depth, normals, 0.5f);
   frame.normal_scale = 2;
   frame.normal_bias = -1;
   return frame;
@@ -101,8 +101,8 @@ GLuint single_normals(NnaoFixture& fixture, const std::vector<float>& normals) {
   return fixture.textures.floats(GL_RGB32F, 3, sampled_width, sampled_height, normals);
 }
 
-std::vector<float> drawn_ao(NnaoFixture& fixture, nook_nnao pass, const nook_nnao_frame_desc& frame) {
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+std::vector<float> drawn_ao(NnaoFixture& fixture, nook_nnao pass, const ScreenFrame& frame) {
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   return own_ao(fixture.context.gl(), pass, sampled_width, sampled_height);
 }
 

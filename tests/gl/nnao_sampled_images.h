@@ -62,10 +62,10 @@ nook_nnao make_sampled_pass(NnaoFixture& fixture, int samples, nook_nnao_sample 
                             Normals normals = Normals::rebuilt, const SampledSettings& settings = {});
 
 // A frame whose normals are as halved_range has them.
-nook_nnao_frame_desc sampled_frame(const Camera& camera, GLuint depth, GLuint normals);
+ScreenFrame sampled_frame(const Camera& camera, GLuint depth, GLuint normals);
 // A texture of one normal for each pixel.
 GLuint single_normals(NnaoFixture& fixture, const std::vector<float>& normals);
 // The pass's own AO of a frame.
-std::vector<float> drawn_ao(NnaoFixture& fixture, nook_nnao pass, const nook_nnao_frame_desc& frame);
+std::vector<float> drawn_ao(NnaoFixture& fixture, nook_nnao pass, const ScreenFrame& frame);
 
 }  // namespace nook::test

@@ -1,5 +1,7 @@
 // Passes of multisampled images: the frames that they refuse, their memory, and the OpenGL state that they
 // leave.
+#include <nook/experimental/nook_recording.h>
+#include <nook/experimental/nook_stages.h>
 #include <cstring>
 
 #include "sdk/src/gl/touched_state.h"
@@ -29,7 +31,7 @@ TEST_CASE("nnao: multisampled images are refused where they do not fit, and by t
   nook_nnao pass = nullptr;
   const auto unsupported = [&](int layers, const char* message) {
     nook_nnao_desc desc = sampled_desc(4, NOOK_NNAO_SAMPLE_MEDIAN, Normals::sampled);
-    desc.layers = layers;
+    desc.views = layers;
     CHECK(nook_nnao_create(fixture.gl, &desc, &pass) == NOOK_ERROR_UNSUPPORTED);
     CHECK(pass == nullptr);
     CHECK(message_has(message));
@@ -41,7 +43,7 @@ TEST_CASE("nnao: multisampled images are refused where they do not fit, and by t
   }
   if (context.is_es() && version_of(context) < 32)
     unsupported(2,
-                "desc.layers with desc.depth_samples needs multisample texture arrays (got OpenGL ES 3.1, "
+                "desc.views with desc.depth_samples needs multisample texture arrays (got OpenGL ES 3.1, "
                 "need 3.2 or newer)");
   NOOK_NEED_SAMPLES(context);
   const std::vector<float> image(std::size_t(width * height), 0.9f), colours(3 * image.size(), 0.9f);
@@ -56,8 +58,8 @@ TEST_CASE("nnao: multisampled images are refused where they do not fit, and by t
             eight = make_sampled_pass(fixture, 8, NOOK_NNAO_SAMPLE_MEDIAN),
             both = make_sampled_pass(fixture, 4, NOOK_NNAO_SAMPLE_MEDIAN, Normals::sampled);
   const auto refused = [&](nook_nnao by, GLuint depth, GLuint normal, const char* message) {
-    nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, normal, 0.5f);
-    CHECK(nook_nnao_render(by, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
+    ScreenFrame frame = frame_desc(camera, width, height, depth, normal, 0.5f);
+    CHECK(nook_nnao_render(by, &frame, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
     CHECK(message_has(message));
     CHECK(context.gl().GetError() == GL_NO_ERROR);
     take_debug_messages();
@@ -78,22 +80,22 @@ TEST_CASE("nnao: multisampled images are refused where they do not fit, and by t
   if (least == 2)
     refused(both, samples, two_normals,
             "frame.normal_texture has another size (got 2 samples, need desc.depth_samples, 4)");
-  nook_nnao_frame_desc frame = frame_desc(camera, width, height, samples, 0, 0.5f);
+  ScreenFrame frame = frame_desc(camera, width, height, samples, 0, 0.5f);
   nook_nnao_recording recording = nullptr;
-  CHECK(nook_nnao_record(pass, &frame, nullptr, &recording) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_record(pass, &frame, &frame, nullptr, &recording) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(message_has("the pass reads texture arrays or samples"));
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   // Normals are optional with samples as without.
-  NOOK_OK_OR_FAIL(nook_nnao_render(both, &frame));
+  NOOK_OK_OR_FAIL(nook_nnao_render(both, &frame, &frame));
   for (nook_nnao* made : {&plain, &eight}) nook_nnao_destroy(made);
   if (has_sample_arrays(context)) {
     nook_nnao_desc desc = sampled_desc(4, NOOK_NNAO_SAMPLE_MEDIAN, Normals::sampled);
-    desc.layers = 2;
+    desc.views = 2;
     nook_nnao eyes = create_pass(fixture.gl, desc);
     const GLuint array = textures.sample_array(SampledImage::depth, width, height, {four, four}),
                  one = textures.sample_array(SampledImage::depth, width, height, {four});
     refused(eyes, samples, 0, "need a multisample texture array");
-    refused(eyes, one, 0, "frame.depth_texture has another size (got 1 layers, need desc.layers, 2)");
+    refused(eyes, one, 0, "frame.depth_texture has another size (got 1 layers, need desc.views, 2)");
     refused(eyes, array, normals, "frame.normal_texture is a texture of another kind");
     refused(pass, array, 0, "frame.depth_texture is a texture of another kind");
     nook_nnao_destroy(&eyes);
@@ -106,7 +108,7 @@ TEST_CASE("nnao: the number of a normal's sample takes four bytes of each pixel 
   for (const int half : {0, 1})
     for (const int temporal : {0, 4}) {
       desc.half_resolution = half;
-      desc.temporal_frames = temporal;
+      desc.max_history_frames = temporal;
       std::uint64_t one = 0, with = 0;
       desc.normal_samples = 0;
       NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &one));
@@ -134,10 +136,10 @@ TEST_CASE("nnao: passes of multisampled images keep the state contract") {
         const GLuint normals = kind == Normals::sampled ? sampled(SampledImage::colours, four_colours)
                                : layers ? textures.array(GL_RGB32F, 3, width, height, {colours, colours})
                                         : single_normals(fixture, colours);
-        const nook_nnao_frame_desc frame =
+        const ScreenFrame frame =
             sampled_frame(plain_camera(float(width) / height), sampled(SampledImage::depth, four), normals);
         nook_nnao_desc desc = sampled_desc(4, NOOK_NNAO_SAMPLE_MEDIAN, kind, {.half = 1});
-        desc.layers = layers;
+        desc.views = layers;
         nook_nnao pass = create_pass(fixture.gl, desc);
         const unsigned compute =
             info_of(pass).path == NOOK_NNAO_PATH_COMPUTE ? unsigned{gl::screen_compute} : 0u;
@@ -146,7 +148,7 @@ TEST_CASE("nnao: passes of multisampled images keep the state contract") {
         if (mode == NOOK_GL_STATE_DEFAULTS) poison.reset_touched();
         StateValues before = poison.touched();
         const StateValues untouched = poison.untouched();
-        NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+        NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
         StateValues after = poison.touched();
         if (mode == NOOK_GL_STATE_DEFAULTS) before = poison.defaults(), after.erase("viewport");
         INFO("layers " << layers << ", normals " << int(kind));

@@ -103,11 +103,11 @@ TEST_CASE("nnao: of multisampled normals the one of the sample that the depth ru
   for (const nook_nnao_sample rule : sample_rules)
     for (const int half : {0, 1}) {
       nook_nnao pass = make_sampled_pass(fixture, 4, rule, Normals::sampled, {.half = half});
-      nook_nnao_frame_desc frame = sampled_frame(camera, depth, normal);
-      frame.view = NOOK_NNAO_VIEW_NORMALS;
-      frame.target = NOOK_NNAO_TARGET_TEXTURE;
+      ScreenFrame frame = sampled_frame(camera, depth, normal);
+      frame.show = NOOK_NNAO_VIEW_NORMALS;
+      frame.target = NOOK_TARGET_TEXTURE;
       frame.target_name = target;
-      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
       const std::vector<float> shown = read_texture(context.gl(), target, width, height, 3);
       std::vector<float> wanted;
       for (int y = 0; y < height; ++y)
@@ -158,14 +158,14 @@ TEST_CASE("nnao: two eyes of samples in one call have the AO of two calls") {
   for (const auto& [settings, kind] : cases) {
     nook_nnao_desc desc = sampled_desc(4, NOOK_NNAO_SAMPLE_MEDIAN, kind, settings);
     nook_nnao alone[] = {create_pass(fixture.gl, desc), create_pass(fixture.gl, desc)};
-    desc.layers = 2;
+    desc.views = 2;
     nook_nnao both = create_pass(fixture.gl, desc);
     const int channels = settings.bent ? 4 : 1;
     for (int count = 0; count < (settings.temporal ? 2 : 1); ++count) {
       const GLuint of_both = kind == Normals::sampled ? sampled : kind == Normals::single ? single : 0;
-      nook_nnao_frame_desc frame = sampled_frame(eyes[0], depth, of_both);
-      frame.layer_projections = projections.data();
-      NOOK_OK_OR_FAIL(nook_nnao_render(both, &frame));
+      ScreenFrame frame = sampled_frame(eyes[0], depth, of_both);
+      frame.view_projections = projections.data();
+      NOOK_OK_OR_FAIL(nook_nnao_render(both, &frame, &frame));
       for (std::size_t eye = 0; eye < 2; ++eye) {
         GLuint normal = 0;
         if (kind == Normals::sampled)
@@ -173,7 +173,7 @@ TEST_CASE("nnao: two eyes of samples in one call have the AO of two calls") {
         if (kind == Normals::single) normal = single_normals(fixture, centres[eye]);
         const GLuint of_eye = textures.samples(SampledImage::depth, width, height, depths[eye]);
         frame = sampled_frame(eyes[eye], of_eye, normal);
-        NOOK_OK_OR_FAIL(nook_nnao_render(alone[eye], &frame));
+        NOOK_OK_OR_FAIL(nook_nnao_render(alone[eye], &frame, &frame));
         INFO("eye " << eye << ", normals " << int(kind) << ", half " << settings.half);
         CHECK((read_texture(context.gl(), info_of(both).texture, width, height, channels, int(eye)) ==
                read_texture(context.gl(), info_of(alone[eye]).texture, width, height, channels)));

@@ -1,8 +1,8 @@
-// A host that draws the stages of nook_nnao_stages.h in plain OpenGL, as one with another graphics interface
+// A host that draws the stages of nook_stages.h in plain OpenGL, as one with another graphics interface
 // would.
 #pragma once
 
-#include <nook/nook_nnao_stages.h>
+#include <nook/experimental/nook_stages.h>
 
 #include <functional>
 #include <initializer_list>
@@ -15,6 +15,7 @@
 #include "platform/program.h"
 #include "tests/gl/crowd.h"
 #include "tests/gl/host_textures.h"
+#include "tests/gl/nnao_images.h"
 
 namespace nook::test {
 
@@ -45,7 +46,7 @@ class StageRenderer {
     NOOK_OK_OR_FAIL(nook_nnao_stages_describe(stages, &info_));
     for (std::uint32_t i = 0; i < info_.stage_count; ++i) {
       auto stage = sized<nook_nnao_stage_info>();
-      NOOK_OK_OR_FAIL(nook_nnao_stages_stage(stages, i, &stage));
+      NOOK_OK_OR_FAIL(nook_nnao_stages_describe_stage(stages, i, &stage));
       stages_info_.push_back(stage);
       std::string vertex = info_.vertex_shader, fragment = stage.fragment_shader;
       if (edited) vertex = edited(vertex, "vertex"), fragment = edited(fragment, stage.name);
@@ -55,7 +56,7 @@ class StageRenderer {
     }
     for (nook_nnao_image image = NOOK_NNAO_IMAGE_DEPTH; image < NOOK_NNAO_IMAGE_COUNT; ++image) {
       auto info = sized<nook_nnao_image_info>();
-      NOOK_OK_OR_FAIL(nook_nnao_stages_image(stages, image, &info));
+      NOOK_OK_OR_FAIL(nook_nnao_stages_describe_image(stages, image, &info));
       images_[image] = info.format == NOOK_NNAO_FORMAT_NONE ? 0 : make_image(info);
     }
     gl.GenBuffers(2, buffers_);
@@ -74,10 +75,10 @@ class StageRenderer {
   GLuint target() { return images_[NOOK_NNAO_IMAGE_TARGET]; }
 
   // host: the targets and names of the host's images.
-  void draw(const nook_nnao_frame_desc& frame, const nook_nnao_frame_desc* earlier, std::uint32_t number,
-            std::uint32_t layer, std::map<nook_nnao_image, std::pair<GLenum, GLuint>> host) {
+  void draw(const ScreenFrame& frame, const ScreenFrame* earlier, std::uint32_t number, std::uint32_t layer,
+            std::map<nook_nnao_image, std::pair<GLenum, GLuint>> host) {
     auto values = sized<nook_nnao_frame_values>();
-    NOOK_OK_OR_FAIL(nook_nnao_stages_frame(stages_, &frame, earlier, number, layer, &values));
+    NOOK_OK_OR_FAIL(nook_nnao_stages_frame(stages_, &frame, &frame, earlier, number, layer, &values));
     gl_.BindBuffer(GL_UNIFORM_BUFFER, buffers_[0]);
     gl_.BufferData(GL_UNIFORM_BUFFER, sizeof values.constants, values.constants, GL_STREAM_DRAW);
     gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, buffers_[0]);
@@ -103,10 +104,10 @@ class StageRenderer {
       pipelines_[i]->use();
       gl_.DrawArrays(GL_TRIANGLES, 0, 3);
     }
-    std::swap(images_[NOOK_NNAO_IMAGE_DEPTH], images_[NOOK_NNAO_IMAGE_EARLIER_DEPTH]);
-    std::swap(images_[NOOK_NNAO_IMAGE_MEAN], images_[NOOK_NNAO_IMAGE_EARLIER_MEAN]);
+    std::swap(images_[NOOK_NNAO_IMAGE_DEPTH], images_[NOOK_NNAO_IMAGE_HISTORY_DEPTH]);
+    std::swap(images_[NOOK_NNAO_IMAGE_ACCUMULATED_AO], images_[NOOK_NNAO_IMAGE_HISTORY_AO]);
     if (!images_[NOOK_NNAO_IMAGE_DEPTH])  // not of a pass with means: the image stays
-      std::swap(images_[NOOK_NNAO_IMAGE_DEPTH], images_[NOOK_NNAO_IMAGE_EARLIER_DEPTH]);
+      std::swap(images_[NOOK_NNAO_IMAGE_DEPTH], images_[NOOK_NNAO_IMAGE_HISTORY_DEPTH]);
     for (GLenum unit = 0; unit < 8; ++unit) {
       gl_.ActiveTexture(GL_TEXTURE0 + unit);
       for (const GLenum target :

@@ -1,6 +1,6 @@
-// The stages as data: run in plain OpenGL by nothing but what nook_nnao_stages.h gives, they draw what the
+// The stages as data: run in plain OpenGL by nothing but what nook_stages.h gives, they draw what the
 // pass draws; every text compiles for Vulkan; bad input.
-#include <nook/nook_nnao_stages.h>
+#include <nook/experimental/nook_stages.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -48,21 +48,21 @@ const Settings all_settings[] = {
     {"two filters at half resolution", [](nook_nnao_desc& d) { d.blur = 2, d.half_resolution = 1; }},
     {"bent normals", [](nook_nnao_desc& d) { d.bent_normals = 1; }},
     {"bent normals at half resolution", [](nook_nnao_desc& d) { d.bent_normals = d.half_resolution = 1; }},
-    {"means over frames", [](nook_nnao_desc& d) { d.temporal_frames = 4; }},
+    {"means over frames", [](nook_nnao_desc& d) { d.max_history_frames = 4; }},
     {"means over frames at half resolution",
-     [](nook_nnao_desc& d) { d.temporal_frames = 8, d.half_resolution = 1; }},
-    {"two eyes", [](nook_nnao_desc& d) { d.layers = 2; }},
+     [](nook_nnao_desc& d) { d.max_history_frames = 8, d.half_resolution = 1; }},
+    {"two eyes", [](nook_nnao_desc& d) { d.views = 2; }},
     {"two eyes at half resolution, means over frames",
-     [](nook_nnao_desc& d) { d.layers = 2, d.temporal_frames = 4, d.half_resolution = 1; }},
+     [](nook_nnao_desc& d) { d.views = 2, d.max_history_frames = 4, d.half_resolution = 1; }},
     {"samples", [](nook_nnao_desc& d) { d.depth_samples = 4; }},
     {"nearest sample at half resolution",
      [](nook_nnao_desc& d) {
        d.depth_samples = 8, d.depth_sample = NOOK_NNAO_SAMPLE_NEAREST, d.half_resolution = 1;
      }},
     {"samples of normals, means over frames",
-     [](nook_nnao_desc& d) { d.depth_samples = d.normal_samples = d.temporal_frames = 4; }},
+     [](nook_nnao_desc& d) { d.depth_samples = d.normal_samples = d.max_history_frames = 4; }},
     {"two eyes of samples at half resolution",
-     [](nook_nnao_desc& d) { d.layers = 2, d.depth_samples = d.normal_samples = 4, d.half_resolution = 1; }},
+     [](nook_nnao_desc& d) { d.views = 2, d.depth_samples = d.normal_samples = 4, d.half_resolution = 1; }},
 };
 
 nook_nnao_stages make_stages(nook_context context, const nook_nnao_desc& desc) {
@@ -81,12 +81,12 @@ void compare(platform::Context& context, const Settings& settings) {
   gl.GetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &most);
   if (desc.depth_samples > most) return;
   const int channels = desc.bent_normals ? 4 : 1;
-  const bool layers = desc.layers > 0, samples = desc.depth_samples > 0;
+  const bool layers = desc.views > 0, samples = desc.depth_samples > 0;
   const GLenum target = layers ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
   nook_nnao pass = create_pass(fixture.gl, desc);
   nook_nnao_stages stages = make_stages(fixture.host.handle, desc);
   std::vector<std::unique_ptr<StageRenderer>> renderers;  // of each layer
-  for (int layer = 0; layer < std::max(desc.layers, 1); ++layer)
+  for (int layer = 0; layer < std::max(desc.views, 1); ++layer)
     renderers.push_back(std::make_unique<StageRenderer>(gl, stages));
   const Camera camera = plain_camera(float(width) / height);
   const Picture picture = look(camera, still_life(), width, height);
@@ -113,36 +113,37 @@ void compare(platform::Context& context, const Settings& settings) {
   const GLuint motion = image(GL_RG32F, 2, std::vector<float>(width * height * 2, 0.3f));
   float projections[32];
   for (int i = 0; i < 32; ++i) projections[i] = camera.projection[i % 16] + (i == 24 ? 0.1f : 0.0f);
-  std::vector<nook_nnao_frame_desc> frames;
+  std::vector<ScreenFrame> frames;
   for (int i = 0; i < 4; ++i) {
-    nook_nnao_frame_desc frame = frame_desc(camera, width, height, depth, i % 2 ? normals : 0, 0.6f);
-    if (layers) frame.layer_projections = projections;
+    ScreenFrame frame = frame_desc(camera, width, height, depth, i % 2 ? normals : 0, 0.6f);
+    if (layers) frame.view_projections = projections;
     if (desc.normal_samples) frame.normal_scale = 2, frame.normal_bias = -1;
-    frame.earlier_from_view[3] = 0.01f * float(i);
-    if (i == 1) frame.layer = NOOK_NNAO_LAYER_APART, frame.layer_texture = layer_image;
-    if (i == 2) frame.layer = NOOK_NNAO_LAYER_MIN, frame.layer_texture = layer_image;
-    if (i >= 2) frame.motion_texture = motion;
+    // Each step moves the view by another 0.01 m, of both eyes.
+    frame.view[12] = -0.005f * float(i * (i + 1));
+    if (i == 1) frame.gbuffer_ao = NOOK_GBUFFER_AO_EXCLUDE, frame.gbuffer_ao_texture = layer_image;
+    if (i == 2) frame.gbuffer_ao = NOOK_GBUFFER_AO_MIN, frame.gbuffer_ao_texture = layer_image;
+    if (i >= 2) frame.motion_vectors = motion;
     if (i == 3) frame.radius_kind = NOOK_NNAO_RADIUS_SCREEN, frame.radius = 0.1f, frame.intensity = 2;
-    if (i == 3 && !desc.temporal_frames) {
+    if (i == 3 && !desc.max_history_frames) {
       frame.viewport[0] = 5, frame.viewport[1] = 3, frame.viewport[2] = 41, frame.viewport[3] = 33;
     }
     frames.push_back(frame);
   }
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const nook_nnao_frame_desc& frame = frames[i];
-    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+    const ScreenFrame& frame = frames[i];
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
     for (std::size_t layer = 0; layer < renderers.size(); ++layer) {
       renderers[layer]->draw(
           frame, i > 0 ? &frames[i - 1] : nullptr, std::uint32_t(i), std::uint32_t(layer),
           {{NOOK_NNAO_IMAGE_HOST_DEPTH, {samples ? sampled_target : target, depth}},
            {NOOK_NNAO_IMAGE_HOST_NORMAL, {desc.normal_samples ? sampled_target : target, normals}},
-           {NOOK_NNAO_IMAGE_HOST_LAYER, {target, layer_image}},
-           {NOOK_NNAO_IMAGE_HOST_MOTION, {target, motion}}});
+           {NOOK_NNAO_IMAGE_HOST_GBUFFER_AO, {target, layer_image}},
+           {NOOK_NNAO_IMAGE_HOST_MOTION_VECTORS, {target, motion}}});
       const std::vector<float> wanted =
           read_texture(gl, info_of(pass).texture, width, height, channels, layers ? int(layer) : -1);
       const std::vector<float> found = read_texture(gl, renderers[layer]->target(), width, height, channels);
       INFO(settings.name << ", frame " << i << ", layer " << layer);
-      const nook_nnao_frame_desc& f = frame;
+      const ScreenFrame& f = frame;
       // Outside its viewport each target keeps what it had.
       std::size_t off = 0;
       for (int y = f.viewport[1]; y < f.viewport[1] + (f.viewport[3] ? f.viewport[3] : height); ++y)
@@ -202,7 +203,7 @@ TEST_CASE("nnao: every stage compiles as GLSL for Vulkan", "[one-context]") {
       if (&settings == all_settings) CHECK(compile("vert", info.vertex_shader) == 0);
       for (std::uint32_t i = 0; i < info.stage_count; ++i) {
         auto stage = sized<nook_nnao_stage_info>();
-        NOOK_OK_OR_FAIL(nook_nnao_stages_stage(stages, i, &stage));
+        NOOK_OK_OR_FAIL(nook_nnao_stages_describe_stage(stages, i, &stage));
         if (taps != 9 && !stage.reads_network) continue;  // only its definitions differ
         INFO(settings.name << ", " << taps << " taps, " << stage.name);
         CHECK(compile("frag", stage.fragment_shader) == 0);
@@ -216,64 +217,66 @@ TEST_CASE("nnao: values of stages follow from the arguments alone, without memor
   CountedContext host;
   const nook_nnao_desc desc = pass_desc(width, height);
   nook_nnao_stages stages = make_stages(host.handle, desc);
-  const nook_nnao_frame_desc frame = frame_desc(plain_camera(1.4f), width, height, 0, 0, 0.5f);
+  const ScreenFrame frame = frame_desc(plain_camera(1.4f), width, height, 0, 0, 0.5f);
   auto first = sized<nook_nnao_frame_values>(), second = first;
   const long allocations = host.allocations;
-  NOOK_OK_OR_FAIL(nook_nnao_stages_frame(stages, &frame, nullptr, 3, 0, &first));
-  NOOK_OK_OR_FAIL(nook_nnao_stages_frame(stages, &frame, nullptr, 3, 0, &second));
+  NOOK_OK_OR_FAIL(nook_nnao_stages_frame(stages, &frame, &frame, nullptr, 3, 0, &first));
+  NOOK_OK_OR_FAIL(nook_nnao_stages_frame(stages, &frame, &frame, nullptr, 3, 0, &second));
   CHECK(host.allocations == allocations);
   CHECK(std::memcmp(&first, &second, sizeof first) == 0);
   CHECK(first.viewport[2] == width);
   CHECK(first.surface_height == height);
   // depth, depth_apart, occlusion, resolve, resolve_layered.
-  const auto drawn = [&](nook_nnao_layer layer) {
-    nook_nnao_frame_desc layered = frame;
-    layered.layer = layer;
-    NOOK_OK_OR_FAIL(nook_nnao_stages_frame(stages, &layered, nullptr, 0, 0, &second));
+  const auto drawn = [&](nook_gbuffer_ao layer) {
+    ScreenFrame layered = frame;
+    layered.gbuffer_ao = layer;
+    NOOK_OK_OR_FAIL(nook_nnao_stages_frame(stages, &layered, &layered, nullptr, 0, 0, &second));
     return second.drawn_stages;
   };
-  CHECK(drawn(NOOK_NNAO_LAYER_NONE) == 0b01101);
-  CHECK(drawn(NOOK_NNAO_LAYER_MIN) == 0b10101);
-  CHECK(drawn(NOOK_NNAO_LAYER_APART) == 0b10110);
-  check_info<nook_nnao_frame_values>(offsetof(nook_nnao_frame_values, constants) + sizeof first.constants,
-                                     [&](nook_nnao_frame_values* values) {
-                                       return nook_nnao_stages_frame(stages, &frame, nullptr, 0, 0, values);
-                                     });
+  CHECK(drawn(NOOK_GBUFFER_AO_NONE) == 0b01101);
+  CHECK(drawn(NOOK_GBUFFER_AO_MIN) == 0b10101);
+  CHECK(drawn(NOOK_GBUFFER_AO_EXCLUDE) == 0b10110);
+  check_info<nook_nnao_frame_values>([&](nook_nnao_frame_values* values) {
+    return nook_nnao_stages_frame(stages, &frame, &frame, nullptr, 0, 0, values);
+  });
   nook_nnao_stages_destroy(&stages);
 }
 
 TEST_CASE("nnao: bad arguments of stages are refused with their name") {
   CountedContext host;
   nook_nnao_desc desc = pass_desc(width, height);
-  desc.temporal_frames = 4;
+  desc.max_history_frames = 4;
   nook_nnao_stages stages = make_stages(host.handle, desc);
   auto stage = sized<nook_nnao_stage_info>();
   auto image = sized<nook_nnao_image_info>();
   auto values = sized<nook_nnao_frame_values>();
-  CHECK(nook_nnao_stages_stage(stages, 99, &stage) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(message_has("nook_nnao_stages_stage: index is out of range (got 99, need less than 6)"));
-  CHECK(nook_nnao_stages_image(stages, 11, &image) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_stages_describe_stage(stages, 99, &stage) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("nook_nnao_stages_describe_stage: index is out of range (got 99, need less than 6)"));
+  CHECK(nook_nnao_stages_describe_image(stages, 11, &image) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(message_has("image is unknown (got 11, need 0 to 10)"));
-  const nook_nnao_frame_desc good = frame_desc(plain_camera(1.4f), width, height, 0, 0, 0.5f);
-  const auto refused = [&](const nook_nnao_frame_desc& frame, const nook_nnao_frame_desc* earlier,
-                           std::uint32_t layer, const char* message) {
-    CHECK(nook_nnao_stages_frame(stages, &frame, earlier, 0, layer, &values) == NOOK_ERROR_INVALID_ARGUMENT);
+  const ScreenFrame good = frame_desc(plain_camera(1.4f), width, height, 0, 0, 0.5f);
+  const auto refused = [&](const ScreenFrame& frame, const ScreenFrame* earlier, std::uint32_t layer,
+                           const char* message) {
+    CHECK(nook_nnao_stages_frame(stages, &frame, &frame, earlier, 0, layer, &values) ==
+          NOOK_ERROR_INVALID_ARGUMENT);
     CHECK(message_has(message));
   };
-  nook_nnao_frame_desc bad = good;
+  ScreenFrame bad = good;
   bad.radius = -1;
-  refused(bad, nullptr, 0, "frame.radius");
-  refused(good, &bad, 0, "frame.radius");
-  refused(good, nullptr, 1, "layer is out of range (got 1, need less than 1)");
+  refused(bad, nullptr, 0, "desc.radius");
+  bad = good, bad.height = 0;
+  refused(good, &bad, 0, "frame.width and frame.height");
+  refused(good, nullptr, 1, "view is out of range (got 1, need less than 1)");
   bad = good, bad.width = width + 1;
   refused(bad, nullptr, 0, "frame.width");
-  bad = good, bad.view = NOOK_NNAO_VIEW_NORMALS;
-  refused(bad, nullptr, 0, "frame.view 3");
-  bad = good, bad.view = NOOK_NNAO_VIEW_RAW;
-  refused(bad, nullptr, 0, "frame.view 1 does not go with desc.temporal_frames 4");
-  CHECK(nook_nnao_stages_frame(nullptr, &good, nullptr, 0, 0, &values) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_nnao_stages_frame(stages, nullptr, nullptr, 0, 0, &values) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_nnao_stages_frame(stages, &good, nullptr, 0, 0, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  bad = good, bad.show = NOOK_NNAO_VIEW_NORMALS;
+  refused(bad, nullptr, 0, "desc.show 3");
+  bad = good, bad.show = NOOK_NNAO_VIEW_RAW;
+  refused(bad, nullptr, 0, "desc.show 1 does not go with the pass's max_history_frames 4");
+  CHECK(nook_nnao_stages_frame(nullptr, &good, &good, nullptr, 0, 0, &values) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_stages_frame(stages, nullptr, &good, nullptr, 0, 0, &values) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_nnao_stages_frame(stages, &good, &good, nullptr, 0, 0, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   nook_nnao_stages_destroy(&stages);
   nook_nnao_stages_destroy(&stages);
   nook_nnao_stages_destroy(nullptr);

@@ -1,4 +1,5 @@
 // The promise of nook_gl_state_mode for the screen-space pass, and what a frame may not do.
+#include <nook/experimental/nook_stages.h>
 #include <functional>
 
 #include "sdk/src/gl/touched_state.h"
@@ -31,14 +32,14 @@ struct Stage {
   }
   ~Stage() { fixture.context.gl().DeleteFramebuffers(1, &framebuffer); }
 
-  nook_nnao_frame_desc frame() const { return frame_desc(camera, width, height, depth, normal, 0.5f); }
-  nook_nnao_frame_desc multiplied(nook_nnao_target target, GLuint name) const {
-    nook_nnao_frame_desc f = frame();
-    f.layer = NOOK_NNAO_LAYER_MIN;
-    f.layer_texture = layer;
+  ScreenFrame frame() const { return frame_desc(camera, width, height, depth, normal, 0.5f); }
+  ScreenFrame multiplied(nook_target target, GLuint name) const {
+    ScreenFrame f = frame();
+    f.gbuffer_ao = NOOK_GBUFFER_AO_MIN;
+    f.gbuffer_ao_texture = layer;
     f.target = target;
     f.target_name = name;
-    f.blend = NOOK_NNAO_MULTIPLY;
+    f.blend = NOOK_BLEND_MULTIPLY;
     return f;
   }
 
@@ -68,30 +69,28 @@ void walk_path(platform::Context& context, nook_gl_state_mode mode, nook_nnao_pa
       desc.timers = 1;
       desc.path = path;
       nook_nnao calm = create_pass(stage.fixture.gl, desc, network);
-      const nook_nnao_frame_desc frame = stage.frame();
-      NOOK_OK_OR_FAIL(nook_nnao_render(calm, &frame));
+      const ScreenFrame frame = stage.frame();
+      NOOK_OK_OR_FAIL(nook_nnao_render(calm, &frame, &frame));
       const std::vector<float> wanted = own_ao(context.gl(), calm, width, height);
       nook_nnao_destroy(&calm);
 
       nook_nnao pass = nullptr;
       nook_nnao_timings timings{};
       timings.struct_size = sizeof timings;
-      const auto render = [&](const nook_nnao_frame_desc& of) {
-        NOOK_OK_OR_FAIL(nook_nnao_render(pass, &of));
-      };
+      const auto render = [&](const ScreenFrame& of) { NOOK_OK_OR_FAIL(nook_nnao_render(pass, &of, &of)); };
       const std::pair<const char*, std::function<void()>> steps[] = {
           {"create", [&] { pass = create_pass(stage.fixture.gl, desc, network); }},
-          {"framebuffer", [&] { render(stage.multiplied(NOOK_NNAO_TARGET_FRAMEBUFFER, stage.framebuffer)); }},
-          {"texture", [&] { render(stage.multiplied(NOOK_NNAO_TARGET_TEXTURE, stage.colour)); }},
+          {"framebuffer", [&] { render(stage.multiplied(NOOK_TARGET_FRAMEBUFFER, stage.framebuffer)); }},
+          {"texture", [&] { render(stage.multiplied(NOOK_TARGET_TEXTURE, stage.colour)); }},
           {"first frame", [&] { render(frame); }},
           {"later frame", [&] { render(frame); }},
           {"refused frame",
            [&] {
-             nook_nnao_frame_desc bad = frame;
+             ScreenFrame bad = frame;
              // Found after the inputs were bound, on every context: some do not tell formats.
-             bad.target = NOOK_NNAO_TARGET_TEXTURE;
+             bad.target = NOOK_TARGET_TEXTURE;
              bad.target_name = stage.depth;
-             CHECK(nook_nnao_render(pass, &bad) == NOOK_ERROR_INVALID_ARGUMENT);
+             CHECK(nook_nnao_render(pass, &bad, &bad) == NOOK_ERROR_INVALID_ARGUMENT);
            }},
       };
       for (const auto& [name, call] : steps) {
@@ -179,13 +178,13 @@ TEST_CASE("nnao: no parameter of the host's textures and samplers changes") {
   };
   // A shadow map's compare mode does not disturb the pass, which reads through samplers of its own.
   nook_nnao pass = create_pass(stage.fixture.gl, pass_desc(width, height));
-  nook_nnao_frame_desc frame = stage.frame();
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  ScreenFrame frame = stage.frame();
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   const std::vector<float> wanted = own_ao(gl, pass, width, height);
   gl.BindTexture(GL_TEXTURE_2D, stage.depth);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   const std::vector<GLint> before = parameters();
-  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   CHECK(parameters() == before);
   CHECK((own_ao(gl, pass, width, height) == wanted));
   nook_nnao_destroy(&pass);
@@ -199,25 +198,25 @@ TEST_CASE("nnao: a target is discarded only where a frame writes all of it") {
   nook_nnao_desc desc = pass_desc(width, height);
   desc.path = NOOK_NNAO_PATH_FRAGMENT;
   nook_nnao pass = create_pass(gl, desc);
-  const auto discards = [&](const nook_nnao_frame_desc& frame) {
-    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+  const auto discards = [&](const ScreenFrame& frame) {
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
     trace.reset();
-    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
     // Depth and AO.
     return trace.calls("glInvalidateFramebuffer") - 2;
   };
   if (context.is_es() || version_of(context) >= 43) {
-    nook_nnao_frame_desc frame = stage.frame();
+    ScreenFrame frame = stage.frame();
     CHECK(discards(frame) == 1);
-    frame.target = NOOK_NNAO_TARGET_TEXTURE;
+    frame.target = NOOK_TARGET_TEXTURE;
     frame.target_name = stage.colour;
     CHECK(discards(frame) == 1);
     frame.viewport[2] = width - 1;
     frame.viewport[3] = height;
     CHECK(discards(frame) == 0);
-    CHECK(discards(stage.multiplied(NOOK_NNAO_TARGET_TEXTURE, stage.colour)) == 0);
+    CHECK(discards(stage.multiplied(NOOK_TARGET_TEXTURE, stage.colour)) == 0);
     frame = stage.frame();
-    frame.target = NOOK_NNAO_TARGET_FRAMEBUFFER;
+    frame.target = NOOK_TARGET_FRAMEBUFFER;
     frame.target_name = stage.framebuffer;
     CHECK(discards(frame) == 0);
   }
@@ -246,8 +245,8 @@ TEST_CASE("nnao: a frame allocates nothing, reads nothing back and queries OpenG
     desc.path = path;
     nook_nnao pass = create_pass(gl, desc);
     const int dispatches = path == NOOK_NNAO_PATH_COMPUTE;
-    nook_nnao_frame_desc frame = stage.frame();
-    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+    ScreenFrame frame = stage.frame();
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
     nook_nnao_timings timings{};
     timings.struct_size = sizeof timings;
     trace.reset();
@@ -255,7 +254,7 @@ TEST_CASE("nnao: a frame allocates nothing, reads nothing back and queries OpenG
     for (int i = 0; i < 6; ++i) {
       frame.viewport[2] = width - i;
       frame.viewport[3] = height - i;
-      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
     }
     CHECK(stage.fixture.host.allocations == allocations);
     // Depth, AO, at half resolution the filter, resolve.
@@ -281,7 +280,7 @@ TEST_CASE("nnao: a frame allocates nothing, reads nothing back and queries OpenG
     NOOK_OK_OR_FAIL(nook_nnao_read_timings(pass, &timings));
     // A driver may learn of the end of work with the next submission alone, as Mesa's zink does.
     for (int i = 0; i < 10 && !timings.valid; ++i) {
-      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
       context.gl().Finish();
       NOOK_OK_OR_FAIL(nook_nnao_read_timings(pass, &timings));
     }

@@ -1,4 +1,5 @@
 // Means over frames: the reference, cuts, what was not seen before, motion vectors, noise, bad frames.
+#include <nook/experimental/nook_stages.h>
 #include <algorithm>
 #include <numeric>
 
@@ -23,16 +24,16 @@ struct Sequence : NnaoFixture {
     desc.blur = 0;
     desc.blur_sharpness = sharpness;
     desc.half_resolution = half;
-    desc.temporal_frames = 8;
+    desc.max_history_frames = 8;
     pass = create_pass(gl, desc, network);
   }
   ~Sequence() { nook_nnao_destroy(&pass); }
 
-  nook_nnao_frame_desc frame(const Picture& picture) {
+  ScreenFrame frame(const Picture& picture) {
     return frame_desc(camera, width, height, depth_of(camera, picture), normals_of(picture), radius);
   }
-  std::vector<float> draw(const nook_nnao_frame_desc& drawn) {
-    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &drawn));
+  std::vector<float> draw(const ScreenFrame& drawn) {
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &drawn, &drawn));
     return own_ao(context.gl(), pass, width, height);
   }
 
@@ -101,9 +102,12 @@ TEST_CASE("nnao: a mean over frames is the reference's, for still and for moving
     for (std::uint32_t f = 0; f < 6; ++f) {
       // The camera moves against the scene.
       const Picture picture = look(sequence.camera, moved(still_life(), float(f) * by), width, height);
-      nook_nnao_frame_desc frame = sequence.frame(picture);
+      ScreenFrame frame = sequence.frame(picture);
+      // The pass forms the same translation from two views, within float rounding: far below a pixel.
       const Mat3x4 earlier_from_view = translation(-by);
-      std::ranges::copy(earlier_from_view.m, frame.earlier_from_view);
+      frame.view[12] = float(f) * by.x;
+      frame.view[13] = float(f) * by.y;
+      frame.view[14] = float(f) * by.z;
       const std::vector<float> found = sequence.draw(frame);
       const Raw raw = raw_of(sequence.network, picture, f);
       const nnao::History history{before.width, before.height, before.rays,      before.depth,
@@ -136,20 +140,20 @@ TEST_CASE("nnao: the first frame and a cut are that frame alone") {
     const Picture one = look(sequence.camera, still_life(), width, height);
     const Picture other = look(sequence.camera, moved(still_life(), {0.6f, 0.2f, 0.5f}), width, height);
     nook_nnao plain = sequence.pass_of(9, half, 0, &sequence.network);
-    const nook_nnao_frame_desc alone = sequence.frame(one);
-    NOOK_OK_OR_FAIL(nook_nnao_render(plain, &alone));
+    const ScreenFrame alone = sequence.frame(one);
+    NOOK_OK_OR_FAIL(nook_nnao_render(plain, &alone, &alone));
     CHECK(sequence.draw(sequence.frame(one)) == own_ao(context.gl(), plain, width, height));
     sequence.draw(sequence.frame(one));
-    nook_nnao_frame_desc cut = sequence.frame(other);
+    ScreenFrame cut = sequence.frame(other);
     cut.reset = 1;
     const std::vector<float> after = sequence.draw(cut);
     // The reference of the fourth frame.
     if (half == 0) CHECK(share_beyond(after, raw_of(sequence.network, other, 2).ao, 1.1f * step) < 0.005);
     // Another size of the viewport is a cut as well.
-    nook_nnao_frame_desc smaller = sequence.frame(one);
+    ScreenFrame smaller = sequence.frame(one);
     smaller.viewport[2] = width / 2;
     smaller.viewport[3] = height;
-    NOOK_OK_OR_FAIL(nook_nnao_render(sequence.pass, &smaller));
+    NOOK_OK_OR_FAIL(nook_nnao_render(sequence.pass, &smaller, &smaller));
   }
 }
 
@@ -207,11 +211,11 @@ TEST_CASE("nnao: motion vectors carry the mean with a surface") {
     for (int f = 0; f < 5; ++f) {
       const Picture picture =
           look(parallel, moved(still_life(), {3 * pixel_m * float(f), 0, 0}), width, height);
-      nook_nnao_frame_desc frame = with.frame(picture);
-      frame.motion_texture = with.textures.floats(GL_RG32F, 2, width, height, motion);
+      ScreenFrame frame = with.frame(picture);
+      frame.motion_vectors = with.textures.floats(GL_RG32F, 2, width, height, motion);
       if (!in_pixels) {
-        frame.motion_scale[0] = width;
-        frame.motion_scale[1] = height;
+        frame.motion_vector_scale[0] = width;
+        frame.motion_vector_scale[1] = height;
       }
       const std::vector<float> found = with.draw(frame), lost = without.draw(without.frame(picture));
       if (f < 4) continue;
@@ -238,47 +242,47 @@ TEST_CASE("nnao: bad descriptions of means over frames are refused with their fi
   Sequence sequence(context);
   nook_nnao_desc desc = pass_desc(3840, 2160);
   std::uint64_t bytes = 0;
-  desc.temporal_frames = 8;
+  desc.max_history_frames = 8;
   NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));
   CHECK(bytes == std::uint64_t{3840} * 2160 * 19);
   desc.bent_normals = 1;
   CHECK(nook_nnao_memory(&desc, &bytes) == NOOK_ERROR_INVALID_ARGUMENT);
   desc.bent_normals = 0;
   for (const int frames : {-1, 1, 65}) {
-    desc.temporal_frames = frames;
+    desc.max_history_frames = frames;
     CHECK(nook_nnao_memory(&desc, &bytes) == NOOK_ERROR_INVALID_ARGUMENT);
-    CHECK(std::string(nook_last_message()).find("temporal_frames") != std::string::npos);
+    CHECK(std::string(nook_last_message()).find("max_history_frames") != std::string::npos);
   }
   const Picture picture = look(sequence.camera, still_life(), width, height);
-  const auto refused = [&](const nook_nnao_frame_desc& frame, const char* field) {
-    CHECK(nook_nnao_render(sequence.pass, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
+  const auto refused = [&](const ScreenFrame& frame, const char* field) {
+    CHECK(nook_nnao_render(sequence.pass, &frame, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
     INFO(nook_last_message());
     CHECK(std::string(nook_last_message()).find(field) != std::string::npos);
   };
-  nook_nnao_frame_desc frame = sequence.frame(picture);
-  frame.earlier_from_view[5] = std::nanf("");
-  refused(frame, "earlier_from_view");
+  ScreenFrame frame = sequence.frame(picture);
+  frame.view[5] = std::nanf("");
+  refused(frame, "frame.view");
   frame = sequence.frame(picture);
-  frame.motion_scale[1] = std::numeric_limits<float>::infinity();
-  refused(frame, "motion_scale");
+  frame.motion_vector_scale[1] = std::numeric_limits<float>::infinity();
+  refused(frame, "motion_vector_scale");
   frame = sequence.frame(picture);
   frame.reset = 2;
   refused(frame, "reset");
   frame = sequence.frame(picture);
   // OpenGL ES 3.0 does not tell the sizes of textures.
   if (!context.is_es() || version_of(context) >= 31) {
-    frame.motion_texture = sequence.textures.floats(GL_RG32F, 2, width / 2, height, {});
-    refused(frame, "motion_texture");
+    frame.motion_vectors = sequence.textures.floats(GL_RG32F, 2, width / 2, height, {});
+    refused(frame, "motion_vectors");
   }
-  frame.motion_texture = 123456;
-  refused(frame, "motion_texture");
+  frame.motion_vectors = 123456;
+  refused(frame, "motion_vectors");
   // Motion that is not a number, and motion out of the image, use no history.
   frame = sequence.frame(picture);
   std::vector<float> motion;
   for (int i = 0; i < width * height; ++i)
     motion.insert(motion.end(), {i % 2 ? std::nanf("") : 1e30f, i % 3 ? 0.0f : std::nanf("")});
   sequence.draw(sequence.frame(picture));
-  frame.motion_texture = sequence.textures.floats(GL_RG32F, 2, width, height, motion);
+  frame.motion_vectors = sequence.textures.floats(GL_RG32F, 2, width, height, motion);
   const std::vector<float> found = sequence.draw(frame);
   CHECK(share_beyond(found, raw_of(sequence.network, picture, 1).ao, 1.1f * step) < 0.005);
 }

@@ -56,7 +56,7 @@ struct Fixture {
   }
 };
 
-nook_gl_ao_target target_of(GLuint buffer, nook_ao_format format) {
+nook_gl_ao_target target_of(GLuint buffer, nook_format format) {
   nook_gl_ao_target target{};
   target.struct_size = sizeof target;
   target.buffer = buffer;
@@ -65,9 +65,9 @@ nook_gl_ao_target target_of(GLuint buffer, nook_ao_format format) {
 }
 
 // The value that the bytes hold, and how far from the truth its rounding may take it.
-float value_at(const unsigned char* bytes, nook_ao_format format) {
-  if (format == NOOK_AO_UNORM8) return static_cast<float>(*bytes) / 255;
-  if (format == NOOK_AO_HALF) {
+float value_at(const unsigned char* bytes, nook_format format) {
+  if (format == NOOK_FORMAT_UNORM8) return static_cast<float>(*bytes) / 255;
+  if (format == NOOK_FORMAT_HALF) {
     std::uint16_t half;
     std::memcpy(&half, bytes, sizeof half);
     return from_half(half);
@@ -76,12 +76,14 @@ float value_at(const unsigned char* bytes, nook_ao_format format) {
   std::memcpy(&value, bytes, sizeof value);
   return value;
 }
-float tolerance_of(nook_ao_format format) {
+float tolerance_of(nook_format format) {
   // Half a step of a byte, and of a half below 1, and a rounding.
-  return format == NOOK_AO_UNORM8 ? 0.5f / 255 + 1e-6f : format == NOOK_AO_HALF ? 0.25f / 1024 + 1e-7f : 0;
+  return format == NOOK_FORMAT_UNORM8 ? 0.5f / 255 + 1e-6f
+         : format == NOOK_FORMAT_HALF ? 0.25f / 1024 + 1e-7f
+                                      : 0;
 }
 
-constexpr nook_ao_format formats[] = {NOOK_AO_FLOAT, NOOK_AO_HALF, NOOK_AO_UNORM8};
+constexpr nook_format formats[] = {NOOK_FORMAT_FLOAT, NOOK_FORMAT_HALF, NOOK_FORMAT_UNORM8};
 
 }  // namespace
 
@@ -90,7 +92,7 @@ TEST_CASE("AO arrives tightly packed in a host's buffer") {
   for (const int tier : tiers_of(context)) {
     INFO("tier " << tier);
     Fixture f(context, tier);
-    for (const nook_ao_format format : formats) {
+    for (const nook_format format : formats) {
       INFO("format " << format);
       const std::vector<float> expected = f.ao(0);
       const std::size_t each = sizeof(float) >> format, bytes = (expected.size() * each + 3) / 4 * 4;
@@ -98,7 +100,7 @@ TEST_CASE("AO arrives tightly packed in a host's buffer") {
       const GLuint buffer = f.make_buffer(offset + bytes + 8);
       nook_gl_ao_target target = target_of(buffer, format);
       target.offset = offset;
-      NOOK_OK_OR_FAIL(nook_gl_scene_write_ao(f.gl, f.crowd.scene, f.crowd.ids.data(), 1, &target));
+      NOOK_OK_OR_FAIL(nook_gl_scene_write(f.gl, f.crowd.scene, f.crowd.ids.data(), 1, &target));
       const auto got = f.take_buffer(buffer, offset + bytes + 8);
       float worst = 0;
       for (std::size_t v = 0; v < expected.size(); ++v)
@@ -122,17 +124,17 @@ TEST_CASE("AO of many instances lies at equal distances, for one instanced draw"
     }
     const std::size_t vertices = f.ao(0).size(), distance = (vertices + 3) / 4 * 4 + 16;
     const GLuint buffer = f.make_buffer(distance * ids.size());
-    nook_gl_ao_target target = target_of(buffer, NOOK_AO_UNORM8);
+    nook_gl_ao_target target = target_of(buffer, NOOK_FORMAT_UNORM8);
     target.instance_stride = distance;
-    NOOK_OK_OR_FAIL(nook_gl_scene_write_ao(f.gl, f.crowd.scene, ids.data(),
-                                           static_cast<std::uint32_t>(ids.size()), &target));
+    NOOK_OK_OR_FAIL(nook_gl_scene_write(f.gl, f.crowd.scene, ids.data(),
+                                        static_cast<std::uint32_t>(ids.size()), &target));
     const auto got = f.take_buffer(buffer, distance * ids.size());
     for (std::size_t i = 0; i < ids.size(); ++i) {
       const std::vector<float> expected = f.ao(indices[i]);
       float worst = 0;
       for (std::size_t v = 0; v < vertices; ++v)
-        worst = std::max(worst, std::abs(value_at(&got[i * distance + v], NOOK_AO_UNORM8) - expected[v]));
-      CHECK(worst <= tolerance_of(NOOK_AO_UNORM8));
+        worst = std::max(worst, std::abs(value_at(&got[i * distance + v], NOOK_FORMAT_UNORM8) - expected[v]));
+      CHECK(worst <= tolerance_of(NOOK_FORMAT_UNORM8));
       CHECK(got[(i + 1) * distance - 1] == guard_byte);
     }
   }
@@ -143,14 +145,14 @@ TEST_CASE("AO is a word among other attributes where there are compute shaders, 
   for (const int tier : tiers_of(context)) {
     INFO("tier " << tier);
     Fixture f(context, tier);
-    for (const nook_ao_format format : formats) {
+    for (const nook_format format : formats) {
       const std::vector<float> expected = f.ao(1);
       const std::size_t stride = 36, offset = 12, bytes = offset + stride * expected.size();
       const GLuint buffer = f.make_buffer(bytes);
       nook_gl_ao_target target = target_of(buffer, format);
       target.offset = offset;
       target.stride = stride;
-      const nook_result result = nook_gl_scene_write_ao(f.gl, f.crowd.scene, &f.crowd.ids[1], 1, &target);
+      const nook_result result = nook_gl_scene_write(f.gl, f.crowd.scene, &f.crowd.ids[1], 1, &target);
       if (!computes(tier)) {
         CHECK(result == NOOK_ERROR_UNSUPPORTED);
         CHECK(std::string(nook_last_message()).find("compute shaders") != std::string::npos);
@@ -178,8 +180,9 @@ TEST_CASE("AO arrives in a texture of the host, row by row") {
   for (const int tier : tiers_of(context)) {
     INFO("tier " << tier);
     Fixture f(context, tier);
-    for (const auto& [internal, format] : {std::pair{GL_R8, NOOK_AO_UNORM8}, std::pair{GL_R16F, NOOK_AO_HALF},
-                                           std::pair{GL_R32F, NOOK_AO_FLOAT}}) {
+    for (const auto& [internal, format] :
+         {std::pair{GL_R8, NOOK_FORMAT_UNORM8}, std::pair{GL_R16F, NOOK_FORMAT_HALF},
+          std::pair{GL_R32F, NOOK_FORMAT_FLOAT}}) {
       const std::vector<float> expected = f.ao(0);
       const int width = 7, first = 5;
       const int height = (first + static_cast<int>(expected.size()) + width - 1) / width + 1;
@@ -188,18 +191,18 @@ TEST_CASE("AO arrives in a texture of the host, row by row") {
           textures.floats(static_cast<GLint>(internal), 1, width, height,
                           std::vector<float>(static_cast<std::size_t>(width * height), 0.25f));
       // OpenGL ES converts no upload; 3.0 does not tell the width.
-      nook_gl_ao_target target = target_of(0, is_es(f.api) ? format : NOOK_AO_FLOAT);
+      nook_gl_ao_target target = target_of(0, is_es(f.api) ? format : NOOK_FORMAT_FLOAT);
       target.texture = texture;
       target.texture_width = is_es(f.api) ? width : 0;
       target.offset = first;
-      NOOK_OK_OR_FAIL(nook_gl_scene_write_ao(f.gl, f.crowd.scene, f.crowd.ids.data(), 1, &target));
+      NOOK_OK_OR_FAIL(nook_gl_scene_write(f.gl, f.crowd.scene, f.crowd.ids.data(), 1, &target));
       const std::vector<float> texels = read_texture(f.api, texture, width, height);
       float worst = 0;
       for (std::size_t v = 0; v < expected.size(); ++v)
         worst = std::max(worst, std::abs(texels[first + v] - expected[v]));
       // OpenGL converts the upload. It may cut floats to halves instead of rounding them, and NVIDIA's driver
       // comes within 0.55 of a step of a byte; Direct3D demands 0.6.
-      const float converted = is_es(f.api) ? 1.0f : format == NOOK_AO_HALF ? 2.0f : 1.2f;
+      const float converted = is_es(f.api) ? 1.0f : format == NOOK_FORMAT_HALF ? 2.0f : 1.2f;
       CHECK(worst <= tolerance_of(format) * converted);
       CHECK(std::abs(texels[first - 1] - 0.25f) < 0.002f);
       CHECK(std::abs(texels[first + expected.size()] - 0.25f) < 0.002f);
@@ -213,9 +216,9 @@ TEST_CASE("targets that cannot take the values are refused before anything is wr
   const std::size_t bytes = 4 * f.ao(0).size();
   const GLuint buffer = f.make_buffer(bytes);
   const auto refused = [&](auto&& spoil, const char* part, std::uint32_t count = 1) {
-    nook_gl_ao_target target = target_of(buffer, NOOK_AO_FLOAT);
+    nook_gl_ao_target target = target_of(buffer, NOOK_FORMAT_FLOAT);
     spoil(target);
-    CHECK(nook_gl_scene_write_ao(f.gl, f.crowd.scene, f.crowd.ids.data(), count, &target) ==
+    CHECK(nook_gl_scene_write(f.gl, f.crowd.scene, f.crowd.ids.data(), count, &target) ==
           NOOK_ERROR_INVALID_ARGUMENT);
     INFO(nook_last_message());
     CHECK(std::string(nook_last_message()).find(part) != std::string::npos);
@@ -229,9 +232,9 @@ TEST_CASE("targets that cannot take the values are refused before anything is wr
   refused([](nook_gl_ao_target&) {}, "target.instance_stride", 2);
   const auto got = f.take_buffer(buffer, bytes);
   CHECK(std::all_of(got.begin(), got.end(), [](unsigned char byte) { return byte == guard_byte; }));
-  nook_gl_ao_target target = target_of(buffer, NOOK_AO_FLOAT);
+  nook_gl_ao_target target = target_of(buffer, NOOK_FORMAT_FLOAT);
   const nook_instance_id unknown = 4711;
-  CHECK(nook_gl_scene_write_ao(f.gl, f.crowd.scene, &unknown, 1, &target) == NOOK_ERROR_INVALID_HANDLE);
+  CHECK(nook_gl_scene_write(f.gl, f.crowd.scene, &unknown, 1, &target) == NOOK_ERROR_INVALID_HANDLE);
 }
 
 TEST_CASE("a texture's width and format are checked as far as the context tells them") {
@@ -239,11 +242,9 @@ TEST_CASE("a texture's width and format are checked as far as the context tells 
   Fixture f(context, tiers_of(context).back());
   Textures textures(f.api);
   const int vertices = static_cast<int>(f.ao(0).size());
-  nook_gl_ao_target target = target_of(0, NOOK_AO_FLOAT);
+  nook_gl_ao_target target = target_of(0, NOOK_FORMAT_FLOAT);
   target.texture = textures.floats(GL_R32F, 1, 64, vertices / 64 + 1, {});
-  const auto write = [&] {
-    return nook_gl_scene_write_ao(f.gl, f.crowd.scene, f.crowd.ids.data(), 1, &target);
-  };
+  const auto write = [&] { return nook_gl_scene_write(f.gl, f.crowd.scene, f.crowd.ids.data(), 1, &target); };
   const auto says = [&](const char* part) {
     INFO(nook_last_message());
     CHECK(std::string(nook_last_message()).find(part) != std::string::npos);
@@ -261,7 +262,7 @@ TEST_CASE("a texture's width and format are checked as far as the context tells 
   target.texture_width = 64;
   CHECK(write() == NOOK_OK);
   if (!context.is_es()) return;  // uploads convert there
-  target.format = NOOK_AO_UNORM8;
+  target.format = NOOK_FORMAT_UNORM8;
   CHECK(write() == (asked ? NOOK_ERROR_INVALID_ARGUMENT : NOOK_ERROR_GL));
   says(asked ? "target.format is not that of texture" : "on OpenGL ES target.format must be the texture's");
   take_debug_messages();
@@ -284,14 +285,14 @@ TEST_CASE("writing AO keeps the promise of each state mode") {
         Poison poison(context, computes(tier) ? gl::outputs | gl::outputs_compute : unsigned{gl::outputs});
         if (mode == NOOK_GL_STATE_DEFAULTS) poison.reset_touched();
         const StateValues touched = poison.touched(), untouched = poison.untouched();
-        nook_gl_ao_target target = target_of(kind == 1 ? 0 : buffer, NOOK_AO_HALF);
+        nook_gl_ao_target target = target_of(kind == 1 ? 0 : buffer, NOOK_FORMAT_HALF);
         target.texture = kind == 1 ? texture : 0;
         if (kind == 1 && context.is_es()) {
-          target.format = NOOK_AO_UNORM8;
+          target.format = NOOK_FORMAT_UNORM8;
           target.texture_width = 64;
         }
         target.stride = kind == 2 ? 36 : 0;
-        NOOK_OK_OR_FAIL(nook_gl_scene_write_ao(f.gl, f.crowd.scene, f.crowd.ids.data(), 1, &target));
+        NOOK_OK_OR_FAIL(nook_gl_scene_write(f.gl, f.crowd.scene, f.crowd.ids.data(), 1, &target));
         if (mode == NOOK_GL_STATE_PRESERVE) CHECK(poison.touched() == touched);
         if (mode == NOOK_GL_STATE_DEFAULTS) CHECK(poison.touched() == poison.defaults());
         CHECK(poison.untouched() == untouched);

@@ -18,13 +18,13 @@ TEST_CASE("captures keep the promises on OpenGL state, and read nothing back") {
     Fixture fixture(context, mode);
     const Probes black = black_grid(probe::vogel_basis(12), {2, 2, 1});
     const GlProbe probe = fixture.upload(black);
-    const Grid grid = fixture.upload_grid(black, NOOK_GL_PROBE_GRID_ZONAL);
+    const Grid grid = fixture.upload_grid(black, NOOK_GL_PROBE_ZH3);
     const GLuint cube = fixture.cubes.make(uneven_cube(8, 5));
-    nook_gl_probe_capture_desc desc = default_desc();
+    nook_gl_capture_desc desc = default_desc();
     desc.probe = probe.get();
     desc.grid = grid.get();
     desc.face_size_px = 8;
-    desc.light = NOOK_GL_PROBE_CAPTURE_SKY;
+    desc.light = NOOK_GL_CAPTURE_SKY;
     Poison poison(context, gl::captures);
     const StateValues touched = poison.touched(), untouched = poison.untouched();
     const Capture capture = fixture.capture(desc);
@@ -38,7 +38,7 @@ TEST_CASE("captures keep the promises on OpenGL state, and read nothing back") {
   Trace trace(context);
   Fixture fixture(context, trace);
   const GlProbe probe = fixture.upload(black_grid(probe::vogel_basis(12)));
-  nook_gl_probe_capture_desc desc = default_desc();
+  nook_gl_capture_desc desc = default_desc();
   desc.probe = probe.get();
   desc.face_size_px = 8;
   const Capture capture = fixture.capture(desc);
@@ -57,13 +57,13 @@ TEST_CASE("what is no cube map for a capture is refused, and the light stays") {
   const GladGLContext& gl = context.gl();
   const Probes black = black_grid(probe::vogel_basis(12));
   const GlProbe probe = fixture.upload(black);
-  nook_gl_probe_capture_desc desc = default_desc();
+  nook_gl_capture_desc desc = default_desc();
   desc.probe = probe.get();
   desc.face_size_px = 8;
   const Capture capture = fixture.capture(desc);
   add(capture, 0, fixture.cubes.make(Cube(8, [](Vec3) { return Vec3{1, 1, 1}; })));
   const auto refused = [&](GLuint name, const char* word) {
-    CHECK(nook_gl_probe_capture_add(capture.get(), 0, name) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(nook_gl_capture_add(capture.get(), 0, name, 0) == NOOK_ERROR_INVALID_ARGUMENT);
     INFO(nook_last_message());
     CHECK(std::string(nook_last_message()).find(word) != std::string::npos);
     CHECK(gl.GetError() == GL_NO_ERROR);
@@ -94,17 +94,17 @@ TEST_CASE("what is no cube map for a capture is refused, and the light stays") {
   gl.BindTexture(GL_TEXTURE_CUBE_MAP, 0);
   refused(later, "levels");
   CHECK(std::abs(read(capture).harmonics[0] - std::sqrt(4 * pi)) < 1e-5f);
-  CHECK(nook_gl_probe_capture_add(capture.get(), 1, later) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_probe_capture_add(nullptr, 0, later) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_probe_capture_reset(capture.get(), 1) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_probe_capture_read(capture.get(), 1, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_probe_capture_solve(capture.get(), nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_capture_add(capture.get(), 1, later, 0) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_capture_add(nullptr, 0, later, 0) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_capture_add(capture.get(), 0, later, 2) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_capture_read(capture.get(), 1, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_capture_solve(capture.get(), nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
 
   take_debug_messages();  // of binding a texture of another kind
 
   // The probe has another grid now.
   const Probe larger = loaded(fixture.host.handle, black_grid(probe::vogel_basis(12), {2, 1, 1}));
-  NOOK_OK_OR_FAIL(nook_gl_probe_update(probe.get(), larger.get()));
+  NOOK_OK_OR_FAIL(nook_gl_update_probe(probe.get(), larger.get()));
   refused(fixture.cubes.make(Cube(8)), "updated");
 }
 
@@ -116,16 +116,16 @@ TEST_CASE("captures with a wrong descriptor are refused") {
   const GlProbe half = fixture.upload(black_grid(probe::vogel_basis(12, false, probe::Domain::hemisphere)));
   const Grid grid = fixture.upload_grid(black_grid(probe::harmonic_basis(2), {2, 1, 1}), 0);
   const auto refused = [&](auto&& change, const char* word) {
-    nook_gl_probe_capture_desc desc = default_desc();
+    nook_gl_capture_desc desc = default_desc();
     desc.probe = probe.get();
     change(desc);
-    nook_gl_probe_capture made = nullptr;
-    CHECK(nook_gl_probe_capture_create(fixture.gl.get(), &desc, &made) == NOOK_ERROR_INVALID_ARGUMENT);
+    nook_gl_capture made = nullptr;
+    CHECK(nook_gl_capture_create(fixture.gl.get(), &desc, &made) == NOOK_ERROR_INVALID_ARGUMENT);
     CHECK(made == nullptr);
     INFO(nook_last_message());
     CHECK(std::string(nook_last_message()).find(word) != std::string::npos);
   };
-  using Desc = nook_gl_probe_capture_desc;
+  using Desc = nook_gl_capture_desc;
   refused([](Desc& d) { d.probe = nullptr; }, "NULL");
   refused([&](Desc& d) { d.probe = foreign.get(); }, "another nook_gl");
   refused([&](Desc& d) { d.probe = half.get(); }, "hemisphere");
@@ -135,7 +135,7 @@ TEST_CASE("captures with a wrong descriptor are refused") {
   refused([](Desc& d) { d.level = 16; }, "level");
   refused([](Desc& d) { d.history = 0; }, "history");
   refused([](Desc& d) { d.light = 2; }, "light");
-  refused([](Desc& d) { d.constraint = -1; }, "constraint");
+  refused([](Desc& d) { d.match_sh = 2; }, "match_sh");
   refused([](Desc& d) { d.reserved = 1; }, "reserved");
 
   Trace trace(context);
@@ -143,11 +143,11 @@ TEST_CASE("captures with a wrong descriptor are refused") {
       is_es(context.gl()) ? 32 : 65536;
   Fixture small(context, trace);
   const GlProbe many = small.upload(black_grid(probe::vogel_basis(12), {60, 50, 1}));
-  nook_gl_probe_capture_desc desc = default_desc();
+  nook_gl_capture_desc desc = default_desc();
   desc.probe = many.get();
-  nook_gl_probe_capture made = nullptr;
+  nook_gl_capture made = nullptr;
   if (!is_es(context.gl()))
-    CHECK(nook_gl_probe_capture_create(small.gl.get(), &desc, &made) == NOOK_ERROR_UNSUPPORTED);
+    CHECK(nook_gl_capture_create(small.gl.get(), &desc, &made) == NOOK_ERROR_UNSUPPORTED);
 }
 
 TEST_CASE("a capture keeps its textures, outlives its nook_gl, and leaves nothing") {
@@ -156,34 +156,33 @@ TEST_CASE("a capture keeps its textures, outlives its nook_gl, and leaves nothin
   nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
   const Probe black = loaded(host.handle, black_grid(probe::vogel_basis(12)));
   CubeTextures cubes(context.gl());
-  nook_gl_probe probe = nullptr;
-  NOOK_OK_OR_FAIL(nook_gl_probe_create(gl, black.get(), &probe));
-  nook_gl_probe_info info{};
+  nook_gl_upload probe = nullptr;
+  NOOK_OK_OR_FAIL(nook_gl_upload_probe(gl, black.get(), NOOK_GL_PROBE_LOBES, &probe));
+  nook_gl_upload_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_gl_probe_describe(probe, &info));
-  nook_gl_probe_capture_desc desc = default_desc();
+  NOOK_OK_OR_FAIL(nook_gl_upload_describe(probe, &info));
+  nook_gl_capture_desc desc = default_desc();
   desc.probe = probe;
   desc.face_size_px = 4;
-  nook_gl_probe_capture capture = nullptr;
-  NOOK_OK_OR_FAIL(nook_gl_probe_capture_create(gl, &desc, &capture));
-  nook_gl_probe_destroy(&probe);
+  nook_gl_capture capture = nullptr;
+  NOOK_OK_OR_FAIL(nook_gl_capture_create(gl, &desc, &capture));
+  nook_gl_upload_destroy(&probe);
   nook_gl_destroy(&gl);
-  CHECK(context.gl().IsTexture(info.texture));
-  NOOK_OK_OR_FAIL(nook_gl_probe_capture_add(capture, 0, cubes.make(Cube(4))));
-  nook_gl_probe_capture_destroy(&capture);
+  CHECK(context.gl().IsTexture(info.textures[0].texture));
+  NOOK_OK_OR_FAIL(nook_gl_capture_add(capture, 0, cubes.make(Cube(4)), 0));
+  nook_gl_capture_destroy(&capture);
   CHECK(capture == nullptr);
-  CHECK_FALSE(context.gl().IsTexture(info.texture));
-  nook_gl_probe_capture_destroy(&capture);
-  nook_gl_probe_capture_destroy(nullptr);
+  CHECK_FALSE(context.gl().IsTexture(info.textures[0].texture));
+  nook_gl_capture_destroy(&capture);
+  nook_gl_capture_destroy(nullptr);
 
   gl = create_gl(host.handle, platform::Context::loader, &context, 0);
-  NOOK_OK_OR_FAIL(nook_gl_probe_create(gl, black.get(), &probe));
+  NOOK_OK_OR_FAIL(nook_gl_upload_probe(gl, black.get(), NOOK_GL_PROBE_LOBES, &probe));
   desc.probe = probe;
-  NOOK_OK_OR_FAIL(nook_gl_probe_capture_create(gl, &desc, &capture));
+  NOOK_OK_OR_FAIL(nook_gl_capture_create(gl, &desc, &capture));
   NOOK_OK_OR_FAIL(nook_gl_context_lost(gl));
-  CHECK(nook_gl_probe_capture_add(capture, 0, 1) == NOOK_ERROR_GL);
-  CHECK(nook_gl_probe_capture_reset(capture, 0) == NOOK_OK);
-  nook_gl_probe_capture_destroy(&capture);
-  nook_gl_probe_destroy(&probe);
+  CHECK(nook_gl_capture_add(capture, 0, 1, 0) == NOOK_ERROR_GL);
+  nook_gl_capture_destroy(&capture);
+  nook_gl_upload_destroy(&probe);
   nook_gl_destroy(&gl);
 }

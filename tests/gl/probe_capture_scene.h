@@ -2,7 +2,8 @@
 // need.
 #pragma once
 
-#include <nook/nook_gl_probe.h>
+#include <nook/experimental/nook_capture.h>
+#include <nook/nook_gl.h>
 
 #include <algorithm>
 #include <array>
@@ -27,10 +28,9 @@ struct Destroy {
   void operator()(Handle handle) const { destroy(&handle); }
 };
 using Probe = std::unique_ptr<nook_probe_s, Destroy<nook_probe, nook_probe_destroy>>;
-using GlProbe = std::unique_ptr<nook_gl_probe_s, Destroy<nook_gl_probe, nook_gl_probe_destroy>>;
-using Grid = std::unique_ptr<nook_gl_probe_grid_s, Destroy<nook_gl_probe_grid, nook_gl_probe_grid_destroy>>;
-using Capture =
-    std::unique_ptr<nook_gl_probe_capture_s, Destroy<nook_gl_probe_capture, nook_gl_probe_capture_destroy>>;
+using GlProbe = std::unique_ptr<nook_gl_upload_s, Destroy<nook_gl_upload, nook_gl_upload_destroy>>;
+using Grid = std::unique_ptr<nook_gl_upload_s, Destroy<nook_gl_upload, nook_gl_upload_destroy>>;
+using Capture = std::unique_ptr<nook_gl_capture_s, Destroy<nook_gl_capture, nook_gl_capture_destroy>>;
 using Gl = std::unique_ptr<nook_gl_s, Destroy<nook_gl, nook_gl_destroy>>;
 
 // A cube map in host memory.
@@ -116,9 +116,9 @@ inline Probe loaded(nook_context context, const Probes& probes) {
   return Probe(probe);
 }
 
-inline nook_gl_probe_capture_desc default_desc() {
-  nook_gl_probe_capture_desc desc;
-  NOOK_OK_OR_FAIL(nook_gl_probe_capture_desc_init(&desc, sizeof desc, NOOK_VERSION));
+inline nook_gl_capture_desc default_desc() {
+  nook_gl_capture_desc desc;
+  NOOK_OK_OR_FAIL(nook_gl_capture_desc_init(&desc));
   return desc;
 }
 
@@ -129,18 +129,19 @@ struct Fixture {
       : gl(create_gl(host.handle, Trace::loader, &trace, 0)), cubes(context.gl()) {}
 
   GlProbe upload(const Probes& probes) {
-    nook_gl_probe made = nullptr;
-    NOOK_OK_OR_FAIL(nook_gl_probe_create(gl.get(), loaded(host.handle, probes).get(), &made));
+    nook_gl_upload made = nullptr;
+    NOOK_OK_OR_FAIL(
+        nook_gl_upload_probe(gl.get(), loaded(host.handle, probes).get(), NOOK_GL_PROBE_LOBES, &made));
     return GlProbe(made);
   }
-  Grid upload_grid(const Probes& probes, nook_gl_probe_grid_form form) {
-    nook_gl_probe_grid made = nullptr;
-    NOOK_OK_OR_FAIL(nook_gl_probe_grid_create(gl.get(), loaded(host.handle, probes).get(), form, &made));
+  Grid upload_grid(const Probes& probes, nook_gl_probe_form form) {
+    nook_gl_upload made = nullptr;
+    NOOK_OK_OR_FAIL(nook_gl_upload_probe(gl.get(), loaded(host.handle, probes).get(), form, &made));
     return Grid(made);
   }
-  Capture capture(const nook_gl_probe_capture_desc& desc) {
-    nook_gl_probe_capture made = nullptr;
-    NOOK_OK_OR_FAIL(nook_gl_probe_capture_create(gl.get(), &desc, &made));
+  Capture capture(const nook_gl_capture_desc& desc) {
+    nook_gl_capture made = nullptr;
+    NOOK_OK_OR_FAIL(nook_gl_capture_create(gl.get(), &desc, &made));
     return Capture(made);
   }
   CountedContext host;
@@ -149,19 +150,19 @@ struct Fixture {
 };
 
 inline void add(const Capture& capture, std::uint32_t index, GLuint cube) {
-  NOOK_OK_OR_FAIL(nook_gl_probe_capture_add(capture.get(), index, cube));
+  NOOK_OK_OR_FAIL(nook_gl_capture_add(capture.get(), index, cube, 0));
 }
 
-inline nook_gl_probe_capture_result read(const Capture& capture, std::uint32_t index = 0) {
-  nook_gl_probe_capture_result result{};
+inline nook_gl_capture_info read(const Capture& capture, std::uint32_t index = 0) {
+  nook_gl_capture_info result{};
   result.struct_size = sizeof result;
-  NOOK_OK_OR_FAIL(nook_gl_probe_capture_read(capture.get(), index, &result));
+  NOOK_OK_OR_FAIL(nook_gl_capture_read(capture.get(), index, &result));
   return result;
 }
 
 inline std::vector<Vec3> solved(const Capture& capture, std::uint32_t functions, std::uint32_t index = 0) {
   nook_probe probe = nullptr;
-  NOOK_OK_OR_FAIL(nook_gl_probe_capture_solve(capture.get(), &probe));
+  NOOK_OK_OR_FAIL(nook_gl_capture_solve(capture.get(), &probe));
   const Probe owner(probe);
   std::vector<Vec3> coefficients(functions);
   NOOK_OK_OR_FAIL(nook_probe_read_coefficients(probe, index, &coefficients[0].x, functions));

@@ -1,6 +1,6 @@
 // Grids of diffuse light in 3D textures: the GLSL against the CPU, with walls and without, the state
 // contract, and what is refused.
-#include <nook/nook_gl_probe.h>
+#include <nook/nook_gl.h>
 
 #include <algorithm>
 #include <array>
@@ -35,9 +35,9 @@ struct ProbeDelete {
 };
 using Probe = std::unique_ptr<nook_probe_s, ProbeDelete>;
 struct GridDelete {
-  void operator()(nook_gl_probe_grid grid) const { nook_gl_probe_grid_destroy(&grid); }
+  void operator()(nook_gl_upload grid) const { nook_gl_upload_destroy(&grid); }
 };
-using Grid = std::unique_ptr<nook_gl_probe_grid_s, GridDelete>;
+using Grid = std::unique_ptr<nook_gl_upload_s, GridDelete>;
 struct GlDelete {
   void operator()(nook_gl gl) const { nook_gl_destroy(&gl); }
 };
@@ -114,14 +114,14 @@ const char* const fragment_text =
     "                                     texelFetch(queries, ivec2(first + 1, 0), 0).xyz), 1.0);\n"
     "}\n";
 
-nook_gl_probe_grid_info info_of(const Grid& grid) {
-  nook_gl_probe_grid_info info{};
+nook_gl_upload_info info_of(const Grid& grid) {
+  nook_gl_upload_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_gl_probe_grid_describe(grid.get(), &info));
+  NOOK_OK_OR_FAIL(nook_gl_upload_describe(grid.get(), &info));
   return info;
 }
 
-std::vector<float> drawn(const GladGLContext& gl, const nook_gl_probe_grid_info& grid,
+std::vector<float> drawn(const GladGLContext& gl, const nook_gl_upload_info& grid,
                          const std::vector<Place>& places) {
   const int width = int(places.size());
   std::vector<float> texels;
@@ -143,10 +143,10 @@ std::vector<float> drawn(const GladGLContext& gl, const nook_gl_probe_grid_info&
   const GLuint program =
       platform::link_program(gl, {glsl_header(gl), vertex_text}, {glsl_header(gl), grid.glsl, fragment_text});
   gl.UseProgram(program);
-  gl.BindTexture(GL_TEXTURE_3D, grid.texture);
+  gl.BindTexture(GL_TEXTURE_3D, grid.textures[0].texture);
   gl.Uniform1i(gl.GetUniformLocation(program, "nook_grid_texels"), 0);
   gl.Uniform1i(gl.GetUniformLocation(program, "queries"), 1);
-  gl.Uniform4fv(gl.GetUniformLocation(program, "nook_grid_frame"), 4, grid.frame);
+  gl.Uniform4fv(gl.GetUniformLocation(program, "nook_grid_frame"), 4, grid.constant_values);
   gl.BindVertexArray(array);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
   std::vector<float> rgb = read_texture(gl, answers, width, 1, 3);
@@ -166,8 +166,7 @@ std::vector<float> computed(nook_probe probe, const std::vector<Place>& places) 
     positions.insert(positions.end(), {p.x, p.y, p.z});
     normals.insert(normals.end(), {n.x, n.y, n.z});
   }
-  NOOK_OK_OR_FAIL(nook_probe_surface_irradiance(probe, NOOK_PROBE_IRRADIANCE_BANDS, positions.data(),
-                                                normals.data(), rgb.data(), places.size()));
+  NOOK_OK_OR_FAIL(nook_probe_irradiance(probe, positions.data(), normals.data(), rgb.data(), places.size()));
   for (float& channel : rgb) channel = std::max(channel, 0.0f);
   return rgb;
 }
@@ -206,9 +205,9 @@ struct Fixture {
   explicit Fixture(platform::Context& context, nook_gl_state_mode mode = NOOK_GL_STATE_PRESERVE)
       : gl(create_gl(host.handle, platform::Context::loader, &context, 0, mode)) {}
   explicit Fixture(Trace& trace) : gl(create_gl(host.handle, Trace::loader, &trace, 0)) {}
-  Grid upload(const Probe& probe, nook_gl_probe_grid_form form = NOOK_GL_PROBE_GRID_HARMONICS) {
-    nook_gl_probe_grid made = nullptr;
-    NOOK_OK_OR_FAIL(nook_gl_probe_grid_create(gl.get(), probe.get(), form, &made));
+  Grid upload(const Probe& probe, nook_gl_probe_form form = NOOK_GL_PROBE_SH) {
+    nook_gl_upload made = nullptr;
+    NOOK_OK_OR_FAIL(nook_gl_upload_probe(gl.get(), probe.get(), form, &made));
     return Grid(made);
   }
   CountedContext host;
@@ -231,7 +230,7 @@ TEST_CASE("grids in 3D textures agree with the CPU, with walls and without") {
       CHECK(info_of(whole).bytes == 8 * probes.grid.size() * (walls ? 12 : 7));
       INFO("counts " << counts[0] << " x " << counts[1] << " x " << counts[2] << ", walls " << walls);
       compare(drawn(context.gl(), info_of(whole), places), computed(probe.get(), places));
-      const Grid zonal = fixture.upload(probe, NOOK_GL_PROBE_GRID_ZONAL);
+      const Grid zonal = fixture.upload(probe, NOOK_GL_PROBE_ZH3);
       CHECK(info_of(zonal).bytes == 8 * probes.grid.size() * (walls ? 9 : 4));
       compare(drawn(context.gl(), info_of(zonal), places), computed_zonal(probes, places));
     }
@@ -260,7 +259,7 @@ TEST_CASE("a thin wall between two lights is seen from one side only") {
   // Constant light of 1 before the wall and of 8 behind it: irradiance pi and 8 pi everywhere.
   for (std::size_t i = 0; i < places.size(); ++i)
     CHECK(std::abs(expected[3 * i] - (i % 2 == 0 ? pi : 8 * pi)) < 1e-4f);
-  for (const nook_gl_probe_grid_form form : {NOOK_GL_PROBE_GRID_HARMONICS, NOOK_GL_PROBE_GRID_ZONAL}) {
+  for (const nook_gl_probe_form form : {NOOK_GL_PROBE_SH, NOOK_GL_PROBE_ZH3}) {
     const std::vector<float> found = drawn(context.gl(), info_of(fixture.upload(probe, form)), places);
     // Half floats have 11 bits.
     for (std::size_t i = 0; i < found.size(); ++i)
@@ -290,11 +289,11 @@ TEST_CASE("an update shows the new grid under the old name") {
   Fixture fixture(context);
   Probes second = harmonics_grid({3, 3, 2});
   const Grid grid = fixture.upload(loaded(fixture.host.handle, harmonics_grid({2, 2, 2})));
-  const GLuint name = info_of(grid).texture;
+  const GLuint name = info_of(grid).textures[0].texture;
   add_walls(second);
   const Probe probe = loaded(fixture.host.handle, second);
-  NOOK_OK_OR_FAIL(nook_gl_probe_grid_update(grid.get(), probe.get()));
-  CHECK(info_of(grid).texture == name);
+  NOOK_OK_OR_FAIL(nook_gl_update_probe(grid.get(), probe.get()));
+  CHECK(info_of(grid).textures[0].texture == name);
   CHECK(info_of(grid).walls == 1);
   const std::vector<Place> places = random_places(second, 50);
   compare(drawn(context.gl(), info_of(grid), places), computed(probe.get(), places));
@@ -308,7 +307,7 @@ TEST_CASE("uploading a grid keeps the promises on OpenGL state") {
     Poison poison(context, gl::grids);
     const StateValues touched = poison.touched(), untouched = poison.untouched();
     const Grid grid = fixture.upload(probe);
-    NOOK_OK_OR_FAIL(nook_gl_probe_grid_update(grid.get(), probe.get()));
+    NOOK_OK_OR_FAIL(nook_gl_update_probe(grid.get(), probe.get()));
     INFO("mode " << mode);
     CHECK(poison.untouched() == untouched);
     if (mode == NOOK_GL_STATE_PRESERVE) CHECK(poison.touched() == touched);
@@ -324,27 +323,27 @@ TEST_CASE("a grid that no 3D texture can hold is refused, and the old one stays"
   const Probe small = loaded(fixture.host.handle, harmonics_grid({2, 2, 36}));
   const Grid grid = fixture.upload(small);
   const Probe deep = loaded(fixture.host.handle, harmonics_grid({2, 2, 37}));
-  CHECK(nook_gl_probe_grid_update(grid.get(), deep.get()) == NOOK_ERROR_UNSUPPORTED);
+  CHECK(nook_gl_update_probe(grid.get(), deep.get()) == NOOK_ERROR_UNSUPPORTED);
   CHECK(std::string(nook_last_message()).find("2 x 2 x 259") != std::string::npos);
   const std::vector<Place> places = random_places(harmonics_grid({2, 2, 36}), 20);
   compare(drawn(context.gl(), info_of(grid), places), computed(small.get(), places));
 
   Probes bright = harmonics_grid({1, 1, 2});
   bright.coefficients[9] = {7e4f, 0, 0};
-  nook_gl_probe_grid made = nullptr;
-  CHECK(nook_gl_probe_grid_create(fixture.gl.get(), loaded(fixture.host.handle, bright).get(), 0, &made) ==
+  nook_gl_upload made = nullptr;
+  CHECK(nook_gl_upload_probe(fixture.gl.get(), loaded(fixture.host.handle, bright).get(), 0, &made) ==
         NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(std::string(nook_last_message()).find("probe 1") != std::string::npos);
   Probes dice;
   dice.basis = probe::dice_basis(probe::Domain::sphere, {0, 1, 0});
   dice.coefficients.assign(12, {1, 1, 1});
-  CHECK(nook_gl_probe_grid_create(fixture.gl.get(), loaded(fixture.host.handle, dice).get(), 0, &made) ==
+  CHECK(nook_gl_upload_probe(fixture.gl.get(), loaded(fixture.host.handle, dice).get(), 0, &made) ==
         NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_probe_grid_create(fixture.gl.get(), small.get(), 2, &made) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_probe_grid_create(fixture.gl.get(), nullptr, 0, &made) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_probe_grid_create(nullptr, small.get(), 0, &made) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_probe_grid_create(fixture.gl.get(), small.get(), 0, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_probe_grid_describe(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_upload_probe(fixture.gl.get(), small.get(), 2, &made) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_upload_probe(fixture.gl.get(), nullptr, 0, &made) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_upload_probe(nullptr, small.get(), 0, &made) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_upload_probe(fixture.gl.get(), small.get(), 0, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_upload_describe(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(made == nullptr);
 }
 
@@ -353,26 +352,26 @@ TEST_CASE("a grid outlives its nook_gl, and a lost context needs no call") {
   CountedContext host;
   nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
   const Probe probe = loaded(host.handle, harmonics_grid({2, 2, 2}));
-  nook_gl_probe_grid grid = nullptr;
-  NOOK_OK_OR_FAIL(nook_gl_probe_grid_create(gl, probe.get(), NOOK_GL_PROBE_GRID_ZONAL, &grid));
-  nook_gl_probe_grid_info info{};
+  nook_gl_upload grid = nullptr;
+  NOOK_OK_OR_FAIL(nook_gl_upload_probe(gl, probe.get(), NOOK_GL_PROBE_ZH3, &grid));
+  nook_gl_upload_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_gl_probe_grid_describe(grid, &info));
+  NOOK_OK_OR_FAIL(nook_gl_upload_describe(grid, &info));
   nook_gl_destroy(&gl);
-  CHECK(context.gl().IsTexture(info.texture));
-  nook_gl_probe_grid_destroy(&grid);
+  CHECK(context.gl().IsTexture(info.textures[0].texture));
+  nook_gl_upload_destroy(&grid);
   CHECK(grid == nullptr);
-  CHECK_FALSE(context.gl().IsTexture(info.texture));
-  nook_gl_probe_grid_destroy(&grid);
-  nook_gl_probe_grid_destroy(nullptr);
+  CHECK_FALSE(context.gl().IsTexture(info.textures[0].texture));
+  nook_gl_upload_destroy(&grid);
+  nook_gl_upload_destroy(nullptr);
 
   gl = create_gl(host.handle, platform::Context::loader, &context, 0);
-  NOOK_OK_OR_FAIL(nook_gl_probe_grid_create(gl, probe.get(), NOOK_GL_PROBE_GRID_ZONAL, &grid));
-  NOOK_OK_OR_FAIL(nook_gl_probe_grid_describe(grid, &info));
+  NOOK_OK_OR_FAIL(nook_gl_upload_probe(gl, probe.get(), NOOK_GL_PROBE_ZH3, &grid));
+  NOOK_OK_OR_FAIL(nook_gl_upload_describe(grid, &info));
   NOOK_OK_OR_FAIL(nook_gl_context_lost(gl));
-  CHECK(nook_gl_probe_grid_update(grid, probe.get()) == NOOK_ERROR_GL);
-  nook_gl_probe_grid_destroy(&grid);
+  CHECK(nook_gl_update_probe(grid, probe.get()) == NOOK_ERROR_GL);
+  nook_gl_upload_destroy(&grid);
   nook_gl_destroy(&gl);
   // A lost context would have deleted the texture.
-  context.gl().DeleteTextures(1, &info.texture);
+  context.gl().DeleteTextures(1, &info.textures[0].texture);
 }

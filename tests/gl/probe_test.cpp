@@ -1,5 +1,6 @@
 // Probes in shaders: the GLSL against the CPU, the grid, the state contract, and what is refused.
-#include <nook/nook_gl_probe.h>
+#include <nook/experimental/nook_sg.h>
+#include <nook/nook_gl.h>
 
 #include <algorithm>
 #include <array>
@@ -25,9 +26,9 @@ struct ProbeDelete {
 };
 using Probe = std::unique_ptr<nook_probe_s, ProbeDelete>;
 struct GlProbeDelete {
-  void operator()(nook_gl_probe probe) const { nook_gl_probe_destroy(&probe); }
+  void operator()(nook_gl_upload probe) const { nook_gl_upload_destroy(&probe); }
 };
-using GlProbe = std::unique_ptr<nook_gl_probe_s, GlProbeDelete>;
+using GlProbe = std::unique_ptr<nook_gl_upload_s, GlProbeDelete>;
 struct GlDelete {
   void operator()(nook_gl gl) const { nook_gl_destroy(&gl); }
 };
@@ -37,23 +38,23 @@ struct ProbeRequest {
   std::vector<float> sharpnesses{2, 6, 6, 12, 30, 0.2f, 1.24f, 1.26f, 80, 6, 6, 6};
   int ambient = 1;
   std::uint32_t counts[3] = {1, 1, 1};
-  nook_probe_basis basis = NOOK_PROBE_GAUSSIANS;
+  nook_probe_basis basis = NOOK_PROBE_BASIS_LOBES;
 };
 
 Probe make_probe(nook_context context, const ProbeRequest& request, unsigned seed = 1) {
   nook_probe_fit_desc fit_desc;
-  NOOK_OK_OR_FAIL(nook_probe_fit_desc_init(&fit_desc, sizeof fit_desc, NOOK_VERSION));
+  NOOK_OK_OR_FAIL(nook_probe_fit_desc_init(&fit_desc));
   fit_desc.basis = request.basis;
   fit_desc.lobe_count = std::uint32_t(request.sharpnesses.size());
   fit_desc.sharpnesses = request.sharpnesses.data();
-  fit_desc.ambient = request.basis == NOOK_PROBE_GAUSSIANS ? request.ambient : 0;
+  fit_desc.ambient = request.basis == NOOK_PROBE_BASIS_LOBES ? request.ambient : 0;
   nook_probe_fit fit = nullptr;
   NOOK_OK_OR_FAIL(nook_probe_fit_create(context, &fit_desc, &fit));
   nook_probe_fit_info info{};
   info.struct_size = sizeof info;
   NOOK_OK_OR_FAIL(nook_probe_fit_describe(fit, &info));
   nook_probe_desc desc;
-  NOOK_OK_OR_FAIL(nook_probe_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  NOOK_OK_OR_FAIL(nook_probe_desc_init(&desc));
   desc.functions = fit;
   std::copy_n(request.counts, 3, desc.counts);
   const float origin[3] = {-1, 0.5f, 2}, spacing[3] = {1.5f, 2, 0.75f};
@@ -71,19 +72,19 @@ Probe make_probe(nook_context context, const ProbeRequest& request, unsigned see
   return Probe(probe);
 }
 
-std::vector<nook_probe_lobe> lobes_of(nook_probe probe, const float* position_ws) {
+std::vector<nook_lobe> lobes_of(nook_probe probe, const float* position_ws) {
   nook_probe_info info{};
   info.struct_size = sizeof info;
   NOOK_OK_OR_FAIL(nook_probe_describe(probe, &info));
-  std::vector<nook_probe_lobe> lobes(info.function_count);
+  std::vector<nook_lobe> lobes(info.function_count);
   NOOK_OK_OR_FAIL(nook_probe_read_lobes(probe, position_ws, lobes.data(), info.function_count));
   return lobes;
 }
 
-nook_gl_probe_info info_of(const GlProbe& probe) {
-  nook_gl_probe_info info{};
+nook_gl_upload_info info_of(const GlProbe& probe) {
+  nook_gl_upload_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_gl_probe_describe(probe.get(), &info));
+  NOOK_OK_OR_FAIL(nook_gl_upload_describe(probe.get(), &info));
   return info;
 }
 
@@ -142,7 +143,7 @@ const char* const fragment_text =
     "}\n";
 
 // answer_count rows of colours, a column for each query.
-std::vector<float> ask(const GladGLContext& gl, const nook_gl_probe_info& probe,
+std::vector<float> ask(const GladGLContext& gl, const nook_gl_upload_info& probe,
                        const std::vector<Query>& queries) {
   const int width = int(queries.size());
   std::vector<float> texels;
@@ -167,7 +168,7 @@ std::vector<float> ask(const GladGLContext& gl, const nook_gl_probe_info& probe,
   const GLuint program = platform::link_program(gl, {glsl_header(gl), vertex_text},
                                                 {glsl_header(gl), probe.glsl, fragment_text});
   gl.UseProgram(program);
-  gl.BindTexture(table_target(gl), probe.texture);
+  gl.BindTexture(table_target(gl), probe.textures[0].texture);
   gl.Uniform1i(gl.GetUniformLocation(program, "nook_probe_texels"), 0);
   gl.Uniform1i(gl.GetUniformLocation(program, "queries"), 1);
   gl.BindVertexArray(array);
@@ -189,7 +190,7 @@ std::vector<float> computed(nook_probe probe, const std::vector<Query>& queries)
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const Query& q = queries[i];
     const float position[3] = {q.position_ws.x, q.position_ws.y, q.position_ws.z};
-    const std::vector<nook_probe_lobe> lobes = lobes_of(probe, position);
+    const std::vector<nook_lobe> lobes = lobes_of(probe, position);
     const auto count = std::uint32_t(lobes.size());
     const float n[3] = {q.normal.x, q.normal.y, q.normal.z};
     const nook_probe_surface surface{{n[0], n[1], n[2]},
@@ -202,17 +203,17 @@ std::vector<float> computed(nook_probe probe, const std::vector<Query>& queries)
     nook_probe_surface round = surface;
     round.alpha_x = round.alpha_y = std::sqrt(q.alpha_x * q.alpha_y);
     const auto at = [&](Answer answer) { return &rgb[3 * (answer * queries.size() + i)]; };
-    NOOK_OK_OR_FAIL(nook_probe_lobes_radiance(lobes.data(), count, n, at(radiance), 1));
+    NOOK_OK_OR_FAIL(nook_sg_radiance(lobes.data(), count, n, at(radiance), 1));
     const std::pair<nook_probe_irradiance_form, Answer> forms[] = {
         {NOOK_PROBE_IRRADIANCE_BANDS, bands},
         {NOOK_PROBE_IRRADIANCE_FITTED, fitted},
         {NOOK_PROBE_IRRADIANCE_INNER_PRODUCT, inner_product}};
     for (const auto& [form, answer] : forms)
-      NOOK_OK_OR_FAIL(nook_probe_lobes_irradiance(lobes.data(), count, form, n, at(answer), 1));
-    NOOK_OK_OR_FAIL(nook_probe_lobes_specular(lobes.data(), count, NOOK_PROBE_SPECULAR_ISOTROPIC, &round,
-                                              at(isotropic), 1));
-    NOOK_OK_OR_FAIL(nook_probe_lobes_specular(lobes.data(), count, NOOK_PROBE_SPECULAR_ANISOTROPIC, &surface,
-                                              at(anisotropic), 1));
+      NOOK_OK_OR_FAIL(nook_sg_irradiance(lobes.data(), count, form, n, at(answer), 1));
+    NOOK_OK_OR_FAIL(
+        nook_sg_specular(lobes.data(), count, NOOK_PROBE_SPECULAR_ISOTROPIC, &round, at(isotropic), 1));
+    NOOK_OK_OR_FAIL(
+        nook_sg_specular(lobes.data(), count, NOOK_PROBE_SPECULAR_ANISOTROPIC, &surface, at(anisotropic), 1));
   }
   return rgb;
 }
@@ -227,7 +228,7 @@ void compare(const std::vector<float>& found, const std::vector<float>& expected
       worst = std::max(worst, std::isfinite(found[i]) ? std::abs(found[i] - expected[i]) : INFINITY);
     }
     INFO("answer " << answer << " largest " << largest);
-    // This is the bound that nook_gl_probe.h promises: exponentials of a GPU have an error of a few units in
+    // This is the bound that nook_gl.h promises: exponentials of a GPU have an error of a few units in
     // the last place, times exponents up to a hundred.
     CHECK(worst <= 1e-4f * largest);
   }
@@ -238,8 +239,8 @@ struct Fixture {
       : gl(create_gl(host.handle, platform::Context::loader, &context, 0, mode)) {}
   explicit Fixture(Trace& trace) : gl(create_gl(host.handle, Trace::loader, &trace, 0)) {}
   GlProbe upload(const Probe& probe) {
-    nook_gl_probe made = nullptr;
-    NOOK_OK_OR_FAIL(nook_gl_probe_create(gl.get(), probe.get(), &made));
+    nook_gl_upload made = nullptr;
+    NOOK_OK_OR_FAIL(nook_gl_upload_probe(gl.get(), probe.get(), NOOK_GL_PROBE_LOBES, &made));
     return GlProbe(made);
   }
   CountedContext host;
@@ -259,7 +260,7 @@ TEST_CASE("harmonics in shaders agree with the CPU") {
   for (int c = 0; c < 3; ++c)
     harmonics[std::size_t(c)] = 6;  // so that irradiance is above 0, where shaders cut it off
   std::array<float, 15> zonal{};
-  NOOK_OK_OR_FAIL(nook_probe_harmonics_to_zonal(harmonics.data(), zonal.data()));
+  NOOK_OK_OR_FAIL(nook_sh_to_zh3(harmonics.data(), zonal.data()));
   constexpr int count = 64, rows = 4;
   std::vector<float> normals;
   for (int i = 0; i < count; ++i) {
@@ -272,10 +273,10 @@ TEST_CASE("harmonics in shaders agree with the CPU") {
       "void main() {\n"
       "  vec3 n = normals[int(gl_FragCoord.x)], a;\n"
       "  switch (int(gl_FragCoord.y)) {\n"
-      "    case 0: a = nook_probe_harmonics_radiance(light, n); break;\n"
-      "    case 1: a = nook_probe_harmonics_irradiance(light, n); break;\n"
-      "    case 2: a = nook_probe_zonal_harmonics_radiance(zonal, n); break;\n"
-      "    default: a = nook_probe_zonal_harmonics_irradiance(zonal, n); break;\n"
+      "    case 0: a = nook_sh_radiance(light, n); break;\n"
+      "    case 1: a = nook_sh_irradiance(light, n); break;\n"
+      "    case 2: a = nook_zh3_radiance(zonal, n); break;\n"
+      "    default: a = nook_zh3_irradiance(zonal, n); break;\n"
       "  }\n"
       "  answer = vec4(a, 1.0);\n"
       "}\n";
@@ -308,10 +309,10 @@ TEST_CASE("harmonics in shaders agree with the CPU") {
   gl.DeleteTextures(1, &texture);
 
   const auto row = [&](int i) { return expected.data() + std::ptrdiff_t(3) * count * i; };
-  NOOK_OK_OR_FAIL(nook_probe_harmonics_radiance(harmonics.data(), 2, normals.data(), row(0), count));
-  NOOK_OK_OR_FAIL(nook_probe_harmonics_irradiance(harmonics.data(), 2, normals.data(), row(1), count));
-  NOOK_OK_OR_FAIL(nook_probe_zonal_radiance(zonal.data(), normals.data(), row(2), count));
-  NOOK_OK_OR_FAIL(nook_probe_zonal_irradiance(zonal.data(), normals.data(), row(3), count));
+  NOOK_OK_OR_FAIL(nook_sh_radiance(harmonics.data(), 2, normals.data(), row(0), count));
+  NOOK_OK_OR_FAIL(nook_sh_irradiance(harmonics.data(), 2, normals.data(), row(1), count));
+  NOOK_OK_OR_FAIL(nook_sh_radiance(zonal.data(), NOOK_SH_ZH3, normals.data(), row(2), count));
+  NOOK_OK_OR_FAIL(nook_sh_irradiance(zonal.data(), NOOK_SH_ZH3, normals.data(), row(3), count));
   // Sums of nine products of size 6 or less.
   for (std::size_t i = 0; i < found.size(); ++i) CHECK(std::abs(found[i] - expected[i]) < 2e-5f);
 }
@@ -349,9 +350,9 @@ TEST_CASE("an update shows the new probe under the old name") {
   larger.counts[0] = 3;
   const Probe second = make_probe(fixture.host.handle, larger, 2);
   const GlProbe uploaded = fixture.upload(first);
-  const GLuint name = info_of(uploaded).texture;
-  NOOK_OK_OR_FAIL(nook_gl_probe_update(uploaded.get(), second.get()));
-  CHECK(info_of(uploaded).texture == name);
+  const GLuint name = info_of(uploaded).textures[0].texture;
+  NOOK_OK_OR_FAIL(nook_gl_update_probe(uploaded.get(), second.get()));
+  CHECK(info_of(uploaded).textures[0].texture == name);
   const std::vector<Query> queries = random_queries(16);
   compare(ask(context.gl(), info_of(uploaded), queries), computed(second.get(), queries));
 }
@@ -364,7 +365,7 @@ TEST_CASE("uploading a probe keeps the promises on OpenGL state") {
     Poison poison(context, is_es(context.gl()) ? gl::probes | gl::texel_uploads : unsigned{gl::probes});
     const StateValues touched = poison.touched(), untouched = poison.untouched();
     const GlProbe uploaded = fixture.upload(probe);
-    NOOK_OK_OR_FAIL(nook_gl_probe_update(uploaded.get(), probe.get()));
+    NOOK_OK_OR_FAIL(nook_gl_update_probe(uploaded.get(), probe.get()));
     INFO("mode " << mode);
     CHECK(poison.untouched() == untouched);
     if (mode == NOOK_GL_STATE_PRESERVE) CHECK(poison.touched() == touched);
@@ -375,17 +376,21 @@ TEST_CASE("uploading a probe keeps the promises on OpenGL state") {
 TEST_CASE("what cannot be uploaded is refused and leaves nothing") {
   NOOK_NEED_CONTEXT(context);
   Fixture fixture(context);
-  nook_gl_probe made = nullptr;
+  nook_gl_upload made = nullptr;
   ProbeRequest harmonics;
-  harmonics.basis = NOOK_PROBE_HARMONICS;
+  harmonics.basis = NOOK_PROBE_BASIS_SH;
   const Probe bands = make_probe(fixture.host.handle, harmonics);
-  CHECK(nook_gl_probe_create(fixture.gl.get(), bands.get(), &made) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(std::string(nook_last_message()).find("NOOK_PROBE_GAUSSIANS") != std::string::npos);
+  CHECK(nook_gl_upload_probe(fixture.gl.get(), bands.get(), NOOK_GL_PROBE_LOBES, &made) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(std::string(nook_last_message()).find("NOOK_PROBE_BASIS_LOBES") != std::string::npos);
   CHECK(made == nullptr);
-  CHECK(nook_gl_probe_create(nullptr, bands.get(), &made) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_probe_create(fixture.gl.get(), nullptr, &made) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_probe_create(fixture.gl.get(), bands.get(), nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_probe_describe(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_upload_probe(nullptr, bands.get(), NOOK_GL_PROBE_LOBES, &made) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_upload_probe(fixture.gl.get(), nullptr, NOOK_GL_PROBE_LOBES, &made) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_upload_probe(fixture.gl.get(), bands.get(), NOOK_GL_PROBE_LOBES, nullptr) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_upload_describe(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
 }
 
 TEST_CASE("a grid beyond the limits of the context is refused, and the old one stays") {
@@ -402,7 +407,7 @@ TEST_CASE("a grid beyond the limits of the context is refused, and the old one s
   const Probe grid = make_probe(fixture.host.handle, large);
   const Probe small = make_probe(fixture.host.handle, {});
   const GlProbe uploaded = fixture.upload(small);
-  CHECK(nook_gl_probe_update(uploaded.get(), grid.get()) == NOOK_ERROR_UNSUPPORTED);
+  CHECK(nook_gl_update_probe(uploaded.get(), grid.get()) == NOOK_ERROR_UNSUPPORTED);
   const std::vector<Query> queries = random_queries(8);
   compare(ask(context.gl(), info_of(uploaded), queries), computed(small.get(), queries));
 }
@@ -412,26 +417,26 @@ TEST_CASE("a probe outlives its nook_gl, and a lost context needs no call") {
   CountedContext host;
   nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
   const Probe probe = make_probe(host.handle, {});
-  nook_gl_probe uploaded = nullptr;
-  NOOK_OK_OR_FAIL(nook_gl_probe_create(gl, probe.get(), &uploaded));
-  nook_gl_probe_info info{};
+  nook_gl_upload uploaded = nullptr;
+  NOOK_OK_OR_FAIL(nook_gl_upload_probe(gl, probe.get(), NOOK_GL_PROBE_LOBES, &uploaded));
+  nook_gl_upload_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_gl_probe_describe(uploaded, &info));
+  NOOK_OK_OR_FAIL(nook_gl_upload_describe(uploaded, &info));
   nook_gl_destroy(&gl);
-  CHECK(context.gl().IsTexture(info.texture));
-  nook_gl_probe_destroy(&uploaded);
+  CHECK(context.gl().IsTexture(info.textures[0].texture));
+  nook_gl_upload_destroy(&uploaded);
   CHECK(uploaded == nullptr);
-  CHECK_FALSE(context.gl().IsTexture(info.texture));
-  nook_gl_probe_destroy(&uploaded);
-  nook_gl_probe_destroy(nullptr);
+  CHECK_FALSE(context.gl().IsTexture(info.textures[0].texture));
+  nook_gl_upload_destroy(&uploaded);
+  nook_gl_upload_destroy(nullptr);
 
   gl = create_gl(host.handle, platform::Context::loader, &context, 0);
-  NOOK_OK_OR_FAIL(nook_gl_probe_create(gl, probe.get(), &uploaded));
-  NOOK_OK_OR_FAIL(nook_gl_probe_describe(uploaded, &info));
+  NOOK_OK_OR_FAIL(nook_gl_upload_probe(gl, probe.get(), NOOK_GL_PROBE_LOBES, &uploaded));
+  NOOK_OK_OR_FAIL(nook_gl_upload_describe(uploaded, &info));
   NOOK_OK_OR_FAIL(nook_gl_context_lost(gl));
-  CHECK(nook_gl_probe_update(uploaded, probe.get()) == NOOK_ERROR_GL);
-  nook_gl_probe_destroy(&uploaded);
+  CHECK(nook_gl_update_probe(uploaded, probe.get()) == NOOK_ERROR_GL);
+  nook_gl_upload_destroy(&uploaded);
   nook_gl_destroy(&gl);
   // A lost context would have deleted the texture.
-  context.gl().DeleteTextures(1, &info.texture);
+  context.gl().DeleteTextures(1, &info.textures[0].texture);
 }

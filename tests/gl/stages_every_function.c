@@ -1,6 +1,6 @@
-/* Every function of nook_nnao_stages.h, called from C in the order a host would; returns the number of failed
+/* Every function of nook_stages.h, called from C in the order a host would; returns the number of failed
  * expectations and prints each. No OpenGL context is needed. */
-#include <nook/nook_nnao_stages.h>
+#include <nook/experimental/nook_stages.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -20,16 +20,17 @@ int nook_call_every_stages_function(void) {
   nook_context_desc context_desc;
   nook_context context = NULL;
   nook_nnao_desc desc;
-  nook_nnao_frame_desc frame;
+  nook_gl_frame_desc frame;
+  nook_nnao_frame_desc frame_desc;
   nook_nnao_stages stages = NULL;
   nook_nnao_stages_info info;
   nook_nnao_stage_info stage;
   nook_nnao_image_info image;
   nook_nnao_frame_values values;
   uint32_t i;
-  EXPECT_OK(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+  EXPECT_OK(nook_context_desc_init(&context_desc));
   EXPECT_OK(nook_context_create(&context_desc, &context));
-  EXPECT_OK(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  EXPECT_OK(nook_nnao_desc_init(&desc));
   desc.max_width = 64;
   desc.max_height = 48;
   EXPECT_OK(nook_nnao_stages_create(context, &desc, &stages));
@@ -40,21 +41,22 @@ int nook_call_every_stages_function(void) {
   for (i = 0; i < info.stage_count; ++i) {
     memset(&stage, 0, sizeof stage);
     stage.struct_size = sizeof stage;
-    EXPECT_OK(nook_nnao_stages_stage(stages, i, &stage));
+    EXPECT_OK(nook_nnao_stages_describe_stage(stages, i, &stage));
     EXPECT(stage.fragment_shader && strncmp(stage.fragment_shader, "#version 450", 12) == 0);
     memset(&image, 0, sizeof image);
     image.struct_size = sizeof image;
-    EXPECT_OK(nook_nnao_stages_image(stages, stage.output, &image));
+    EXPECT_OK(nook_nnao_stages_describe_image(stages, stage.output, &image));
     EXPECT(image.format != NOOK_NNAO_FORMAT_NONE && image.width == 64 && image.height == 48);
   }
-  EXPECT_OK(nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
+  EXPECT_OK(nook_gl_frame_desc_init(&frame));
+  EXPECT_OK(nook_nnao_frame_desc_init(&frame_desc));
   frame.width = 64;
   frame.height = 48;
-  frame.radius = 0.5f;
+  frame_desc.radius = 0.5f;
   memcpy(frame.projection, projection, sizeof projection);
   memset(&values, 0, sizeof values);
   values.struct_size = sizeof values;
-  EXPECT_OK(nook_nnao_stages_frame(stages, &frame, NULL, 0, 0, &values));
+  EXPECT_OK(nook_nnao_stages_frame(stages, &frame, &frame_desc, NULL, 0, 0, &values));
   EXPECT(values.surface_width == 64 && values.viewport[3] == 48);
   nook_nnao_stages_destroy(&stages);
   EXPECT(stages == NULL);

@@ -19,6 +19,8 @@ std::string names_of(unsigned users) {
                                                   {nook::gl::probes, "probe"},
                                                   {nook::gl::grids, "grid"},
                                                   {nook::gl::captures, "capture"},
+                                                  {nook::gl::binds, "bind"},
+                                                  {nook::gl::clips, "clips"},
                                                   {nook::gl::screen_compute, "nnao, compute path"},
                                                   {nook::gl::outputs, "output"},
                                                   {nook::gl::outputs_compute, "output with a stride"},
@@ -48,12 +50,16 @@ std::string table() {
   out << "\n33 and 43 are the tiers of nook_gl_create and the nook_gl_scene functions; ES30 touches what 33 "
          "does, ES31 what 43 does. Tables on OpenGL ES are the uploads of 33, 43, probe and "
          "nook_nnao_create. nnao is nook_nnao_create and nook_nnao_render; its compute path is that of "
-         "nook_nnao_render if nook_nnao_info.path is NOOK_NNAO_PATH_COMPUTE. nook_world_pass_create and "
+         "nook_nnao_render if nook_nnao_info.path is NOOK_NNAO_PATH_COMPUTE. nook_world_create and "
          "nook_world_render touch what nnao does, and at half resolution what its compute path does where "
-         "there are compute shaders. material is nook_gl_material_create. probe is nook_gl_probe_create and "
-         "nook_gl_probe_update. grid is nook_gl_probe_grid_create and nook_gl_probe_grid_update. capture is "
-         "nook_gl_probe_capture_create and _add; _read and _solve touch a part of it. nook_nnao_record "
-         "touches what nnao does as well. output is nook_gl_scene_write_ao.\n\n"
+         "there are compute shaders. material is nook_gl_upload_material, clips is nook_gl_upload_clips. "
+         "probe and grid are "
+         "nook_gl_upload_probe and nook_gl_update_probe, probe with NOOK_GL_PROBE_LOBES and grid with the "
+         "other "
+         "forms. bind is nook_gl_upload_bind, which also leaves the program in use and the textures bound, "
+         "without sampler objects, in every mode. capture is "
+         "nook_gl_capture_create and _add; _read and _solve touch a part of it. nook_nnao_record "
+         "touches what nnao does as well. output is nook_gl_scene_write.\n\n"
          "No other state changes: no parameter of a host's texture or sampler, no other pixel-store value, "
          "and no depth, stencil or scissor parameter. Viewports and draw buffers other than the first keep "
          "their state, viewports from OpenGL 4.1 on and draw buffers from 4.0 on.\n\n"

@@ -20,8 +20,8 @@ struct Step {
 void walk(platform::Context& context, int tier, nook_gl_state_mode mode,
           const std::function<void(const char*, Poison&, const std::function<void()>&)>& check) {
   CountedContext host;
-  nook_character_model model = load_model(host.handle, sample_model(21));
-  nook_character_model other = load_model(host.handle, sample_model(22, {3, 5, 9, 30, 5, 7}));
+  nook_model model = load_model(host.handle, sample_model(21));
+  nook_model other = load_model(host.handle, sample_model(22, {3, 5, 9, 30, 5, 7}));
   Crowd crowd(host.handle, {model, other}, {5, 3}, {});
   nook_gl gl = nullptr;
   nook_gl_ao_view view{};
@@ -39,7 +39,7 @@ void walk(platform::Context& context, int tier, nook_gl_state_mode mode,
       {"read", [&] { gpu_ao(gl, crowd, model, 0); }},
       {"first light",
        [&] {
-         const nook_probe_lobe lobe{{0, 1, 0}, 6, {1, 2, 3}, 0};
+         const nook_lobe lobe{{0, 1, 0}, 6, {1, 2, 3}, 0};
          NOOK_OK_OR_FAIL(nook_scene_set_light(crowd.scene, crowd.ids[0], &lobe, 1));
          NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
        }},
@@ -72,8 +72,8 @@ void walk(platform::Context& context, int tier, nook_gl_state_mode mode,
     });
     CHECK(context.gl().GetError() == GL_NO_ERROR);
   }
-  nook_character_model_destroy(&model);
-  nook_character_model_destroy(&other);
+  nook_model_destroy(&model);
+  nook_model_destroy(&other);
   for (const std::string& message : take_debug_messages()) FAIL_CHECK(message);
 }
 
@@ -122,7 +122,7 @@ TEST_CASE("HOST touches only what the list names, and works whatever it finds") 
 TEST_CASE("PRESERVE copes with a program that the host deleted while it was current") {
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
-  nook_character_model model = load_model(host.handle, sample_model(23));
+  nook_model model = load_model(host.handle, sample_model(23));
   Crowd crowd(host.handle, {model}, {5}, {});
   const GladGLContext& functions = context.gl();
   for (const int tier : tiers_of(context)) {
@@ -137,7 +137,7 @@ TEST_CASE("PRESERVE copes with a program that the host deleted while it was curr
     functions.UseProgram(0);
     nook_gl_destroy(&gl);
   }
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
   take_debug_messages();
 }
 

@@ -1,6 +1,7 @@
-/* Every function of nook_gl_synthesis.h, called from C in the order a host would; returns the number of
+/* Every function of nook_synthesis.h, called from C in the order a host would; returns the number of
  * failed expectations and prints each. The OpenGL context is current. */
-#include <nook/nook_gl_synthesis.h>
+#include <nook/experimental/nook_synthesis.h>
+#include <nook/nook_gl.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -18,32 +19,32 @@ static void expect(int condition, const char* what, int line) {
 int nook_synthesis_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_proc, void* user) {
   nook_context_desc context_desc;
   nook_gl_desc gl_desc;
-  nook_gl_synthesis_info uploaded;
+  nook_gl_upload_info uploaded;
   nook_context context = NULL;
   nook_gl gl = NULL;
   nook_synthesis synthesis = NULL;
-  nook_gl_synthesis on_gpu = NULL;
+  nook_gl_upload on_gpu = NULL;
 
   failures = 0;
-  EXPECT_OK(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+  EXPECT_OK(nook_context_desc_init(&context_desc));
   EXPECT_OK(nook_context_create(&context_desc, &context));
-  EXPECT_OK(nook_gl_desc_init(&gl_desc, sizeof gl_desc, NOOK_VERSION));
+  EXPECT_OK(nook_gl_desc_init(&gl_desc));
   gl_desc.get_proc = get_proc;
   gl_desc.get_proc_user = user;
   EXPECT_OK(nook_gl_create(context, &gl_desc, &gl));
-  EXPECT(nook_gl_synthesis_create(gl, NULL, &on_gpu) == NOOK_ERROR_INVALID_ARGUMENT);
+  EXPECT(nook_gl_upload_synthesis(gl, NULL, &on_gpu) == NOOK_ERROR_INVALID_ARGUMENT);
   EXPECT_OK(nook_synthesis_load(context, bytes, size, &synthesis));
-  EXPECT_OK(nook_gl_synthesis_create(gl, synthesis, &on_gpu));
+  EXPECT_OK(nook_gl_upload_synthesis(gl, synthesis, &on_gpu));
   nook_synthesis_destroy(&synthesis);
   memset(&uploaded, 0, sizeof uploaded);
   uploaded.struct_size = sizeof uploaded;
-  EXPECT_OK(nook_gl_synthesis_describe(on_gpu, &uploaded));
-  EXPECT(uploaded.texture != 0 && uploaded.texture_bytes == 8 * 8 * 4);
+  EXPECT_OK(nook_gl_upload_describe(on_gpu, &uploaded));
+  EXPECT(uploaded.textures[0].texture != 0 && uploaded.bytes == 8 * 8 * 4);
   EXPECT(strstr(uploaded.glsl, "nook_synthesis_material_uv") != NULL);
   nook_gl_destroy(&gl);
   nook_context_destroy(&context);
-  nook_gl_synthesis_destroy(&on_gpu);
+  nook_gl_upload_destroy(&on_gpu);
   EXPECT(!on_gpu);
-  nook_gl_synthesis_destroy(&on_gpu);
+  nook_gl_upload_destroy(&on_gpu);
   return failures;
 }

@@ -1,5 +1,5 @@
 // Coordinate textures in shaders: the GLSL against the CPU, and the contract of the C functions.
-#include <nook/nook_gl_synthesis.h>
+#include <nook/experimental/nook_synthesis.h>
 
 #include <cmath>
 
@@ -39,10 +39,10 @@ std::vector<std::byte> sample_bytes() {
 }
 
 // Draws the material's coordinates of points of the plane, four floats for each.
-std::vector<float> draw(const GladGLContext& gl, nook_gl_synthesis synthesis, const std::vector<float>& rgb) {
-  nook_gl_synthesis_info info{};
+std::vector<float> draw(const GladGLContext& gl, nook_gl_upload synthesis, const std::vector<float>& rgb) {
+  nook_gl_upload_info info{};
   info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_gl_synthesis_describe(synthesis, &info));
+  NOOK_OK_OR_FAIL(nook_gl_upload_describe(synthesis, &info));
   const GLuint program =
       platform::link_program(gl, {glsl_header(gl), vertex_text}, {glsl_header(gl), info.glsl, fragment_text});
   Textures images(gl);
@@ -50,7 +50,7 @@ std::vector<float> draw(const GladGLContext& gl, nook_gl_synthesis synthesis, co
                value = images.floats(GL_RGBA32F, 4, count, 1, {});
   gl.UseProgram(program);
   gl.ActiveTexture(GL_TEXTURE0);
-  gl.BindTexture(GL_TEXTURE_2D_ARRAY, info.texture);
+  gl.BindTexture(GL_TEXTURE_2D_ARRAY, info.textures[0].texture);
   gl.Uniform1i(gl.GetUniformLocation(program, "nook_synthesis_texels"), 0);
   gl.ActiveTexture(GL_TEXTURE1);
   gl.BindTexture(GL_TEXTURE_2D, points);
@@ -78,7 +78,7 @@ std::vector<float> draw(const GladGLContext& gl, nook_gl_synthesis synthesis, co
 
 }  // namespace
 
-TEST_CASE("synthesis: a C program calls every function of nook_gl_synthesis.h") {
+TEST_CASE("synthesis: a C program calls every function of nook_synthesis.h") {
   NOOK_NEED_CONTEXT(context);
   const std::vector<std::byte> bytes = sample_bytes();
   CHECK(nook_synthesis_call_everything(bytes.data(), bytes.size(), platform::Context::loader, &context) == 0);
@@ -89,9 +89,9 @@ TEST_CASE("synthesis: the GLSL gives the points of the CPU reference") {
   MaterialFixture fixture(context);
   const std::vector<std::byte> bytes = sample_bytes();
   nook_synthesis synthesis = nullptr;
-  nook_gl_synthesis on_gpu = nullptr;
+  nook_gl_upload on_gpu = nullptr;
   NOOK_OK_OR_FAIL(nook_synthesis_load(fixture.host.handle, bytes.data(), bytes.size(), &synthesis));
-  NOOK_OK_OR_FAIL(nook_gl_synthesis_create(fixture.gl, synthesis, &on_gpu));
+  NOOK_OK_OR_FAIL(nook_gl_upload_synthesis(fixture.gl, synthesis, &on_gpu));
   material::test::Numbers numbers(5);
   std::vector<float> rgb, plane, wanted(2 * count);
   for (int i = 0; i < count; ++i) {
@@ -109,7 +109,7 @@ TEST_CASE("synthesis: the GLSL gives the points of the CPU reference") {
       // Coordinates of up to 6 tiles, a few roundings of floats.
       CHECK(drawn[4 * i + k] == Approx(wanted[2 * i + k]).margin(1e-5));
     }
-  nook_gl_synthesis_destroy(&on_gpu);
+  nook_gl_upload_destroy(&on_gpu);
   nook_synthesis_destroy(&synthesis);
 }
 
@@ -119,17 +119,17 @@ TEST_CASE("synthesis: uploading coordinates keeps the promises on OpenGL state")
   for (const nook_gl_state_mode mode : {NOOK_GL_STATE_PRESERVE, NOOK_GL_STATE_DEFAULTS}) {
     MaterialFixture fixture(context, mode);
     nook_synthesis synthesis = nullptr;
-    nook_gl_synthesis on_gpu = nullptr;
+    nook_gl_upload on_gpu = nullptr;
     NOOK_OK_OR_FAIL(nook_synthesis_load(fixture.host.handle, bytes.data(), bytes.size(), &synthesis));
     {
       Poison poison(context, gl::materials);
       const StateValues touched = poison.touched(), untouched = poison.untouched();
-      NOOK_OK_OR_FAIL(nook_gl_synthesis_create(fixture.gl, synthesis, &on_gpu));
+      NOOK_OK_OR_FAIL(nook_gl_upload_synthesis(fixture.gl, synthesis, &on_gpu));
       CHECK(poison.untouched() == untouched);
       if (mode == NOOK_GL_STATE_PRESERVE) CHECK(poison.touched() == touched);
       if (mode == NOOK_GL_STATE_DEFAULTS) CHECK(poison.touched() == poison.defaults());
     }
-    nook_gl_synthesis_destroy(&on_gpu);
+    nook_gl_upload_destroy(&on_gpu);
     nook_synthesis_destroy(&synthesis);
   }
 }

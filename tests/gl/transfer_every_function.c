@@ -1,6 +1,7 @@
-/* Every function of nook_gl_transfer.h, called from C in the order a host would; returns the number of failed
+/* Every function of nook_transfer.h, called from C in the order a host would; returns the number of failed
  * expectations and prints each. The OpenGL context is current. */
-#include <nook/nook_gl_transfer.h>
+#include <nook/experimental/nook_transfer.h>
+#include <nook/nook_gl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,14 +40,14 @@ int nook_transfer_call_everything(const void* material_bytes, size_t material_si
   uint64_t count;
 
   failures = 0;
-  EXPECT_OK(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+  EXPECT_OK(nook_context_desc_init(&context_desc));
   EXPECT_OK(nook_context_create(&context_desc, &context));
-  EXPECT_OK(nook_gl_desc_init(&gl_desc, sizeof gl_desc, NOOK_VERSION));
+  EXPECT_OK(nook_gl_desc_init(&gl_desc));
   gl_desc.get_proc = get_proc;
   gl_desc.get_proc_user = user;
   EXPECT_OK(nook_gl_create(context, &gl_desc, &gl));
-  EXPECT_OK(nook_material_load(context, material_bytes, material_size, &material));
-  EXPECT_OK(nook_transfer_response_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  EXPECT_OK(nook_material_load(context, material_bytes, material_size, NULL, &material));
+  EXPECT_OK(nook_transfer_response_desc_init(&desc));
   desc.material = material;
   desc.lobe_count = 12;
   EXPECT_OK(nook_transfer_response_create(context, &desc, &response));
@@ -74,9 +75,9 @@ int nook_transfer_call_everything(const void* material_bytes, size_t material_si
   EXPECT_OK(nook_gl_transfer_describe(on_gpu, &uploaded));
   EXPECT(uploaded.texture != 0 && uploaded.bytes >= count * sizeof(float));
   EXPECT(strstr(uploaded.glsl, "nook_transfer_radiance") != NULL);
-  EXPECT(uploaded.form == NOOK_TRANSFER_FORM_SEPARATED && uploaded.vertex_texture == 0);
+  EXPECT(uploaded.form == NOOK_FORM_DEFAULT && uploaded.vertex_texture == 0);
   EXPECT_OK(nook_gl_transfer_describe(of_paper, &uploaded));
-  EXPECT(uploaded.form == NOOK_TRANSFER_FORM_PAPER && uploaded.vertex_texture != 0);
+  EXPECT(uploaded.form == NOOK_FORM_PAPER && uploaded.vertex_texture != 0);
   EXPECT(strstr(uploaded.glsl, "nook_transfer_vertices") != NULL);
   nook_gl_destroy(&gl);
   nook_context_destroy(&context);

@@ -1,5 +1,5 @@
 // Radiance transfer in shaders: the GLSL against the CPU, and the contract of the C functions.
-#include <nook/nook_gl_transfer.h>
+#include <nook/experimental/nook_transfer.h>
 
 #include <cmath>
 
@@ -64,7 +64,7 @@ material::test::SampleSize agreement_size() {
 
 nook_transfer_response make_response(nook_context context, nook_material material) {
   nook_transfer_response_desc desc;
-  NOOK_OK_OR_FAIL(nook_transfer_response_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  NOOK_OK_OR_FAIL(nook_transfer_response_desc_init(&desc));
   desc.material = material;
   desc.lobe_count = 42;
   nook_transfer_response response = nullptr;
@@ -72,13 +72,13 @@ nook_transfer_response make_response(nook_context context, nook_material materia
   return response;
 }
 
-std::vector<nook_material_sample> views_of(const nook_material_info& info) {
+std::vector<nook_material_pixel> views_of(const nook_material_info& info) {
   material::test::Numbers numbers(5);
   const std::uint32_t side =
       info.btf.view_map_side ? 256 / info.btf.view_map_side * info.btf.view_map_side : 256;
-  std::vector<nook_material_sample> samples(count);
-  for (nook_material_sample& s : samples) {
-    s = {{place[0], place[1]}, 0, {}, {0, 0, 1}};
+  std::vector<nook_material_pixel> samples(count);
+  for (nook_material_pixel& s : samples) {
+    s = {{place[0], place[1]}, {}, {}, {}, {0, 0, 1}};
     material::ParabolicPoint p;
     do {
       p.x = (float(numbers.below(side)) + 0.5f) / float(side) * 2 - 1;
@@ -96,27 +96,25 @@ struct Drawn {
   std::vector<float> value, mixed;  // RGBA of each vertex
 };
 
-Drawn draw(const GladGLContext& gl, nook_gl_material material, nook_gl_transfer transfer,
-           const std::vector<nook_material_sample>& samples) {
+Drawn draw(const GladGLContext& gl, nook_gl_upload material, nook_gl_transfer transfer,
+           const std::vector<nook_material_pixel>& samples) {
   nook_gl_transfer_info info{};
   info.struct_size = sizeof info;
   NOOK_OK_OR_FAIL(nook_gl_transfer_describe(transfer, &info));
-  const nook_gl_material_info decoder = info_of(material);
+  const nook_gl_upload_info decoder = info_of(material);
   const GLuint program = platform::link_program(gl, {glsl_header(gl), info.glsl, vertex_text},
                                                 {glsl_header(gl), decoder.glsl, info.glsl, fragment_text});
   // Making textures binds them to the active unit.
   Textures images(gl);
   std::vector<float> views;
-  for (const nook_material_sample& s : samples) views.insert(views.end(), {s.view[0], s.view[1], s.view[2]});
+  for (const nook_material_pixel& s : samples) views.insert(views.end(), {s.view[0], s.view[1], s.view[2]});
   const GLuint given = images.floats(GL_RGB32F, 3, count, 1, views);
   const GLuint value = images.floats(GL_RGBA32F, 4, count, 1, {}),
                mixed = images.floats(GL_RGBA32F, 4, count, 1, {});
   gl.UseProgram(program);
   GLint unit = 0;
   for (std::uint32_t i = 0; i < decoder.texture_count; ++i) {
-    nook_gl_material_texture texture{};
-    texture.struct_size = sizeof texture;
-    NOOK_OK_OR_FAIL(nook_gl_material_describe_texture(material, i, &texture));
+    const nook_gl_upload_texture& texture = decoder.textures[i];
     gl.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
     gl.BindTexture(texture.target, texture.texture);
     gl.Uniform1i(gl.GetUniformLocation(program, texture.uniform), unit++);
@@ -174,7 +172,7 @@ void check_agreement(platform::Context& context, MaterialFixture& fixture, nook_
   nook_transfer_response_info info{};
   info.struct_size = sizeof info;
   NOOK_OK_OR_FAIL(nook_transfer_response_describe(response, &info));
-  const std::vector<nook_material_sample> samples = views_of(info_of(material));
+  const std::vector<nook_material_pixel> samples = views_of(info_of(material));
   const Drawn drawn = draw(context.gl(), fixture.upload(material), transfer, samples);
 
   std::vector<float> between(vectors.size()), wanted(3 * count), wanted_mixed(3 * count);
@@ -203,7 +201,7 @@ void check_agreement(platform::Context& context, MaterialFixture& fixture, nook_
 
 }  // namespace
 
-TEST_CASE("transfer: a C program calls every function of nook_gl_transfer.h") {
+TEST_CASE("transfer: a C program calls every function of nook_transfer.h") {
   NOOK_NEED_CONTEXT(context);
   const std::vector<std::byte> bytes = material::write_material(material::test::sample_material(2));
   const material::MaterialTables tables =
@@ -247,8 +245,12 @@ TEST_CASE(
     NOOK_OK_OR_FAIL(nook_transfer_load(fixture.host.handle, bytes.data(), bytes.size(), &transfer));
     std::vector<float> amplitudes(3 * 42), vectors(std::size_t(count) * 3 * tables.btf.light_modes);
     for (std::size_t i = 0; i < amplitudes.size(); ++i) amplitudes[i] = 0.3f * std::sin(float(i));
-    NOOK_OK_OR_FAIL(
-        nook_transfer_vectors(transfer, response, amplitudes.data(), 42, 0, count, vectors.data(), 0));
+    nook_transfer_vectors_desc desc;
+    NOOK_OK_OR_FAIL(nook_transfer_vectors_desc_init(&desc));
+    desc.transfer = transfer;
+    desc.amplitudes = amplitudes.data();
+    desc.lobe_count = 42;
+    NOOK_OK_OR_FAIL(nook_transfer_read_vectors(response, &desc, vectors.data(), count, 0));
     check_agreement(context, fixture, material, response, upload(fixture, response, vectors), vectors);
     nook_gl_transfer clusters = nullptr;
     NOOK_OK_OR_FAIL(nook_gl_transfer_create_paper(fixture.gl, transfer, response, &clusters));

@@ -1,5 +1,5 @@
 // The coloured world pass: the open shares of lobes and of a cone at every pixel, beside nook_world_sample.
-#include <nook/nook_gl_world.h>
+#include <nook/nook_world.h>
 
 #include <array>
 #include <cmath>
@@ -12,21 +12,21 @@ using namespace nook::test::world;
 
 namespace {
 
-nook_world_pass_desc coloured_desc(int half = 0) {
-  nook_world_pass_desc desc = world_desc();
+nook_world_desc coloured_desc(int half = 0) {
+  nook_world_desc desc = world_desc();
   desc.coloured = 1;
   desc.half_resolution = half;
   return desc;
 }
 
-std::vector<nook_probe_lobe> window_light() {
+std::vector<nook_lobe> window_light() {
   const auto lobe = [](Vec3 axis, float sharpness, Vec3 amplitude) {
     const Vec3 a = normalised(axis);
-    return nook_probe_lobe{{a.x, a.y, a.z}, sharpness, {amplitude.x, amplitude.y, amplitude.z}, 0};
+    return nook_lobe{{a.x, a.y, a.z}, sharpness, {amplitude.x, amplitude.y, amplitude.z}, 0};
   };
-  std::vector<nook_probe_lobe> lobes{lobe({1, 0.4f, 0.2f}, 3, {2, 1.6f, 1}),
-                                     lobe({-0.3f, 1, 0.5f}, 1, {0.2f, 0.4f, 0.9f}),
-                                     lobe({0, 1, 0}, 0, {0.1f, 0.1f, 0.12f})};
+  std::vector<nook_lobe> lobes{lobe({1, 0.4f, 0.2f}, 3, {2, 1.6f, 1}),
+                               lobe({-0.3f, 1, 0.5f}, 1, {0.2f, 0.4f, 0.9f}),
+                               lobe({0, 1, 0}, 0, {0.1f, 0.1f, 0.12f})};
   // Lamps on a spiral, of which every third is bright, make them so many that all bands count.
   for (int i = 0; i < 21; ++i) {
     const float height = float(i) / 10 - 1, angle = 2.4f * float(i), bright = i % 3 == 0 ? 1.0f : 0.05f;
@@ -39,8 +39,8 @@ std::vector<nook_probe_lobe> window_light() {
 
 // Returns four numbers for each pixel, by nook_world_sample.
 std::vector<float> sampled_light(const Picture& picture, const View& view, nook_scene scene,
-                                 const std::vector<nook_world_capsule>& casters,
-                                 const std::vector<nook_probe_lobe>& lobes, Vec3 towards, float degrees) {
+                                 const std::vector<nook_capsule>& casters,
+                                 const std::vector<nook_lobe>& lobes, Vec3 towards, float degrees) {
   std::vector<float> position, normal;
   for (std::uint32_t y = 0; y < picture.height; ++y)
     for (std::uint32_t x = 0; x < picture.width; ++x) {
@@ -55,12 +55,12 @@ std::vector<float> sampled_light(const Picture& picture, const View& view, nook_
   const std::size_t count = picture.depth.size();
   std::vector<float> ao(count), light(count), rgb(3 * count), all(4 * count);
   nook_world_sample_desc desc;
-  NOOK_OK_OR_FAIL(nook_world_sample_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  NOOK_OK_OR_FAIL(nook_world_sample_desc_init(&desc));
   desc.positions = position.data();
   desc.normals = normal.data();
   desc.point_count = std::uint32_t(count);
-  desc.props = casters.data();
-  desc.prop_count = std::uint32_t(casters.size());
+  desc.capsules = casters.data();
+  desc.capsule_count = std::uint32_t(casters.size());
   desc.lobes = lobes.data();
   desc.lobe_count = std::uint32_t(lobes.size());
   desc.directional_ao = rgb.data();
@@ -80,16 +80,16 @@ struct LightFixture : WorldFixture {
   explicit LightFixture(platform::Context& made_in) : WorldFixture(made_in) {}
 
   // Returns four numbers for each pixel.
-  std::vector<float> drawn(const nook_world_frame_desc& frame) {
-    NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
-    nook_world_pass_info info{};
+  std::vector<float> drawn(const DarkenedFrame& frame) {
+    NOOK_OK_OR_FAIL(nook_world_render(pass, &frame, &frame));
+    nook_world_info info{};
     info.struct_size = sizeof info;
-    NOOK_OK_OR_FAIL(nook_world_pass_describe(pass, &info));
+    NOOK_OK_OR_FAIL(nook_world_describe(pass, &info));
     return read_texture(context.gl(), info.texture, width, height, 4);
   }
 };
 
-void set_axis(nook_world_frame_desc& frame, Vec3 towards, float degrees) {
+void set_axis(DarkenedFrame& frame, Vec3 towards, float degrees) {
   const Vec3 axis = normalised(towards);
   frame.light_axis[0] = axis.x;
   frame.light_axis[1] = axis.y;
@@ -108,21 +108,21 @@ std::vector<float> channel(const std::vector<float>& texels, std::size_t c) {
 TEST_CASE("world light: lobes and a cone darken as on the CPU, under every projection") {
   NOOK_NEED_CONTEXT(context);
   LightFixture fixture(context);
-  nook_world_pass pass = fixture.made(coloured_desc());
+  nook_world pass = fixture.made(coloured_desc());
   REQUIRE(pass);
   const View view = turned_view();
-  const std::vector<nook_world_capsule> casters = props(view);
-  const std::vector<nook_probe_lobe> lobes = window_light();
+  const std::vector<nook_capsule> casters = props(view);
+  const std::vector<nook_lobe> lobes = window_light();
   const Vec3 towards{0.5f, 1, 0.3f};
   for (const Camera& camera : cameras(float(width) / height)) {
     INFO(camera.name);
     const Picture picture = look(camera, still_life(), width, height);
-    const nook_nnao_frame_desc screen =
+    const ScreenFrame screen =
         frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 1);
     for (const float degrees : {6.0f, 50.0f}) {
-      nook_world_frame_desc frame = world_frame(screen, view);
-      frame.props = casters.data();
-      frame.prop_count = std::uint32_t(casters.size());
+      DarkenedFrame frame = world_frame(screen, view);
+      frame.capsules = casters.data();
+      frame.capsule_count = std::uint32_t(casters.size());
       frame.lobes = lobes.data();
       frame.lobe_count = std::uint32_t(lobes.size());
       set_axis(frame, towards, degrees);
@@ -148,22 +148,22 @@ TEST_CASE("world light: without light the coloured pass has AO in three channels
   LightFixture fixture(context);
   const Camera camera = plain_camera(float(width) / height);
   const Picture picture = look(camera, still_life(), width, height);
-  const nook_nnao_frame_desc screen =
+  const ScreenFrame screen =
       frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 1);
   const View view;
-  const std::vector<nook_world_capsule> casters = props(view);
+  const std::vector<nook_capsule> casters = props(view);
   for (const int half : {0, 1}) {
-    nook_world_frame_desc frame = world_frame(screen, view);
-    frame.props = casters.data();
-    frame.prop_count = std::uint32_t(casters.size());
-    nook_world_pass_destroy(&fixture.pass);
+    DarkenedFrame frame = world_frame(screen, view);
+    frame.capsules = casters.data();
+    frame.capsule_count = std::uint32_t(casters.size());
+    nook_world_destroy(&fixture.pass);
     fixture.made(coloured_desc(half));
     const std::vector<float> coloured = fixture.drawn(frame);
-    nook_world_pass_destroy(&fixture.pass);
-    nook_world_pass_desc plain = coloured_desc(half);
+    nook_world_destroy(&fixture.pass);
+    nook_world_desc plain = coloured_desc(half);
     plain.coloured = 0;
     fixture.made(plain);
-    NOOK_OK_OR_FAIL(nook_world_render(fixture.pass, &frame));
+    NOOK_OK_OR_FAIL(nook_world_render(fixture.pass, &frame, &frame));
     const std::vector<float> ao = fixture.own();
     for (std::size_t i = 0; i < ao.size(); ++i) {
       // A step of 8 bits, since 1 - (1 - AO) rounds.
@@ -178,22 +178,22 @@ TEST_CASE("world light: half resolution comes close, sky and masked pixels are o
   LightFixture fixture(context);
   const Camera camera = plain_camera(float(width) / height);
   const Picture picture = look(camera, still_life(), width, height);
-  nook_nnao_frame_desc screen =
+  ScreenFrame screen =
       frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 1);
   std::vector<float> mask(std::size_t(2 * width * height), 1.0f);
   for (int i = 0; i < width * height; ++i) mask[std::size_t(2 * i + 1)] = i % width < 20 ? 1 : 0;
-  screen.layer = NOOK_NNAO_LAYER_REPLACE;
-  screen.layer_texture = fixture.textures.floats(GL_RG32F, 2, width, height, mask);
+  screen.gbuffer_ao = NOOK_GBUFFER_AO_REPLACE;
+  screen.gbuffer_ao_texture = fixture.textures.floats(GL_RG32F, 2, width, height, mask);
   const View view;
-  const std::vector<nook_world_capsule> casters = props(view);
-  const std::vector<nook_probe_lobe> lobes = window_light();
+  const std::vector<nook_capsule> casters = props(view);
+  const std::vector<nook_lobe> lobes = window_light();
   std::array<std::vector<float>, 2> results;
   for (const int half : {0, 1}) {
-    nook_world_pass_destroy(&fixture.pass);
+    nook_world_destroy(&fixture.pass);
     fixture.made(coloured_desc(half));
-    nook_world_frame_desc frame = world_frame(screen, view);
-    frame.props = casters.data();
-    frame.prop_count = std::uint32_t(casters.size());
+    DarkenedFrame frame = world_frame(screen, view);
+    frame.capsules = casters.data();
+    frame.capsule_count = std::uint32_t(casters.size());
     frame.lobes = lobes.data();
     frame.lobe_count = std::uint32_t(lobes.size());
     set_axis(frame, {0.5f, 1, 0.3f}, 30);
@@ -212,40 +212,40 @@ TEST_CASE("world light: bad light is refused with the field's name") {
   LightFixture fixture(context);
   const Camera camera = plain_camera(float(width) / height);
   const Picture picture = look(camera, still_life(), width, height);
-  const nook_nnao_frame_desc screen =
+  const ScreenFrame screen =
       frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 1);
-  const std::vector<nook_probe_lobe> lobes = window_light();
+  const std::vector<nook_lobe> lobes = window_light();
   const auto refused = [&](const char* text, auto&& change) {
-    nook_world_frame_desc frame = world_frame(screen, View());
+    DarkenedFrame frame = world_frame(screen, View());
     frame.lobes = lobes.data();
     frame.lobe_count = std::uint32_t(lobes.size());
     change(frame);
-    CHECK(nook_world_render(fixture.pass, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(nook_world_render(fixture.pass, &frame, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
     INFO(nook_last_message());
     CHECK(std::string(nook_last_message()).find(text) != std::string::npos);
   };
   fixture.made();
-  refused("frame.lobes needs a pass with desc.coloured", [](auto&) {});
-  nook_world_pass_destroy(&fixture.pass);
+  refused("desc.lobes needs a coloured pass", [](auto&) {});
+  nook_world_destroy(&fixture.pass);
   fixture.made(coloured_desc());
-  refused("frame.lobes is NULL", [](auto& f) { f.lobes = nullptr; });
+  refused("desc.lobes is NULL", [](auto& f) { f.lobes = nullptr; });
   refused("lobe_count", [](auto& f) { f.lobe_count = NOOK_PROBE_MAX_FUNCTIONS + 1; });
-  nook_probe_lobe bad = lobes[0];
+  nook_lobe bad = lobes[0];
   bad.sharpness = NAN;
   refused("sharpness of lobe 0", [&](auto& f) {
     f.lobes = &bad;
     f.lobe_count = 1;
   });
-  refused("frame.light_axis", [](auto& f) { f.light_degrees = 10; });
-  refused("frame.light_degrees", [](auto& f) { set_axis(f, {0, 1, 0}, 179); });
-  refused("frame.light_degrees", [](auto& f) { set_axis(f, {0, 1, 0}, NAN); });
-  refused("frame.light_reach", [](auto& f) {
+  refused("desc.light_axis", [](auto& f) { f.light_degrees = 10; });
+  refused("desc.light_degrees", [](auto& f) { set_axis(f, {0, 1, 0}, 179); });
+  refused("desc.light_degrees", [](auto& f) { set_axis(f, {0, 1, 0}, NAN); });
+  refused("desc.light_reach", [](auto& f) {
     set_axis(f, {0, 1, 0}, 10);
     f.light_reach = 0;
   });
-  nook_world_pass_desc odd = coloured_desc();
+  nook_world_desc odd = coloured_desc();
   odd.coloured = 2;
-  nook_world_pass none = nullptr;
-  CHECK(nook_world_pass_create(fixture.gl, &odd, &none) == NOOK_ERROR_INVALID_ARGUMENT);
+  nook_world none = nullptr;
+  CHECK(nook_world_create(fixture.gl, &odd, &none) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(std::string(nook_last_message()).find("desc.coloured") != std::string::npos);
 }

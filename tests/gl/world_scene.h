@@ -2,7 +2,8 @@
 // CPU gives at the same pixels.
 #pragma once
 
-#include <nook/nook_gl_world.h>
+#include <nook/experimental/nook_world_sample.h>
+#include <nook/nook_world.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +21,12 @@ inline constexpr int width = 96, height = 64;
 // The pass keeps AO in 8 bits, half a step off at most; as much again for its arithmetic.
 inline constexpr float bound = 1.0f / 255;
 
-inline nook_world_pass_desc world_desc(int w = width, int h = height) {
-  nook_world_pass_desc desc;
-  NOOK_OK_OR_FAIL(nook_world_pass_desc_init(&desc, sizeof desc, NOOK_VERSION));
+inline nook_world_desc world_desc(int w = width, int h = height) {
+  nook_world_desc desc;
+  NOOK_OK_OR_FAIL(nook_world_desc_init(&desc));
   desc.max_width = w;
   desc.max_height = h;
-  desc.casters = 8;  // so that a crowd outgrows it
+  desc.capsules = 8;  // so that a crowd outgrows it
   return desc;
 }
 
@@ -49,13 +50,13 @@ inline View turned_view() {
   return view;
 }
 
-inline nook_world_capsule prop(const View& view, Vec3 a, float radius_a, Vec3 b, float radius_b) {
+inline nook_capsule prop(const View& view, Vec3 a, float radius_a, Vec3 b, float radius_b) {
   const Vec3 wa = view.to_world(a), wb = view.to_world(b);
   return {{wa.x, wa.y, wa.z}, radius_a, {wb.x, wb.y, wb.z}, radius_b};
 }
 
 // Props over the floor of still_life, one of them outside the view.
-inline std::vector<nook_world_capsule> props(const View& view) {
+inline std::vector<nook_capsule> props(const View& view) {
   return {prop(view, {-0.2f, -0.5f, -2.2f}, 0.2f, {-0.2f, -0.5f, -2.2f}, 0.2f),
           prop(view, {0.5f, -0.6f, -3.0f}, 0.1f, {0.4f, 0.4f, -3.2f}, 0.15f),
           prop(view, {-3.0f, -0.2f, -3.0f}, 0.6f, {-3.0f, 0.8f, -3.0f}, 0.6f)};
@@ -64,33 +65,37 @@ inline std::vector<nook_world_capsule> props(const View& view) {
 struct WorldFixture : NnaoFixture {
   explicit WorldFixture(platform::Context& made_in, nook_gl_state_mode mode = NOOK_GL_STATE_PRESERVE)
       : NnaoFixture(made_in, mode) {}
-  ~WorldFixture() { nook_world_pass_destroy(&pass); }
+  ~WorldFixture() { nook_world_destroy(&pass); }
 
-  nook_world_pass made(nook_world_pass_desc desc = world_desc()) {
-    if (!pass) NOOK_OK_OR_FAIL(nook_world_pass_create(gl, &desc, &pass));
+  nook_world made(nook_world_desc desc = world_desc()) {
+    if (!pass) NOOK_OK_OR_FAIL(nook_world_create(gl, &desc, &pass));
     return pass;
   }
   std::vector<float> own(int w = width, int h = height) {
-    nook_world_pass_info info{};
+    nook_world_info info{};
     info.struct_size = sizeof info;
-    NOOK_OK_OR_FAIL(nook_world_pass_describe(pass, &info));
+    NOOK_OK_OR_FAIL(nook_world_describe(pass, &info));
     return read_texture(context.gl(), info.texture, w, h);
   }
 
-  nook_world_pass pass = nullptr;
+  nook_world pass = nullptr;
 };
 
-inline nook_world_frame_desc world_frame(const nook_nnao_frame_desc& screen, const View& view) {
-  nook_world_frame_desc frame;
-  NOOK_OK_OR_FAIL(nook_world_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
-  frame.screen = &screen;
+// Both descriptors of a frame of the world pass.
+struct DarkenedFrame : nook_gl_frame_desc, nook_world_frame_desc {};
+
+inline DarkenedFrame world_frame(const ScreenFrame& screen, const View& view) {
+  DarkenedFrame frame{screen, {}};
+  NOOK_OK_OR_FAIL(nook_world_frame_desc_init(&frame));
+  frame.intensity = screen.intensity;
+  frame.power = screen.power;
   std::memcpy(frame.view, view.matrix, sizeof frame.view);
   return frame;
 }
 
 // The AO that the CPU gives at the pixels of a picture; 1 where there is sky.
 inline std::vector<float> sampled(const Picture& picture, const View& view, nook_scene scene,
-                                  const std::vector<nook_world_capsule>& casters) {
+                                  const std::vector<nook_capsule>& casters) {
   std::vector<float> position, normal;
   for (std::uint32_t y = 0; y < picture.height; ++y)
     for (std::uint32_t x = 0; x < picture.width; ++x) {
@@ -103,12 +108,12 @@ inline std::vector<float> sampled(const Picture& picture, const View& view, nook
       normal.insert(normal.end(), {n.x, n.y, n.z});
     }
   nook_world_sample_desc desc;
-  NOOK_OK_OR_FAIL(nook_world_sample_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  NOOK_OK_OR_FAIL(nook_world_sample_desc_init(&desc));
   desc.positions = position.data();
   desc.normals = normal.data();
   desc.point_count = std::uint32_t(picture.depth.size());
-  desc.props = casters.data();
-  desc.prop_count = std::uint32_t(casters.size());
+  desc.capsules = casters.data();
+  desc.capsule_count = std::uint32_t(casters.size());
   std::vector<float> ao(picture.depth.size());
   NOOK_OK_OR_FAIL(nook_world_sample(scene, &desc, ao.data(), nullptr));
   for (std::size_t i = 0; i < ao.size(); ++i)

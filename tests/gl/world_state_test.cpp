@@ -1,5 +1,5 @@
 // The world pass beside its host: the state contract, refused allocations, bad input.
-#include <nook/nook_gl_world.h>
+#include <nook/nook_world.h>
 
 #include <cmath>
 #include <functional>
@@ -22,23 +22,23 @@ void walk(platform::Context& context, nook_gl_state_mode mode, const Check& chec
   WorldFixture fixture(context, mode);
   const Camera camera = plain_camera(float(width) / height);
   const Picture picture = look(camera, still_life(), width, height);
-  nook_nnao_frame_desc screen =
+  ScreenFrame screen =
       frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 1);
   const GLuint colour = fixture.textures.floats(GL_RGBA16F, 4, width, height,
                                                 std::vector<float>(std::size_t(width) * height * 4, 1.0f));
   const View view;
-  const std::vector<nook_world_capsule> casters = props(view);
+  const std::vector<nook_capsule> casters = props(view);
   const auto render = [&](bool to_texture, nook_result wanted = NOOK_OK) {
-    nook_nnao_frame_desc of = screen;
+    ScreenFrame of = screen;
     if (to_texture) {
-      of.target = NOOK_NNAO_TARGET_TEXTURE;
+      of.target = NOOK_TARGET_TEXTURE;
       of.target_name = wanted == NOOK_OK ? colour : of.depth_texture;
-      of.blend = NOOK_NNAO_MULTIPLY;
+      of.blend = NOOK_BLEND_MULTIPLY;
     }
-    nook_world_frame_desc frame = world_frame(of, view);
-    frame.props = casters.data();
-    frame.prop_count = std::uint32_t(casters.size());
-    const nook_result result = nook_world_render(fixture.pass, &frame);
+    DarkenedFrame frame = world_frame(of, view);
+    frame.capsules = casters.data();
+    frame.capsule_count = std::uint32_t(casters.size());
+    const nook_result result = nook_world_render(fixture.pass, &frame, &frame);
     INFO(nook_last_message());
     CHECK(result == wanted);
   };
@@ -55,27 +55,27 @@ void walk(platform::Context& context, nook_gl_state_mode mode, const Check& chec
       {"later frame", draws, [&] { render(false); }},
       {"half resolution", half,
        [&] {
-         nook_world_pass_destroy(&fixture.pass);
-         nook_world_pass_desc desc = world_desc();
+         nook_world_destroy(&fixture.pass);
+         nook_world_desc desc = world_desc();
          desc.half_resolution = 1;
          fixture.made(desc);
          render(false);
        }},
       {"coloured frame", half,
        [&] {
-         nook_world_pass_destroy(&fixture.pass);
-         nook_world_pass_desc desc = world_desc();
+         nook_world_destroy(&fixture.pass);
+         nook_world_desc desc = world_desc();
          desc.half_resolution = desc.coloured = 1;
          fixture.made(desc);
-         nook_world_frame_desc frame = world_frame(screen, view);
-         frame.props = casters.data();
-         frame.prop_count = std::uint32_t(casters.size());
+         DarkenedFrame frame = world_frame(screen, view);
+         frame.capsules = casters.data();
+         frame.capsule_count = std::uint32_t(casters.size());
          frame.light_axis[1] = 1;
          frame.light_degrees = 20;
-         CHECK(nook_world_render(fixture.pass, &frame) == NOOK_OK);
+         CHECK(nook_world_render(fixture.pass, &frame, &frame) == NOOK_OK);
        }},
       {"refused frame", half, [&] { render(true, NOOK_ERROR_INVALID_ARGUMENT); }},
-      {"destroy", draws, [&] { nook_world_pass_destroy(&fixture.pass); }},
+      {"destroy", draws, [&] { nook_world_destroy(&fixture.pass); }},
   };
   for (const auto& [name, users, call] : steps) {
     Poison poison(context, users);
@@ -113,12 +113,12 @@ TEST_CASE("world: every refused allocation leaves nothing behind") {
   CountedContext host;
   nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
   const long long bytes = host.bytes;
-  const nook_world_pass_desc desc = world_desc(32, 32);
-  nook_world_pass pass = nullptr;
+  const nook_world_desc desc = world_desc(32, 32);
+  nook_world pass = nullptr;
   int refusals = 0;
   for (long n = 0; pass == nullptr && n < 100; ++n) {
     host.refuse_after = n;
-    const nook_result result = nook_world_pass_create(gl, &desc, &pass);
+    const nook_result result = nook_world_create(gl, &desc, &pass);
     host.refuse_after = -1;
     if (result == NOOK_OK) break;
     ++refusals;
@@ -126,7 +126,7 @@ TEST_CASE("world: every refused allocation leaves nothing behind") {
     CHECK(host.bytes == bytes);
   }
   CHECK(refusals >= 1);
-  nook_world_pass_destroy(&pass);
+  nook_world_destroy(&pass);
   CHECK(host.bytes == bytes);
   nook_gl_destroy(&gl);
 }
@@ -134,49 +134,45 @@ TEST_CASE("world: every refused allocation leaves nothing behind") {
 TEST_CASE("world: bad input is refused at once, and draws nothing") {
   NOOK_NEED_CONTEXT(context);
   WorldFixture fixture(context);
-  nook_world_pass pass = fixture.made();
+  nook_world pass = fixture.made();
   const Camera camera = plain_camera(float(width) / height);
   const Picture picture = look(camera, still_life(), width, height);
-  const nook_nnao_frame_desc screen =
-      frame_desc(camera, width, height, fixture.depth_of(camera, picture), 0, 1);
+  const ScreenFrame screen = frame_desc(camera, width, height, fixture.depth_of(camera, picture), 0, 1);
   const View view;
-  const std::vector<nook_world_capsule> casters = props(view);
-  const auto refused = [&](const char* text, const std::function<void(nook_world_frame_desc&)>& change) {
-    nook_world_frame_desc frame = world_frame(screen, view);
-    frame.props = casters.data();
-    frame.prop_count = std::uint32_t(casters.size());
+  const std::vector<nook_capsule> casters = props(view);
+  const auto refused = [&](const char* text, const std::function<void(DarkenedFrame&)>& change) {
+    DarkenedFrame frame = world_frame(screen, view);
+    frame.capsules = casters.data();
+    frame.capsule_count = std::uint32_t(casters.size());
     change(frame);
-    CHECK(nook_world_render(pass, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(nook_world_render(pass, &frame, &frame) == NOOK_ERROR_INVALID_ARGUMENT);
     INFO(nook_last_message());
     CHECK(std::string(nook_last_message()).find(text) != std::string::npos);
   };
-  refused("frame.screen", [](auto& f) { f.screen = nullptr; });
+  refused("frame.textures_changed", [](auto& f) { f.textures_changed = 2; });
+  refused("desc.intensity", [](auto& f) { f.intensity = -1; });
   refused("frame.view", [](auto& f) { f.view[0] = NAN; });
   refused("frame.view", [](auto& f) { f.view[5] = 2; });
-  refused("frame.props is NULL", [](auto& f) { f.props = nullptr; });
-  refused("frame.cutoff_error", [](auto& f) { f.cutoff_error = -1; });
-  refused("frame.level_error", [](auto& f) { f.level_error = NAN; });
-  refused("frame.composition", [](auto& f) { f.composition = 2; });
-  refused("frame.show", [](auto& f) { f.show = -1; });
-  refused("frame.ao_texture", [](auto& f) { f.ao_texture = 12345; });
-  nook_world_capsule bad = casters[0];
+  refused("desc.capsules is NULL", [](auto& f) { f.capsules = nullptr; });
+  refused("desc.cutoff_error", [](auto& f) { f.cutoff_error = -1; });
+  refused("desc.level_error", [](auto& f) { f.level_error = NAN; });
+  refused("desc.combine", [](auto& f) { f.combine = 2; });
+  refused("desc.show", [](auto& f) { f.show = -1; });
+  refused("desc.ao_texture", [](auto& f) { f.ao_texture = 12345; });
+  nook_capsule bad = casters[0];
   bad.radius_a = 0;
-  refused("frame.props[0] has a radius", [&](auto& f) {
-    f.props = &bad;
-    f.prop_count = 1;
+  refused("desc.capsules[0] has a radius", [&](auto& f) {
+    f.capsules = &bad;
+    f.capsule_count = 1;
   });
-  nook_nnao_frame_desc wide = screen;
-  wide.width = 4 * width;
-  refused("frame.width", [&](auto& f) { f.screen = &wide; });
-  CHECK(nook_world_render(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_world_recheck(nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  NOOK_OK_OR_FAIL(nook_world_recheck(pass));
+  refused("frame.width", [](auto& f) { f.width = 4 * width; });
+  CHECK(nook_world_render(nullptr, nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   for (const float value : fixture.own()) REQUIRE(value == 1);
-  nook_world_pass_desc desc = world_desc(0, 4);
-  nook_world_pass none = nullptr;
-  CHECK(nook_world_pass_create(fixture.gl, &desc, &none) == NOOK_ERROR_INVALID_ARGUMENT);
+  nook_world_desc desc = world_desc(0, 4);
+  nook_world none = nullptr;
+  CHECK(nook_world_create(fixture.gl, &desc, &none) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(none == nullptr);
   desc = world_desc(4, 4);
   desc.half_resolution = 2;
-  CHECK(nook_world_pass_create(fixture.gl, &desc, &none) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_world_create(fixture.gl, &desc, &none) == NOOK_ERROR_INVALID_ARGUMENT);
 }

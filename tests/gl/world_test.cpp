@@ -1,6 +1,6 @@
 // The world pass: the AO of nook_world_sample at every pixel, reach, levels, half resolution, masks and
 // composition.
-#include <nook/nook_gl_world.h>
+#include <nook/nook_world.h>
 
 #include <cmath>
 #include <cstring>
@@ -25,18 +25,18 @@ TEST_CASE("world: every function of the pass is called from C") {
 TEST_CASE("world: a sphere and a capsule darken as on the CPU, under every projection") {
   NOOK_NEED_CONTEXT(context);
   WorldFixture fixture(context);
-  nook_world_pass pass = fixture.made();
+  nook_world pass = fixture.made();
   const View view = turned_view();
-  const std::vector<nook_world_capsule> casters = props(view);
+  const std::vector<nook_capsule> casters = props(view);
   for (const Camera& camera : cameras(float(width) / height)) {
     INFO(camera.name);
     const Picture picture = look(camera, still_life(), width, height);
-    const nook_nnao_frame_desc screen =
+    const ScreenFrame screen =
         frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 1);
-    nook_world_frame_desc frame = world_frame(screen, view);
-    frame.props = casters.data();
-    frame.prop_count = std::uint32_t(casters.size());
-    NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+    DarkenedFrame frame = world_frame(screen, view);
+    frame.capsules = casters.data();
+    frame.capsule_count = std::uint32_t(casters.size());
+    NOOK_OK_OR_FAIL(nook_world_render(pass, &frame, &frame));
     const std::vector<float> wanted = sampled(picture, view, nullptr, casters);
     const Difference found = difference(fixture.own(), wanted, bound);
     INFO("largest " << found.largest << ", mean " << found.mean << ", darkest " << darkest(wanted));
@@ -50,17 +50,16 @@ TEST_CASE("world: a sphere and a capsule darken as on the CPU, under every proje
 TEST_CASE("world: normals from depth come close to those of the host") {
   NOOK_NEED_CONTEXT(context);
   WorldFixture fixture(context);
-  nook_world_pass pass = fixture.made();
+  nook_world pass = fixture.made();
   const Camera camera = plain_camera(float(width) / height);
   const Picture picture = look(camera, still_life(), width, height);
   const View view = turned_view();
-  const std::vector<nook_world_capsule> casters = props(view);
-  const nook_nnao_frame_desc screen =
-      frame_desc(camera, width, height, fixture.depth_of(camera, picture), 0, 1);
-  nook_world_frame_desc frame = world_frame(screen, view);
-  frame.props = casters.data();
-  frame.prop_count = std::uint32_t(casters.size());
-  NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+  const std::vector<nook_capsule> casters = props(view);
+  const ScreenFrame screen = frame_desc(camera, width, height, fixture.depth_of(camera, picture), 0, 1);
+  DarkenedFrame frame = world_frame(screen, view);
+  frame.capsules = casters.data();
+  frame.capsule_count = std::uint32_t(casters.size());
+  NOOK_OK_OR_FAIL(nook_world_render(pass, &frame, &frame));
   // Edges of the balls alone differ.
   CHECK(difference(fixture.own(), sampled(picture, view, nullptr, casters), 0.05f).beyond < 0.03f);
 }
@@ -68,11 +67,11 @@ TEST_CASE("world: normals from depth come close to those of the host") {
 TEST_CASE("world: the bodies of a scene darken as on the CPU, and outgrow the table") {
   NOOK_NEED_CONTEXT(context);
   WorldFixture fixture(context);
-  nook_world_pass pass = fixture.made();
+  nook_world pass = fixture.made();
   Numbers numbers(4);
   CharacterModel model = sample_model();
   add_world_casters(model, numbers);
-  nook_character_model loaded = load_model(fixture.host.handle, model);
+  nook_model loaded = load_model(fixture.host.handle, model);
   {
     CrowdOptions options;
     options.instances = 7;
@@ -84,12 +83,12 @@ TEST_CASE("world: the bodies of a scene darken as on the CPU, and outgrow the ta
       const View view;
       const Camera camera = plain_camera(float(width) / height);
       const Picture picture = look(camera, still_life(), width, height);
-      const nook_nnao_frame_desc screen = frame_desc(camera, width, height, fixture.depth_of(camera, picture),
-                                                     fixture.normals_of(picture), 1);
-      nook_world_frame_desc frame = world_frame(screen, view);
+      const ScreenFrame screen = frame_desc(camera, width, height, fixture.depth_of(camera, picture),
+                                            fixture.normals_of(picture), 1);
+      DarkenedFrame frame = world_frame(screen, view);
       frame.scene = crowd.scene;
       frame.cutoff_error = frame.level_error = 0;
-      NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+      NOOK_OK_OR_FAIL(nook_world_render(pass, &frame, &frame));
       const std::vector<float> wanted = sampled(picture, view, crowd.scene, {});
       const Difference found = difference(fixture.own(), wanted, bound);
       INFO("largest " << found.largest << ", mean " << found.mean << ", darkest " << darkest(wanted));
@@ -97,26 +96,26 @@ TEST_CASE("world: the bodies of a scene darken as on the CPU, and outgrow the ta
       CHECK(darkest(wanted) < 0.7f);
     }
   }
-  nook_character_model_destroy(&loaded);
+  nook_model_destroy(&loaded);
 }
 
 TEST_CASE("world: sky and a frame without casters are exactly open") {
   NOOK_NEED_CONTEXT(context);
   WorldFixture fixture(context);
-  nook_world_pass pass = fixture.made();
+  nook_world pass = fixture.made();
   for (const float value : fixture.own()) REQUIRE(value == 1);
   const Camera camera = plain_camera(float(width) / height);
   const Picture picture = look(camera, still_life(), width, height);
-  const nook_nnao_frame_desc screen =
+  const ScreenFrame screen =
       frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 1);
   const View view;
-  nook_world_frame_desc frame = world_frame(screen, view);
-  NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+  DarkenedFrame frame = world_frame(screen, view);
+  NOOK_OK_OR_FAIL(nook_world_render(pass, &frame, &frame));
   for (const float value : fixture.own()) REQUIRE(value == 1);
-  const nook_world_capsule everywhere = prop(view, {0, 0, -3}, 2.5f, {0, 0, -4}, 2.5f);
-  frame.props = &everywhere;
-  frame.prop_count = 1;
-  NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+  const nook_capsule everywhere = prop(view, {0, 0, -3}, 2.5f, {0, 0, -4}, 2.5f);
+  frame.capsules = &everywhere;
+  frame.capsule_count = 1;
+  NOOK_OK_OR_FAIL(nook_world_render(pass, &frame, &frame));
   const std::vector<float> ao = fixture.own();
   int open_sky = 0;
   for (std::size_t i = 0; i < ao.size(); ++i)
@@ -131,20 +130,20 @@ TEST_CASE("world: sky and a frame without casters are exactly open") {
 TEST_CASE("world: a mask keeps its pixels, and casters multiply") {
   NOOK_NEED_CONTEXT(context);
   WorldFixture fixture(context);
-  nook_world_pass pass = fixture.made();
+  nook_world pass = fixture.made();
   const Camera camera = plain_camera(float(width) / height);
   const Picture picture = look(camera, still_life(), width, height);
   std::vector<float> mask(std::size_t(2 * width * height), 1.0f);
   for (int i = 0; i < width * height; ++i) mask[std::size_t(2 * i + 1)] = i % width < width / 2 ? 1 : 0;
-  nook_nnao_frame_desc screen =
+  ScreenFrame screen =
       frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 1);
   const View view;
-  const std::vector<nook_world_capsule> casters = props(view);
+  const std::vector<nook_capsule> casters = props(view);
   const auto drawn = [&](std::size_t first, std::size_t count) {
-    nook_world_frame_desc frame = world_frame(screen, view);
-    frame.props = casters.data() + first;
-    frame.prop_count = std::uint32_t(count);
-    NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+    DarkenedFrame frame = world_frame(screen, view);
+    frame.capsules = casters.data() + first;
+    frame.capsule_count = std::uint32_t(count);
+    NOOK_OK_OR_FAIL(nook_world_render(pass, &frame, &frame));
     return fixture.own();
   };
   const std::vector<float> all = drawn(0, 3), one = drawn(0, 1), two = drawn(1, 1), three = drawn(2, 1);
@@ -153,8 +152,8 @@ TEST_CASE("world: a mask keeps its pixels, and casters multiply") {
     worst = std::max(worst, std::abs(all[i] - one[i] * two[i] * three[i]));
   // Four roundings to 8 bits.
   CHECK(worst < 2.5f / 255);
-  screen.layer = NOOK_NNAO_LAYER_REPLACE;
-  screen.layer_texture = fixture.textures.floats(GL_RG32F, 2, width, height, mask);
+  screen.gbuffer_ao = NOOK_GBUFFER_AO_REPLACE;
+  screen.gbuffer_ao_texture = fixture.textures.floats(GL_RG32F, 2, width, height, mask);
   const std::vector<float> masked = drawn(0, 3);
   for (std::size_t i = 0; i < masked.size(); ++i)
     REQUIRE(masked[i] == (int(i) % width < width / 2 ? 1.0f : all[i]));
@@ -163,11 +162,11 @@ TEST_CASE("world: a mask keeps its pixels, and casters multiply") {
 TEST_CASE("world: nothing is darkened beyond the stated reach, and by no more than the cut-off within") {
   NOOK_NEED_CONTEXT(context);
   WorldFixture fixture(context);
-  nook_world_pass pass = fixture.made();
+  nook_world pass = fixture.made();
   Numbers numbers(4);
   CharacterModel model = sample_model();
   add_world_casters(model, numbers);
-  nook_character_model loaded = load_model(fixture.host.handle, model);
+  nook_model loaded = load_model(fixture.host.handle, model);
   {
     CrowdOptions options;
     options.instances = 1;
@@ -177,14 +176,14 @@ TEST_CASE("world: nothing is darkened beyond the stated reach, and by no more th
     crowd.pose(0);
     const Camera camera = plain_camera(float(width) / height);
     const Picture picture = look(camera, still_life(), width, height);
-    const nook_nnao_frame_desc screen =
+    const ScreenFrame screen =
         frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 1);
     const auto drawn = [&](float cutoff) {
-      nook_world_frame_desc frame = world_frame(screen, View());
+      DarkenedFrame frame = world_frame(screen, View());
       frame.scene = crowd.scene;
       frame.cutoff_error = cutoff;
       frame.level_error = 0;
-      NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+      NOOK_OK_OR_FAIL(nook_world_render(pass, &frame, &frame));
       return fixture.own();
     };
     const std::vector<float> all = drawn(0), cut = drawn(0.05f);
@@ -196,7 +195,7 @@ TEST_CASE("world: nothing is darkened beyond the stated reach, and by no more th
     }
     CHECK(changed > 0);
   }
-  nook_character_model_destroy(&loaded);
+  nook_model_destroy(&loaded);
 }
 
 namespace {
@@ -212,33 +211,33 @@ struct CrowdFixture : WorldFixture {
     options.instances = 7;
     options.offset = {0, -0.3f, -3};
     options.occluders = true;
-    crowd.emplace(host.handle, std::vector<nook_character_model>{loaded},
+    crowd.emplace(host.handle, std::vector<nook_model>{loaded},
                   std::vector<std::uint32_t>{std::uint32_t(model.bone_count())}, options);
     crowd->pose(0);
   }
   ~CrowdFixture() {
     crowd.reset();
-    nook_character_model_destroy(&loaded);
+    nook_model_destroy(&loaded);
   }
 
-  nook_nnao_frame_desc screen() {
+  ScreenFrame screen() {
     return frame_desc(camera, width, height, depth_of(camera, picture), normals_of(picture), 0.5f);
   }
   // level_error is 0.
-  nook_world_frame_desc frame(const nook_nnao_frame_desc& of) const {
-    nook_world_frame_desc frame = world_frame(of, View());
+  DarkenedFrame frame(const ScreenFrame& of) const {
+    DarkenedFrame frame = world_frame(of, View());
     frame.scene = crowd->scene;
     frame.cutoff_error = frame.level_error = 0;
     return frame;
   }
-  std::vector<float> drawn(const nook_world_frame_desc& frame) {
-    NOOK_OK_OR_FAIL(nook_world_render(pass, &frame));
+  std::vector<float> drawn(const DarkenedFrame& frame) {
+    NOOK_OK_OR_FAIL(nook_world_render(pass, &frame, &frame));
     return own();
   }
 
   const Camera camera = plain_camera(float(width) / height);
   const Picture picture = look(camera, still_life(), width, height);
-  nook_character_model loaded = nullptr;
+  nook_model loaded = nullptr;
   std::optional<Crowd> crowd;
 };
 
@@ -254,8 +253,8 @@ TEST_CASE("world: levels stay within their error, with fewer casters at a pixel"
   NOOK_NEED_CONTEXT(context);
   CrowdFixture fixture(context);
   fixture.made();
-  const nook_nnao_frame_desc screen = fixture.screen();
-  nook_world_frame_desc frame = fixture.frame(screen);
+  const ScreenFrame screen = fixture.screen();
+  DarkenedFrame frame = fixture.frame(screen);
   const std::vector<float> all = fixture.drawn(frame);
   const auto mean_casters = [&] {
     frame.show = NOOK_WORLD_VIEW_CASTERS;
@@ -279,8 +278,8 @@ TEST_CASE("world: a crowd that moves away pops by a few level errors at most") {
   NOOK_NEED_CONTEXT(context);
   CrowdFixture fixture(context);
   fixture.made();
-  const nook_nnao_frame_desc screen = fixture.screen();
-  nook_world_frame_desc frame = fixture.frame(screen);
+  const ScreenFrame screen = fixture.screen();
+  DarkenedFrame frame = fixture.frame(screen);
   constexpr float error = 1.0f / 64;
   std::vector<float> before;
   float pop = 0;
@@ -306,12 +305,12 @@ TEST_CASE("world: a crowd that moves away pops by a few level errors at most") {
 TEST_CASE("world: half resolution comes close to full resolution") {
   NOOK_NEED_CONTEXT(context);
   CrowdFixture fixture(context);
-  const nook_nnao_frame_desc screen = fixture.screen();
-  const nook_world_frame_desc frame = fixture.frame(screen);
+  const ScreenFrame screen = fixture.screen();
+  const DarkenedFrame frame = fixture.frame(screen);
   fixture.made();
   const std::vector<float> full = fixture.drawn(frame);
-  nook_world_pass_destroy(&fixture.pass);
-  nook_world_pass_desc desc = world_desc();
+  nook_world_destroy(&fixture.pass);
+  nook_world_desc desc = world_desc();
   desc.half_resolution = 1;
   fixture.made(desc);
   const std::vector<float> half = fixture.drawn(frame);
@@ -326,11 +325,11 @@ TEST_CASE(
     "world: half resolution with levels stays near every caster, also where near and far bodies blend") {
   NOOK_NEED_CONTEXT(context);
   CrowdFixture fixture(context);
-  nook_world_pass_desc desc = world_desc();
+  nook_world_desc desc = world_desc();
   desc.half_resolution = 1;
   fixture.made(desc);
-  const nook_nnao_frame_desc screen = fixture.screen();
-  nook_world_frame_desc frame = fixture.frame(screen);
+  const ScreenFrame screen = fixture.screen();
+  DarkenedFrame frame = fixture.frame(screen);
   std::vector<float> before;
   for (int step = 0; step < 8; ++step) {
     frame.view[14] = -0.4f * float(step);
@@ -354,9 +353,8 @@ struct GroupPictures {
   std::vector<float> open, tests, far_tests;  // of a crowd in two places, one after the other
 };
 
-GroupPictures drawn_by(CrowdFixture& fixture, nook_gl gl, const nook_world_pass_desc& desc,
-                       nook_world_frame_desc frame) {
-  NOOK_OK_OR_FAIL(nook_world_pass_create(gl, &desc, &fixture.pass));
+GroupPictures drawn_by(CrowdFixture& fixture, nook_gl gl, const nook_world_desc& desc, DarkenedFrame frame) {
+  NOOK_OK_OR_FAIL(nook_world_create(gl, &desc, &fixture.pass));
   GroupPictures pictures;
   for (const float away : {0.0f, 1.2f}) {
     frame.view[14] = -away;
@@ -369,7 +367,7 @@ GroupPictures drawn_by(CrowdFixture& fixture, nook_gl gl, const nook_world_pass_
     add(NOOK_WORLD_VIEW_TESTS, pictures.tests);
     add(NOOK_WORLD_VIEW_FAR_TESTS, pictures.far_tests);
   }
-  nook_world_pass_destroy(&fixture.pass);
+  nook_world_destroy(&fixture.pass);
   return pictures;
 }
 
@@ -385,18 +383,18 @@ TEST_CASE("world: groups of threads leave as much open as draws, with fewer test
   CrowdFixture fixture(context);
   nook_gl draws = create_gl(fixture.host.handle, platform::Context::loader, &context,
                             is_es(context.gl()) ? NOOK_GL_TIER_ES30 : NOOK_GL_TIER_33);
-  nook_nnao_frame_desc screen = fixture.screen();
+  ScreenFrame screen = fixture.screen();
   std::vector<float> mask(std::size_t(2 * width * height), 1.0f);
   for (int i = 0; i < width * height; ++i) mask[std::size_t(2 * i + 1)] = i % width < width / 3 ? 1 : 0;
-  screen.layer_texture = fixture.textures.floats(GL_RG32F, 2, width, height, mask);
+  screen.gbuffer_ao_texture = fixture.textures.floats(GL_RG32F, 2, width, height, mask);
   // A pass for higher images has groups of 64 pixels for far bodies in place of 16.
   for (const bool high : {false, true}) {
-    nook_world_pass_desc desc = world_desc(width, high ? 1000 : height);
+    nook_world_desc desc = world_desc(width, high ? 1000 : height);
     desc.half_resolution = 1;
     desc.coloured = high;
-    screen.layer = high ? NOOK_NNAO_LAYER_REPLACE : NOOK_NNAO_LAYER_NONE;
+    screen.gbuffer_ao = high ? NOOK_GBUFFER_AO_REPLACE : NOOK_GBUFFER_AO_NONE;
     screen.normal_texture = high ? 0 : fixture.normals_of(fixture.picture);
-    nook_world_frame_desc frame = fixture.frame(screen);
+    DarkenedFrame frame = fixture.frame(screen);
     frame.level_error = 1.0f / 64;
     frame.cutoff_error = 1.0f / 256;
     const GroupPictures groups = drawn_by(fixture, fixture.gl, desc, frame),
@@ -416,22 +414,22 @@ TEST_CASE("world: AO of another kind is composed by product and by minimum") {
   NOOK_NEED_CONTEXT(context);
   CrowdFixture fixture(context);
   for (const int half : {0, 1}) {
-    nook_world_pass_destroy(&fixture.pass);
-    nook_world_pass_desc desc = world_desc();
+    nook_world_destroy(&fixture.pass);
+    nook_world_desc desc = world_desc();
     desc.half_resolution = half;
     fixture.made(desc);
-    const nook_nnao_frame_desc screen = fixture.screen();
-    nook_world_frame_desc frame = fixture.frame(screen);
+    const ScreenFrame screen = fixture.screen();
+    DarkenedFrame frame = fixture.frame(screen);
     const std::vector<float> alone = fixture.drawn(frame);
     std::vector<float> other(std::size_t(width) * height);
     for (std::size_t i = 0; i < other.size(); ++i) other[i] = float(i % 17) / 16;
     frame.ao_texture = fixture.textures.floats(GL_R32F, 1, width, height, other);
-    for (const nook_world_composition composition : {NOOK_WORLD_PRODUCT, NOOK_WORLD_MINIMUM}) {
-      frame.composition = composition;
+    for (const nook_world_combine composition : {NOOK_WORLD_COMBINE_MULTIPLY, NOOK_WORLD_COMBINE_MIN}) {
+      frame.combine = composition;
       const std::vector<float> found = fixture.drawn(frame);
       for (std::size_t i = 0; i < found.size(); ++i) {
         const float wanted =
-            composition == NOOK_WORLD_PRODUCT ? alone[i] * other[i] : std::min(alone[i], other[i]);
+            composition == NOOK_WORLD_COMBINE_MULTIPLY ? alone[i] * other[i] : std::min(alone[i], other[i]);
         // Two roundings to 8 bits.
         REQUIRE(std::abs(found[i] - wanted) < 1.1f / 255);
       }
@@ -460,20 +458,20 @@ TEST_CASE("world: the screen pass leaves surfaces apart out of its occluders") {
   }
   for (const int half : {0, 1}) {
     nook_nnao pass = fixture.pass_of(9, half, 1, nullptr);
-    const auto drawn = [&](const Picture& of, nook_nnao_layer mode) {
-      nook_nnao_frame_desc frame =
+    const auto drawn = [&](const Picture& of, nook_gbuffer_ao mode) {
+      ScreenFrame frame =
           frame_desc(camera, width, height, fixture.depth_of(camera, of), fixture.normals_of(picture), 0.6f);
-      frame.layer = mode;
-      frame.layer_texture = fixture.textures.floats(GL_RG32F, 2, width, height, layer);
-      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame));
+      frame.gbuffer_ao = mode;
+      frame.gbuffer_ao_texture = fixture.textures.floats(GL_RG32F, 2, width, height, layer);
+      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
       nook_nnao_info info{};
       info.struct_size = sizeof info;
       NOOK_OK_OR_FAIL(nook_nnao_describe(pass, &info));
       return read_texture(context.gl(), info.texture, width, height);
     };
-    const std::vector<float> apart = drawn(picture, NOOK_NNAO_LAYER_APART),
-                             removed = drawn(without, NOOK_NNAO_LAYER_REPLACE),
-                             present = drawn(picture, NOOK_NNAO_LAYER_REPLACE);
+    const std::vector<float> apart = drawn(picture, NOOK_GBUFFER_AO_EXCLUDE),
+                             removed = drawn(without, NOOK_GBUFFER_AO_REPLACE),
+                             present = drawn(picture, NOOK_GBUFFER_AO_REPLACE);
     int changed = 0;
     for (std::size_t i = 0; i < apart.size(); ++i) {
       REQUIRE(apart[i] == removed[i]);

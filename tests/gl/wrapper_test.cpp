@@ -1,5 +1,12 @@
 // The C++ wrapper of nook_gl.h and nook_nnao.h on a living OpenGL context. This file sees public headers
 // only, as a host does.
+#include <nook/experimental/nook_capture.hpp>
+#include <nook/experimental/nook_debug.hpp>
+#include <nook/experimental/nook_recording.hpp>
+#include <nook/experimental/nook_stages.hpp>
+#include <nook/experimental/nook_synthesis.hpp>
+#include <nook/experimental/nook_transfer.hpp>
+#include <nook/experimental/nook_world_sample.hpp>
 #include <nook/nook.hpp>
 
 #include <algorithm>
@@ -79,15 +86,15 @@ TEST_CASE("the C++ wrapper uploads a material and deletes its textures") {
   desc.get_proc_user = &context;
   const nook::Gl gl(host, desc);
   const nook::Material material(host, bytes.data(), bytes.size());
-  nook::GlMaterial uploaded(gl, material);
-  const std::vector<nook_gl_material_texture> textures = uploaded.textures();
+  nook::Upload uploaded(gl, material);
+  const nook_gl_upload_info info = uploaded.info();
+  const std::vector<nook_gl_upload_texture> textures(info.textures, info.textures + info.texture_count);
   CHECK(textures.size() == 7);
   CHECK(textures[0].uniform == std::string("nook_light_map"));
-  CHECK(uploaded.info().texture_bytes == material.info().table_bytes);
-  for (const nook_gl_material_texture& texture : textures) CHECK(context.gl().IsTexture(texture.texture));
-  uploaded = nook::GlMaterial();
-  for (const nook_gl_material_texture& texture : textures)
-    CHECK_FALSE(context.gl().IsTexture(texture.texture));
+  CHECK(uploaded.info().bytes == material.info().table_bytes);
+  for (const nook_gl_upload_texture& texture : textures) CHECK(context.gl().IsTexture(texture.texture));
+  uploaded = nook::Upload();
+  for (const nook_gl_upload_texture& texture : textures) CHECK_FALSE(context.gl().IsTexture(texture.texture));
 }
 
 TEST_CASE("the C++ wrapper draws the screen-space pass") {
@@ -118,23 +125,24 @@ TEST_CASE("the C++ wrapper draws the screen-space pass") {
   CHECK(pass.info().path != NOOK_NNAO_PATH_AUTOMATIC);
   CHECK(pass.timings().valid == 0);
 
-  nook_nnao_frame_desc frame = nook::nnao_frame_desc();
+  nook_gl_frame_desc frame = nook::gl_frame_desc();
+  nook_nnao_frame_desc frame_desc = nook::nnao_frame_desc();
   frame.width = width;
   frame.height = height;
   frame.depth_texture = depth;
-  frame.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
+  frame.depth_kind = NOOK_DEPTH_LINEAR;
   const float projection[16] = {1, 0, 0, 0, 0, 1.5f, 0, 0, 0, 0, -1, -1, 0, 0, -0.2f, 0};
   std::copy_n(projection, 16, frame.projection);
-  frame.radius = 0.5f;
-  pass.recheck();
-  pass.render(frame);
+  frame_desc.radius = 0.5f;
+  frame.textures_changed = 1;
+  pass.render(frame, frame_desc);
   const std::vector<float> ao = nook::test::read_texture(g, pass.info().texture, width, height);
   // Next to the step the wall is darker than away from it.
   CHECK(ao[17 * width + width / 2] + 20.0f / 255 < ao[28 * width + width / 2]);
 
-  frame.radius = 0;
+  frame_desc.radius = 0;
   try {
-    pass.render(frame);
+    pass.render(frame, frame_desc);
     FAIL("no exception");
   } catch (const nook::Error& error) {
     CHECK(error.result() == NOOK_ERROR_INVALID_ARGUMENT);

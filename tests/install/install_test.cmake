@@ -32,13 +32,13 @@ foreach(file share/doc/nook/LICENSE share/doc/nook/NOTICE include/nook/nook.h in
   endif()
 endforeach()
 # The library of the bakers is not there, and neither are its headers. OpenGL's headers are there with its half of the library.
-file(GLOB bake_headers "${prefix}/include/nook/nook_bake*.h")
+file(GLOB bake_headers "${prefix}/include/nook/nook_bake*" "${prefix}/include/nook/experimental/nook_trace*")
 if(bake_headers)
   message(FATAL_ERROR "headers of the bakers are installed without their library: ${bake_headers}")
 endif()
-file(GLOB gl_headers "${prefix}/include/nook/nook_gl*" "${prefix}/include/nook/nook_nnao.h*")
+file(GLOB gl_headers "${prefix}/include/nook/nook_gl.h*" "${prefix}/include/nook/nook_nnao.h*" "${prefix}/include/nook/nook_world.h*")
 list(LENGTH gl_headers gl_header_count)
-if(GL AND gl_header_count LESS 4 OR NOT GL AND gl_header_count GREATER 0)
+if(GL AND gl_header_count LESS 6 OR NOT GL AND gl_header_count GREATER 0)
   message(FATAL_ERROR "with NOOK_GL=${GL} these headers of OpenGL are installed: ${gl_headers}")
 endif()
 # A host that needs the OpenGL half finds it or fails to configure.

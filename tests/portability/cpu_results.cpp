@@ -8,6 +8,7 @@
 //   prints the largest differences between two files, for each instruction set of both or for the two named
 //   ones, and fails above a bound. AO and materials are compared absolutely, light relative to the largest
 //   magnitude.
+#include <nook/experimental/nook_sg.h>
 #include <nook/nook_character.h>
 #include <nook/nook_material.h>
 #include <nook/nook_probe.h>
@@ -32,6 +33,18 @@ namespace {
 
 void check(nook_result result) {
   if (result != NOOK_OK) fail(nook_last_message());
+}
+
+// rows_3x4 has a rest-to-world matrix for each bone, three rows of four.
+nook_result set_pose(nook_scene scene, nook_instance_id instance, const float* rows_3x4,
+                     std::uint32_t bone_count) {
+  nook_pose_desc desc;
+  check(nook_pose_desc_init(&desc));
+  desc.kind = NOOK_POSE_REST_TO_WORLD;
+  desc.layout = NOOK_TRANSFORM_ROWS_3X4;
+  desc.transforms = rows_3x4;
+  desc.transform_count = bone_count;
+  return nook_scene_set_pose(scene, instance, &desc);
 }
 
 // ---- Inputs: sums, products, quotients and square roots of floats alone, which have the same bits
@@ -71,10 +84,10 @@ void append_frame(std::vector<float>& rows, Numbers& numbers, float amount, std:
   rows.insert(rows.end(), matrix, matrix + 12);
 }
 
-std::vector<nook_probe_lobe> some_lobes(std::uint32_t count) {
+std::vector<nook_lobe> some_lobes(std::uint32_t count) {
   Numbers numbers(11);
-  std::vector<nook_probe_lobe> lobes(count);
-  for (nook_probe_lobe& lobe : lobes) {
+  std::vector<nook_lobe> lobes(count);
+  for (nook_lobe& lobe : lobes) {
     lobe = {};
     const std::array<float, 3> axis = numbers.direction();
     std::copy(axis.begin(), axis.end(), lobe.axis);
@@ -188,18 +201,15 @@ Sections read_sections(const char* path) {
 
 // Four frames of three instances: two that are linked, a third one under lobes of light with its nearest
 // neighbour, all on the ground, with one sphere for all of them and one for the first.
-bool add_scene(nook_context context, nook_character_model model, nook_isa isa, Sections& sections) {
+void add_scene(nook_context context, nook_model model, nook_isa isa, Sections& sections) {
   nook_scene_desc desc;
-  check(nook_scene_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  desc.isa = isa;
+  check(nook_scene_desc_init(&desc));
   nook_scene scene;
-  const nook_result created = nook_scene_create(context, &desc, &scene);
-  if (created == NOOK_ERROR_UNSUPPORTED || created == NOOK_ERROR_INVALID_ARGUMENT) return false;
-  check(created);
+  check(nook_scene_create(context, &desc, &scene));
 
-  nook_character_model_info info = {};
+  nook_model_info info = {};
   info.struct_size = sizeof info;
-  check(nook_character_model_describe(model, &info));
+  check(nook_model_describe(model, &info));
   std::array<nook_instance_id, 3> instances;
   for (nook_instance_id& instance : instances) check(nook_scene_add_instance(scene, model, &instance));
   check(nook_scene_link(scene, instances[0], instances[1]));
@@ -207,13 +217,13 @@ bool add_scene(nook_context context, nook_character_model model, nook_isa isa, S
   check(nook_scene_link_nearest(scene, 1, 10));
   const float r = info.bounding_radius, plane[4] = {0, 1, 0, -0.8f * r};
   for (const nook_instance_id instance : instances) check(nook_scene_set_ground(scene, instance, plane));
-  const std::vector<nook_probe_lobe> lobes = some_lobes(12);
+  const std::vector<nook_lobe> lobes = some_lobes(12);
   check(nook_scene_set_light(scene, instances[2], lobes.data(), std::uint32_t(lobes.size())));
   nook_occluder_id occluder;
-  const float shared[3] = {0.7f * r, 0.2f * r, r}, own[3] = {-r, 0.4f * r, -0.6f * r};
-  check(nook_scene_add_occluder(scene, shared, 0.3f * r, &occluder));
-  check(nook_scene_add_occluder(scene, own, 0.2f * r, &occluder));
-  check(nook_scene_limit_occluder(scene, occluder, instances[0]));
+  const nook_occluder shared{{0.7f * r, 0.2f * r, r}, 0.3f * r, 0};
+  const nook_occluder own{{-r, 0.4f * r, -0.6f * r}, 0.2f * r, instances[0]};
+  check(nook_scene_add_occluder(scene, &shared, &occluder));
+  check(nook_scene_add_occluder(scene, &own, &occluder));
 
   Section ao{set_name(isa), "ao", Kind::ao, {}}, colour{set_name(isa), "directional", Kind::ao, {}};
   std::vector<float> read(info.file_vertex_count), read_rgb(3 * std::size_t(info.file_vertex_count));
@@ -224,32 +234,32 @@ bool add_scene(nook_context context, nook_character_model model, nook_isa isa, S
       const std::array<float, 3> place = {1.2f * r * float(i), 0.05f * r * float(frame), 0.3f * r * float(i)};
       for (std::uint32_t bone = 0; bone < info.bone_count; ++bone)
         append_frame(rows, numbers, 0.03f * float(frame + 1), place);
-      check(nook_scene_set_pose(scene, instances[i], rows.data(), info.bone_count));
+      check(set_pose(scene, instances[i], rows.data(), info.bone_count));
     }
     check(nook_scene_update(scene));
     for (const nook_instance_id instance : instances) {
-      check(nook_scene_read_ao(scene, instance, read.data(), info.file_vertex_count, 0));
+      check(nook_scene_read(scene, instance, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, read.data(),
+                            info.file_vertex_count, 0));
       ao.values.insert(ao.values.end(), read.begin(), read.end());
     }
-    check(nook_scene_read_directional_ao(scene, instances[2], read_rgb.data(), info.file_vertex_count, 0));
+    check(nook_scene_read(scene, instances[2], NOOK_CHANNEL_DIRECTIONAL_AO, NOOK_FORMAT_FLOAT,
+                          read_rgb.data(), info.file_vertex_count, 0));
     colour.values.insert(colour.values.end(), read_rgb.begin(), read_rgb.end());
   }
   nook_scene_destroy(&scene);
   sections.push_back(std::move(ao));
   sections.push_back(std::move(colour));
-  return true;
 }
 
 // Radiance and irradiance of probes that were fitted to the same samples by three methods.
 void add_fits(nook_context context, nook_isa isa, Sections& sections) {
   const std::vector<float> samples = directions(3, 4096), light = sky(samples), normals = directions(4, 64);
   Section section{set_name(isa), "probe fits", Kind::light, {}};
-  for (const nook_probe_method method :
-       {NOOK_PROBE_LEAST_SQUARES, NOOK_PROBE_RUNNING_AVERAGE, NOOK_PROBE_NON_NEGATIVE_LEAST_SQUARES}) {
+  for (const nook_probe_method method : {NOOK_PROBE_FIT_LEAST_SQUARES, NOOK_PROBE_FIT_RUNNING_AVERAGE,
+                                         NOOK_PROBE_FIT_LEAST_SQUARES_NON_NEGATIVE}) {
     nook_probe_fit_desc desc;
-    check(nook_probe_fit_desc_init(&desc, sizeof desc, NOOK_VERSION));
+    check(nook_probe_fit_desc_init(&desc));
     desc.method = method;
-    desc.isa = isa;
     nook_probe_fit fit;
     check(nook_probe_fit_create(context, &desc, &fit));
     check(nook_probe_fit_add_samples(fit, samples.data(), light.data(), nullptr, samples.size() / 3));
@@ -258,8 +268,7 @@ void add_fits(nook_context context, nook_isa isa, Sections& sections) {
     std::vector<float> read(normals.size());
     check(nook_probe_radiance(probe, nullptr, normals.data(), read.data(), normals.size() / 3));
     section.values.insert(section.values.end(), read.begin(), read.end());
-    check(nook_probe_irradiance(probe, nullptr, NOOK_PROBE_IRRADIANCE_FITTED, normals.data(), read.data(),
-                                normals.size() / 3));
+    check(nook_probe_irradiance(probe, nullptr, normals.data(), read.data(), normals.size() / 3));
     section.values.insert(section.values.end(), read.begin(), read.end());
     nook_probe_destroy(&probe);
     nook_probe_fit_destroy(&fit);
@@ -269,7 +278,7 @@ void add_fits(nook_context context, nook_isa isa, Sections& sections) {
 
 // Irradiance and reflections of lobes.
 void add_lobes(Sections& sections) {
-  const std::vector<nook_probe_lobe> lobes = some_lobes(12);
+  const std::vector<nook_lobe> lobes = some_lobes(12);
   const auto count = std::uint32_t(lobes.size());
   const std::vector<float> normals = directions(6, 256), tilts = directions(7, 256);
   const std::size_t surfaces = normals.size() / 3;
@@ -277,7 +286,7 @@ void add_lobes(Sections& sections) {
   std::vector<float> read(normals.size());
   for (const nook_probe_irradiance_form form :
        {NOOK_PROBE_IRRADIANCE_FITTED, NOOK_PROBE_IRRADIANCE_INNER_PRODUCT, NOOK_PROBE_IRRADIANCE_BANDS}) {
-    check(nook_probe_lobes_irradiance(lobes.data(), count, form, normals.data(), read.data(), surfaces));
+    check(nook_sg_irradiance(lobes.data(), count, form, normals.data(), read.data(), surfaces));
     section.values.insert(section.values.end(), read.begin(), read.end());
   }
   Numbers numbers(8);
@@ -298,7 +307,7 @@ void add_lobes(Sections& sections) {
   }
   for (const nook_probe_specular_form form :
        {NOOK_PROBE_SPECULAR_ISOTROPIC, NOOK_PROBE_SPECULAR_ANISOTROPIC}) {
-    check(nook_probe_lobes_specular(lobes.data(), count, form, shiny.data(), read.data(), surfaces));
+    check(nook_sg_specular(lobes.data(), count, form, shiny.data(), read.data(), surfaces));
     section.values.insert(section.values.end(), read.begin(), read.end());
   }
   sections.push_back(std::move(section));
@@ -306,16 +315,21 @@ void add_lobes(Sections& sections) {
 
 void add_material(nook_context context, const std::vector<std::uint8_t>& file, Sections& sections) {
   nook_material material;
-  check(nook_material_load(context, file.data(), file.size(), &material));
+  check(nook_material_load(context, file.data(), file.size(), nullptr, &material));
+  nook_material_info info{};
+  info.struct_size = sizeof info;
+  check(nook_material_describe(material, &info));
   Numbers numbers(9);
   const std::vector<float> views = directions(10, 2048), lights = directions(12, 2048);
-  std::vector<nook_material_sample> samples(views.size() / 3);
+  std::vector<nook_material_pixel> samples(views.size() / 3);
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    nook_material_sample& sample = samples[i];
+    nook_material_pixel& sample = samples[i];
     sample = {};
     sample.uv[0] = numbers.between(-1, 2);
     sample.uv[1] = numbers.between(-1, 2);
-    sample.level = numbers.between(0, 2);
+    const float texels = std::exp2(numbers.between(0, 2));
+    sample.dx[0] = texels / float(info.width);
+    sample.dy[1] = texels / float(info.height);
     for (std::size_t c = 0; c < 3; ++c) {
       sample.view[c] = views[3 * i + c];
       sample.light[c] = lights[3 * i + c];
@@ -324,7 +338,7 @@ void add_material(nook_context context, const std::vector<std::uint8_t>& file, S
     sample.light[2] = std::abs(sample.light[2]);
   }
   std::vector<nook_material_value> values(samples.size());
-  check(nook_material_evaluate(material, samples.data(), std::uint32_t(samples.size()), values.data()));
+  check(nook_material_evaluate(material, samples.data(), std::uint32_t(samples.size()), 1, values.data()));
   // Without the visibility, a step function of the occlusion.
   Section section{"all", "material", Kind::material, {}};
   for (const nook_material_value& value : values)
@@ -334,27 +348,39 @@ void add_material(nook_context context, const std::vector<std::uint8_t>& file, S
   sections.push_back(std::move(section));
 }
 
-int run(const char* character, const char* material, const char* out) {
+// Returns NULL for a set that this library or processor lacks.
+nook_context context_of(nook_isa isa) {
   nook_context_desc desc;
-  check(nook_context_desc_init(&desc, sizeof desc, NOOK_VERSION));
-  nook_context context;
-  check(nook_context_create(&desc, &context));
+  check(nook_context_desc_init(&desc));
+  desc.isa = isa;
+  nook_context context = nullptr;
+  const nook_result created = nook_context_create(&desc, &context);
+  if (created == NOOK_ERROR_UNSUPPORTED || created == NOOK_ERROR_INVALID_ARGUMENT) return nullptr;
+  check(created);
+  return context;
+}
+
+int run(const char* character, const char* material, const char* out) {
   const std::vector<std::uint8_t> bytes = read_file(character);
-  nook_character_model model;
-  check(nook_character_model_load(context, bytes.data(), bytes.size(), &model));
 
   Sections sections;
   std::vector<std::string> sets;
-  for (nook_isa isa = NOOK_ISA_SCALAR; isa < 16; ++isa)
-    if (add_scene(context, model, isa, sections)) {
-      add_fits(context, isa, sections);
-      sets.push_back(set_name(isa));
-    }
-  if (sets.empty()) fail("no scene can be created with any instruction set");
+  for (nook_isa isa = NOOK_ISA_SCALAR; isa < 16; ++isa) {
+    nook_context context = context_of(isa);
+    if (!context) continue;
+    nook_model model;
+    check(nook_model_load(context, bytes.data(), bytes.size(), &model));
+    add_scene(context, model, isa, sections);
+    add_fits(context, isa, sections);
+    sets.push_back(set_name(isa));
+    nook_model_destroy(&model);
+    nook_context_destroy(&context);
+  }
+  if (sets.empty()) fail("no context can be created with any instruction set");
   add_lobes(sections);
+  nook_context context = context_of(NOOK_ISA_AUTO);
   add_material(context, read_file(material), sections);
   sets.emplace_back("all");
-  nook_character_model_destroy(&model);
   nook_context_destroy(&context);
 
   for (const Section& section : sections)

@@ -53,13 +53,25 @@ std::vector<unsigned char> read_file(const char* path) {
   return bytes;
 }
 
+// rows_3x4 has a rest-to-world matrix for each bone, three rows of four.
+nook_result set_pose(nook_scene scene, nook_instance_id instance, const float* rows_3x4,
+                     std::uint32_t bone_count) {
+  nook_pose_desc desc;
+  check(nook_pose_desc_init(&desc));
+  desc.kind = NOOK_POSE_REST_TO_WORLD;
+  desc.layout = NOOK_TRANSFORM_ROWS_3X4;
+  desc.transforms = rows_3x4;
+  desc.transform_count = bone_count;
+  return nook_scene_set_pose(scene, instance, &desc);
+}
+
 // The largest difference between the AO of both halves, over two linked instances on the ground.
-float difference(nook_context context, nook_gl gl, nook_character_model model) {
-  nook_character_model_info info = {};
+float difference(nook_context context, nook_gl gl, nook_model model) {
+  nook_model_info info = {};
   info.struct_size = sizeof info;
-  check(nook_character_model_describe(model, &info));
+  check(nook_model_describe(model, &info));
   nook_scene_desc desc;
-  check(nook_scene_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  check(nook_scene_desc_init(&desc));
   nook_scene scene;
   check(nook_scene_create(context, &desc, &scene));
   nook_instance_id instances[2];
@@ -71,7 +83,7 @@ float difference(nook_context context, nook_gl gl, nook_character_model model) {
     const float x = 0.7f * info.bounding_radius * float(i);
     for (std::uint32_t bone = 0; bone < info.bone_count; ++bone)
       pose.insert(pose.end(), {1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0});
-    check(nook_scene_set_pose(scene, instances[i], pose.data(), info.bone_count));
+    check(set_pose(scene, instances[i], pose.data(), info.bone_count));
   }
   check(nook_scene_link(scene, instances[0], instances[1]));
   check(nook_scene_update(scene));
@@ -79,7 +91,8 @@ float difference(nook_context context, nook_gl gl, nook_character_model model) {
   float largest = 0;
   std::vector<float> cpu(info.file_vertex_count), gpu(info.file_vertex_count);
   for (const nook_instance_id instance : instances) {
-    check(nook_scene_read_ao(scene, instance, cpu.data(), info.file_vertex_count, 0));
+    check(nook_scene_read(scene, instance, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, cpu.data(),
+                          info.file_vertex_count, 0));
     check(nook_gl_scene_read_ao(gl, scene, instance, gpu.data(), info.file_vertex_count));
     for (std::size_t v = 0; v < cpu.size(); ++v) largest = std::max(largest, std::abs(cpu[v] - gpu[v]));
   }
@@ -101,15 +114,15 @@ int main(int argc, char** argv) {
     return 77;
   }
   nook_context_desc desc;
-  check(nook_context_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  check(nook_context_desc_init(&desc));
   nook_context context;
   check(nook_context_create(&desc, &context));
-  nook_character_model model;
-  check(nook_character_model_load(context, file.data(), file.size(), &model));
+  nook_model model;
+  check(nook_model_load(context, file.data(), file.size(), &model));
   bool above = false;
   for (const int tier : {33, 43}) {
     nook_gl_desc gl_desc;
-    check(nook_gl_desc_init(&gl_desc, sizeof gl_desc, NOOK_VERSION));
+    check(nook_gl_desc_init(&gl_desc));
     gl_desc.get_proc = function;
     gl_desc.get_proc_user = LoadLibraryA("opengl32.dll");
     gl_desc.max_tier = tier;
@@ -130,7 +143,7 @@ int main(int argc, char** argv) {
     above = above || !(largest <= 2e-3f);
     nook_gl_destroy(&gl);
   }
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
   nook_context_destroy(&context);
   return above ? 1 : 0;
 }

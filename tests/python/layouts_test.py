@@ -9,8 +9,8 @@ import unittest
 from nook import _layouts as layouts
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-HEADERS = ["nook_pose.h", "nook_vertices.h", "nook_material.h", "nook_transfer.h", "nook_bake_material.h", "nook_bake_character.h",
-           "nook_bake_trace.h", "nook_bake_transfer.h"]
+HEADERS = ["nook_character.h", "nook_material.h", "nook_bake.h"] + [f"experimental/nook_{name}.h" for name in
+           ("bake_materials", "debug", "lod", "sg", "trace", "transfer")]
 
 
 def structures():

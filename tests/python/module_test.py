@@ -61,8 +61,8 @@ class Characters(unittest.TestCase):
 
     def test_a_bake_reports_its_stages_and_gives_a_model(self):
         stages = {step.stage for step in self.steps}
-        self.assertIn("raytrace", stages)
-        self.assertIn("fit", stages)
+        self.assertIn("ray tracing", stages)
+        self.assertIn("fitting", stages)
         self.assertEqual(self.model.vertex_count, RINGS * SIDES)
         self.assertEqual(self.model.bone_names, ["root", "tip"])
         self.assertIn("iterations", self.report)
@@ -99,7 +99,7 @@ class Characters(unittest.TestCase):
         with nook.bake_character(self.character, **endless) as job:
             job.cancel()
             self.assertRaises(nook.Cancelled, job.wait)
-        with nook.bake_character(self.character, progress=lambda at: at.stage != "fit", **endless) as job:
+        with nook.bake_character(self.character, progress=lambda at: at.stage != "fitting", **endless) as job:
             self.assertRaises(nook.Cancelled, job.wait)
 
     def test_what_a_progress_function_raises_comes_out_of_wait(self):
@@ -119,7 +119,7 @@ class Characters(unittest.TestCase):
         with self.assertRaises(nook.NookError) as caught:
             nook.CharacterModel(self.data[:-1])
         self.assertEqual(caught.exception.code, "BAD_FILE")
-        self.assertIn("nook_character_model_load", str(caught.exception))
+        self.assertIn("nook_model_load", str(caught.exception))
         with self.assertRaises(nook.NookError) as caught:
             nook.Character("/no/such/file.glb")
         self.assertEqual(caught.exception.code, "BAD_FILE")
@@ -167,8 +167,25 @@ class Probes(unittest.TestCase):
         np.testing.assert_allclose(probe.radiance(directions[:8]), 2, rtol=1e-3)
         again = nook.Probe(probe.save("float"))
         np.testing.assert_array_equal(again.radiance(directions[:8]), probe.radiance(directions[:8]))
+        np.testing.assert_array_equal(again.radiance(directions[:8], [0, 0, 0]), again.radiance(directions[:8], np.zeros((8, 3))))
+        with self.assertRaisesRegex(ValueError, "position"):
+            again.radiance(directions[:8], np.zeros((7, 3)))
         self.assertEqual(again.counts, (1, 1, 1))
         self.assertLess(len(probe.save("half")), len(probe.save("float")))
+
+
+    def test_methods_and_the_papers_form(self):
+        directions = np.array([[0, 0, 1], [1, 0, 0], [0, -1, 0]])
+        light = {}
+        for options in ({}, {"form": "paper"}, {"method": "moments"}, {"method": "running_average"}):
+            with nook.ProbeFit(**options) as fit:
+                fit.add_samples(directions, [[1, 2, 3], [3, 2, 1], [1, 1, 1]])
+                light[str(options)] = fit.solve().radiance(directions).tobytes()
+        self.assertEqual(len(set(light.values())), len(light))
+        with self.assertRaisesRegex(nook.NookError, "NOOK_FORM_PAPER"):
+            nook.ProbeFit(form="paper", method="running_average")
+        with self.assertRaisesRegex(ValueError, "study_naive"):
+            nook.ProbeFit(method="study_naive")
 
 
 class Materials(unittest.TestCase):
@@ -188,7 +205,7 @@ class Materials(unittest.TestCase):
         np.testing.assert_allclose(values.radiance, np.repeat(albedo / math.pi * directions[:, 2:], 3, axis=1), rtol=0.05)
         np.testing.assert_array_equal(values.visibility, 1)
         nothing = np.zeros_like(uv)
-        pixels = material.evaluate_anisotropic(uv, nothing, nothing, directions, directions, fetches=3)
+        pixels = material.evaluate(uv, directions, directions, dx=nothing, dy=nothing, fetches=3)
         np.testing.assert_array_equal(pixels.radiance, values.radiance)
 
 

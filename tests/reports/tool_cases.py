@@ -6,7 +6,7 @@ def character_forms(run, glb):
     small = ["--preset", "draft", "--rays", 8, "--auto-poses", 6, "--samples-per-clip", 2, "--steps", 2, "--spheres",
              8, "--key-points", 16]
     run.bake("mannequin_paper", "bake character", glb, *small, "--kernel", "paper", "--fit", "paper")
-    run.bake("mannequin_learned", "bake character", glb, *small, "--kernel", "rational", "--gamma", "learned",
+    run.bake("mannequin_learned", "bake character", glb, *small, "--gamma", "learned",
              "--poses", "auto")
     run.bake("mannequin_norm", "bake character", glb, *small, "--gamma", 2, "--saturation", 0, "--split", "families",
              "--poses", "clips")

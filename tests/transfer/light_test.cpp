@@ -1,10 +1,15 @@
 // Light as lobes, and vectors at vertices against sums over directions.
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <numbers>
+#include <thread>
+#include <vector>
 
 #include "sdk/src/core/map_suns.h"
 #include "sdk/src/core/spherical_gaussian.h"
 #include "sdk/src/material/evaluate.h"
+#include "sdk/src/transfer/fit_cache.h"
 #include "sdk/src/transfer/lobe_fit.h"
 #include "sdk/src/transfer/vectors.h"
 #include "tests/catch.h"
@@ -344,4 +349,23 @@ TEST_CASE("reflected light is the light's bands times the baked ones, for the ma
               Approx(irradiance / std::numbers::pi * even[c * modes + a]).epsilon(0.01).margin(2e-3));
       }
     }
+}
+
+TEST_CASE("threads that ask a context for the same lobes at once get one fit") {
+  FitCache cache(nook::default_memory());
+  std::atomic<bool> go{false};
+  std::array<const LobeFit*, 4> found{};
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    threads.emplace_back([&, i] {
+      while (!go) {
+      }
+      found[i] = &cache.of(42);
+    });
+  go = true;
+  for (std::thread& thread : threads) thread.join();
+  for (const LobeFit* fit : found) CHECK(fit == found[0]);
+  CHECK(cache.of(42).lobes() == 42);
+  CHECK(&cache.of(43) != found[0]);
+  CHECK(&cache.of(42) == found[0]);
 }

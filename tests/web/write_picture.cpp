@@ -221,7 +221,12 @@ struct Occlusion {
     for (std::uint32_t i = 0; i < 2; ++i) {
       ids[i] = scene.add_instance(model);
       scene.set_ground(ids[i], ground);
-      scene.set_pose(ids[i], &poses[std::size_t{12} * bones * i], bones);
+      nook_pose_desc pose = nook::pose_desc();
+      pose.kind = NOOK_POSE_REST_TO_WORLD;
+      pose.layout = NOOK_TRANSFORM_ROWS_3X4;
+      pose.transforms = &poses[std::size_t{12} * bones * i];
+      pose.transform_count = bones;
+      scene.set_pose(ids[i], pose);
     }
     scene.link(ids[0], ids[1]);
     scene.link(ids[1], ids[0]);
@@ -250,13 +255,14 @@ std::vector<unsigned char> draw(const Geometry& geometry, Occlusion& occlusion, 
   const Bodies bodies(gl, geometry);
   const Target target(gl), picture(gl);
   draw_target(gl, target, bodies, clip, depth, nullptr, 0);
-  nook_nnao_frame_desc frame = nook::nnao_frame_desc();
+  nook_gl_frame_desc frame = nook::gl_frame_desc();
+  nook_nnao_frame_desc desc = nook::nnao_frame_desc();
   frame.depth_texture = target.textures[0];
   frame.width = width_px;
   frame.height = height_px;
-  frame.radius = radius_m;
+  desc.radius = radius_m;
   std::copy(projection.begin(), projection.end(), frame.projection);
-  occlusion.pass.render(frame);
+  occlusion.pass.render(frame, desc);
   occlusion.gl.update(occlusion.scene);
   const nook_gl_ao_view ao[] = {occlusion.gl.ao_buffer(occlusion.scene, occlusion.ids[0]),
                                 occlusion.gl.ao_buffer(occlusion.scene, occlusion.ids[1])};

@@ -17,7 +17,7 @@ Vec3 skinned(const bake::SkinWeights& weights, const bake::Pose& pose, Vec3 v) {
 }  // namespace
 
 BentBody bent_body(const bake::SkinnedMesh& mesh, const CharacterModel& model, const bake::Pose& pose) {
-  if (model.blocked.empty())
+  if (model.occluded.empty())
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "the model was baked without bent normals; add them with `nook bake bent`");
   BentBody body;
@@ -26,7 +26,7 @@ BentBody bent_body(const bake::SkinnedMesh& mesh, const CharacterModel& model, c
   body.ao = bake::predict_ao(model, pose);
   for (std::size_t v = 0; v < body.position.size(); ++v)
     body.bent.push_back(
-        bent_normal(body.normal[v], skinned(mesh.weights[v], pose, model.blocked[v].at(body.ao[v]))));
+        bent_normal(body.normal[v], skinned(mesh.weights[v], pose, model.occluded[v].at(body.ao[v]))));
   return body;
 }
 

@@ -14,7 +14,7 @@ struct BentBody {
   std::vector<float> ao;
 };
 
-// A blocked vector turns with its vertex, as the vertex shader of a host skins it. Throws Failure:
+// A occluded direction turns with its vertex, as the vertex shader of a host skins it. Throws Failure:
 // UNSUPPORTED (the model was baked without bent normals).
 BentBody bent_body(const bake::SkinnedMesh& mesh, const CharacterModel& model, const bake::Pose& pose);
 

@@ -27,7 +27,7 @@ Pose placed(const Pose& pose, Vec3 centre, float yaw_radians, Vec3 move) {
 // The AO of a receiver with one linked caster, for each welded vertex.
 class LinkedPair {
  public:
-  LinkedPair(const CharacterModel& model, nook_combine combine, float far_error)
+  LinkedPair(const CharacterModel& model, nook_form combine, float far_error)
       : memory_(default_memory()),
         scene_(settings(combine, far_error), Parallel{}, memory_),
         welded_to_file_(model.vertex_count()) {
@@ -61,9 +61,9 @@ class LinkedPair {
   }
 
  private:
-  static SceneSettings settings(nook_combine combine, float far_error) {
+  static SceneSettings settings(nook_form combine, float far_error) {
     SceneSettings s;
-    s.combine = combine;
+    s.form = combine;
     s.cutoff_error = 0;
     s.far_error = far_error;
     return s;
@@ -131,9 +131,9 @@ class CasterDistance {
       : mesh_(mesh),
         area_(vertex_areas(mesh, mesh.position)),
         radius_m_(model.bounding_radius),
-        composed_(model, NOOK_COMBINE_COMPOSED, 0),
-        paper_(model, NOOK_COMBINE_PAPER, 0),
-        grouped_(model, NOOK_COMBINE_COMPOSED, SceneSettings().far_error) {}
+        composed_(model, NOOK_FORM_DEFAULT, 0),
+        paper_(model, NOOK_FORM_PAPER, 0),
+        grouped_(model, NOOK_FORM_DEFAULT, SceneSettings().far_error) {}
 
   void add(const BodyPair& pair, std::uint32_t rays, std::uint64_t seed) {
     const TracedPair first = trace_pair(mesh_, pair, (rays + 1) / 2, seed),
@@ -230,7 +230,7 @@ TracedPair trace_pair(const SkinnedMesh& mesh, const BodyPair& pair, std::uint32
 }
 
 std::vector<float> linked_ao(const CharacterModel& model, const BodyPair& pair) {
-  LinkedPair linked(model, NOOK_COMBINE_COMPOSED, 0);
+  LinkedPair linked(model, NOOK_FORM_DEFAULT, 0);
   linked.pose(pair);
   return linked.together();
 }

@@ -33,7 +33,7 @@ CharacterModel picked(const CharacterModel& model, std::span<const std::uint32_t
   out.blend.clear();
   out.bias.clear();
   out.static_ao.clear();
-  out.blocked.clear();
+  out.occluded.clear();
   for (const std::uint32_t v : welded) {
     for (std::size_t s = std::size_t(v) * model.influences; s < (std::size_t(v) + 1) * model.influences;
          ++s) {
@@ -43,7 +43,7 @@ CharacterModel picked(const CharacterModel& model, std::span<const std::uint32_t
     }
     out.bias.push_back(model.bias[v]);
     if (!model.static_ao.empty()) out.static_ao.push_back(model.static_ao[v]);
-    if (!model.blocked.empty()) out.blocked.push_back(model.blocked[v]);
+    if (!model.occluded.empty()) out.occluded.push_back(model.occluded[v]);
   }
   return out;
 }

@@ -22,7 +22,7 @@ LodMesh simplified(const SkinnedMesh& mesh, double share);
 struct LodRow {
   std::size_t triangles = 0, vertices = 0;
   CharacterEvaluation nearest;    // each vertex takes the AO of the baked vertex at its place
-  CharacterEvaluation resampled;  // nook_character_model_resample
+  CharacterEvaluation resampled;  // nook_model_resample
   CharacterEvaluation refitted;   // `nook bake lod`
 };
 

@@ -2,7 +2,7 @@
 // interface, as a host has them.
 #pragma once
 
-#include <nook/nook_gl_world.h>
+#include <nook/nook_world.h>
 
 #include <span>
 #include <vector>
@@ -30,10 +30,10 @@ class ShippedPass {
   const GladGLContext& functions_;
   nook_context context_;
   float radius_;
-  nook_character_model model_ = nullptr;
+  nook_model model_ = nullptr;
   nook_scene scene_ = nullptr;
   nook_nnao screen_ = nullptr;
-  nook_world_pass world_ = nullptr;
+  nook_world world_ = nullptr;
 };
 
 }  // namespace nook::measure

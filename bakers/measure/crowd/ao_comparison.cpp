@@ -1,5 +1,6 @@
 #include "bakers/measure/crowd/ao_comparison.h"
 
+#include <nook/experimental/nook_debug.h>
 #include <nook/nook_character.h>
 
 #include <algorithm>

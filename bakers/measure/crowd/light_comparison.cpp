@@ -1,5 +1,7 @@
 #include "bakers/measure/crowd/light_comparison.h"
 
+#include <nook/experimental/nook_debug.h>
+#include <nook/experimental/nook_sg.h>
 #include <nook/nook_character.h>
 
 #include <algorithm>
@@ -18,9 +20,9 @@ constexpr std::uint32_t kFloorSide = 100;
 // The irradiance of vertices without occlusion, from the lobes: three floats for each unit normal.
 std::vector<float> open_irradiance(const Light& light, const std::vector<float>& normals) {
   std::vector<float> irradiance(normals.size());
-  nook::check(nook_probe_lobes_irradiance(light.lobes.data(), std::uint32_t(light.lobes.size()),
-                                          NOOK_PROBE_IRRADIANCE_BANDS, normals.data(), irradiance.data(),
-                                          normals.size() / 3));
+  nook::check(nook_sg_irradiance(light.lobes.data(), std::uint32_t(light.lobes.size()),
+                                 NOOK_PROBE_IRRADIANCE_BANDS, normals.data(), irradiance.data(),
+                                 normals.size() / 3));
   for (float& channel : irradiance) channel = std::max(channel, 0.0f);
   return irradiance;
 }
@@ -28,9 +30,9 @@ std::vector<float> open_irradiance(const Light& light, const std::vector<float>&
 // The irradiance of any surface in constant light of the lobes' mean radiance: RGB.
 std::vector<float> constant_irradiance(const Light& light) {
   std::vector<float> irradiance(3, 0.0f);
-  for (const nook_probe_lobe& lobe : light.lobes) {
+  for (const nook_lobe& lobe : light.lobes) {
     float integral[3];
-    nook::check(nook_probe_lobe_integral(&lobe, integral));
+    nook::check(nook_sg_integral(&lobe, integral));
     for (int c = 0; c < 3; ++c) irradiance[c] += integral[c] / 4;  // times pi, over 4 pi
   }
   return irradiance;

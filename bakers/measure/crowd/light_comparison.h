@@ -1,7 +1,7 @@
 // The crowd under a light against path tracing: AO alone, AO times the probe, and the occlusion of each lobe.
 #pragma once
 
-#include <nook/nook_bake_trace.h>
+#include <nook/experimental/nook_trace.h>
 
 #include "bakers/measure/crowd/ao_comparison.h"
 
@@ -9,7 +9,7 @@ namespace nook::measure::crowd {
 
 // A light as lobes and as the environment that the lobes stand for.
 struct Light {
-  std::span<const nook_probe_lobe> lobes;
+  std::span<const nook_lobe> lobes;
   nook_bake_environment environment;
   float mean_radiance = 0;  // of the environment, over all directions and channels
 };

@@ -15,8 +15,8 @@ PosedCrowd::PosedCrowd(nook_bake_character character, std::span<const Bones> pos
   check_bake(nook_bake_character_describe(character, &info));
   vertex_count_ = info.file_vertex_count;
   triangles_.resize(3 * std::size_t(info.triangle_count));
-  check_bake(
-      nook_bake_character_read_triangles(character, triangles_.data(), std::uint32_t(triangles_.size())));
+  check_bake(nook_bake_character_read(character, NOOK_BAKE_ARRAY_TRIANGLES, triangles_.data(),
+                                      info.triangle_count, 0));
 }
 
 Body PosedCrowd::body(std::size_t character) const {

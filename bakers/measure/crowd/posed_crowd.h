@@ -1,7 +1,7 @@
 // A crowd in the poses of one moment: many instances of one imported character.
 #pragma once
 
-#include <nook/nook_bake_character.h>
+#include <nook/nook_bake.h>
 
 #include <cstdint>
 #include <glm/glm.hpp>

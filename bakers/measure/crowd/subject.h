@@ -26,7 +26,7 @@ class EvaluatedCrowd {
   // Evaluates the occlusion of some characters under these lobes with all terms: three floats for each
   // vertex.
   virtual VertexValues directional_ao(std::span<const std::uint32_t> characters,
-                                      std::span<const nook_probe_lobe> lobes) = 0;
+                                      std::span<const nook_lobe> lobes) = 0;
 };
 
 // Where a panel also shows screen-space AO.

@@ -1,6 +1,6 @@
 #include "bakers/measure/crowd/truth.h"
 
-#include <nook/nook_bake_trace.h>
+#include <nook/experimental/nook_trace.h>
 #include <algorithm>
 #include <cmath>
 
@@ -79,7 +79,7 @@ std::vector<float> trace_ao(const std::vector<nook_bake_occluder_mesh>& meshes, 
                             float radius_m, const TraceSettings& settings) {
   std::vector<float> ao(points.positions.size() / 3);
   nook_bake_trace_desc desc;
-  check_bake(nook_bake_trace_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  check_bake(nook_bake_trace_desc_init(&desc));
   desc.meshes = meshes.data();
   desc.mesh_count = std::uint32_t(meshes.size());
   desc.positions = points.positions.data();
@@ -104,7 +104,7 @@ std::vector<float> trace_irradiance(const std::vector<nook_bake_occluder_mesh>& 
                                     const TraceSettings& settings) {
   const std::vector<nook_bake_lit_mesh> meshes = black_meshes(occluders);
   nook_bake_irradiance_desc desc;
-  check_bake(nook_bake_irradiance_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  check_bake(nook_bake_irradiance_desc_init(&desc));
   desc.meshes = meshes.data();
   desc.mesh_count = std::uint32_t(meshes.size());
   desc.positions = points.positions.data();

@@ -1,7 +1,7 @@
 // The reference of the crowd's ambient occlusion and light, by ray tracing.
 #pragma once
 
-#include <nook/nook_bake_trace.h>
+#include <nook/experimental/nook_trace.h>
 #include <span>
 #include <vector>
 

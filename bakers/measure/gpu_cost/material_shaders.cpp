@@ -1,3 +1,4 @@
+#include <nook/nook_material.h>
 #include <optional>
 #include <string_view>
 

@@ -1,3 +1,4 @@
+#include <nook/experimental/nook_sg.h>
 #include "bakers/measure/gpu_cost/shader_cases.h"
 #include "bakers/measure/gpu_cost/trip_counts.h"
 
@@ -62,7 +63,7 @@ out vec4 colour;
 void main() {
   NookHarmonics light;
   for (int i = 0; i < 9; ++i) light.coefficient[i] = coefficients[i];
-  colour = vec4(nook_probe_harmonics_irradiance(light, normal), 1.0);
+  colour = vec4(nook_sh_irradiance(light, normal), 1.0);
 }
 )";
 constexpr char zonal_harmonics[] = R"(#include "shaders/probe/host.glsl"
@@ -73,7 +74,7 @@ void main() {
   NookZonalHarmonics light;
   for (int i = 0; i < 4; ++i) light.coefficient[i] = coefficients[i];
   light.zonal = coefficients[4];
-  colour = vec4(nook_probe_zonal_harmonics_irradiance(light, normal), 1.0);
+  colour = vec4(nook_zh3_irradiance(light, normal), 1.0);
 }
 )";
 constexpr char ambient[] = R"(#include "shaders/probe/host.glsl"

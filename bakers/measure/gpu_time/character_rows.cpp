@@ -12,7 +12,7 @@ class Tier {
  public:
   Tier(platform::Context& context, nook_context made_by, nook_gl_tier tier) {
     nook_gl_desc desc;
-    succeed(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+    succeed(nook_gl_desc_init(&desc));
     desc.get_proc = platform::Context::loader;
     desc.get_proc_user = &context;
     desc.max_tier = tier;

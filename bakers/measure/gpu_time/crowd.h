@@ -26,7 +26,7 @@ class Crowd {
   std::uint32_t vertex_count() const { return vertex_count_; }  // of the file
 
  private:
-  nook_character_model model_ = nullptr;
+  nook_model model_ = nullptr;
   nook_scene scene_ = nullptr;
   std::vector<nook_instance_id> bodies_;
   std::uint32_t bone_count_ = 0, vertex_count_ = 0, frame_ = 0;

@@ -1,4 +1,4 @@
-#include <nook/nook_gl_material.h>
+#include <nook/nook_gl.h>
 
 #include "bakers/measure/gpu_time/timed_rows.h"
 #include "bakers/measure/gpu_time/whole_image.h"
@@ -20,13 +20,13 @@ class Uploaded {
  public:
   Uploaded(const NookGl& gl, const std::filesystem::path& file) {
     const std::vector<unsigned char> bytes = platform::read_file(file);
-    succeed(nook_material_load(gl.context(), bytes.data(), bytes.size(), &material_));
-    succeed(nook_gl_material_create(gl.get(), material_, nullptr, &uploaded_));
+    succeed(nook_material_load(gl.context(), bytes.data(), bytes.size(), nullptr, &material_));
+    succeed(nook_gl_upload_material(gl.get(), material_, &uploaded_));
     info_.struct_size = sizeof info_;
-    succeed(nook_gl_material_describe(uploaded_, &info_));
+    succeed(nook_gl_upload_describe(uploaded_, &info_));
   }
   ~Uploaded() {
-    nook_gl_material_destroy(&uploaded_);
+    nook_gl_upload_destroy(&uploaded_);
     nook_material_destroy(&material_);
   }
   Uploaded(const Uploaded&) = delete;
@@ -35,17 +35,15 @@ class Uploaded {
   const char* glsl() const { return info_.glsl; }
   void bind(WholeImage& image) const {
     for (std::uint32_t i = 0; i < info_.texture_count; ++i) {
-      nook_gl_material_texture texture{};
-      texture.struct_size = sizeof texture;
-      succeed(nook_gl_material_describe_texture(uploaded_, i, &texture));
+      const nook_gl_upload_texture& texture = info_.textures[i];
       image.bind(texture.target, texture.texture, texture.uniform);
     }
   }
 
  private:
   nook_material material_ = nullptr;
-  nook_gl_material uploaded_ = nullptr;
-  nook_gl_material_info info_{};
+  nook_gl_upload uploaded_ = nullptr;
+  nook_gl_upload_info info_{};
 };
 
 }  // namespace

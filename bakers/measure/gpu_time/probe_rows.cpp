@@ -1,4 +1,4 @@
-#include <nook/nook_gl_probe.h>
+#include <nook/nook_gl.h>
 
 #include <algorithm>
 
@@ -17,14 +17,14 @@ class Probe {
  public:
   Probe(const NookGl& gl, const std::uint32_t (&counts)[3]) {
     nook_probe_fit_desc fit_desc;
-    succeed(nook_probe_fit_desc_init(&fit_desc, sizeof fit_desc, NOOK_VERSION));
+    succeed(nook_probe_fit_desc_init(&fit_desc));
     fit_desc.lobe_count = 12;
     succeed(nook_probe_fit_create(gl.context(), &fit_desc, &fit_));
     nook_probe_fit_info info{};
     info.struct_size = sizeof info;
     succeed(nook_probe_fit_describe(fit_, &info));
     nook_probe_desc desc;
-    succeed(nook_probe_desc_init(&desc, sizeof desc, NOOK_VERSION));
+    succeed(nook_probe_desc_init(&desc));
     desc.functions = fit_;
     std::ranges::copy(counts, desc.counts);
     const float spacing = 1;
@@ -33,25 +33,25 @@ class Probe {
     for (std::size_t i = 0; i < coefficients.size(); ++i) coefficients[i] = float(i % 7) / 7;
     desc.coefficients = coefficients.data();
     succeed(nook_probe_create(gl.context(), &desc, &probe_));
-    succeed(nook_gl_probe_create(gl.get(), probe_, &uploaded_));
+    succeed(nook_gl_upload_probe(gl.get(), probe_, NOOK_GL_PROBE_LOBES, &uploaded_));
     info_.struct_size = sizeof info_;
-    succeed(nook_gl_probe_describe(uploaded_, &info_));
+    succeed(nook_gl_upload_describe(uploaded_, &info_));
   }
   ~Probe() {
-    nook_gl_probe_destroy(&uploaded_);
+    nook_gl_upload_destroy(&uploaded_);
     nook_probe_destroy(&probe_);
     nook_probe_fit_destroy(&fit_);
   }
   Probe(const Probe&) = delete;
   Probe& operator=(const Probe&) = delete;
 
-  const nook_gl_probe_info& info() const { return info_; }
+  const nook_gl_upload_info& info() const { return info_; }
 
  private:
   nook_probe_fit fit_ = nullptr;
   nook_probe probe_ = nullptr;
-  nook_gl_probe uploaded_ = nullptr;
-  nook_gl_probe_info info_{};
+  nook_gl_upload uploaded_ = nullptr;
+  nook_gl_upload_info info_{};
 };
 
 struct Answer {
@@ -81,7 +81,7 @@ std::vector<TimedRow> time_probes(const Timing& timing) {
                                    "  NookProbePlace place = nook_probe_place(vec3(3.0 * at, 1.0 + at.x));\n"
                                    "  colour = ") +
                            answer.expression + ";\n");
-      image.bind(GL_TEXTURE_BUFFER, probe.info().texture, "nook_probe_texels");
+      image.bind(GL_TEXTURE_BUFFER, probe.info().textures[0].texture, "nook_probe_texels");
       timing.add(rows, name, [&] { image.draw(); });
     }
   }

@@ -48,7 +48,7 @@ std::vector<TimedRow> time_screen(const Timing& timing) {
     if (!wanted(named.name)) continue;
     NetworkPass pass(nook, width, height, named.form, {}, request.blur_sharpness);
     const Mat3x4 still;
-    timing.add(rows, named.name, [&] { pass.draw(view, request, true, still); });
+    timing.add(rows, named.name, [&] { pass.draw(view, request, true, still, false); });
   }
   BaselinePass baselines(gl, width, height);
   const auto add = [&](const BaselineMethod& method, const std::string& denoised) {

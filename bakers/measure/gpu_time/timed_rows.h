@@ -35,7 +35,7 @@ struct Timing {
 std::vector<TimedRow> time_screen(const Timing& timing);
 
 // nook_gl_scene_update of crowds that stand on the ground, without neighbours and with four, with poses that
-// change. model: a file of nook_character_model_load.
+// change. model: a file of nook_model_load.
 std::vector<TimedRow> time_characters(const Timing& timing, const std::filesystem::path& model);
 
 // The world pass: 100 bodies darken the floor on which they stand.

@@ -1,4 +1,4 @@
-#include <nook/nook_gl_world.h>
+#include <nook/nook_world.h>
 
 #include <limits>
 #include <numbers>
@@ -32,21 +32,21 @@ TracedView floor_view(const Camera& camera) {
 class WorldPass {
  public:
   WorldPass(const NookGl& gl, int width, int height, bool half) {
-    nook_world_pass_desc desc;
-    succeed(nook_world_pass_desc_init(&desc, sizeof desc, NOOK_VERSION));
+    nook_world_desc desc;
+    succeed(nook_world_desc_init(&desc));
     desc.max_width = width;
     desc.max_height = height;
     desc.half_resolution = half;
-    succeed(nook_world_pass_create(gl.get(), &desc, &pass_));
+    succeed(nook_world_create(gl.get(), &desc, &pass_));
   }
-  ~WorldPass() { nook_world_pass_destroy(&pass_); }
+  ~WorldPass() { nook_world_destroy(&pass_); }
   WorldPass(const WorldPass&) = delete;
   WorldPass& operator=(const WorldPass&) = delete;
 
-  nook_world_pass get() const { return pass_; }
+  nook_world get() const { return pass_; }
 
  private:
-  nook_world_pass pass_ = nullptr;
+  nook_world pass_ = nullptr;
 };
 
 }  // namespace
@@ -59,12 +59,11 @@ std::vector<TimedRow> time_world(const Timing& timing, const std::filesystem::pa
   const GpuView view(timing.context.gl(), floor_view(camera));
   Crowd crowd(timing.nook, model, bodies, spacing);
   crowd.pose(0);
-  const nook_nnao_frame_desc screen = frame_of(view);
+  ScreenFrame screen = frame_of(view);
   nook_world_frame_desc frame;
-  succeed(nook_world_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
-  frame.screen = &screen;
+  succeed(nook_world_frame_desc_init(&frame));
   frame.scene = crowd.scene();
-  set_view(camera.world_from_view, frame.view);
+  set_view(camera.world_from_view, screen.view);
   for (const bool half : {true, false})
     for (const float cutoff : {1.0f / 1024, 1.0f / 256}) {
       const std::string name = "world, 100 bodies, cutoff_error 1/" + std::to_string(int(1 / cutoff)) +
@@ -72,7 +71,7 @@ std::vector<TimedRow> time_world(const Timing& timing, const std::filesystem::pa
       if (!timing.wanted(name)) continue;
       const WorldPass pass(timing.nook, timing.width, timing.height, half);
       frame.cutoff_error = cutoff;
-      timing.add(rows, name, [&] { succeed(nook_world_render(pass.get(), &frame)); });
+      timing.add(rows, name, [&] { succeed(nook_world_render(pass.get(), &screen, &frame)); });
     }
   return rows;
 }

@@ -22,8 +22,7 @@ constexpr Preset presets[] = {
 
 RecordedPass settings_of(nook_nnao_preset preset, float blur_sharpness) {
   nook_nnao_desc desc;
-  if (nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK ||
-      nook_nnao_desc_set_preset(&desc, preset) != NOOK_OK)
+  if (nook_nnao_desc_init(&desc) != NOOK_OK || nook_nnao_desc_set_preset(&desc, preset) != NOOK_OK)
     throw Failure(NOOK_ERROR_INTERNAL, "%s", nook_last_message());
   return {desc.taps, desc.half_resolution, desc.blur, blur_sharpness, 0};
 }

@@ -21,10 +21,12 @@ struct Pass {
   nook_nnao handle = nullptr;
 };
 
-nook_nnao_frame_desc frame_of(const nook::nnao::Recording& recording) {
+ScreenFrame frame_of(const nook::nnao::Recording& recording) {
   const nook::nnao::RecordedFrame& recorded = recording.frame;
-  nook_nnao_frame_desc frame;
-  succeed(nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
+  ScreenFrame frame;
+  succeed(nook_gl_frame_desc_init(&frame));
+  succeed(nook_gl_frame_desc_init(&frame));
+  succeed(nook_nnao_frame_desc_init(&frame));
   frame.width = int(recording.width);
   frame.height = int(recording.height);
   frame.depth_kind = recorded.depth_kind;
@@ -33,13 +35,13 @@ nook_nnao_frame_desc frame_of(const nook::nnao::Recording& recording) {
   frame.normal_bias = recorded.normal_bias;
   std::ranges::copy(recorded.normal_matrix, frame.normal_matrix);
   std::ranges::copy(recorded.projection, frame.projection);
-  frame.clip = recorded.clip;
+  frame.clip_space = recorded.clip;
   frame.radius = recorded.radius;
   frame.radius_kind = recorded.radius_kind;
   frame.max_radius_px = recorded.max_radius_px;
   frame.intensity = recorded.intensity;
   frame.power = recorded.power;
-  frame.layer = recorded.layer;
+  frame.gbuffer_ao = recorded.layer;
   return frame;
 }
 
@@ -69,7 +71,7 @@ FrameReplay::FrameReplay(const GladGLContext& gl, const NookGl& nook, const nook
 std::vector<float> FrameReplay::draw(const nook::nnao::RecordedPass& settings,
                                      std::span<const std::byte> network, nook_nnao_view shown) const {
   nook_nnao_desc desc;
-  succeed(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  succeed(nook_nnao_desc_init(&desc));
   desc.max_width = width();
   desc.max_height = height();
   desc.taps = settings.taps;
@@ -80,12 +82,12 @@ std::vector<float> FrameReplay::draw(const nook::nnao::RecordedPass& settings,
   desc.network = network.empty() ? nullptr : network.data();
   desc.network_size = network.size();
   const Pass pass(nook_.get(), desc);
-  nook_nnao_frame_desc frame = frame_of(recording_);
+  ScreenFrame frame = frame_of(recording_);
   frame.depth_texture = depth_.texture();
   if (normals_) frame.normal_texture = normals_->texture();
-  if (frame.layer != NOOK_NNAO_LAYER_NONE) frame.layer_texture = layer_->texture();
-  frame.view = shown;
-  succeed(nook_nnao_render(pass.handle, &frame));
+  if (frame.gbuffer_ao != NOOK_GBUFFER_AO_NONE) frame.gbuffer_ao_texture = layer_->texture();
+  frame.show = shown;
+  succeed(nook_nnao_render(pass.handle, &frame, &frame));
   nook_nnao_info info{};
   info.struct_size = sizeof info;
   succeed(nook_nnao_describe(pass.handle, &info));

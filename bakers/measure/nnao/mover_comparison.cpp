@@ -53,9 +53,7 @@ std::vector<float> draw(const GladGLContext& gl, const NookGl& nook_gl, const Mo
   NetworkPass pass(nook_gl, width, height, form, {}, request.blur_sharpness);
   GLuint texture = 0;
   for (std::size_t f = 0; f < count; ++f) {
-    std::optional<Mat3x4> earlier;
-    if (f > 0) earlier = earlier_from_view(camera(f), camera(f - 1));
-    texture = pass.draw(images.frames[f], request, true, earlier,
+    texture = pass.draw(images.frames[f], request, true, camera(f).world_from_view, f == 0,
                         used == MoverPass::vectors ? images.motion[f].texture() : 0);
   }
   return read_red(gl, texture, width, height);

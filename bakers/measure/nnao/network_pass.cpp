@@ -39,13 +39,15 @@ void set_view(const Mat3x4& world_from_view, float (&view)[16]) {
   view[15] = 1;
 }
 
-nook_nnao_frame_desc frame_of(const GpuView& view) {
-  nook_nnao_frame_desc frame;
-  succeed(nook_nnao_frame_desc_init(&frame, sizeof frame, NOOK_VERSION));
+ScreenFrame frame_of(const GpuView& view) {
+  ScreenFrame frame;
+  succeed(nook_gl_frame_desc_init(&frame));
+  succeed(nook_gl_frame_desc_init(&frame));
+  succeed(nook_nnao_frame_desc_init(&frame));
   frame.width = view.width;
   frame.height = view.height;
   frame.depth_texture = view.depth.texture();
-  frame.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
+  frame.depth_kind = NOOK_DEPTH_LINEAR;
   frame.normal_texture = view.normal.texture();
   set_projection(view, frame.projection);
   return frame;
@@ -53,10 +55,10 @@ nook_nnao_frame_desc frame_of(const GpuView& view) {
 
 NookGl::NookGl(platform::Context& context) {
   nook_context_desc context_desc;
-  succeed(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION));
+  succeed(nook_context_desc_init(&context_desc));
   succeed(nook_context_create(&context_desc, &context_));
   nook_gl_desc gl_desc;
-  succeed(nook_gl_desc_init(&gl_desc, sizeof gl_desc, NOOK_VERSION));
+  succeed(nook_gl_desc_init(&gl_desc));
   gl_desc.get_proc = platform::Context::loader;
   gl_desc.get_proc_user = &context;
   succeed(nook_gl_create(context_, &gl_desc, &gl_));
@@ -71,7 +73,7 @@ NetworkPass::NetworkPass(const NookGl& gl, int width, int height, const NetworkF
                          std::span<const std::byte> network, float blur_sharpness)
     : form_(form) {
   nook_nnao_desc desc;
-  succeed(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  succeed(nook_nnao_desc_init(&desc));
   desc.max_width = width;
   desc.max_height = height;
   desc.taps = form.taps;
@@ -79,7 +81,7 @@ NetworkPass::NetworkPass(const NookGl& gl, int width, int height, const NetworkF
   desc.blur = form.blur;
   desc.blur_sharpness = blur_sharpness;
   desc.bent_normals = form.bent;
-  desc.temporal_frames = form.temporal_frames;
+  desc.max_history_frames = form.temporal_frames;
   desc.path = form.path;
   desc.network = network.empty() ? nullptr : network.data();
   desc.network_size = network.size();
@@ -93,19 +95,19 @@ NetworkPass::~NetworkPass() {
 }
 
 GLuint NetworkPass::draw(const GpuView& view, const AoRequest& request, bool blurred,
-                         const std::optional<Mat3x4>& earlier_from_view, GLuint motion) {
-  nook_nnao_frame_desc frame = frame_of(view);
+                         const std::optional<Mat3x4>& world_from_view, bool cut, GLuint motion) {
+  ScreenFrame frame = frame_of(view);
   frame.radius = request.radius;
   frame.max_radius_px = request.max_radius_px;
-  frame.view = blurred ? NOOK_NNAO_VIEW_BLURRED : NOOK_NNAO_VIEW_RAW;
+  frame.show = blurred ? NOOK_NNAO_VIEW_BLURRED : NOOK_NNAO_VIEW_RAW;
   if (blurred && request.intensity != 1) {
-    frame.view = NOOK_NNAO_VIEW_AO;
+    frame.show = NOOK_NNAO_VIEW_AO;
     frame.intensity = request.intensity;
   }
-  frame.reset = !earlier_from_view;
-  frame.motion_texture = motion;
-  if (earlier_from_view) std::ranges::copy(earlier_from_view->m, frame.earlier_from_view);
-  succeed(nook_nnao_render(pass_, &frame));
+  frame.reset = cut;
+  frame.motion_vectors = motion;
+  if (world_from_view) set_view(*world_from_view, frame.view);
+  succeed(nook_nnao_render(pass_, &frame, &frame));
   return info_.texture;
 }
 

@@ -34,8 +34,11 @@ class NookGl {
   nook_gl gl_ = nullptr;
 };
 
+// Both descriptors of a frame of the screen-space pass.
+struct ScreenFrame : nook_gl_frame_desc, nook_nnao_frame_desc {};
+
 // The frame of a view whose depth is linear: size, depth, normals, projection.
-nook_nnao_frame_desc frame_of(const GpuView& view);
+ScreenFrame frame_of(const GpuView& view);
 
 // A form in which the pass is measured.
 struct NetworkForm {
@@ -56,11 +59,11 @@ class NetworkPass {
   NetworkPass(const NetworkPass&) = delete;
   NetworkPass& operator=(const NetworkPass&) = delete;
 
-  // Returns the pass's texture: R8, or RGBA8 with bent normals. earlier_from_view: see nook_nnao_frame_desc;
-  // none: a cut. motion: a texture of motion vectors in pixels; 0: none. They matter with temporal_frames
-  // alone.
+  // Returns the pass's texture: R8, or RGBA8 with bent normals. world_from_view: of the camera; none: it does
+  // not matter. cut: earlier frames are not used. motion: a texture of motion vectors in pixels; 0: none.
+  // All three matter with temporal_frames alone.
   GLuint draw(const GpuView& view, const AoRequest& request, bool blurred,
-              const std::optional<Mat3x4>& earlier_from_view = {}, GLuint motion = 0);
+              const std::optional<Mat3x4>& world_from_view = {}, bool cut = true, GLuint motion = 0);
   bool horizon_form() const { return info_.horizon_form != 0; }
 
   // Texture fetches for each pixel of all stages.

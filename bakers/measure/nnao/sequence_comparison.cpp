@@ -19,7 +19,7 @@ using bake::nnao::TracedView;
 
 constexpr int measured_taps[] = {9, 16, 32, 64};
 constexpr std::size_t measured_paths[] = {4, sequence_frames};  // frames
-constexpr int longest_mean = 8;                                 // nook_nnao_desc.temporal_frames
+constexpr int longest_mean = 8;                                 // nook_nnao_desc.max_history_frames
 
 // The frames of a path in order, the view last.
 struct Path {
@@ -280,9 +280,9 @@ SequenceView measure_sequence(platform::Context& context, const MeasuredView& vi
     NetworkPass pass(nook_gl, width, height, form, {}, request.blur_sharpness);
     std::vector<std::vector<float>> ao;
     for (std::size_t f = first; f < images.size(); ++f) {
-      std::optional<Mat3x4> earlier;
-      if (f > first) earlier = earlier_from_view(path.frames[f]->camera, path.frames[f - 1]->camera);
-      ao.push_back(read_red(gl, pass.draw(images[f], request, true, earlier), width, height));
+      const Mat3x4& world_from_view = path.frames[f]->camera.world_from_view;
+      ao.push_back(
+          read_red(gl, pass.draw(images[f], request, true, world_from_view, f == first), width, height));
     }
     SequenceError error{form.taps, frames, 0, 0, 0};
     error.mse = mse_where(ao.back(), view, [](std::size_t) { return true; });

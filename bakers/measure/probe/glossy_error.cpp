@@ -108,7 +108,7 @@ std::vector<Form> forms_of(const std::vector<SphericalGaussian>& lobes, const Li
   for (const auto& [name, form] : {std::pair{"lobes, isotropic", SpecularForm::isotropic},
                                    {"lobes, anisotropic", SpecularForm::anisotropic}}) {
     const auto reflected = [&lobes, form = form](const Surface& s) { return specular(lobes, form, s); };
-    forms.push_back({name, lobes.size() * sizeof(nook_probe_lobe), reflected, reflected});
+    forms.push_back({name, lobes.size() * sizeof(nook_lobe), reflected, reflected});
   }
   for (const std::uint32_t size : {4u, 16u}) {
     const auto reflected = [](PrefilteredCube cube) {

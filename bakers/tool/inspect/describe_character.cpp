@@ -28,7 +28,7 @@ Row describe_character(std::span<const std::byte> bytes) {
   row["spheres"] = model.spheres.size();
   row["key_points"] = model.key_points.size();
   row["world_casters"] = model.world_casters.size();
-  row["bent_normals"] = !model.blocked.empty();
+  row["bent_normals"] = !model.occluded.empty();
   row["influences"] = model.influences;
   row["kernel"] = text_of(kernel_names, std::size_t(model.kernel.form));
   row["gamma"] = model.kernel.gamma;
@@ -40,7 +40,7 @@ Row describe_character(std::span<const std::byte> bytes) {
     row[std::string("bytes_") + name] = container.has(letters) ? container.section(letters).remaining() : 0;
   }
   add_recipe(row, model.recipe);
-  // The host memory of the loaded model and of an instance, as nook_character_model_memory has them.
+  // The host memory of the loaded model and of an instance, as nook_model_describe gives it.
   MeteredMemory memory(default_memory());
   const Ref<LoadedModel> loaded = Owned<LoadedModel>::make(&memory, Ref<const RefCounted>(),
                                                            read_character_model(bytes, &memory), &memory);

@@ -4,7 +4,7 @@
 int main(void) {
   nook_context_desc desc;
   nook_context context = NULL;
-  if (nook_context_desc_init(&desc, sizeof desc, NOOK_VERSION) || nook_context_create(&desc, &context)) {
+  if (nook_context_desc_init(&desc) || nook_context_create(&desc, &context)) {
     puts(nook_last_message());
     return 1;
   }

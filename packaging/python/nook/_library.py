@@ -97,10 +97,12 @@ def described(kind: Any, name: str, *arguments: Any) -> Any:
     return info
 
 
-def descriptor(kind: Any, init: str) -> Any:
+def descriptor(kind: Any) -> Any:
     """A descriptor with the defaults of the library."""
     desc = kind()
-    call(init, ctypes.byref(desc), ctypes.sizeof(kind), c.NOOK_VERSION)
+    name = kind.__name__.removeprefix("nook_").removesuffix("_desc").upper()
+    init = "nook_bake_desc_init" if name.startswith("BAKE_") else "nook_desc_init"
+    call(init, getattr(c, f"NOOK_DESC_{name}"), ctypes.byref(desc), ctypes.sizeof(kind), c.NOOK_VERSION)
     return desc
 
 

@@ -24,11 +24,15 @@ class Character(Handle):
         super().__init__()
         if (path is None) == (data is None):
             raise TypeError("Character: give either a path or data")
+        desc = descriptor(c.nook_bake_source_desc)
         if path is not None:
-            call("nook_bake_import_gltf", os.fspath(path).encode("utf-8"), ctypes.byref(self._handle))
+            desc.path = os.fspath(path).encode("utf-8")
         else:
             assert data is not None
-            call("nook_bake_import_gltf_bytes", data, len(data), ctypes.byref(self._handle))
+            # A buffer, because ctypes makes NULL of empty bytes.
+            held = ctypes.create_string_buffer(data, max(len(data), 1))
+            desc.bytes, desc.byte_count = ctypes.cast(held, ctypes.c_void_p), len(data)
+        call("nook_bake_character_create", ctypes.byref(desc), ctypes.byref(self._handle))
         self._describe()
 
     @classmethod
@@ -43,7 +47,7 @@ class Character(Handle):
         w = floats(weights, bones.shape, "weights")
         parents = integers(bone_parents, np.int32, (None,), "bone_parents")
         frames = floats(bone_frames, (len(parents), 3, 4), "bone_frames")
-        desc = descriptor(c.nook_bake_mesh_desc, "nook_bake_mesh_desc_init")
+        desc = descriptor(c.nook_bake_source_desc)
         desc.positions, desc.indices, desc.joints, desc.weights = pointer(p), pointer(indices), pointer(bones), pointer(w)
         desc.vertex_count, desc.index_count, desc.influences = len(p), indices.size, bones.shape[1]
         desc.bone_parents, desc.bone_frames_3x4, desc.bone_count = pointer(parents), pointer(frames), len(parents)
@@ -62,9 +66,12 @@ class Character(Handle):
         self.triangle_count: int = info.triangle_count
         self.bone_count: int = info.bone_count
         self.bounds: FloatArray = np.array([info.bounds_min[:], info.bounds_max[:]], dtype=np.float32)
-        self.bone_names: List[str] = [text(call("nook_bake_character_bone_name", self.handle, i)) for i in range(info.bone_count)]
-        self.clip_names: List[str] = [text(call("nook_bake_character_clip_name", self.handle, i)) for i in range(info.clip_count)]
-        self.warnings: List[str] = [text(call("nook_bake_character_warning", self.handle, i)) for i in range(info.warning_count)]
+        self.bone_names = self._names(c.NOOK_BAKE_NAME_BONE, info.bone_count)
+        self.clip_names = self._names(c.NOOK_BAKE_NAME_CLIP, info.clip_count)
+        self.warnings = self._names(c.NOOK_BAKE_NAME_WARNING, info.warning_count)
+
+    def _names(self, kind: int, count: int) -> List[str]:
+        return [text(call("nook_bake_character_name", self.handle, kind, i)) for i in range(count)]
 
     def _clip(self, clip: Union[int, str]) -> int:
         if isinstance(clip, int):
@@ -98,13 +105,14 @@ class Character(Handle):
     def vertices(self) -> Tuple[FloatArray, FloatArray]:
         """Rest positions in metres, and unit normals."""
         positions, normals = (np.empty((self.vertex_count, 3), np.float32) for _ in range(2))
-        call("nook_bake_character_read_vertices", self.handle, pointer(positions), pointer(normals), self.vertex_count)
+        for array, values in ((c.NOOK_BAKE_ARRAY_POSITIONS, positions), (c.NOOK_BAKE_ARRAY_NORMALS, normals)):
+            call("nook_bake_character_read", self.handle, array, pointer(values), self.vertex_count, 0)
         return positions, normals
 
     def triangles(self) -> npt.NDArray[np.uint32]:
         """Indices of vertices, triangles x 3."""
         indices = np.empty((self.triangle_count, 3), np.uint32)
-        call("nook_bake_character_read_triangles", self.handle, pointer(indices), indices.size)
+        call("nook_bake_character_read", self.handle, c.NOOK_BAKE_ARRAY_TRIANGLES, pointer(indices), len(indices), 0)
         return indices
 
     def skin(self, pose: Any) -> Tuple[FloatArray, FloatArray]:

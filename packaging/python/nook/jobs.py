@@ -7,16 +7,17 @@ from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Se
 import numpy as np
 
 from . import _layouts as c
-from ._library import Handle, call, choice, described, descriptor, floats, integers, pointer, word
+from ._library import Handle, call, choice, described, descriptor, floats, integers, pointer, text
 from .characters import Character
 
 
 class Progress(NamedTuple):
-    """stage is a word: waiting, raytrace, initialise, fit, casters, btf, votf, view_map or done."""
+    """stage is what the job does now, in a few words to show to a user, such as ray tracing; is_done says that it has ended."""
 
     stage: str
     done: int
     total: int
+    is_done: bool = False
 
 
 ProgressFunction = Callable[[Progress], Optional[bool]]
@@ -28,7 +29,7 @@ class Job(Handle):
     _kind = c.nook_bake_job
     _destroy = "nook_bake_job_destroy"
 
-    def __init__(self, start: Callable[[Any], None], desc: Any, progress: Optional[ProgressFunction]) -> None:
+    def __init__(self, desc: Any, progress: Optional[ProgressFunction]) -> None:
         super().__init__()
         self._error: Optional[BaseException] = None
 
@@ -43,7 +44,7 @@ class Job(Handle):
         # The job calls it from its own threads, so that it lives as long as the job.
         self._report = c.nook_bake_progress_fn(report if progress else 0)
         desc.progress = self._report
-        start(ctypes.byref(self._handle))
+        call("nook_bake_start", ctypes.byref(desc), ctypes.byref(self._handle))
 
     def poll(self) -> Progress:
         """The stage that the job is in; it does not wait."""
@@ -53,7 +54,7 @@ class Job(Handle):
         while True:
             progress = self.poll()
             yield progress
-            if progress.stage == "done":
+            if progress.is_done:
                 return
             time.sleep(0.1)
 
@@ -71,7 +72,7 @@ class Job(Handle):
                 raise self._error
             raise
         data, size = ctypes.c_void_p(), ctypes.c_size_t()
-        call("nook_bake_job_model", self.handle, ctypes.byref(data), ctypes.byref(size))
+        call("nook_bake_job_file", self.handle, ctypes.byref(data), ctypes.byref(size))
         return ctypes.string_at(data, size.value)
 
     def report(self) -> Dict[str, Any]:
@@ -83,7 +84,7 @@ class Job(Handle):
 
 
 def _progress(at: Any) -> Progress:
-    return Progress(word("NOOK_BAKE_STAGE_", at.stage), int(at.done), int(at.total))
+    return Progress(text(at.stage), int(at.done), int(at.total), at.state == c.NOOK_BAKE_DONE)
 
 
 def _set(desc: Any, settings: Dict[str, Any], names: Sequence[str]) -> None:
@@ -95,24 +96,26 @@ def _set(desc: Any, settings: Dict[str, Any], names: Sequence[str]) -> None:
 
 
 def bake_character(character: Character, *, preset: str = "standard", poses: Optional[str] = None, clips: Sequence[str] = (),
-                   clip_split: Optional[str] = None, extra_poses: Any = None, kernel: Optional[str] = None, fit: Optional[str] = None,
+                   clip_split: Optional[str] = None, extra_poses: Any = None, form: Optional[str] = None,
                    progress: Optional[ProgressFunction] = None, **settings: Any) -> Job:
     """Starts to bake a character model and returns at once.
 
-    preset: draft, standard or production. poses: auto, single_joint, clips, all or extra. clip_split: all, half or families.
+    preset: draft, standard or production. poses: auto, single_joint, clips, all or extra. form: default, or paper: Le et al. 2019.
+    clip_split: all, half or families, for comparisons.
     settings: spheres, key_points, rays, steps, auto_pose_count, samples_per_clip, seed, threads, gamma, saturation, time_limit_s, as
-    nook_bake_job_desc has them. progress is called on threads of the job; it returns False to cancel.
+    nook_bake_character_desc has them. progress is called on threads of the job; it returns False to cancel.
     """
-    desc = descriptor(c.nook_bake_job_desc, "nook_bake_job_desc_init")
+    desc = descriptor(c.nook_bake_character_desc)
+    desc.character = character.handle
     desc.preset = choice("NOOK_BAKE_PRESET_", preset, "preset")
     if poses is not None:
         desc.pose_mode = choice("NOOK_BAKE_POSES_", poses, "poses")
+    study = descriptor(c.nook_bake_character_study_desc)
     if clip_split is not None:
-        desc.clip_split = choice("NOOK_BAKE_SPLIT_", clip_split, "clip_split")
-    if kernel is not None:
-        desc.kernel = choice("NOOK_BAKE_KERNEL_", kernel, "kernel")
-    if fit is not None:
-        desc.fit = choice("NOOK_BAKE_FIT_", fit, "fit")
+        study.clip_split = choice("NOOK_BAKE_SPLIT_", clip_split, "clip_split")
+        desc.next = ctypes.cast(ctypes.pointer(study), ctypes.c_void_p)
+    if form is not None:
+        desc.form = choice("NOOK_FORM_", form, "form")
     if clips:
         desc.clip_count = len(clips)
         desc.clip_names = (ctypes.c_char_p * len(clips))(*[name.encode("utf-8") for name in clips])
@@ -122,19 +125,20 @@ def bake_character(character: Character, *, preset: str = "standard", poses: Opt
         desc.extra_poses_3x4, desc.extra_pose_count = pointer(extra), len(extra)
     _set(desc, settings, ("spheres", "key_points", "rays", "steps", "auto_pose_count", "samples_per_clip", "seed", "threads", "gamma",
                           "saturation", "time_limit_s"))
-    return Job(lambda out: call("nook_bake_job_start", character.handle, ctypes.byref(desc), out), desc, progress)
+    return Job(desc, progress)
 
 
 def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any = None, lights: Any = None, views: Any = None,
-                  method: Optional[str] = None, relief: Optional[str] = None, heights: Any = None,
+                  method: Optional[str] = None, form: Optional[str] = None, relief: bool = False, heights: Any = None,
                   progress: Optional[ProgressFunction] = None, **settings: Any) -> Job:
     """Starts to bake a material and returns at once.
 
     meso: fiber, roughhole or weave; or btf: lights x views x height x width x 3, with lights and views as directions in tangent
-    space, and coverage: views x height x width. method: k_cta, cta, n_svd or neural. relief: none, estimated, or known: the heights of meso,
-    or with btf heights: height x width, in tiles. settings are the numbers of nook_bake_material_desc.
+    space, and coverage: views x height x width. method: k_cta, cta, n_svd or neural. form: default, or paper: Tsai and
+    Shih 2012. relief: views are aligned on the heights of meso, or with btf on heights: height x width, in tiles, or on a relief that is
+    searched for. settings are the numbers of nook_bake_material_desc.
     """
-    desc = descriptor(c.nook_bake_material_desc, "nook_bake_material_desc_init")
+    desc = descriptor(c.nook_bake_material_desc)
     kept: List[Any] = []
 
     def give(field: str, values: Any, shape: Any) -> Any:
@@ -157,14 +161,15 @@ def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any 
         give("coverage", coverage, (desc.view_count, desc.height, desc.width))
     if method is not None:
         desc.method = choice("NOOK_BAKE_METHOD_", method, "method")
-    if relief is not None:
-        desc.relief = choice("NOOK_BAKE_RELIEF_", relief, "relief")
+    if form is not None:
+        desc.form = choice("NOOK_FORM_", form, "form")
+    desc.relief = 1 if relief else 0
     if heights is not None:
         give("heights", heights, (desc.height, desc.width))
-    own = {"struct_size", "header_version", "next", "meso", "btf", "coverage", "lights", "views", "method", "relief", "heights",
+    own = {"struct_size", "type", "next", "meso", "btf", "coverage", "lights", "views", "method", "form", "relief", "heights",
            "progress", "progress_user"}
     _set(desc, settings, [name for name, *_ in c.nook_bake_material_desc._fields_ if name not in own])
-    return Job(lambda out: call("nook_bake_material_start", ctypes.byref(desc), out), desc, progress)
+    return Job(desc, progress)
 
 
 def bake_transfer(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tangents: Any = None, holes_of: Optional[bytes] = None,
@@ -173,7 +178,7 @@ def bake_transfer(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tan
 
     holes_of: the .nook file of the material through whose holes light falls. settings: lobes, ray_side, threads, bounces, tiles.
     """
-    desc = descriptor(c.nook_bake_transfer_desc, "nook_bake_transfer_desc_init")
+    desc = descriptor(c.nook_bake_transfer_desc)
     p = floats(positions, (None, 3), "positions")
     n = floats(normals, (len(p), 3), "normals")
     uv = floats(uvs, (len(p), 2), "uvs")
@@ -184,4 +189,4 @@ def bake_transfer(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tan
     if holes_of is not None:
         desc.votf, desc.votf_size = ctypes.cast(ctypes.c_char_p(holes_of), ctypes.c_void_p), len(holes_of)
     _set(desc, settings, ("lobes", "ray_side", "threads", "bounces", "tiles"))
-    return Job(lambda out: call("nook_bake_transfer_start", ctypes.byref(desc), out), desc, progress)
+    return Job(desc, progress)

@@ -25,7 +25,7 @@ class Material(Handle):
 
     def __init__(self, data: bytes) -> None:
         super().__init__()
-        call("nook_material_load", shared_context().handle, data, len(data), ctypes.byref(self._handle))
+        call("nook_material_load", shared_context().handle, data, len(data), None, ctypes.byref(self._handle))
         info = described(c.nook_material_info, "nook_material_describe", self.handle)
         self.width: int = info.width
         self.height: int = info.height
@@ -33,26 +33,16 @@ class Material(Handle):
         self.view_count: int = info.view_count
         self.visibility: str = word("NOOK_MATERIAL_VISIBILITY_", info.visibility)
 
-    def evaluate(self, uv: Any, view: Any, light: Any, level: float = 0.0) -> MaterialValues:
-        """The material at n points: uv is n x 2, view and light are n x 3 unit vectors in tangent space, away from the surface."""
+    def evaluate(self, uv: Any, view: Any, light: Any, dx: Any = None, dy: Any = None, fetches: int = 1) -> MaterialValues:
+        """The material in n pixels: uv is n x 2, view and light are n x 3 unit vectors in tangent space, away from the surface. dx and dy
+        are n x 2, the changes of uv to the neighbours to the right and above; None is a pixel without a size. Each value is the mean
+        over that many places along the longer side of the pixel, 1 to NOOK_MATERIAL_MAX_FETCHES."""
         points = floats(uv, (None, 2), "uv")
+        sides = [floats(np.zeros_like(points) if side is None else side, (len(points), 2), name) for side, name in ((dx, "dx"), (dy, "dy"))]
         views, lights = floats(view, (len(points), 3), "view"), floats(light, (len(points), 3), "light")
-        samples = np.concatenate([points, np.full((len(points), 1), level, np.float32), views, lights], axis=1)
-        return self._values("nook_material_evaluate", c.nook_material_sample, samples)
-
-    def evaluate_anisotropic(self, uv: Any, dx: Any, dy: Any, view: Any, light: Any, fetches: int = 2) -> MaterialValues:
-        """The material in n pixels: dx and dy are n x 2, the changes of uv to the neighbours to the right and above; the rest as in
-        evaluate. Each is the mean over that many places along the longer side of the pixel, 1 to NOOK_MATERIAL_MAX_FETCHES."""
-        points = floats(uv, (None, 2), "uv")
-        sides = [floats(side, (len(points), 2), name) for side, name in ((dx, "dx"), (dy, "dy"))]
-        views, lights = floats(view, (len(points), 3), "view"), floats(light, (len(points), 3), "light")
-        return self._values("nook_material_evaluate_anisotropic", c.nook_material_pixel,
-                            np.concatenate([points, *sides, views, lights], axis=1), fetches)
-
-    def _values(self, function: str, structure: Any, rows: Any, *further: int) -> MaterialValues:
         # The structures hold floats alone, so that arrays of floats have their layout.
-        rows = rows.astype(np.float32)
+        rows = np.concatenate([points, *sides, views, lights], axis=1).astype(np.float32)
         values = np.empty((len(rows), ctypes.sizeof(c.nook_material_value) // 4), np.float32)
-        call(function, self.handle, ctypes.cast(rows.ctypes.data, ctypes.POINTER(structure)), len(rows), *further,
-             ctypes.cast(values.ctypes.data, ctypes.POINTER(c.nook_material_value)))
+        call("nook_material_evaluate", self.handle, ctypes.cast(rows.ctypes.data, ctypes.POINTER(c.nook_material_pixel)), len(rows),
+             fetches, ctypes.cast(values.ctypes.data, ctypes.POINTER(c.nook_material_value)))
         return MaterialValues(values[:, 0:3].copy(), values[:, 3].copy(), values[:, 4].copy())

@@ -1,12 +1,17 @@
 """Light probes: fits, files, radiance and irradiance."""
 import ctypes
-from typing import Any, Optional, Sequence
+from typing import Any
 
 import numpy as np
 
 from . import _layouts as c
 from ._library import FloatArray, Handle, call, choice, described, descriptor, floats, pointer
 from .scenes import shared_context
+
+
+_METHODS = ("least_squares", "least_squares_non_negative", "running_average", "running_average_non_negative")
+# Methods for comparison.
+_STUDIES = ("naive", "running_average_original", "moments")
 
 
 class Probe(Handle):
@@ -27,20 +32,22 @@ class Probe(Handle):
         self.origin = np.array(info.origin_ws[:], dtype=np.float32)
         self.spacing = np.array(info.spacing_ws[:], dtype=np.float32)
 
-    def radiance(self, directions: Any, position: Optional[Sequence[float]] = None) -> FloatArray:
-        """Light from directions; position, in metres, is where a grid is looked up."""
-        d = floats(directions, (None, 3), "directions")
-        at = None if position is None else floats(position, (3,), "position")
-        rgb = np.empty_like(d)
-        call("nook_probe_radiance", self.handle, pointer(at), pointer(d), pointer(rgb), len(d))
-        return rgb
+    def radiance(self, directions: Any, position: Any = None) -> FloatArray:
+        """Light from directions. position, in metres, is where a grid is looked up: one for all, or one for each direction."""
+        return self._evaluate("nook_probe_radiance", directions, "directions", position)
 
-    def irradiance(self, normals: Any, position: Optional[Sequence[float]] = None, form: str = "bands") -> FloatArray:
-        """Light on surfaces; a white one reflects it divided by pi."""
-        n = floats(normals, (None, 3), "normals")
-        at = None if position is None else floats(position, (3,), "position")
-        rgb = np.empty_like(n)
-        call("nook_probe_irradiance", self.handle, pointer(at), choice("NOOK_PROBE_IRRADIANCE_", form, "form"), pointer(n), pointer(rgb), len(n))
+    def irradiance(self, normals: Any, position: Any = None) -> FloatArray:
+        """Light on surfaces; a white one reflects it divided by pi. position is one for all, or one for each normal."""
+        return self._evaluate("nook_probe_irradiance", normals, "normals", position)
+
+    def _evaluate(self, function: str, directions: Any, what: str, position: Any) -> FloatArray:
+        d = floats(directions, (None, 3), what)
+        at = None
+        if position is not None:
+            shape = (3,) if np.ndim(position) == 1 else (len(d), 3)
+            at = np.ascontiguousarray(np.broadcast_to(floats(position, shape, "position"), d.shape))
+        rgb = np.empty_like(d)
+        call(function, self.handle, pointer(at), pointer(d), pointer(rgb), len(d))
         return rgb
 
     def save(self, packing: str = "half") -> bytes:
@@ -58,10 +65,18 @@ class ProbeFit(Handle):
     _kind = c.nook_probe_fit
     _destroy = "nook_probe_fit_destroy"
 
-    def __init__(self, lobes: int = 12, *, method: str = "least_squares", ambient: bool = False) -> None:
+    def __init__(self, lobes: int = 12, *, method: str = "least_squares", ambient: bool = False, form: str = "default") -> None:
+        """form is default, or paper for the published method, which needs the default method."""
         super().__init__()
-        desc = descriptor(c.nook_probe_fit_desc, "nook_probe_fit_desc_init")
-        desc.lobe_count, desc.ambient, desc.method = lobes, int(ambient), choice("NOOK_PROBE_", method, "method")
+        desc, study = descriptor(c.nook_probe_fit_desc), descriptor(c.nook_probe_fit_study_desc)
+        desc.lobe_count, desc.ambient, desc.form = lobes, int(ambient), choice("NOOK_FORM_", form, "form")
+        if method in _STUDIES:
+            study.method = choice("NOOK_PROBE_FIT_STUDY_", method, "method")
+        elif method in _METHODS:
+            desc.method = choice("NOOK_PROBE_FIT_", method, "method")
+        else:
+            raise ValueError(f"method: {method!r} is none of {', '.join(_METHODS + _STUDIES)}")
+        desc.next = ctypes.addressof(study)
         call("nook_probe_fit_create", shared_context().handle, ctypes.byref(desc), ctypes.byref(self._handle))
 
     def add_samples(self, directions: Any, radiance: Any, weights: Any = None) -> None:

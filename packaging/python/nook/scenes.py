@@ -16,7 +16,7 @@ class Context(Handle):
 
     def __init__(self) -> None:
         super().__init__()
-        desc = descriptor(c.nook_context_desc, "nook_context_desc_init")
+        desc = descriptor(c.nook_context_desc)
         call("nook_context_create", ctypes.byref(desc), ctypes.byref(self._handle))
 
 
@@ -34,23 +34,23 @@ def shared_context() -> Context:
 class CharacterModel(Handle):
     """A baked character: the bytes of a .nook file."""
 
-    _kind = c.nook_character_model
-    _destroy = "nook_character_model_destroy"
+    _kind = c.nook_model
+    _destroy = "nook_model_destroy"
 
     def __init__(self, data: bytes) -> None:
         super().__init__()
-        call("nook_character_model_load", shared_context().handle, data, len(data), ctypes.byref(self._handle))
-        info = described(c.nook_character_model_info, "nook_character_model_describe", self.handle)
+        call("nook_model_load", shared_context().handle, data, len(data), ctypes.byref(self._handle))
+        info = described(c.nook_model_info, "nook_model_describe", self.handle)
         self.bone_count: int = info.bone_count
         self.sphere_count: int = info.sphere_count
         self.key_point_count: int = info.key_point_count
         self.vertex_count: int = info.file_vertex_count
-        self.bone_names: List[str] = [text(call("nook_character_model_bone_name", self.handle, i)) for i in range(info.bone_count)]
+        self.bone_names: List[str] = [text(call("nook_model_bone_name", self.handle, i)) for i in range(info.bone_count)]
 
     def static_ao(self) -> FloatArray:
         """AO of the rest pose as a static bake has it, one value for each vertex of the file."""
         ao = np.empty(self.vertex_count, np.float32)
-        call("nook_character_model_static_ao", self.handle, pointer(ao), self.vertex_count)
+        call("nook_model_read", self.handle, c.NOOK_MODEL_STATIC_AO, pointer(ao), self.vertex_count, 0)
         return ao
 
 
@@ -63,7 +63,10 @@ class Instance:
     def set_pose(self, pose: Any) -> None:
         """bones x 3 x 4, from rest space to the world."""
         bones = floats(pose, (self.model.bone_count, 3, 4), "pose")
-        call("nook_scene_set_pose", self.scene.handle, self.number, pointer(bones), self.model.bone_count)
+        desc = descriptor(c.nook_pose_desc)
+        desc.kind, desc.layout = c.NOOK_POSE_REST_TO_WORLD, c.NOOK_TRANSFORM_ROWS_3X4
+        desc.transforms, desc.transform_count = pointer(bones), self.model.bone_count
+        call("nook_scene_set_pose", self.scene.handle, self.number, ctypes.byref(desc))
 
     def set_ground(self, plane: Optional[Sequence[float]]) -> None:
         """The plane a x + b y + c z = d as (a, b, c, d) with a unit normal, or None for no ground."""
@@ -77,7 +80,8 @@ class Instance:
     def read_ao(self) -> FloatArray:
         """AO after the scene's update, one value for each vertex of the file; 1 is open."""
         ao = np.empty(self.model.vertex_count, np.float32)
-        call("nook_scene_read_ao", self.scene.handle, self.number, pointer(ao), self.model.vertex_count, 0)
+        call("nook_scene_read", self.scene.handle, self.number, c.NOOK_CHANNEL_AO, c.NOOK_FORMAT_FLOAT, pointer(ao),
+             self.model.vertex_count, 0)
         return ao
 
 
@@ -90,7 +94,7 @@ class Scene(Handle):
     def __init__(self, **settings: Any) -> None:
         """settings: numbers of nook_scene_desc, such as cutoff_error."""
         super().__init__()
-        desc = descriptor(c.nook_scene_desc, "nook_scene_desc_init")
+        desc = descriptor(c.nook_scene_desc)
         for name, value in settings.items():
             if name not in [field for field, *_ in c.nook_scene_desc._fields_[3:]]:
                 raise TypeError(f"{name!r} is no setting of a scene")
@@ -105,7 +109,10 @@ class Scene(Handle):
     def add_sphere(self, centre: Sequence[float], radius: float) -> int:
         """An occluder in metres; the number that is returned removes it."""
         number = c.nook_occluder_id()
-        call("nook_scene_add_occluder", self.handle, pointer(floats(centre, (3,), "centre")), radius, ctypes.byref(number))
+        ball = c.nook_occluder()
+        ball.centre_ws[:] = floats(centre, (3,), "centre").tolist()
+        ball.radius = radius
+        call("nook_scene_add_occluder", self.handle, ctypes.byref(ball), ctypes.byref(number))
         return int(number.value)
 
     def remove_sphere(self, number: int) -> None:

@@ -21,7 +21,7 @@ def trace_ao(meshes: Sequence[Tuple[Any, Any]], positions: Any, normals: Any, *,
         mesh.positions, mesh.indices, mesh.vertex_count, mesh.index_count = pointer(p), pointer(t), len(p), t.size
     at = floats(positions, (None, 3), "positions")
     facing = floats(normals, (len(at), 3), "normals")
-    desc = descriptor(c.nook_bake_trace_desc, "nook_bake_trace_desc_init")
+    desc = descriptor(c.nook_bake_trace_desc)
     desc.meshes, desc.mesh_count = occluders, len(kept)
     desc.positions, desc.normals, desc.point_count = pointer(at), pointer(facing), len(at)
     desc.rays, desc.seed, desc.threads, desc.radius, desc.origin_offset = rays, seed, threads, radius, origin_offset

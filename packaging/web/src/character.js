@@ -6,8 +6,8 @@ const floatsOfLayout = { "rows-3x4": 12, "rows-4x4": 16, "columns-4x4": 16, "col
 //   { kind: "skinning", layout: "columns-4x4", transforms, skin, transformOfBone, place3x4, partial, strict }.
 export function poseDescriptor(library, pose) {
   const { transforms, transformOfBone, place3x4, partial, strict, ...others } = pose;
-  const floats = floatsOfLayout[pose.layout ?? "rows-3x4"] ?? 12;
-  const flags = library.layouts.bits("NOOK_POSE_PARTIAL", [...(partial ? ["partial"] : []), ...(strict ? ["strict"] : [])]);
+  const floats = floatsOfLayout[pose.layout ?? "columns-4x4"] ?? 16;
+  const flags = library.layouts.bits("NOOK_POSE_FLAG_PARTIAL", [...(partial ? ["partial"] : []), ...(strict ? ["strict"] : [])]);
   return library.descriptor("nook_pose_desc", {
     transformCount: Math.floor(transforms.length / floats),
     ...others,
@@ -23,8 +23,8 @@ export function poseDescriptor(library, pose) {
 export class CharacterModel extends Owned {
   #info;
   constructor(library, handle) {
-    super(library, handle, "nook_character_model_destroy");
-    this.#info = library.info("nook_character_model_info", (info) => library.module._nook_character_model_describe(handle, info));
+    super(library, handle, "nook_model_destroy");
+    this.#info = library.info("nook_model_info", (info) => library.module._nook_model_describe(handle, info));
   }
 
   // Counts and sizes: boneCount, fileVertexCount, ...
@@ -33,7 +33,7 @@ export class CharacterModel extends Owned {
   }
 
   boneName(bone) {
-    const text = this.library.module._nook_character_model_bone_name(this.handle, bone);
+    const text = this.library.module._nook_model_bone_name(this.handle, bone);
     return text ? this.library.module.UTF8ToString(text) : null;
   }
   get boneNames() {
@@ -44,42 +44,38 @@ export class CharacterModel extends Owned {
   primitive(index) {
     const { library } = this;
     return library.call(() => {
-      const first = library.room32(1), count = library.room32(1);
-      library.check(library.module._nook_character_model_primitive(this.handle, index, first, count));
-      return { firstVertex: library.module.HEAPU32[first >> 2], vertexCount: library.module.HEAPU32[count >> 2] };
+      const range = library.struct("nook_range");
+      library.check(library.module._nook_model_describe_primitive(this.handle, index, range));
+      return library.read("nook_range", range);
     });
   }
 
   staticAo(out) {
     const count = this.#info.fileVertexCount;
     return this.library.readFloats(count, out, (address) =>
-      this.library.module._nook_character_model_static_ao(this.handle, address, count));
+      this.library.module._nook_model_read(this.handle, 0 /* NOOK_MODEL_STATIC_AO */, address, count, 0));
   }
 
   // The joint count and rest space of skin number `index`, one of info.skinCount.
   skin(index) {
-    return this.library.info("nook_skin_info", (info) => this.library.module._nook_character_model_skin(this.handle, index, info));
-  }
-  boneBind(bone) {
-    return this.library.readFloats(12, undefined, (address) =>
-      this.library.module._nook_character_model_bone_bind(this.handle, bone, address));
+    return this.library.info("nook_skin_info", (info) => this.library.module._nook_model_describe_skin(this.handle, index, info));
   }
   // Vertex number `index` of checkPose, one of info.checkVertexCount.
-  restVertex(index) {
-    return this.library.info("nook_rest_vertex", (info) =>
-      this.library.module._nook_character_model_rest_vertex(this.handle, index, info));
+  checkVertex(index) {
+    return this.library.info("nook_check_vertex_info", (info) =>
+      this.library.module._nook_model_describe_check_vertex(this.handle, index, info));
   }
 
   // Finds the host's transform of each bone by name: { transformOfBone, unmatched }.
   mapBones(names, { loose, dropSharedPrefix } = {}) {
     const { library } = this;
     return library.call(() => {
-      const flags = library.layouts.bits("NOOK_BONE_NAMES_LOOSE",
+      const flags = library.layouts.bits("NOOK_BONE_MAP_LOOSE",
         [...(loose ? ["loose"] : []), ...(dropSharedPrefix ? ["drop-shared-prefix"] : [])]);
-      const description = library.struct("nook_bone_names", { flags, names: library.texts(names), nameCount: names.length });
+      const description = library.descriptor("nook_bone_map_desc", { flags, names: library.texts(names), nameCount: names.length });
       const count = this.#info.boneCount;
       const map = library.room32(count), unmatched = library.room32(1);
-      library.check(library.module._nook_character_model_map_bones(this.handle, description, map, count, unmatched));
+      library.check(library.module._nook_model_map_bones(this.handle, description, map, count, unmatched));
       return {
         transformOfBone: library.module.HEAP32.slice(map >> 2, (map >> 2) + count),
         unmatched: library.module.HEAPU32[unmatched >> 2],
@@ -87,31 +83,32 @@ export class CharacterModel extends Owned {
     });
   }
 
-  // Converts a host's transforms to the matrices of Scene.setPose.
+  // Converts a host's transforms to rest-to-world matrices, 12 floats for each bone in rows.
   convertPose(pose, out) {
     const { library } = this;
     return library.call(() => {
       const description = poseDescriptor(library, pose);
       return library.readFloats(12 * this.#info.boneCount, out, (address) => {
         if (out) library.module.HEAPF32.set(out, address >> 2);
-        return library.module._nook_character_model_convert_pose(this.handle, description, address, this.#info.boneCount);
+        return library.module._nook_model_convert_pose(this.handle, description, address, this.#info.boneCount);
       });
     });
   }
 
   // Compares a pose with vertices that the host skinned itself: { fault, maxError, rmsError, worstBone, text, ... }.
-  checkPose(pose, { positions, restVertices, place3x4, tolerance }) {
+  checkPose(pose, { positions, checkVertices, place3x4, tolerance }) {
     const { library } = this;
     return library.call(() => {
       const description = poseDescriptor(library, pose);
-      return library.info("nook_pose_check",
-        (check) => library.module._nook_character_model_check_pose(this.handle, description, check), {
-          vertexCount: positions.length / 3,
-          positions: library.floats(positions),
-          restVertices: library.integers(restVertices),
-          place3x4: library.floats(place3x4),
-          tolerance,
-        });
+      const check = library.descriptor("nook_pose_check_desc", {
+        vertexCount: positions.length / 3,
+        positions: library.floats(positions),
+        checkVertices: library.integers(checkVertices),
+        place3x4: library.floats(place3x4),
+        tolerance,
+      });
+      return library.info("nook_pose_check_info",
+        (info) => library.module._nook_model_check_pose(this.handle, description, check, info));
     });
   }
 
@@ -120,12 +117,12 @@ export class CharacterModel extends Owned {
     const { library } = this;
     return library.call(() => {
       const count = positions.length / 3;
-      const match = library.struct("nook_vertex_match", {
+      const match = library.descriptor("nook_vertex_match_desc", {
         vertexCount: count, positions: library.floats(positions), normals: library.floats(normals),
-        primitive: primitive ?? library.layouts.bits("NOOK_ALL_PRIMITIVES", ["primitives"]), inRestSpace: inRestSpace ? 1 : 0, tolerance,
+        primitive, inRestSpace: inRestSpace ? 1 : 0, tolerance,
       });
       const vertices = library.room32(count), unmatched = library.room32(1);
-      library.check(library.module._nook_character_model_match_vertices(this.handle, match, vertices, unmatched));
+      library.check(library.module._nook_model_match_vertices(this.handle, match, vertices, unmatched));
       return {
         vertices: library.module.HEAPU32.slice(vertices >> 2, (vertices >> 2) + count),
         unmatched: library.module.HEAPU32[unmatched >> 2],
@@ -137,7 +134,7 @@ export class CharacterModel extends Owned {
   remap(vertices) {
     const { library } = this;
     const handle = library.call(() => library.made((out) =>
-      library.module._nook_character_model_remap(this.handle, library.integers(vertices), vertices.length, out)));
+      library.module._nook_model_remap(this.handle, library.integers(vertices), vertices.length, out)));
     return new CharacterModel(library, handle);
   }
 }

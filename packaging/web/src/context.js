@@ -7,12 +7,13 @@ import { Scene } from "./scene.js";
 
 // One instance of the library; everything else is made by it.
 export class Context extends Owned {
-  static make(library, log) {
+  // isa: a word of nook_isa.
+  static make(library, log, isa = "auto") {
     const { module } = library;
     const severities = ["info", "warning", "error"];
     module.nookLog = log ? (severity, text) => log(severities[severity], text) : () => {};
     return new Context(library, library.call(() => library.made((out) => module._nook_context_create(
-      library.descriptor("nook_context_desc", { log: log ? module._nook_web_log() : 0 }), out))));
+      library.descriptor("nook_context_desc", { log: log ? module._nook_web_log() : 0, isa }), out))));
   }
   constructor(library, handle) {
     super(library, handle, "nook_context_destroy");
@@ -37,13 +38,14 @@ export class Context extends Owned {
   }
   // The bytes of .nook files.
   loadCharacter(bytes) {
-    return new CharacterModel(this.library, this.#load(bytes, this.library.module._nook_character_model_load));
+    return new CharacterModel(this.library, this.#load(bytes, this.library.module._nook_model_load));
   }
   loadProbe(bytes) {
     return new Probe(this.library, this.#load(bytes, this.library.module._nook_probe_load));
   }
   loadMaterial(bytes) {
-    return new Material(this.library, this.#load(bytes, this.library.module._nook_material_load));
+    const load = (context, address, size, out) => this.library.module._nook_material_load(context, address, size, 0, out);
+    return new Material(this.library, this.#load(bytes, load));
   }
 
   // The members of nook_scene_desc in camelCase.

@@ -65,7 +65,7 @@ export class Gl extends OnSurface {
   writeAo(scene, instances, { buffer, texture, ...target }) {
     const { library } = this;
     this.surface.lend([["buffers", buffer], ["textures", texture]], (bufferName, textureName) => this.#current(() =>
-      library.check(library.module._nook_gl_scene_write_ao(this.handle, scene.handle, library.integers(instances), instances.length,
+      library.check(library.module._nook_gl_scene_write(this.handle, scene.handle, library.integers(instances), instances.length,
         library.struct("nook_gl_ao_target", { ...target, buffer: bufferName, texture: textureName })))));
   }
 
@@ -90,49 +90,50 @@ export class Gl extends OnSurface {
         library.descriptor("nook_nnao_desc", { ...options, network: bytes.address, networkSize: bytes.size }), out);
     });
   }
-  createProbe(probe) {
+  // A probe or a grid in a form: "lobes" (default), "sh" or "zh3".
+  uploadProbe(probe, form = "lobes") {
     const { library } = this;
-    return makeOnSurface(GlProbe, library, this.surface, (out) =>
-      library.module._nook_gl_probe_create(this.handle, probe.handle, out));
+    const { numbers } = library.layouts.constants.get("nook_gl_probe_form");
+    const number = library.layouts.number(numbers, form, "the form");
+    return makeOnSurface(Upload, library, this.surface, (out) =>
+      library.module._nook_gl_upload_probe(this.handle, probe.handle, number, out));
   }
-  createMaterial(material, options = {}) {
+  uploadMaterial(material) {
     const { library } = this;
-    return makeOnSurface(GlMaterial, library, this.surface, (out) => library.module._nook_gl_material_create(
-      this.handle, material.handle, library.descriptor("nook_gl_material_desc", options), out));
+    return makeOnSurface(Upload, library, this.surface, (out) =>
+      library.module._nook_gl_upload_material(this.handle, material.handle, out));
   }
 }
 
-// A probe as a texture, and the GLSL that evaluates it; see nook_gl_probe.h.
-export class GlProbe extends OnSurface {
+// A probe, a grid or a material as textures, and the GLSL that reads them; see nook_gl.h.
+export class Upload extends OnSurface {
   constructor(library, handle, surface) {
-    super(library, handle, "nook_gl_probe_destroy", surface);
+    super(library, handle, "nook_gl_upload_destroy", surface);
   }
+  // Replaces the probe of an upload of a probe.
   update(probe) {
     const { library } = this;
-    this.surface.current(() => library.check(library.module._nook_gl_probe_update(this.handle, probe.handle)));
+    this.surface.current(() => library.check(library.module._nook_gl_update_probe(this.handle, probe.handle)));
   }
-  // { texture, bytes, glsl }.
+  // { textures: { target, texture, uniform } each, bytes, glsl, constant, constantValues, constantVec4s, walls }.
   get info() {
-    const info = this.library.info("nook_gl_probe_info", (at) => this.library.module._nook_gl_probe_describe(this.handle, at));
-    return { ...info, texture: this.surface.object("textures", info.texture) };
+    const info = this.library.info("nook_gl_upload_info", (at) => this.library.module._nook_gl_upload_describe(this.handle, at));
+    const textures = info.textures.slice(0, info.textureCount)
+      .map((each) => ({ ...each, texture: this.surface.object("textures", each.texture) }));
+    return { ...info, textures };
   }
-}
-
-// A material as textures, and the GLSL that decodes them; see nook_gl_material.h.
-export class GlMaterial extends OnSurface {
-  constructor(library, handle, surface) {
-    super(library, handle, "nook_gl_material_destroy", surface);
-  }
-  // { textureCount, textureBytes, glsl }.
-  get info() {
-    return this.library.info("nook_gl_material_info", (at) => this.library.module._nook_gl_material_describe(this.handle, at));
-  }
-  // { target, texture, uniform } each.
-  get textures() {
-    return Array.from({ length: this.info.textureCount }, (_, index) => {
-      const info = this.library.info("nook_gl_material_texture", (at) =>
-        this.library.module._nook_gl_material_describe_texture(this.handle, index, at));
-      return { ...info, texture: this.surface.object("textures", info.texture) };
+  // Prepares a draw with a program of the host: leaves the program in use, and the textures bound from unit firstUnit on.
+  bind(program, firstUnit = 0) {
+    const gl = this.surface.context;
+    const { textures, constant, constantValues, constantVec4s } = this.info;
+    gl.useProgram(program);
+    textures.forEach(({ target, texture, uniform }, index) => {
+      gl.activeTexture(gl.TEXTURE0 + firstUnit + index);
+      gl.bindTexture(target, texture);
+      gl.bindSampler(firstUnit + index, null);
+      gl.uniform1i(gl.getUniformLocation(program, uniform), firstUnit + index);
     });
+    if (constantVec4s > 0) gl.uniform4fv(gl.getUniformLocation(program, constant), constantValues.subarray(0, 4 * constantVec4s));
+    else if (constant) gl.uniform1i(gl.getUniformLocation(program, constant), constantValues[0]);
   }
 }

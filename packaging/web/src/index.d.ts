@@ -16,6 +16,8 @@ export interface LoadOptions {
   wasm?: string | URL | Response | Bytes | WebAssembly.Module | Promise<Response | Bytes | WebAssembly.Module>;
   /** Takes the lines of the library's log. */
   log?: (severity: "info" | "warning" | "error", text: string) => void;
+  /** The instruction set of all objects of the context. */
+  isa?: "auto" | "scalar" | "wasm128";
 }
 /** Loads the module of WebAssembly and makes a context in it. */
 export function load(options?: LoadOptions): Promise<Context>;
@@ -53,14 +55,16 @@ export interface CharacterModelInfo {
   gamma: number;
   /** The number of skins of `skin`; 0 without bind data. */
   skinCount: number;
-  /** The number of vertices of `restVertex`; 0 without bind data. */
+  /** The number of vertices of `checkVertex`; 0 without bind data. */
   checkVertexCount: number;
 }
 export type PoseKind = "rest-to-world" | "joint-to-world" | "skinning";
 export type TransformLayout = "rows-3x4" | "rows-4x4" | "columns-4x4" | "columns-4x3" | "dual-quaternion" | "trs";
 /** A pose in a host's own transforms. three.js and glTF: { kind: "skinning", layout: "columns-4x4", transforms }. */
 export interface Pose {
+  /** Default "skinning". */
   kind?: PoseKind;
+  /** Default "columns-4x4". */
   layout?: TransformLayout;
   transforms: Numbers;
   /** Bytes between transforms; 0: tightly packed. */
@@ -81,15 +85,14 @@ export interface SkinInfo {
   jointCount: number;
   restFromMesh3x4: Float32Array;
 }
-export interface RestVertex {
+export interface CheckVertex {
   vertex: number;
   position: Float32Array;
   meshPosition: Float32Array;
   bone: number;
 }
 export interface PoseCheck {
-  fault: "right" | "transposed" | "missing-s" | "wrong-kind" | "wrong-skin" | "wrong-order" | "wrong-unit" | "wrong-place" |
-    "inverted" | "unknown-fault";
+  fault: "none" | "transposed" | "no-bind" | "kind" | "skin" | "order" | "unit" | "place" | "inverted" | "unknown";
   maxError: number;
   rmsError: number;
   worstBone: number;
@@ -102,18 +105,16 @@ export class CharacterModel extends Owned {
   readonly info: CharacterModelInfo;
   readonly boneNames: string[];
   boneName(bone: number): string | null;
-  primitive(index: number): { firstVertex: number; vertexCount: number };
+  primitive(index: number): { first: number; count: number };
   /** Ray-traced AO of the rest pose. */
   staticAo(out?: Float32Array): Float32Array;
   skin(index: number): SkinInfo;
-  /** 3x4, row-major: from rest space to the space of the bone's joint. */
-  boneBind(bone: number): Float32Array;
-  restVertex(index: number): RestVertex;
+  checkVertex(index: number): CheckVertex;
   mapBones(names: (string | null)[], options?: { loose?: boolean; dropSharedPrefix?: boolean }):
     { transformOfBone: Int32Array; unmatched: number };
   convertPose(pose: Pose, out?: Float32Array): Float32Array;
   /** Compares a pose with vertices that the host skinned itself, and names the likely fault. */
-  checkPose(pose: Pose, vertices: { positions: Numbers; restVertices?: Numbers; place3x4?: Numbers; tolerance?: number }):
+  checkPose(pose: Pose, vertices: { positions: Numbers; checkVertices?: Numbers; place3x4?: Numbers; tolerance?: number }):
     PoseCheck;
   /** The model's vertex for each vertex of a host's mesh; 0xffffffff where none is near enough. */
   matchVertices(match: { positions: Numbers; normals?: Numbers; primitive?: number; inRestSpace?: boolean; tolerance?: number }):
@@ -123,8 +124,7 @@ export class CharacterModel extends Owned {
 }
 
 export interface SceneOptions {
-  combine?: "composed" | "paper";
-  isa?: "auto" | "scalar" | "wasm128";
+  form?: "default" | "paper";
   cutoffError?: number;
   lodError?: number;
   lodDistance?: number;
@@ -134,12 +134,20 @@ export interface SceneOptions {
   /** The change of AO, root mean square, by which far spheres may be merged; 0 merges none. */
   farError?: number;
 }
-export interface SceneStats {
+export interface OccluderOptions {
+  /** World space, metres. */
+  centre: Numbers;
+  radius: number;
+  /** The only instance that the sphere darkens; 0 (default): every instance. */
+  receiver?: Instance | 0;
+}
+export interface SceneInfo {
   instances: number;
   instancesUpdated: number;
   links: number;
   linksCulled: number;
   evaluations: number;
+  memoryBytes: number;
 }
 export class Scene extends Owned {
   private constructor();
@@ -148,18 +156,14 @@ export class Scene extends Owned {
   setModel(instance: Instance, model: CharacterModel): void;
   /** The number of AO values of an instance. */
   vertexCount(instance: Instance): number;
-  /** 12 floats for each bone, 3x4 row-major, from rest space to the world. */
-  setPose(instance: Instance, bones3x4: Numbers): void;
-  setPoseFrom(instance: Instance, pose: Pose): void;
+  setPose(instance: Instance, pose: Pose): void;
   link(receiver: Instance, caster: Instance): void;
   unlink(receiver: Instance, caster: Instance): void;
   linkNearest(count: number, maxDistance: number): void;
   /** Normal and offset of the plane; null for none. */
   setGround(instance: Instance, plane: Numbers | null): void;
-  addOccluder(centre: Numbers, radius: number): Occluder;
-  setOccluder(occluder: Occluder, centre: Numbers, radius: number): void;
-  /** 0 lifts the limit. */
-  limitOccluder(occluder: Occluder, receiver: Instance | 0): void;
+  addOccluder(options: OccluderOptions): Occluder;
+  setOccluder(occluder: Occluder, options: OccluderOptions): void;
   removeOccluder(occluder: Occluder): void;
   setLight(instance: Instance, lobes: Lobe[] | null): void;
   setCamera(position: Numbers | null): void;
@@ -168,7 +172,7 @@ export class Scene extends Owned {
   update(): void;
   readAo(instance: Instance, out?: Float32Array): Float32Array;
   readDirectionalAo(instance: Instance, out?: Float32Array): Float32Array;
-  readonly stats: SceneStats;
+  readonly info: SceneInfo;
 }
 
 // ---- WebGL
@@ -225,8 +229,8 @@ export class Gl extends Owned {
   readAo(scene: Scene, instance: Instance, out?: Float32Array): Float32Array;
   readDirectionalAo(scene: Scene, instance: Instance, out?: Float32Array): Float32Array;
   createNnao(options: NnaoOptions): Nnao;
-  createProbe(probe: Probe): GlProbe;
-  createMaterial(material: Material, options?: { maxLayers?: number }): GlMaterial;
+  uploadProbe(probe: Probe, form?: "lobes" | "sh" | "zh3"): Upload;
+  uploadMaterial(material: Material): Upload;
 }
 
 export interface NnaoOptions {
@@ -239,7 +243,7 @@ export interface NnaoOptions {
   /** The texture is then RGBA8: the bent normal in view space as (n + 1) / 2, and AO in alpha. */
   bentNormals?: boolean | number;
   /** A mean over at most so many frames; 0: none. */
-  temporalFrames?: number;
+  maxHistoryFrames?: number;
   /** A .nook file of `nook train nnao`; default: the library's own. */
   network?: Bytes;
 }
@@ -260,7 +264,9 @@ export interface NnaoFrame {
   normalMatrix?: Numbers;
   /** Column-major, as WebGL takes it. */
   projection: Numbers;
-  clip?: "negative-one-to-one" | "zero-to-one";
+  /** From world space to view space, column-major; the identity by default. */
+  view?: Numbers;
+  clipSpace?: "negative-one-to-one" | "zero-to-one";
   /** Metres, or the share that radiusKind says. */
   radius: number;
   radiusKind?: "metres" | "screen" | "scene";
@@ -268,17 +274,18 @@ export interface NnaoFrame {
   maxRadiusPx?: number;
   intensity?: number;
   power?: number;
-  layer?: "none" | "min" | "remainder" | "replace" | "apart";
-  layerTexture?: WebGLTexture | null;
-  /** For temporalFrames: three rows of four, from this frame's view space to the earlier one's. */
-  earlierFromView?: Numbers;
-  motionTexture?: WebGLTexture | null;
-  motionScale?: Numbers;
+  gbufferAo?: "none" | "min" | "remainder" | "replace" | "exclude";
+  gbufferAoTexture?: WebGLTexture | null;
+  /** For maxHistoryFrames. */
+  motionVectors?: WebGLTexture | null;
+  motionVectorScale?: Numbers;
   reset?: boolean | number;
   /** Where the result goes: nothing for the pass's own texture, null for the canvas. */
   target?: WebGLTexture | WebGLFramebuffer | null;
   blend?: "write" | "multiply";
-  view?: "ao" | "raw" | "blurred" | "normals";
+  show?: "ao" | "raw" | "blurred" | "normals";
+  /** Set it after a texture of yours has been given another size or format. */
+  texturesChanged?: boolean | number;
 }
 export interface NnaoInfo {
   texture: WebGLTexture;
@@ -293,8 +300,6 @@ export class Nnao extends Owned {
   /** The result in its red channel, where the target is the pass's own texture. */
   readonly texture: WebGLTexture;
   render(frame: NnaoFrame): void;
-  /** Call it after a texture of the host has been given another size or format. */
-  recheck(): void;
 }
 
 // ---- Light probes
@@ -305,7 +310,7 @@ export interface Lobe {
   amplitude: Numbers;
 }
 export interface ProbeInfo {
-  basis: "gaussians" | "harmonics" | "dice";
+  basis: "lobes" | "sh";
   domain: "sphere" | "hemisphere";
   up: Float32Array;
   functionCount: number;
@@ -319,10 +324,12 @@ export interface ProbeInfo {
   wallCells: number;
 }
 export interface ProbeFitOptions {
-  method?: "naive" | "running-average" | "running-average-original" | "running-average-non-negative" | "moments" |
-    "least-squares" | "non-negative-least-squares";
-  constraint?: "bands" | "none";
-  basis?: "gaussians" | "harmonics" | "dice";
+  method?: "least-squares" | "least-squares-non-negative" | "running-average" | "running-average-non-negative";
+  /** "paper" is the published method; leave method and matchSh out then. */
+  form?: "default" | "paper";
+  /** The lobes agree with the light in spherical harmonics of bands 0 to 2; default true. */
+  matchSh?: boolean | number;
+  basis?: "lobes" | "sh";
   domain?: "sphere" | "hemisphere";
   up?: Numbers;
   lobeCount?: number;
@@ -331,10 +338,7 @@ export interface ProbeFitOptions {
   sharpnesses?: Numbers;
   ambient?: boolean | number;
   order?: number;
-  denominator?: "lockstep" | "precomputed";
-  step?: "fast" | "plain";
   growingSamples?: number;
-  isa?: "auto" | "scalar" | "wasm128";
 }
 export interface ProbeFitInfo {
   functionCount: number;
@@ -358,14 +362,28 @@ export class Probe extends Owned {
   private constructor();
   readonly info: ProbeInfo;
   lobes(position?: Numbers): Lobe[];
+  /** The position is three floats for all directions, or three for each. */
   radiance(directions: Numbers, position?: Numbers): Float32Array;
+  /** As radiance. Only probes on the surface's side of a wall count. */
   irradiance(normals: Numbers, position?: Numbers): Float32Array;
 }
-export class GlProbe extends Owned {
+/** A probe, a grid or a material as textures, and the GLSL that reads them. */
+export class Upload extends Owned {
   private constructor();
+  /** Replaces the probe of an upload of a probe. */
   update(probe: Probe): void;
-  /** The texture is a TEXTURE_2D for the sampler nook_probe_texels of the GLSL. */
-  readonly info: { texture: WebGLTexture; bytes: number; glsl: string };
+  readonly info: {
+    /** Bind each to a unit without a sampler object, and set the uniform of its name; or call bind. */
+    textures: { target: number; texture: WebGLTexture; uniform: string }[];
+    bytes: number;
+    glsl: string;
+    constant: string;
+    constantValues: Float32Array;
+    constantVec4s: number;
+    walls: number;
+  };
+  /** Leaves the program in use, and the textures bound from unit firstUnit on. */
+  bind(program: WebGLProgram, firstUnit?: number): void;
 }
 
 // ---- Materials
@@ -404,28 +422,15 @@ export interface MaterialInfo {
   furtherDecodeFetches: number;
   furtherOcclusionFetches: number;
 }
-export interface MaterialSample {
-  uv: Numbers;
-  level?: number;
-  view: Numbers;
-  light: Numbers;
-}
 export interface MaterialPixel {
   uv: Numbers;
-  dx: Numbers;
-  dy: Numbers;
+  dx?: Numbers;
+  dy?: Numbers;
   view: Numbers;
   light: Numbers;
 }
 export class Material extends Owned {
   private constructor();
   readonly info: MaterialInfo;
-  evaluate(samples: MaterialSample[]): { radiance: Float32Array; occlusion: number; visibility: number }[];
-  evaluateAnisotropic(pixels: MaterialPixel[], fetches?: number): { radiance: Float32Array; occlusion: number; visibility: number }[];
-}
-export class GlMaterial extends Owned {
-  private constructor();
-  readonly info: { textureCount: number; textureBytes: number; glsl: string };
-  /** Bind each to a unit without a sampler object, and set the uniform of its name. */
-  readonly textures: { target: number; texture: WebGLTexture; uniform: string }[];
+  evaluate(pixels: MaterialPixel[], fetches?: number): { radiance: Float32Array; occlusion: number; visibility: number }[];
 }

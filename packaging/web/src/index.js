@@ -7,7 +7,7 @@ export { NookError } from "./error.js";
 export { Context } from "./context.js";
 export { CharacterModel } from "./character.js";
 export { Scene } from "./scene.js";
-export { Gl, GlMaterial, GlProbe } from "./gl.js";
+export { Gl, Upload } from "./gl.js";
 export { Nnao } from "./nnao.js";
 export { Probe, ProbeFit } from "./probe.js";
 export { Material } from "./material.js";
@@ -25,8 +25,9 @@ async function instantiate(wasm, imports) {
 }
 
 // Loads the module of WebAssembly and makes a context in it. wasm: where nook.wasm is, if it does not lie beside this file, or
-// its bytes; log(severity, text) takes the lines of the library's log.
-export async function load({ wasm, log } = {}) {
+// its bytes; log(severity, text) takes the lines of the library's log;
+// isa chooses the instruction set of all objects.
+export async function load({ wasm, log, isa } = {}) {
   const module = await new Promise((resolve, reject) => {
     makeModule({
       instantiateWasm(imports, receive) {
@@ -35,5 +36,5 @@ export async function load({ wasm, log } = {}) {
       },
     }).then(resolve, reject);
   });
-  return Context.make(new Library(module), log);
+  return Context.make(new Library(module), log, isa);
 }

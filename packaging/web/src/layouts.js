@@ -94,7 +94,10 @@ export class Layouts {
       const names = path.split(".");
       const last = names.pop();
       let object = result;
-      for (const name of names) object = object[name] ??= {};
+      for (const name of names) {
+        const [, array, index] = /^(\w+)\[(\d+)\]$/.exec(name) ?? [];
+        object = array ? (object[array] ??= [])[index] ??= {} : object[name] ??= {};
+      }
       object[last] = this.value(field, address + field.offset);
     }
     return result;

@@ -71,7 +71,8 @@ export class Library {
   descriptor(name, values = {}) {
     const struct = this.layouts.struct(name);
     const address = this.room.take(struct.size);
-    this.check(this.module[`_${name}_init`](address, struct.size, this.version));
+    const type = this.layouts.bits("NOOK_DESC_CONTEXT", [name.slice("nook_".length, -"_desc".length).replaceAll("_", "-")]);
+    this.check(this.module._nook_desc_init(type, address, struct.size, this.version));
     this.layouts.write(struct, address, values);
     return address;
   }

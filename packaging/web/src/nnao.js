@@ -15,22 +15,21 @@ export class Nnao extends OnSurface {
     return this.info.texture;
   }
 
-  // The members of nook_nnao_frame_desc in camelCase. depthTexture, normalTexture, layerTexture and motionTexture are WebGLTextures; target is
-  // a WebGLTexture, a WebGLFramebuffer, null for the canvas, or nothing for the pass's own texture.
-  render({ depthTexture, normalTexture, layerTexture, motionTexture, target, ...frame }) {
+  // The members of nook_gl_frame_desc and nook_nnao_frame_desc in camelCase. depthTexture, normalTexture, gbufferAoTexture and motionVectors are
+  // WebGLTextures; target is a WebGLTexture, a WebGLFramebuffer, null for the canvas, or nothing for the pass's own texture.
+  render({ depthTexture, normalTexture, gbufferAoTexture, motionVectors, target, radius, radiusKind, sceneSize, maxRadiusPx, intensity, power,
+    motionVectorScale, reset, show, ...frame }) {
     const { library, surface } = this;
     const kind = target === undefined ? "own" : target && "WebGLTexture" in globalThis && target instanceof WebGLTexture
       ? "texture" : "framebuffer";
     const table = kind === "texture" ? "textures" : "framebuffers";
-    surface.lend([["textures", depthTexture], ["textures", normalTexture], ["textures", layerTexture], ["textures", motionTexture],
+    surface.lend([["textures", depthTexture], ["textures", normalTexture], ["textures", gbufferAoTexture], ["textures", motionVectors],
       [table, target]],
       (depth, normal, layer, motion, name) => surface.current(() => library.call(() => library.check(library.module._nook_nnao_render(
-        this.handle, library.descriptor("nook_nnao_frame_desc", {
-          ...frame, depthTexture: depth, normalTexture: normal, layerTexture: layer, motionTexture: motion, target: kind, targetName: name,
+        this.handle, library.descriptor("nook_gl_frame_desc", {
+          ...frame, depthTexture: depth, normalTexture: normal, gbufferAoTexture: layer, target: kind, targetName: name,
+        }), library.descriptor("nook_nnao_frame_desc", {
+          radius, radiusKind, sceneSize, maxRadiusPx, intensity, power, motionVectors: motion, motionVectorScale, reset, show,
         }))))));
-  }
-  // Call it after a texture of the host has been given another size or format.
-  recheck() {
-    this.library.check(this.library.module._nook_nnao_recheck(this.handle));
   }
 }

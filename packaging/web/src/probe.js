@@ -1,13 +1,19 @@
 import { Owned } from "./library.js";
 
-// The address of an array of nook_probe_lobe.
+// The address of an array of nook_lobe.
 export function lobeStruct(library, lobes) {
   const { layouts } = library;
-  const struct = layouts.struct("nook_probe_lobe");
+  const struct = layouts.struct("nook_lobe");
   const address = library.room.take(struct.size * lobes.length);
   library.module.HEAPU8.fill(0, address, address + struct.size * lobes.length);
   lobes.forEach((lobe, i) => layouts.write(struct, address + i * struct.size, lobe));
   return address;
+}
+
+// A position for each direction, of one that is for all; undefined stays so.
+function forEach(position, directions) {
+  if (position?.length !== 3) return position;
+  return Float32Array.from(directions, (_, i) => position[i % 3]);
 }
 
 // A light probe or a grid of them; see nook_probe.h.
@@ -24,23 +30,23 @@ export class Probe extends Owned {
     const { library } = this;
     const count = this.info.functionCount;
     return library.call(() => {
-      const { size } = library.layouts.struct("nook_probe_lobe");
+      const { size } = library.layouts.struct("nook_lobe");
       const address = library.room.take(size * count);
       library.check(library.module._nook_probe_read_lobes(this.handle, library.floats(position), address, count));
-      return Array.from({ length: count }, (_, i) => library.read("nook_probe_lobe", address + i * size));
+      return Array.from({ length: count }, (_, i) => library.read("nook_lobe", address + i * size));
     });
   }
 
-  // Three floats for each direction or normal.
+  // Three floats for each direction or normal. The position is one for all, or one for each.
   radiance(directions, position) {
     const { library } = this;
     return library.call(() => library.readFloats(directions.length, undefined, (address) => library.module._nook_probe_radiance(
-      this.handle, library.floats(position), library.floats(directions), address, directions.length / 3)));
+      this.handle, library.floats(forEach(position, directions)), library.floats(directions), address, directions.length / 3)));
   }
   irradiance(normals, position) {
     const { library } = this;
     return library.call(() => library.readFloats(normals.length, undefined, (address) => library.module._nook_probe_irradiance(
-      this.handle, library.floats(position), 0, library.floats(normals), address, normals.length / 3)));
+      this.handle, library.floats(forEach(position, normals)), library.floats(normals), address, normals.length / 3)));
   }
 }
 

@@ -2,6 +2,9 @@ import { poseDescriptor } from "./character.js";
 import { Owned } from "./library.js";
 import { lobeStruct } from "./probe.js";
 
+// NOOK_CHANNEL_AO, NOOK_CHANNEL_DIRECTIONAL_AO and NOOK_FORMAT_FLOAT.
+const channelAo = 0, channelDirectionalAo = 1, formatFloat = 0;
+
 // Instances of characters with poses, links, ground, occluders and lights; see nook_character.h. Instances and occluders are
 // numbers.
 export class Scene extends Owned {
@@ -34,18 +37,11 @@ export class Scene extends Owned {
     return this.#vertices.get(instance) ?? 0;
   }
 
-  // bones3x4: 12 floats for each bone, row-major, from rest space to the world.
-  setPose(instance, bones3x4) {
+  // The transforms that the host has, such as skinning matrices of glTF: { kind: "skinning", layout: "columns-4x4", transforms }.
+  setPose(instance, pose) {
     const { library } = this;
     library.call(() => this.#check(
-      library.module._nook_scene_set_pose(this.handle, instance, library.floats(bones3x4), Math.floor(bones3x4.length / 12))));
-  }
-  // A pose from a host's own transforms, such as skinning matrices of glTF:
-  // { kind: "skinning", layout: "columns-4x4", transforms }.
-  setPoseFrom(instance, pose) {
-    const { library } = this;
-    library.call(() => this.#check(
-      library.module._nook_scene_set_pose_from(this.handle, instance, poseDescriptor(library, pose))));
+      library.module._nook_scene_set_pose(this.handle, instance, poseDescriptor(library, pose))));
   }
 
   link(receiver, caster) {
@@ -64,18 +60,16 @@ export class Scene extends Owned {
     library.call(() => this.#check(library.module._nook_scene_set_ground(this.handle, instance, library.floats(plane))));
   }
 
-  addOccluder(centre, radius) {
+  // receiver: the only instance that the sphere darkens; 0: every instance.
+  addOccluder({ centre, radius, receiver = 0 }) {
     const { library } = this;
-    return library.call(() => library.made((out) =>
-      library.module._nook_scene_add_occluder(this.handle, library.floats(centre), radius, out)));
+    return library.call(() => library.made((out) => library.module._nook_scene_add_occluder(this.handle,
+      library.struct("nook_occluder", { centreWs: centre, radius, receiver }), out)));
   }
-  setOccluder(occluder, centre, radius) {
+  setOccluder(occluder, { centre, radius, receiver = 0 }) {
     const { library } = this;
-    library.call(() => this.#check(
-      library.module._nook_scene_set_occluder(this.handle, occluder, library.floats(centre), radius)));
-  }
-  limitOccluder(occluder, receiver) {
-    this.#check(this.library.module._nook_scene_limit_occluder(this.handle, occluder, receiver));
+    library.call(() => this.#check(library.module._nook_scene_set_occluder(this.handle, occluder,
+      library.struct("nook_occluder", { centreWs: centre, radius, receiver }))));
   }
   removeOccluder(occluder) {
     this.#check(this.library.module._nook_scene_remove_occluder(this.handle, occluder));
@@ -105,14 +99,14 @@ export class Scene extends Owned {
   readAo(instance, out) {
     const count = this.vertexCount(instance);
     return this.library.readFloats(count, out, (address) =>
-      this.library.module._nook_scene_read_ao(this.handle, instance, address, count, 0));
+      this.library.module._nook_scene_read(this.handle, instance, channelAo, formatFloat, address, count, 0));
   }
   readDirectionalAo(instance, out) {
     const count = this.vertexCount(instance);
     return this.library.readFloats(3 * count, out, (address) =>
-      this.library.module._nook_scene_read_directional_ao(this.handle, instance, address, count, 0));
+      this.library.module._nook_scene_read(this.handle, instance, channelDirectionalAo, formatFloat, address, count, 0));
   }
-  get stats() {
-    return this.library.info("nook_scene_stats", (stats) => this.library.module._nook_scene_read_stats(this.handle, stats));
+  get info() {
+    return this.library.info("nook_scene_info", (info) => this.library.module._nook_scene_describe(this.handle, info));
   }
 }

@@ -32,10 +32,10 @@ void NookOgre::listen(const Ogre::TexturePtr& depth, const Ogre::TexturePtr& res
   frame_.height = desc.max_height = int(depth->getHeight());
   screen_ = std::make_unique<nook::Nnao>(gl_, desc);
   frame_.depth_texture = gl_name(depth);
-  frame_.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
+  frame_.depth_kind = NOOK_DEPTH_LINEAR;
   frame_.sky_depth = camera.getFarClipDistance();
-  frame_.radius = radius_m;
-  frame_.target = NOOK_NNAO_TARGET_TEXTURE;
+  frame_settings_.radius = radius_m;
+  frame_.target = NOOK_TARGET_TEXTURE;
   frame_.target_name = gl_name(result);
   camera_ = &camera;
   depth->getBuffer()->getRenderTarget()->addListener(this);
@@ -76,5 +76,5 @@ void NookOgre::update_on_cpu() {
 void NookOgre::postRenderTargetUpdate(const Ogre::RenderTargetEvent&) {
   const Ogre::Matrix4 projection = camera_->getProjectionMatrixWithRSDepth();
   for (int i = 0; i < 16; ++i) frame_.projection[i] = projection[i % 4][i / 4] * (i % 4 == 1 ? -1.0f : 1.0f);
-  screen_->render(frame_);
+  screen_->render(frame_, frame_settings_);
 }

@@ -34,6 +34,7 @@ class NookOgre : public Ogre::RenderTargetListener {
   nook_instance_id character_;
   std::vector<std::int32_t> bone_map_;
   std::unique_ptr<nook::Nnao> screen_;
-  nook_nnao_frame_desc frame_ = nook::nnao_frame_desc();
+  nook_gl_frame_desc frame_ = nook::gl_frame_desc();
+  nook_nnao_frame_desc frame_settings_ = nook::nnao_frame_desc();
   const Ogre::Camera* camera_ = nullptr;
 };

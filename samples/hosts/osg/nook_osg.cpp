@@ -52,8 +52,8 @@ void NookOsg::listen(osg::Camera* camera, osg::Texture2D* depth, osg::Texture2D*
   result_ = result;
   frame_.width = screen_desc_.max_width = depth->getTextureWidth();
   frame_.height = screen_desc_.max_height = depth->getTextureHeight();
-  frame_.radius = radius_m;
-  frame_.target = NOOK_NNAO_TARGET_TEXTURE;
+  frame_settings_.radius = radius_m;
+  frame_.target = NOOK_TARGET_TEXTURE;
   camera->setInitialDrawCallback(new Update(*this));
   camera->setFinalDrawCallback(this);
 }
@@ -79,5 +79,5 @@ void NookOsg::operator()(osg::RenderInfo& info) const {
   frame_.target_name = result_->getTextureObject(state.getContextID())->id();
   const osg::Matrixf projection(info.getCurrentCamera()->getProjectionMatrix());
   std::copy_n(projection.ptr(), 16, frame_.projection);
-  screen_->render(frame_);
+  screen_->render(frame_, frame_settings_);
 }

@@ -34,7 +34,8 @@ class NookOsg : public osg::Camera::DrawCallback {
   osg::ref_ptr<osg::FloatArray> ao_;  // on the CPU only
   osg::ref_ptr<osg::Texture2D> depth_, result_;
   nook_nnao_desc screen_desc_ = nook::nnao_desc();
-  mutable nook_nnao_frame_desc frame_ = nook::nnao_frame_desc();
+  mutable nook_gl_frame_desc frame_ = nook::gl_frame_desc();
+  nook_nnao_frame_desc frame_settings_ = nook::nnao_frame_desc();
   std::optional<nook::Gl> gl_;
   mutable std::optional<nook::Nnao> screen_;
 };

@@ -109,7 +109,7 @@ export function makeChecks(page) {
         const scene = nook.nook.createScene();
         const ids = actors.map(({ character }) => {
           const id = scene.addInstance(model);
-          scene.setPoseFrom(id, host.pose(character));
+          scene.setPose(id, host.pose(character));
           return id;
         });
         for (const a of ids) for (const b of ids) if (a !== b) scene.link(a, b);
@@ -124,7 +124,7 @@ export function makeChecks(page) {
           result.mean += cpu.reduce((a, b) => a + b, 0) / cpu.length / actors.length / 3;
           result.vertices = cpu.length;
           if (orders.has(meshes[0])) return;
-          const rest = Array.from({ length: model.info.checkVertexCount }, (_, i) => model.restVertex(i).vertex);
+          const rest = Array.from({ length: model.info.checkVertexCount }, (_, i) => model.checkVertex(i).vertex);
           const positions = rest.flatMap((v) => meshes[0].getVertexPosition(v, new THREE.Vector3())
             .applyMatrix4(meshes[0].matrixWorld).toArray());
           const check = model.checkPose(host.pose(character), { positions });

@@ -81,7 +81,7 @@ export class NookThree {
   update(scene) {
     const { gl, webgl } = this;
     scene.updateMatrixWorld();
-    for (const character of this.characters) this.scene.setPoseFrom(character.instance, this.pose(character));
+    for (const character of this.characters) this.scene.setPose(character.instance, this.pose(character));
     gl.update(this.scene);
     for (const { instance, parts } of this.characters) {
       const view = gl.aoBuffer(this.scene, instance);

@@ -4,7 +4,7 @@
 //
 // With --path traced and --show ao the picture has ray-traced AO at the vertices. nook_vtk.cpp is all that a
 // VTK program needs. The model is not read: this host has the AO of the screen only.
-#include <nook/nook_bake_trace.h>
+#include <nook/experimental/nook_trace.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
@@ -73,8 +73,7 @@ void trace_ao(std::vector<Surface>& surfaces, float radius_m) {
                       std::uint32_t(s.triangles.size())});
   for (Surface& s : surfaces) {
     nook_bake_trace_desc desc;
-    if (nook_bake_trace_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK)
-      throw std::runtime_error(nook_bake_last_message());
+    if (nook_bake_trace_desc_init(&desc) != NOOK_OK) throw std::runtime_error(nook_bake_last_message());
     desc.meshes = meshes.data();
     desc.mesh_count = std::uint32_t(meshes.size());
     desc.positions = &s.positions[0].x;

@@ -64,7 +64,8 @@ void vtkNookAoPass::DrawDepth(const vtkRenderState* state) {
 }
 
 void vtkNookAoPass::DrawAo(vtkRenderer* renderer) {
-  nook_nnao_frame_desc frame = nook::nnao_frame_desc();
+  nook_gl_frame_desc frame = nook::gl_frame_desc();
+  nook_nnao_frame_desc desc = nook::nnao_frame_desc();
   frame.width = size_[0];
   frame.height = size_[1];
   frame.depth_texture = depth_->GetHandle();
@@ -73,11 +74,11 @@ void vtkNookAoPass::DrawAo(vtkRenderer* renderer) {
   for (int i = 0; i < 16; ++i) frame.projection[i] = float(projection->GetElement(i % 4, i / 4));
   double box[6];
   renderer->ComputeVisiblePropBounds(box);
-  frame.radius = float(
+  desc.radius = float(
       Radius > 0 ? Radius : RadiusShare * std::hypot(box[1] - box[0], box[3] - box[2], box[5] - box[4]));
-  frame.target = NOOK_NNAO_TARGET_TEXTURE;
+  frame.target = NOOK_TARGET_TEXTURE;
   frame.target_name = ao_->GetHandle();
-  nnao_->render(frame);
+  nnao_->render(frame, desc);
 }
 
 void vtkNookAoPass::Render(const vtkRenderState* state) {

@@ -18,7 +18,8 @@ export function makeChecks(page) {
     const ids = [0, 1].map((i) => {
       const id = scene.addInstance(page.model);
       scene.setGround(id, [0, 1, 0, 0]);
-      scene.setPose(id, poses.subarray(i * floats, (i + 1) * floats));
+      const transforms = poses.subarray(i * floats, (i + 1) * floats);
+      scene.setPose(id, { kind: "rest-to-world", layout: "rows-3x4", transforms });
       return id;
     });
     scene.link(ids[0], ids[1]);

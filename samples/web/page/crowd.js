@@ -72,7 +72,7 @@ export class Crowd {
       else samplePose(this.character, body.clip, seconds + body.phase, this.pose);
       const c = Math.cos(body.yaw), s = Math.sin(body.yaw);
       const place3x4 = [c, 0, s, body.x, 0, 1, 0, 0, -s, 0, c, body.z];
-      this.scene.setPoseFrom(body.instance, { transforms: this.pose, place3x4 });
+      this.scene.setPose(body.instance, { kind: "rest-to-world", layout: "rows-3x4", transforms: this.pose, place3x4 });
       place(this.pose, c, s, body, body.world);
     }
   }

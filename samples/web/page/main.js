@@ -91,7 +91,7 @@ class Page {
     this.crowd.light(this.lobes, state.light === "lobes" && !error);
     const ball = state.material && this.material && !error;
     this.ball = ball ? [1.15, ballRadius, 1.75, ballRadius] : null;
-    if (ball && !this.ballOccluder) this.ballOccluder = this.crowd.scene.addOccluder(this.ball, ballRadius);
+    if (ball && !this.ballOccluder) this.ballOccluder = this.crowd.scene.addOccluder({ centre: this.ball.slice(0, 3), radius: ballRadius });
     if (!ball && this.ballOccluder) {
       this.crowd.scene.removeOccluder(this.ballOccluder);
       this.ballOccluder = 0;

@@ -39,8 +39,8 @@ export class Renderer {
     this.gl = webgl;
     this.character = character;
     this.ao = nook.createGl(webgl);
-    this.probe = this.ao.createProbe(probe);
-    this.material = material ? this.ao.createMaterial(material) : null;
+    this.probe = this.ao.uploadProbe(probe);
+    this.material = material ? this.ao.uploadMaterial(material) : null;
     this.pass = null;
     this.bodyPrograms = new Map();  // by the form of the light
     this.#makeGeometry();
@@ -254,7 +254,7 @@ export class Renderer {
       lamp_direction: options.lampDirection, lamp_colour: scale([1, 0.9, 0.74], 2.6 * options.lamp), lamp_from_world: world,
       lamp_depth: this.lampMap.depth, use_screen_ao: useScreen, screen_depth: this.view.depth, screen_ao: this.pass.texture,
       view: views[options.view], constant_irradiance: options.irradiance,
-      ground_irradiance: options.light === "constant" ? options.irradiance : options.irradianceUp, nook_probe_texels: this.probe.info.texture,
+      ground_irradiance: options.light === "constant" ? options.irradiance : options.irradianceUp, nook_probe_texels: this.probe.info.textures[0].texture,
     };
     this.bodyProgram.use({ ...shared, use_ao: options.characterAo });
     this.#drawBodies(bodies, (body) => {
@@ -272,7 +272,7 @@ export class Renderer {
   #drawMaterial(values) {
     const { gl } = this;
     this.ballProgram.use(values);
-    for (const each of this.material.textures) this.ballProgram.set({ [each.uniform]: each });
+    for (const each of this.material.info.textures) this.ballProgram.set({ [each.uniform]: each });
     this.ballProgram.set({ solid: true });
     this.#drawBall();
     gl.enable(gl.BLEND);

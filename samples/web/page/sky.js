@@ -27,7 +27,7 @@ export function fitProbe(nook, lamp, strength) {
     directions.set(direction, 3 * i);
     colours.set(radiance(direction, lamp, strength), 3 * i);
   }
-  const fit = nook.createProbeFit({ lobeCount: 12, method: "non-negative-least-squares" });
+  const fit = nook.createProbeFit({ lobeCount: 12, method: "least-squares-non-negative" });
   try {
     fit.addSamples(directions, colours);
     return fit.solve();

@@ -112,8 +112,8 @@ typedef void (*nook_log_fn)(void* user, nook_log_severity severity, const char* 
 typedef void (*nook_job_fn)(void* body_user, uint32_t index);
 typedef void (*nook_parallel_for_fn)(void* user, uint32_t count, nook_job_fn body, void* body_user);
 
-/* The instruction sets of the CPU kernels. A set that the build or the processor lacks fails with
- * UNSUPPORTED. */
+/* The instruction sets of the CPU kernels. nook_context_create fails with UNSUPPORTED for a set that the
+ * build or the processor lacks. */
 enum {
   /* The best instruction set of this processor. */
   NOOK_ISA_AUTO = 0,
@@ -132,12 +132,134 @@ enum {
 };
 typedef int32_t nook_isa;
 
+/* The published form of a method, or Nook's own. */
+enum {
+  /* Nook's form, which is the better one. */
+  NOOK_FORM_DEFAULT = 0,
+  /* The form of the paper, for comparisons. */
+  NOOK_FORM_PAPER = 1
+};
+typedef int32_t nook_form;
+
+/* The values of a vertex that a call reads. */
+enum {
+  /* Ambient occlusion: 1 number. */
+  NOOK_CHANNEL_AO = 0,
+  /* AO of the light that nook_scene_set_light gave: 3 numbers, red, green and blue. */
+  NOOK_CHANNEL_DIRECTIONAL_AO = 1,
+  /* The direction to where the vertex is open, in world space, and AO: 4 numbers, x, y, z and AO. */
+  NOOK_CHANNEL_BENT_NORMAL = 2
+};
+typedef int32_t nook_channel;
+
+/* The type of each number of a channel. */
+enum {
+  /* 32-bit floats. */
+  NOOK_FORMAT_FLOAT = 0,
+  /* 16-bit floats, rounded to the nearest. */
+  NOOK_FORMAT_HALF = 1,
+  /* Bytes, 255 for 1, rounded to the nearest: within 1/510. */
+  NOOK_FORMAT_UNORM8 = 2,
+  /* Signed bytes, 127 for 1 and -127 for -1. */
+  NOOK_FORMAT_SNORM8 = 3
+};
+typedef int32_t nook_format;
+
+/* Handles of objects. Each create or load call gives one, and each destroy call takes its address. */
 typedef struct nook_context_s* nook_context;
+typedef struct nook_model_s* nook_model;
+typedef struct nook_scene_s* nook_scene;
+typedef struct nook_clips_s* nook_clips;
+typedef struct nook_probe_fit_s* nook_probe_fit;
+typedef struct nook_probe_s* nook_probe;
+typedef struct nook_material_s* nook_material;
+typedef struct nook_gl_s* nook_gl;
+typedef struct nook_gl_upload_s* nook_gl_upload;
+typedef struct nook_nnao_s* nook_nnao;
+typedef struct nook_world_s* nook_world;
+typedef struct nook_bake_character_s* nook_bake_character;
+typedef struct nook_bake_job_s* nook_bake_job;
+
+/* A run of entries, such as the vertices of a primitive. */
+typedef struct nook_range {
+  uint32_t first;
+  uint32_t count;
+} nook_range;
+
+/* The spherical Gaussian amplitude * exp(sharpness (dot(axis, s) - 1)). */
+typedef struct nook_lobe {
+  /* Unit vector. */
+  float axis[3];
+  /* >= 0; 0 is constant over the sphere. */
+  float sharpness;
+  /* Linear RGB. */
+  float amplitude[3];
+  /* Must be 0. */
+  float reserved;
+} nook_lobe;
+
+/* The maximum number of lobes of a light and of functions of a probe. */
+#define NOOK_PROBE_MAX_FUNCTIONS 64
+
+/* ---- Descriptors and infos ----
+ *
+ * A call whose inputs may grow takes a descriptor, a struct whose name ends in _desc. Fill it with its init
+ * function, such as nook_scene_desc_init(&desc), then set the fields that you want to change. Programs that
+ * were compiled with an older header of the same major version keep working.
+ *
+ * A call that describes an object fills an info, a struct whose name ends in _info. Set its struct_size
+ * first:
+ *     nook_model_info info = {sizeof info};
+ * All other fields are outputs. */
+
+/* The value of `type` in a descriptor; the init functions set it. */
+enum {
+  NOOK_DESC_CONTEXT = 1,
+  NOOK_DESC_SCENE = 2,
+  NOOK_DESC_POSE = 3,
+  NOOK_DESC_GL = 4,
+  NOOK_DESC_NNAO = 5,
+  NOOK_DESC_NNAO_FRAME = 6,
+  NOOK_DESC_WORLD = 7,
+  NOOK_DESC_WORLD_FRAME = 8,
+  NOOK_DESC_PROBE_FIT = 9,
+  NOOK_DESC_PROBE = 10,
+  NOOK_DESC_MATERIAL = 11,
+  NOOK_DESC_BAKE_SOURCE = 12,
+  NOOK_DESC_BAKE_CHARACTER = 13,
+  NOOK_DESC_BAKE_BENT = 14,
+  NOOK_DESC_BAKE_CLIPS = 15,
+  NOOK_DESC_BAKE_MATERIAL = 16,
+  NOOK_DESC_BAKE_SYNTHESIS = 17,
+  NOOK_DESC_BAKE_TRANSFER = 18,
+  NOOK_DESC_NNAO_RECORDING = 19,
+  NOOK_DESC_WORLD_SAMPLE = 20,
+  NOOK_DESC_GL_CAPTURE = 21,
+  NOOK_DESC_TRANSFER_LIGHT = 22,
+  NOOK_DESC_TRANSFER_RESPONSE = 23,
+  NOOK_DESC_BAKE_TRACE = 24,
+  NOOK_DESC_BAKE_IRRADIANCE = 25,
+  NOOK_DESC_BONE_MAP = 26,
+  NOOK_DESC_VERTEX_MATCH = 27,
+  NOOK_DESC_POSE_CHECK = 28,
+  NOOK_DESC_BAKE_CHARACTER_STUDY = 29,
+  NOOK_DESC_TRANSFER_MESH = 30,
+  NOOK_DESC_TRANSFER_VECTORS = 31,
+  NOOK_DESC_PROBE_FIT_STUDY = 32,
+  NOOK_DESC_GL_FRAME = 33
+};
+
+/* Fills the descriptor of a type with defaults. Call the typed functions instead, which pass size and
+ * version: size is the caller's sizeof, and header_version its NOOK_VERSION. The library never writes beyond
+ * size bytes.
+ * Any thread. Errors: INVALID_ARGUMENT (desc is NULL, the type is unknown, or size is smaller than in the
+ * first release), VERSION (the major version differs, or the minor version is newer than the library's). */
+NOOK_API nook_result nook_desc_init(uint32_t type, void* desc, size_t size, uint32_t header_version);
 
 typedef struct nook_context_desc {
   /* nook_context_desc_init sets these two. */
   uint32_t struct_size;
-  uint32_t header_version;
+  uint32_t type;
   /* Must be NULL. */
   const void* next;
   /* Both functions NULL: Nook uses the global operator new (default). Otherwise both are required. */
@@ -148,16 +270,20 @@ typedef struct nook_context_desc {
   /* NULL: everything runs on the calling thread (default). */
   nook_parallel_for_fn parallel_for;
   void* parallel_for_user;
+  /* The instruction set of all objects that you create from this context; default NOOK_ISA_AUTO. */
+  nook_isa isa;
+  /* Must be 0. */
+  uint32_t reserved;
 } nook_context_desc;
 
-/* Fills *desc with defaults. size is the caller's sizeof(nook_context_desc) and header_version its
- * NOOK_VERSION; the library never writes beyond size bytes.
- * Any thread. Errors: INVALID_ARGUMENT (desc is NULL, or size is smaller than in the first release), VERSION
- * (the major version differs, or the minor version is newer than the library's). */
-NOOK_API nook_result nook_context_desc_init(nook_context_desc* desc, size_t size, uint32_t header_version);
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_context_desc_init(nook_context_desc* desc) {
+  return nook_desc_init(NOOK_DESC_CONTEXT, desc, sizeof *desc, NOOK_VERSION);
+}
 
 /* Creates a context, which models, scenes and GL objects are created from. On failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT, VERSION, OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT, VERSION, UNSUPPORTED (the build or the processor lacks desc->isa; the
+ * message names the sets that it has), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_context_create(const nook_context_desc* desc, nook_context* out);
 
 /* Releases the caller's reference and sets *context to NULL; context and *context may be NULL. Models, scenes

@@ -8,14 +8,11 @@
 #define NOOK_CHARACTER_H
 
 #include "nook.h"
-#include "nook_probe.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-typedef struct nook_character_model_s* nook_character_model;
-typedef struct nook_scene_s* nook_scene;
 /* Identify an instance and an occluder of a scene. 0 is never a valid id, and no id is used again while its
  * scene lives. */
 typedef uint32_t nook_instance_id;
@@ -26,17 +23,16 @@ typedef uint32_t nook_occluder_id;
 /* Loads a character model from the bytes of a .nook file; the caller may free the bytes afterwards. The
  * library validates everything, so that hostile bytes are safe. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
-NOOK_API nook_result nook_character_model_load(nook_context context, const void* bytes, size_t size,
-                                               nook_character_model* out);
+NOOK_API nook_result nook_model_load(nook_context context, const void* bytes, size_t size, nook_model* out);
 
 /* Releases the caller's reference and sets *model to NULL; scenes that use the model keep it alive.
  * Any thread. */
-NOOK_API void nook_character_model_destroy(nook_character_model* model);
+NOOK_API void nook_model_destroy(nook_model* model);
 
-typedef struct nook_character_model_info {
-  /* sizeof(nook_character_model_info); the caller sets it. */
+typedef struct nook_model_info {
+  /* sizeof(nook_model_info); the caller sets it. */
   uint32_t struct_size;
-  /* The number of matrices that nook_scene_set_pose needs. */
+  /* The number of bones, which the model's poses have a matrix for. */
   uint32_t bone_count;
   uint32_t sphere_count;
   uint32_t key_point_count;
@@ -51,89 +47,73 @@ typedef struct nook_character_model_info {
   float bounding_radius;
   /* The exponent of the shadow norm (Le et al. 2019, slide 20). */
   float gamma;
-  /* The number of skins of nook_character_model_skin; 0 without bind data. */
+  /* The number of skins of nook_model_describe_skin; 0 without bind data. */
   uint32_t skin_count;
-  /* The number of vertices of nook_character_model_rest_vertex, at most 64; 0 without bind data. */
+  /* The number of vertices of nook_model_describe_check_vertex, at most 64; 0 without bind data. */
   uint32_t check_vertex_count;
-} nook_character_model_info;
-
-/* Describes a model.
- * Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_character_model_describe(nook_character_model model,
-                                                   nook_character_model_info* info);
-
-/* The host memory of a model, in bytes, without what the allocator adds to each piece. */
-typedef struct nook_character_memory {
-  /* sizeof(nook_character_memory); the caller sets it. */
-  uint32_t struct_size;
-  uint32_t reserved;
-  /* The bytes of the model itself, which all its instances share. */
+  /* Bytes of host memory of the model, which all its instances share. What the allocator adds to each piece
+   * is not counted, here and below. */
   uint64_t model_bytes;
-  /* The bytes of an instance of it in a scene, without links to others. */
+  /* Bytes of host memory of each instance in a scene, without links to others. */
   uint64_t instance_bytes;
   /* The same after nook_scene_set_light. */
   uint64_t lit_instance_bytes;
-} nook_character_memory;
+} nook_model_info;
 
-/* Computes the host memory of a model, and of an instance before there is one. nook_gl_model_memory does so
- * for OpenGL. Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_character_model_memory(nook_character_model model, nook_character_memory* memory);
+/* Describes a model. nook_gl_model_memory gives the memory on the GPU.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_model_describe(nook_model model, nook_model_info* info);
 
 /* Returns the name of a bone, so that a host can map its skeleton to the model's order, or NULL for an index
  * out of range. The text is valid while the model lives.
  * Any thread. */
-NOOK_API const char* nook_character_model_bone_name(nook_character_model model, uint32_t bone);
+NOOK_API const char* nook_model_bone_name(nook_model model, uint32_t bone);
 
-/* Gives the first AO value and the number of AO values of one primitive of the imported file. Primitives are
- * in the order of the file's nodes, and within a node in the order of its mesh.
+/* Gives the AO values of one primitive of the imported file: the first one and their number. Primitives are
+ * in the order of the file's nodes, and within a node in the order of its mesh. primitive is less than
+ * nook_model_info.primitive_count.
  * Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_character_model_primitive(nook_character_model model, uint32_t primitive,
-                                                    uint32_t* first_vertex, uint32_t* vertex_count);
+NOOK_API nook_result nook_model_describe_primitive(nook_model model, uint32_t primitive, nook_range* out);
 
-/* Copies the ray-traced AO of the rest pose in the file's vertex order; this is what a static bake gives.
- * count must be file_vertex_count.
- * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model was baked without static AO). */
-NOOK_API nook_result nook_character_model_static_ao(nook_character_model model, float* out, uint32_t count);
+/* The arrays of nook_model_read; each has one entry for each vertex. */
+enum {
+  /* One float: the ray-traced AO of the rest pose, which is what a static bake gives. */
+  NOOK_MODEL_STATIC_AO = 0,
+  /* Eight signed bytes of which 127 is 1: the mean occluded direction x, y, z at AO 0, a 0, x, y, z at AO 1,
+   * a 0. Pass them to your vertex shader as two normalised attributes of GL_BYTE. They are in the space of
+   * the file's NORMAL attribute if the model has bind data, otherwise in rest space. */
+  NOOK_MODEL_OCCLUDED_DIRECTIONS = 1
+};
+typedef int32_t nook_model_array;
+
+/* Copies an array of the model in the file's vertex order. count must be nook_model_info.file_vertex_count;
+ * stride is in bytes (0: tightly packed).
+ * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model was baked without the array; the message
+ * names the cure). */
+NOOK_API nook_result nook_model_read(nook_model model, nook_model_array array, void* out, uint32_t count,
+                                     size_t stride);
 
 /* ---- Bent normals: the mean direction of the light that reaches a vertex ----
  *
- * Glossy reflections are occluded by what stands in their direction. The bent normal points to where a vertex
- * is open; a specular occlusion takes it with AO. A model has bent normals after `nook bake bent`. For each
- * vertex it holds two blocked vectors, the cosine-weighted means of the directions that the body blocks, at
- * AO 0 and at AO 1. With AO from any call of this library, the normal n and both vectors turned as the normal
- * is, a vertex shader has bent normal = normalize(2/3 n - mix(dark, open, AO)), which is
- * nook_scene_bent_normal of nook_gl_scene_light's text. It costs no update and is the same on all tiers. AO
- * by neighbours and the ground counts as if the body itself darkened the vertex. */
-
-/* Copies the blocked vectors in the file's vertex order, 8 bytes for each vertex: x, y, z at AO 0, a 0, x, y,
- * z at AO 1, a 0, as signed bytes of which 127 is 1: two attributes of GL_BYTE, normalised. They are in the
- * space of the file's NORMAL attribute where the model has bind data, otherwise in rest space. count must be
- * file_vertex_count; stride is in bytes (0: 8).
- * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model was baked without bent normals). */
-NOOK_API nook_result nook_character_model_blocked_vectors(nook_character_model model, int8_t* out,
-                                                          uint32_t count, size_t stride);
+ * A bent normal points to where a vertex is open. Use it for specular occlusion. After `nook bake bent` a
+ * model has two vectors for each vertex, NOOK_MODEL_OCCLUDED_DIRECTIONS: the cosine-weighted mean of the
+ * directions that the body occludes when AO is 0, and when it is 1. Rotate both as you rotate the normal n,
+ * and compute normalize(2/3 n - mix(dark, open, AO)) in the vertex shader; nook_scene_bent_normal of
+ * nook_gl_scene_light's text does so. AO may come from any call of this library. A bent normal needs no
+ * update and is the same on all tiers. Occlusion by others and the ground counts as the body's own. */
 
 /* ---- Scenes ---- */
-
-/* The combination of self-shadow with casters that were not part of the bake. */
-enum {
-  /* Added casters form a cosine-weighted term of their own: AO = self * (1 - added). */
-  NOOK_COMBINE_COMPOSED = 0,
-  /* Added spheres join the norm of the self-shadow, as in Le et al. 2019. */
-  NOOK_COMBINE_PAPER = 1
-};
-typedef int32_t nook_combine;
 
 typedef struct nook_scene_desc {
   /* nook_scene_desc_init sets these two. */
   uint32_t struct_size;
-  uint32_t header_version;
+  uint32_t type;
   /* Must be NULL. */
   const void* next;
-  /* Default NOOK_COMBINE_COMPOSED. */
-  nook_combine combine;
-  /* Default NOOK_ISA_AUTO. An instruction set that the processor lacks fails with UNSUPPORTED. */
-  nook_isa isa;
+  /* The way in which casters that were not part of the bake join the self-shadow. NOOK_FORM_DEFAULT
+   * (default): they form a cosine-weighted term of their own, AO = self * (1 - added). NOOK_FORM_PAPER: their
+   * spheres join the norm of the self-shadow, as in Le et al. 2019. */
+  nook_form form;
   /* AO, in [0, 1], default 1/1024. An update skips each linked caster, occluder and ground whose largest
    * possible darkening of an instance is below this bound. 0 skips nothing. */
   float cutoff_error;
@@ -150,22 +130,21 @@ typedef struct nook_scene_desc {
   /* 0 or 1, default 0: a bone that is sheared or scaled unevenly is projected to the nearest rotation with
    * one scale, as the baker does, and the context logs it once for an instance. 1: such a pose fails. */
   uint32_t strict_poses;
-  /* AO, root mean square over a body, in [0, 1], default 1/1024. nook_scene_update merges the spheres of a
-   * linked caster into 16, 6 or 2 groups, as few as an estimate of the change of AO allows at their distance
-   * from the receiver, and far spheres of the body itself where it has the default kernel, at most 256
-   * spheres, full detail and no light. The change of a vertex is larger: up to 18 times as much was seen.
-   * 0 merges nothing, and neither do NOOK_COMBINE_PAPER and the OpenGL 4.3 tier. */
+  /* The change of AO, root mean square over a body, that you allow when nook_scene_update replaces far
+   * spheres by fewer, larger ones; 0 to 1, default 1/1024. Linked casters become 16, 6 or 2 groups. The
+   * body's own spheres take part only with the default kernel, at most 256 spheres, full detail and no light.
+   * A single vertex can change 18 times as much. 0 turns it off; NOOK_FORM_PAPER and the OpenGL 4.3 tier
+   * ignore it. */
   float far_error;
-  /* Must be 0. */
-  uint32_t reserved;
 } nook_scene_desc;
 
-/* Fills *desc with defaults, as nook_context_desc_init does.
- * Any thread. Errors: INVALID_ARGUMENT, VERSION. */
-NOOK_API nook_result nook_scene_desc_init(nook_scene_desc* desc, size_t size, uint32_t header_version);
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_scene_desc_init(nook_scene_desc* desc) {
+  return nook_desc_init(NOOK_DESC_SCENE, desc, sizeof *desc, NOOK_VERSION);
+}
 
 /* Creates an empty scene. On failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT, VERSION, UNSUPPORTED, OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_create(nook_context context, const nook_scene_desc* desc, nook_scene* out);
 
 /* Destroys the scene and sets *scene to NULL. GL objects of the scene become invalid but may still be
@@ -175,8 +154,7 @@ NOOK_API void nook_scene_destroy(nook_scene* scene);
 
 /* Adds an instance in the rest pose, without ground and links. The call allocates.
  * One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
-NOOK_API nook_result nook_scene_add_instance(nook_scene scene, nook_character_model model,
-                                             nook_instance_id* out);
+NOOK_API nook_result nook_scene_add_instance(nook_scene scene, nook_model model, nook_instance_id* out);
 
 /* Removes an instance and every link from and to it.
  * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
@@ -186,17 +164,7 @@ NOOK_API nook_result nook_scene_remove_instance(nook_scene scene, nook_instance_
  * runs, or the model of a coarser mesh. Pose, links, ground and light stay; AO is 1 until the next update,
  * and a host calls nook_gl_scene_ao_buffer again for its view on the GPU. The call allocates; on failure
  * nothing has changed. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE, OUT_OF_MEMORY. */
-NOOK_API nook_result nook_scene_set_model(nook_scene scene, nook_instance_id instance,
-                                          nook_character_model model);
-
-/* Sets the pose of an instance. bones_3x4 holds one 3x4 matrix for each bone, row-major: 12 floats, three
- * rows of rotation | translation. A matrix maps rest space to world space, both in metres; it is rigid, or
- * has one scale for all axes, which scales radii, and may mirror. nook_pose.h defines rest space, and takes
- * the matrices that an engine has. bone_count must be the model's. The call does not allocate. One at a time.
- * Errors: INVALID_ARGUMENT (the count is wrong, or a matrix is not finite; with strict_poses also a matrix
- * that is sheared or scales unevenly by more than 1 %; the message names the bone), INVALID_HANDLE. */
-NOOK_API nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id instance, const float* bones_3x4,
-                                         uint32_t bone_count);
+NOOK_API nook_result nook_scene_set_model(nook_scene scene, nook_instance_id instance, nook_model model);
 
 /* Links two instances, so that caster darkens receiver until nook_scene_unlink; a second call for the same
  * pair changes nothing. The call allocates.
@@ -224,22 +192,26 @@ NOOK_API nook_result nook_scene_link_nearest(nook_scene scene, uint32_t k, float
 NOOK_API nook_result nook_scene_set_ground(nook_scene scene, nook_instance_id instance,
                                            const float* plane_xyzd);
 
-/* Adds a sphere that darkens every instance; centre_ws and radius are in world space and metres. The call
- * allocates.
- * One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
-NOOK_API nook_result nook_scene_add_occluder(nook_scene scene, const float centre_ws[3], float radius,
+/* A sphere that you place to darken instances, such as a shield or a ball. */
+typedef struct nook_occluder {
+  /* World space, metres. */
+  float centre_ws[3];
+  /* Metres, > 0. */
+  float radius;
+  /* The only instance that the sphere darkens, such as the bearer of a shield. 0: all instances. */
+  nook_instance_id receiver;
+} nook_occluder;
+
+/* Adds an occluder. When you remove the instance that is its receiver, the occluder stays and darkens none.
+ * The call allocates.
+ * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE (occluder->receiver is unknown), OUT_OF_MEMORY. */
+NOOK_API nook_result nook_scene_add_occluder(nook_scene scene, const nook_occluder* occluder,
                                              nook_occluder_id* out);
 
-/* Moves or resizes an occluder. The call does not allocate.
- * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-NOOK_API nook_result nook_scene_set_occluder(nook_scene scene, nook_occluder_id occluder,
-                                             const float centre_ws[3], float radius);
-
-/* Limits an occluder to one instance, such as a shield to its bearer; other instances are not darkened by it.
- * receiver 0 lifts the limit. An occluder whose instance is removed darkens none. The call does not allocate.
- * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-NOOK_API nook_result nook_scene_limit_occluder(nook_scene scene, nook_occluder_id occluder,
-                                               nook_instance_id receiver);
+/* Replaces an occluder: its place, radius and receiver. The call does not allocate.
+ * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE (id or occluder->receiver is unknown). */
+NOOK_API nook_result nook_scene_set_occluder(nook_scene scene, nook_occluder_id id,
+                                             const nook_occluder* occluder);
 
 /* Removes an occluder.
  * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
@@ -262,96 +234,397 @@ NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_
  * longer on one core with AVX2, and as much again for each linked instance. The call allocates at the first
  * light of an instance.
  * One at a time. Errors: INVALID_ARGUMENT (the message names the lobe), INVALID_HANDLE, OUT_OF_MEMORY. */
-NOOK_API nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance,
-                                          const nook_probe_lobe* lobes, uint32_t lobe_count);
-
-/* Writes the directional occlusion of the last nook_scene_update as nook_scene_read_ao does, with three
- * floats (red, green, blue, in [0, 1]) for each vertex. If that update found no light on the instance, all
- * three are its AO. count is in vertices; stride is in bytes (0: three floats).
- * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-NOOK_API nook_result nook_scene_read_directional_ao(nook_scene scene, nook_instance_id instance,
-                                                    float* out_rgb, uint32_t count, size_t stride);
+NOOK_API nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, const nook_lobe* lobes,
+                                          uint32_t lobe_count);
 
 /* Sets the position of the camera, in world space and metres, for the choice of levels of detail. Without a
  * position, and after a call with NULL, every instance has full detail in every update.
  * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_set_camera(nook_scene scene, const float position_ws[3]);
 
-/* The casters that an update can leave out. */
-enum {
-  NOOK_TERM_SELF = 1,
-  NOOK_TERM_LINKS = 2,
-  NOOK_TERM_GROUND = 4,
-  NOOK_TERM_OCCLUDERS = 8,
-  NOOK_TERM_ALL = 15
-};
-
-/* Chooses the casters that updates evaluate, a sum of NOOK_TERM_ values, for debug views and artists; default
- * NOOK_TERM_ALL. Without NOOK_TERM_SELF the bias of the fit is left out as well, so that an instance without
- * added casters is open.
- * One at a time. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_scene_set_terms(nook_scene scene, uint32_t terms);
-
 /* Evaluates the shadows of all instances at their key points on the CPU, through the context's parallel_for
  * if there is one. The call neither allocates nor locks.
  * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_update(nook_scene scene);
 
-/* Writes the AO of the last nook_scene_update in the imported file's vertex order, the primitives one after
- * another. The AO of an instance that no update has evaluated yet is 1. count must be the model's
- * file_vertex_count; stride is in bytes (0: sizeof(float)). The call does not allocate.
- * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-NOOK_API nook_result nook_scene_read_ao(nook_scene scene, nook_instance_id instance, float* out,
-                                        uint32_t count, size_t stride);
+/* Reads a channel of an instance for each vertex, in the imported file's vertex order, the primitives one
+ * after another. It takes these formats:
+ *   NOOK_CHANNEL_AO              FLOAT, HALF, UNORM8
+ *   NOOK_CHANNEL_DIRECTIONAL_AO  FLOAT
+ *   NOOK_CHANNEL_BENT_NORMAL     SNORM8
+ * Values are those of the last nook_scene_update. AO is 1 until an update has evaluated the instance, and
+ * directional AO is AO three times if the update found no light on the instance. Bent normals follow the pose
+ * that is set; each vertex turns with the key point that it takes most from. Use them where you have no
+ * skinning shader. count must be nook_model_info.file_vertex_count; stride is in bytes (0: tightly packed),
+ * and the call writes nothing between the values. The call does not allocate.
+ * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT (also for a format that the channel
+ * does not take), INVALID_HANDLE, UNSUPPORTED (bent normals: the model was baked without them, or without
+ * rest normals). */
+NOOK_API nook_result nook_scene_read(nook_scene scene, nook_instance_id instance, nook_channel channel,
+                                     nook_format format, void* out, uint32_t count, size_t stride);
 
-/* Writes the bent normals of an instance for hosts without a skinning shader, in the imported file's vertex
- * order, 4 bytes for each vertex: x, y, z in world space and AO, as signed bytes of which 127 is 1. AO is
- * that of the last nook_scene_update, and normals follow the pose that is set; each vertex turns with the key
- * point that it takes most from. count must be the model's file_vertex_count; stride is in bytes (0: 4). The
- * call does not allocate. Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT,
- * INVALID_HANDLE, UNSUPPORTED (the model was baked without bent normals or rest normals). */
-NOOK_API nook_result nook_scene_read_bent_normals(nook_scene scene, nook_instance_id instance, int8_t* out,
-                                                  uint32_t count, size_t stride);
-
-/* The numbers of an AO value. */
-enum {
-  /* 32-bit floats. */
-  NOOK_AO_FLOAT = 0,
-  /* 16-bit floats, rounded to the nearest. */
-  NOOK_AO_HALF = 1,
-  /* Bytes, 255 for 1, rounded to the nearest: within 1/510. */
-  NOOK_AO_UNORM8 = 2
-};
-typedef int32_t nook_ao_format;
-
-/* Writes the AO of the last nook_scene_update as nook_scene_read_ao does, as numbers of `format`. stride is
- * in bytes (0: tightly packed), a value owns only its own bytes. Any thread, while no call changes the scene.
- * Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-NOOK_API nook_result nook_scene_read_ao_as(nook_scene scene, nook_instance_id instance, nook_ao_format format,
-                                           void* out, uint32_t count, size_t stride);
-
-/* Returns the bytes of host memory that the scene holds now, without its models.
- * One at a time. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_scene_memory(nook_scene scene, uint64_t* bytes);
-
-typedef struct nook_scene_stats {
-  /* sizeof(nook_scene_stats); the caller sets it. */
+typedef struct nook_scene_info {
+  /* sizeof(nook_scene_info); the caller sets it. */
   uint32_t struct_size;
   uint32_t instances;
-  /* Instances that the last update evaluated; these can be fewer than `instances` if lod_max_interval is
-   * above 1. */
+  /* Instances that the last update evaluated. If lod_max_interval is above 1, they can be fewer than
+   * `instances`. */
   uint32_t instances_updated;
   /* Pairs of receiver and caster that the last update evaluated. */
   uint32_t links;
   /* Linked casters, occluders and grounds that the last update skipped because of cutoff_error. */
   uint32_t links_culled;
+  uint32_t reserved;
   /* Pairs of sphere and key point that the last update evaluated. */
   uint64_t evaluations;
-} nook_scene_stats;
+  /* Bytes of host memory that the scene holds now, without its models. */
+  uint64_t memory_bytes;
+} nook_scene_info;
 
-/* Gives the counts of the last update.
+/* Describes a scene: the counts of its last update, and its memory.
  * One at a time. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_scene_read_stats(nook_scene scene, nook_scene_stats* stats);
+NOOK_API nook_result nook_scene_describe(nook_scene scene, nook_scene_info* info);
+
+/* ---- Poses ----
+ *
+ * Pass the matrices that your engine already has: the matrices in your vertex shader (NOOK_POSE_SKINNING), or
+ * the world matrices of the joints (NOOK_POSE_JOINT_TO_WORLD). Nook converts them to its own, one for each
+ * bone from rest space to the world. Rest space is the bind pose in metres with the node transforms of the
+ * file applied. Do not convert yourself: many files have a node above the skeleton that scales by 0.01 or
+ * turns by 90 degrees, and a pose that leaves it out gives wrong AO and no error. If AO looks wrong, call
+ * nook_model_check_pose; it names the fault. docs/poses.md has the formula. */
+
+/* Which matrices you pass. Each of them maps from the space that its comment names to the space of
+ * place_3x4, which is the world if place_3x4 is NULL. */
+enum {
+  /* From rest space: Nook's own matrices, as nook_model_convert_pose gives them. One for each bone. This kind
+   * alone works for models without bind data. */
+  NOOK_POSE_REST_TO_WORLD = 0,
+  /* From the joint's own space: the world matrices of joints, bones or nodes. One for each bone. */
+  NOOK_POSE_JOINT_TO_WORLD = 1,
+  /* From the space of the mesh: joint matrix times inverse bind matrix, as your vertex shader takes them. One
+   * for each joint of the skin `skin`, in the order of the file. */
+  NOOK_POSE_SKINNING = 2
+};
+typedef int32_t nook_pose_kind;
+
+/* The layout of one transform, all of floats. */
+enum {
+  /* 12 floats: three rows of rotation and scale | translation. */
+  NOOK_TRANSFORM_ROWS_3X4 = 0,
+  /* 16 floats: four rows, the last one 0 0 0 1, for column vectors: Ogre::Matrix4. */
+  NOOK_TRANSFORM_ROWS_4X4 = 1,
+  /* 16 floats: four columns, the last one the translation and 1: glTF, glm, OpenGL. Libraries of row vectors
+   * that store rows (DirectXMath, osg::Matrixf) have the same bytes. */
+  NOOK_TRANSFORM_COLUMNS_4X4 = 2,
+  /* 12 floats: four columns of three numbers, the last one the translation. */
+  NOOK_TRANSFORM_COLUMNS_4X3 = 3,
+  /* 8 floats: a unit dual quaternion, real part x y z w, dual part x y z w. */
+  NOOK_TRANSFORM_DUAL_QUATERNION = 4,
+  /* 10 floats: translation x y z, unit quaternion x y z w, scale x y z. */
+  NOOK_TRANSFORM_TRS = 5
+};
+typedef int32_t nook_transform_layout;
+
+/* Bits of nook_pose_desc.flags. */
+enum {
+  /* Bones without a transform keep their matrices. Pose a character of several skins by one call for each
+   * skin with this flag. */
+  NOOK_POSE_FLAG_PARTIAL = 1,
+  /* A bone that is sheared or scaled unevenly by more than 1 % fails. Without this flag, Nook projects it to
+   * the nearest rotation with one scale, as the baker does. */
+  NOOK_POSE_FLAG_STRICT = 2
+};
+
+typedef struct nook_pose_desc {
+  /* nook_pose_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* Default NOOK_POSE_SKINNING. */
+  nook_pose_kind kind;
+  /* Default NOOK_TRANSFORM_COLUMNS_4X4. */
+  nook_transform_layout layout;
+  /* The transforms, transform_count of them, `stride` bytes apart (0: tightly packed). Must not be NULL. */
+  const float* transforms;
+  size_t stride;
+  /* The number of bones of the model, or of joints of the skin; any number from 1 to 65536 with
+   * transform_of_bone. */
+  uint32_t transform_count;
+  /* For NOOK_POSE_SKINNING the skin's index in the file, default 0; nook_model_describe_skin lists them. */
+  uint32_t skin;
+  /* NULL (default): bone b takes transform b, and with NOOK_POSE_SKINNING the bone of joint j takes transform
+   * j. Otherwise the index of the transform of each bone, or -1 for none; nook_model_map_bones makes it from
+   * names. bone_count must then be the model's. */
+  const int32_t* transform_of_bone;
+  uint32_t bone_count;
+  /* A sum of NOOK_POSE_FLAG_ bits, default 0. */
+  uint32_t flags;
+  /* NULL (default), or a 3x4 row-major matrix that is applied after every transform: where the character
+   * stands. It may scale (a world in centimetres) and mirror. */
+  const float* place_3x4;
+} nook_pose_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_pose_desc_init(nook_pose_desc* desc) {
+  return nook_desc_init(NOOK_DESC_POSE, desc, sizeof *desc, NOOK_VERSION);
+}
+
+/* Sets the pose of an instance. Call it once per frame for each instance that moves, before the update. A
+ * matrix may have one scale for all axes, which scales the body, and may mirror. Nook projects a matrix that
+ * is sheared or scaled unevenly, and logs the first such bone of an instance. The call does not allocate. On
+ * failure the pose stays as it was.
+ * One at a time. Errors: INVALID_ARGUMENT (a count is wrong, or a matrix is not finite; with strict_poses or
+ * NOOK_POSE_FLAG_STRICT also a matrix that is sheared or scales unevenly; the message names the bone),
+ * INVALID_HANDLE, UNSUPPORTED (the model has no bind data: bake it again from the glTF file, or pass
+ * NOOK_POSE_REST_TO_WORLD). */
+NOOK_API nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id instance,
+                                         const nook_pose_desc* desc);
+
+/* Converts a pose to rest-to-world matrices on any thread, such as your animation jobs. Pass the result to
+ * nook_scene_set_pose with NOOK_POSE_REST_TO_WORLD and NOOK_TRANSFORM_ROWS_3X4. bones_3x4 takes 12 floats for
+ * each bone, and bone_count must be the model's. With NOOK_POSE_FLAG_PARTIAL, bones without a transform keep
+ * what bones_3x4 holds. The call does not allocate.
+ * Any thread. Errors: as nook_scene_set_pose. */
+NOOK_API nook_result nook_model_convert_pose(nook_model model, const nook_pose_desc* desc, float* bones_3x4,
+                                             uint32_t bone_count);
+
+/* ---- Bones by name ---- */
+
+/* Bits of nook_bone_map_desc.flags. */
+enum {
+  /* Compares letters without their case, and skips the characters space . _ - : | */
+  NOOK_BONE_MAP_LOOSE = 1,
+  /* Removes what all names of a side have in common at their beginning, up to one of the characters
+   * . _ - : | such as "mixamorig:" or "Armature|". */
+  NOOK_BONE_MAP_DROP_SHARED_PREFIX = 2
+};
+
+typedef struct nook_bone_map_desc {
+  /* nook_bone_map_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* The names of your transforms, name_count of them. A NULL entry matches nothing. */
+  const char* const* names;
+  uint32_t name_count;
+  /* A sum of NOOK_BONE_MAP_ bits, default 0. */
+  uint32_t flags;
+  /* NULL (default), or text that is removed from the beginning or the end of a name that has it, before names
+   * are compared. The first two are for your names, the last two for the model's. */
+  const char* host_prefix;
+  const char* host_suffix;
+  const char* model_prefix;
+  const char* model_suffix;
+} nook_bone_map_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_bone_map_desc_init(nook_bone_map_desc* desc) {
+  return nook_desc_init(NOOK_DESC_BONE_MAP, desc, sizeof *desc, NOOK_VERSION);
+}
+
+/* Finds the transform of each bone by name, for nook_pose_desc.transform_of_bone. transform_of_bone takes an
+ * index into names for each bone, or -1 where no name matches; bone_count must be the model's. If several
+ * names are equal, the first one counts. Bones of one joint share its name. *unmatched, which may be NULL,
+ * takes the number of bones with -1; nook_model_bone_name tells their names. The call allocates.
+ * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_model_map_bones(nook_model model, const nook_bone_map_desc* desc,
+                                          int32_t* transform_of_bone, uint32_t bone_count,
+                                          uint32_t* unmatched);
+
+/* ---- Bind data ---- */
+
+typedef struct nook_skin_info {
+  /* sizeof(nook_skin_info); the caller sets it. */
+  uint32_t struct_size;
+  /* The index of the skin in the file. */
+  uint32_t file_index;
+  /* The number of its joints: the transforms that NOOK_POSE_SKINNING takes. */
+  uint32_t joint_count;
+  /* From the space of the skin's meshes to rest space, 3x4, row-major; S of docs/poses.md. */
+  float rest_from_mesh_3x4[12];
+} nook_skin_info;
+
+/* Describes a skin of the model; skin is less than nook_model_info.skin_count. Skins that no mesh uses are
+ * left out, so compare file_index with the index in your file.
+ * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (no bind data). */
+NOOK_API nook_result nook_model_describe_skin(nook_model model, uint32_t skin, nook_skin_info* info);
+
+typedef struct nook_check_vertex_info {
+  /* sizeof(nook_check_vertex_info); the caller sets it. */
+  uint32_t struct_size;
+  /* The vertex, in the order of nook_scene_read. */
+  uint32_t vertex;
+  /* Its place in rest space, metres, and in the space of its mesh, which is the file's POSITION. */
+  float position[3];
+  float mesh_position[3];
+  /* The bone with the largest weight. */
+  uint32_t bone;
+} nook_check_vertex_info;
+
+/* Describes a check vertex; index is less than nook_model_info.check_vertex_count. Check vertices are
+ * vertices of the file, spread over the bones, that nook_model_check_pose compares with yours.
+ * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (no bind data). */
+NOOK_API nook_result nook_model_describe_check_vertex(nook_model model, uint32_t index,
+                                                      nook_check_vertex_info* info);
+
+/* ---- The check of a pose ---- */
+
+/* The likely fault of a pose. */
+enum {
+  NOOK_POSE_FAULT_NONE = 0,
+  /* Rows were given as columns, or columns as rows. */
+  NOOK_POSE_FAULT_TRANSPOSED = 1,
+  /* Skinning matrices were given as rest-to-world matrices: pass NOOK_POSE_SKINNING. */
+  NOOK_POSE_FAULT_NO_BIND = 2,
+  /* The transforms are of another kind than `kind`. */
+  NOOK_POSE_FAULT_KIND = 3,
+  /* The skinning matrices are of another skin. */
+  NOOK_POSE_FAULT_SKIN = 4,
+  /* Transforms go to the wrong bones. */
+  NOOK_POSE_FAULT_ORDER = 5,
+  /* The transforms and the vertices are in different units. */
+  NOOK_POSE_FAULT_UNIT = 6,
+  /* The pose is turned, moved or mirrored as a whole against the place. */
+  NOOK_POSE_FAULT_PLACE = 7,
+  /* The transforms are the inverses of what is needed. */
+  NOOK_POSE_FAULT_INVERTED = 8,
+  /* None of these explains the difference: other clips or frames, another mesh. */
+  NOOK_POSE_FAULT_UNKNOWN = 9
+};
+typedef int32_t nook_pose_fault;
+
+typedef struct nook_pose_check_desc {
+  /* nook_pose_check_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* Where your own skinning puts the vertices: vertex_count times three floats, `stride` bytes apart (0: 12).
+   * Must not be NULL. */
+  const float* positions;
+  size_t stride;
+  /* NULL (default): the positions are those of check vertex 0, 1, 2 and so on. Otherwise the index of the
+   * check vertex of each position. */
+  const uint32_t* check_vertices;
+  /* NULL (default): the positions are in the world. Otherwise the 3x4 row-major matrix that brings them
+   * there: the place that you mean. */
+  const float* place_3x4;
+  /* At least 8, at most nook_model_info.check_vertex_count. */
+  uint32_t vertex_count;
+  /* The largest distance that counts as equal, as a share of the model's bounding radius, above 0 and at most
+   * 1, default 0.005. */
+  float tolerance;
+} nook_pose_check_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_pose_check_desc_init(nook_pose_check_desc* desc) {
+  return nook_desc_init(NOOK_DESC_POSE_CHECK, desc, sizeof *desc, NOOK_VERSION);
+}
+
+typedef struct nook_pose_check_info {
+  /* sizeof(nook_pose_check_info); the caller sets it. */
+  uint32_t struct_size;
+  /* The likely fault. */
+  nook_pose_fault fault;
+  /* The largest and the root mean square distance between your vertices and the model's, as shares of the
+   * model's bounding radius times the scale of the place. */
+  float max_error;
+  float rms_error;
+  /* The bone with the largest weight at the vertex that is farthest off. */
+  uint32_t worst_bone;
+  /* For NOOK_POSE_FAULT_NO_BIND and NOOK_POSE_FAULT_SKIN the index of the skin that fits, otherwise 0. */
+  uint32_t fitting_skin;
+  /* For NOOK_POSE_FAULT_UNIT the factor from the pose's length unit to the vertices', otherwise 1. */
+  float scale;
+  /* The same in words, with names. */
+  char text[512];
+} nook_pose_check_info;
+
+/* Compares the pose of desc with vertices that you skinned yourself, and names the likely fault. Use a frame
+ * of a clip: in the bind pose all bones have the same matrix, so that their order cannot be seen. A wrong
+ * pose is not an error of the call: it returns OK, and info->fault tells. The call allocates.
+ * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model has no bind data), OUT_OF_MEMORY. */
+NOOK_API nook_result nook_model_check_pose(nook_model model, const nook_pose_desc* desc,
+                                           const nook_pose_check_desc* check, nook_pose_check_info* info);
+
+/* ---- Vertices of your mesh ----
+ *
+ * AO comes in the order of the file's vertices. If your engine re-indexes, splits, strips or optimises
+ * meshes, match your vertices once and remap the model: the new model gives AO in your order on the CPU and
+ * on every tier of OpenGL. For a mesh with other vertices, such as a level of detail, see
+ * nook_model_resample. */
+
+enum {
+  /* Every primitive of the file. */
+  NOOK_ALL_PRIMITIVES = -1
+};
+
+/* In the answer of nook_model_match_vertices: no vertex of the model is near enough. */
+#define NOOK_NO_VERTEX 0xffffffffu
+
+typedef struct nook_vertex_match_desc {
+  /* nook_vertex_match_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* The rest positions of your vertices, three floats each, position_stride bytes apart (0: 12). Must not be
+   * NULL. */
+  const float* positions;
+  size_t position_stride;
+  /* NULL (default), or the normals of your vertices, three floats each, normal_stride bytes apart (0: 12).
+   * They tell the two sides of a card apart, which lie at one place and have AO of their own. */
+  const float* normals;
+  size_t normal_stride;
+  /* The number of your vertices. */
+  uint32_t vertex_count;
+  /* The primitive of the file that the vertices come from, default NOOK_ALL_PRIMITIVES. */
+  int32_t primitive;
+  /* 0 (default): the positions are in the space of the file's POSITION attribute. 1: they are in the model's
+   * rest space, metres. */
+  uint32_t in_rest_space;
+  /* The largest distance of a match, as a share of the diagonal of the model's box, in [0, 1]. 0 (default) is
+   * 1e-4 for nook_model_match_vertices, which allows for positions of 16 bits. */
+  float tolerance;
+} nook_vertex_match_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_vertex_match_desc_init(nook_vertex_match_desc* desc) {
+  return nook_desc_init(NOOK_DESC_VERTEX_MATCH, desc, sizeof *desc, NOOK_VERSION);
+}
+
+/* Finds the model's vertex for each vertex of your mesh by rest position, and by normal among vertices at one
+ * place. vertices takes vertex_count indices in the order of nook_scene_read, or NOOK_NO_VERTEX where none
+ * is near enough. *unmatched, which may be NULL, takes the number of NOOK_NO_VERTEX. The call allocates.
+ * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model has no rest positions), OUT_OF_MEMORY. */
+NOOK_API nook_result nook_model_match_vertices(nook_model model, const nook_vertex_match_desc* desc,
+                                               uint32_t* vertices, uint32_t* unmatched);
+
+/* Makes a model whose vertices are those of your mesh: vertex i of the new model is vertex vertices[i] of the
+ * given one. Everything else is copied. Its primitives are the runs of vertices whose
+ * meshes have the same space, which is one primitive for most files. On failure *out is NULL.
+ * Any thread. Errors: INVALID_ARGUMENT (also for NOOK_NO_VERTEX; the message names the vertex),
+ * OUT_OF_MEMORY. */
+NOOK_API nook_result nook_model_remap(nook_model model, const uint32_t* vertices, uint32_t count,
+                                      nook_model* out);
+
+/* ---- Capsules: what darkens the world ---- */
+
+/* The largest number of a model's capsules, and the parts of a light's cone that are darkened apart. */
+#define NOOK_WORLD_MAX_CASTERS 64
+#define NOOK_WORLD_CONE_PARTS 16
+
+/* A capsule: every point that is within the radius of the segment from a to b, which changes evenly from
+ * radius_a to radius_b. A sphere has equal ends. Metres. */
+typedef struct nook_capsule {
+  float a[3];
+  float radius_a;
+  float b[3];
+  float radius_b;
+} nook_capsule;
 
 #ifdef __cplusplus
 }

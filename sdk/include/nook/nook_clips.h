@@ -9,30 +9,27 @@
  * clip, and neighbours, ground, occluders and the world casters work as for a character with bones: AO = AO
  * of the clip * (1 - added), where the added casters are evaluated at key points in the pose of the clip.
  *
- * On the GPU a vertex shader decodes the AO itself (nook_gl_clips.h), without work for each vertex on the
+ * On the GPU a vertex shader decodes the AO itself (nook_gl.h), without work for each vertex on the
  * CPU, and multiplies by what nook_gl_scene_update leaves in its buffers for an instance with a clip:
- * 1 - added. Where the CPU updates the scene, nook_scene_read_ao gives the same if the scene's terms leave
+ * 1 - added. Where the CPU updates the scene, nook_scene_read gives the same if the scene's terms leave
  * out NOOK_TERM_SELF. */
 #ifndef NOOK_CLIPS_H
 #define NOOK_CLIPS_H
 
 #include "nook_character.h"
-#include "nook_world.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-typedef struct nook_clips_s* nook_clips;
-
 /* Loads clips from the bytes of a .nook file, for the model that they were baked with, a new bake of the same
- * character, or what nook_character_model_remap makes of one; the caller may free the bytes afterwards. The
+ * character, or what nook_model_remap makes of one; the caller may free the bytes afterwards. The
  * clips keep the model alive. The library validates everything, so that hostile bytes are safe. On failure
  * *out is NULL. Any thread.
  * Errors: INVALID_ARGUMENT (also, the clips are those of another character), BAD_FILE, FILE_VERSION,
  * OUT_OF_MEMORY. */
-NOOK_API nook_result nook_clips_load(nook_context context, nook_character_model model, const void* bytes,
-                                     size_t size, nook_clips* out);
+NOOK_API nook_result nook_clips_load(nook_context context, nook_model model, const void* bytes, size_t size,
+                                     nook_clips* out);
 
 /* Releases the caller's reference and sets *clips to NULL; scenes that use the clips keep them alive.
  * Any thread. */
@@ -70,12 +67,10 @@ typedef struct nook_clip_info {
   const char* name;
 } nook_clip_info;
 
-/* Describes a clip; clips are in byte order of their names. Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_clips_clip(nook_clips clips, uint32_t clip, nook_clip_info* info);
-
-/* Finds a clip by its name. Any thread. Errors: INVALID_ARGUMENT (there is none; the message names the
- * first). */
-NOOK_API nook_result nook_clips_find(nook_clips clips, const char* name, uint32_t* clip);
+/* Describes a clip. Clips are in byte order of their names. To find one by its name, compare the names of all
+ * clips once, after you load them.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_clips_describe_clip(nook_clips clips, uint32_t clip, nook_clip_info* info);
 
 /* Times outside a clip. */
 enum {
@@ -95,61 +90,31 @@ typedef struct nook_clip_time {
 } nook_clip_time;
 
 /* Gives the two frames, counted over all clips, between which a time lies, and the share of the second in
- * [0, 1), for a shader: nook_gl_clips.h. Any thread. Errors: INVALID_ARGUMENT. */
+ * [0, 1), for a shader: nook_gl.h. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_clips_frames(nook_clips clips, const nook_clip_time* time, uint32_t frames[2],
                                        float* share);
 
-/* Writes the AO of the character alone at a time of a clip, in the order of nook_scene_read_ao. count must be
+/* Writes the AO of the character alone at a time of a clip, in the order of nook_scene_read. count must be
  * the model's file_vertex_count; stride is in bytes (0: tightly packed). The call does not allocate.
  * Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_clips_read_ao(nook_clips clips, const nook_clip_time* time, nook_ao_format format,
+NOOK_API nook_result nook_clips_read_ao(nook_clips clips, const nook_clip_time* time, nook_format format,
                                         void* out, uint32_t count, size_t stride);
 
-/* Writes the pose at a time of a clip as nook_scene_set_pose takes it. place_3x4 maps the clip's space, in
- * metres, to the world: a rotation with one scale; NULL: the clip's space. docs/character.md has the error of
- * the pose. Between two frames a bone moves on a line, and one that turns by an angle shrinks by the cosine
- * of half of it. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT. */
+/* Writes the pose at a time of a clip, NOOK_POSE_REST_TO_WORLD in NOOK_TRANSFORM_ROWS_3X4. place_3x4 maps the
+ * clip's space, in metres, to the world: a rotation with one scale; NULL: the clip's space. docs/character.md
+ * has the error of the pose. Between two frames a bone moves on a line, and one that turns by an angle
+ * shrinks by the cosine of half of it. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_clips_read_pose(nook_clips clips, const nook_clip_time* time,
                                           const float* place_3x4, float* bones_3x4, uint32_t bone_count);
 
-/* Writes the world casters of the model (nook_world.h) at a time of a clip, in world space, for
- * nook_world_sample and the world pass as props, where no scene holds the character. *count is the room in
- * `out`, and becomes the number of the model's; with out NULL only that is written. The radii are those of
- * AO. Any thread. Errors: INVALID_ARGUMENT (also, there is too little room), UNSUPPORTED (the model was baked
- * without; *count becomes 0). */
-NOOK_API nook_result nook_clips_read_casters(nook_clips clips, const nook_clip_time* time,
-                                             const float* place_3x4, nook_world_capsule* out,
-                                             uint32_t* count);
-
 /* Sets the pose of an instance from a clip, at a place as in nook_clips_read_pose, and takes its own AO from
- * the clip until the next nook_scene_set_pose or nook_scene_set_model. nook_scene_read_ao then multiplies the
- * AO of the clip at this time by what the added casters of the last update leave open, and
- * nook_scene_read_directional_ao by what they leave of each channel. The buffers of nook_gl_scene_update have
- * what the casters leave open alone. The clips must have been loaded for the instance's model. The call
- * allocates at the first clip of an instance. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE,
- * OUT_OF_MEMORY. */
+ * the clip until the next nook_scene_set_pose or nook_scene_set_model. nook_scene_read then multiplies the AO
+ * of the clip at this time by what the added casters of the last update leave open: of AO, or of each channel
+ * of directional AO. The buffers of nook_gl_scene_update have what the casters leave open alone. The clips
+ * must have been loaded for the instance's model. The call allocates at the first clip of an instance.
+ * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_set_clip(nook_scene scene, nook_instance_id instance, nook_clips clips,
                                          const nook_clip_time* time, const float* place_3x4);
-
-/* The textures of nook_gl_clips.h. */
-enum {
-  /* RGBA, 8 bits with sign (GL_RGBA8_SNORM from GL_BYTE): mode_count / 4 texels for each file vertex. */
-  NOOK_CLIPS_MODES = 0,
-  /* RGBA, half floats (GL_RGBA16F from GL_HALF_FLOAT): mode_count / 4 texels for each frame. */
-  NOOK_CLIPS_WEIGHTS = 1
-};
-typedef int32_t nook_clips_table;
-
-/* Gives the size of a table as a 2D texture, in texels; the texels of the table are its rows one after
- * another, and the last row is filled up with zeros. Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_clips_texture_size(nook_clips clips, nook_clips_table table, uint32_t* width,
-                                             uint32_t* height, uint64_t* bytes);
-
-/* Writes the texels of a table, rows without gaps. byte_count must be the bytes of nook_clips_texture_size.
- * The AO of vertex v in frame f is clamp(0.5 + sum of weight * mode over the mode_count numbers of each, 0,
- * 1). Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_clips_read_texture(nook_clips clips, nook_clips_table table, void* texels,
-                                             uint64_t byte_count);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "nook_character.hpp"
@@ -26,28 +27,22 @@ class Clips : public Unique<nook_clips, nook_clips_destroy> {
   nook_clip_info clip(std::uint32_t index) const {
     nook_clip_info info{};
     info.struct_size = sizeof info;
-    check(nook_clips_clip(get(), index, &info));
+    check(nook_clips_describe_clip(get(), index, &info));
     return info;
   }
-  std::uint32_t find(const char* name) const {
+  // Returns the number of clips if none has this name.
+  std::uint32_t find(std::string_view name) const {
+    const std::uint32_t count = info().clip_count;
     std::uint32_t index = 0;
-    check(nook_clips_find(get(), name, &index));
+    while (index < count && clip(index).name != name) ++index;
     return index;
   }
   // The AO of the character alone, in the order of Scene::ao.
   std::vector<float> ao(const nook_clip_time& time) const {
     std::vector<float> values(info().file_vertex_count);
-    check(nook_clips_read_ao(get(), &time, NOOK_AO_FLOAT, values.data(),
+    check(nook_clips_read_ao(get(), &time, NOOK_FORMAT_FLOAT, values.data(),
                              static_cast<std::uint32_t>(values.size()), 0));
     return values;
-  }
-  std::vector<std::uint8_t> texture(nook_clips_table table, std::uint32_t& width,
-                                    std::uint32_t& height) const {
-    std::uint64_t bytes = 0;
-    check(nook_clips_texture_size(get(), table, &width, &height, &bytes));
-    std::vector<std::uint8_t> texels(static_cast<std::size_t>(bytes));
-    check(nook_clips_read_texture(get(), table, texels.data(), bytes));
-    return texels;
   }
 
  private:

@@ -17,7 +17,7 @@
  *     glBindBuffer(GL_ARRAY_BUFFER, view.buffer);
  *     glVertexAttribPointer(slot, 1, GL_FLOAT, GL_FALSE, view.stride, (const void*)(uintptr_t)view.offset);
  * The i-th value belongs to the i-th vertex of the imported file, the primitives one after another;
- * nook_character_model_primitive gives the first value of a primitive.
+ * nook_model_describe_primitive gives the values of a primitive.
  *
  * At each call, no transform feedback may be active unless it is paused, and neither conditional rendering
  * nor a query that counts primitives or samples may be active. Calls that allocate report OpenGL errors that
@@ -27,12 +27,13 @@
 #define NOOK_GL_H
 
 #include "nook_character.h"
+#include "nook_clips.h"
+#include "nook_material.h"
+#include "nook_probe.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef struct nook_gl_s* nook_gl;
 
 /* The host's loader: returns the address of the OpenGL function called name, or NULL. Nook calls it only
  * inside nook_gl_create. */
@@ -68,7 +69,7 @@ typedef int32_t nook_gl_state_mode;
 typedef struct nook_gl_desc {
   /* nook_gl_desc_init sets these two. */
   uint32_t struct_size;
-  uint32_t header_version;
+  uint32_t type;
   /* Must be NULL. */
   const void* next;
   /* Required. */
@@ -81,9 +82,10 @@ typedef struct nook_gl_desc {
   nook_gl_state_mode state_mode;
 } nook_gl_desc;
 
-/* Fills *desc with defaults, as nook_context_desc_init does. The call makes no OpenGL call.
- * Any thread. Errors: INVALID_ARGUMENT, VERSION. */
-NOOK_API nook_result nook_gl_desc_init(nook_gl_desc* desc, size_t size, uint32_t header_version);
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_gl_desc_init(nook_gl_desc* desc) {
+  return nook_desc_init(NOOK_DESC_GL, desc, sizeof *desc, NOOK_VERSION);
+}
 
 /* Loads functions and compiles shaders for the OpenGL context that is current. Host memory comes from the
  * context's allocator, except for one small allocation of the function loader. On failure *out is NULL and no
@@ -120,23 +122,6 @@ typedef struct nook_gl_info {
  * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_describe(nook_gl gl, nook_gl_info* info);
 
-/* The OpenGL memory of a model, in bytes, as nook_gl_info.buffer_bytes counts it. */
-typedef struct nook_gl_memory {
-  /* sizeof(nook_gl_memory); the caller sets it. */
-  uint32_t struct_size;
-  uint32_t reserved;
-  /* The bytes that all instances of the model share. */
-  uint64_t model_bytes;
-  /* The bytes of one instance, without links. */
-  uint64_t instance_bytes;
-  /* The same with a light. */
-  uint64_t lit_instance_bytes;
-} nook_gl_memory;
-
-/* Computes the OpenGL memory of a model before any of it is used; buffers that grow have up to half as much
- * again. The call makes no OpenGL call. One at a time. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_gl_model_memory(nook_gl gl, nook_character_model model, nook_gl_memory* memory);
-
 /* Creates the OpenGL objects that the scene's instances need, so that the next nook_gl_scene_update allocates
  * nothing. The call is optional, because an update does the same when instances were added. Existing
  * instances keep their AO and their view.
@@ -145,7 +130,7 @@ NOOK_API nook_result nook_gl_model_memory(nook_gl gl, nook_character_model model
 NOOK_API nook_result nook_gl_scene_prepare(nook_gl gl, nook_scene scene);
 
 /* Evaluates the AO of all instances on the GPU. It evaluates everything that nook_scene_update evaluates and
- * replaces it: a host calls one of the two in a frame. The values agree with nook_scene_read_ao within 2e-3,
+ * replaces it: a host calls one of the two in a frame. The values agree with nook_scene_read within 2e-3,
  * beside what far_error of the scene changes there.
  * The call allocates host memory only if instances were added, received their first light or have more lobes
  * than the lights had room for since the last prepare or update, and it never waits for the GPU. No other
@@ -177,14 +162,14 @@ typedef struct nook_gl_ao_view {
 NOOK_API nook_result nook_gl_scene_ao_buffer(nook_gl gl, nook_scene scene, nook_instance_id instance,
                                              nook_gl_ao_view* view);
 
-/* Where nook_gl_scene_write_ao puts AO: a buffer or a texture of the host. */
+/* Where nook_gl_scene_write puts AO: a buffer or a texture of the host. */
 typedef struct nook_gl_ao_target {
   /* sizeof(nook_gl_ao_target); the caller sets it, and the other fields to 0 first. */
   uint32_t struct_size;
   /* The numbers in a buffer. A texture's own format decides instead; but on OpenGL ES, where uploads do not
-   * convert, this must be the texture's: NOOK_AO_FLOAT for GL_R32F, NOOK_AO_HALF for GL_R16F, NOOK_AO_UNORM8
-   * for GL_R8. */
-  nook_ao_format format;
+   * convert, this must be the texture's: NOOK_FORMAT_FLOAT for GL_R32F, NOOK_FORMAT_HALF for GL_R16F,
+   * NOOK_FORMAT_UNORM8 for GL_R8. */
+  nook_format format;
   /* The OpenGL name of a buffer of the host, or 0. It must not be mapped. */
   uint32_t buffer;
   /* The OpenGL name of a GL_TEXTURE_2D of the host with a format that has a red channel of floats or of
@@ -209,10 +194,10 @@ typedef struct nook_gl_ao_target {
  * the host. The call does not wait for the GPU. The first call with a format makes a program.
  * Context thread. Errors: INVALID_ARGUMENT (also: the target is too small), INVALID_HANDLE (an id is unknown,
  * or an instance is not prepared yet), UNSUPPORTED (a stride without compute shaders), GL. */
-NOOK_API nook_result nook_gl_scene_write_ao(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
-                                            uint32_t count, const nook_gl_ao_target* target);
+NOOK_API nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
+                                         uint32_t count, const nook_gl_ao_target* target);
 
-/* Copies the AO of the last update to host memory in the order of nook_scene_read_ao. The call WAITS FOR THE
+/* Copies the AO of the last update to host memory in the order of nook_scene_read. The call WAITS FOR THE
  * GPU and is meant for tests and tools.
  * Context thread. Errors: INVALID_ARGUMENT, INVALID_HANDLE (the id is unknown, or the instance is not
  * prepared yet), GL. */
@@ -233,7 +218,7 @@ NOOK_API nook_result nook_gl_scene_read_ao(nook_gl gl, nook_scene scene, nook_in
  *     vec3 e = nook_scene_irradiance(light, n, directional_ao);
  *     colour = albedo / 3.14159265 * e;
  * nook_scene_open_irradiance(light, n) is the irradiance without occlusion. A shader may hold this text and
- * that of nook_gl_probe_describe, in either order. Every name in it begins with nook_ or Nook. */
+ * that of an upload of a probe, in either order. Every name in it begins with nook_ or Nook. */
 typedef struct nook_gl_light_view {
   /* sizeof(nook_gl_light_view); the caller sets it. */
   uint32_t struct_size;
@@ -259,7 +244,7 @@ typedef struct nook_gl_light_view {
 
 /* Gives the view of an instance that had a light in the last nook_gl_scene_update. buffer, offset and texture
  * stay the same as long as the view of nook_gl_scene_ao_buffer. The values agree with
- * nook_scene_read_directional_ao within 4e-3, because each term takes two estimates of a square root. They
+ * nook_scene_read within 4e-3, because each term takes two estimates of a square root. They
  * are ordered as AO is, and need no barrier of the host. The call makes no OpenGL call.
  * Context thread. Errors: INVALID_ARGUMENT, INVALID_HANDLE (the id is unknown, or the instance had no light
  * in the last update), GL. */
@@ -279,6 +264,312 @@ NOOK_API nook_result nook_gl_scene_read_directional_ao(nook_gl gl, nook_scene sc
  * scene.
  * Context thread. Errors: INVALID_ARGUMENT, GL. */
 NOOK_API nook_result nook_gl_scene_release(nook_gl gl, nook_scene scene);
+
+/* ---- A frame of the host ----
+ *
+ * The images and the camera of one frame, which nook_nnao_render and nook_world_render take. */
+
+/* The contents of a depth texture. */
+enum {
+  /* The depth that OpenGL wrote under `projection` and glDepthRange(0, 1): a texture of a depth format, or a
+   * copy of it in the red channel of a 32-bit float texture. */
+  NOOK_DEPTH_HARDWARE = 0,
+  /* -z of view space in metres, in the red channel of a float texture. */
+  NOOK_DEPTH_LINEAR = 1,
+  /* A shader of the host wrote log2(1 + C (w - n)) / log2(1 + C (f - n)) to gl_FragDepth, or to the red
+   * channel of a 32-bit float texture. w is -z of view space, which is clip w where projection[11] is -1. C,
+   * n and f are depth_log_scale, depth_log_near and depth_log_far; values of 1 and more are sky. Only with a
+   * perspective. The pass inverts it: w = n + (exp2(stored log2(1 + C (f - n))) - 1) / C. three.js has
+   * C = 1 and n = 0, Cesium has C = 1 and its near plane. */
+  NOOK_DEPTH_LOGARITHMIC = 2
+};
+typedef int32_t nook_depth_kind;
+
+/* The depth range of clip space. */
+enum {
+  /* OpenGL's default. */
+  NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE = 0,
+  /* glClipControl(..., GL_ZERO_TO_ONE). */
+  NOOK_CLIP_SPACE_ZERO_TO_ONE = 1
+};
+typedef int32_t nook_clip_space;
+
+/* The combination of a pass's result s with AO that you draw yourself into a texture of the frame (G-buffer
+ * AO). c is the texture's red channel: AO of another kind, such as the AO of nook_gl_scene_update, and 1
+ * where there is none. w is its green channel, a weight. */
+enum {
+  /* s. */
+  NOOK_GBUFFER_AO_NONE = 0,
+  /* min(s, c): occlusion that both contain darkens once. */
+  NOOK_GBUFFER_AO_MIN = 1,
+  /* min(s, c) / c: for an image that c has already darkened, so that the product is min(s, c). */
+  NOOK_GBUFFER_AO_REMAINDER = 2,
+  /* (1 - w) s + w c: where w is 1, only the G-buffer AO counts. */
+  NOOK_GBUFFER_AO_REPLACE = 3,
+  /* (1 - w) s + w c, and the screen pass leaves out surfaces whose w is above 0.5 as occluders. Use it for
+   * characters whose capsules darken the world in nook_world_render, so that they darken it once. */
+  NOOK_GBUFFER_AO_EXCLUDE = 4
+};
+typedef int32_t nook_gbuffer_ao;
+
+/* Where the result goes. */
+enum {
+  /* The pass's own texture; see nook_nnao_info and nook_world_info. */
+  NOOK_TARGET_OWN = 0,
+  /* Level 0 of a 2D texture of the host, or of a texture array for passes with views. */
+  NOOK_TARGET_TEXTURE = 1,
+  /* The first draw buffer of a framebuffer of the host; framebuffer 0 is the window. The contents of further
+   * draw buffers become undefined. Not for passes with views. */
+  NOOK_TARGET_FRAMEBUFFER = 2
+};
+typedef int32_t nook_target;
+
+/* The change that the result makes to its target. */
+enum {
+  /* The target becomes (ao, ao, ao, 1), or the bent normal and ao; see nook_nnao_desc.bent_normals. */
+  NOOK_BLEND_WRITE = 0,
+  /* The target's colour is multiplied by ao, and its alpha stays. Not with NOOK_TARGET_OWN. */
+  NOOK_BLEND_MULTIPLY = 1
+};
+typedef int32_t nook_blend;
+
+/* One frame. Textures are 2D and single-sampled, unless the pass was made for views or samples; level 0 with
+ * width x height texels is read. A pass reads them through its own samplers: it changes none of their
+ * parameters, and their filter, wrap and compare modes do not matter. A pass queries the size and format of
+ * textures and targets when a name, kind or size here differs from its last call. If you create a texture
+ * anew under its old name, set textures_changed. */
+typedef struct nook_gl_frame_desc {
+  /* nook_gl_frame_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* Pixels; the size of every texture here, which may not exceed the maximum of the pass. Required. */
+  int32_t width, height;
+  /* x, y, width and height in pixels of the part that `projection` fills; all 0 (default): everything. The
+   * pass reads and writes nothing outside it. */
+  int32_t viewport[4];
+  /* Required. */
+  uint32_t depth_texture;
+  /* Default NOOK_DEPTH_HARDWARE. */
+  nook_depth_kind depth_kind;
+  /* Metres, for linear depth only: this depth and greater ones are sky. 0 (default): no depth is. Sky is also
+   * a depth that is not finite, or is not positive in a perspective, and the far plane of hardware depth. The
+   * AO of sky is exactly 1. */
+  float sky_depth;
+  /* For logarithmic depth, see NOOK_DEPTH_LOGARITHMIC. C in 1 / metres, > 0, default 1; n in metres, 0 or
+   * more, default 0; f in metres, > n, required. */
+  float depth_log_scale, depth_log_near, depth_log_far;
+  /* 0 (default): the pass reconstructs normals from depth. */
+  uint32_t normal_texture;
+  /* The normal is normal_matrix * (texel * normal_scale + normal_bias), then normalised. The defaults are 1
+   * and 0; normals that are stored as (n + 1) / 2 need 2 and -1. */
+  float normal_scale, normal_bias;
+  /* Column-major; it maps to view space. The identity by default. */
+  float normal_matrix[9];
+  /* Column-major, as OpenGL takes it; required. Perspective, off-centre, orthographic, reversed-depth and
+   * infinite projections are all supported. */
+  float projection[16];
+  /* From world space to view space, column-major: a rotation and a translation. The identity by default. The
+   * world pass needs it. The screen pass with max_history_frames remembers it, and follows surfaces into the
+   * next frame by it; set nook_nnao_frame_desc.reset after a cut. */
+  float view[16];
+  /* Only hardware depth uses it. Default NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE. */
+  nook_clip_space clip_space;
+  /* Default NOOK_GBUFFER_AO_NONE. */
+  nook_gbuffer_ao gbuffer_ao;
+  /* Required unless gbuffer_ao is NOOK_GBUFFER_AO_NONE. */
+  uint32_t gbuffer_ao_texture;
+  /* Default NOOK_TARGET_OWN. */
+  nook_target target;
+  /* The OpenGL name of the host's texture or framebuffer. Pixel (x, y) of the frame is written to its pixel
+   * (x, y). sRGB formats are written and multiplied in linear light. */
+  uint32_t target_name;
+  /* Default NOOK_BLEND_WRITE. */
+  nook_blend blend;
+  /* Set 1 if you created a texture or target anew under its old name since the last call: the pass then
+   * queries all of them again. Default 0. */
+  int32_t textures_changed;
+  /* For passes with views; others do not read them. 16, 16 and 9 numbers for each view, in place of
+   * projection, view and normal_matrix. NULL (default): all views have the frame's own matrix. */
+  const float* view_projections;
+  const float* view_matrices;
+  const float* view_normal_matrices;
+} nook_gl_frame_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_gl_frame_desc_init(nook_gl_frame_desc* desc) {
+  return nook_desc_init(NOOK_DESC_GL_FRAME, desc, sizeof *desc, NOOK_VERSION);
+}
+
+/* ---- Uploads: probes and materials in shaders ----
+ *
+ * An upload is a probe, a grid, a material or baked clips as textures, together with the GLSL that reads
+ * them. Upload once with nook_gl_upload_probe, nook_gl_upload_material or nook_gl_upload_clips. Put the GLSL
+ * of nook_gl_upload_describe after the #version line of your shader. Before a draw, call nook_gl_upload_bind
+ * with your program. */
+
+/* One texture of an upload. */
+typedef struct nook_gl_upload_texture {
+  /* The target to bind it to: GL_TEXTURE_BUFFER, GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY or GL_TEXTURE_3D. */
+  uint32_t target;
+  /* The OpenGL name of a texture that Nook owns. Bind it, but never change or delete it. */
+  uint32_t texture;
+  /* The name of its sampler in the GLSL; it is valid while the upload lives. */
+  const char* uniform;
+} nook_gl_upload_texture;
+
+typedef struct nook_gl_upload_info {
+  /* sizeof(nook_gl_upload_info); set it before the call. */
+  uint32_t struct_size;
+  /* The number of textures, and so of the texture units that a draw needs; at most
+   * 16. */
+  uint32_t texture_count;
+  nook_gl_upload_texture textures[16];
+  /* The memory of all textures. On OpenGL ES, tables of texels are textures with rows of 2048 texels. */
+  uint64_t bytes;
+  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions. Every name in it begins with nook_, Nook
+   * or NOOK_. The text is valid until the next update of the upload, or its end. */
+  const char* glsl;
+  /* The name of a uniform of constants, or NULL if there is none. A grid has nook_grid_frame,
+   * clips have nook_clip_vec4s. */
+  const char* constant;
+  /* The values of the uniform: constant_vec4s times four floats, for glUniform4fv. If constant_vec4s is 0,
+   * the uniform is one integer, the first value, for glUniform1i. */
+  float constant_values[16];
+  uint32_t constant_vec4s;
+  /* 1: walls choose among the probes of a grid. */
+  int32_t walls;
+} nook_gl_upload_info;
+
+/* Describes an upload, for your shaders and for hosts that bind textures themselves. The call makes no OpenGL
+ * call.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_gl_upload_describe(nook_gl_upload upload, nook_gl_upload_info* info);
+
+/* Prepares a draw with program. Binds the textures to the texture units from first_unit on, without sampler
+ * objects, and sets the sampler uniforms and the constants of the program. It changes three things and leaves
+ * them, in every nook_gl_state_mode: the program is in use, the textures are bound to their units, and no
+ * sampler object is bound to these units. The active unit is treated as state_mode says.
+ * A sampler that your shader does not use may be missing in the program. If all are missing, the call fails
+ * and changes nothing; the message names what the program was compiled for.
+ * Context thread. Errors: INVALID_ARGUMENT (program is not a linked program, was compiled with the GLSL of
+ * another kind of upload, or first_unit + texture_count exceeds GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS), GL. */
+NOOK_API nook_result nook_gl_upload_bind(nook_gl_upload upload, uint32_t program, uint32_t first_unit);
+
+/* Deletes the OpenGL objects and sets *upload to NULL; *upload may be NULL. You may destroy the nook_gl
+ * before, but the OpenGL context of nook_gl_create must be current. After nook_gl_context_lost none is
+ * needed. Context thread. */
+NOOK_API void nook_gl_upload_destroy(nook_gl_upload* upload);
+
+/* ---- Probes in shaders ----
+ *
+ * Form LOBES keeps the lobes of a probe or a grid in a table of texels, with the sampler nook_probe_texels.
+ * Your shader:
+ *     NookProbeSurface surface =
+ *         NookProbeSurface(normal_ws, view_ws, tangent_ws, vec2(alpha_x, alpha_y), reflectance);
+ *     NookProbePlace place = nook_probe_place(position_ws);  // once: the probes around a point
+ *     vec3 e = nook_probe_irradiance(place, normal_ws);
+ *     colour = nook_probe_ambient(albedo, e, vec3(ao));  // or directional occlusion instead of ao
+ *     colour += nook_probe_specular_anisotropic(place, surface) *
+ *               nook_probe_specular_occlusion(ao, n_dot_v, roughness);
+ * The same functions exist for a single lobe, such as one in a uniform block: nook_sg_lobe_radiance,
+ * nook_sg_lobe_irradiance and so on; shaders/probe documents them. NookLobe has the layout of nook_lobe in
+ * std140 and std430. The GLSL agrees with nook_probe.h on the CPU within 1e-4 of the largest value. The text
+ * is the same for every probe.
+ *
+ * Forms SH and ZH3 keep a grid of diffuse light in a 3D texture of GL_RGBA16F, which the hardware filters:
+ * 7 fetches per pixel, 4 for ZH3, at most 40 where walls choose among the probes of ZH3. They are smaller and
+ * faster than lobes. The sampler is nook_grid_texels, the constant nook_grid_frame. Your shader:
+ *     vec3 e = nook_grid_irradiance(position_ws, normal_ws);
+ *
+ * A capture turns cube maps that your engine renders into probes, while the game runs: see nook_capture.h. */
+
+/* The numbers that an upload holds for each probe. */
+enum {
+  /* Bands 0 to 2 of spherical harmonics, 27 half floats. */
+  NOOK_GL_PROBE_SH = 0,
+  /* ZH3, see nook_sh_to_zh3, 15 half floats. */
+  NOOK_GL_PROBE_ZH3 = 1,
+  /* The lobes of the probe, four floats each. */
+  NOOK_GL_PROBE_LOBES = 2
+};
+typedef int32_t nook_gl_probe_form;
+
+/* Uploads a probe or a grid in a form, with its walls if it was baked with them and the form is not LOBES.
+ * You may destroy the probe afterwards. For SH and ZH3, lobes are projected exactly, and bands above 2 are
+ * left out. On failure *out is NULL and no OpenGL object is left.
+ * Context thread. Errors: INVALID_ARGUMENT (LOBES: the basis of the probe is not NOOK_PROBE_BASIS_LOBES; SH
+ * and ZH3: the probe is of ambient dice, or a coefficient is above 65504), UNSUPPORTED (LOBES: the probe
+ * exceeds the texture buffer of this OpenGL, as it takes 3 + lobes * (1 + probes) texels, and every OpenGL
+ * has 65,536; SH and ZH3: the texture has counts x by counts y by 7 counts z texels, as ZH3 4 counts z, with
+ * walls 5 counts z more, and one of these is above GL_MAX_3D_TEXTURE_SIZE, which is 256 or more), GL,
+ * OUT_OF_MEMORY. */
+NOOK_API nook_result nook_gl_upload_probe(nook_gl gl, nook_probe probe, nook_gl_probe_form form,
+                                          nook_gl_upload* out);
+
+/* Uploads another probe or grid in place of the present one, in the form that the upload has, such as the
+ * next preview of a bake. The textures keep their names. Draws that were issued before still read the old
+ * values. The constant changes with the box of a grid, and the GLSL if one of both has walls and the other
+ * has none. On failure the old probe stays. Context thread. Errors: those of nook_gl_upload_probe,
+ * INVALID_ARGUMENT (the upload is not a probe). */
+NOOK_API nook_result nook_gl_update_probe(nook_gl_upload upload, nook_probe probe);
+
+/* ---- Materials in shaders ----
+ *
+ * Materials in the host's shaders: a material as textures, and the GLSL that decodes them per pixel.
+ *
+ * Load a material and call nook_gl_upload_material once. Put its GLSL after the #version line of your
+ * fragment shader, and call nook_gl_upload_bind for each draw. Your shader:
+ *     vec4 modes[NOOK_LIGHT_VEC4_COUNT];
+ *     nook_material_decode(uv, dFdx(uv), dFdy(uv), view, modes);
+ *     colour = nook_material_radiance(modes, light) * irradiance;
+ *     alpha = nook_material_visibility(nook_material_occlusion(uv, dFdx(uv), dFdy(uv), view));
+ * nook_material_radiance is called once for each light, and its result includes the cosine.
+ *
+ * Both filter a pixel by one fetch of each mode at the mipmap level of its longer side, which blurs grazing
+ * views. With several fetches along that side, `fetches` being a constant of 1 to NOOK_MATERIAL_MAX_FETCHES,
+ *     nook_material_decode_anisotropic(uv, dFdx(uv), dFdy(uv), view, fetches, modes);
+ *     alpha = nook_material_visibility(
+ *         nook_material_occlusion_anisotropic(uv, dFdx(uv), dFdy(uv), view, fetches));
+ * stay sharp, see nook_material_evaluate. Each fetch beyond the first costs
+ * further_decode_fetches of nook_material_info; the modelled cost of a program that calls neither is within
+ * 0.2 % of what it is without them.
+ *
+ * The text of a neural material has the same functions. Its `modes` are no light modes but sums of the
+ * network for the pixel: other shaders cannot add them up or mix them.
+ *
+ * Silhouettes of the meso-structure need two passes over the same triangles. The first pass draws pixels with
+ * alpha = 1 and discards the others. The second pass blends those with 0 < alpha < 1 by alpha; it tests depth
+ * but does not write it. */
+
+/* Uploads a material, which you may destroy afterwards, as GL_TEXTURE_2D_ARRAYs. Materials of the same sizes
+ * and mapping have the same GLSL and may share a program; that of a neural material has constants for its
+ * weights, and no other material has it. The uniform vec2 nook_visibility_mapping, a constant on OpenGL ES,
+ * holds threshold and weight and starts with those of the material; the paper uses 0.5 and 1 for masks, and
+ * 0.05 and 12 for distances. On failure *out is NULL and no OpenGL object is left.
+ * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the material needs more texture units or larger
+ * textures than this OpenGL has, or blocks that it does not have), GL, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_gl_upload_material(nook_gl gl, nook_material material, nook_gl_upload* out);
+
+/* ---- Clips in shaders ----
+ *
+ * The AO of baked clips, decoded in your vertex shader: see nook_clips.h. Call nook_gl_upload_clips once, put
+ * its GLSL after the #version line of your vertex shader, and call nook_gl_upload_bind for each draw.
+ * nook_clips_frames gives the frames and their share for each character; pass both as uniforms or as
+ * attributes of the instance. Your shader:
+ *     float ao = nook_clip_ao(gl_VertexID, frames, share);
+ * The first argument is the number of a file vertex; where gl_VertexID counts other vertices, pass the number
+ * as an attribute. The shader reads mode_count / 4 texels of the modes, and twice as many of the weights,
+ * which are the same for all vertices of a character. */
+
+/* Uploads clips, which you may destroy afterwards, as two GL_TEXTURE_2Ds for the samplers nook_clip_modes and
+ * nook_clip_weights. The constant is the integer nook_clip_vec4s. The GLSL has the function
+ *     float nook_clip_ao(int vertex, ivec2 frames, float share);
+ * and is the same for all clips. On failure *out is NULL and no OpenGL object is left.
+ * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (a table exceeds GL_MAX_TEXTURE_SIZE rows of 2048
+ * texels), GL, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_gl_upload_clips(nook_gl gl, nook_clips clips, nook_gl_upload* out);
 
 #ifdef __cplusplus
 }

@@ -6,8 +6,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "experimental/nook_debug.h"
 #include "nook_character.hpp"
+#include "nook_clips.hpp"
 #include "nook_gl.h"
+#include "nook_material.hpp"
+#include "nook_probe.hpp"
 
 namespace nook {
 inline namespace wrapper {
@@ -15,7 +19,14 @@ inline namespace wrapper {
 // The caller sets get_proc.
 inline nook_gl_desc gl_desc() {
   nook_gl_desc desc;
-  check(nook_gl_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  check(nook_gl_desc_init(&desc));
+  return desc;
+}
+
+// You set the size, the depth texture, the projection and, where the camera moves, the view.
+inline nook_gl_frame_desc gl_frame_desc() {
+  nook_gl_frame_desc desc;
+  check(nook_gl_frame_desc_init(&desc));
   return desc;
 }
 
@@ -51,8 +62,8 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
   void write_ao(const Scene& scene, const std::vector<nook_instance_id>& ids,
                 nook_gl_ao_target target) const {
     target.struct_size = sizeof target;
-    check(nook_gl_scene_write_ao(get(), scene.get(), ids.data(), static_cast<std::uint32_t>(ids.size()),
-                                 &target));
+    check(
+        nook_gl_scene_write(get(), scene.get(), ids.data(), static_cast<std::uint32_t>(ids.size()), &target));
   }
   // Waits for the GPU.
   void read_ao(const Scene& scene, nook_instance_id id, float* out, std::uint32_t count) const {
@@ -75,6 +86,49 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
   static nook_gl create(const Context& context, const nook_gl_desc& desc) {
     nook_gl handle = nullptr;
     check(nook_gl_create(context.get(), &desc, &handle));
+    return handle;
+  }
+};
+
+// A probe, a grid or a material as textures, and the GLSL that reads them. Every function and the destructor
+// belong to the context thread, as nook_gl.h documents.
+class Upload : public Unique<nook_gl_upload, nook_gl_upload_destroy> {
+ public:
+  Upload() = default;
+  // Takes over a handle, such as one that a function of an experimental header made.
+  explicit Upload(nook_gl_upload handle) : Unique(handle) {}
+  Upload(const Gl& gl, nook_probe probe, nook_gl_probe_form form) : Unique(create(gl, probe, form)) {}
+  Upload(const Gl& gl, const Material& material) : Unique(create(gl, material)) {}
+
+  Upload(const Gl& gl, const Clips& clips) : Unique(create(gl, clips)) {}
+
+  // Replaces the probe of an upload of a probe.
+  void update(nook_probe probe) { check(nook_gl_update_probe(get(), probe)); }
+  nook_gl_upload_info info() const {
+    nook_gl_upload_info info{};
+    info.struct_size = sizeof info;
+    check(nook_gl_upload_describe(get(), &info));
+    return info;
+  }
+  // Leaves the program in use and the textures bound.
+  void bind(std::uint32_t program, std::uint32_t first_unit) const {
+    check(nook_gl_upload_bind(get(), program, first_unit));
+  }
+
+ private:
+  static nook_gl_upload create(const Gl& gl, nook_probe probe, nook_gl_probe_form form) {
+    nook_gl_upload handle = nullptr;
+    check(nook_gl_upload_probe(gl.get(), probe, form, &handle));
+    return handle;
+  }
+  static nook_gl_upload create(const Gl& gl, const Material& material) {
+    nook_gl_upload handle = nullptr;
+    check(nook_gl_upload_material(gl.get(), material.get(), &handle));
+    return handle;
+  }
+  static nook_gl_upload create(const Gl& gl, const Clips& clips) {
+    nook_gl_upload handle = nullptr;
+    check(nook_gl_upload_clips(gl.get(), clips.get(), &handle));
     return handle;
   }
 };

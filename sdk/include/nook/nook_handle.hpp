@@ -19,10 +19,11 @@ namespace nook {
 // nook::Scene.
 inline namespace wrapper {
 
-// A failed call: what() is the message of nook_last_message().
+// A failed call: what() is the message of nook_last_message(), or of the library that failed.
 class Error : public std::runtime_error {
  public:
-  explicit Error(nook_result result) : std::runtime_error(nook_last_message()), result_(result) {}
+  explicit Error(nook_result result) : Error(result, nook_last_message()) {}
+  Error(nook_result result, const char* message) : std::runtime_error(message), result_(result) {}
   nook_result result() const noexcept { return result_; }
 
  private:
@@ -56,7 +57,7 @@ class Unique {
 
 inline nook_context_desc context_desc() {
   nook_context_desc desc;
-  check(nook_context_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  check(nook_context_desc_init(&desc));
   return desc;
 }
 

@@ -19,7 +19,7 @@
  * Directions are unit vectors in tangent space that point away from the surface: x along u, y along v, z
  * along the normal.
  *
- * nook_gl_material.h uploads a material and has the GLSL that decodes it per pixel. */
+ * nook_gl.h uploads a material and has the GLSL that decodes it per pixel. */
 #ifndef NOOK_MATERIAL_H
 #define NOOK_MATERIAL_H
 
@@ -29,70 +29,64 @@
 extern "C" {
 #endif
 
-typedef struct nook_material_s* nook_material;
-
 /* The contents of a material's VOTF. */
 enum {
   /* There is no VOTF; the surface is visible everywhere. */
   NOOK_MATERIAL_VISIBILITY_NONE = 0,
   /* A mask: 1 where the view meets the meso-structure, 0 where it passes through. */
-  NOOK_MATERIAL_VISIBILITY_BINARY = 1,
+  NOOK_MATERIAL_VISIBILITY_MASK = 1,
   /* The signed distance to the boundary of that mask, positive where the view meets the meso-structure. */
   NOOK_MATERIAL_VISIBILITY_DISTANCE = 2
 };
 typedef int32_t nook_material_visibility;
 
-/* Loads a material from the bytes of a .nook file and expands it, through the context's parallel_for if there
- * is one; the caller may free the bytes afterwards. The library validates everything, so that hostile bytes
- * are safe. On failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
-NOOK_API nook_result nook_material_load(nook_context context, const void* bytes, size_t size,
-                                        nook_material* out);
-
 /* The form of a material's spatial modes, in host memory and in textures. WebGL 2 has either form of blocks
  * only as an extension that the page enables. */
 enum {
   /* As the file has its numbers: signed bytes, or half floats. Every context has these textures. */
-  NOOK_MATERIAL_MODES_PLAIN = 0,
+  NOOK_MATERIAL_BLOCKS_NONE = 0,
   /* Blocks of 4 x 4 texels, about half of the bytes of signed bytes: signed RGTC (BC5). OpenGL has it, and
    * OpenGL ES with GL_EXT_texture_compression_rgtc. In WebGL both sides of the tile have to be multiples of 4
    * texels. */
-  NOOK_MATERIAL_MODES_RGTC = 1,
+  NOOK_MATERIAL_BLOCKS_RGTC = 1,
   /* The same, in signed EAC (RG11). OpenGL ES has it, and OpenGL 4.3 or GL_ARB_ES3_compatibility, where most
    * drivers expand it. */
-  NOOK_MATERIAL_MODES_EAC = 2
+  NOOK_MATERIAL_BLOCKS_EAC = 2
 };
-typedef int32_t nook_material_modes;
+typedef int32_t nook_material_blocks;
 
 typedef struct nook_material_desc {
   /* nook_material_desc_init sets these two. */
   uint32_t struct_size;
-  uint32_t header_version;
+  uint32_t type;
   /* Must be NULL. */
   const void* next;
-  /* Default: NOOK_MATERIAL_MODES_PLAIN. Blocks of two channels take two fetches for four numbers. With
-   * blocks, the modes that stay whole and the light map are signed bytes, also of a file of half floats, and
-   * the light map has 32 x 32 cells for up to 128 lights. The VOTF is in blocks as well, which is all that
-   * they change of a neural material. */
-  nook_material_modes modes;
-  /* With blocks: the number of first light modes that stay whole, because they have most of what blocks would
-   * lose; rounded up to a multiple of 4. 0 to 3,072; 0: all are in blocks. Default: 4. */
+  /* Default: NOOK_MATERIAL_BLOCKS_NONE. With blocks, four numbers take two fetches, because a block has two
+   * channels. The modes that stay whole and the light map become signed bytes, also for a file of half
+   * floats, and the light map has 32 x 32 cells for up to 128 lights. The VOTF is stored in blocks as well.
+   * Of a neural material, only the VOTF changes. */
+  nook_material_blocks blocks;
+  /* With blocks: the number of first light modes that stay whole, because blocks would lose most there.
+   * Nook rounds it up to a multiple of 4. 0 to 3,072; 0 stores all of them in blocks. Default: 4. */
   int32_t whole_light_modes;
 } nook_material_desc;
 
-/* Fills *desc with defaults, as nook_context_desc_init does.
- * Any thread. Errors: INVALID_ARGUMENT, VERSION. */
-NOOK_API nook_result nook_material_desc_init(nook_material_desc* desc, size_t size, uint32_t header_version);
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_material_desc_init(nook_material_desc* desc) {
+  return nook_desc_init(NOOK_DESC_MATERIAL, desc, sizeof *desc, NOOK_VERSION);
+}
 
-/* As nook_material_load, which is this call with desc NULL. Blocks are encoded here, so that
- * nook_material_evaluate reads the numbers that textures will hold. Drivers that interpolate RGTC with
- * weights of bytes, as llvmpipe, are the exception: some of their texels are off by 1/127 of the largest
- * number of a mode, and decoded values of random materials by up to 4/127. Radiance transfer that was baked
- * with a file of half floats does not fit the same file with blocks.
- * Any thread. Errors: INVALID_ARGUMENT (also, the blocks of a tensor take more than 1 GiB, which a tile of
- * few texels can), VERSION, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
-NOOK_API nook_result nook_material_load_with(nook_context context, const void* bytes, size_t size,
-                                             const nook_material_desc* desc, nook_material* out);
+/* Loads a material from the bytes of a .nook file; desc may be NULL, which means its defaults. You may free
+ * the bytes afterwards. Nook expands the material here, through the context's parallel_for if you set one,
+ * and validates every number, so that hostile bytes are safe. On failure *out is NULL.
+ *
+ * With blocks, textures take about half the memory. They are encoded here, so that nook_material_evaluate
+ * returns what the shader will. Two warnings: some drivers (llvmpipe) interpolate RGTC with byte weights, and
+ * decoded values can differ by 4/127; and transfer that was baked with a file of half floats does not fit
+ * that file with blocks. Any thread. Errors: INVALID_ARGUMENT (also, the blocks of a tensor take more than 1
+ * GiB, which a tile with few texels can), BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_material_load(nook_context context, const void* bytes, size_t size,
+                                        const nook_material_desc* desc, nook_material* out);
 
 /* Releases the caller's reference and sets *material to NULL.
  * Any thread. */
@@ -167,17 +161,6 @@ typedef struct nook_material_info {
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_material_describe(nook_material material, nook_material_info* info);
 
-typedef struct nook_material_sample {
-  /* Texture coordinates; 0 to 1 is one tile, and the tile repeats. */
-  float uv[2];
-  /* Mipmap level: log2 of the number of texels that a pixel covers along a side. */
-  float level;
-  /* Unit vector; a view from below the horizon is moved onto it. */
-  float view[3];
-  /* Unit vector; light from below the horizon gives black. */
-  float light[3];
-} nook_material_sample;
-
 typedef struct nook_material_value {
   /* Linear red, green and blue towards the view, for an irradiance of 1 on a plane that faces the light.
    * Compression may leave it slightly negative, but for a neural material. */
@@ -192,13 +175,18 @@ typedef struct nook_material_value {
 /* The largest number of fetches along the longer side of a pixel. */
 enum { NOOK_MATERIAL_MAX_FETCHES = 8 };
 
-/* A pixel of a picture, of any shape. Where a view is tilted it is longer along the tilt, and a single mipmap
- * level blurs it across. */
+/* A pixel of a picture, of any shape. A tilted view makes it longer along the tilt, and one mipmap level for
+ * the longer side blurs it across.
+ *
+ * To ask for a mipmap level, pass a round pixel and 1 fetch:
+ *     pixel.dx[0] = exp2f(level) / (float)info.width;
+ *     pixel.dy[1] = exp2f(level) / (float)info.height;
+ * and leave dx[1] and dy[0] at 0. */
 typedef struct nook_material_pixel {
   /* Texture coordinates of its middle; 0 to 1 is one tile, and the tile repeats. */
   float uv[2];
-  /* Their changes from this pixel to its neighbours to the right and above, as dFdx(uv) and dFdy(uv). Zero is
-   * a pixel without a size, which sees the finest level. */
+  /* The changes of uv from this pixel to its neighbours to the right and above, as dFdx(uv) and dFdy(uv). If
+   * both are 0, the pixel has no size and sees the finest level. */
   float dx[2];
   float dy[2];
   /* Unit vector; a view from below the horizon is moved onto it. */
@@ -207,27 +195,22 @@ typedef struct nook_material_pixel {
   float light[3];
 } nook_material_pixel;
 
-/* Decodes samples on the CPU. This is the reference of the GLSL, which agrees within 1/255 for radiances up
- * to 1 where the driver weighs texels with floats; with RGTC see nook_material_load_with. GPUs weigh them
- * with about 8 bits, which is as if the place were moved by 1/512 of a texel. Any thread. Errors:
- * INVALID_ARGUMENT (also, a number of a sample is not finite). */
-NOOK_API nook_result nook_material_evaluate(nook_material material, const nook_material_sample* samples,
-                                            uint32_t count, nook_material_value* values);
-
-/* Decodes pixels on the CPU, each as the mean over `fetches` places along the longer side of its footprint, 1
- * to NOOK_MATERIAL_MAX_FETCHES. In views beyond 60 degrees of seven measured files, against the same file
- * with many samples for a pixel, 2 leave a fifth at most, and of neural materials two fifths, of the squared
- * error of one fetch at the level of the longer side. Each place has the level of the shorter side, or of its
- * share of the longer one where that is more: pixels longer than `fetches` times their width are blurred
- * across, and none has gaps. A round pixel is decoded as by nook_material_evaluate. Of a relief or a neural
- * material the view's ray through each place meets a point of its own; a neural material decodes the mean of
- * the features, as its mipmaps do. This is the reference of nook_material_decode_anisotropic and
- * nook_material_occlusion_anisotropic of the GLSL.
+/* Decodes pixels on the CPU. Each value is the mean over `fetches` places along the longer side of the pixel,
+ * 1 to NOOK_MATERIAL_MAX_FETCHES. Use it to check your shader: with 1 fetch and round pixels it is the
+ * reference of nook_material_decode and nook_material_occlusion, with more fetches of the functions whose
+ * names end in _anisotropic. The GLSL agrees within 1/255 for radiances up to 1 if the driver weighs texels
+ * with floats; for RGTC see nook_material_load. GPUs weigh texels with about 8 bits, which has the effect of
+ * moving the place by 1/512 of a texel.
+ *
+ * Two fetches leave at most a fifth of the squared error of one in views beyond 60 degrees, and two fifths
+ * with neural materials (seven measured files). Each place has the mipmap level of the shorter side, or of
+ * its share of the longer side if that is larger: pixels longer than `fetches` times their width are blurred
+ * across, and none has gaps. With a relief or a neural material, the view's ray meets a point of its own
+ * through each place; a neural material decodes the mean of the features, as its mipmaps do.
  * Any thread. Errors: INVALID_ARGUMENT (also, a number of a pixel is not finite, or fetches is out of range).
  */
-NOOK_API nook_result nook_material_evaluate_anisotropic(nook_material material,
-                                                        const nook_material_pixel* pixels, uint32_t count,
-                                                        uint32_t fetches, nook_material_value* values);
+NOOK_API nook_result nook_material_evaluate(nook_material material, const nook_material_pixel* pixels,
+                                            uint32_t count, uint32_t fetches, nook_material_value* values);
 
 #ifdef __cplusplus
 }

@@ -13,7 +13,7 @@ inline namespace wrapper {
 
 inline nook_material_desc material_desc() {
   nook_material_desc desc;
-  check(nook_material_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  check(nook_material_desc_init(&desc));
   return desc;
 }
 
@@ -29,19 +29,16 @@ class Material : public Unique<nook_material, nook_material_destroy> {
     check(nook_material_describe(get(), &info));
     return info;
   }
-  void evaluate(const nook_material_sample* samples, std::uint32_t count, nook_material_value* values) const {
-    check(nook_material_evaluate(get(), samples, count, values));
-  }
-  void evaluate_anisotropic(const nook_material_pixel* pixels, std::uint32_t count, std::uint32_t fetches,
-                            nook_material_value* values) const {
-    check(nook_material_evaluate_anisotropic(get(), pixels, count, fetches, values));
+  void evaluate(const nook_material_pixel* pixels, std::uint32_t count, std::uint32_t fetches,
+                nook_material_value* values) const {
+    check(nook_material_evaluate(get(), pixels, count, fetches, values));
   }
 
  private:
   static nook_material load(const Context& context, const void* bytes, std::size_t size,
                             const nook_material_desc& desc) {
     nook_material handle = nullptr;
-    check(nook_material_load_with(context.get(), bytes, size, &desc, &handle));
+    check(nook_material_load(context.get(), bytes, size, &desc, &handle));
     return handle;
   }
 };

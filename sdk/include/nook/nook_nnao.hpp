@@ -4,9 +4,10 @@
 
 #include <cstdint>
 
+#include "experimental/nook_recording.hpp"
+#include "experimental/nook_stages.h"
 #include "nook_gl.hpp"
 #include "nook_nnao.h"
-#include "nook_nnao_recording.hpp"
 
 namespace nook {
 inline namespace wrapper {
@@ -14,15 +15,15 @@ inline namespace wrapper {
 // The caller sets max_width and max_height.
 inline nook_nnao_desc nnao_desc(nook_nnao_preset preset = NOOK_NNAO_PRESET_DEFAULT) {
   nook_nnao_desc desc;
-  check(nook_nnao_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  check(nook_nnao_desc_init(&desc));
   check(nook_nnao_desc_set_preset(&desc, preset));
   return desc;
 }
 
-// The caller sets the size, the depth texture, the projection and the radius.
+// You set the radius.
 inline nook_nnao_frame_desc nnao_frame_desc() {
   nook_nnao_frame_desc desc;
-  check(nook_nnao_frame_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  check(nook_nnao_frame_desc_init(&desc));
   return desc;
 }
 
@@ -39,11 +40,13 @@ class Nnao : public Unique<nook_nnao, nook_nnao_destroy> {
   Nnao() = default;
   Nnao(const Gl& gl, const nook_nnao_desc& desc) : Unique(create(gl, desc)) {}
 
-  void render(const nook_nnao_frame_desc& frame) { check(nook_nnao_render(get(), &frame)); }
-  void recheck() { check(nook_nnao_recheck(get())); }
-  Recording record(const nook_nnao_frame_desc& frame, const char* note = nullptr) {
+  void render(const nook_gl_frame_desc& frame, const nook_nnao_frame_desc& desc) {
+    check(nook_nnao_render(get(), &frame, &desc));
+  }
+  Recording record(const nook_gl_frame_desc& frame, const nook_nnao_frame_desc& desc,
+                   const char* note = nullptr) {
     nook_nnao_recording handle = nullptr;
-    check(nook_nnao_record(get(), &frame, note, &handle));
+    check(nook_nnao_record(get(), &frame, &desc, note, &handle));
     return Recording(handle);
   }
   nook_nnao_info info() const {

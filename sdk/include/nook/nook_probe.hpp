@@ -14,14 +14,14 @@ inline namespace wrapper {
 
 inline nook_probe_fit_desc probe_fit_desc() {
   nook_probe_fit_desc desc;
-  check(nook_probe_fit_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  check(nook_probe_fit_desc_init(&desc));
   return desc;
 }
 
-// The caller sets functions and coefficients.
+// The caller sets fits, lobes, or functions and coefficients.
 inline nook_probe_desc probe_desc() {
   nook_probe_desc desc;
-  check(nook_probe_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  check(nook_probe_desc_init(&desc));
   return desc;
 }
 
@@ -53,22 +53,18 @@ class Probe : public Unique<nook_probe, nook_probe_destroy> {
     return rgb;
   }
   // position_ws may be NULL for the first probe.
-  std::vector<nook_probe_lobe> lobes(const float* position_ws = nullptr) const {
-    std::vector<nook_probe_lobe> all(info().function_count);
+  std::vector<nook_lobe> lobes(const float* position_ws = nullptr) const {
+    std::vector<nook_lobe> all(info().function_count);
     check(nook_probe_read_lobes(get(), position_ws, all.data(), static_cast<std::uint32_t>(all.size())));
     return all;
   }
-  void radiance(const float* position_ws, const float* directions, float* rgb, std::size_t count) const {
-    check(nook_probe_radiance(get(), position_ws, directions, rgb, count));
+  // positions_ws has a position for each direction, or is NULL for the first probe.
+  void radiance(const float* positions_ws, const float* directions, float* rgb, std::size_t count) const {
+    check(nook_probe_radiance(get(), positions_ws, directions, rgb, count));
   }
-  void irradiance(const float* position_ws, nook_probe_irradiance_form form, const float* normals, float* rgb,
-                  std::size_t count) const {
-    check(nook_probe_irradiance(get(), position_ws, form, normals, rgb, count));
-  }
-  // Every surface has a position of its own.
-  void surface_irradiance(nook_probe_irradiance_form form, const float* positions_ws, const float* normals,
-                          float* rgb, std::size_t count) const {
-    check(nook_probe_surface_irradiance(get(), form, positions_ws, normals, rgb, count));
+  // positions_ws has a position for each normal, or is NULL for the first probe.
+  void irradiance(const float* positions_ws, const float* normals, float* rgb, std::size_t count) const {
+    check(nook_probe_irradiance(get(), positions_ws, normals, rgb, count));
   }
 
  private:
@@ -93,7 +89,6 @@ class ProbeFit : public Unique<nook_probe_fit, nook_probe_fit_destroy> {
   void add_samples(const float* directions, const float* radiance, const float* weights, std::size_t count) {
     check(nook_probe_fit_add_samples(get(), directions, radiance, weights, count));
   }
-  void seed(const ProbeFit& short_run) { check(nook_probe_fit_seed(get(), short_run.get())); }
   void merge(const ProbeFit& other) { check(nook_probe_fit_merge(get(), other.get())); }
   void reset() { check(nook_probe_fit_reset(get())); }
   nook_probe_fit_info info() const {
@@ -101,12 +96,6 @@ class ProbeFit : public Unique<nook_probe_fit, nook_probe_fit_destroy> {
     info.struct_size = sizeof info;
     check(nook_probe_fit_describe(get(), &info));
     return info;
-  }
-  // Returns the RGB coefficients of all functions.
-  std::vector<float> read() const {
-    std::vector<float> rgb(std::size_t(3) * info().function_count);
-    check(nook_probe_fit_read(get(), rgb.data(), static_cast<std::uint32_t>(rgb.size() / 3)));
-    return rgb;
   }
   Probe solve() const {
     nook_probe handle = nullptr;

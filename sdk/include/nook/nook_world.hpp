@@ -1,45 +1,50 @@
-// C++17 wrappers of world casters: nook_world.h.
+// C++17 wrappers of the world pass: nook_world.h.
 #ifndef NOOK_WORLD_HPP
 #define NOOK_WORLD_HPP
 
-#include <cstdint>
-#include <vector>
-
-#include "nook_character.hpp"
+#include "nook_gl.hpp"
 #include "nook_world.h"
 
 namespace nook {
 inline namespace wrapper {
 
-// The casters of a model; throws UNSUPPORTED for a model that was baked without.
-inline std::vector<nook_world_caster> world_casters(const CharacterModel& model) {
-  std::uint32_t count = NOOK_WORLD_MAX_CASTERS;
-  std::vector<nook_world_caster> casters(count);
-  check(nook_world_read_casters(model.get(), casters.data(), &count));
-  casters.resize(count);
-  return casters;
-}
-
-// The caller sets points and normals, and a light where there is one.
-inline nook_world_sample_desc world_sample_desc() {
-  nook_world_sample_desc desc;
-  check(nook_world_sample_desc_init(&desc, sizeof desc, NOOK_VERSION));
+// The caller sets max_width and max_height.
+inline nook_world_desc world_pass_desc() {
+  nook_world_desc desc;
+  check(nook_world_desc_init(&desc));
   return desc;
 }
 
-// The AO at the points of desc.
-inline std::vector<float> world_ao(const Scene& scene, const nook_world_sample_desc& desc) {
-  std::vector<float> ao(desc.point_count);
-  check(nook_world_sample(scene.get(), &desc, ao.data(), nullptr));
-  return ao;
+// You set what casts.
+inline nook_world_frame_desc world_frame_desc() {
+  nook_world_frame_desc desc;
+  check(nook_world_frame_desc_init(&desc));
+  return desc;
 }
 
-// The open share of the light of desc at its points.
-inline std::vector<float> world_light(const Scene& scene, const nook_world_sample_desc& desc) {
-  std::vector<float> light(desc.point_count);
-  check(nook_world_sample(scene.get(), &desc, nullptr, light.data()));
-  return light;
-}
+// Every function and the destructor belong to the context thread, as nook_world.h documents.
+class WorldPass : public Unique<nook_world, nook_world_destroy> {
+ public:
+  WorldPass() = default;
+  WorldPass(const Gl& gl, const nook_world_desc& desc) : Unique(create(gl, desc)) {}
+
+  void render(const nook_gl_frame_desc& frame, const nook_world_frame_desc& desc) {
+    check(nook_world_render(get(), &frame, &desc));
+  }
+  nook_world_info info() const {
+    nook_world_info info{};
+    info.struct_size = sizeof info;
+    check(nook_world_describe(get(), &info));
+    return info;
+  }
+
+ private:
+  static nook_world create(const Gl& gl, const nook_world_desc& desc) {
+    nook_world handle = nullptr;
+    check(nook_world_create(gl.get(), &desc, &handle));
+    return handle;
+  }
+};
 
 }  // namespace wrapper
 }  // namespace nook

@@ -1,17 +1,37 @@
-#include <algorithm>
+#include <cstddef>
+#include <cstring>
 
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
-#include "sdk/src/character/blocked_vectors.h"
 #include "sdk/src/character/memory_use.h"
 #include "sdk/src/character/model_file.h"
+#include "sdk/src/character/occluded_directions.h"
 #include "sdk/src/core/descriptors.h"
 
 using namespace nook;
 
-nook_result nook_character_model_load(nook_context context, const void* bytes, size_t size,
-                                      nook_character_model* out) {
-  return api::enter("nook_character_model_load", [&] {
+namespace {
+
+void copy_static_ao(const CharacterModel& m, std::byte* out, std::size_t stride) {
+  if (m.static_ao.empty())
+    throw Failure(NOOK_ERROR_UNSUPPORTED, "the model was baked without static AO; bake it with it");
+  for (const std::uint32_t welded : m.file_to_welded) {
+    std::memcpy(out, &m.static_ao[welded], sizeof(float));
+    out += stride;
+  }
+}
+
+void copy_occluded(const CharacterModel& m, std::int8_t* out, std::size_t stride) {
+  if (m.occluded.empty())
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the model was baked without bent normals; add them with `nook bake bent`");
+  copy_occluded_directions(m, out, stride);
+}
+
+}  // namespace
+
+nook_result nook_model_load(nook_context context, const void* bytes, size_t size, nook_model* out) {
+  return api::enter("nook_model_load", [&] {
     need(out, "out");
     *out = nullptr;
     need(context, "context");
@@ -20,7 +40,7 @@ nook_result nook_character_model_load(nook_context context, const void* bytes, s
     const auto read = [&](Memory* memory) {
       return read_character_model({static_cast<const std::byte*>(bytes), size}, memory);
     };
-    *out = Owned<nook_character_model_s>::make(context->memory(), shared, shared, read).detach();
+    *out = Owned<nook_model_s>::make(context->memory(), shared, shared, read).detach();
     const CharacterModel& loaded = (*out)->model;
     context->log(
         NOOK_LOG_INFO, "character model: %zu vertices, %zu bones, %zu spheres, %zu key points, %zu bytes",
@@ -28,17 +48,17 @@ nook_result nook_character_model_load(nook_context context, const void* bytes, s
   });
 }
 
-void nook_character_model_destroy(nook_character_model* model) {
+void nook_model_destroy(nook_model* model) {
   if (!model || !*model) return;
   (*model)->release();
   *model = nullptr;
 }
 
-nook_result nook_character_model_describe(nook_character_model model, nook_character_model_info* info) {
-  return api::enter("nook_character_model_describe", [&] {
+nook_result nook_model_describe(nook_model model, nook_model_info* info) {
+  return api::enter("nook_model_describe", [&] {
     need(model, "model");
     const CharacterModel& m = model->model;
-    nook_character_model_info answer{};
+    nook_model_info answer{};
     answer.bone_count = static_cast<uint32_t>(m.bone_count());
     answer.sphere_count = static_cast<uint32_t>(m.spheres.size());
     answer.key_point_count = static_cast<uint32_t>(m.key_points.size());
@@ -50,73 +70,50 @@ nook_result nook_character_model_describe(nook_character_model model, nook_chara
     answer.gamma = m.kernel.gamma;
     answer.skin_count = static_cast<uint32_t>(m.bind.skins.size());
     answer.check_vertex_count = static_cast<uint32_t>(m.bind.vertices.size());
-    write_info(info, offsetof(nook_character_model_info, gamma) + sizeof info->gamma, answer);
-  });
-}
-
-nook_result nook_character_model_memory(nook_character_model model, nook_character_memory* memory) {
-  return api::enter("nook_character_model_memory", [&] {
-    need(model, "model");
-    nook_character_memory answer{};
     answer.model_bytes = sizeof *model + model->metered.bytes();
     answer.instance_bytes = instance_bytes(*model);
     answer.lit_instance_bytes = answer.instance_bytes + light_bytes(*model);
-    write_info(memory, offsetof(nook_character_memory, lit_instance_bytes) + sizeof(uint64_t), answer);
+    write_info(info, answer);
   });
 }
 
-const char* nook_character_model_bone_name(nook_character_model model, uint32_t bone) {
+const char* nook_model_bone_name(nook_model model, uint32_t bone) {
   return model && bone < model->model.bone_count() ? model->model.bone_names[bone].c_str() : nullptr;
 }
 
-nook_result nook_character_model_primitive(nook_character_model model, uint32_t primitive,
-                                           uint32_t* first_vertex, uint32_t* vertex_count) {
-  return api::enter("nook_character_model_primitive", [&] {
+nook_result nook_model_describe_primitive(nook_model model, uint32_t primitive, nook_range* out) {
+  return api::enter("nook_model_describe_primitive", [&] {
     need(model, "model");
-    need(first_vertex, "first_vertex");
-    need(vertex_count, "vertex_count");
+    need(out, "out");
     const auto& primitives = model->model.primitives;
     if (primitive >= primitives.size())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "primitive is out of range (got %u, need less than %zu)",
                     primitive, primitives.size());
-    *first_vertex = primitives[primitive].first_vertex;
-    *vertex_count = primitives[primitive].vertex_count;
+    *out = {primitives[primitive].first_vertex, primitives[primitive].vertex_count};
   });
 }
 
-nook_result nook_character_model_static_ao(nook_character_model model, float* out, uint32_t count) {
-  return api::enter("nook_character_model_static_ao", [&] {
+nook_result nook_model_read(nook_model model, nook_model_array array, void* out, uint32_t count,
+                            size_t stride) {
+  return api::enter("nook_model_read", [&] {
     need(model, "model");
+    if (array < 0 || array > NOOK_MODEL_OCCLUDED_DIRECTIONS)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "array is unknown (got %d, need 0 to %d)", array,
+                    NOOK_MODEL_OCCLUDED_DIRECTIONS);
     need(out, "out");
     const CharacterModel& m = model->model;
     if (count != m.file_to_welded.size())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "count is not the model's file_vertex_count (got %u, need %zu)", count,
                     m.file_to_welded.size());
-    if (m.static_ao.empty())
-      throw Failure(NOOK_ERROR_UNSUPPORTED, "the model was baked without static AO; bake it with it");
-    std::transform(m.file_to_welded.begin(), m.file_to_welded.end(), out,
-                   [&](std::uint32_t welded) { return m.static_ao[welded]; });
-  });
-}
-
-nook_result nook_character_model_blocked_vectors(nook_character_model model, int8_t* out, uint32_t count,
-                                                 size_t stride) {
-  return api::enter("nook_character_model_blocked_vectors", [&] {
-    need(model, "model");
-    need(out, "out");
-    const CharacterModel& m = model->model;
-    if (count != m.file_to_welded.size())
+    const std::size_t bytes = array == NOOK_MODEL_STATIC_AO ? sizeof(float) : occluded_bytes;
+    if (stride != 0 && stride < bytes)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "count is not the model's file_vertex_count (got %u, need %zu)", count,
-                    m.file_to_welded.size());
-    if (stride == 0) stride = blocked_bytes;
-    if (stride < blocked_bytes)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "stride is too small (got %zu, need 0 or at least %zu)",
-                    stride, blocked_bytes);
-    if (m.blocked.empty())
-      throw Failure(NOOK_ERROR_UNSUPPORTED,
-                    "the model was baked without bent normals; add them with `nook bake bent`");
-    copy_blocked_vectors(m, out, stride);
+                    "stride is too small (got %zu bytes, need 0 or at least %zu)", stride, bytes);
+    if (stride == 0) stride = bytes;
+    if (array == NOOK_MODEL_STATIC_AO)
+      copy_static_ao(m, static_cast<std::byte*>(out), stride);
+    else
+      copy_occluded(m, static_cast<std::int8_t*>(out), stride);
   });
 }

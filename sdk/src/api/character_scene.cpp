@@ -1,33 +1,14 @@
 #include <array>
 #include <cmath>
 
+#include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
-#include "sdk/src/character/blocked_vectors.h"
-#include "sdk/src/core/descriptors.h"
-#include "sdk/src/core/isa.h"
+#include "sdk/src/character/occluded_directions.h"
 
 using namespace nook;
 
 namespace {
-
-nook_scene_desc default_scene_desc() {
-  const SceneSettings defaults;
-  nook_scene_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.header_version = NOOK_VERSION;
-  desc.combine = defaults.combine;
-  desc.isa = defaults.isa;
-  desc.cutoff_error = defaults.cutoff_error;
-  desc.lod_error = defaults.lod_error;
-  desc.lod_distance = defaults.lod_distance;
-  desc.lod_max_interval = defaults.lod_max_interval;
-  desc.ground_radius = defaults.ground_radius;
-  desc.strict_poses = defaults.strict_poses;
-  desc.far_error = defaults.far_error;
-  return desc;
-}
-constexpr std::size_t first_scene_desc = offsetof(nook_scene_desc, strict_poses) + sizeof(std::uint32_t);
 
 // The bounds keep squares finite. The comparison fails for NaN.
 void check_range(const char* name, float value, float low, float high, const char* need) {
@@ -42,10 +23,9 @@ void check_value(const char* name, std::int32_t value, std::int32_t last) {
                   last);
 }
 
-SceneSettings settings_of(const nook_scene_desc& desc) {
+SceneSettings settings_of(const nook_scene_desc& desc, nook_isa isa) {
   constexpr float tiny = 1e-6f, huge = 1e9f;
-  check_value("combine", desc.combine, NOOK_COMBINE_PAPER);
-  check_value("isa", desc.isa, last_isa());
+  check_value("form", desc.form, NOOK_FORM_PAPER);
   check_range("cutoff_error", desc.cutoff_error, 0, 1, "0 to 1");
   check_range("far_error", desc.far_error, 0, 1, "0 to 1");
   check_range("lod_error", desc.lod_error, 0, huge, "0 or more");
@@ -57,11 +37,15 @@ SceneSettings settings_of(const nook_scene_desc& desc) {
   if (desc.strict_poses > 1)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.strict_poses is out of range (got %u, need 0 or 1)",
                   desc.strict_poses);
-  if (desc.reserved != 0)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", desc.reserved);
-  return {desc.combine,          desc.isa,           desc.cutoff_error,
-          desc.far_error,        desc.lod_error,     desc.lod_distance,
-          desc.lod_max_interval, desc.ground_radius, desc.strict_poses != 0};
+  return {desc.form,
+          isa,
+          desc.cutoff_error,
+          desc.far_error,
+          desc.lod_error,
+          desc.lod_distance,
+          desc.lod_max_interval,
+          desc.ground_radius,
+          desc.strict_poses != 0};
 }
 
 // Runs body on the scene of the handle.
@@ -73,9 +57,45 @@ nook_result with_scene(const char* function, nook_scene scene, Body&& body) noex
   });
 }
 
-Sphere sphere_of(const float* centre_ws, float radius) {
-  need(centre_ws, "centre_ws");
-  return {{centre_ws[0], centre_ws[1], centre_ws[2]}, radius};
+Sphere sphere_of(const nook_occluder& occluder) {
+  const float* const c = occluder.centre_ws;
+  return {{c[0], c[1], c[2]}, occluder.radius};
+}
+
+struct ChannelForm {
+  const char* name;
+  std::uint32_t numbers;  // for each vertex
+  nook_format first_format, last_format;
+};
+
+constexpr ChannelForm channel_forms[] = {
+    {"NOOK_CHANNEL_AO", 1, NOOK_FORMAT_FLOAT, NOOK_FORMAT_UNORM8},
+    {"NOOK_CHANNEL_DIRECTIONAL_AO", 3, NOOK_FORMAT_FLOAT, NOOK_FORMAT_FLOAT},
+    {"NOOK_CHANNEL_BENT_NORMAL", 4, NOOK_FORMAT_SNORM8, NOOK_FORMAT_SNORM8},
+};
+
+constexpr struct {
+  const char* name;
+  std::uint32_t bytes;  // of a number
+} format_forms[] = {
+    {"NOOK_FORMAT_FLOAT", 4}, {"NOOK_FORMAT_HALF", 2}, {"NOOK_FORMAT_UNORM8", 1}, {"NOOK_FORMAT_SNORM8", 1}};
+
+// Returns the bytes of a vertex.
+std::size_t entry_bytes_of(nook_channel channel, nook_format format) {
+  if (channel < 0 || channel > NOOK_CHANNEL_BENT_NORMAL)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "channel is unknown (got %d, need 0 to %d)", channel,
+                  NOOK_CHANNEL_BENT_NORMAL);
+  if (format < 0 || format > NOOK_FORMAT_SNORM8)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "format is unknown (got %d, need 0 to %d)", format,
+                  NOOK_FORMAT_SNORM8);
+  const ChannelForm& form = channel_forms[channel];
+  if (format < form.first_format || format > form.last_format)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  channel == NOOK_CHANNEL_AO
+                      ? "%s cannot be read as %s; use %s, NOOK_FORMAT_HALF or NOOK_FORMAT_UNORM8"
+                      : "%s cannot be read as %s; use %s",
+                  form.name, format_forms[format].name, format_forms[form.first_format].name);
+  return std::size_t{form.numbers} * format_forms[format].bytes;
 }
 
 void check_output(const Instance& instance, uint32_t count, size_t stride, std::size_t entry_bytes) {
@@ -90,19 +110,12 @@ void check_output(const Instance& instance, uint32_t count, size_t stride, std::
 
 }  // namespace
 
-nook_result nook_scene_desc_init(nook_scene_desc* desc, size_t size, uint32_t header_version) {
-  return api::enter("nook_scene_desc_init", [&] {
-    init_descriptor(desc, size, header_version, first_scene_desc, default_scene_desc());
-  });
-}
-
 nook_result nook_scene_create(nook_context context, const nook_scene_desc* desc, nook_scene* out) {
   return api::enter("nook_scene_create", [&] {
     need(out, "out");
     *out = nullptr;
     need(context, "context");
-    const SceneSettings settings =
-        settings_of(read_descriptor(desc, "nook_scene_desc_init", first_scene_desc, default_scene_desc()));
+    const SceneSettings settings = settings_of(read_descriptor(desc), context->isa());
     *out =
         Owned<nook_scene_s>::make(context->memory(), Ref<nook_context_s>::share(context), context, settings)
             .detach();
@@ -116,7 +129,7 @@ void nook_scene_destroy(nook_scene* scene) {
   *scene = nullptr;
 }
 
-nook_result nook_scene_add_instance(nook_scene scene, nook_character_model model, nook_instance_id* out) {
+nook_result nook_scene_add_instance(nook_scene scene, nook_model model, nook_instance_id* out) {
   return with_scene("nook_scene_add_instance", scene, [&](Scene& s) {
     need(out, "out");
     *out = 0;
@@ -129,7 +142,7 @@ nook_result nook_scene_remove_instance(nook_scene scene, nook_instance_id instan
   return with_scene("nook_scene_remove_instance", scene, [&](Scene& s) { remove_instance(s, instance); });
 }
 
-nook_result nook_scene_set_model(nook_scene scene, nook_instance_id instance, nook_character_model model) {
+nook_result nook_scene_set_model(nook_scene scene, nook_instance_id instance, nook_model model) {
   return with_scene("nook_scene_set_model", scene, [&](Scene& s) {
     need(model, "model");
     set_model(s, instance, Ref<const LoadedModel>::share(model));
@@ -156,25 +169,20 @@ nook_result nook_scene_set_ground(nook_scene scene, nook_instance_id instance, c
   });
 }
 
-nook_result nook_scene_add_occluder(nook_scene scene, const float centre_ws[3], float radius,
-                                    nook_occluder_id* out) {
+nook_result nook_scene_add_occluder(nook_scene scene, const nook_occluder* occluder, nook_occluder_id* out) {
   return with_scene("nook_scene_add_occluder", scene, [&](Scene& s) {
     need(out, "out");
     *out = 0;
-    *out = add_occluder(s, sphere_of(centre_ws, radius));
+    need(occluder, "occluder");
+    *out = add_occluder(s, sphere_of(*occluder), occluder->receiver);
   });
 }
 
-nook_result nook_scene_set_occluder(nook_scene scene, nook_occluder_id occluder, const float centre_ws[3],
-                                    float radius) {
-  return with_scene("nook_scene_set_occluder", scene,
-                    [&](Scene& s) { set_occluder(s, occluder, sphere_of(centre_ws, radius)); });
-}
-
-nook_result nook_scene_limit_occluder(nook_scene scene, nook_occluder_id occluder,
-                                      nook_instance_id receiver) {
-  return with_scene("nook_scene_limit_occluder", scene,
-                    [&](Scene& s) { limit_occluder(s, occluder, receiver); });
+nook_result nook_scene_set_occluder(nook_scene scene, nook_occluder_id id, const nook_occluder* occluder) {
+  return with_scene("nook_scene_set_occluder", scene, [&](Scene& s) {
+    need(occluder, "occluder");
+    set_occluder(s, id, sphere_of(*occluder), occluder->receiver);
+  });
 }
 
 nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_id occluder) {
@@ -206,42 +214,27 @@ nook_result nook_scene_update(nook_scene scene) {
   return with_scene("nook_scene_update", scene, [](Scene& s) { update(s); });
 }
 
-nook_result nook_scene_read_ao(nook_scene scene, nook_instance_id instance, float* out, uint32_t count,
-                               size_t stride) {
-  return with_scene("nook_scene_read_ao", scene, [&](const Scene& s) {
+nook_result nook_scene_read(nook_scene scene, nook_instance_id instance, nook_channel channel,
+                            nook_format format, void* out, uint32_t count, size_t stride) {
+  return with_scene("nook_scene_read", scene, [&](const Scene& s) {
     const Instance& found = instance_of(s, instance);
     need(out, "out");
-    check_output(found, count, stride, sizeof(float));
-    read_ao(s, found, out, stride ? stride : sizeof(float));
-  });
-}
-
-nook_result nook_scene_read_ao_as(nook_scene scene, nook_instance_id instance, nook_ao_format format,
-                                  void* out, uint32_t count, size_t stride) {
-  return with_scene("nook_scene_read_ao_as", scene, [&](const Scene& s) {
-    const Instance& found = instance_of(s, instance);
-    need(out, "out");
-    if (format < NOOK_AO_FLOAT || format > NOOK_AO_UNORM8)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "format is unknown (got %d, need 0 to %d)", format,
-                    NOOK_AO_UNORM8);
-    const std::size_t bytes = sizeof(float) >> format;
+    const std::size_t bytes = entry_bytes_of(channel, format);
     check_output(found, count, stride, bytes);
-    read_ao_as(s, found, format, out, stride ? stride : bytes);
+    if (stride == 0) stride = bytes;
+    switch (channel) {
+      case NOOK_CHANNEL_DIRECTIONAL_AO:
+        return read_directional_ao(s, found, static_cast<float*>(out), stride);
+      case NOOK_CHANNEL_BENT_NORMAL:
+        check_bent_normals(found.model->model);
+        return read_bent_normals(s, found, static_cast<std::int8_t*>(out), stride);
+      default:
+        return read_ao_as(s, found, format, out, stride);
+    }
   });
 }
 
-nook_result nook_scene_read_bent_normals(nook_scene scene, nook_instance_id instance, int8_t* out,
-                                         uint32_t count, size_t stride) {
-  return with_scene("nook_scene_read_bent_normals", scene, [&](const Scene& s) {
-    const Instance& found = instance_of(s, instance);
-    need(out, "out");
-    check_output(found, count, stride, bent_normal_bytes);
-    check_bent_normals(found.model->model);
-    read_bent_normals(s, found, out, stride ? stride : bent_normal_bytes);
-  });
-}
-
-nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, const nook_probe_lobe* lobes,
+nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, const nook_lobe* lobes,
                                  uint32_t lobe_count) {
   return with_scene("nook_scene_set_light", scene, [&](Scene& s) {
     if (!lobes) lobe_count = 0;
@@ -257,26 +250,10 @@ nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, co
   });
 }
 
-nook_result nook_scene_read_directional_ao(nook_scene scene, nook_instance_id instance, float* out_rgb,
-                                           uint32_t count, size_t stride) {
-  return with_scene("nook_scene_read_directional_ao", scene, [&](const Scene& s) {
-    const Instance& found = instance_of(s, instance);
-    need(out_rgb, "out_rgb");
-    check_output(found, count, stride, 3 * sizeof(float));
-    read_directional_ao(s, found, out_rgb, stride ? stride : 3 * sizeof(float));
-  });
-}
-
-nook_result nook_scene_memory(nook_scene scene, uint64_t* bytes) {
-  return api::enter("nook_scene_memory", [&] {
-    need(scene, "scene");
-    need(bytes, "bytes");
-    *bytes = sizeof *scene + scene->metered.bytes();
-  });
-}
-
-nook_result nook_scene_read_stats(nook_scene scene, nook_scene_stats* stats) {
-  return with_scene("nook_scene_read_stats", scene, [&](const Scene& s) {
-    write_info(stats, offsetof(nook_scene_stats, evaluations) + sizeof stats->evaluations, s.stats);
+nook_result nook_scene_describe(nook_scene scene, nook_scene_info* info) {
+  return with_scene("nook_scene_describe", scene, [&](const Scene& s) {
+    nook_scene_info answer = s.stats;
+    answer.memory_bytes = sizeof *scene + scene->metered.bytes();
+    write_info(info, answer);
   });
 }

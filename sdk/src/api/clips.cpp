@@ -1,4 +1,6 @@
 // Baked clips: loading, times, AO, poses and casters, and clips in scenes.
+#include <nook/experimental/nook_stages.h>
+#include <nook/experimental/nook_world_sample.h>
 #include <nook/nook_clips.h>
 
 #include <algorithm>
@@ -19,9 +21,6 @@
 using namespace nook;
 
 namespace {
-
-constexpr std::size_t first_info = offsetof(nook_clips_info, memory_bytes) + sizeof(std::uint64_t);
-constexpr std::size_t first_clip_info = offsetof(nook_clip_info, name) + sizeof(const char*);
 
 FrameMix mix_of(const ClipSet& set, const nook_clip_time* time) {
   need(time, "time");
@@ -66,15 +65,15 @@ void write_ao(const LoadedClips& clips, const FrameMix& mix, void* out, std::siz
   }
 }
 
-void write_ao_as(const LoadedClips& clips, const FrameMix& mix, nook_ao_format format, void* out,
+void write_ao_as(const LoadedClips& clips, const FrameMix& mix, nook_format format, void* out,
                  std::size_t stride) {
   switch (format) {
-    case NOOK_AO_HALF:
+    case NOOK_FORMAT_HALF:
       return write_ao(clips, mix, out, stride, [](unsigned char* place, float ao) {
         const std::uint16_t half = to_half(ao);
         std::memcpy(place, &half, sizeof half);
       });
-    case NOOK_AO_UNORM8:
+    case NOOK_FORMAT_UNORM8:
       return write_ao(clips, mix, out, stride, [](unsigned char* place, float ao) {
         *place = static_cast<unsigned char>(ao * 255 + 0.5f);
       });
@@ -84,11 +83,10 @@ void write_ao_as(const LoadedClips& clips, const FrameMix& mix, nook_ao_format f
   }
 }
 
-void check_ao_output(const LoadedClips& clips, nook_ao_format format, std::uint32_t count,
-                     std::size_t stride) {
-  if (format < NOOK_AO_FLOAT || format > NOOK_AO_UNORM8)
+void check_ao_output(const LoadedClips& clips, nook_format format, std::uint32_t count, std::size_t stride) {
+  if (format < NOOK_FORMAT_FLOAT || format > NOOK_FORMAT_UNORM8)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "format is unknown (got %d, need 0 to %d)", format,
-                  NOOK_AO_UNORM8);
+                  NOOK_FORMAT_UNORM8);
   const std::size_t vertices = clips.model->model.file_to_welded.size();
   if (count != vertices)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -106,7 +104,7 @@ Mat3x4 checked_bone(const LoadedClips& clips, const FrameMix& mix, const Mat3x4&
   return matrix;
 }
 
-nook_world_capsule capsule_of(const WorldCaster& caster, const Mat3x4& bone) {
+nook_capsule capsule_of(const WorldCaster& caster, const Mat3x4& bone) {
   const float scale = caster.ao_scale * length({bone.m[0], bone.m[4], bone.m[8]});
   const Vec3 a = transform_point(bone, caster.capsule.a), b = transform_point(bone, caster.capsule.b);
   return {{a.x, a.y, a.z}, scale * caster.capsule.radius_a, {b.x, b.y, b.z}, scale * caster.capsule.radius_b};
@@ -121,7 +119,7 @@ ClipTexels texels_of(const LoadedClips& clips, nook_clips_table table) {
 
 }  // namespace
 
-nook_result nook_clips_load(nook_context context, nook_character_model model, const void* bytes, size_t size,
+nook_result nook_clips_load(nook_context context, nook_model model, const void* bytes, size_t size,
                             nook_clips* out) {
   return api::enter("nook_clips_load", [&] {
     need(out, "out");
@@ -159,12 +157,12 @@ nook_result nook_clips_describe(nook_clips clips, nook_clips_info* info) {
     known.file_vertex_count = static_cast<std::uint32_t>(clips->model->model.file_to_welded.size());
     known.bone_count = static_cast<std::uint32_t>(set.bones.size());
     known.memory_bytes = sizeof *clips + clips->metered.bytes();
-    write_info(info, first_info, known);
+    write_info(info, known);
   });
 }
 
-nook_result nook_clips_clip(nook_clips clips, uint32_t clip, nook_clip_info* info) {
-  return api::enter("nook_clips_clip", [&] {
+nook_result nook_clips_describe_clip(nook_clips clips, uint32_t clip, nook_clip_info* info) {
+  return api::enter("nook_clips_describe_clip", [&] {
     need(clips, "clips");
     const auto& known = clips->set.clips;
     if (clip >= known.size())
@@ -175,23 +173,7 @@ nook_result nook_clips_clip(nook_clips clips, uint32_t clip, nook_clip_info* inf
     answer.frame_count = known[clip].frame_count;
     answer.duration_s = known[clip].duration_s;
     answer.name = known[clip].name.c_str();
-    write_info(info, first_clip_info, answer);
-  });
-}
-
-nook_result nook_clips_find(nook_clips clips, const char* name, uint32_t* clip) {
-  return api::enter("nook_clips_find", [&] {
-    need(clips, "clips");
-    need(name, "name");
-    need(clip, "clip");
-    const auto& known = clips->set.clips;
-    const auto found =
-        std::find_if(known.begin(), known.end(), [&](const ClipRange& range) { return range.name == name; });
-    if (found == known.end())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "there is no clip \"%.60s\"; the first of the %zu clips is \"%.60s\"", name, known.size(),
-                    known[0].name.c_str());
-    *clip = static_cast<std::uint32_t>(found - known.begin());
+    write_info(info, answer);
   });
 }
 
@@ -208,7 +190,7 @@ nook_result nook_clips_frames(nook_clips clips, const nook_clip_time* time, uint
   });
 }
 
-nook_result nook_clips_read_ao(nook_clips clips, const nook_clip_time* time, nook_ao_format format, void* out,
+nook_result nook_clips_read_ao(nook_clips clips, const nook_clip_time* time, nook_format format, void* out,
                                uint32_t count, size_t stride) {
   return api::enter("nook_clips_read_ao", [&] {
     need(clips, "clips");
@@ -234,9 +216,9 @@ nook_result nook_clips_read_pose(nook_clips clips, const nook_clip_time* time, c
   });
 }
 
-nook_result nook_clips_read_casters(nook_clips clips, const nook_clip_time* time, const float* place_3x4,
-                                    nook_world_capsule* out, uint32_t* count) {
-  return api::enter("nook_clips_read_casters", [&] {
+nook_result nook_clips_read_capsules(nook_clips clips, const nook_clip_time* time, const float* place_3x4,
+                                     nook_capsule* out, uint32_t* count) {
+  return api::enter("nook_clips_read_capsules", [&] {
     need(count, "count");
     const std::uint32_t room = *count;
     *count = 0;

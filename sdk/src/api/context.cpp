@@ -1,8 +1,9 @@
 #include <cstdio>
 
+#include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
-#include "sdk/src/core/descriptors.h"
+#include "sdk/src/core/isa.h"
 #include "sdk/src/core/version.h"
 
 namespace nook::api {
@@ -10,14 +11,6 @@ namespace {
 
 // Plain bytes need no destruction when a thread ends or the library is unloaded.
 thread_local char last_message[640] = "";
-
-nook_context_desc default_context_desc() {
-  nook_context_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.header_version = NOOK_VERSION;
-  return desc;
-}
-constexpr std::size_t first_context_desc = offsetof(nook_context_desc, parallel_for_user) + sizeof(void*);
 
 }  // namespace
 
@@ -64,27 +57,26 @@ const char* nook_result_name(nook_result result) {
   }
 }
 
-nook_result nook_context_desc_init(nook_context_desc* desc, size_t size, uint32_t header_version) {
-  return api::enter("nook_context_desc_init", [&] {
-    init_descriptor(desc, size, header_version, api::first_context_desc, api::default_context_desc());
-  });
-}
-
 nook_result nook_context_create(const nook_context_desc* desc, nook_context* out) {
   return api::enter("nook_context_create", [&] {
     need(out, "out");
     *out = nullptr;
-    const nook_context_desc settings =
-        read_descriptor(desc, "nook_context_desc_init", api::first_context_desc, api::default_context_desc());
+    const nook_context_desc settings = read_descriptor(desc);
     if (!settings.allocator.allocate != !settings.allocator.release)
       throw Failure(
           NOOK_ERROR_INVALID_ARGUMENT,
           "desc.allocator has only one function (got %s, need both or none); set allocate and release",
           settings.allocator.allocate ? "allocate" : "release");
+    if (settings.isa < 0 || settings.isa > last_isa())
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.isa is unknown (got %d, need 0 to %d)", settings.isa,
+                    last_isa());
+    if (settings.reserved != 0)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", settings.reserved);
+    const Isa isa = choose_isa(settings.isa);
     HostMemory memory(settings.allocator);
     void* place = static_cast<Memory&>(memory).allocate(sizeof(nook_context_s), alignof(nook_context_s));
     *out = new (place) nook_context_s(settings);
-    (*out)->log(NOOK_LOG_INFO, "nook %s, instruction set %s", version_text, best_shadow_kernels().name);
+    (*out)->log(NOOK_LOG_INFO, "nook %s, instruction set %s", version_text, shadow_kernels(isa)->name);
   });
 }
 

@@ -8,9 +8,13 @@
 #include "sdk/src/character/loaded_model.h"
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/context.h"
+#include "sdk/src/transfer/fit_cache.h"
 
 struct nook_context_s final : nook::Context {
   using Context::Context;
+
+  // nook_transfer_light_project takes its fits from here.
+  nook::transfer::FitCache lobe_fits{memory()};
 
  private:
   // The object lies in memory of its own allocator. The copy of the allocator outlives it.
@@ -27,10 +31,10 @@ struct Meter {
   nook::MeteredMemory metered;
 };
 
-struct nook_character_model_s : Meter, nook::LoadedModel {
+struct nook_model_s : Meter, nook::LoadedModel {
   // make(Memory*) returns the CharacterModel, in that memory.
   template <class Make>
-  nook_character_model_s(nook::Ref<nook_context_s> made_by, Make&& make)
+  nook_model_s(nook::Ref<nook_context_s> made_by, Make&& make)
       : Meter(made_by->memory()), LoadedModel(make(&metered), &metered), context(made_by.get()) {}
 
   nook_context_s* context;  // kept alive by this object's owner reference

@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/material_handle.h"
-#include "sdk/src/core/descriptors.h"
 #include "sdk/src/material/check.h"
 #include "sdk/src/material/cost.h"
 #include "sdk/src/material/evaluate.h"
@@ -12,8 +12,6 @@ using namespace nook;
 using namespace nook::material;
 
 namespace {
-
-constexpr std::size_t first_info = offsetof(nook_material_info, table_bytes) + sizeof(std::uint64_t);
 
 nook_material_tensor tensor_info(const ClusteredTensor& tensor, const TensorTables& tables) {
   const TensorShape& s = tensor.shape;
@@ -62,28 +60,17 @@ nook_material_info info_of(const Material& material, const MaterialTables& table
   return info;
 }
 
-nook_material_desc default_desc() {
-  nook_material_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.header_version = NOOK_VERSION;
-  desc.modes = NOOK_MATERIAL_MODES_PLAIN;
-  desc.whole_light_modes = std::int32_t(ModeForm{}.whole_light_modes);
-  return desc;
-}
-constexpr std::size_t first_desc = offsetof(nook_material_desc, whole_light_modes) + sizeof(std::int32_t);
-
 ModeForm checked(const nook_material_desc* given) {
   if (!given) return {};
-  const nook_material_desc desc =
-      read_descriptor(given, "nook_material_desc_init", first_desc, default_desc());
-  if (desc.modes < NOOK_MATERIAL_MODES_PLAIN || desc.modes > NOOK_MATERIAL_MODES_EAC)
+  const nook_material_desc desc = read_descriptor(given);
+  if (desc.blocks < NOOK_MATERIAL_BLOCKS_NONE || desc.blocks > NOOK_MATERIAL_BLOCKS_EAC)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.modes is no NOOK_MATERIAL_MODES value (got %d, need 0 to 2)", desc.modes);
+                  "desc.blocks is not a NOOK_MATERIAL_BLOCKS value (got %d, need 0 to 2)", desc.blocks);
   if (desc.whole_light_modes < 0 || std::uint32_t(desc.whole_light_modes) > max_light_modes)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.whole_light_modes is out of range (got %d, need 0 to %u)", desc.whole_light_modes,
                   max_light_modes);
-  return {static_cast<BlockForm>(desc.modes), std::uint32_t(desc.whole_light_modes)};
+  return {static_cast<BlockForm>(desc.blocks), std::uint32_t(desc.whole_light_modes)};
 }
 
 void need_finite(std::initializer_list<float> numbers, const char* what, std::uint32_t index) {
@@ -91,17 +78,6 @@ void need_finite(std::initializer_list<float> numbers, const char* what, std::ui
     if (!std::isfinite(number))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a number of %s %u is not finite (got %g)", what, index,
                     double(number));
-}
-
-Sample checked(const nook_material_sample& given, std::uint32_t index) {
-  need_finite({given.uv[0], given.uv[1], given.level, given.view[0], given.view[1], given.view[2],
-               given.light[0], given.light[1], given.light[2]},
-              "sample", index);
-  return {given.uv[0],
-          given.uv[1],
-          given.level,
-          {given.view[0], given.view[1], given.view[2]},
-          {given.light[0], given.light[1], given.light[2]}};
 }
 
 Pixel checked(const nook_material_pixel& given, std::uint32_t index, std::uint32_t fetches) {
@@ -122,24 +98,6 @@ nook_material_value value_of(const MaterialTables& tables, const Radiance& radia
 
 static_assert(NOOK_MATERIAL_MAX_FETCHES == max_fetches);
 
-void load(nook_context context, const void* bytes, std::size_t size, const nook_material_desc* desc,
-          nook_material* out) {
-  need(out, "out");
-  *out = nullptr;
-  need(context, "context");
-  need(bytes, "bytes");
-  const ModeForm form = checked(desc);
-  const auto shared = Ref<nook_context_s>::share(context);
-  const Material material = read_material({static_cast<const std::byte*>(bytes), size}, context->memory());
-  *out = Owned<nook_material_s>::make(context->memory(), shared, context, material, form).detach();
-  const nook_material_info& info = (*out)->info;
-  context->log(
-      NOOK_LOG_INFO,
-      "material: %u x %u texels, %u clusters, %u of them mixed, %u neural channels, %zu bytes, %llu expanded",
-      info.width, info.height, info.btf.clusters, info.btf.mixture, info.neural_channels, size,
-      static_cast<unsigned long long>(info.table_bytes));
-}
-
 }  // namespace
 
 nook_material_s::nook_material_s(nook_context_s* made_by, const Material& loaded, const ModeForm& form)
@@ -147,18 +105,24 @@ nook_material_s::nook_material_s(nook_context_s* made_by, const Material& loaded
   info = info_of(loaded, tables);
 }
 
-nook_result nook_material_load(nook_context context, const void* bytes, size_t size, nook_material* out) {
-  return api::enter("nook_material_load", [&] { load(context, bytes, size, nullptr, out); });
-}
-
-nook_result nook_material_desc_init(nook_material_desc* desc, size_t size, uint32_t header_version) {
-  return api::enter("nook_material_desc_init",
-                    [&] { init_descriptor(desc, size, header_version, first_desc, default_desc()); });
-}
-
-nook_result nook_material_load_with(nook_context context, const void* bytes, size_t size,
-                                    const nook_material_desc* desc, nook_material* out) {
-  return api::enter("nook_material_load_with", [&] { load(context, bytes, size, desc, out); });
+nook_result nook_material_load(nook_context context, const void* bytes, size_t size,
+                               const nook_material_desc* desc, nook_material* out) {
+  return api::enter("nook_material_load", [&] {
+    need(out, "out");
+    *out = nullptr;
+    need(context, "context");
+    need(bytes, "bytes");
+    const ModeForm form = checked(desc);
+    const auto shared = Ref<nook_context_s>::share(context);
+    const Material material = read_material({static_cast<const std::byte*>(bytes), size}, context->memory());
+    *out = Owned<nook_material_s>::make(context->memory(), shared, context, material, form).detach();
+    const nook_material_info& info = (*out)->info;
+    context->log(NOOK_LOG_INFO,
+                 "material: %u x %u texels, %u clusters, %u of them mixed, %u neural channels, %zu bytes, "
+                 "%llu expanded",
+                 info.width, info.height, info.btf.clusters, info.btf.mixture, info.neural_channels, size,
+                 static_cast<unsigned long long>(info.table_bytes));
+  });
 }
 
 void nook_material_destroy(nook_material* material) {
@@ -170,30 +134,13 @@ void nook_material_destroy(nook_material* material) {
 nook_result nook_material_describe(nook_material material, nook_material_info* info) {
   return api::enter("nook_material_describe", [&] {
     need(material, "material");
-    write_info(info, first_info, material->info);
+    write_info(info, material->info);
   });
 }
 
-nook_result nook_material_evaluate(nook_material material, const nook_material_sample* samples,
-                                   uint32_t count, nook_material_value* values) {
+nook_result nook_material_evaluate(nook_material material, const nook_material_pixel* pixels, uint32_t count,
+                                   uint32_t fetches, nook_material_value* values) {
   return api::enter("nook_material_evaluate", [&] {
-    need(material, "material");
-    if (count == 0) return;
-    need(samples, "samples");
-    need(values, "values");
-    for (std::uint32_t i = 0; i < count; ++i) checked(samples[i], i);
-    const MaterialTables& tables = material->tables;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const Sample sample = checked(samples[i], i);
-      values[i] = value_of(tables, evaluate_btf(tables, sample), evaluate_votf(tables, sample));
-    }
-  });
-}
-
-nook_result nook_material_evaluate_anisotropic(nook_material material, const nook_material_pixel* pixels,
-                                               uint32_t count, uint32_t fetches,
-                                               nook_material_value* values) {
-  return api::enter("nook_material_evaluate_anisotropic", [&] {
     need(material, "material");
     if (fetches < 1 || fetches > max_fetches)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "fetches is out of range (got %u, need 1 to %u)", fetches,

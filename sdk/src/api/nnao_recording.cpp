@@ -1,12 +1,12 @@
-#include <nook/nook_nnao_recording.h>
+#include <nook/experimental/nook_recording.h>
 
 #include <algorithm>
 #include <cstring>
 #include <iterator>
 
+#include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/nnao_recording_handle.h"
-#include "sdk/src/core/descriptors.h"
 #include "sdk/src/nnao/network_file.h"
 #include "sdk/src/nnao/recording_file.h"
 
@@ -14,23 +14,6 @@ using namespace nook;
 using nnao::Recording;
 
 namespace {
-
-nook_nnao_recording_desc default_desc() {
-  const nnao::RecordedFrame frame;
-  const nnao::RecordedPass pass;
-  nook_nnao_recording_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.header_version = NOOK_VERSION;
-  desc.normal_scale = frame.normal_scale;
-  std::copy(std::begin(frame.normal_matrix), std::end(frame.normal_matrix), desc.normal_matrix);
-  desc.intensity = frame.intensity;
-  desc.power = frame.power;
-  desc.taps = pass.taps;
-  desc.blur = pass.blur;
-  desc.blur_sharpness = pass.blur_sharpness;
-  return desc;
-}
-constexpr std::size_t first_desc = offsetof(nook_nnao_recording_desc, note) + sizeof(const char*);
 
 void copy_image(Vector<float>& image, const float* given, std::size_t count) {
   if (given) image.assign(given, given + count);
@@ -90,7 +73,8 @@ const float* image_of(const Vector<float>& image) {
 }
 
 nook_nnao_recording_desc desc_of(const Recording& recording) {
-  nook_nnao_recording_desc desc = default_desc();
+  nook_nnao_recording_desc desc = default_desc<nook_nnao_recording_desc>();
+  desc.type = NOOK_DESC_NNAO_RECORDING;
   const nnao::RecordedPass& pass = recording.pass;
   desc.width = std::int32_t(recording.width);
   desc.height = std::int32_t(recording.height);
@@ -116,20 +100,13 @@ nook_nnao_recording_desc desc_of(const Recording& recording) {
 
 }  // namespace
 
-nook_result nook_nnao_recording_desc_init(nook_nnao_recording_desc* desc, size_t size,
-                                          uint32_t header_version) {
-  return api::enter("nook_nnao_recording_desc_init",
-                    [&] { init_descriptor(desc, size, header_version, first_desc, default_desc()); });
-}
-
 nook_result nook_nnao_recording_create(nook_context context, const nook_nnao_recording_desc* desc,
                                        nook_nnao_recording* out) {
   return api::enter("nook_nnao_recording_create", [&] {
     need(out, "out");
     *out = nullptr;
     need(context, "context");
-    const nook_nnao_recording_desc known =
-        read_descriptor(desc, "nook_nnao_recording_desc_init", first_desc, default_desc());
+    const nook_nnao_recording_desc known = read_descriptor(desc);
     *out = Owned<nook_nnao_recording_s>::make(context->memory(), Ref<nook_context_s>::share(context),
                                               recording_of(known, context->memory()))
                .detach();
@@ -175,6 +152,6 @@ nook_result nook_nnao_recording_save(nook_nnao_recording recording, void* bytes,
 nook_result nook_nnao_recording_describe(nook_nnao_recording recording, nook_nnao_recording_desc* desc) {
   return api::enter("nook_nnao_recording_describe", [&] {
     need(recording, "recording");
-    write_info(desc, first_desc, desc_of(recording->recording));
+    write_info(desc, desc_of(recording->recording));
   });
 }

@@ -1,7 +1,7 @@
 // The object behind the public handle of a recorded frame.
 #pragma once
 
-#include <nook/nook_nnao_recording.h>
+#include <nook/experimental/nook_recording.h>
 
 #include <utility>
 

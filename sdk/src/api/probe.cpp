@@ -1,14 +1,15 @@
 #include <nook/nook_probe.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <span>
 #include <vector>
 
+#include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/probe_handles.h"
 #include "sdk/src/api/probe_lobes.h"
-#include "sdk/src/core/descriptors.h"
 #include "sdk/src/probe/evaluate.h"
 #include "sdk/src/probe/probe_file.h"
 
@@ -16,19 +17,6 @@ using namespace nook;
 using namespace nook::probe;
 
 namespace {
-
-nook_probe_desc default_desc() {
-  nook_probe_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.header_version = NOOK_VERSION;
-  for (int i = 0; i < 3; ++i) {
-    desc.counts[i] = 1;
-    desc.spacing_ws[i] = 1;
-  }
-  return desc;
-}
-constexpr std::size_t first_desc = offsetof(nook_probe_desc, coefficients) + sizeof(const float*);
-constexpr std::size_t first_info = offsetof(nook_probe_info, spacing_ws) + sizeof(float[3]);
 
 Vec3 vec3(const float* v) {
   return {v[0], v[1], v[2]};
@@ -40,20 +28,87 @@ void write_vec3(float* out, Vec3 v) {
   out[2] = v.z;
 }
 
-Probes probes_of(const nook_probe_desc& desc, nook::Memory* memory) {
+// Reads the coefficients of all probes from fits with the same functions.
+void read_fits(const nook_probe_desc& desc, Probes& probes) {
+  if (desc.fit_count != probes.grid.size())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.fit_count is not the number of probes (got %u, need %zu); pass one fit for each",
+                  desc.fit_count, probes.grid.size());
+  for (std::size_t i = 0; i < desc.fit_count; ++i) {
+    if (!desc.fits[i]) throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.fits[%zu] is NULL", i);
+    if (!(desc.fits[i]->fit.basis() == desc.fits[0]->fit.basis()))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.fits[%zu] has other functions than desc.fits[0]; create all from equal descriptors",
+                    i);
+  }
+  probes.basis = desc.fits[0]->fit.basis();
+  probes.coefficients.resize(probes.grid.size() * probes.basis.count);
+  for (std::size_t i = 0; i < desc.fit_count; ++i)
+    desc.fits[i]->fit.read(
+        std::span<Vec3>(probes.coefficients).subspan(i * probes.basis.count, probes.basis.count));
+}
+
+// The functions of lobes: the last is the ambient term if its sharpness is 0.
+Basis basis_of(const nook_lobe* lobes, std::uint32_t count) {
+  std::array<Vec3, max_functions> axes;
+  std::array<float, max_functions> sharpnesses;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    axes[i] = vec3(lobes[i].axis);
+    sharpnesses[i] = lobes[i].sharpness;
+  }
+  const bool ambient = count > 1 && sharpnesses[count - 1] == 0;
+  const std::uint32_t own = count - (ambient ? 1 : 0);
+  return gaussian_basis(std::span(axes).first(own), std::span(sharpnesses).first(own), ambient);
+}
+
+bool same_function(const nook_lobe& a, const nook_lobe& b) {
+  return std::equal(a.axis, a.axis + 3, b.axis) && a.sharpness == b.sharpness;
+}
+
+void read_lobes(const nook_probe_desc& desc, Probes& probes) {
+  if (desc.lobe_count < 1 || desc.lobe_count > max_functions)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.lobe_count is out of range (got %u, need 1 to %u)",
+                  desc.lobe_count, max_functions);
+  const std::size_t count = desc.lobe_count, all = probes.grid.size() * count;
+  for (std::size_t i = count; i < all; ++i)
+    if (!same_function(desc.lobes[i], desc.lobes[i % count]))
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "lobe %zu of probe %zu has another axis or sharpness than that of probe 0; all probes need "
+          "the same",
+          i % count, i / count);
+  probes.basis = basis_of(desc.lobes, desc.lobe_count);
+  probes.coefficients.resize(all);
+  for (std::size_t i = 0; i < all; ++i) probes.coefficients[i] = vec3(desc.lobes[i].amplitude);
+}
+
+void read_coefficients(const nook_probe_desc& desc, Probes& probes) {
   need(desc.functions, "desc.functions");
   need(desc.coefficients, "desc.coefficients");
+  probes.basis = desc.functions->fit.basis();
+  probes.coefficients.resize(probes.grid.size() * probes.basis.count);
+  for (std::size_t i = 0; i < probes.coefficients.size(); ++i)
+    probes.coefficients[i] = vec3(desc.coefficients + 3 * i);
+}
+
+Probes probes_of(const nook_probe_desc& desc, nook::Memory* memory) {
   if (desc.reserved != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", desc.reserved);
+  const int sources = (desc.fits != nullptr) + (desc.lobes != nullptr) + (desc.coefficients != nullptr);
+  if (sources != 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc has %d sources of light, need 1; set one of fits, lobes and coefficients", sources);
   Probes probes(memory);
-  probes.basis = desc.functions->fit.basis();
   for (std::size_t i = 0; i < 3; ++i) probes.grid.counts[i] = desc.counts[i];
   probes.grid.origin_ws = vec3(desc.origin_ws);
   probes.grid.spacing_ws = vec3(desc.spacing_ws);
   check_grid(probes.grid, NOOK_ERROR_INVALID_ARGUMENT);
-  probes.coefficients.resize(probes.grid.size() * probes.basis.count);
-  for (std::size_t i = 0; i < probes.coefficients.size(); ++i)
-    probes.coefficients[i] = vec3(desc.coefficients + 3 * i);
+  if (desc.fits)
+    read_fits(desc, probes);
+  else if (desc.lobes)
+    read_lobes(desc, probes);
+  else
+    read_coefficients(desc, probes);
   check_probes(probes, NOOK_ERROR_INVALID_ARGUMENT);
   return probes;
 }
@@ -73,36 +128,36 @@ std::span<const Vec3> coefficients_at(const Probes& probes, const float* positio
   return out;
 }
 
-// Calls evaluate(coefficients, direction) for each direction.
-template <class Evaluate>
-nook_result at_directions(const char* function, nook_probe probe, const float* position_ws,
-                          const float* directions, float* rgb, std::size_t count,
+// Calls evaluate(coefficients, direction) for each direction. look_up(position, direction, out) interpolates.
+template <class LookUp, class Evaluate>
+nook_result at_directions(const char* function, nook_probe probe, const float* positions_ws,
+                          const float* directions, float* rgb, std::size_t count, LookUp&& look_up,
                           Evaluate&& evaluate) noexcept {
   return api::enter(function, [&] {
     need(probe, "probe");
     if (count == 0) return;
     need(directions, "the array of directions");
     need(rgb, "the array for the answer");
+    const Probes& probes = probe->probes;
     Coefficients storage;
-    const std::span<const Vec3> coefficients = coefficients_at(probe->probes, position_ws, storage);
-    for (std::size_t i = 0; i < count; ++i)
-      write_vec3(rgb + 3 * i, evaluate(coefficients, vec3(directions + 3 * i)));
+    const std::span<Vec3> coefficients = std::span(storage).first(probes.basis.count);
+    std::ranges::copy(probes.of(0), coefficients.begin());
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 direction = vec3(directions + 3 * i);
+      if (positions_ws) look_up(probes, vec3(positions_ws + 3 * i), direction, coefficients);
+      write_vec3(rgb + 3 * i, evaluate(probes.basis, coefficients, direction));
+    }
   });
 }
 
 }  // namespace
-
-nook_result nook_probe_desc_init(nook_probe_desc* desc, size_t size, uint32_t header_version) {
-  return api::enter("nook_probe_desc_init",
-                    [&] { init_descriptor(desc, size, header_version, first_desc, default_desc()); });
-}
 
 nook_result nook_probe_create(nook_context context, const nook_probe_desc* desc, nook_probe* out) {
   return api::enter("nook_probe_create", [&] {
     need(out, "out");
     *out = nullptr;
     need(context, "context");
-    const nook_probe_desc known = read_descriptor(desc, "nook_probe_desc_init", first_desc, default_desc());
+    const nook_probe_desc known = read_descriptor(desc);
     *out = Owned<nook_probe_s>::make(context->memory(), Ref<nook_context_s>::share(context),
                                      probes_of(known, context->memory()))
                .detach();
@@ -166,7 +221,7 @@ nook_result nook_probe_describe(nook_probe probe, nook_probe_info* info) {
     write_vec3(answer.origin_ws, probes.grid.origin_ws);
     write_vec3(answer.spacing_ws, probes.grid.spacing_ws);
     for (const CellWalls& cell : probes.walls.cell) answer.wall_cells += !cell.open();
-    write_info(info, first_info, answer);
+    write_info(info, answer);
   });
 }
 
@@ -187,7 +242,7 @@ nook_result nook_probe_read_coefficients(nook_probe probe, uint32_t index, float
   });
 }
 
-nook_result nook_probe_read_lobes(nook_probe probe, const float* position_ws, nook_probe_lobe* lobes,
+nook_result nook_probe_read_lobes(nook_probe probe, const float* position_ws, nook_lobe* lobes,
                                   uint32_t function_count) {
   return api::enter("nook_probe_read_lobes", [&] {
     need(probe, "probe");
@@ -195,7 +250,7 @@ nook_result nook_probe_read_lobes(nook_probe probe, const float* position_ws, no
     const Probes& probes = probe->probes;
     if (probes.basis.kind != BasisKind::gaussians)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "the probe's functions are no lobes (got basis %d, need NOOK_PROBE_GAUSSIANS)",
+                    "the probe's functions are no lobes (got basis %d, need NOOK_PROBE_BASIS_LOBES)",
                     int(probes.basis.kind));
     check_count(probes, function_count);
     Coefficients storage;
@@ -206,40 +261,26 @@ nook_result nook_probe_read_lobes(nook_probe probe, const float* position_ws, no
   });
 }
 
-nook_result nook_probe_radiance(nook_probe probe, const float* position_ws, const float* directions,
+nook_result nook_probe_radiance(nook_probe probe, const float* positions_ws, const float* directions,
                                 float* radiance_rgb, size_t count) {
-  return at_directions("nook_probe_radiance", probe, position_ws, directions, radiance_rgb, count,
-                       [&](std::span<const Vec3> coefficients, Vec3 direction) {
-                         return radiance(probe->probes.basis, coefficients, direction);
-                       });
+  return at_directions(
+      "nook_probe_radiance", probe, positions_ws, directions, radiance_rgb, count,
+      [](const Probes& probes, Vec3 position, Vec3, std::span<Vec3> out) {
+        interpolate(probes, position, out);
+      },
+      [](const Basis& basis, std::span<const Vec3> coefficients, Vec3 direction) {
+        return radiance(basis, coefficients, direction);
+      });
 }
 
-nook_result nook_probe_irradiance(nook_probe probe, const float* position_ws, nook_probe_irradiance_form form,
-                                  const float* normals, float* irradiance_rgb, size_t count) {
-  return at_directions("nook_probe_irradiance", probe, position_ws, normals, irradiance_rgb, count,
-                       [&](std::span<const Vec3> coefficients, Vec3 normal) {
-                         return irradiance(probe->probes.basis, coefficients, api::irradiance_form(form),
-                                           normal);
-                       });
-}
-
-nook_result nook_probe_surface_irradiance(nook_probe probe, nook_probe_irradiance_form form,
-                                          const float* positions_ws, const float* normals,
-                                          float* irradiance_rgb, size_t count) {
-  return api::enter("nook_probe_surface_irradiance", [&] {
-    need(probe, "probe");
-    const IrradianceForm known = api::irradiance_form(form);
-    if (count == 0) return;
-    need(positions_ws, "positions_ws");
-    need(normals, "normals");
-    need(irradiance_rgb, "irradiance");
-    const Probes& probes = probe->probes;
-    Coefficients storage;
-    const std::span<Vec3> coefficients = std::span(storage).first(probes.basis.count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec3 normal = vec3(normals + 3 * i);
-      interpolate(probes, vec3(positions_ws + 3 * i), normal, coefficients);
-      write_vec3(irradiance_rgb + 3 * i, irradiance(probes.basis, coefficients, known, normal));
-    }
-  });
+nook_result nook_probe_irradiance(nook_probe probe, const float* positions_ws, const float* normals,
+                                  float* irradiance_rgb, size_t count) {
+  return at_directions(
+      "nook_probe_irradiance", probe, positions_ws, normals, irradiance_rgb, count,
+      [](const Probes& probes, Vec3 position, Vec3 normal, std::span<Vec3> out) {
+        interpolate(probes, position, normal, out);
+      },
+      [](const Basis& basis, std::span<const Vec3> coefficients, Vec3 normal) {
+        return irradiance(basis, coefficients, IrradianceForm::bands, normal);
+      });
 }

@@ -1,32 +1,19 @@
+#include <nook/experimental/nook_sg.h>
 #include <nook/nook_probe.h>
 
 #include <array>
 #include <cmath>
 #include <span>
 
+#include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/probe_handles.h"
-#include "sdk/src/core/descriptors.h"
-#include "sdk/src/core/isa.h"
 #include "sdk/src/probe/axes.h"
 
 using namespace nook;
 using namespace nook::probe;
 
 namespace {
-
-nook_probe_fit_desc default_desc() {
-  nook_probe_fit_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.header_version = NOOK_VERSION;
-  desc.method = NOOK_PROBE_LEAST_SQUARES;
-  desc.up[2] = 1;
-  desc.lobe_count = 12;
-  desc.order = 2;
-  return desc;
-}
-constexpr std::size_t first_desc = offsetof(nook_probe_fit_desc, reserved) + sizeof(std::uint32_t);
-constexpr std::size_t first_info = offsetof(nook_probe_fit_info, mean_radiance) + sizeof(double[3]);
 
 void check_choice(const char* field, std::int32_t value, std::int32_t last) {
   if (value < 0 || value > last)
@@ -35,16 +22,39 @@ void check_choice(const char* field, std::int32_t value, std::int32_t last) {
 }
 
 void check_choices(const nook_probe_fit_desc& desc) {
-  check_choice("method", desc.method, NOOK_PROBE_NON_NEGATIVE_LEAST_SQUARES);
-  check_choice("constraint", desc.constraint, NOOK_PROBE_CONSTRAINT_NONE);
-  check_choice("basis", desc.basis, NOOK_PROBE_DICE);
-  check_choice("domain", desc.domain, NOOK_PROBE_HEMISPHERE);
+  check_choice("method", desc.method, NOOK_PROBE_FIT_RUNNING_AVERAGE_NON_NEGATIVE);
+  check_choice("form", desc.form, NOOK_FORM_PAPER);
+  check_choice("match_sh", desc.match_sh, 1);
+  check_choice("basis", desc.basis, NOOK_PROBE_BASIS_SH);
+  check_choice("domain", desc.domain, NOOK_PROBE_DOMAIN_HEMISPHERE);
   check_choice("ambient", desc.ambient, 1);
-  check_choice("denominator", desc.denominator, NOOK_PROBE_DENOMINATOR_PRECOMPUTED);
-  check_choice("step", desc.step, NOOK_PROBE_STEP_PLAIN);
-  check_choice("isa", desc.isa, last_isa());
   if (desc.reserved != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", desc.reserved);
+  if (desc.form == NOOK_FORM_PAPER && (desc.method != NOOK_PROBE_FIT_LEAST_SQUARES || desc.match_sh != 1))
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.form NOOK_FORM_PAPER sets the method itself (got method %d and match_sh %d, need 0 and "
+        "1); leave both at their defaults",
+        desc.method, desc.match_sh);
+}
+
+void check_study(const nook_probe_fit_desc& desc, const nook_probe_fit_study_desc& study) {
+  const auto choice = [](const char* field, std::int32_t value, std::int32_t last) {
+    if (value < 0 || value > last)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "%s of nook_probe_fit_study_desc is unknown (got %d, need 0 to %d)", field, value, last);
+  };
+  choice("method", study.method, NOOK_PROBE_FIT_STUDY_MOMENTS);
+  choice("published_step", study.published_step, 1);
+  choice("denominator", study.denominator, NOOK_PROBE_DENOMINATOR_PRECOMPUTED);
+  choice("dice", study.dice, 1);
+  if (study.method != NOOK_PROBE_FIT_STUDY_DEFAULT &&
+      (desc.form != NOOK_FORM_DEFAULT || desc.method != NOOK_PROBE_FIT_LEAST_SQUARES))
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "method of nook_probe_fit_study_desc replaces the method (got desc.form %d and desc.method %d, "
+        "need 0 and 0); leave both at their defaults",
+        desc.form, desc.method);
 }
 
 Basis lobes_of(const nook_probe_fit_desc& desc, Domain domain, Vec3 up) {
@@ -69,25 +79,51 @@ Basis lobes_of(const nook_probe_fit_desc& desc, Domain domain, Vec3 up) {
   return gaussian_basis(axes, std::span(sharpnesses).first(desc.lobe_count), desc.ambient != 0, domain, up);
 }
 
-Basis basis_of(const nook_probe_fit_desc& desc) {
+Basis basis_of(const nook_probe_fit_desc& desc, const nook_probe_fit_study_desc& study) {
   const auto domain = static_cast<Domain>(desc.domain);
   const Vec3 up{desc.up[0], desc.up[1], desc.up[2]};
   if (!(std::abs(length(up) - 1) <= 1e-3f))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.up is not a unit vector (got %g, %g, %g); normalise it",
                   double(up.x), double(up.y), double(up.z));
-  if (desc.basis == NOOK_PROBE_HARMONICS) return harmonic_basis(desc.order, domain, up);
-  if (desc.basis == NOOK_PROBE_DICE) return dice_basis(domain, up);
+  if (study.dice) return dice_basis(domain, up);
+  if (desc.basis == NOOK_PROBE_BASIS_SH) return harmonic_basis(desc.order, domain, up);
   return lobes_of(desc, domain, up);
 }
 
-FitSettings settings_of(const nook_probe_fit_desc& desc) {
+FitMethod method_of(const nook_probe_fit_desc& desc, const nook_probe_fit_study_desc& study) {
+  switch (study.method) {
+    case NOOK_PROBE_FIT_STUDY_NAIVE:
+      return FitMethod::naive;
+    case NOOK_PROBE_FIT_STUDY_RUNNING_AVERAGE_ORIGINAL:
+      return FitMethod::running_average_original;
+    case NOOK_PROBE_FIT_STUDY_MOMENTS:
+      return FitMethod::moments;
+    default:
+      break;
+  }
+  if (desc.form == NOOK_FORM_PAPER) return FitMethod::running_average;
+  switch (desc.method) {
+    case NOOK_PROBE_FIT_LEAST_SQUARES_NON_NEGATIVE:
+      return FitMethod::non_negative_least_squares;
+    case NOOK_PROBE_FIT_RUNNING_AVERAGE:
+      return FitMethod::running_average;
+    case NOOK_PROBE_FIT_RUNNING_AVERAGE_NON_NEGATIVE:
+      return FitMethod::running_average_non_negative;
+    default:
+      return FitMethod::least_squares;
+  }
+}
+
+FitSettings settings_of(const nook_probe_fit_desc& desc, const nook_probe_fit_study_desc& study,
+                        nook_isa isa) {
+  const bool paper = desc.form == NOOK_FORM_PAPER;
   FitSettings settings;
-  settings.method = static_cast<FitMethod>(desc.method);
-  settings.constraint = static_cast<Constraint>(desc.constraint);
-  settings.step = static_cast<Step>(desc.step);
-  settings.denominator = static_cast<Denominator>(desc.denominator);
+  settings.method = method_of(desc, study);
+  settings.constraint = desc.match_sh && !paper ? Constraint::bands : Constraint::none;
+  settings.step = study.published_step || paper ? Step::plain : Step::fast;
+  settings.denominator = static_cast<Denominator>(study.denominator);
   settings.growing_samples = desc.growing_samples;
-  settings.isa = desc.isa;
+  settings.isa = isa;
   return settings;
 }
 
@@ -101,22 +137,20 @@ nook_result with_fit(const char* function, nook_probe_fit fit, Body&& body) noex
 
 }  // namespace
 
-nook_result nook_probe_fit_desc_init(nook_probe_fit_desc* desc, size_t size, uint32_t header_version) {
-  return api::enter("nook_probe_fit_desc_init",
-                    [&] { init_descriptor(desc, size, header_version, first_desc, default_desc()); });
-}
-
 nook_result nook_probe_fit_create(nook_context context, const nook_probe_fit_desc* desc,
                                   nook_probe_fit* out) {
   return api::enter("nook_probe_fit_create", [&] {
     need(out, "out");
     *out = nullptr;
     need(context, "context");
-    const nook_probe_fit_desc known =
-        read_descriptor(desc, "nook_probe_fit_desc_init", first_desc, default_desc());
+    const auto known = read_descriptor<nook_probe_fit_desc, nook_probe_fit_study_desc>(desc);
     check_choices(known);
+    nook_probe_fit_study_desc study = default_desc<nook_probe_fit_study_desc>();
+    if (const auto* given = find_extension<nook_probe_fit_study_desc>(known.next))
+      study = read_descriptor(given);
+    check_study(known, study);
     *out = Owned<nook_probe_fit_s>::make(context->memory(), Ref<nook_context_s>::share(context), context,
-                                         basis_of(known), settings_of(known))
+                                         basis_of(known, study), settings_of(known, study, context->isa()))
                .detach();
   });
 }
@@ -155,22 +189,6 @@ nook_result nook_probe_fit_reset(nook_probe_fit fit) {
   return with_fit("nook_probe_fit_reset", fit, [](Fit& f) { f.reset(); });
 }
 
-nook_result nook_probe_fit_read(nook_probe_fit fit, float* coefficients, uint32_t function_count) {
-  return with_fit("nook_probe_fit_read", fit, [&](Fit& f) {
-    need(coefficients, "coefficients");
-    if (function_count != f.basis().count)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "function_count is not the fit's (got %u, need %u)",
-                    function_count, f.basis().count);
-    std::array<Vec3, max_functions> read;
-    f.read(std::span(read).first(function_count));
-    for (std::uint32_t i = 0; i < function_count; ++i, coefficients += 3) {
-      coefficients[0] = read[i].x;
-      coefficients[1] = read[i].y;
-      coefficients[2] = read[i].z;
-    }
-  });
-}
-
 nook_result nook_probe_fit_solve(nook_probe_fit fit, nook_probe* out) {
   return api::enter("nook_probe_fit_solve", [&] {
     need(out, "out");
@@ -199,6 +217,6 @@ nook_result nook_probe_fit_describe(nook_probe_fit fit, nook_probe_fit_info* inf
     answer.weight = counts.weight;
     for (int c = 0; c < 3; ++c)
       answer.mean_radiance[c] = counts.weight > 0 ? counts.radiance[c] / counts.weight : 0;
-    write_info(info, first_info, answer);
+    write_info(info, answer);
   });
 }

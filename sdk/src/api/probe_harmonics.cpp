@@ -1,4 +1,5 @@
 // Light as spherical harmonics, plain arrays of floats.
+#include <nook/experimental/nook_sg.h>
 #include <nook/nook_probe.h>
 
 #include <array>
@@ -49,36 +50,46 @@ void at_directions(const float* directions, float* rgb, std::size_t count, Evalu
 
 Basis basis_of_order(std::uint32_t order) {
   if (order < 1 || order > max_order)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "order is out of range (got %u, need 1 to %u)", order,
-                  max_order);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "order is out of range (got %u, need 1 to %u, or NOOK_SH_ZH3)",
+                  order, max_order);
   return harmonic_basis(order);
 }
 
 }  // namespace
 
-nook_result nook_probe_harmonics_radiance(const float* coefficients, uint32_t order, const float* directions,
-                                          float* rgb, size_t count) {
-  return api::enter("nook_probe_harmonics_radiance", [&] {
-    const Basis basis = basis_of_order(order);
+nook_result nook_sh_radiance(const float* coefficients, uint32_t order, const float* directions, float* rgb,
+                             size_t count) {
+  return api::enter("nook_sh_radiance", [&] {
     Coefficients storage;
+    if (order == NOOK_SH_ZH3) {
+      const auto read = read_coefficients(coefficients, zonal_count, storage);
+      at_directions(directions, rgb, count, [&](Vec3 direction) { return zonal_radiance(read, direction); });
+      return;
+    }
+    const Basis basis = basis_of_order(order);
     const auto read = read_coefficients(coefficients, basis.count, storage);
     at_directions(directions, rgb, count, [&](Vec3 direction) { return radiance(basis, read, direction); });
   });
 }
 
-nook_result nook_probe_harmonics_irradiance(const float* coefficients, uint32_t order, const float* normals,
-                                            float* rgb, size_t count) {
-  return api::enter("nook_probe_harmonics_irradiance", [&] {
-    const Basis basis = basis_of_order(order);
+nook_result nook_sh_irradiance(const float* coefficients, uint32_t order, const float* normals, float* rgb,
+                               size_t count) {
+  return api::enter("nook_sh_irradiance", [&] {
     Coefficients storage;
+    if (order == NOOK_SH_ZH3) {
+      const auto read = read_coefficients(coefficients, zonal_count, storage);
+      at_directions(normals, rgb, count, [&](Vec3 normal) { return zonal_irradiance(read, normal); });
+      return;
+    }
+    const Basis basis = basis_of_order(order);
     const auto read = read_coefficients(coefficients, basis.count, storage);
     at_directions(normals, rgb, count,
                   [&](Vec3 normal) { return irradiance(basis, read, IrradianceForm::bands, normal); });
   });
 }
 
-nook_result nook_probe_harmonics_to_zonal(const float* coefficients, float* zonal) {
-  return api::enter("nook_probe_harmonics_to_zonal", [&] {
+nook_result nook_sh_to_zh3(const float* coefficients, float* zonal) {
+  return api::enter("nook_sh_to_zh3", [&] {
     Coefficients storage;
     const auto read = read_coefficients(coefficients, harmonic_count(2), storage);
     need(zonal, "zonal");
@@ -86,21 +97,5 @@ nook_result nook_probe_harmonics_to_zonal(const float* coefficients, float* zona
       write_vec3(zonal, v);
       zonal += 3;
     }
-  });
-}
-
-nook_result nook_probe_zonal_radiance(const float* zonal, const float* directions, float* rgb, size_t count) {
-  return api::enter("nook_probe_zonal_radiance", [&] {
-    Coefficients storage;
-    const auto read = read_coefficients(zonal, zonal_count, storage);
-    at_directions(directions, rgb, count, [&](Vec3 direction) { return zonal_radiance(read, direction); });
-  });
-}
-
-nook_result nook_probe_zonal_irradiance(const float* zonal, const float* normals, float* rgb, size_t count) {
-  return api::enter("nook_probe_zonal_irradiance", [&] {
-    Coefficients storage;
-    const auto read = read_coefficients(zonal, zonal_count, storage);
-    at_directions(normals, rgb, count, [&](Vec3 normal) { return zonal_irradiance(read, normal); });
   });
 }

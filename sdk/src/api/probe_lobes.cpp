@@ -1,4 +1,5 @@
 #include "sdk/src/api/probe_lobes.h"
+#include <nook/experimental/nook_sg.h>
 
 #include <array>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/probe/basis.h"
 #include "sdk/src/probe/convert.h"
+#include "sdk/src/probe/evaluate.h"
 #include "sdk/src/probe/harmonics.h"
 #include "sdk/src/probe/probe.h"
 #include "sdk/src/probe/specular.h"
@@ -22,7 +24,7 @@ void check_unit(Vec3 v, const char* what, std::size_t index) {
                   what, index, double(v.x), double(v.y), double(v.z));
 }
 
-SphericalGaussian from_public(const nook_probe_lobe& lobe, std::size_t index) {
+SphericalGaussian from_public(const nook_lobe& lobe, std::size_t index) {
   const SphericalGaussian g{{lobe.axis[0], lobe.axis[1], lobe.axis[2]},
                             lobe.sharpness,
                             {lobe.amplitude[0], lobe.amplitude[1], lobe.amplitude[2]}};
@@ -42,7 +44,7 @@ SphericalGaussian from_public(const nook_probe_lobe& lobe, std::size_t index) {
 // Checks the caller's lobes and holds them.
 class Lobes {
  public:
-  Lobes(const nook_probe_lobe* lobes, std::uint32_t count) : count_(count) {
+  Lobes(const nook_lobe* lobes, std::uint32_t count) : count_(count) {
     if (count > max_functions)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "lobe_count is out of range (got %u, need 0 to %u)", count,
                     max_functions);
@@ -84,9 +86,16 @@ Surface surface_of(const nook_probe_surface& s, std::size_t index) {
   return surface;
 }
 
+IrradianceForm irradiance_form(nook_probe_irradiance_form form) {
+  if (form < NOOK_PROBE_IRRADIANCE_FITTED || form > NOOK_PROBE_IRRADIANCE_BANDS)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "form is unknown (got %d, need 0 to %d)", form,
+                  NOOK_PROBE_IRRADIANCE_BANDS);
+  return static_cast<IrradianceForm>(form);
+}
+
 // Calls evaluate(lobes, direction) for each direction.
 template <class Evaluate>
-nook_result at_directions(const char* function, const nook_probe_lobe* lobes, std::uint32_t lobe_count,
+nook_result at_directions(const char* function, const nook_lobe* lobes, std::uint32_t lobe_count,
                           const float* directions, float* rgb, std::size_t count,
                           Evaluate&& evaluate) noexcept {
   return api::enter(function, [&] {
@@ -103,8 +112,8 @@ nook_result at_directions(const char* function, const nook_probe_lobe* lobes, st
 
 // Calls body(a, b) with two lobes of the caller.
 template <class Body>
-nook_result with_two(const char* function, const nook_probe_lobe* a, const nook_probe_lobe* b,
-                     const void* out, Body&& body) noexcept {
+nook_result with_two(const char* function, const nook_lobe* a, const nook_lobe* b, const void* out,
+                     Body&& body) noexcept {
   return api::enter(function, [&] {
     need(a, "a");
     need(b, "b");
@@ -126,25 +135,23 @@ void check_rotation(const float* m) {
 
 }  // namespace
 
-nook_result nook_probe_lobes_radiance(const nook_probe_lobe* lobes, uint32_t lobe_count,
-                                      const float* directions, float* radiance_rgb, size_t count) {
-  return at_directions("nook_probe_lobes_radiance", lobes, lobe_count, directions, radiance_rgb, count,
+nook_result nook_sg_radiance(const nook_lobe* lobes, uint32_t lobe_count, const float* directions,
+                             float* radiance_rgb, size_t count) {
+  return at_directions("nook_sg_radiance", lobes, lobe_count, directions, radiance_rgb, count,
                        [](std::span<const SphericalGaussian> all, Vec3 d) { return radiance(all, d); });
 }
 
-nook_result nook_probe_lobes_irradiance(const nook_probe_lobe* lobes, uint32_t lobe_count,
-                                        nook_probe_irradiance_form form, const float* normals,
-                                        float* irradiance_rgb, size_t count) {
-  return at_directions("nook_probe_lobes_irradiance", lobes, lobe_count, normals, irradiance_rgb, count,
+nook_result nook_sg_irradiance(const nook_lobe* lobes, uint32_t lobe_count, nook_probe_irradiance_form form,
+                               const float* normals, float* irradiance_rgb, size_t count) {
+  return at_directions("nook_sg_irradiance", lobes, lobe_count, normals, irradiance_rgb, count,
                        [&](std::span<const SphericalGaussian> all, Vec3 n) {
-                         return irradiance(all, api::irradiance_form(form), n);
+                         return irradiance(all, irradiance_form(form), n);
                        });
 }
 
-nook_result nook_probe_lobes_specular(const nook_probe_lobe* lobes, uint32_t lobe_count,
-                                      nook_probe_specular_form form, const nook_probe_surface* surfaces,
-                                      float* rgb, size_t count) {
-  return api::enter("nook_probe_lobes_specular", [&] {
+nook_result nook_sg_specular(const nook_lobe* lobes, uint32_t lobe_count, nook_probe_specular_form form,
+                             const nook_probe_surface* surfaces, float* rgb, size_t count) {
+  return api::enter("nook_sg_specular", [&] {
     const Lobes checked(lobes, lobe_count);
     if (form != NOOK_PROBE_SPECULAR_ISOTROPIC && form != NOOK_PROBE_SPECULAR_ANISOTROPIC)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "form is unknown (got %d, need 0 or 1)", form);
@@ -159,39 +166,28 @@ nook_result nook_probe_lobes_specular(const nook_probe_lobe* lobes, uint32_t lob
   });
 }
 
-nook_result nook_probe_lobe_integral(const nook_probe_lobe* lobe, float rgb[3]) {
-  return api::enter("nook_probe_lobe_integral", [&] {
+nook_result nook_sg_integral(const nook_lobe* lobe, float rgb[3]) {
+  return api::enter("nook_sg_integral", [&] {
     need(lobe, "lobe");
     need(rgb, "rgb");
     write_vec3(rgb, integral(from_public(*lobe, 0)));
   });
 }
 
-nook_result nook_probe_lobe_product_integral(const nook_probe_lobe* a, const nook_probe_lobe* b,
-                                             float rgb[3]) {
-  return with_two("nook_probe_lobe_product_integral", a, b, rgb,
-                  [&](const SphericalGaussian& x, const SphericalGaussian& y) {
-                    write_vec3(rgb, product_integral(x, y));
-                  });
+nook_result nook_sg_product(const nook_lobe* a, const nook_lobe* b, nook_lobe* out) {
+  return with_two("nook_sg_product", a, b, out, [&](const SphericalGaussian& x, const SphericalGaussian& y) {
+    *out = api::to_public(product(x, y));
+  });
 }
 
-nook_result nook_probe_lobe_product(const nook_probe_lobe* a, const nook_probe_lobe* b,
-                                    nook_probe_lobe* out) {
-  return with_two(
-      "nook_probe_lobe_product", a, b, out,
-      [&](const SphericalGaussian& x, const SphericalGaussian& y) { *out = api::to_public(product(x, y)); });
+nook_result nook_sg_convolve(const nook_lobe* a, const nook_lobe* b, nook_lobe* out) {
+  return with_two("nook_sg_convolve", a, b, out, [&](const SphericalGaussian& x, const SphericalGaussian& y) {
+    *out = api::to_public(convolution(x, y));
+  });
 }
 
-nook_result nook_probe_lobe_convolution(const nook_probe_lobe* a, const nook_probe_lobe* b,
-                                        nook_probe_lobe* out) {
-  return with_two("nook_probe_lobe_convolution", a, b, out,
-                  [&](const SphericalGaussian& x, const SphericalGaussian& y) {
-                    *out = api::to_public(convolution(x, y));
-                  });
-}
-
-nook_result nook_probe_lobes_rotate(nook_probe_lobe* lobes, uint32_t lobe_count, const float rotation[9]) {
-  return api::enter("nook_probe_lobes_rotate", [&] {
+nook_result nook_sg_rotate(nook_lobe* lobes, uint32_t lobe_count, const float rotation[9]) {
+  return api::enter("nook_sg_rotate", [&] {
     need(rotation, "rotation");
     check_rotation(rotation);
     const Lobes checked(lobes, lobe_count);
@@ -205,9 +201,8 @@ nook_result nook_probe_lobes_rotate(nook_probe_lobe* lobes, uint32_t lobe_count,
   });
 }
 
-nook_result nook_probe_lobes_to_harmonics(const nook_probe_lobe* lobes, uint32_t lobe_count, uint32_t order,
-                                          float* coefficients) {
-  return api::enter("nook_probe_lobes_to_harmonics", [&] {
+nook_result nook_sg_to_sh(const nook_lobe* lobes, uint32_t lobe_count, uint32_t order, float* coefficients) {
+  return api::enter("nook_sg_to_sh", [&] {
     const Lobes checked(lobes, lobe_count);
     need(coefficients, "coefficients");
     if (order < 1 || order > max_order)

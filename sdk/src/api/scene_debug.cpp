@@ -1,5 +1,5 @@
 // The C functions of nook_debug.h.
-#include <nook/nook_debug.h>
+#include <nook/experimental/nook_debug.h>
 
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
@@ -36,11 +36,7 @@ bool wants_entries(const void* out, std::uint32_t* count, std::uint32_t entries)
 nook_result nook_scene_describe_instance(nook_scene scene, nook_instance_id instance,
                                          nook_scene_instance_info* info) {
   return with_instance("nook_scene_describe_instance", scene, instance,
-                       [&](const Scene& s, const Instance& i) {
-                         constexpr std::size_t first_size =
-                             offsetof(nook_scene_instance_info, bound_radius) + sizeof info->bound_radius;
-                         write_info(info, first_size, describe_instance(s, i));
-                       });
+                       [&](const Scene& s, const Instance& i) { write_info(info, describe_instance(s, i)); });
 }
 
 nook_result nook_scene_read_spheres(nook_scene scene, nook_instance_id instance, nook_scene_sphere* out,

@@ -1,18 +1,11 @@
 #include <cmath>
 
 #include "sdk/src/api/entry.h"
-#include "sdk/src/api/material_handle.h"
 #include "sdk/src/api/synthesis_handle.h"
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/synthesis/coordinates_file.h"
 
 using namespace nook;
-
-namespace {
-
-constexpr std::size_t first_info = offsetof(nook_synthesis_info, texture_bytes) + sizeof(std::uint64_t);
-
-}  // namespace
 
 nook_result nook_synthesis_load(nook_context context, const void* bytes, size_t size, nook_synthesis* out) {
   return api::enter("nook_synthesis_load", [&] {
@@ -45,20 +38,7 @@ nook_result nook_synthesis_describe(nook_synthesis synthesis, nook_synthesis_inf
     known.material_width = coordinates.width;
     known.material_height = coordinates.height;
     known.texture_bytes = sizeof(synthesis::Cell) * coordinates.cells.size();
-    write_info(info, first_info, known);
-  });
-}
-
-nook_result nook_synthesis_check_material(nook_synthesis synthesis, nook_material material) {
-  return api::enter("nook_synthesis_check_material", [&] {
-    need(synthesis, "synthesis");
-    need(material, "material");
-    const synthesis::Coordinates& coordinates = synthesis->coordinates;
-    if (coordinates.width != material->info.width || coordinates.height != material->info.height)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "the coordinates are for a material of another size (got %u x %u texels, need %u x %u); "
-                    "bake them for this material",
-                    material->info.width, material->info.height, coordinates.width, coordinates.height);
+    write_info(info, known);
   });
 }
 

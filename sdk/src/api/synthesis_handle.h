@@ -1,7 +1,7 @@
 // The object behind the handle nook_synthesis.
 #pragma once
 
-#include <nook/nook_synthesis.h>
+#include <nook/experimental/nook_synthesis.h>
 
 #include <utility>
 

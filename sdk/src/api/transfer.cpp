@@ -3,10 +3,10 @@
 #include <cmath>
 #include <span>
 
+#include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/material_handle.h"
 #include "sdk/src/api/transfer_handles.h"
-#include "sdk/src/core/descriptors.h"
 #include "sdk/src/material/check.h"
 #include "sdk/src/material/evaluate.h"
 #include "sdk/src/material/reflectance.h"
@@ -18,20 +18,6 @@ using namespace nook;
 using namespace nook::transfer;
 
 namespace {
-
-constexpr std::size_t first_info = offsetof(nook_transfer_info, share_bytes) + sizeof(std::uint64_t);
-constexpr std::size_t first_mesh = offsetof(nook_transfer_mesh, uvs) + sizeof(const float*);
-constexpr std::size_t first_response = offsetof(nook_transfer_response_desc, isa) + sizeof(nook_isa);
-constexpr std::size_t first_response_info =
-    offsetof(nook_transfer_response_info, table_bytes) + sizeof(std::uint64_t);
-
-nook_transfer_response_desc default_response() {
-  nook_transfer_response_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.header_version = NOOK_VERSION;
-  desc.lobe_count = 642;
-  return desc;
-}
 
 Response response_of(const nook::material::MaterialTables& tables, std::uint32_t lobes, Memory* memory) {
   nook::material::refuse_neural(tables.neural.is_used(), "radiance transfer");
@@ -71,6 +57,56 @@ void need_finite(const float* values, std::size_t count, const char* what) {
                     double(values[i]));
 }
 
+MeshArrays arrays_of(const nook_transfer_mesh_desc& mesh) {
+  const std::size_t count = mesh.vertex_count;
+  const auto values = [&](const float* first, std::size_t each) {
+    return first ? std::span<const float>(first, each * count) : std::span<const float>();
+  };
+  return {values(mesh.positions, 3), values(mesh.normals, 3), values(mesh.tangents, 4), values(mesh.uvs, 2),
+          mesh.vertex_count};
+}
+
+void write_baked(const nook_transfer_response_s& response, const nook_transfer_vectors_desc& desc,
+                 float* vectors, std::uint32_t vertex_count, std::uint32_t stride) {
+  const Transfer& baked = desc.transfer->transfer;
+  if (desc.normals || desc.tangents)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc has a transfer, whose frames are baked, and normals or tangents; set those to NULL");
+  check_same_lobes(baked, desc.lobe_count);
+  if (desc.first_vertex > baked.vertex_count() || vertex_count > baked.vertex_count() - desc.first_vertex)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "vertices are out of range (got %u from %u on, the transfer has %u)", vertex_count,
+                  desc.first_vertex, baked.vertex_count());
+  check_same_light(baked, response.response.light_modes, response.response.light_hash);
+  const VectorOutput output = output_of(vectors, stride, response.response);
+  baked_vectors(response.response, response.isa, {desc.amplitudes, std::size_t(3) * desc.lobe_count}, baked,
+                desc.first_vertex, vertex_count, output, response.context->parallel(),
+                response.context->memory());
+}
+
+void write_open(const nook_transfer_response_s& response, const nook_transfer_vectors_desc& desc,
+                float* vectors, std::uint32_t vertex_count, std::uint32_t stride) {
+  const VectorOutput output = output_of(vectors, stride, response.response);
+  if (desc.first_vertex != 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.first_vertex is %u without a transfer, need 0",
+                  desc.first_vertex);
+  need(desc.normals, "desc.normals");
+  need(desc.tangents, "desc.tangents");
+  Vector<Frame> frames(response.context->memory());
+  frames.reserve(vertex_count);
+  for (std::uint32_t v = 0; v < vertex_count; ++v) {
+    const float* const t = desc.tangents + 4 * std::size_t(v);
+    if (!(t[3] == 1 || t[3] == -1))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "the tangent of vertex %u has a handedness that is neither 1 nor -1 (got %g)", v,
+                    double(t[3]));
+    frames.push_back(
+        orthonormal_frame(unit("normal", desc.normals + 3 * std::size_t(v), v), unit("tangent", t, v), t[3]));
+  }
+  open_vectors(response.response, response.isa, {desc.amplitudes, std::size_t(3) * desc.lobe_count}, frames,
+               output, response.context->parallel(), response.context->memory());
+}
+
 }  // namespace
 
 nook_result nook_transfer_load(nook_context context, const void* bytes, size_t size, nook_transfer* out) {
@@ -104,13 +140,13 @@ nook_result nook_transfer_describe(nook_transfer transfer, nook_transfer_info* i
     known.bounces = transfer->transfer.bounces;
     known.has_holes = transfer->transfer.votf_hash != 0;
     const PaperTransfer& paper = transfer->transfer.paper;
-    known.form = paper.is_used() ? NOOK_TRANSFER_FORM_PAPER : NOOK_TRANSFER_FORM_SEPARATED;
+    known.form = paper.is_used() ? NOOK_FORM_PAPER : NOOK_FORM_DEFAULT;
     known.light_modes = paper.light_modes;
     if (paper.is_used())
       known.paper_bytes = paper_bytes(known.vertex_count, paper.clusters, known.lobe_count, paper.light_modes,
                                       paper.lobe_rank, paper.vertex_rank);
     known.indirect_bytes = sizeof(std::uint16_t) * transfer->transfer.indirect.size();
-    write_info(info, first_info, known);
+    write_info(info, known);
   });
 }
 
@@ -135,38 +171,16 @@ nook_result nook_transfer_read_frames(nook_transfer transfer, float* normals, fl
   });
 }
 
-nook_result nook_transfer_check_mesh(nook_transfer transfer, const nook_transfer_mesh* mesh) {
-  return api::enter("nook_transfer_check_mesh", [&] {
+nook_result nook_transfer_check(nook_transfer transfer, const nook_transfer_mesh_desc* mesh,
+                                nook_material material) {
+  return api::enter("nook_transfer_check", [&] {
     need(transfer, "transfer");
-    need(mesh, "mesh");
-    if (mesh->struct_size < first_mesh)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "mesh.struct_size is too small (got %u, need at least %zu); set it to sizeof",
-                    mesh->struct_size, first_mesh);
-    const std::size_t count = mesh->vertex_count;
-    const auto values = [&](const float* first, std::size_t each) {
-      return first ? std::span<const float>(first, each * count) : std::span<const float>();
-    };
-    check_same_mesh(transfer->transfer,
-                    {values(mesh->positions, 3), values(mesh->normals, 3), values(mesh->tangents, 4),
-                     values(mesh->uvs, 2), mesh->vertex_count});
-  });
-}
-
-nook_result nook_transfer_check_material(nook_transfer transfer, nook_material material) {
-  return api::enter("nook_transfer_check_material", [&] {
-    need(transfer, "transfer");
-    need(material, "material");
+    if (mesh) check_same_mesh(transfer->transfer, arrays_of(read_descriptor(mesh)));
+    if (!material) return;
     nook::material::refuse_neural(material->tables.neural.is_used(), "radiance transfer");
     check_same_light(transfer->transfer, material->tables.btf.light_modes, material->tables.light_hash);
     check_same_material(transfer->transfer, material->tables.votf_hash);
   });
-}
-
-nook_result nook_transfer_response_desc_init(nook_transfer_response_desc* desc, size_t size,
-                                             uint32_t header_version) {
-  return api::enter("nook_transfer_response_desc_init",
-                    [&] { init_descriptor(desc, size, header_version, first_response, default_response()); });
 }
 
 nook_result nook_transfer_response_create(nook_context context, const nook_transfer_response_desc* desc,
@@ -175,11 +189,12 @@ nook_result nook_transfer_response_create(nook_context context, const nook_trans
     need(out, "out");
     *out = nullptr;
     need(context, "context");
-    const nook_transfer_response_desc d =
-        read_descriptor(desc, "nook_transfer_response_desc_init", first_response, default_response());
+    const nook_transfer_response_desc d = read_descriptor(desc);
     need(d.material, "desc.material");
     check_lobes(d.lobe_count, NOOK_ERROR_INVALID_ARGUMENT);
-    const Isa isa = choose_isa(d.isa);
+    if (d.reserved != 0)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", d.reserved);
+    const Isa isa = choose_isa(context->isa());
     const auto shared = Ref<nook_context_s>::share(context);
     *out = Owned<nook_transfer_response_s>::make(
                context->memory(), shared, context, isa,
@@ -207,59 +222,26 @@ nook_result nook_transfer_response_describe(nook_transfer_response response,
     known.reflectance[0] = share.x;
     known.reflectance[1] = share.y;
     known.reflectance[2] = share.z;
-    write_info(info, first_response_info, known);
+    write_info(info, known);
   });
 }
 
-nook_result nook_transfer_vectors(nook_transfer transfer, nook_transfer_response response,
-                                  const float* amplitudes, uint32_t lobe_count, uint32_t first_vertex,
-                                  uint32_t vertex_count, float* vectors, uint32_t stride_floats) {
-  return api::enter("nook_transfer_vectors", [&] {
-    need(transfer, "transfer");
+nook_result nook_transfer_read_vectors(nook_transfer_response response,
+                                       const nook_transfer_vectors_desc* desc, float* vectors,
+                                       uint32_t vertex_count, uint32_t stride_floats) {
+  return api::enter("nook_transfer_read_vectors", [&] {
     need(response, "response");
-    const Transfer& baked = transfer->transfer;
-    need(amplitudes, "amplitudes");
-    check_amplitudes(amplitudes, lobe_count, response->response.lobes);
-    check_same_lobes(baked, lobe_count);
-    if (first_vertex > baked.vertex_count() || vertex_count > baked.vertex_count() - first_vertex)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "vertices are out of range (got %u from %u on, the transfer has %u)", vertex_count,
-                    first_vertex, baked.vertex_count());
-    check_same_light(baked, response->response.light_modes, response->response.light_hash);
-    const VectorOutput output = output_of(vectors, stride_floats, response->response);
-    baked_vectors(response->response, response->isa, {amplitudes, std::size_t(3) * lobe_count}, baked,
-                  first_vertex, vertex_count, output, response->context->parallel(),
-                  response->context->memory());
+    const nook_transfer_vectors_desc d = read_descriptor(desc);
+    need(d.amplitudes, "desc.amplitudes");
+    check_amplitudes(d.amplitudes, d.lobe_count, response->response.lobes);
+    if (d.transfer)
+      write_baked(*response, d, vectors, vertex_count, stride_floats);
+    else
+      write_open(*response, d, vectors, vertex_count, stride_floats);
   });
 }
 
-nook_result nook_transfer_open_vectors(nook_transfer_response response, const float* amplitudes,
-                                       uint32_t lobe_count, const float* normals, const float* tangents,
-                                       uint32_t vertex_count, float* vectors, uint32_t stride_floats) {
-  return api::enter("nook_transfer_open_vectors", [&] {
-    need(response, "response");
-    need(amplitudes, "amplitudes");
-    check_amplitudes(amplitudes, lobe_count, response->response.lobes);
-    const VectorOutput output = output_of(vectors, stride_floats, response->response);
-    need(normals, "normals");
-    need(tangents, "tangents");
-    Vector<Frame> frames(response->context->memory());
-    frames.reserve(vertex_count);
-    for (std::uint32_t v = 0; v < vertex_count; ++v) {
-      const float* const t = tangents + 4 * std::size_t(v);
-      if (!(t[3] == 1 || t[3] == -1))
-        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                      "the tangent of vertex %u has a handedness that is neither 1 nor -1 (got %g)", v,
-                      double(t[3]));
-      frames.push_back(
-          orthonormal_frame(unit("normal", normals + 3 * std::size_t(v), v), unit("tangent", t, v), t[3]));
-    }
-    open_vectors(response->response, response->isa, {amplitudes, std::size_t(3) * lobe_count}, frames, output,
-                 response->context->parallel(), response->context->memory());
-  });
-}
-
-nook_result nook_transfer_shade(nook_material material, const nook_material_sample* samples,
+nook_result nook_transfer_shade(nook_material material, const nook_material_pixel* pixels,
                                 const float* vectors, uint32_t vector_floats, uint32_t count,
                                 float* radiance) {
   return api::enter("nook_transfer_shade", [&] {
@@ -270,22 +252,22 @@ nook_result nook_transfer_shade(nook_material material, const nook_material_samp
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "vector_floats is not that of the material (got %u, need %u)", vector_floats, 3 * modes);
     if (count == 0) return;
-    need(samples, "samples");
+    need(pixels, "pixels");
     need(vectors, "vectors");
     need(radiance, "radiance");
     std::array<float, 3 * nook::material::max_directions + 3> decoded;
     for (std::size_t i = 0; i < count; ++i) {
-      const nook_material_sample& s = samples[i];
-      const float numbers[] = {s.uv[0], s.uv[1], s.level, s.view[0], s.view[1], s.view[2]};
-      need_finite(numbers, std::size(numbers), "a sample");
+      const nook_material_pixel& p = pixels[i];
+      const float numbers[] = {p.uv[0], p.uv[1],   p.dx[0],   p.dx[1],  p.dy[0],
+                               p.dy[1], p.view[0], p.view[1], p.view[2]};
+      need_finite(numbers, std::size(numbers), "a pixel");
       const float* const vector = vectors + i * vector_floats;
       need_finite(vector, vector_floats, "a vector");
-      nook::material::Sample sample;
-      sample.u = s.uv[0];
-      sample.v = s.uv[1];
-      sample.level = s.level;
-      sample.view = {s.view[0], s.view[1], s.view[2]};
-      nook::material::decode_modes(material->tables, sample, std::span(decoded).first(modes));
+      const nook::material::Pixel pixel{{{p.uv[0], p.uv[1]}, {p.dx[0], p.dx[1]}, {p.dy[0], p.dy[1]}},
+                                        {p.view[0], p.view[1], p.view[2]},
+                                        {},
+                                        1};
+      nook::material::decode_pixel_modes(material->tables, pixel, std::span(decoded).first(modes));
       for (std::uint32_t c = 0; c < 3; ++c) {
         float sum = 0;
         for (std::uint32_t a = 0; a < modes; ++a) sum += decoded[a] * vector[c * modes + a];

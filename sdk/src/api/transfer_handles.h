@@ -1,7 +1,7 @@
 // The objects behind the public handles of radiance transfer.
 #pragma once
 
-#include <nook/nook_transfer.h>
+#include <nook/experimental/nook_transfer.h>
 
 #include <utility>
 
@@ -9,7 +9,6 @@
 #include "sdk/src/core/isa.h"
 #include "sdk/src/core/map_suns.h"
 #include "sdk/src/transfer/light_cube.h"
-#include "sdk/src/transfer/lobe_fit.h"
 #include "sdk/src/transfer/response.h"
 #include "sdk/src/transfer/transfer.h"
 
@@ -24,18 +23,20 @@ struct nook_transfer_s : nook::RefCounted {
 struct nook_transfer_light_s : nook::RefCounted {
   static constexpr std::uint32_t side = 64;
 
-  explicit nook_transfer_light_s(nook::Memory* memory)
-      : cells(side, memory), radiance(memory), suns(memory) {}
+  // Without cells: the light of a direction.
+  nook_transfer_light_s(nook_context_s* made_by, bool has_cells)
+      : context(made_by),
+        cells(has_cells ? side : 0, made_by->memory()),
+        radiance(made_by->memory()),
+        suns(made_by->memory()) {}
 
+  bool is_directional() const { return cells.size() == 0; }
+
+  nook_context_s* context;  // kept alive by this object's owner reference
+  nook::Vec3 direction, irradiance;
   nook::transfer::CubeCells cells;
   nook::Vector<nook::Vec3> radiance;  // of each cell
   nook::Vector<nook::MapSun> suns;
-};
-
-struct nook_transfer_fit_s : nook::RefCounted {
-  nook_transfer_fit_s(nook::Memory* memory, std::uint32_t lobes) : fit(lobes, memory) {}
-
-  const nook::transfer::LobeFit fit;
 };
 
 struct nook_transfer_response_s : nook::RefCounted {

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
+#include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
 #include "sdk/src/api/world_casting.h"
-#include "sdk/src/core/descriptors.h"
 #include "sdk/src/world/sample.h"
 
 using namespace nook;
@@ -16,15 +16,6 @@ static_assert(NOOK_WORLD_CONE_PARTS == world::cone_parts);
 
 namespace {
 
-constexpr std::size_t first_sample_desc = offsetof(nook_world_sample_desc, light_degrees) + sizeof(float);
-
-nook_world_sample_desc default_sample_desc() {
-  nook_world_sample_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.header_version = NOOK_VERSION;
-  return desc;
-}
-
 world::SampleRequest request_of(const nook_world_sample_desc& desc, float cutoff_error) {
   if (desc.point_count > 0) {
     need(desc.positions, "desc.positions");
@@ -33,7 +24,7 @@ world::SampleRequest request_of(const nook_world_sample_desc& desc, float cutoff
   if (desc.stride % sizeof(float) != 0 || (desc.stride != 0 && desc.stride < 3 * sizeof(float)))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.stride is out of range (got %u, need 0 or a multiple of 4 from 12 on)", desc.stride);
-  api::check_props("desc", desc.props, desc.prop_count);
+  api::check_props("desc", desc.capsules, desc.capsule_count);
   world::SampleRequest request;
   request.positions = desc.positions;
   request.normals = desc.normals;
@@ -49,8 +40,8 @@ world::SampleRequest request_of(const nook_world_sample_desc& desc, float cutoff
 
 }  // namespace
 
-nook_result nook_world_read_casters(nook_character_model model, nook_world_caster* out, uint32_t* count) {
-  return api::enter("nook_world_read_casters", [&] {
+nook_result nook_model_read_capsules(nook_model model, nook_model_capsule* out, uint32_t* count) {
+  return api::enter("nook_model_read_capsules", [&] {
     need(model, "model");
     need(count, "count");
     const auto& casters = model->model.world_casters;
@@ -71,16 +62,9 @@ nook_result nook_world_read_casters(nook_character_model model, nook_world_caste
   });
 }
 
-nook_result nook_world_sample_desc_init(nook_world_sample_desc* desc, size_t size, uint32_t header_version) {
-  return api::enter("nook_world_sample_desc_init", [&] {
-    init_descriptor(desc, size, header_version, first_sample_desc, default_sample_desc());
-  });
-}
-
 nook_result nook_world_sample(nook_scene scene, const nook_world_sample_desc* desc, float* ao, float* light) {
   return api::enter("nook_world_sample", [&] {
-    const nook_world_sample_desc given =
-        read_descriptor(desc, "nook_world_sample_desc_init", first_sample_desc, default_sample_desc());
+    const nook_world_sample_desc given = read_descriptor(desc);
     if (light && given.light_degrees == 0)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "light is not NULL, but desc.light_degrees is 0; give the light's full angle");
@@ -94,8 +78,8 @@ nook_result nook_world_sample(nook_scene scene, const nook_world_sample_desc* de
       if (!scene) throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.receiver is given without a scene");
       instance_of(scene->scene, given.receiver);
     }
-    const api::Casting casting(scene ? &scene->scene : nullptr, given.receiver, given.props,
-                               given.prop_count);
+    const api::Casting casting(scene ? &scene->scene : nullptr, given.receiver, given.capsules,
+                               given.capsule_count);
     const Isa isa = scene ? scene->scene.kernels->isa : choose_isa(NOOK_ISA_AUTO);
     world::sample(*world::world_kernels(isa), scene ? scene->scene.parallel : Parallel{}, request,
                   {casting.group_count(), &casting, api::Casting::group}, ao, light, given.directional_ao);

@@ -11,7 +11,7 @@
 namespace nook::api {
 namespace {
 
-PosedCaster caster_of(const nook_world_capsule& prop) {
+PosedCaster caster_of(const nook_capsule& prop) {
   return {{vector_of(prop.a), vector_of(prop.b), prop.radius_a, prop.radius_b}, 1};
 }
 
@@ -29,25 +29,25 @@ std::uint32_t size_of(const Objects& objects) {
 
 }  // namespace
 
-void check_props(const char* descriptor, const nook_world_capsule* props, std::uint32_t count) {
+void check_props(const char* descriptor, const nook_capsule* props, std::uint32_t count) {
   if (count > 0 && !props)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.props is NULL with %s.prop_count %u", descriptor,
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.capsules is NULL with %s.capsule_count %u", descriptor,
                   descriptor, count);
   constexpr std::uint32_t largest = 1u << 20;
   if (count > largest)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.prop_count is too large (got %u, need at most %u)",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.capsule_count is too large (got %u, need at most %u)",
                   descriptor, count, largest);
   for (std::uint32_t i = 0; i < count; ++i) {
     for (const auto& end : {props[i].a, props[i].b})
       if (!is_place({end[0], end[1], end[2]}))
         throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                      "%s.props[%u] has an end out of range (got %g %g %g, need finite metres below 1e6)",
+                      "%s.capsules[%u] has an end out of range (got %g %g %g, need finite metres below 1e6)",
                       descriptor, i, double(end[0]), double(end[1]), double(end[2]));
     for (const float radius : {props[i].radius_a, props[i].radius_b})
       if (!(radius > 0 && radius <= max_metres))
         throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                      "%s.props[%u] has a radius out of range (got %g, need metres above 0)", descriptor, i,
-                      double(radius));
+                      "%s.capsules[%u] has a radius out of range (got %g, need metres above 0)", descriptor,
+                      i, double(radius));
   }
 }
 
@@ -64,7 +64,7 @@ Vec3 checked_light(const char* descriptor, const float (&axis)[3], float degrees
   return normalised(towards);
 }
 
-world::LightTerms terms_of_lobes(const char* descriptor, const nook_probe_lobe* lobes, std::uint32_t count,
+world::LightTerms terms_of_lobes(const char* descriptor, const nook_lobe* lobes, std::uint32_t count,
                                  const float* turn) {
   if (count > 0 && !lobes)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.lobes is NULL with %s.lobe_count %u", descriptor,
@@ -89,8 +89,7 @@ world::LightTerms terms_of_lobes(const char* descriptor, const nook_probe_lobe* 
   return world::terms_of(all);
 }
 
-Casting::Casting(Scene* scene, nook_instance_id receiver, const nook_world_capsule* props,
-                 std::uint32_t prop_count)
+Casting::Casting(Scene* scene, nook_instance_id receiver, const nook_capsule* props, std::uint32_t prop_count)
     : scene_(scene), receiver_(receiver), props_(props), prop_count_(prop_count) {
   if (!scene) return;
   for (Instance& instance : scene->instances)

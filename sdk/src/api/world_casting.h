@@ -15,12 +15,12 @@ inline Vec3 vector_of(const float (&v)[3]) {
 }
 
 // Throws Failure unless every prop is a capsule; the message begins with the descriptor's name.
-void check_props(const char* descriptor, const nook_world_capsule* props, std::uint32_t count);
+void check_props(const char* descriptor, const nook_capsule* props, std::uint32_t count);
 
 // The light's axes are turned by `turn`, column-major with four numbers in a column, if it is not NULL.
 // Throws Failure unless the lobes are lobes; the message begins with the descriptor's name. Without lobes the
 // light is constant.
-world::LightTerms terms_of_lobes(const char* descriptor, const nook_probe_lobe* lobes, std::uint32_t count,
+world::LightTerms terms_of_lobes(const char* descriptor, const nook_lobe* lobes, std::uint32_t count,
                                  const float* turn = nullptr);
 
 // Returns the unit axis of a cone of light. Throws Failure unless it is one.
@@ -35,7 +35,7 @@ class Casting {
  public:
   // Poses the casters of the scene's instances. scene may be NULL. receiver: the instance that does not cast,
   // or 0.
-  Casting(Scene* scene, nook_instance_id receiver, const nook_world_capsule* props, std::uint32_t prop_count);
+  Casting(Scene* scene, nook_instance_id receiver, const nook_capsule* props, std::uint32_t prop_count);
 
   // Bodies by slot, then occluders by slot, then props; a free slot is a group without casters.
   std::uint32_t group_count() const;
@@ -52,7 +52,7 @@ class Casting {
 
   const Scene* scene_;
   nook_instance_id receiver_;
-  const nook_world_capsule* props_;
+  const nook_capsule* props_;
   std::uint32_t prop_count_;
   // Of the model that was met last: the bodies of a crowd are alike.
   mutable const CharacterModel* parts_of_ = nullptr;

@@ -1,6 +1,7 @@
-// Bent normals from blocked vectors. The blocked vector of a point is the mean over its cosine-weighted
-// hemisphere of the directions that are blocked, where open directions count as zero: 0 where all is open,
-// 2/3 of the normal where nothing is. What is left of 2/3 of the normal points to where the point is open.
+// Bent normals from occluded directions. The occluded direction of a point is the mean over its
+// cosine-weighted hemisphere of the directions that are occluded, where open directions count as zero: 0
+// where all is open, 2/3 of the normal where nothing is. What is left of 2/3 of the normal points to where
+// the point is open.
 #pragma once
 
 #include <cmath>
@@ -10,9 +11,9 @@
 
 namespace nook {
 
-// The blocked vectors of a vertex are on a line over its AO; these are its ends. They turn as the normal
+// The occluded directions of a vertex are on a line over its AO; these are its ends. They turn as the normal
 // does.
-struct BlockedEnds {
+struct OccludedEnds {
   Vec3 dark;  // at AO 0
   Vec3 open;  // at AO 1
 
@@ -23,8 +24,8 @@ struct BlockedEnds {
 inline constexpr float open_hemisphere = 2.0f / 3;
 
 // Returns a unit vector: the normal where nothing is left. Both vectors are in one space.
-inline Vec3 bent_normal(Vec3 normal, Vec3 blocked) {
-  const Vec3 left = open_hemisphere * normal - blocked;
+inline Vec3 bent_normal(Vec3 normal, Vec3 occluded) {
+  const Vec3 left = open_hemisphere * normal - occluded;
   const float size = length(left);
   return size > 1e-6f ? left * (1 / size) : normal;
 }

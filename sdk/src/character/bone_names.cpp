@@ -59,18 +59,18 @@ struct KeyedIndex {
 
 }  // namespace
 
-std::size_t map_bones(const CharacterModel& model, const nook_bone_names& names,
+std::size_t map_bones(const CharacterModel& model, const nook_bone_map_desc& names,
                       std::span<std::int32_t> transform_of_bone, Memory* memory) {
   Names host(memory), own(memory);
   for (std::uint32_t i = 0; i < names.name_count; ++i)
     host.push_back(without(text_of(names.names[i]), text_of(names.host_prefix), text_of(names.host_suffix)));
   for (const String& name : model.bone_names)
     own.push_back(without(name, text_of(names.model_prefix), text_of(names.model_suffix)));
-  if (names.flags & NOOK_BONE_NAMES_DROP_SHARED_PREFIX) {
+  if (names.flags & NOOK_BONE_MAP_DROP_SHARED_PREFIX) {
     drop_shared_prefix(host, memory);
     drop_shared_prefix(own, memory);
   }
-  const bool is_loose = names.flags & NOOK_BONE_NAMES_LOOSE;
+  const bool is_loose = names.flags & NOOK_BONE_MAP_LOOSE;
   Vector<KeyedIndex> index_of(memory);
   for (std::size_t i = 0; i < host.size(); ++i)
     if (!host[i].empty())

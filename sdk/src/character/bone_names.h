@@ -1,7 +1,7 @@
 // Finds a host's transforms by the names of bones.
 #pragma once
 
-#include <nook/nook_pose.h>
+#include <nook/nook_character.h>
 
 #include <cstdint>
 #include <span>
@@ -13,7 +13,7 @@ namespace nook {
 
 // Writes the index of the first of the host's names that matches each bone, or -1, and returns the number of
 // -1. Bones of one joint take the transform of its first bone where their own name has none.
-std::size_t map_bones(const CharacterModel& model, const nook_bone_names& names,
+std::size_t map_bones(const CharacterModel& model, const nook_bone_map_desc& names,
                       std::span<std::int32_t> transform_of_bone, Memory* memory);
 
 }  // namespace nook

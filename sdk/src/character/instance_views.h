@@ -1,6 +1,7 @@
 // The arrays of a scene's instances as the kernels take them.
 #pragma once
 
+#include <nook/experimental/nook_debug.h>
 #include <algorithm>
 #include <array>
 
@@ -21,7 +22,7 @@ inline SphereSoa spheres_of(const Instance& instance, std::uint32_t level) {
 // True where an update merges the spheres of far casters. The paper's form takes the spheres, because its
 // norm is no sum.
 inline bool may_group(const Scene& scene) {
-  return scene.settings.far_error > 0 && scene.settings.combine == NOOK_COMBINE_COMPOSED;
+  return scene.settings.far_error > 0 && scene.settings.form == NOOK_FORM_DEFAULT;
 }
 
 // The spheres of a caster for a receiver: the fewest groups whose change of AO the distance allows, or the

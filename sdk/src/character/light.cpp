@@ -154,8 +154,7 @@ InstanceLight moved_light(const InstanceLight& light, const PointLanes& points, 
 // In the joint norm the ground is a sphere among others, and takes its light there.
 void prepare_light(const Scene& scene, Instance& instance) noexcept {
   InstanceLight& light = instance.light;
-  const bool hides =
-      instance.plan.ground_sphere.radius > 0 && scene.settings.combine == NOOK_COMBINE_COMPOSED;
+  const bool hides = instance.plan.ground_sphere.radius > 0 && scene.settings.form == NOOK_FORM_DEFAULT;
   light.bands = {};
   light.bands.darkest = light.darkest;
   for (std::uint32_t i = 0; i < light.count; ++i) {
@@ -171,7 +170,7 @@ void evaluate_directional(const Scene& scene, Instance& instance) noexcept {
   if (light.count == 0) return;
   prepare_light(scene, instance);
   const PointLanes points = evaluated_points(instance);
-  const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
+  const bool composed = scene.settings.form == NOOK_FORM_DEFAULT;
   fill(light.sum, points.padded_count, 0.0f);
   if (has_self_shadow(scene, instance))
     scene.kernels->directional_norm_sum(spheres_of(instance, instance.plan.level), fitted_points(points),

@@ -92,7 +92,7 @@ struct CharacterModel {
         bias(memory),
         blend(memory),
         static_ao(memory),
-        blocked(memory),
+        occluded(memory),
         file_to_welded(memory),
         primitives(memory),
         levels(memory),
@@ -122,7 +122,7 @@ struct CharacterModel {
   Vector<float> static_ao;
 
   // For each welded vertex, in rest space; may be empty: the model was baked without.
-  Vector<BlockedEnds> blocked;
+  Vector<OccludedEnds> occluded;
 
   Vector<std::uint32_t> file_to_welded;  // the welded vertex of each vertex in file order
   Vector<PrimitiveRange> primitives;

@@ -154,13 +154,13 @@ void check_world_casters(const CharacterModel& model, const Check& check) {
   }
 }
 
-void check_blocked(const CharacterModel& model, const Check& check) {
-  if (model.blocked.empty()) return;
-  check.sized("blocked vectors", model.blocked.size(), model.vertex_count());
-  for (std::size_t i = 0; i < model.blocked.size(); ++i)
-    for (const Vec3 end : {model.blocked[i].dark, model.blocked[i].open})
+void check_occluded(const CharacterModel& model, const Check& check) {
+  if (model.occluded.empty()) return;
+  check.sized("occluded directions", model.occluded.size(), model.vertex_count());
+  for (std::size_t i = 0; i < model.occluded.size(); ++i)
+    for (const Vec3 end : {model.occluded[i].dark, model.occluded[i].open})
       for (const float coordinate : {end.x, end.y, end.z})
-        check.that(within(coordinate, -1, 1), "blocked vector of vertex", i, coordinate, "-1 to 1");
+        check.that(within(coordinate, -1, 1), "occluded direction of vertex", i, coordinate, "-1 to 1");
 }
 
 void check_file_order(const CharacterModel& model, const Check& check) {
@@ -273,7 +273,7 @@ void check_model(const CharacterModel& model, nook_result code) {
   check_bind_data(model, check);
   check_rest_surface(model, check);
   check_world_casters(model, check);
-  check_blocked(model, check);
+  check_occluded(model, check);
   check.count("levels of detail", model.levels.size(), 0, CharacterModel::max_levels);
   for (const CharacterLevel& level : model.levels) check_level(model, level, check);
 }

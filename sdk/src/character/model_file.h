@@ -3,7 +3,7 @@
 //   STAO static AO, one byte for each welded vertex (optional)   FMAP file order   PRIM primitives
 //   LODS levels of detail (optional)   RECP recipe
 //   BIND bind data (optional)   REST rest positions and normals of the welded vertices (optional)
-//   WCAS world casters (optional)   BENT blocked vectors of the welded vertices (optional)
+//   WCAS world casters (optional)   BENT occluded directions of the welded vertices (optional)
 //   SATU saturations of the key points (optional, all 0 without it)
 // Version 2 has neither BIND nor REST, version 3 has no SATU; both are read as well.
 // Numbers are quantised within the error budget; model_file_packing.h has the number of bits.

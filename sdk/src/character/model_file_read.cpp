@@ -337,10 +337,10 @@ void read_world_casters(ByteReader in, CharacterModel& model) {
   in.check_end();
 }
 
-void read_blocked(ByteReader in, CharacterModel& model) {
+void read_occluded(ByteReader in, CharacterModel& model) {
   const std::size_t vertices = model.vertex_count();
   in.check_count(static_cast<std::uint32_t>(vertices), 6 * 8, "vertices");
-  model.blocked.reserve(vertices);
+  model.occluded.reserve(vertices);
   const auto coordinate = [&] {
     return decode_coordinate(static_cast<std::int8_t>(static_cast<std::uint8_t>(in.u8())));
   };
@@ -350,7 +350,7 @@ void read_blocked(ByteReader in, CharacterModel& model) {
   };
   for (std::size_t i = 0; i < vertices; ++i) {
     const Vec3 dark = vector();
-    model.blocked.push_back({dark, vector()});
+    model.occluded.push_back({dark, vector()});
   }
   in.check_end();
 }
@@ -374,7 +374,7 @@ CharacterModel read_character_model(std::span<const std::byte> bytes, Memory* me
   if (file.has("BIND")) read_bind_data(file.section("BIND"), model);
   if (file.has("REST")) read_rest_surface(file.section("REST"), model);
   if (file.has("WCAS")) read_world_casters(file.section("WCAS"), model);
-  if (file.has("BENT")) read_blocked(file.section("BENT"), model);
+  if (file.has("BENT")) read_occluded(file.section("BENT"), model);
   if (file.has("SATU")) read_saturations(file.section("SATU"), model);
   ByteReader recipe = file.section("RECP");
   model.recipe = recipe.text(recipe.remaining());

@@ -348,9 +348,9 @@ ByteWriter write_world_casters(const CharacterModel& model) {
   return out;
 }
 
-ByteWriter write_blocked(const CharacterModel& model) {
+ByteWriter write_occluded(const CharacterModel& model) {
   ByteWriter out;
-  for (const BlockedEnds& ends : model.blocked)
+  for (const OccludedEnds& ends : model.occluded)
     for (const Vec3 end : {ends.dark, ends.open})
       for (const float coordinate : {end.x, end.y, end.z})
         out.u8(static_cast<std::uint8_t>(encode_coordinate(coordinate)));
@@ -384,7 +384,7 @@ std::vector<std::byte> write_character_model(const CharacterModel& model) {
   if (!model.bind.empty()) add("BIND", write_bind_data(model));
   if (!model.rest.position.empty()) add("REST", write_rest_surface(model.rest));
   if (!model.world_casters.empty()) add("WCAS", write_world_casters(model));
-  if (!model.blocked.empty()) add("BENT", write_blocked(model));
+  if (!model.occluded.empty()) add("BENT", write_occluded(model));
   if (max_saturation_of(model) > 0) add("SATU", write_saturations(model));
   ByteWriter recipe;
   recipe.text(model.recipe);

@@ -103,14 +103,14 @@ bool explain_by_map(Check& check, PoseFinding& finding) {
   finding.scale = scale;
   const bool is_mirrored = determinant(map) < 0;
   if (std::abs(scale - 1) > 0.02) {
-    finding.fault = NOOK_POSE_WRONG_UNIT;
+    finding.fault = NOOK_POSE_FAULT_UNIT;
     say(finding,
         "the pose is in another unit than the vertices: it fits when multiplied by %.6g%s; scale "
         "desc.place_3x4 or the vertices' place",
         scale, is_mirrored ? " and mirrored" : "");
     return true;
   }
-  finding.fault = NOOK_POSE_WRONG_PLACE;
+  finding.fault = NOOK_POSE_FAULT_PLACE;
   if (is_mirrored)
     say(finding,
         "the pose is a mirror image of the vertices: one of them is left-handed; put the mirroring into "
@@ -156,7 +156,7 @@ bool explain_by_order(const Check& check, PoseFinding& finding) {
     }
   }
   if (off == 0 || 2 * found < off) return false;
-  finding.fault = NOOK_POSE_WRONG_ORDER;
+  finding.fault = NOOK_POSE_FAULT_ORDER;
   say(finding,
       "transforms go to the wrong bones: %zu of %zu vertices fit under the transform of another bone; bone "
       "%u (\"%s\") fits with transform %lld; map bones by name",
@@ -232,7 +232,7 @@ PoseFinding find_pose_fault(const CharacterModel& model, const PoseSource& sourc
       describe(model, source, reading, finding);
       return finding;
     }
-  finding.fault = NOOK_POSE_UNKNOWN_FAULT;
+  finding.fault = NOOK_POSE_FAULT_UNKNOWN;
   say(finding,
       "the pose differs by up to %.3g of the bounding radius, most at bone %u (\"%s\"), and no known mistake "
       "explains it: another clip or frame, another mesh, or vertices of another file",

@@ -1,7 +1,7 @@
 // The finding of a check of a pose.
 #pragma once
 
-#include <nook/nook_pose.h>
+#include <nook/nook_character.h>
 
 #include <cstdint>
 
@@ -9,9 +9,9 @@
 
 namespace nook {
 
-// The parts of nook_pose_check that the check answers.
+// The answers of nook_pose_check_info.
 struct PoseFinding {
-  nook_pose_fault fault = NOOK_POSE_RIGHT;
+  nook_pose_fault fault = NOOK_POSE_FAULT_NONE;
   double max_error = 0, rms_error = 0;  // shares of the bounding radius times the scale of the pose
   std::uint32_t worst_bone = 0;
   std::uint32_t fitting_skin = 0;

@@ -14,7 +14,7 @@ struct Reading {
   bool is_turned_back = false;  // the 3x3 part is transposed, the translation stays
   bool is_inverted = false;
   double translation_scale = 1;
-  nook_pose_fault fault = NOOK_POSE_RIGHT;
+  nook_pose_fault fault = NOOK_POSE_FAULT_NONE;
 };
 
 Affine read_transform(const Reading& reading, std::uint32_t index);

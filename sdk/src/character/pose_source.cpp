@@ -16,10 +16,17 @@ const char* name_of(const CharacterModel& model, std::size_t bone) {
   return model.bone_names[bone].c_str();
 }
 
-void need_bind(const CharacterModel& model) {
-  if (model.bind.empty())
-    throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "the model has no bind data, which only rest-to-world matrices do without; bake it again");
+// The position of a skin of the file among those of the model.
+std::uint32_t find_skin(const CharacterModel& model, std::uint32_t file_index) {
+  const Vector<SkinBind>& skins = model.bind.skins;
+  const auto found = std::find_if(skins.begin(), skins.end(),
+                                  [&](const SkinBind& skin) { return skin.file_index == file_index; });
+  if (found == skins.end())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.skin is none of the model's %zu skins (got %u); nook_model_describe_skin lists them, "
+                  "and a model without skins takes NOOK_POSE_JOINT_TO_WORLD",
+                  skins.size(), file_index);
+  return static_cast<std::uint32_t>(found - skins.begin());
 }
 
 // Kavan, Collins, Zara, O'Sullivan 2008, "Geometric Skinning with Approximate Dual Quaternion Blending",
@@ -71,7 +78,19 @@ double unevenness(const Affine& a) {
   return std::max(0.5 * (largest / smallest - 1), shear / largest);
 }
 
+// More than 1 % of shear or of length.
+bool is_uneven(const Affine& matrix) {
+  return unevenness(matrix) > 0.0101;
+}
+
 }  // namespace
+
+void need_bind_data(const CharacterModel& model) {
+  if (model.bind.empty())
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the model has no bind data; bake it again from the glTF file, or pass "
+                  "NOOK_POSE_REST_TO_WORLD matrices");
+}
 
 void check_size(const CharacterModel& model, std::size_t bone, const Mat3x4& matrix) {
   for (int i = 0; i < 12; ++i)
@@ -103,14 +122,9 @@ void check_pose_source(const CharacterModel& model, PoseSource& source) {
   if (source.transform_count < 1 || source.transform_count > max_transforms)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.transform_count is out of range (got %u, need 1 to %u)",
                   source.transform_count, max_transforms);
-  if (!source.transform_of_bone.empty() && source.transform_of_bone.size() != model.bone_count())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.bone_count is not the model's (got %zu, need %zu)",
-                  source.transform_of_bone.size(), model.bone_count());
-  if (source.kind != NOOK_POSE_REST_TO_WORLD) need_bind(model);
+  if (source.kind != NOOK_POSE_REST_TO_WORLD) need_bind_data(model);
   const bool is_skinning = source.kind == NOOK_POSE_SKINNING;
-  if (is_skinning && source.skin >= model.bind.skins.size())
-    throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "the model's meshes have no skin of this number; give joint world matrices");
+  if (is_skinning) source.skin = find_skin(model, source.file_skin);
   if (source.transform_of_bone.empty()) {
     const std::size_t expected = is_skinning ? model.bind.skins[source.skin].joint_count : model.bone_count();
     if (source.transform_count != expected)
@@ -183,18 +197,20 @@ Affine projected(const Affine& matrix, const std::array<double, 3>& fixed) {
 
 namespace {
 
-void convert_bone(const CharacterModel& model, const PoseSource& source, std::size_t bone,
+// Returns whether the matrix of the bone had to be projected.
+bool convert_bone(const CharacterModel& model, const PoseSource& source, std::size_t bone,
                   std::uint32_t index, std::span<Mat3x4> bones) {
   const Affine matrix = bone_matrix(model, source, bone, read_transform(source, index));
   check_size(model, bone, to_float(matrix));
-  // 1 % of shear or of length.
-  if (source.is_strict && unevenness(matrix) > 0.0101)
+  const bool is_projected = is_uneven(matrix);
+  if (source.is_strict && is_projected)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
         "the matrix of bone %zu (\"%s\") is sheared or scales unevenly (by %.3g %%, need 1 %%); leave "
-        "NOOK_POSE_STRICT out to have it projected",
+        "NOOK_POSE_FLAG_STRICT out to have it projected",
         bone, name_of(model, bone), 100 * unevenness(matrix));
   bones[bone] = to_float(projected(matrix, joint_origin(model, bone)));
+  return is_projected;
 }
 
 }  // namespace
@@ -202,7 +218,7 @@ void convert_bone(const CharacterModel& model, const PoseSource& source, std::si
 void fail_without_transform(const CharacterModel& model, std::size_t bone) {
   throw Failure(
       NOOK_ERROR_INVALID_ARGUMENT,
-      "bone %zu (\"%s\") has no transform; map it, or give NOOK_POSE_PARTIAL and pose the other skins "
+      "bone %zu (\"%s\") has no transform; map it, or give NOOK_POSE_FLAG_PARTIAL and pose the other skins "
       "and rigid parts with calls of their own",
       bone, name_of(model, bone));
 }
@@ -214,10 +230,13 @@ void fail_without_joint(const CharacterModel& model, const SkinBind& skin) {
   fail_without_transform(model, bone);
 }
 
-void convert_pose(const CharacterModel& model, const PoseSource& source, std::span<Mat3x4> bones) {
+ProjectedBone convert_pose(const CharacterModel& model, const PoseSource& source, std::span<Mat3x4> bones) {
+  ProjectedBone first;
   for_each_transform(model, source, [&](std::size_t bone, std::uint32_t index) {
-    convert_bone(model, source, bone, index, bones);
+    if (convert_bone(model, source, bone, index, bones) && !first.found)
+      first = {true, static_cast<std::uint32_t>(bone)};
   });
+  return first;
 }
 
 }  // namespace nook

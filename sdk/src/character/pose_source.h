@@ -1,7 +1,7 @@
 // From transforms as a host has them to the matrices of bones, rest space to world.
 #pragma once
 
-#include <nook/nook_pose.h>
+#include <nook/nook_character.h>
 
 #include <cstdint>
 #include <span>
@@ -18,7 +18,8 @@ struct PoseSource {
   const float* transforms = nullptr;
   std::size_t stride = 0;  // bytes, never 0 after check_pose_source
   std::uint32_t transform_count = 0;
-  std::uint32_t skin = 0;                           // position in BindData::skins
+  std::uint32_t file_skin = 0;                      // of NOOK_POSE_SKINNING, as the file numbers its skins
+  std::uint32_t skin = 0;                           // its position in BindData::skins
   std::span<const std::int32_t> transform_of_bone;  // empty: the order of the bones or of the skin's joints
   bool is_partial = false;
   bool is_strict = false;
@@ -26,8 +27,11 @@ struct PoseSource {
 };
 
 // Throws Failure unless every number and index is in range and the model has the bind data that the kind
-// needs. Sets the stride where it is 0.
+// needs. Sets the stride where it is 0, and `skin`. A map of the bones must have the model's bone count.
 void check_pose_source(const CharacterModel& model, PoseSource& source);
+
+// Throws Failure(NOOK_ERROR_UNSUPPORTED).
+void need_bind_data(const CharacterModel& model);
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for a matrix that is not finite or far too large.
 void check_size(const CharacterModel& model, std::size_t bone, const Mat3x4& matrix);
@@ -74,9 +78,16 @@ std::array<double, 3> joint_origin(const CharacterModel& model, std::size_t bone
 // is a similarity to 1e-4 is returned as it is.
 Affine projected(const Affine& matrix, const std::array<double, 3>& fixed);
 
-// Converts all bones. Throws Failure for a transform that is not finite or far too large, for a bone without
-// a transform unless the source is partial, and, if it is strict, for an uneven one. bones has the model's
-// bone count and may hold a part of the answer after a failure.
-void convert_pose(const CharacterModel& model, const PoseSource& source, std::span<Mat3x4> bones);
+// A bone whose matrix was uneven and had to be projected.
+struct ProjectedBone {
+  bool found = false;
+  std::uint32_t bone = 0;
+};
+
+// Converts all bones and returns the first that had to be projected. Throws Failure for a transform that is
+// not finite or far too large, for a bone without a transform unless the source is partial, and, if it is
+// strict, for an uneven one. bones has the model's bone count and may hold a part of the answer after a
+// failure.
+ProjectedBone convert_pose(const CharacterModel& model, const PoseSource& source, std::span<Mat3x4> bones);
 
 }  // namespace nook

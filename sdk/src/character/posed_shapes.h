@@ -2,7 +2,7 @@
 // pose the same shapes in lanes (shadow_kernels.h).
 #pragma once
 
-#include <nook/nook_debug.h>
+#include <nook/experimental/nook_debug.h>
 
 #include "sdk/src/character/scene.h"
 

@@ -2,6 +2,7 @@
 // first two on the CPU and the others in shaders, reading the same fields. World space, metres.
 #pragma once
 
+#include <nook/experimental/nook_debug.h>
 #include <nook/nook_character.h>
 
 #include <array>
@@ -191,7 +192,7 @@ struct Occluder {
 };
 
 struct SceneSettings {
-  nook_combine combine = NOOK_COMBINE_COMPOSED;
+  nook_form form = NOOK_FORM_DEFAULT;
   nook_isa isa = NOOK_ISA_AUTO;
   float cutoff_error = 1.0f / 1024;  // AO
   float far_error = 1.0f / 1024;     // AO, rms
@@ -230,7 +231,7 @@ struct Scene {
   Vector<Mat3x4> converted;
 
   std::uint64_t frame = 0;  // updates so far
-  nook_scene_stats stats{};
+  nook_scene_info stats{};  // without memory_bytes
 };
 
 // ---- Edits: they throw Failure on a bad id or value and std::bad_alloc, and then change nothing ----
@@ -240,12 +241,8 @@ Instance& instance_of(Scene& scene, nook_instance_id id);
 const Instance& instance_of(const Scene& scene, nook_instance_id id);
 // Keeps the pose, links, ground and light; the bone counts must be equal.
 void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model);
-// The first bone of an instance, ever, whose matrix was uneven and had to be projected.
-struct ProjectedBone {
-  bool found = false;
-  std::uint32_t bone = 0;
-};
-// Uneven matrices are projected unless settings.strict_poses is set.
+// Uneven matrices are projected unless settings.strict_poses is set. Both return the first bone of an
+// instance, ever, whose matrix had to be projected.
 ProjectedBone set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones);
 ProjectedBone set_pose(Scene& scene, nook_instance_id id, PoseSource source);
 // Sets the pose of a clip, and the AO of the clip in place of self-shadow until the next set_pose.
@@ -255,10 +252,9 @@ void link(Scene& scene, nook_instance_id receiver, nook_instance_id caster);
 void unlink(Scene& scene, nook_instance_id receiver, nook_instance_id caster);
 void link_nearest(Scene& scene, std::uint32_t k, float max_distance);
 void set_ground(Scene& scene, nook_instance_id id, const Plane* plane);
-nook_occluder_id add_occluder(Scene& scene, const Sphere& sphere);
-void set_occluder(Scene& scene, nook_occluder_id id, const Sphere& sphere);
 // receiver 0: every instance.
-void limit_occluder(Scene& scene, nook_occluder_id id, nook_instance_id receiver);
+nook_occluder_id add_occluder(Scene& scene, const Sphere& sphere, nook_instance_id receiver = 0);
+void set_occluder(Scene& scene, nook_occluder_id id, const Sphere& sphere, nook_instance_id receiver = 0);
 void remove_occluder(Scene& scene, nook_occluder_id id);
 
 // An id is the slot + 1 in the low bits and the slot's generation in the high ones. A slot whose generations
@@ -305,7 +301,7 @@ void update(Scene& scene) noexcept;
 // number of file vertices, stride_bytes apart.
 void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept;
 // The same as numbers of `format`.
-void read_ao_as(const Scene& scene, const Instance& instance, nook_ao_format format, void* out,
+void read_ao_as(const Scene& scene, const Instance& instance, nook_format format, void* out,
                 std::size_t stride_bytes) noexcept;
 // Writes three floats for each vertex as read_ao does: directional occlusion, by channel. All of them are AO
 // if the last update found no light.

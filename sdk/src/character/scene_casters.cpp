@@ -59,7 +59,7 @@ bool matters(const Scene& scene, const Instance& receiver, const Instance& caste
   const float gap = length(caster.input.bound.centre - receiver.input.bound.centre) -
                     caster.input.bound.radius - receiver.input.bound.radius;
   const float bound =
-      scene.settings.combine == NOOK_COMBINE_COMPOSED
+      scene.settings.form == NOOK_FORM_DEFAULT
           ? composed_bound(*receiver.model,
                            caster.model->caster_strength * caster.input.scale * caster.input.scale, gap)
           : paper_bound(*receiver.model, receiver.plan.level, caster, gap);
@@ -69,7 +69,7 @@ bool matters(const Scene& scene, const Instance& receiver, const Instance& caste
 bool matters(const Scene& scene, const Instance& receiver, const Sphere& sphere) {
   if (scene.settings.cutoff_error <= 0) return true;
   const float gap = length(sphere.centre - receiver.input.bound.centre) - receiver.input.bound.radius;
-  const float bound = scene.settings.combine == NOOK_COMBINE_COMPOSED
+  const float bound = scene.settings.form == NOOK_FORM_DEFAULT
                           ? composed_bound(*receiver.model, sphere.radius * sphere.radius, gap)
                           : paper_bound(*receiver.model, sphere.radius, gap);
   return !(bound < scene.settings.cutoff_error);

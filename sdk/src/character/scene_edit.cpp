@@ -61,8 +61,9 @@ void fail_unless_even(const CharacterModel& model, const Mat3x4& matrix, std::si
   throw Failure(
       NOOK_ERROR_INVALID_ARGUMENT,
       "the matrix of bone %zu (\"%s\") is no rotation with one scale (its axes have lengths %g %g %g, "
-      "and the largest cosine between them is %g; need equal to 1 %% and at most 0.01); bones_3x4 is "
-      "row-major, transposing may help; without strict_poses the matrix is projected",
+      "and the largest cosine between them is %g; need equal to 1 %% and at most 0.01); check "
+      "desc.layout, a transposed matrix looks like this; without strict_poses and NOOK_POSE_FLAG_STRICT the "
+      "matrix is projected",
       bone, model.bone_names[bone].c_str(), std::sqrt(double(axes.squared.x)),
       std::sqrt(double(axes.squared.y)), std::sqrt(double(axes.squared.z)), double(axes.cosine));
 }
@@ -238,6 +239,24 @@ ProjectedBone take_pose(Instance& instance, std::span<const Mat3x4> bones) {
   return first;
 }
 
+// The transforms are rest-to-world matrices in this library's own layout. They are taken as they are, because
+// a product with the identity would turn -0 into 0.
+bool holds_bone_matrices(const PoseSource& source) {
+  return source.kind == NOOK_POSE_REST_TO_WORLD && source.layout == NOOK_TRANSFORM_ROWS_3X4 &&
+         source.stride == sizeof(Mat3x4) && source.transform_of_bone.empty() && source.place.m == Affine{}.m;
+}
+
+// bones has the model's bone count.
+ProjectedBone set_bones(Instance& instance, std::span<const Mat3x4> bones, bool is_strict) {
+  const CharacterModel& model = instance.model->model;
+  for (std::size_t b = 0; b < bones.size(); ++b) {
+    check_size(model, b, bones[b]);
+    if (is_strict) fail_unless_even(model, bones[b], b);
+  }
+  instance.input.clip.clips = {};
+  return take_pose(instance, bones);
+}
+
 }  // namespace
 
 void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) {
@@ -269,17 +288,11 @@ void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) 
 
 ProjectedBone set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones) {
   Instance& instance = instance_of(scene, id);
-  const CharacterModel& model = instance.model->model;
   if (bones.size() != instance.input.bones.size())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "bone_count is not the model's (got %zu, need %zu); see nook_character_model_describe",
-                  bones.size(), instance.input.bones.size());
-  for (std::size_t b = 0; b < bones.size(); ++b) {
-    check_size(model, b, bones[b]);
-    if (scene.settings.strict_poses) fail_unless_even(model, bones[b], b);
-  }
-  instance.input.clip.clips = {};
-  return take_pose(instance, bones);
+                  "bone_count is not the model's (got %zu, need %zu); see nook_model_describe", bones.size(),
+                  instance.input.bones.size());
+  return set_bones(instance, bones, scene.settings.strict_poses);
 }
 
 ProjectedBone set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
@@ -287,11 +300,18 @@ ProjectedBone set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
   const CharacterModel& model = instance.model->model;
   source.is_strict = source.is_strict || scene.settings.strict_poses;
   check_pose_source(model, source);
+  static_assert(sizeof(Mat3x4) == 12 * sizeof(float) && alignof(Mat3x4) == alignof(float));
+  if (holds_bone_matrices(source))
+    return set_bones(instance, {reinterpret_cast<const Mat3x4*>(source.transforms), source.transform_count},
+                     source.is_strict);
   const std::span<Mat3x4> converted(scene.converted.data(), instance.input.bones.size());
   std::copy(instance.input.bones.begin(), instance.input.bones.end(), converted.begin());
-  convert_pose(model, source, converted);
+  ProjectedBone projected = convert_pose(model, source, converted);
   instance.input.clip.clips = {};
-  return take_pose(instance, converted);
+  if (instance.input.was_projected) projected = {};
+  if (projected.found) instance.input.was_projected = true;
+  const ProjectedBone left = take_pose(instance, converted);
+  return projected.found ? projected : left;
 }
 
 ProjectedBone set_clip(Scene& scene, nook_instance_id id, Ref<const LoadedClips> clips, const FrameMix& mix,
@@ -381,8 +401,9 @@ void check_occluder(const Sphere& sphere) {
 
 }  // namespace
 
-nook_occluder_id add_occluder(Scene& scene, const Sphere& sphere) {
+nook_occluder_id add_occluder(Scene& scene, const Sphere& sphere, nook_instance_id receiver) {
   check_occluder(sphere);
+  if (receiver) instance_of(scene, receiver);
   const std::uint32_t slot = next_slot(scene.occluders, scene.free_occluders, "occluders");
   const bool fresh = slot == scene.occluders.size();
   for (Instance& instance : scene.instances)
@@ -394,19 +415,16 @@ nook_occluder_id add_occluder(Scene& scene, const Sphere& sphere) {
   Occluder& occluder = scene.occluders[slot];
   occluder.id = occluder.generation << id_slot_bits | (slot + 1);
   occluder.sphere = sphere;
-  occluder.receiver = 0;
+  occluder.receiver = receiver;
   ++scene.structure_revision;
   return occluder.id;
 }
 
-void set_occluder(Scene& scene, nook_occluder_id id, const Sphere& sphere) {
+void set_occluder(Scene& scene, nook_occluder_id id, const Sphere& sphere, nook_instance_id receiver) {
   check_occluder(sphere);
-  find(scene.occluders, id, "occluder").sphere = sphere;
-}
-
-void limit_occluder(Scene& scene, nook_occluder_id id, nook_instance_id receiver) {
   Occluder& occluder = find(scene.occluders, id, "occluder");
   if (receiver) instance_of(scene, receiver);
+  occluder.sphere = sphere;
   occluder.receiver = receiver;
 }
 

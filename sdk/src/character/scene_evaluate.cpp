@@ -128,7 +128,7 @@ void transform_key_points(const Scene& scene, Instance& instance) noexcept {
   const KeyPointTarget fitted{p.x, p.y, p.z, p.nx, p.ny, p.nz};
   const KeyPointTarget surface{p.surface_x,  p.surface_y,  p.surface_z,
                                p.surface_nx, p.surface_ny, p.surface_nz};
-  const bool is_surface_felt = scene.settings.combine == NOOK_COMBINE_COMPOSED && has_casters(instance);
+  const bool is_surface_felt = scene.settings.form == NOOK_FORM_DEFAULT && has_casters(instance);
   scene.kernels->pose_key_points(rest_points_of(instance).view(), instance.input.bones.data(), {}, fitted,
                                  is_surface_felt ? &surface : nullptr);
   if (may_group(scene) && !instance.plan.casters.empty()) {
@@ -143,7 +143,7 @@ void evaluate_shadows(const Scene& scene, Instance& instance) noexcept {
   const Kernel& kernel = instance.model->model.kernel;
   std::fill_n(points.norm_sum, points.padded_count, 0.0f);
   const std::uint64_t own = has_self_shadow(scene, instance) ? sum_own_spheres(scene, instance, points) : 0;
-  const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
+  const bool composed = scene.settings.form == NOOK_FORM_DEFAULT;
   const std::size_t added =
       composed ? evaluate_composed(scene, instance, points) : join_paper_norm(scene, instance, points);
   instance.result.evaluations = own + std::uint64_t{added} * points.count;
@@ -298,13 +298,13 @@ void read_ao(const Scene& scene, const Instance& instance, float* out, std::size
   write_ao<float>(scene, instance, out, stride_bytes, same);
 }
 
-void read_ao_as(const Scene& scene, const Instance& instance, nook_ao_format format, void* out,
+void read_ao_as(const Scene& scene, const Instance& instance, nook_format format, void* out,
                 std::size_t stride_bytes) noexcept {
   switch (format) {
-    case NOOK_AO_HALF:
+    case NOOK_FORMAT_HALF:
       return write_ao<std::uint16_t>(scene, instance, out, stride_bytes,
                                      [](float ao) { return to_half(ao); });
-    case NOOK_AO_UNORM8:
+    case NOOK_FORMAT_UNORM8:
       return write_ao<std::uint8_t>(scene, instance, out, stride_bytes,
                                     [](float ao) { return static_cast<std::uint8_t>(ao * 255 + 0.5f); });
     default:
@@ -323,7 +323,7 @@ void read_directional_ao(const Scene& scene, const Instance& instance, float* ou
     return for_each_ao<float>(scene, instance, out, stride_bytes, same,
                               [&](unsigned char* place, float ao) { put_three(place, ao, ao, ao); });
   const LoadedModel& loaded = *instance.model;
-  const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
+  const bool composed = scene.settings.form == NOOK_FORM_DEFAULT;
   const Self self = self_of(scene, instance);
   alignas(64) std::array<ChunkAo, 3> ao;
   alignas(64) ChunkAo own;

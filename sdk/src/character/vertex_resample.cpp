@@ -140,9 +140,9 @@ class LayerMean {
   void add(std::uint32_t welded, float weight) {
     bias_ += weight * model_.bias[welded];
     if (!model_.static_ao.empty()) static_ao_ += weight * model_.static_ao[welded];
-    if (!model_.blocked.empty()) {
-      blocked_.dark += weight * model_.blocked[welded].dark;
-      blocked_.open += weight * model_.blocked[welded].open;
+    if (!model_.occluded.empty()) {
+      occluded_.dark += weight * model_.occluded[welded].dark;
+      occluded_.open += weight * model_.occluded[welded].open;
     }
     const std::size_t first = std::size_t(welded) * model_.influences;
     for (std::size_t s = first; s < first + model_.influences; ++s)
@@ -173,7 +173,7 @@ class LayerMean {
     }
     out.bias.push_back(bias_);
     if (!model_.static_ao.empty()) out.static_ao.push_back(static_ao_);
-    if (!model_.blocked.empty()) out.blocked.push_back(blocked_);
+    if (!model_.occluded.empty()) out.occluded.push_back(occluded_);
   }
 
  private:
@@ -186,7 +186,7 @@ class LayerMean {
   const CharacterModel& model_;
   Vector<Influence> sum_;
   float bias_ = 0, static_ao_ = 0;
-  BlockedEnds blocked_;
+  OccludedEnds occluded_;
 };
 
 // The host's vertex and its normal in rest space.
@@ -246,7 +246,7 @@ CharacterModel resampled(const CharacterModel& model, const HostVertices& host, 
   out.blend.clear();
   out.bias.clear();
   out.static_ao.clear();
-  out.blocked.clear();
+  out.occluded.clear();
   out.file_to_welded.clear();
   out.rest.position.clear();
   out.rest.normal.clear();

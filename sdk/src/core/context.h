@@ -17,10 +17,13 @@ class Context : public RefCounted {
       : memory_(desc.allocator),
         log_(desc.log),
         log_user_(desc.log_user),
-        parallel_{desc.parallel_for, desc.parallel_for_user} {}
+        parallel_{desc.parallel_for, desc.parallel_for_user},
+        isa_(desc.isa) {}
 
   Memory* memory() noexcept { return &memory_; }
   const Parallel& parallel() const noexcept { return parallel_; }
+  // The set that the host chose, which is available, or NOOK_ISA_AUTO.
+  nook_isa isa() const noexcept { return isa_; }
   // Logs a printf-style text, which is cut at 512 characters. Does nothing if the host set no log.
   void log(nook_log_severity severity, const char* format, ...) const noexcept NOOK_PRINTF(3, 4);
 
@@ -32,6 +35,7 @@ class Context : public RefCounted {
   nook_log_fn log_;
   void* log_user_;
   Parallel parallel_;
+  nook_isa isa_;
 };
 
 }  // namespace nook

@@ -17,36 +17,95 @@ namespace nook {
 // minor version not newer.
 void check_version(std::uint32_t version);
 
-// Fills the caller's struct of `size` bytes with `defaults`, and bytes beyond the library's struct with 0.
-// first_size is the size of the struct in its first release.
+// A descriptor's NOOK_DESC_ value, the name of its init function and its defaults. Each library specialises
+// these three for its descriptors, from one list: descriptor_list.h beside its C functions.
 template <class Desc>
-void init_descriptor(Desc* desc, std::size_t size, std::uint32_t version, std::size_t first_size,
-                     Desc defaults) {
+inline constexpr std::uint32_t descriptor_type = 0;
+template <class Desc>
+inline constexpr const char* descriptor_init = nullptr;
+template <class Desc>
+Desc default_desc();
+
+// The size of a struct in the first release, 1.0. Specialise it for a struct that gains a field.
+template <class Struct>
+inline constexpr std::size_t first_size = sizeof(Struct);
+
+// Fills the caller's struct of `size` bytes with defaults, and bytes beyond the library's struct with 0.
+template <class Desc>
+void init_descriptor(Desc* desc, std::size_t size, std::uint32_t version) {
   need(desc, "desc");
-  if (size < first_size || size > UINT32_MAX)
+  if (size < first_size<Desc> || size > UINT32_MAX)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "size is out of range (got %zu, need at least %zu); pass sizeof *desc", size, first_size);
+                  "size is out of range (got %zu, need at least %zu); pass sizeof *desc", size,
+                  first_size<Desc>);
   check_version(version);
+  Desc defaults = default_desc<Desc>();
   defaults.struct_size = static_cast<std::uint32_t>(size);
-  defaults.header_version = version;
+  defaults.type = descriptor_type<Desc>;
   std::memset(static_cast<void*>(desc), 0, size);
   std::memcpy(static_cast<void*>(desc), &defaults, std::min(size, sizeof defaults));
 }
 
-// Returns the caller's struct in this library's version: fields beyond the caller's size keep `defaults`.
-// Fields that only a newer header has must be 0.
-template <class Desc>
-Desc read_descriptor(const Desc* desc, const char* init_function, std::size_t first_size, Desc defaults) {
+// The fields that all descriptors and extensions begin with.
+struct DescriptorHead {
+  std::uint32_t struct_size;
+  std::uint32_t type;
+  const void* next;
+};
+
+inline DescriptorHead head_of(const void* desc) {
+  DescriptorHead head;
+  std::memcpy(&head, desc, sizeof head);
+  return head;
+}
+
+// Returns the first extension of this type in the chain behind a descriptor's `next`, or nullptr.
+template <class Ext>
+const Ext* find_extension(const void* next) {
+  for (; next; next = head_of(next).next)
+    if (head_of(next).type == descriptor_type<Ext>) return static_cast<const Ext*>(next);
+  return nullptr;
+}
+
+// Throws unless the chain holds only extensions of these types, each at most once.
+template <class... Ext>
+void check_extensions(const void* next) {
+  if constexpr (sizeof...(Ext) == 0) {
+    if (next)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.next is not NULL; this descriptor has no extensions, set it to NULL");
+  } else {
+    std::size_t seen[sizeof...(Ext)] = {};
+    for (; next; next = head_of(next).next) {
+      const std::uint32_t type = head_of(next).type;
+      std::size_t i = 0, times = 0;
+      ((type == descriptor_type<Ext> ? times = ++seen[i] : 0, ++i), ...);
+      if (times == 0)
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "desc.next holds a descriptor that this one does not take (got type %u); remove it",
+                      type);
+      if (times > 1)
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "desc.next holds two descriptors of one type (got type %u); remove one", type);
+    }
+  }
+}
+
+// Returns the caller's struct in this library's version: fields beyond the caller's size keep their
+// defaults. Fields that only a newer header has must be 0. Its `next` may hold extensions of the types Ext,
+// which find_extension finds; an extension is read by this function too, with all types as its own Ext.
+template <class Desc, class... Ext>
+Desc read_descriptor(const Desc* desc) {
   need(desc, "desc");
   const std::size_t size = desc->struct_size;
-  if (size < first_size)
+  if (size < first_size<Desc>)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.struct_size is too small (got %zu, need at least %zu); call %s", size, first_size,
-                  init_function);
-  check_version(desc->header_version);
-  if (desc->next)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.next is not NULL; this library has no extensions, set it to NULL");
+                  "desc.struct_size is too small (got %zu, need at least %zu); call %s", size,
+                  first_size<Desc>, descriptor_init<Desc>);
+  if (desc->type != descriptor_type<Desc>)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.type is another descriptor's (got %u, need %u); call %s",
+                  desc->type, descriptor_type<Desc>, descriptor_init<Desc>);
+  check_extensions<Ext...>(desc->next);
   const auto* bytes = reinterpret_cast<const unsigned char*>(desc);
   for (std::size_t i = sizeof(Desc); i < size; ++i)
     if (bytes[i])
@@ -54,19 +113,20 @@ Desc read_descriptor(const Desc* desc, const char* init_function, std::size_t fi
                     "desc holds fields that this library does not know (struct_size %zu, known %zu); use a "
                     "newer library",
                     size, sizeof(Desc));
-  std::memcpy(static_cast<void*>(&defaults), desc, std::min(size, sizeof defaults));
-  return defaults;
+  Desc known = default_desc<Desc>();
+  std::memcpy(static_cast<void*>(&known), desc, std::min(size, sizeof known));
+  return known;
 }
 
 // Copies as much of `value` as the caller's struct holds. The caller's struct_size stays.
 template <class Info>
-void write_info(Info* info, std::size_t first_size, Info value) {
+void write_info(Info* info, Info value) {
   need(info, "the struct for the answer");
   const std::size_t size = info->struct_size;
-  if (size < first_size)
+  if (size < first_size<Info>)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "struct_size is too small (got %zu, need at least %zu); set it to sizeof", size,
-                  first_size);
+                  first_size<Info>);
   value.struct_size = info->struct_size;
   std::memcpy(static_cast<void*>(info), &value, std::min(size, sizeof value));
 }

@@ -11,8 +11,9 @@ namespace nook::gl {
 // The users of an item: the characters' tiers, the screen-space pass, the reading of its timers, the upload
 // of probes and materials, the screen-space pass if its network is a compute shader, the writing of AO to
 // buffers and textures of the host, the recording of frames, and the screen-space pass with
-// nook_nnao_desc.layers, depth_samples and both, the upload of grids, and captures of probes. OpenGL ES has
-// tables of texels in 2D textures, whose upload is another user.
+// nook_nnao_desc.views, depth_samples and both, the upload of grids, captures of probes, the binding of
+// uploads, and the upload of clips. OpenGL ES has tables of texels in 2D textures, whose upload is another
+// user.
 enum : unsigned {
   tier_33 = 1,
   tier_43 = 2,
@@ -30,6 +31,8 @@ enum : unsigned {
   grids = 8192,
   captures = 16384,
   screen_sample_layers = 32768,
+  binds = 65536,
+  clips = 131072,
   characters = tier_33 | tier_43,
   everyone = characters | screen,
   draws = tier_33 | screen,
@@ -43,12 +46,12 @@ enum : unsigned {
     "every upload goes through it; default 0")                                                              \
   X(vertex_array, draws | outputs | captures, "GL_VERTEX_ARRAY_BINDING",                                    \
     "inputs of the vertex pass, or none; default 0")                                                        \
-  X(active_texture, everyone | probes | grids | materials | outputs | captures, "GL_ACTIVE_TEXTURE",        \
-    "selects units; default GL_TEXTURE0")                                                                   \
+  X(active_texture, everyone | probes | grids | materials | outputs | captures | binds | clips,             \
+    "GL_ACTIVE_TEXTURE", "selects units; default GL_TEXTURE0")                                              \
   X(texture_unit_0, characters | probes | captures,                                                         \
     "GL_TEXTURE_BINDING_BUFFER of unit 0; on OpenGL ES GL_TEXTURE_BINDING_2D",                              \
     "shadows at key points, texels of probes and lights; default 0")                                        \
-  X(texture_2d, screen | outputs, "GL_TEXTURE_BINDING_2D of units 0 to 4",                                  \
+  X(texture_2d, screen | outputs | clips, "GL_TEXTURE_BINDING_2D of units 0 to 4",                          \
     "inputs of the stages; default 0")                                                                      \
   X(samplers, screen, "GL_SAMPLER_BINDING of units 0 to 4",                                                 \
     "so that no parameter of a texture counts; default 0")                                                  \
@@ -67,13 +70,14 @@ enum : unsigned {
   X(cube_map, captures, "GL_TEXTURE_BINDING_CUBE_MAP of unit 1", "the host's cube map; default 0")          \
   X(capture_samplers, captures, "GL_SAMPLER_BINDING of units 0 and 1",                                      \
     "so that no parameter of a texture counts; default 0")                                                  \
-  X(pixel_unpack_buffer, screen | materials | grids | outputs | texel_uploads | captures,                   \
+  X(pixel_unpack_buffer, screen | materials | grids | outputs | texel_uploads | captures | clips,           \
     "GL_PIXEL_UNPACK_BUFFER_BINDING",                                                                       \
-    "in nook_nnao_create, nook_gl_material_create, nook_gl_probe_grid_create and _update and "              \
-    "nook_gl_scene_write_ao only; on OpenGL ES in updates "                                                 \
+    "in nook_nnao_create, nook_gl_upload_material, nook_gl_upload_clips, nook_gl_upload_probe, "            \
+    "nook_gl_update_probe and "                                                                             \
+    "nook_gl_scene_write only; on OpenGL ES in updates "                                                    \
     "and probes "                                                                                           \
     "too; default 0")                                                                                       \
-  X(pixel_store, materials | grids | outputs | texel_uploads | captures,                                    \
+  X(pixel_store, materials | grids | outputs | texel_uploads | captures | clips,                            \
     "GL_UNPACK_SWAP_BYTES, LSB_FIRST, ROW_LENGTH, IMAGE_HEIGHT, SKIP_ROWS, SKIP_PIXELS, SKIP_IMAGES, "      \
     "ALIGNMENT; the first two not on OpenGL ES",                                                            \
     "uploads without gaps; default 0, alignment 4")                                                         \
@@ -85,7 +89,7 @@ enum : unsigned {
     "GL_PACK_ALIGNMENT, ROW_LENGTH, SKIP_ROWS, SKIP_PIXELS, SWAP_BYTES; the last not on OpenGL ES",         \
     "texels without gaps; default alignment 4, else 0")                                                     \
   X(renderbuffer, tier_33 | outputs | captures, "GL_RENDERBUFFER_BINDING",                                  \
-    "in nook_gl_create, nook_gl_scene_write_ao and nook_gl_probe_capture_create only; default 0")           \
+    "in nook_gl_create, nook_gl_scene_write and nook_gl_capture_create only; default 0")                    \
   X(viewport, screen, "GL_VIEWPORT, of index 0 from OpenGL 4.1 on",                                         \
     "the stages' size; left at the frame's viewport in place of a default")                                 \
   X(blend, screen,                                                                                          \

@@ -165,7 +165,7 @@ void check_block_bytes(const BlockSize& size) {
   if (bytes > max_block_bytes)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the material's modes of %u x %u texels take too many bytes in blocks (got %llu, need at "
-                  "most %llu); load it with NOOK_MATERIAL_MODES_PLAIN",
+                  "most %llu); load it with NOOK_MATERIAL_BLOCKS_NONE",
                   size.width, size.height, static_cast<unsigned long long>(bytes),
                   static_cast<unsigned long long>(max_block_bytes));
 }

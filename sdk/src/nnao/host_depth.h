@@ -6,7 +6,7 @@
 
 namespace nook::nnao {
 
-// The values are those of nook_nnao_depth_kind and nook_nnao_clip.
+// The values are those of nook_depth_kind and nook_clip_space.
 enum class DepthKind { hardware = 0, linear = 1, logarithmic = 2 };
 enum class ClipRange { negative_one_to_one = 0, zero_to_one = 1 };
 

@@ -16,7 +16,7 @@
 
 namespace nook::nnao {
 
-// The values of nook_nnao_layer and nook_nnao_view that a recording can have.
+// The values of nook_gbuffer_ao and nook_nnao_view that a recording can have.
 inline constexpr std::int32_t last_recorded_layer = 4, last_recorded_view = 2, last_recorded_path = 2,
                               last_recorded_radius_kind = 1;
 inline constexpr std::uint32_t max_recorded_size_px = 16384;

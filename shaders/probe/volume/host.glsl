@@ -71,8 +71,8 @@ NookGridTexels nook_grid_masked(ivec3 cell, vec3 in_cell, int mask) {
 }
 #endif
 
-// Returns the light at a place in front of a surface, for nook_probe_harmonics_irradiance or, of ZH3,
-// nook_probe_zonal_harmonics_irradiance; walls need the surface's normal.
+// Returns the light at a place in front of a surface, for nook_sh_irradiance or, of ZH3,
+// nook_zh3_irradiance; walls need the surface's normal.
 NookGridLight nook_grid_light(vec3 position_ws, vec3 normal) {
 #ifdef NOOK_GRID_WALLS
   position_ws += normal * nook_grid_frame[0].w;
@@ -98,8 +98,8 @@ NookGridLight nook_grid_light(vec3 position_ws, vec3 normal) {
 // Returns the irradiance on a surface, at least 0.
 vec3 nook_grid_irradiance(vec3 position_ws, vec3 normal) {
 #if NOOK_GRID_TEXELS == NOOK_GRID_HARMONICS_TEXELS
-  return nook_probe_harmonics_irradiance(nook_grid_light(position_ws, normal), normal);
+  return nook_sh_irradiance(nook_grid_light(position_ws, normal), normal);
 #else
-  return nook_probe_zonal_harmonics_irradiance(nook_grid_light(position_ws, normal), normal);
+  return nook_zh3_irradiance(nook_grid_light(position_ws, normal), normal);
 #endif
 }

@@ -1,10 +1,10 @@
-#include <nook/nook_bake_material.h>
+#include <nook/nook_bake.h>
 
 #include "tests/abi/layout/layout.h"
 
-NOOK_SIZE(nook_bake_material_desc, 200);
+NOOK_SIZE(nook_bake_material_desc, 208);
 NOOK_AT(nook_bake_material_desc, struct_size, 0);
-NOOK_AT(nook_bake_material_desc, header_version, 4);
+NOOK_AT(nook_bake_material_desc, type, 4);
 NOOK_AT(nook_bake_material_desc, next, 8);
 NOOK_AT(nook_bake_material_desc, meso, 16);
 NOOK_AT(nook_bake_material_desc, btf, 24);
@@ -20,26 +20,27 @@ NOOK_AT(nook_bake_material_desc, samples, 76);
 NOOK_AT(nook_bake_material_desc, bounces, 80);
 NOOK_AT(nook_bake_material_desc, bounce_rays, 84);
 NOOK_AT(nook_bake_material_desc, method, 88);
-NOOK_AT(nook_bake_material_desc, visibility, 92);
-NOOK_AT(nook_bake_material_desc, rank_light, 96);
-NOOK_AT(nook_bake_material_desc, rank_view, 100);
-NOOK_AT(nook_bake_material_desc, rank_x, 104);
-NOOK_AT(nook_bake_material_desc, rank_y, 108);
-NOOK_AT(nook_bake_material_desc, votf_rank_x, 112);
-NOOK_AT(nook_bake_material_desc, votf_rank_y, 116);
-NOOK_AT(nook_bake_material_desc, cluster_rank_view, 120);
-NOOK_AT(nook_bake_material_desc, clusters, 124);
-NOOK_AT(nook_bake_material_desc, mixture, 128);
-NOOK_AT(nook_bake_material_desc, view_map_side, 132);
-NOOK_AT(nook_bake_material_desc, rank_threshold, 136);
-NOOK_AT(nook_bake_material_desc, visibility_threshold, 140);
-NOOK_AT(nook_bake_material_desc, visibility_weight, 144);
-NOOK_AT(nook_bake_material_desc, threads, 148);
-NOOK_AT(nook_bake_material_desc, seed, 152);
-NOOK_AT(nook_bake_material_desc, progress, 160);
-NOOK_AT(nook_bake_material_desc, progress_user, 168);
-NOOK_AT(nook_bake_material_desc, bits, 176);
-NOOK_AT(nook_bake_material_desc, relief, 180);
-NOOK_AT(nook_bake_material_desc, heights, 184);
-NOOK_AT(nook_bake_material_desc, neural_channels, 192);
-NOOK_AT(nook_bake_material_desc, neural_steps, 196);
+NOOK_AT(nook_bake_material_desc, form, 92);
+NOOK_AT(nook_bake_material_desc, visibility, 96);
+NOOK_AT(nook_bake_material_desc, rank_light, 100);
+NOOK_AT(nook_bake_material_desc, rank_view, 104);
+NOOK_AT(nook_bake_material_desc, rank_x, 108);
+NOOK_AT(nook_bake_material_desc, rank_y, 112);
+NOOK_AT(nook_bake_material_desc, votf_rank_x, 116);
+NOOK_AT(nook_bake_material_desc, votf_rank_y, 120);
+NOOK_AT(nook_bake_material_desc, cluster_rank_view, 124);
+NOOK_AT(nook_bake_material_desc, clusters, 128);
+NOOK_AT(nook_bake_material_desc, mixture, 132);
+NOOK_AT(nook_bake_material_desc, view_map_side, 136);
+NOOK_AT(nook_bake_material_desc, rank_threshold, 140);
+NOOK_AT(nook_bake_material_desc, visibility_threshold, 144);
+NOOK_AT(nook_bake_material_desc, visibility_weight, 148);
+NOOK_AT(nook_bake_material_desc, threads, 152);
+NOOK_AT(nook_bake_material_desc, seed, 160);
+NOOK_AT(nook_bake_material_desc, progress, 168);
+NOOK_AT(nook_bake_material_desc, progress_user, 176);
+NOOK_AT(nook_bake_material_desc, bits, 184);
+NOOK_AT(nook_bake_material_desc, relief, 188);
+NOOK_AT(nook_bake_material_desc, heights, 192);
+NOOK_AT(nook_bake_material_desc, neural_channels, 200);
+NOOK_AT(nook_bake_material_desc, neural_steps, 204);

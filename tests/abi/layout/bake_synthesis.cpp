@@ -1,4 +1,4 @@
-#include <nook/nook_bake_synthesis.h>
+#include <nook/experimental/nook_bake_materials.h>
 
 #include "tests/abi/layout/layout.h"
 

@@ -1,6 +1,15 @@
-#include <nook/nook_bake_trace.h>
+#include <nook/experimental/nook_trace.h>
 
 #include "tests/abi/layout/layout.h"
+
+NOOK_SIZE(nook_bake_character_study_desc, 32);
+NOOK_AT(nook_bake_character_study_desc, struct_size, 0);
+NOOK_AT(nook_bake_character_study_desc, type, 4);
+NOOK_AT(nook_bake_character_study_desc, next, 8);
+NOOK_AT(nook_bake_character_study_desc, clip_split, 16);
+NOOK_AT(nook_bake_character_study_desc, kernel, 20);
+NOOK_AT(nook_bake_character_study_desc, fit, 24);
+NOOK_AT(nook_bake_character_study_desc, reserved, 28);
 
 NOOK_SIZE(nook_bake_occluder_mesh, 24);
 NOOK_AT(nook_bake_occluder_mesh, positions, 0);
@@ -10,7 +19,7 @@ NOOK_AT(nook_bake_occluder_mesh, index_count, 20);
 
 NOOK_SIZE(nook_bake_trace_desc, 72);
 NOOK_AT(nook_bake_trace_desc, struct_size, 0);
-NOOK_AT(nook_bake_trace_desc, header_version, 4);
+NOOK_AT(nook_bake_trace_desc, type, 4);
 NOOK_AT(nook_bake_trace_desc, next, 8);
 NOOK_AT(nook_bake_trace_desc, meshes, 16);
 NOOK_AT(nook_bake_trace_desc, positions, 24);
@@ -38,7 +47,7 @@ NOOK_AT(nook_bake_lit_mesh, emission, 36);
 
 NOOK_SIZE(nook_bake_irradiance_desc, 88);
 NOOK_AT(nook_bake_irradiance_desc, struct_size, 0);
-NOOK_AT(nook_bake_irradiance_desc, header_version, 4);
+NOOK_AT(nook_bake_irradiance_desc, type, 4);
 NOOK_AT(nook_bake_irradiance_desc, next, 8);
 NOOK_AT(nook_bake_irradiance_desc, meshes, 16);
 NOOK_AT(nook_bake_irradiance_desc, positions, 24);

@@ -1,4 +1,4 @@
-#include <nook/nook_bake_transfer.h>
+#include <nook/experimental/nook_bake_materials.h>
 
 #include "tests/abi/layout/layout.h"
 
@@ -23,4 +23,4 @@ NOOK_AT(nook_bake_transfer_desc, votf_size, 112);
 NOOK_AT(nook_bake_transfer_desc, material, 120);
 NOOK_AT(nook_bake_transfer_desc, material_size, 128);
 NOOK_AT(nook_bake_transfer_desc, clusters, 136);
-NOOK_AT(nook_bake_transfer_desc, reserved_2, 140);
+NOOK_AT(nook_bake_transfer_desc, form, 140);

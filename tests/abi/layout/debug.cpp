@@ -1,4 +1,4 @@
-#include <nook/nook_debug.h>
+#include <nook/experimental/nook_debug.h>
 
 #include "tests/abi/layout/layout.h"
 

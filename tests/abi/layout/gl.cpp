@@ -1,10 +1,11 @@
+#include <nook/experimental/nook_debug.h>
 #include <nook/nook_gl.h>
 
 #include "tests/abi/layout/layout.h"
 
 NOOK_SIZE(nook_gl_desc, 40);
 NOOK_AT(nook_gl_desc, struct_size, 0);
-NOOK_AT(nook_gl_desc, header_version, 4);
+NOOK_AT(nook_gl_desc, type, 4);
 NOOK_AT(nook_gl_desc, next, 8);
 NOOK_AT(nook_gl_desc, get_proc, 16);
 NOOK_AT(nook_gl_desc, get_proc_user, 24);
@@ -52,3 +53,33 @@ NOOK_AT(nook_gl_memory, reserved, 4);
 NOOK_AT(nook_gl_memory, model_bytes, 8);
 NOOK_AT(nook_gl_memory, instance_bytes, 16);
 NOOK_AT(nook_gl_memory, lit_instance_bytes, 24);
+
+NOOK_SIZE(nook_gl_frame_desc, 296);
+NOOK_AT(nook_gl_frame_desc, struct_size, 0);
+NOOK_AT(nook_gl_frame_desc, type, 4);
+NOOK_AT(nook_gl_frame_desc, next, 8);
+NOOK_AT(nook_gl_frame_desc, width, 16);
+NOOK_AT(nook_gl_frame_desc, height, 20);
+NOOK_AT(nook_gl_frame_desc, viewport, 24);
+NOOK_AT(nook_gl_frame_desc, depth_texture, 40);
+NOOK_AT(nook_gl_frame_desc, depth_kind, 44);
+NOOK_AT(nook_gl_frame_desc, sky_depth, 48);
+NOOK_AT(nook_gl_frame_desc, depth_log_scale, 52);
+NOOK_AT(nook_gl_frame_desc, depth_log_near, 56);
+NOOK_AT(nook_gl_frame_desc, depth_log_far, 60);
+NOOK_AT(nook_gl_frame_desc, normal_texture, 64);
+NOOK_AT(nook_gl_frame_desc, normal_scale, 68);
+NOOK_AT(nook_gl_frame_desc, normal_bias, 72);
+NOOK_AT(nook_gl_frame_desc, normal_matrix, 76);
+NOOK_AT(nook_gl_frame_desc, projection, 112);
+NOOK_AT(nook_gl_frame_desc, view, 176);
+NOOK_AT(nook_gl_frame_desc, clip_space, 240);
+NOOK_AT(nook_gl_frame_desc, gbuffer_ao, 244);
+NOOK_AT(nook_gl_frame_desc, gbuffer_ao_texture, 248);
+NOOK_AT(nook_gl_frame_desc, target, 252);
+NOOK_AT(nook_gl_frame_desc, target_name, 256);
+NOOK_AT(nook_gl_frame_desc, blend, 260);
+NOOK_AT(nook_gl_frame_desc, textures_changed, 264);
+NOOK_AT(nook_gl_frame_desc, view_projections, 272);
+NOOK_AT(nook_gl_frame_desc, view_matrices, 280);
+NOOK_AT(nook_gl_frame_desc, view_normal_matrices, 288);

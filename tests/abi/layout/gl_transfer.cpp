@@ -1,4 +1,4 @@
-#include <nook/nook_gl_transfer.h>
+#include <nook/experimental/nook_transfer.h>
 
 #include "tests/abi/layout/layout.h"
 

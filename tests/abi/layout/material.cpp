@@ -4,9 +4,9 @@
 
 NOOK_SIZE(nook_material_desc, 24);
 NOOK_AT(nook_material_desc, struct_size, 0);
-NOOK_AT(nook_material_desc, header_version, 4);
+NOOK_AT(nook_material_desc, type, 4);
 NOOK_AT(nook_material_desc, next, 8);
-NOOK_AT(nook_material_desc, modes, 16);
+NOOK_AT(nook_material_desc, blocks, 16);
 NOOK_AT(nook_material_desc, whole_light_modes, 20);
 
 NOOK_SIZE(nook_material_tensor, 32);
@@ -42,11 +42,6 @@ NOOK_AT(nook_material_info, neural_channels, 144);
 NOOK_AT(nook_material_info, neural_units, 148);
 NOOK_AT(nook_material_info, further_decode_fetches, 152);
 NOOK_AT(nook_material_info, further_occlusion_fetches, 156);
-
-NOOK_SIZE(nook_material_sample, 36);
-NOOK_AT(nook_material_sample, level, 8);
-NOOK_AT(nook_material_sample, view, 12);
-NOOK_AT(nook_material_sample, light, 24);
 
 NOOK_SIZE(nook_material_pixel, 48);
 NOOK_AT(nook_material_pixel, dx, 8);

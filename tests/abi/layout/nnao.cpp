@@ -1,10 +1,11 @@
+#include <nook/experimental/nook_stages.h>
 #include <nook/nook_nnao.h>
 
 #include "tests/abi/layout/layout.h"
 
 NOOK_SIZE(nook_nnao_desc, 88);
 NOOK_AT(nook_nnao_desc, struct_size, 0);
-NOOK_AT(nook_nnao_desc, header_version, 4);
+NOOK_AT(nook_nnao_desc, type, 4);
 NOOK_AT(nook_nnao_desc, next, 8);
 NOOK_AT(nook_nnao_desc, max_width, 16);
 NOOK_AT(nook_nnao_desc, max_height, 20);
@@ -17,47 +18,26 @@ NOOK_AT(nook_nnao_desc, path, 44);
 NOOK_AT(nook_nnao_desc, network, 48);
 NOOK_AT(nook_nnao_desc, network_size, 56);
 NOOK_AT(nook_nnao_desc, bent_normals, 64);
-NOOK_AT(nook_nnao_desc, temporal_frames, 68);
+NOOK_AT(nook_nnao_desc, max_history_frames, 68);
 NOOK_AT(nook_nnao_desc, depth_samples, 72);
 NOOK_AT(nook_nnao_desc, depth_sample, 76);
-NOOK_AT(nook_nnao_desc, layers, 80);
+NOOK_AT(nook_nnao_desc, views, 80);
 NOOK_AT(nook_nnao_desc, normal_samples, 84);
 
-NOOK_SIZE(nook_nnao_frame_desc, 320);
-NOOK_AT(nook_nnao_frame_desc, width, 16);
-NOOK_AT(nook_nnao_frame_desc, height, 20);
-NOOK_AT(nook_nnao_frame_desc, viewport, 24);
-NOOK_AT(nook_nnao_frame_desc, depth_texture, 40);
-NOOK_AT(nook_nnao_frame_desc, depth_kind, 44);
-NOOK_AT(nook_nnao_frame_desc, sky_depth, 48);
-NOOK_AT(nook_nnao_frame_desc, normal_texture, 52);
-NOOK_AT(nook_nnao_frame_desc, normal_scale, 56);
-NOOK_AT(nook_nnao_frame_desc, normal_bias, 60);
-NOOK_AT(nook_nnao_frame_desc, normal_matrix, 64);
-NOOK_AT(nook_nnao_frame_desc, projection, 100);
-NOOK_AT(nook_nnao_frame_desc, clip, 164);
-NOOK_AT(nook_nnao_frame_desc, radius, 168);
-NOOK_AT(nook_nnao_frame_desc, max_radius_px, 172);
-NOOK_AT(nook_nnao_frame_desc, intensity, 176);
-NOOK_AT(nook_nnao_frame_desc, power, 180);
-NOOK_AT(nook_nnao_frame_desc, layer, 184);
-NOOK_AT(nook_nnao_frame_desc, layer_texture, 188);
-NOOK_AT(nook_nnao_frame_desc, target, 192);
-NOOK_AT(nook_nnao_frame_desc, target_name, 196);
-NOOK_AT(nook_nnao_frame_desc, blend, 200);
-NOOK_AT(nook_nnao_frame_desc, view, 204);
-NOOK_AT(nook_nnao_frame_desc, earlier_from_view, 208);
-NOOK_AT(nook_nnao_frame_desc, motion_texture, 256);
-NOOK_AT(nook_nnao_frame_desc, motion_scale, 260);
-NOOK_AT(nook_nnao_frame_desc, reset, 268);
-NOOK_AT(nook_nnao_frame_desc, radius_kind, 272);
-NOOK_AT(nook_nnao_frame_desc, scene_size, 276);
-NOOK_AT(nook_nnao_frame_desc, depth_log_scale, 280);
-NOOK_AT(nook_nnao_frame_desc, depth_log_near, 284);
-NOOK_AT(nook_nnao_frame_desc, depth_log_far, 288);
-NOOK_AT(nook_nnao_frame_desc, layer_projections, 296);
-NOOK_AT(nook_nnao_frame_desc, layer_normal_matrices, 304);
-NOOK_AT(nook_nnao_frame_desc, layer_earlier_from_view, 312);
+NOOK_SIZE(nook_nnao_frame_desc, 64);
+NOOK_AT(nook_nnao_frame_desc, struct_size, 0);
+NOOK_AT(nook_nnao_frame_desc, type, 4);
+NOOK_AT(nook_nnao_frame_desc, next, 8);
+NOOK_AT(nook_nnao_frame_desc, radius, 16);
+NOOK_AT(nook_nnao_frame_desc, radius_kind, 20);
+NOOK_AT(nook_nnao_frame_desc, scene_size, 24);
+NOOK_AT(nook_nnao_frame_desc, max_radius_px, 28);
+NOOK_AT(nook_nnao_frame_desc, intensity, 32);
+NOOK_AT(nook_nnao_frame_desc, power, 36);
+NOOK_AT(nook_nnao_frame_desc, motion_vectors, 40);
+NOOK_AT(nook_nnao_frame_desc, motion_vector_scale, 44);
+NOOK_AT(nook_nnao_frame_desc, reset, 52);
+NOOK_AT(nook_nnao_frame_desc, show, 56);
 
 NOOK_SIZE(nook_nnao_info, 40);
 NOOK_AT(nook_nnao_info, texture, 4);

@@ -1,10 +1,10 @@
-#include <nook/nook_nnao_recording.h>
+#include <nook/experimental/nook_recording.h>
 
 #include "tests/abi/layout/layout.h"
 
 NOOK_SIZE(nook_nnao_recording_desc, 280);
 NOOK_AT(nook_nnao_recording_desc, struct_size, 0);
-NOOK_AT(nook_nnao_recording_desc, header_version, 4);
+NOOK_AT(nook_nnao_recording_desc, type, 4);
 NOOK_AT(nook_nnao_recording_desc, next, 8);
 NOOK_AT(nook_nnao_recording_desc, width, 16);
 NOOK_AT(nook_nnao_recording_desc, height, 20);

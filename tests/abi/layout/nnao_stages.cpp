@@ -1,4 +1,4 @@
-#include <nook/nook_nnao_stages.h>
+#include <nook/experimental/nook_stages.h>
 
 #include "tests/abi/layout/layout.h"
 

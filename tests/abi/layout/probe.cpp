@@ -1,33 +1,41 @@
+#include <nook/experimental/nook_sg.h>
 #include <nook/nook_probe.h>
 
 #include "tests/abi/layout/layout.h"
 
-NOOK_SIZE(nook_probe_lobe, 32);
-NOOK_AT(nook_probe_lobe, axis, 0);
-NOOK_AT(nook_probe_lobe, sharpness, 12);
-NOOK_AT(nook_probe_lobe, amplitude, 16);
-NOOK_AT(nook_probe_lobe, reserved, 28);
+NOOK_SIZE(nook_lobe, 32);
+NOOK_AT(nook_lobe, axis, 0);
+NOOK_AT(nook_lobe, sharpness, 12);
+NOOK_AT(nook_lobe, amplitude, 16);
+NOOK_AT(nook_lobe, reserved, 28);
 
-NOOK_SIZE(nook_probe_fit_desc, 104);
+NOOK_SIZE(nook_probe_fit_desc, 88);
 NOOK_AT(nook_probe_fit_desc, struct_size, 0);
-NOOK_AT(nook_probe_fit_desc, header_version, 4);
+NOOK_AT(nook_probe_fit_desc, type, 4);
 NOOK_AT(nook_probe_fit_desc, next, 8);
 NOOK_AT(nook_probe_fit_desc, method, 16);
-NOOK_AT(nook_probe_fit_desc, constraint, 20);
-NOOK_AT(nook_probe_fit_desc, basis, 24);
-NOOK_AT(nook_probe_fit_desc, domain, 28);
-NOOK_AT(nook_probe_fit_desc, up, 32);
-NOOK_AT(nook_probe_fit_desc, lobe_count, 44);
-NOOK_AT(nook_probe_fit_desc, sharpness, 48);
+NOOK_AT(nook_probe_fit_desc, form, 20);
+NOOK_AT(nook_probe_fit_desc, match_sh, 24);
+NOOK_AT(nook_probe_fit_desc, basis, 28);
+NOOK_AT(nook_probe_fit_desc, domain, 32);
+NOOK_AT(nook_probe_fit_desc, up, 36);
+NOOK_AT(nook_probe_fit_desc, lobe_count, 48);
+NOOK_AT(nook_probe_fit_desc, sharpness, 52);
 NOOK_AT(nook_probe_fit_desc, axes, 56);
 NOOK_AT(nook_probe_fit_desc, sharpnesses, 64);
 NOOK_AT(nook_probe_fit_desc, ambient, 72);
 NOOK_AT(nook_probe_fit_desc, order, 76);
-NOOK_AT(nook_probe_fit_desc, denominator, 80);
-NOOK_AT(nook_probe_fit_desc, step, 84);
-NOOK_AT(nook_probe_fit_desc, growing_samples, 88);
-NOOK_AT(nook_probe_fit_desc, isa, 92);
-NOOK_AT(nook_probe_fit_desc, reserved, 96);
+NOOK_AT(nook_probe_fit_desc, growing_samples, 80);
+NOOK_AT(nook_probe_fit_desc, reserved, 84);
+
+NOOK_SIZE(nook_probe_fit_study_desc, 32);
+NOOK_AT(nook_probe_fit_study_desc, struct_size, 0);
+NOOK_AT(nook_probe_fit_study_desc, type, 4);
+NOOK_AT(nook_probe_fit_study_desc, next, 8);
+NOOK_AT(nook_probe_fit_study_desc, method, 16);
+NOOK_AT(nook_probe_fit_study_desc, published_step, 20);
+NOOK_AT(nook_probe_fit_study_desc, denominator, 24);
+NOOK_AT(nook_probe_fit_study_desc, dice, 28);
 
 NOOK_SIZE(nook_probe_fit_info, 80);
 NOOK_AT(nook_probe_fit_info, struct_size, 0);
@@ -40,16 +48,20 @@ NOOK_AT(nook_probe_fit_info, skipped_weight, 40);
 NOOK_AT(nook_probe_fit_info, weight, 48);
 NOOK_AT(nook_probe_fit_info, mean_radiance, 56);
 
-NOOK_SIZE(nook_probe_desc, 72);
+NOOK_SIZE(nook_probe_desc, 96);
 NOOK_AT(nook_probe_desc, struct_size, 0);
-NOOK_AT(nook_probe_desc, header_version, 4);
+NOOK_AT(nook_probe_desc, type, 4);
 NOOK_AT(nook_probe_desc, next, 8);
-NOOK_AT(nook_probe_desc, functions, 16);
-NOOK_AT(nook_probe_desc, counts, 24);
-NOOK_AT(nook_probe_desc, origin_ws, 36);
-NOOK_AT(nook_probe_desc, spacing_ws, 48);
-NOOK_AT(nook_probe_desc, reserved, 60);
-NOOK_AT(nook_probe_desc, coefficients, 64);
+NOOK_AT(nook_probe_desc, counts, 16);
+NOOK_AT(nook_probe_desc, origin_ws, 28);
+NOOK_AT(nook_probe_desc, spacing_ws, 40);
+NOOK_AT(nook_probe_desc, fit_count, 52);
+NOOK_AT(nook_probe_desc, fits, 56);
+NOOK_AT(nook_probe_desc, lobes, 64);
+NOOK_AT(nook_probe_desc, lobe_count, 72);
+NOOK_AT(nook_probe_desc, reserved, 76);
+NOOK_AT(nook_probe_desc, functions, 80);
+NOOK_AT(nook_probe_desc, coefficients, 88);
 
 NOOK_SIZE(nook_probe_info, 80);
 NOOK_AT(nook_probe_info, struct_size, 0);

@@ -1,4 +1,4 @@
-#include <nook/nook_synthesis.h>
+#include <nook/experimental/nook_synthesis.h>
 
 #include "tests/abi/layout/layout.h"
 

@@ -9,8 +9,12 @@
 
 inline Character tube_with_clips() {
   const std::string glb = glb_tube({"bend", "T-pose", "wave"});
+  nook_bake_source_desc desc;
+  REQUIRE(nook_bake_source_desc_init(&desc) == NOOK_OK);
+  desc.bytes = glb.data();
+  desc.byte_count = glb.size();
   nook_bake_character character = nullptr;
-  REQUIRE(nook_bake_import_gltf_bytes(glb.data(), glb.size(), &character) == NOOK_OK);
+  REQUIRE(nook_bake_character_create(&desc, &character) == NOOK_OK);
   return Character(character);
 }
 
@@ -19,13 +23,14 @@ inline std::string bytes_of(nook_bake_job job) {
   REQUIRE(nook_bake_job_wait(job) == NOOK_OK);
   const void* bytes = nullptr;
   std::size_t size = 0;
-  REQUIRE(nook_bake_job_model(job, &bytes, &size) == NOOK_OK);
+  REQUIRE(nook_bake_job_file(job, &bytes, &size) == NOOK_OK);
   return {static_cast<const char*>(bytes), size};
 }
 
 inline std::string model_of(const Character& character) {
-  nook_bake_job_desc desc;
-  REQUIRE(nook_bake_job_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  nook_bake_character_desc desc;
+  REQUIRE(nook_bake_character_desc_init(&desc) == NOOK_OK);
+  desc.character = character.get();
   desc.preset = NOOK_BAKE_PRESET_DRAFT;
   desc.pose_mode = NOOK_BAKE_POSES_AUTO;
   // Most of the time of so small a bake goes to its casters, by the number of poses.
@@ -35,17 +40,17 @@ inline std::string model_of(const Character& character) {
   desc.rays = 4;
   desc.steps = 40;
   nook_bake_job job = nullptr;
-  REQUIRE(nook_bake_job_start(character.get(), &desc, &job) == NOOK_OK);
+  REQUIRE(nook_bake_start_character(&desc, &job) == NOOK_OK);
   const Job owner(job);
   return bytes_of(job);
 }
 
 // The result of starting a job, which is destroyed; there is one exactly where it started.
 template <class Desc>
-nook_result start_result_of(nook_result (*start)(nook_bake_character, const Desc*, nook_bake_job*),
-                            const Character& character, const Desc& desc) {
+nook_result start_result_of(const Character& character, Desc desc) {
+  desc.character = character.get();
   nook_bake_job job = nullptr;
-  const nook_result result = start(character.get(), &desc, &job);
+  const nook_result result = nook_bake_start(&desc, &job);
   CHECK((job != nullptr) == (result == NOOK_OK));
   nook_bake_job_destroy(&job);
   return result;

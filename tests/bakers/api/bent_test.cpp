@@ -1,5 +1,5 @@
 // Jobs of bent normals, and their models in the runtime.
-#include <nook/nook_bake_bent.h>
+#include <nook/nook_bake.h>
 #include <nook/nook_character.h>
 
 #include <nlohmann/json.hpp>
@@ -12,7 +12,7 @@ namespace {
 
 nook_bake_bent_desc desc_of(const std::string& model) {
   nook_bake_bent_desc desc;
-  REQUIRE(nook_bake_bent_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_bake_bent_desc_init(&desc) == NOOK_OK);
   desc.model = model.data();
   desc.model_size = model.size();
   desc.auto_pose_count = 8;
@@ -21,7 +21,7 @@ nook_bake_bent_desc desc_of(const std::string& model) {
 }
 
 nook_result start_result(const Character& character, const nook_bake_bent_desc& desc) {
-  return start_result_of(nook_bake_bent_start, character, desc);
+  return start_result_of(character, desc);
 }
 
 }  // namespace
@@ -33,8 +33,10 @@ TEST_CASE("a job of bent normals adds them to the model, the same on any number 
   for (const std::uint32_t threads : {1u, 3u}) {
     desc.threads = threads;
     nook_bake_job started = nullptr;
-    // The job keeps the character.
-    REQUIRE(nook_bake_bent_start(tube_with_clips().get(), &desc, &started) == NOOK_OK);
+    Character character = tube_with_clips();
+    desc.character = character.get();
+    REQUIRE(nook_bake_start_bent(&desc, &started) == NOOK_OK);
+    character.reset();  // the job keeps it
     const Job job(started);
     const std::string bytes = bytes_of(job.get());
     const char* text = nullptr;
@@ -47,18 +49,18 @@ TEST_CASE("a job of bent normals adds them to the model, the same on any number 
   }
   nook_context_desc context_desc;
   nook_context context = nullptr;
-  REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_context_desc_init(&context_desc) == NOOK_OK);
   REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
   for (const std::string* bytes : {&plain, static_cast<const std::string*>(&first)}) {
-    nook_character_model model = nullptr;
-    nook_character_model_info info{};
+    nook_model model = nullptr;
+    nook_model_info info{};
     info.struct_size = sizeof info;
-    REQUIRE(nook_character_model_load(context, bytes->data(), bytes->size(), &model) == NOOK_OK);
-    REQUIRE(nook_character_model_describe(model, &info) == NOOK_OK);
-    std::vector<std::int8_t> blocked(8 * info.file_vertex_count);
-    CHECK(nook_character_model_blocked_vectors(model, blocked.data(), info.file_vertex_count, 0) ==
-          (bytes == &plain ? NOOK_ERROR_UNSUPPORTED : NOOK_OK));
-    nook_character_model_destroy(&model);
+    REQUIRE(nook_model_load(context, bytes->data(), bytes->size(), &model) == NOOK_OK);
+    REQUIRE(nook_model_describe(model, &info) == NOOK_OK);
+    std::vector<std::int8_t> occluded(8 * info.file_vertex_count);
+    CHECK(nook_model_read(model, NOOK_MODEL_OCCLUDED_DIRECTIONS, occluded.data(), info.file_vertex_count,
+                          0) == (bytes == &plain ? NOOK_ERROR_UNSUPPORTED : NOOK_OK));
+    nook_model_destroy(&model);
   }
   nook_context_destroy(&context);
 }
@@ -68,7 +70,10 @@ TEST_CASE("a job of bent normals is cancelled by its progress function") {
   nook_bake_bent_desc desc = desc_of(model);
   desc.progress = [](void*, const nook_bake_progress*) -> std::int32_t { return 0; };
   nook_bake_job started = nullptr;
-  REQUIRE(nook_bake_bent_start(tube_with_clips().get(), &desc, &started) == NOOK_OK);
+  Character character = tube_with_clips();
+  desc.character = character.get();
+  REQUIRE(nook_bake_start_bent(&desc, &started) == NOOK_OK);
+  character.reset();  // the job keeps it
   const Job job(started);
   CHECK(nook_bake_job_wait(job.get()) == NOOK_ERROR_CANCELLED);
 }

@@ -11,9 +11,13 @@ namespace {
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 
+nook_result read(nook_bake_character character, nook_bake_array array, void* out, std::uint32_t count) {
+  return nook_bake_character_read(character, array, out, count, 0);
+}
+
 struct TubeDesc {
   tube t;
-  nook_bake_mesh_desc desc;
+  nook_bake_source_desc desc;
   TubeDesc() {
     make_tube(&t);
     desc = describe_tube(&t);
@@ -52,8 +56,8 @@ TEST_CASE("a character from memory is what was given") {
   tube t;
   make_tube(&t);
   std::vector<float> positions(3 * tube_vertices), normals(3 * tube_vertices);
-  REQUIRE(nook_bake_character_read_vertices(character.get(), positions.data(), normals.data(),
-                                            tube_vertices) == NOOK_OK);
+  REQUIRE(read(character.get(), NOOK_BAKE_ARRAY_POSITIONS, positions.data(), tube_vertices) == NOOK_OK);
+  REQUIRE(read(character.get(), NOOK_BAKE_ARRAY_NORMALS, normals.data(), tube_vertices) == NOOK_OK);
   CHECK(std::memcmp(positions.data(), t.positions, sizeof t.positions) == 0);
   // The normals of a tube point away from its axis; ten flat sides and area weights keep this exact up to
   // rounding, but for the rings at its ends, whose triangles are not symmetric.
@@ -63,13 +67,13 @@ TEST_CASE("a character from memory is what was given") {
     CHECK(std::fabs((p[1] * n[1] + p[2] * n[2]) / 0.1f) > 0.99f);
   }
   std::vector<std::uint32_t> indices(3 * tube_triangles);
-  REQUIRE(nook_bake_character_read_triangles(character.get(), indices.data(), 3 * tube_triangles) == NOOK_OK);
+  REQUIRE(read(character.get(), NOOK_BAKE_ARRAY_TRIANGLES, indices.data(), tube_triangles) == NOOK_OK);
   CHECK(std::memcmp(indices.data(), t.indices, sizeof t.indices) == 0);
 
   std::vector<std::uint16_t> joints(4 * tube_vertices);
   std::vector<float> weights(4 * tube_vertices);
-  REQUIRE(nook_bake_character_read_skin(character.get(), joints.data(), weights.data(), tube_vertices) ==
-          NOOK_OK);
+  REQUIRE(read(character.get(), NOOK_BAKE_ARRAY_JOINTS, joints.data(), tube_vertices) == NOOK_OK);
+  REQUIRE(read(character.get(), NOOK_BAKE_ARRAY_WEIGHTS, weights.data(), tube_vertices) == NOOK_OK);
   for (std::size_t v = 0; v < tube_vertices; ++v) {
     float tip = 0, sum = 0;
     for (std::size_t s = 4 * v; s < 4 * v + 4; ++s) {
@@ -79,17 +83,43 @@ TEST_CASE("a character from memory is what was given") {
     CHECK(std::fabs(sum - 1) < 1e-6f);
     CHECK(std::fabs(tip - t.weights[2 * v + 1]) < 1e-6f);
   }
+  std::int32_t parents[2] = {};
+  float frames[24] = {};
+  REQUIRE(read(character.get(), NOOK_BAKE_ARRAY_PARENTS, parents, 2) == NOOK_OK);
+  REQUIRE(read(character.get(), NOOK_BAKE_ARRAY_FRAMES, frames, 2) == NOOK_OK);
+  CHECK(std::memcmp(parents, t.parents, sizeof parents) == 0);
+  CHECK(std::memcmp(frames, t.frames, sizeof frames) == 0);
+}
+
+TEST_CASE("arrays are read into a caller's own structs, whose other bytes stay") {
+  const Character character = tube_character();
+  struct Vertex {
+    float position[3];
+    float own = 7;
+  };
+  std::vector<Vertex> vertices(tube_vertices);
+  REQUIRE(nook_bake_character_read(character.get(), NOOK_BAKE_ARRAY_POSITIONS, vertices.data(), tube_vertices,
+                                   sizeof(Vertex)) == NOOK_OK);
+  tube t;
+  make_tube(&t);
+  for (std::size_t v = 0; v < tube_vertices; ++v) {
+    CHECK(std::memcmp(vertices[v].position, t.positions + 3 * v, sizeof vertices[v].position) == 0);
+    CHECK(vertices[v].own == 7);
+  }
+  CHECK(nook_bake_character_read(character.get(), NOOK_BAKE_ARRAY_POSITIONS, vertices.data(), tube_vertices,
+                                 11) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("stride is too small (got 11, need 0 or at least 12)"));
 }
 
 TEST_CASE("names are valid while their character lives") {
   const Character character = tube_character();
   REQUIRE(character);
-  const char* const bone = nook_bake_character_bone_name(character.get(), 1);
-  const char* const primitive = nook_bake_character_primitive_name(character.get(), 0);
+  const char* const bone = nook_bake_character_name(character.get(), NOOK_BAKE_NAME_BONE, 1);
+  const char* const primitive = nook_bake_character_name(character.get(), NOOK_BAKE_NAME_PRIMITIVE, 0);
   const std::string bone_text = bone, primitive_text = primitive;
   for (int i = 0; i < 20; ++i) REQUIRE(tube_character());
-  CHECK(nook_bake_character_bone_name(character.get(), 1) == bone);
-  CHECK(nook_bake_character_primitive_name(character.get(), 0) == primitive);
+  CHECK(nook_bake_character_name(character.get(), NOOK_BAKE_NAME_BONE, 1) == bone);
+  CHECK(nook_bake_character_name(character.get(), NOOK_BAKE_NAME_PRIMITIVE, 0) == primitive);
   CHECK(bone_text == bone);
   CHECK(primitive_text == primitive);
 }
@@ -104,7 +134,7 @@ TEST_CASE("split vertices come back in file order and agree") {
   joints.insert(joints.end(), d.t.joints, d.t.joints + 2 * tube_vertices);
   std::vector<float> weights(d.t.weights, d.t.weights + 2 * tube_vertices);
   weights.insert(weights.end(), d.t.weights, d.t.weights + 2 * tube_vertices);
-  const nook_bake_primitive primitives[] = {{0, tube_vertices}, {tube_vertices, tube_vertices}};
+  const nook_range primitives[] = {{0, tube_vertices}, {tube_vertices, tube_vertices}};
   d.desc.positions = positions.data();
   d.desc.joints = joints.data();
   d.desc.weights = weights.data();
@@ -119,13 +149,14 @@ TEST_CASE("split vertices come back in file order and agree") {
   REQUIRE(nook_bake_character_describe(handle, &info) == NOOK_OK);
   CHECK(info.vertex_count == tube_vertices);
   CHECK(info.file_vertex_count == 2 * tube_vertices);
-  nook_bake_primitive second{};
-  REQUIRE(nook_bake_character_describe_primitive(handle, 1, &second) == NOOK_OK);
-  CHECK(second.first_vertex == tube_vertices);
-  CHECK(second.vertex_count == tube_vertices);
+  nook_range ranges[2] = {};
+  REQUIRE(read(handle, NOOK_BAKE_ARRAY_PRIMITIVES, ranges, 2) == NOOK_OK);
+  CHECK(ranges[0].first == 0);
+  CHECK(ranges[1].first == tube_vertices);
+  CHECK(ranges[1].count == tube_vertices);
   std::vector<float> out(6 * tube_vertices), normals(6 * tube_vertices);
-  REQUIRE(nook_bake_character_read_vertices(handle, out.data(), normals.data(), 2 * tube_vertices) ==
-          NOOK_OK);
+  REQUIRE(read(handle, NOOK_BAKE_ARRAY_POSITIONS, out.data(), 2 * tube_vertices) == NOOK_OK);
+  REQUIRE(read(handle, NOOK_BAKE_ARRAY_NORMALS, normals.data(), 2 * tube_vertices) == NOOK_OK);
   CHECK(out == positions);
   CHECK(std::memcmp(normals.data(), normals.data() + 3 * tube_vertices, 3 * tube_vertices * sizeof(float)) ==
         0);
@@ -136,7 +167,7 @@ TEST_CASE("skinning moves the vertices by their bones") {
   // The tip is lifted by a metre, the root stays.
   float bones[24] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 0};
   std::vector<float> rest(3 * tube_vertices), posed(3 * tube_vertices);
-  REQUIRE(nook_bake_character_read_vertices(character.get(), rest.data(), nullptr, tube_vertices) == NOOK_OK);
+  REQUIRE(read(character.get(), NOOK_BAKE_ARRAY_POSITIONS, rest.data(), tube_vertices) == NOOK_OK);
   REQUIRE(nook_bake_character_skin(character.get(), bones, 2, posed.data(), nullptr, tube_vertices) ==
           NOOK_OK);
   tube t;
@@ -188,6 +219,16 @@ TEST_CASE("faults of a mesh in memory are named") {
     d.desc.positions = nullptr;
     CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
     CHECK(message_has("desc.positions is NULL"));
+  }
+  SECTION("a file as well") {
+    d.desc.path = "tube.glb";
+    CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has("desc has more than one of desc.path, desc.bytes and arrays"));
+  }
+  SECTION("nothing") {
+    REQUIRE(nook_bake_source_desc_init(&d.desc) == NOOK_OK);
+    CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(message_has("desc has none of desc.path, desc.bytes and arrays"));
   }
   SECTION("a position that is not finite") {
     d.t.positions[40] = nan_value;
@@ -249,19 +290,26 @@ TEST_CASE("NULL handles and wrong counts are refused") {
   CHECK(nook_bake_character_describe(c, &info) == NOOK_ERROR_INVALID_ARGUMENT);  // struct_size is 0
   CHECK(nook_bake_character_describe(nullptr, &info) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_bake_character_describe(c, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_bake_character_bone_name(nullptr, 0) == nullptr);
-  CHECK(nook_bake_character_bone_name(c, 2) == nullptr);
-  CHECK(nook_bake_character_primitive_name(c, 1) == nullptr);
-  CHECK(nook_bake_character_read_bones(c, nullptr, f, 1) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_bake_character_describe_primitive(c, 0, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  nook_bake_primitive primitive;
-  CHECK(nook_bake_character_describe_primitive(c, 1, &primitive) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(message_has("primitive is out of range (got 1, there are 1)"));
-  CHECK(nook_bake_character_read_vertices(c, f, f, 1) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_bake_character_read_triangles(c, nullptr, 3 * tube_triangles) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_bake_character_read_skin(c, nullptr, nullptr, tube_vertices) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_character_name(nullptr, NOOK_BAKE_NAME_BONE, 0) == nullptr);
+  CHECK(nook_bake_character_name(c, NOOK_BAKE_NAME_BONE, 2) == nullptr);
+  CHECK(nook_bake_character_name(c, NOOK_BAKE_NAME_CLIP, 0) == nullptr);
+  CHECK(nook_bake_character_name(c, NOOK_BAKE_NAME_PRIMITIVE, 1) == nullptr);
+  CHECK(nook_bake_character_name(c, NOOK_BAKE_NAME_WARNING, ~0u) == nullptr);
+  CHECK(nook_bake_character_name(c, 4, 0) == nullptr);
+  CHECK(read(nullptr, NOOK_BAKE_ARRAY_FRAMES, f, 2) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(read(c, NOOK_BAKE_ARRAY_FRAMES, f, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("count is wrong (got 1, need 2)"));
+  for (nook_bake_array array = NOOK_BAKE_ARRAY_PARENTS; array <= NOOK_BAKE_ARRAY_WEIGHTS; ++array) {
+    CHECK(read(c, array, f, 0) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(read(c, array, nullptr, tube_vertices) == NOOK_ERROR_INVALID_ARGUMENT);
+  }
+  CHECK(read(c, 8, f, 2) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("array is unknown (got 8)"));
   CHECK(nook_bake_character_auto_poses(c, 1, 1, nullptr, 2) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_bake_import_gltf(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_bake_import_gltf_bytes("x", 1, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  nook_bake_source_desc source;
+  REQUIRE(nook_bake_source_desc_init(&source) == NOOK_OK);
+  source.bytes = "x";
+  source.byte_count = 1;
+  CHECK(nook_bake_character_create(&source, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   nook_bake_character_destroy(nullptr);
 }

@@ -1,5 +1,5 @@
 // Jobs of clips, and their files in the runtime.
-#include <nook/nook_bake_clips.h>
+#include <nook/nook_bake.h>
 #include <nook/nook_clips.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 nook_bake_clips_desc desc_of(const std::string& model) {
   nook_bake_clips_desc desc;
-  REQUIRE(nook_bake_clips_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_bake_clips_desc_init(&desc) == NOOK_OK);
   desc.model = model.data();
   desc.model_size = model.size();
   desc.rays = 32;
@@ -23,7 +23,7 @@ nook_bake_clips_desc desc_of(const std::string& model) {
 }
 
 nook_result start_result(const Character& character, const nook_bake_clips_desc& desc) {
-  return start_result_of(nook_bake_clips_start, character, desc);
+  return start_result_of(character, desc);
 }
 
 }  // namespace
@@ -35,8 +35,10 @@ TEST_CASE("a job of clips gives a file for the model, the same on any number of 
   for (const std::uint32_t threads : {1u, 3u}) {
     desc.threads = threads;
     nook_bake_job started = nullptr;
-    // The job keeps the character.
-    REQUIRE(nook_bake_clips_start(tube_with_clips().get(), &desc, &started) == NOOK_OK);
+    Character character = tube_with_clips();
+    desc.character = character.get();
+    REQUIRE(nook_bake_start_clips(&desc, &started) == NOOK_OK);
+    character.reset();  // the job keeps it
     const Job job(started);
     const std::string bytes = bytes_of(job.get());
     const char* report = nullptr;
@@ -47,11 +49,11 @@ TEST_CASE("a job of clips gives a file for the model, the same on any number of 
   }
   nook_context_desc context_desc;
   nook_context context = nullptr;
-  nook_character_model model = nullptr;
+  nook_model model = nullptr;
   nook_clips clips = nullptr;
-  REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_context_desc_init(&context_desc) == NOOK_OK);
   REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
-  REQUIRE(nook_character_model_load(context, model_bytes.data(), model_bytes.size(), &model) == NOOK_OK);
+  REQUIRE(nook_model_load(context, model_bytes.data(), model_bytes.size(), &model) == NOOK_OK);
   REQUIRE(nook_clips_load(context, model, first.data(), first.size(), &clips) == NOOK_OK);
   nook_clips_info info{};
   info.struct_size = sizeof info;
@@ -59,7 +61,7 @@ TEST_CASE("a job of clips gives a file for the model, the same on any number of 
   CHECK(info.clip_count == 2);    // the T-pose shows no motion
   CHECK(info.frame_count == 22);  // one second each, at 10 frames and both ends
   nook_clips_destroy(&clips);
-  nook_character_model_destroy(&model);
+  nook_model_destroy(&model);
   nook_context_destroy(&context);
 }
 

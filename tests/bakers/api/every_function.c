@@ -40,9 +40,9 @@ void make_tube(tube* out) {
   out->names[1] = "tip";
 }
 
-nook_bake_mesh_desc describe_tube(const tube* t) {
-  nook_bake_mesh_desc desc;
-  nook_bake_mesh_desc_init(&desc, sizeof desc, NOOK_VERSION);
+nook_bake_source_desc describe_tube(const tube* t) {
+  nook_bake_source_desc desc;
+  nook_bake_source_desc_init(&desc);
   desc.positions = t->positions;
   desc.indices = t->indices;
   desc.joints = t->joints;
@@ -63,46 +63,38 @@ static int32_t keep_going(void* user, const nook_bake_progress* progress) {
 }
 
 static int call_character_functions(nook_bake_character character) {
-  static float poses[2 * 24 * 200], positions[3 * tube_vertices], normals[3 * tube_vertices],
-      weights[4 * tube_vertices];
-  static uint32_t indices[3 * tube_triangles];
-  static uint16_t joints[4 * tube_vertices];
+  static float poses[2 * 24 * 200], positions[3 * tube_vertices], normals[3 * tube_vertices];
   nook_bake_character_info info;
-  nook_bake_primitive primitive;
   uint32_t count = 0;
   float seconds = 0;
-  int32_t parents[2];
   int wrong = 0;
   memset(&info, 0, sizeof info);
   info.struct_size = sizeof info;
   wrong += nook_bake_character_describe(character, &info) != NOOK_OK;
-  wrong += strcmp(nook_bake_character_bone_name(character, 1), "tip") != 0;
-  wrong += nook_bake_character_clip_name(character, 0) != NULL;
-  wrong += nook_bake_character_primitive_name(character, 0) == NULL;
-  wrong += nook_bake_character_warning(character, info.warning_count) != NULL;
-  wrong += nook_bake_character_read_bones(character, parents, poses, 2) != NOOK_OK;
-  wrong += nook_bake_character_describe_primitive(character, 0, &primitive) != NOOK_OK;
+  wrong += strcmp(nook_bake_character_name(character, NOOK_BAKE_NAME_BONE, 1), "tip") != 0;
+  wrong += nook_bake_character_name(character, NOOK_BAKE_NAME_CLIP, 0) != NULL;
+  wrong += nook_bake_character_name(character, NOOK_BAKE_NAME_PRIMITIVE, 0) == NULL;
+  wrong += nook_bake_character_name(character, NOOK_BAKE_NAME_WARNING, info.warning_count) != NULL;
+  wrong += nook_bake_character_read(character, NOOK_BAKE_ARRAY_FRAMES, poses, 2, 0) != NOOK_OK;
   wrong += nook_bake_character_clip_duration(character, 0, &seconds) != NOOK_ERROR_INVALID_ARGUMENT;
   wrong += nook_bake_character_sample_clip(character, 0, 0, poses, 2) != NOOK_ERROR_INVALID_ARGUMENT;
   wrong += nook_bake_character_auto_poses(character, 1, 2, poses, 2) != NOOK_OK;
   wrong += nook_bake_character_single_joint_poses(character, 3, 45, &count, NULL, 2) != NOOK_OK;
   wrong += nook_bake_character_single_joint_poses(character, 3, 45, &count, poses, 2) != NOOK_OK;
-  wrong += nook_bake_character_read_vertices(character, positions, normals, tube_vertices) != NOOK_OK;
-  wrong += nook_bake_character_read_triangles(character, indices, 3 * tube_triangles) != NOOK_OK;
-  wrong += nook_bake_character_read_skin(character, joints, weights, tube_vertices) != NOOK_OK;
   wrong += nook_bake_character_skin(character, poses, 2, positions, normals, tube_vertices) != NOOK_OK;
   return wrong;
 }
 
 static int call_job_functions(nook_bake_character character) {
-  nook_bake_job_desc desc;
+  nook_bake_character_desc desc;
   nook_bake_job job = NULL;
   nook_bake_progress progress;
   const void* bytes = NULL;
   const char* report = NULL;
   size_t size = 0;
   int calls = 0, wrong = 0;
-  wrong += nook_bake_job_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK;
+  wrong += nook_bake_character_desc_init(&desc) != NOOK_OK;
+  desc.character = character;
   desc.preset = NOOK_BAKE_PRESET_DRAFT;
   desc.pose_mode = NOOK_BAKE_POSES_AUTO;
   desc.auto_pose_count = 8;
@@ -112,12 +104,12 @@ static int call_job_functions(nook_bake_character character) {
   desc.steps = 20;
   desc.progress = keep_going;
   desc.progress_user = &calls;
-  wrong += nook_bake_job_start(character, &desc, &job) != NOOK_OK;
+  wrong += nook_bake_start_character(&desc, &job) != NOOK_OK;
   memset(&progress, 0, sizeof progress);
   progress.struct_size = sizeof progress;
   wrong += nook_bake_job_poll(job, &progress) != NOOK_OK;
   wrong += nook_bake_job_wait(job) != NOOK_OK;
-  wrong += nook_bake_job_model(job, &bytes, &size) != NOOK_OK || size < 100;
+  wrong += nook_bake_job_file(job, &bytes, &size) != NOOK_OK || size < 100;
   wrong += nook_bake_job_report(job, &report) != NOOK_OK || report == NULL;
   wrong += nook_bake_job_cancel(job) != NOOK_OK;
   nook_bake_job_destroy(&job);
@@ -130,7 +122,7 @@ static int call_trace_functions(const tube* t) {
   nook_bake_occluder_mesh mesh;
   const float normal[3] = {0, 1, 0}, point[3] = {0.5f, 0, 0};
   float ao = -1;
-  int wrong = nook_bake_trace_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK;
+  int wrong = nook_bake_trace_desc_init(&desc) != NOOK_OK;
   mesh.positions = t->positions;
   mesh.indices = t->indices;
   mesh.vertex_count = tube_vertices;
@@ -151,7 +143,7 @@ static int call_irradiance_functions(const tube* t) {
   nook_bake_lit_mesh mesh = {0};
   const float normal[3] = {0, 1, 0}, point[3] = {0.5f, 0, 0}, white[3] = {1, 1, 1};
   float irradiance[3] = {-1, -1, -1};
-  int wrong = nook_bake_irradiance_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK;
+  int wrong = nook_bake_irradiance_desc_init(&desc) != NOOK_OK;
   mesh.positions = t->positions;
   mesh.indices = t->indices;
   mesh.vertex_count = tube_vertices;
@@ -174,7 +166,7 @@ static int call_material_functions(void) {
   nook_bake_job job = NULL;
   const void* bytes = NULL;
   size_t size = 0;
-  int calls = 0, wrong = nook_bake_material_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK;
+  int calls = 0, wrong = nook_bake_material_desc_init(&desc) != NOOK_OK;
   desc.meso = "weave";
   desc.light_count = desc.view_count = 8;
   desc.width = desc.height = 8;
@@ -182,9 +174,9 @@ static int call_material_functions(void) {
   desc.view_map_side = 8;
   desc.progress = keep_going;
   desc.progress_user = &calls;
-  wrong += nook_bake_material_start(&desc, &job) != NOOK_OK;
+  wrong += nook_bake_start_material(&desc, &job) != NOOK_OK;
   wrong += nook_bake_job_wait(job) != NOOK_OK;
-  wrong += nook_bake_job_model(job, &bytes, &size) != NOOK_OK || size < 100;
+  wrong += nook_bake_job_file(job, &bytes, &size) != NOOK_OK || size < 100;
   nook_bake_job_destroy(&job);
   return wrong + (job != NULL || calls == 0);
 }
@@ -197,7 +189,7 @@ static int call_transfer_functions(void) {
   nook_bake_job job = NULL;
   const void* bytes = NULL;
   size_t size = 0;
-  int calls = 0, wrong = nook_bake_transfer_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK;
+  int calls = 0, wrong = nook_bake_transfer_desc_init(&desc) != NOOK_OK;
   desc.positions = positions;
   desc.normals = normals;
   desc.uvs = uvs;
@@ -207,9 +199,9 @@ static int call_transfer_functions(void) {
   desc.ray_side = 8;
   desc.progress = keep_going;
   desc.progress_user = &calls;
-  wrong += nook_bake_transfer_start(&desc, &job) != NOOK_OK;
+  wrong += nook_bake_start_transfer(&desc, &job) != NOOK_OK;
   wrong += nook_bake_job_wait(job) != NOOK_OK;
-  wrong += nook_bake_job_model(job, &bytes, &size) != NOOK_OK || size < 100;
+  wrong += nook_bake_job_file(job, &bytes, &size) != NOOK_OK || size < 100;
   nook_bake_job_destroy(&job);
   return wrong + (job != NULL || calls == 0);
 }
@@ -219,10 +211,10 @@ static int call_synthesis_functions(void) {
   static const char bytes[40] = {0};
   nook_bake_synthesis_desc desc;
   nook_bake_job job = NULL;
-  int wrong = nook_bake_synthesis_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK;
+  int wrong = nook_bake_synthesis_desc_init(&desc) != NOOK_OK;
   desc.material = bytes;
   desc.material_size = sizeof bytes;
-  wrong += nook_bake_synthesis_start(&desc, &job) != NOOK_ERROR_BAD_FILE;
+  wrong += nook_bake_start_synthesis(&desc, &job) != NOOK_ERROR_BAD_FILE;
   return wrong + (job != NULL);
 }
 
@@ -231,10 +223,11 @@ static int call_clips_functions(nook_bake_character character) {
   static const char bytes[40] = {0};
   nook_bake_clips_desc desc;
   nook_bake_job job = NULL;
-  int wrong = nook_bake_clips_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK;
+  int wrong = nook_bake_clips_desc_init(&desc) != NOOK_OK;
+  desc.character = character;
   desc.model = bytes;
   desc.model_size = sizeof bytes;
-  wrong += nook_bake_clips_start(character, &desc, &job) != NOOK_ERROR_BAD_FILE;
+  wrong += nook_bake_start_clips(&desc, &job) != NOOK_ERROR_BAD_FILE;
   return wrong + (job != NULL);
 }
 
@@ -242,24 +235,27 @@ static int call_bent_functions(nook_bake_character character) {
   static const char bytes[40] = {0};
   nook_bake_bent_desc desc;
   nook_bake_job job = NULL;
-  int wrong = nook_bake_bent_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK;
+  int wrong = nook_bake_bent_desc_init(&desc) != NOOK_OK;
+  desc.character = character;
   desc.model = bytes;
   desc.model_size = sizeof bytes;
-  wrong += nook_bake_bent_start(character, &desc, &job) != NOOK_ERROR_BAD_FILE;
+  wrong += nook_bake_start_bent(&desc, &job) != NOOK_ERROR_BAD_FILE;
   return wrong + (job != NULL);
 }
 
 int call_every_function(void) {
   tube t;
-  nook_bake_mesh_desc desc;
+  nook_bake_source_desc desc;
   nook_bake_character character = NULL;
   int wrong = 0;
   make_tube(&t);
-  wrong += nook_bake_mesh_desc_init(&desc, sizeof desc, NOOK_VERSION) != NOOK_OK;
-  wrong += nook_bake_version() != NOOK_VERSION;
-  wrong += nook_bake_import_gltf("no such file.glb", &character) != NOOK_ERROR_BAD_FILE;
+  wrong += nook_bake_source_desc_init(&desc) != NOOK_OK;
+  desc.path = "no such file.glb";
+  wrong += nook_bake_character_create(&desc, &character) != NOOK_ERROR_BAD_FILE;
   wrong += strstr(nook_bake_last_message(), "no such file.glb") == NULL;
-  wrong += nook_bake_import_gltf_bytes("", 0, &character) != NOOK_ERROR_BAD_FILE;
+  desc.path = NULL;
+  desc.bytes = "";
+  wrong += nook_bake_character_create(&desc, &character) != NOOK_ERROR_BAD_FILE;
   desc = describe_tube(&t);
   wrong += nook_bake_character_create(&desc, &character) != NOOK_OK;
   wrong += call_character_functions(character);

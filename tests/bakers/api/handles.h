@@ -1,7 +1,7 @@
 // Handles that release themselves, and the message a failing call leaves.
 #pragma once
 
-#include <nook/nook_bake_character.h>
+#include <nook/nook_bake.h>
 
 #include <memory>
 #include <string>
@@ -20,7 +20,7 @@ using Job = std::unique_ptr<nook_bake_job_s, JobRelease>;
 inline Character tube_character() {
   tube t;
   make_tube(&t);
-  const nook_bake_mesh_desc desc = describe_tube(&t);
+  const nook_bake_source_desc desc = describe_tube(&t);
   nook_bake_character character = nullptr;
   nook_bake_character_create(&desc, &character);
   return Character(character);

@@ -19,7 +19,7 @@ struct Lighting {
   nook_bake_irradiance_desc desc;
 
   Lighting() {
-    nook_bake_irradiance_desc_init(&desc, sizeof desc, NOOK_VERSION);
+    nook_bake_irradiance_desc_init(&desc);
     desc.meshes = &mesh;
     desc.mesh_count = 1;
     desc.environment = {sky, 1, 1};

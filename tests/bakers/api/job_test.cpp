@@ -1,8 +1,11 @@
+#include <nook/experimental/nook_trace.h>
+
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -13,9 +16,9 @@ namespace {
 
 // Small enough for a second, and every stage is run through. Most of its time goes to its casters, by the
 // number of poses.
-nook_bake_job_desc small_bake() {
-  nook_bake_job_desc desc;
-  nook_bake_job_desc_init(&desc, sizeof desc, NOOK_VERSION);
+nook_bake_character_desc small_bake() {
+  nook_bake_character_desc desc;
+  nook_bake_character_desc_init(&desc);
   desc.preset = NOOK_BAKE_PRESET_DRAFT;
   desc.pose_mode = NOOK_BAKE_POSES_AUTO;
   desc.auto_pose_count = 8;
@@ -26,9 +29,10 @@ nook_bake_job_desc small_bake() {
   return desc;
 }
 
-Job start(const Character& character, const nook_bake_job_desc& desc) {
+Job start(const Character& character, nook_bake_character_desc desc) {
+  desc.character = character.get();
   nook_bake_job job = nullptr;
-  const nook_result result = nook_bake_job_start(character.get(), &desc, &job);
+  const nook_result result = nook_bake_start_character(&desc, &job);
   INFO(nook_bake_last_message());
   CHECK(result == NOOK_OK);
   return Job(job);
@@ -40,14 +44,15 @@ std::vector<char> model_of(const Job& job) {
   REQUIRE(result == NOOK_OK);
   const void* bytes = nullptr;
   std::size_t size = 0;
-  REQUIRE(nook_bake_job_model(job.get(), &bytes, &size) == NOOK_OK);
+  REQUIRE(nook_bake_job_file(job.get(), &bytes, &size) == NOOK_OK);
   const char* first = static_cast<const char*>(bytes);
   return {first, first + size};
 }
 
-nook_result start_result(const Character& character, const nook_bake_job_desc& desc) {
+nook_result start_result(const Character& character, nook_bake_character_desc desc) {
+  desc.character = character.get();
   nook_bake_job job = nullptr;
-  const nook_result result = nook_bake_job_start(character.get(), &desc, &job);
+  const nook_result result = nook_bake_start_character(&desc, &job);
   CHECK((job != nullptr) == (result == NOOK_OK));
   nook_bake_job_destroy(&job);
   return result;
@@ -68,7 +73,7 @@ struct Canceller {
 
 TEST_CASE("the same seed gives the same bytes on any number of threads") {
   const Character character = tube_character();
-  nook_bake_job_desc desc = small_bake();
+  nook_bake_character_desc desc = small_bake();
   desc.threads = 1;
   const std::vector<char> one = model_of(start(character, desc));
   desc.threads = 2;
@@ -80,9 +85,9 @@ TEST_CASE("the same seed gives the same bytes on any number of threads") {
 
 TEST_CASE("two bakes at once are what each is alone") {
   const Character character = tube_character();
-  nook_bake_job_desc desc = small_bake();
+  nook_bake_character_desc desc = small_bake();
   const std::vector<char> alone = model_of(start(character, desc));
-  nook_bake_job_desc other = desc;
+  nook_bake_character_desc other = desc;
   other.seed = 9;
   const Job a = start(character, desc), b = start(character, other), c = start(character, desc);
   CHECK(model_of(a) == alone);
@@ -92,7 +97,7 @@ TEST_CASE("two bakes at once are what each is alone") {
 
 TEST_CASE("a job can be cancelled at any point of its progress") {
   const Character character = tube_character();
-  nook_bake_job_desc desc = small_bake();
+  nook_bake_character_desc desc = small_bake();
   desc.auto_pose_count = 40;
   for (int calls : {1, 2, 5, 17, 39, 40, 41, 43}) {
     Canceller canceller{calls};
@@ -107,7 +112,7 @@ TEST_CASE("a job can be cancelled at any point of its progress") {
     if (calls <= 40) CHECK(result == NOOK_ERROR_CANCELLED);  // one call a traced pose at least
     const void* bytes = nullptr;
     std::size_t size = 0;
-    CHECK(nook_bake_job_model(job.get(), &bytes, &size) == result);
+    CHECK(nook_bake_job_file(job.get(), &bytes, &size) == result);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     CHECK_FALSE(canceller.late);
   }
@@ -115,7 +120,7 @@ TEST_CASE("a job can be cancelled at any point of its progress") {
 
 TEST_CASE("destroying a running job cancels it and waits") {
   Character character = tube_character();
-  nook_bake_job_desc desc = small_bake();
+  nook_bake_character_desc desc = small_bake();
   desc.auto_pose_count = 20000;
   Canceller canceller{1 << 30};
   desc.progress = Canceller::call;
@@ -127,10 +132,12 @@ TEST_CASE("destroying a running job cancels it and waits") {
   nook_bake_progress progress{};
   progress.struct_size = sizeof progress;
   CHECK(nook_bake_job_poll(job.get(), &progress) == NOOK_OK);
-  CHECK(progress.stage != NOOK_BAKE_STAGE_DONE);
+  CHECK(progress.state != NOOK_BAKE_DONE);
+  REQUIRE(progress.stage != nullptr);
+  CHECK(std::string(progress.stage) != "done");
   const void* bytes = nullptr;
   std::size_t size = 0;
-  CHECK(nook_bake_job_model(job.get(), &bytes, &size) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_job_file(job.get(), &bytes, &size) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(message_has("still running"));
   job.reset();
   canceller.over = true;
@@ -140,7 +147,7 @@ TEST_CASE("destroying a running job cancels it and waits") {
 
 TEST_CASE("cancel from another thread ends a job soon") {
   const Character character = tube_character();
-  nook_bake_job_desc desc = small_bake();
+  nook_bake_character_desc desc = small_bake();
   desc.auto_pose_count = 2000;
   desc.rays = 4096;
   const Job job = start(character, desc);
@@ -151,18 +158,22 @@ TEST_CASE("cancel from another thread ends a job soon") {
   nook_bake_progress progress{};
   progress.struct_size = sizeof progress;
   CHECK(nook_bake_job_poll(job.get(), &progress) == NOOK_OK);
-  CHECK(progress.stage == NOOK_BAKE_STAGE_DONE);
+  CHECK(progress.state == NOOK_BAKE_DONE);
+  CHECK(std::string(progress.stage) == "done");
 }
 
 TEST_CASE("the report describes the bake") {
   const Character character = tube_character();
-  nook_bake_job_desc desc = small_bake();
+  nook_bake_character_desc desc = small_bake();
   std::vector<float> extra(24 * 3);
   REQUIRE(nook_bake_character_auto_poses(character.get(), 77, 3, extra.data(), 2) == NOOK_OK);
   desc.extra_poses_3x4 = extra.data();
   desc.extra_pose_count = 3;
   desc.gamma = 2;
-  desc.kernel = NOOK_BAKE_KERNEL_PAPER;
+  nook_bake_character_study_desc study;
+  REQUIRE(nook_bake_character_study_desc_init(&study) == NOOK_OK);
+  study.kernel = NOOK_FORM_PAPER;
+  desc.next = &study;
   const Job job = start(character, desc);
   model_of(job);
   const char* text = nullptr;
@@ -173,6 +184,7 @@ TEST_CASE("the report describes the bake") {
   CHECK(report.at("vertices") == tube_vertices);
   CHECK(report.at("gamma").get<float>() == 2);
   CHECK(report.at("recipe").at("kernel") == "paper");
+  CHECK(report.at("recipe").at("fit") == "nook");
   CHECK(report.at("recipe").at("extra_poses") == 3);
   CHECK(report.at("recipe").at("auto_poses") == 8);
   CHECK(report.at("recipe").at("poses") == "auto");
@@ -181,9 +193,24 @@ TEST_CASE("the report describes the bake") {
     CHECK(report.contains(key));
 }
 
+TEST_CASE("the paper's form has its kernel, its fit and its exponent") {
+  const Character character = tube_character();
+  nook_bake_character_desc desc = small_bake();
+  desc.form = NOOK_FORM_PAPER;
+  desc.steps = 2;
+  const Job job = start(character, desc);
+  model_of(job);
+  const char* text = nullptr;
+  REQUIRE(nook_bake_job_report(job.get(), &text) == NOOK_OK);
+  const nlohmann::json report = nlohmann::json::parse(text);
+  CHECK(report.at("recipe").at("kernel") == "paper");
+  CHECK(report.at("recipe").at("fit") == "paper");
+  CHECK(report.at("gamma").get<float>() == 2);
+}
+
 TEST_CASE("a bake of the host's own poses alone") {
   const Character character = tube_character();
-  nook_bake_job_desc desc = small_bake();
+  nook_bake_character_desc desc = small_bake();
   desc.pose_mode = NOOK_BAKE_POSES_EXTRA;
   std::vector<float> poses(24 * 10);
   REQUIRE(nook_bake_character_auto_poses(character.get(), 5, 10, poses.data(), 2) == NOOK_OK);
@@ -202,7 +229,10 @@ TEST_CASE("a bake of the host's own poses alone") {
 
 TEST_CASE("settings that make no sense are refused before the job starts") {
   const Character character = tube_character();
-  nook_bake_job_desc desc = small_bake();
+  nook_bake_character_desc desc = small_bake();
+  nook_bake_character_study_desc study;
+  REQUIRE(nook_bake_character_study_desc_init(&study) == NOOK_OK);
+  desc.next = &study;
   const char* clips[] = {"walk"};
   const char* expected = "";
   SECTION("preset") {
@@ -213,13 +243,26 @@ TEST_CASE("settings that make no sense are refused before the job starts") {
     desc.pose_mode = -1;
     expected = "desc.pose_mode has an unknown value (got -1)";
   }
-  SECTION("kernel") {
-    desc.kernel = 3;
-    expected = "desc.kernel has an unknown value";
+  SECTION("form") {
+    desc.form = 2;
+    expected = "desc.form has an unknown value (got 2)";
   }
-  SECTION("fit") {
-    desc.fit = 3;
-    expected = "desc.fit has an unknown value";
+  SECTION("kernel of a study") {
+    study.kernel = 3;
+    expected = "desc.next: kernel has an unknown value";
+  }
+  SECTION("fit of a study") {
+    study.fit = 3;
+    expected = "desc.next: fit has an unknown value";
+  }
+  SECTION("an extension of another type") {
+    study.type = NOOK_DESC_BAKE_CLIPS;
+    expected = "desc.next holds a descriptor that this one does not take";
+  }
+  SECTION("saturation of the paper's form") {
+    desc.saturation = 1;
+    desc.form = NOOK_FORM_PAPER;
+    expected = "desc.saturation needs the default form and a gamma of 1 (got 1, fit paper, gamma 0)";
   }
   SECTION("gamma") {
     desc.gamma = 0.5f;
@@ -240,7 +283,7 @@ TEST_CASE("settings that make no sense are refused before the job starts") {
   SECTION("saturation of a fit that has none") {
     desc.saturation = 1;
     desc.gamma = 2;
-    expected = "desc.saturation needs fit NOOK and a gamma of 1 (got 1, fit 0, gamma 2)";
+    expected = "desc.saturation needs the default form and a gamma of 1 (got 1, fit nook, gamma 2)";
   }
   SECTION("gamma below what stands for learned") {
     desc.gamma = -2;
@@ -280,8 +323,8 @@ TEST_CASE("settings that make no sense are refused before the job starts") {
   }
   SECTION("split") {
     desc.pose_mode = NOOK_BAKE_POSES_ALL;
-    desc.clip_split = 5;
-    expected = "desc.clip_split has an unknown value";
+    study.clip_split = 5;
+    expected = "desc.next: clip_split has an unknown value";
   }
   SECTION("extra poses missing") {
     desc.extra_pose_count = 1;
@@ -291,28 +334,32 @@ TEST_CASE("settings that make no sense are refused before the job starts") {
     desc.pose_mode = NOOK_BAKE_POSES_EXTRA;
     expected = "desc.extra_pose_count is 0";
   }
-  SECTION("header of another major version") {
-    desc.header_version += 1u << 22;
-    CHECK(start_result(character, desc) == NOOK_ERROR_VERSION);
-    return;
+  SECTION("descriptor of another type") {
+    desc.type = NOOK_DESC_BAKE_TRACE;
+    expected = "desc is a nook_bake_trace_desc, which starts no bake";
   }
   CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
   INFO(nook_bake_last_message());
   CHECK(message_has(expected));
-  CHECK(message_has("nook_bake_job_start: "));
+  CHECK(message_has("nook_bake_start: "));
 }
 
 TEST_CASE("NULL jobs are refused, or ignored by destroy") {
   const Character character = tube_character();
-  nook_bake_job_desc desc = small_bake();
+  nook_bake_character_desc desc = small_bake();
   nook_bake_job job = nullptr;
-  CHECK(nook_bake_job_start(nullptr, &desc, &job) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_bake_job_start(character.get(), nullptr, &job) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_bake_job_start(character.get(), &desc, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_start(&desc, &job) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("desc.character is NULL"));
+  desc.character = character.get();
+  CHECK(nook_bake_start(nullptr, &job) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_start(&desc, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  desc.type = 999;
+  CHECK(nook_bake_start(&desc, &job) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("desc.type is unknown (got 999)"));
   CHECK(nook_bake_job_wait(nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_bake_job_cancel(nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_bake_job_poll(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_bake_job_model(nullptr, nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_job_file(nullptr, nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_bake_job_report(nullptr, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   nook_bake_job_destroy(nullptr);
   nook_bake_job_destroy(&job);

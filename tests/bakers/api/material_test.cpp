@@ -50,7 +50,7 @@ struct Measured {
     for (std::uint32_t v = 0; v < views; ++v)
       for (std::uint32_t y = 0; y < height; ++y)
         for (std::uint32_t x = 0; x < width; ++x) coverage.push_back(met(x, y) ? 1.0f : 0.0f);
-    nook_bake_material_desc_init(&desc, sizeof desc, NOOK_VERSION);
+    nook_bake_material_desc_init(&desc);
     desc.light_count = lights;
     desc.view_count = views;
     desc.width = desc.rank_x = desc.votf_rank_x = width;
@@ -64,13 +64,13 @@ struct Measured {
     desc.coverage = coverage.data();
     desc.lights = light_set.data();
     desc.views = view_set.data();
-    return nook_bake_material_start(&desc, job);
+    return nook_bake_start_material(&desc, job);
   }
 };
 
 nook_bake_material_desc small_weave() {
   nook_bake_material_desc desc;
-  nook_bake_material_desc_init(&desc, sizeof desc, NOOK_VERSION);
+  nook_bake_material_desc_init(&desc);
   desc.meso = "weave";
   desc.light_count = desc.view_count = 12;
   desc.width = desc.height = 12;
@@ -88,14 +88,14 @@ std::vector<char> file_of(const Job& job) {
   REQUIRE(result == NOOK_OK);
   const void* bytes = nullptr;
   std::size_t size = 0;
-  REQUIRE(nook_bake_job_model(job.get(), &bytes, &size) == NOOK_OK);
+  REQUIRE(nook_bake_job_file(job.get(), &bytes, &size) == NOOK_OK);
   const char* first = static_cast<const char*>(bytes);
   return {first, first + size};
 }
 
 Job start(const nook_bake_material_desc& desc) {
   nook_bake_job job = nullptr;
-  const nook_result result = nook_bake_material_start(&desc, &job);
+  const nook_result result = nook_bake_start_material(&desc, &job);
   INFO(nook_bake_last_message());
   CHECK(result == NOOK_OK);
   return Job(job);
@@ -103,7 +103,7 @@ Job start(const nook_bake_material_desc& desc) {
 
 bool refused(const nook_bake_material_desc& desc, const char* text) {
   nook_bake_job job = nullptr;
-  const nook_result result = nook_bake_material_start(&desc, &job);
+  const nook_result result = nook_bake_start_material(&desc, &job);
   INFO(nook_bake_last_message());
   CHECK(job == nullptr);
   nook_bake_job_destroy(&job);
@@ -112,15 +112,15 @@ bool refused(const nook_bake_material_desc& desc, const char* text) {
 
 // Loads a file with the runtime and decodes samples.
 std::vector<nook_material_value> decode(const std::vector<char>& file,
-                                        const std::vector<nook_material_sample>& samples) {
+                                        const std::vector<nook_material_pixel>& samples) {
   nook_context_desc context_desc;
   nook_context context = nullptr;
   nook_material material = nullptr;
-  REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_context_desc_init(&context_desc) == NOOK_OK);
   REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
-  REQUIRE(nook_material_load(context, file.data(), file.size(), &material) == NOOK_OK);
+  REQUIRE(nook_material_load(context, file.data(), file.size(), nullptr, &material) == NOOK_OK);
   std::vector<nook_material_value> values(samples.size());
-  CHECK(nook_material_evaluate(material, samples.data(), std::uint32_t(samples.size()), values.data()) ==
+  CHECK(nook_material_evaluate(material, samples.data(), std::uint32_t(samples.size()), 1, values.data()) ==
         NOOK_OK);
   nook_material_destroy(&material);
   nook_context_destroy(&context);
@@ -139,12 +139,12 @@ TEST_CASE("measured data come back at their texels, colours and directions, and 
   // Copied: what the caller does with them afterwards does not matter.
   measured.btf.assign(measured.btf.size(), 1e30f);
   const std::vector<char> file = file_of(job);
-  std::vector<nook_material_sample> samples;
+  std::vector<nook_material_pixel> samples;
   for (std::uint32_t y = 0; y < height; ++y)
     for (std::uint32_t x = 0; x < width; ++x) {
       // The third light and the fifth view.
-      nook_material_sample s{
-          {(float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(height)}, 0, {}, {}};
+      nook_material_pixel s{
+          {(float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(height)}, {}, {}, {}, {}};
       for (std::size_t i = 0; i < 3; ++i) {
         s.light[i] = measured.light_set[3 * 2 + i];
         s.view[i] = measured.view_set[3 * 4 + i];
@@ -193,8 +193,8 @@ TEST_CASE("a neural material is a job as the others are") {
   CHECK(json["votf_error_texels_distance"] == 0);
   // A twentieth of the usual steps: the mean of all texels has about 8 dB.
   CHECK(json["se_db"].get<double>() > 15);
-  nook_material_sample sample{{0.4f, 0.6f}, 0, {0, 0, 1}, {0, 0, 1}};
-  CHECK(decode(file, {sample})[0].radiance[2] > 0.1f);
+  nook_material_pixel pixel{{0.4f, 0.6f}, {}, {}, {0, 0, 1}, {0, 0, 1}};
+  CHECK(decode(file, {pixel})[0].radiance[2] > 0.1f);
 
   measured.desc.neural_channels = 10;
   CHECK(measured.start(&handle) == NOOK_ERROR_INVALID_ARGUMENT);
@@ -217,8 +217,8 @@ TEST_CASE("a built-in structure: the same bytes on any number of threads, anothe
 
 TEST_CASE("a material job goes through its stages and stops where it is cancelled") {
   struct Watch {
-    std::vector<nook_bake_stage> stages;
-    nook_bake_stage stop_at = -1;
+    std::vector<std::string> stages;
+    std::string stop_at;
     static std::int32_t call(void* user, const nook_bake_progress* progress) {
       Watch& w = *static_cast<Watch*>(user);
       if (w.stages.empty() || w.stages.back() != progress->stage) w.stages.push_back(progress->stage);
@@ -230,11 +230,10 @@ TEST_CASE("a material job goes through its stages and stops where it is cancelle
   Watch all;
   desc.progress_user = &all;
   file_of(start(desc));
-  CHECK(all.stages == std::vector<nook_bake_stage>{NOOK_BAKE_STAGE_RAYTRACE, NOOK_BAKE_STAGE_BTF,
-                                                   NOOK_BAKE_STAGE_VIEW_MAP, NOOK_BAKE_STAGE_VOTF,
-                                                   NOOK_BAKE_STAGE_VIEW_MAP});
-  for (const nook_bake_stage stage :
-       {NOOK_BAKE_STAGE_RAYTRACE, NOOK_BAKE_STAGE_BTF, NOOK_BAKE_STAGE_VIEW_MAP, NOOK_BAKE_STAGE_VOTF}) {
+  CHECK(all.stages == std::vector<std::string>{"ray tracing", "compressing colours", "making the view map",
+                                               "compressing visibility", "making the view map"});
+  for (const char* stage :
+       {"ray tracing", "compressing colours", "making the view map", "compressing visibility"}) {
     Watch stopped;
     stopped.stop_at = stage;
     desc.progress_user = &stopped;
@@ -242,7 +241,7 @@ TEST_CASE("a material job goes through its stages and stops where it is cancelle
     CHECK(nook_bake_job_wait(job.get()) == NOOK_ERROR_CANCELLED);
     const void* bytes = nullptr;
     std::size_t size = 0;
-    CHECK(nook_bake_job_model(job.get(), &bytes, &size) == NOOK_ERROR_CANCELLED);
+    CHECK(nook_bake_job_file(job.get(), &bytes, &size) == NOOK_ERROR_CANCELLED);
   }
 }
 
@@ -264,8 +263,8 @@ struct Stripes {
       for (std::uint32_t v = 0; v < count; ++v)
         for (std::uint32_t texel = 0; texel < across * along; ++texel)
           btf.insert(btf.end(), 3, seen((float(texel % across) + 0.5f) / float(across), &directions[3 * v]));
-    nook_bake_material_desc_init(&desc, sizeof desc, NOOK_VERSION);
-    CHECK(desc.relief == NOOK_BAKE_RELIEF_NONE);
+    nook_bake_material_desc_init(&desc);
+    CHECK(desc.relief == 0);
     desc.light_count = desc.view_count = count;
     desc.lights = desc.views = directions.data();
     desc.btf = btf.data();
@@ -279,10 +278,11 @@ struct Stripes {
   // The largest error in a view between two of the samples.
   static float error_between(const std::vector<char>& file) {
     const float half = std::sqrt(0.5f), phi = 6.2831853f / 16;
-    std::vector<nook_material_sample> samples;
+    std::vector<nook_material_pixel> samples;
     for (std::uint32_t x = 0; x < across; ++x)
       samples.push_back({{(float(x) + 0.5f) / float(across), 0.125f},
-                         0,
+                         {},
+                         {},
                          {half * std::cos(phi), half * std::sin(phi), half},
                          {0, 0, 1}});
     const std::vector<nook_material_value> values = decode(file, samples);
@@ -299,7 +299,7 @@ TEST_CASE("stripes on a plane of known height stay sharp between the sampled vie
   Stripes stripes;
   // The views beside it show the stripes 0.02 tiles before and behind, of waves of 0.5.
   CHECK(Stripes::error_between(file_of(start(stripes.desc))) > 0.06f);
-  stripes.desc.relief = NOOK_BAKE_RELIEF_KNOWN;
+  stripes.desc.relief = 1;
   stripes.desc.heights = stripes.heights.data();
   const Job job = start(stripes.desc);
   // Copied, too.
@@ -310,15 +310,13 @@ TEST_CASE("stripes on a plane of known height stay sharp between the sampled vie
   REQUIRE(nook_bake_job_report(job.get(), &report) == NOOK_OK);
   CHECK(nlohmann::json::parse(report)["recipe"]["compression"]["relief"] == "known");
 
-  stripes.desc.heights = nullptr;
-  CHECK(refused(stripes.desc, "desc.heights is NULL"));
   stripes.heights[5] = 1.5f;
   stripes.desc.heights = stripes.heights.data();
   CHECK(refused(stripes.desc, "got 1.5"));
-  stripes.desc.relief = NOOK_BAKE_RELIEF_ESTIMATED;
-  CHECK(refused(stripes.desc, "NOOK_BAKE_RELIEF_KNOWN"));
+  stripes.desc.relief = 0;
+  CHECK(refused(stripes.desc, "desc.relief is 0; set it to 1"));
   stripes.desc.relief = 3;
-  CHECK(refused(stripes.desc, "desc.relief is unknown (got 3)"));
+  CHECK(refused(stripes.desc, "desc.relief is out of range (got 3, need 0 to 1)"));
 }
 
 TEST_CASE("known heights are in the file at their texels") {
@@ -347,12 +345,12 @@ TEST_CASE("known heights are in the file at their texels") {
                    0.5f + 0.2f * std::cos(turn * (2 * u + w)) + 0.15f * std::sin(turn * (w - u)));
       }
   nook_bake_material_desc desc;
-  nook_bake_material_desc_init(&desc, sizeof desc, NOOK_VERSION);
+  nook_bake_material_desc_init(&desc);
   desc.light_count = desc.view_count = count;
   desc.lights = desc.views = directions.data();
   desc.btf = btf.data();
   desc.heights = heights.data();
-  desc.relief = NOOK_BAKE_RELIEF_KNOWN;
+  desc.relief = 1;
   desc.width = desc.rank_x = across;
   desc.height = desc.rank_y = along;
   desc.rank_light = 4;
@@ -369,35 +367,59 @@ TEST_CASE("known heights are in the file at their texels") {
   }
 }
 
-TEST_CASE("a structure's job finds a relief, of its own heights too, and stops while it looks") {
+TEST_CASE("a job finds a relief, of a structure's own heights too, and stops while it looks") {
   struct Watch {
-    std::vector<nook_bake_stage> stages;
+    std::vector<std::string> stages;
     bool stops = false;
     static std::int32_t call(void* user, const nook_bake_progress* progress) {
       Watch& w = *static_cast<Watch*>(user);
       if (w.stages.empty() || w.stages.back() != progress->stage) w.stages.push_back(progress->stage);
-      return !(w.stops && progress->stage == NOOK_BAKE_STAGE_RELIEF);
+      return !(w.stops && std::string(progress->stage) == "finding the relief");
     }
   };
-  nook_bake_material_desc desc = small_weave();
-  desc.progress = Watch::call;
-  std::vector<std::vector<char>> files;
-  for (const nook_bake_relief relief : {NOOK_BAKE_RELIEF_ESTIMATED, NOOK_BAKE_RELIEF_KNOWN}) {
+  // Measured data without heights, whose relief is searched for, and a structure, whose heights are known.
+  Stripes stripes;
+  for (nook_bake_material_desc desc : {stripes.desc, small_weave()}) {
     Watch watch;
+    desc.progress = Watch::call;
     desc.progress_user = &watch;
-    desc.relief = relief;
-    files.push_back(file_of(start(desc)));
-    REQUIRE(watch.stages.size() > 2);
-    CHECK(watch.stages[1] == NOOK_BAKE_STAGE_RELIEF);
-    CHECK(watch.stages[2] == NOOK_BAKE_STAGE_BTF);
+    desc.relief = 1;
+    const Job finished = start(desc);
+    const std::vector<char> file = file_of(finished);
+    const char* report = nullptr;
+    REQUIRE(nook_bake_job_report(finished.get(), &report) == NOOK_OK);
+    CHECK(nlohmann::json::parse(report)["recipe"]["compression"]["relief"] ==
+          (desc.meso ? "known" : "estimated"));
+    CHECK(relief_in_file(file).moves());
+    const std::size_t first = desc.meso ? 1 : 0;  // a structure is traced before
+    REQUIRE(watch.stages.size() > first + 1);
+    CHECK(watch.stages[first] == "finding the relief");
+    CHECK(watch.stages[first + 1] == "compressing colours");
     watch.stops = true;
     const Job job = start(desc);
     CHECK(nook_bake_job_wait(job.get()) == NOOK_ERROR_CANCELLED);
   }
-  const ReliefInFile estimated = relief_in_file(files[0]), known = relief_in_file(files[1]);
-  CHECK(estimated.moves());
-  REQUIRE(known.moves());
-  CHECK(known.levels != estimated.levels);
+}
+
+TEST_CASE("the paper's form of a material has half floats, no view map and the paper's mapping") {
+  nook_bake_material_desc desc = small_weave();
+  desc.form = NOOK_FORM_PAPER;
+  const std::vector<char> paper = file_of(start(desc));
+  desc.form = NOOK_FORM_DEFAULT;
+  desc.bits = 16;
+  desc.view_map_side = 0;
+  CHECK(file_of(start(desc)) != paper);  // the mapping is another
+  desc.visibility_threshold = 0.05f;
+  desc.visibility_weight = 12;
+  CHECK(file_of(start(desc)) == paper);
+  desc.form = NOOK_FORM_PAPER;
+  desc.relief = 1;
+  CHECK(refused(desc, "desc.form is NOOK_FORM_PAPER"));
+  desc.relief = 0;
+  desc.method = NOOK_BAKE_METHOD_NEURAL;
+  CHECK(refused(desc, "desc.form is NOOK_FORM_PAPER"));
+  desc.form = 2;
+  CHECK(refused(desc, "desc.form is unknown (got 2)"));
 }
 
 TEST_CASE("what a material cannot be baked from is named") {
@@ -464,5 +486,5 @@ TEST_CASE("what a material cannot be baked from is named") {
   measured.desc.lights = nullptr;
   measured.desc.btf = measured.btf.data();
   CHECK(refused(measured.desc, "desc.lights is NULL"));
-  CHECK(nook_bake_material_start(&desc, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_bake_start_material(&desc, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
 }

@@ -20,7 +20,7 @@ struct Scene {
   std::vector<nook_bake_occluder_mesh> meshes;
   std::vector<float> positions{0, 0, 0}, normals{0, 1, 0};
 
-  Scene() { nook_bake_trace_desc_init(&desc, sizeof desc, NOOK_VERSION); }
+  Scene() { nook_bake_trace_desc_init(&desc); }
   nook_result trace(std::vector<float>& ao) {
     desc.meshes = meshes.data();
     desc.mesh_count = std::uint32_t(meshes.size());

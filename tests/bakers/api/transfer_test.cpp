@@ -1,7 +1,6 @@
 // Jobs of radiance transfer, and their files in the runtime.
-#include <nook/nook_bake_material.h>
-#include <nook/nook_bake_transfer.h>
-#include <nook/nook_transfer.h>
+#include <nook/experimental/nook_bake_materials.h>
+#include <nook/experimental/nook_transfer.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -17,7 +16,7 @@ using nook::transfer::test::Shape;
 
 nook_bake_transfer_desc desc_of(const Shape& shape) {
   nook_bake_transfer_desc desc;
-  REQUIRE(nook_bake_transfer_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_bake_transfer_desc_init(&desc) == NOOK_OK);
   CHECK(desc.lobes == 642);
   CHECK(desc.ray_side == 32);
   desc.positions = &shape.position[0].x;
@@ -35,7 +34,7 @@ std::string bytes_of(nook_bake_job job) {
   REQUIRE(nook_bake_job_wait(job) == NOOK_OK);
   const void* bytes = nullptr;
   std::size_t size = 0;
-  REQUIRE(nook_bake_job_model(job, &bytes, &size) == NOOK_OK);
+  REQUIRE(nook_bake_job_file(job, &bytes, &size) == NOOK_OK);
   std::string out(static_cast<const char*>(bytes), size);
   nook_bake_job_destroy(&job);
   return out;
@@ -43,7 +42,7 @@ std::string bytes_of(nook_bake_job job) {
 
 std::string bytes_of(const nook_bake_transfer_desc& desc) {
   nook_bake_job job = nullptr;
-  REQUIRE(nook_bake_transfer_start(&desc, &job) == NOOK_OK);
+  REQUIRE(nook_bake_start_transfer(&desc, &job) == NOOK_OK);
   return bytes_of(job);
 }
 
@@ -55,7 +54,7 @@ struct Loaded {
 
   explicit Loaded(const std::string& bytes) {
     nook_context_desc context_desc;
-    REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+    REQUIRE(nook_context_desc_init(&context_desc) == NOOK_OK);
     REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
     REQUIRE(nook_transfer_load(context, bytes.data(), bytes.size(), &transfer) == NOOK_OK);
     info.struct_size = sizeof info;
@@ -81,7 +80,7 @@ std::string material_with_holes(std::uint32_t column) {
   for (std::uint32_t i = 0; i < directions * height * width; ++i)
     coverage.push_back(i % width % 3 == column ? 0.0f : 1.0f);
   nook_bake_material_desc desc;
-  REQUIRE(nook_bake_material_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_bake_material_desc_init(&desc) == NOOK_OK);
   desc.light_count = desc.view_count = directions;
   desc.width = desc.rank_x = desc.votf_rank_x = width;
   desc.height = desc.rank_y = desc.votf_rank_y = height;
@@ -92,7 +91,7 @@ std::string material_with_holes(std::uint32_t column) {
   desc.coverage = coverage.data();
   desc.lights = desc.views = set.data();
   nook_bake_job job = nullptr;
-  const nook_result started = nook_bake_material_start(&desc, &job);
+  const nook_result started = nook_bake_start_material(&desc, &job);
   INFO(nook_bake_last_message());
   REQUIRE(started == NOOK_OK);
   return bytes_of(job);
@@ -100,7 +99,7 @@ std::string material_with_holes(std::uint32_t column) {
 
 bool refused(const nook_bake_transfer_desc& desc, const char* text) {
   nook_bake_job job = nullptr;
-  const nook_result result = nook_bake_transfer_start(&desc, &job);
+  const nook_result result = nook_bake_start_transfer(&desc, &job);
   INFO(nook_bake_last_message());
   CHECK(job == nullptr);
   nook_bake_job_destroy(&job);
@@ -115,22 +114,22 @@ TEST_CASE("a job bakes a file that the runtime loads and knows by its mesh") {
   nook_bake_transfer_desc desc = desc_of(shape);
   const std::string bytes = bytes_of(desc);
   nook_context_desc context_desc;
-  REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_context_desc_init(&context_desc) == NOOK_OK);
   nook_context context = nullptr;
   REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
   nook_transfer transfer = nullptr;
   REQUIRE(nook_transfer_load(context, bytes.data(), bytes.size(), &transfer) == NOOK_OK);
-  nook_transfer_mesh mesh{};
-  mesh.struct_size = sizeof mesh;
+  nook_transfer_mesh_desc mesh;
+  REQUIRE(nook_transfer_mesh_desc_init(&mesh) == NOOK_OK);
   mesh.vertex_count = desc.vertex_count;
   mesh.positions = desc.positions;
   mesh.normals = desc.normals;
   mesh.uvs = desc.uvs;
-  CHECK(nook_transfer_check_mesh(transfer, &mesh) == NOOK_OK);
+  CHECK(nook_transfer_check(transfer, &mesh, nullptr) == NOOK_OK);
   Shape moved = shape;
   moved.uv[3][1] += 0.25f;
   mesh.uvs = moved.uv[0].data();
-  CHECK(nook_transfer_check_mesh(transfer, &mesh) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_transfer_check(transfer, &mesh, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(std::string(nook_last_message()).find("texture coordinates") != std::string::npos);
   std::vector<float> tangents(4 * desc.vertex_count);
   REQUIRE(nook_transfer_read_frames(transfer, nullptr, tangents.data(), desc.vertex_count) == NOOK_OK);
@@ -198,14 +197,14 @@ TEST_CASE("a job bakes reflections and the holes of a material, which the runtim
   for (const std::uint32_t column : {0u, 1u}) {
     const std::string worn = material_with_holes(column);
     nook_material handle = nullptr;
-    REQUIRE(nook_material_load(loaded.context, worn.data(), worn.size(), &handle) == NOOK_OK);
-    CHECK(nook_transfer_check_material(loaded.transfer, handle) ==
+    REQUIRE(nook_material_load(loaded.context, worn.data(), worn.size(), nullptr, &handle) == NOOK_OK);
+    CHECK(nook_transfer_check(loaded.transfer, nullptr, handle) ==
           (column == 0 ? NOOK_OK : NOOK_ERROR_INVALID_ARGUMENT));
     nook_material_destroy(&handle);
   }
   desc.votf_size -= 1;
   nook_bake_job job = nullptr;
-  CHECK(nook_bake_transfer_start(&desc, &job) == NOOK_ERROR_BAD_FILE);
+  CHECK(nook_bake_start_transfer(&desc, &job) == NOOK_ERROR_BAD_FILE);
 }
 
 TEST_CASE("a job bakes the paper's form for the light modes of one material") {
@@ -216,10 +215,12 @@ TEST_CASE("a job bakes the paper's form for the light modes of one material") {
   desc.material_size = material.size();
   desc.lobes = 162;
   desc.clusters = 2;
+  CHECK(refused(desc, "desc.form is NOOK_FORM_DEFAULT"));
+  desc.form = NOOK_FORM_PAPER;
   const std::string bytes = bytes_of(desc);
   const Loaded loaded(bytes);
   const nook_transfer_info& info = loaded.info;
-  CHECK(info.form == NOOK_TRANSFER_FORM_PAPER);
+  CHECK(info.form == NOOK_FORM_PAPER);
   CHECK(info.vertex_count == desc.vertex_count);
   CHECK(info.share_bytes == 0);
   CHECK(info.light_modes == 16);  // 15 of the material, rounded up
@@ -230,8 +231,10 @@ TEST_CASE("a job bakes the paper's form for the light modes of one material") {
   desc.clusters = 300;
   CHECK(refused(desc, "clusters"));
   desc.clusters = 0;
-  desc.reserved_2 = 1;
-  CHECK(refused(desc, "desc.reserved_2"));
+  desc.material = nullptr;
+  CHECK(refused(desc, "NOOK_FORM_PAPER needs the file of a material"));
+  desc.form = 2;
+  CHECK(refused(desc, "desc.form is unknown (got 2)"));
 }
 
 TEST_CASE("a job of radiance transfer can be cancelled by its progress") {
@@ -239,7 +242,7 @@ TEST_CASE("a job of radiance transfer can be cancelled by its progress") {
   nook_bake_transfer_desc desc = desc_of(shape);
   desc.progress = [](void*, const nook_bake_progress*) { return std::int32_t(0); };
   nook_bake_job job = nullptr;
-  REQUIRE(nook_bake_transfer_start(&desc, &job) == NOOK_OK);
+  REQUIRE(nook_bake_start_transfer(&desc, &job) == NOOK_OK);
   CHECK(nook_bake_job_wait(job) == NOOK_ERROR_CANCELLED);
   nook_bake_job_destroy(&job);
 }

@@ -3,13 +3,9 @@
 #ifndef NOOK_TESTS_TUBE_H
 #define NOOK_TESTS_TUBE_H
 
-#include <nook/nook_bake_bent.h>
-#include <nook/nook_bake_character.h>
-#include <nook/nook_bake_clips.h>
-#include <nook/nook_bake_material.h>
-#include <nook/nook_bake_synthesis.h>
-#include <nook/nook_bake_trace.h>
-#include <nook/nook_bake_transfer.h>
+#include <nook/experimental/nook_bake_materials.h>
+#include <nook/experimental/nook_trace.h>
+#include <nook/nook_bake.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -31,7 +27,7 @@ typedef struct tube {
 void make_tube(tube* out);
 
 /* A descriptor that points into the tube. */
-nook_bake_mesh_desc describe_tube(const tube* t);
+nook_bake_source_desc describe_tube(const tube* t);
 
 /* Calls every function of the headers nook_bake*.h once, from C. Returns the number of calls that did not do
  * what they should. */

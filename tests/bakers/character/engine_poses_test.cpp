@@ -1,7 +1,6 @@
 // Poses as an engine has them, on real characters: the AO that they give against the baker's own matrices,
 // and the check that names what is wrong with them.
-#include <nook/nook_pose.h>
-#include <nook/nook_vertices.h>
+#include <nook/nook_character.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +14,7 @@
 #include "sdk/src/character/model_file.h"
 #include "tests/bakers/character/engine.h"
 #include "tests/catch.h"
+#include "tests/pose_of_rows.h"
 
 using namespace nook;
 using namespace nook::bake;
@@ -89,10 +89,10 @@ CharacterModel model_of(const ImportedCharacter& character) {
 struct Host {
   Engine engine;
   nook_context context = nullptr;
-  nook_character_model model = nullptr;
+  nook_model model = nullptr;
   nook_scene scene = nullptr;
   nook_instance_id instance = 0;
-  nook_character_model_info info{};
+  nook_model_info info{};
   std::uint32_t bones = 0, vertices = 0;
 
   explicit Host(const std::filesystem::path& path) : Host(path, {}) {}
@@ -100,23 +100,23 @@ struct Host {
   Host(const std::filesystem::path& path, std::vector<std::byte> bytes) : engine(path) {
     if (bytes.empty()) bytes = write_character_model(model_of(engine.imported));
     nook_context_desc desc;
-    nook_context_desc_init(&desc, sizeof desc, NOOK_VERSION);
+    nook_context_desc_init(&desc);
+    desc.isa = NOOK_ISA_SCALAR;
     REQUIRE(nook_context_create(&desc, &context) == NOOK_OK);
-    REQUIRE(nook_character_model_load(context, bytes.data(), bytes.size(), &model) == NOOK_OK);
+    REQUIRE(nook_model_load(context, bytes.data(), bytes.size(), &model) == NOOK_OK);
     nook_scene_desc scene_desc;
-    nook_scene_desc_init(&scene_desc, sizeof scene_desc, NOOK_VERSION);
-    scene_desc.isa = NOOK_ISA_SCALAR;
+    nook_scene_desc_init(&scene_desc);
     scene_desc.cutoff_error = 0;
     REQUIRE(nook_scene_create(context, &scene_desc, &scene) == NOOK_OK);
     REQUIRE(nook_scene_add_instance(scene, model, &instance) == NOOK_OK);
     info.struct_size = sizeof info;
-    REQUIRE(nook_character_model_describe(model, &info) == NOOK_OK);
+    REQUIRE(nook_model_describe(model, &info) == NOOK_OK);
     bones = info.bone_count;
     vertices = info.file_vertex_count;
   }
   ~Host() {
     nook_scene_destroy(&scene);
-    nook_character_model_destroy(&model);
+    nook_model_destroy(&model);
     nook_context_destroy(&context);
   }
   Host(const Host&) = delete;
@@ -125,7 +125,8 @@ struct Host {
   std::vector<float> ao() {
     std::vector<float> out(vertices);
     REQUIRE(nook_scene_update(scene) == NOOK_OK);
-    REQUIRE(nook_scene_read_ao(scene, instance, out.data(), vertices, 0) == NOOK_OK);
+    REQUIRE(nook_scene_read(scene, instance, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, out.data(), vertices, 0) ==
+            NOOK_OK);
     return out;
   }
 };
@@ -142,7 +143,7 @@ std::vector<float> columns_4x4(const std::vector<Affine>& matrices) {
 
 nook_pose_desc pose_desc(nook_pose_kind kind, const std::vector<float>& columns) {
   nook_pose_desc desc;
-  REQUIRE(nook_pose_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_pose_desc_init(&desc) == NOOK_OK);
   desc.kind = kind;
   desc.layout = NOOK_TRANSFORM_COLUMNS_4X4;
   desc.transforms = columns.data();
@@ -161,17 +162,17 @@ void set_engine_pose(Host& host, const std::vector<Affine>& globals, const float
   const std::vector<float> joints = columns_4x4(bone_globals(host, globals));
   nook_pose_desc desc = pose_desc(NOOK_POSE_JOINT_TO_WORLD, joints);
   desc.place_3x4 = place;
-  REQUIRE(nook_scene_set_pose_from(host.scene, host.instance, &desc) == NOOK_OK);
+  REQUIRE(nook_scene_set_pose(host.scene, host.instance, &desc) == NOOK_OK);
   nook_skin_info skin{};
   skin.struct_size = sizeof skin;
   for (std::uint32_t s = 0; s < host.info.skin_count; ++s) {
-    REQUIRE(nook_character_model_skin(host.model, s, &skin) == NOOK_OK);
+    REQUIRE(nook_model_describe_skin(host.model, s, &skin) == NOOK_OK);
     const std::vector<float> matrices = columns_4x4(host.engine.skinning_matrices(skin.file_index, globals));
     desc = pose_desc(NOOK_POSE_SKINNING, matrices);
     desc.skin = skin.file_index;
-    desc.flags = NOOK_POSE_PARTIAL;
+    desc.flags = NOOK_POSE_FLAG_PARTIAL;
     desc.place_3x4 = place;
-    const nook_result result = nook_scene_set_pose_from(host.scene, host.instance, &desc);
+    const nook_result result = nook_scene_set_pose(host.scene, host.instance, &desc);
     INFO(nook_last_message());
     REQUIRE(result == NOOK_OK);
   }
@@ -191,27 +192,29 @@ std::vector<float> rows_3x4(const Pose& pose, const Affine& place) {
 // Where the engine's own skinning puts the rest vertices, in its model space.
 std::vector<float> engine_vertices(const Host& host, const std::vector<Affine>& globals) {
   std::vector<float> out;
-  nook_rest_vertex rest{};
+  nook_check_vertex_info rest{};
   rest.struct_size = sizeof rest;
   for (std::uint32_t v = 0; v < host.info.check_vertex_count; ++v) {
-    REQUIRE(nook_character_model_rest_vertex(host.model, v, &rest) == NOOK_OK);
+    REQUIRE(nook_model_describe_check_vertex(host.model, v, &rest) == NOOK_OK);
     for (const double coordinate : host.engine.skinned(host.engine.vertices[rest.vertex], globals))
       out.push_back(static_cast<float>(coordinate));
   }
   return out;
 }
 
-nook_pose_check check_pose(const Host& host, const nook_pose_desc& desc, const std::vector<float>& vertices,
-                           const float* place = nullptr) {
-  nook_pose_check check{};
-  check.struct_size = sizeof check;
+nook_pose_check_info check_pose(const Host& host, const nook_pose_desc& desc,
+                                const std::vector<float>& vertices, const float* place = nullptr) {
+  nook_pose_check_desc check;
+  REQUIRE(nook_pose_check_desc_init(&check) == NOOK_OK);
   check.vertex_count = static_cast<std::uint32_t>(vertices.size() / 3);
   check.positions = vertices.data();
   check.place_3x4 = place;
-  const nook_result result = nook_character_model_check_pose(host.model, &desc, &check);
+  nook_pose_check_info info{};
+  info.struct_size = sizeof info;
+  const nook_result result = nook_model_check_pose(host.model, &desc, &check, &info);
   INFO(nook_last_message());
   REQUIRE(result == NOOK_OK);
-  return check;
+  return info;
 }
 
 template <class Body>
@@ -271,7 +274,7 @@ Difference difference_of_ao(Host& host, std::size_t clip, float time_s, const fl
   Affine placed;
   std::copy_n(place, 12, placed.m.begin());
   const std::vector<float> own = rows_3x4(sample_clip(host.engine.imported, clip, time_s), placed);
-  REQUIRE(nook_scene_set_pose(host.scene, host.instance, own.data(), host.bones) == NOOK_OK);
+  REQUIRE(nook::test::set_rows(host.scene, host.instance, own.data(), host.bones) == NOOK_OK);
   const std::vector<float> expected = host.ao();
   CHECK(*std::ranges::min_element(expected) < 0.8f);  // the poses darken something
   set_engine_pose(host, host.engine.globals(clip, time_s), place);
@@ -282,11 +285,11 @@ Difference difference_of_ao(Host& host, std::size_t clip, float time_s, const fl
 // The change of AO by the rounding of the matrices alone.
 Difference difference_of_one_step(Host& host, std::size_t clip, float time_s) {
   std::vector<float> bones = rows_3x4(sample_clip(host.engine.imported, clip, time_s), Affine{});
-  REQUIRE(nook_scene_set_pose(host.scene, host.instance, bones.data(), host.bones) == NOOK_OK);
+  REQUIRE(nook::test::set_rows(host.scene, host.instance, bones.data(), host.bones) == NOOK_OK);
   const std::vector<float> expected = host.ao();
   std::mt19937 random(3);
   for (float& number : bones) number = std::nextafter(number, random() % 2 ? 4.0f : -4.0f);
-  REQUIRE(nook_scene_set_pose(host.scene, host.instance, bones.data(), host.bones) == NOOK_OK);
+  REQUIRE(nook::test::set_rows(host.scene, host.instance, bones.data(), host.bones) == NOOK_OK);
   return difference(host.ao(), expected);
 }
 
@@ -341,23 +344,23 @@ TEST_CASE("the check of a pose passes what is right, in any unit and place") {
       const std::vector<float> joints = columns_4x4(bone_globals(host, globals));
       nook_pose_desc desc = pose_desc(NOOK_POSE_JOINT_TO_WORLD, joints);
       desc.place_3x4 = place;
-      const nook_pose_check check = check_pose(host, desc, vertices, place);
+      const nook_pose_check_info check = check_pose(host, desc, vertices, place);
       INFO(check.text);
-      CHECK(check.fault == NOOK_POSE_RIGHT);
+      CHECK(check.fault == NOOK_POSE_FAULT_NONE);
       CHECK(check.max_error < 0.002f);
     }
     nook_skin_info skin{};
     skin.struct_size = sizeof skin;
     for (std::uint32_t s = 0; s < host.info.skin_count; ++s) {
-      REQUIRE(nook_character_model_skin(host.model, s, &skin) == NOOK_OK);
+      REQUIRE(nook_model_describe_skin(host.model, s, &skin) == NOOK_OK);
       const std::vector<float> matrices =
           columns_4x4(host.engine.skinning_matrices(skin.file_index, globals));
       nook_pose_desc desc = pose_desc(NOOK_POSE_SKINNING, matrices);
       desc.skin = skin.file_index;
-      desc.flags = NOOK_POSE_PARTIAL;
-      const nook_pose_check check = check_pose(host, desc, vertices);
+      desc.flags = NOOK_POSE_FLAG_PARTIAL;
+      const nook_pose_check_info check = check_pose(host, desc, vertices);
       INFO(check.text);
-      CHECK(check.fault == NOOK_POSE_RIGHT);
+      CHECK(check.fault == NOOK_POSE_FAULT_NONE);
     }
   });
 }
@@ -371,20 +374,20 @@ TEST_CASE("the check of a pose names what is wrong") {
     nook_skin_info skin{};
     skin.struct_size = sizeof skin;
     for (std::uint32_t s = 0; s < host.info.skin_count; ++s) {
-      REQUIRE(nook_character_model_skin(host.model, s, &skin) == NOOK_OK);
+      REQUIRE(nook_model_describe_skin(host.model, s, &skin) == NOOK_OK);
       skins.push_back(skin);
     }
     for (std::size_t s = 0; s < skins.size(); ++s) {
       std::vector<float> matrices = columns_4x4(host.engine.skinning_matrices(skins[s].file_index, globals));
       nook_pose_desc right = pose_desc(NOOK_POSE_SKINNING, matrices);
       right.skin = skins[s].file_index;
-      right.flags = NOOK_POSE_PARTIAL;
+      right.flags = NOOK_POSE_FLAG_PARTIAL;
 
       nook_pose_desc desc = right;
       desc.layout = NOOK_TRANSFORM_ROWS_4X4;
-      nook_pose_check check = check_pose(host, desc, vertices);
+      nook_pose_check_info check = check_pose(host, desc, vertices);
       INFO("transposed: " << check.text);
-      CHECK(check.fault == NOOK_POSE_TRANSPOSED);
+      CHECK(check.fault == NOOK_POSE_FAULT_TRANSPOSED);
 
       // A host that maps the joints to bones and takes skinning matrices for rest-to-world matrices.
       std::vector<std::int32_t> map(host.bones, -1);
@@ -396,7 +399,7 @@ TEST_CASE("the check of a pose names what is wrong") {
       desc.bone_count = host.bones;
       check = check_pose(host, desc, vertices);
       INFO("no S: " << check.text);
-      CHECK(check.fault == (is_identity(skins[s]) ? NOOK_POSE_RIGHT : NOOK_POSE_MISSING_S));
+      CHECK(check.fault == (is_identity(skins[s]) ? NOOK_POSE_FAULT_NONE : NOOK_POSE_FAULT_NO_BIND));
 
       // All joints one on, and two of them exchanged.
       std::vector<std::int32_t> shifted = map;
@@ -406,7 +409,7 @@ TEST_CASE("the check of a pose names what is wrong") {
       desc.transform_of_bone = shifted.data();
       check = check_pose(host, desc, vertices);
       INFO("shifted: " << check.text);
-      CHECK(check.fault == NOOK_POSE_WRONG_ORDER);
+      CHECK(check.fault == NOOK_POSE_FAULT_ORDER);
 
       for (std::size_t other = 0; other < skins.size(); ++other) {
         if (std::equal(std::begin(skins[other].rest_from_mesh_3x4), std::end(skins[other].rest_from_mesh_3x4),
@@ -418,7 +421,7 @@ TEST_CASE("the check of a pose names what is wrong") {
         desc.bone_count = host.bones;
         check = check_pose(host, desc, vertices);
         INFO("wrong skin: " << check.text);
-        CHECK(check.fault == NOOK_POSE_WRONG_SKIN);
+        CHECK(check.fault == NOOK_POSE_FAULT_SKIN);
         CHECK(check.fitting_skin == skins[s].file_index);
       }
 
@@ -426,7 +429,7 @@ TEST_CASE("the check of a pose names what is wrong") {
       for (float& coordinate : larger) coordinate *= 100;
       check = check_pose(host, right, larger);
       INFO("vertices in centimetres: " << check.text);
-      CHECK(check.fault == NOOK_POSE_WRONG_UNIT);
+      CHECK(check.fault == NOOK_POSE_FAULT_UNIT);
       CHECK(std::abs(check.scale / 100 - 1) < 0.02f);
 
       std::vector<float> turned = vertices;
@@ -437,7 +440,7 @@ TEST_CASE("the check of a pose names what is wrong") {
       }
       check = check_pose(host, right, turned);
       INFO("z up: " << check.text);
-      CHECK(check.fault == NOOK_POSE_WRONG_PLACE);
+      CHECK(check.fault == NOOK_POSE_FAULT_PLACE);
     }
   });
 }
@@ -483,26 +486,26 @@ TEST_CASE("a mesh that was shuffled, split and stored in 16 bits finds its verti
           normals.push_back(static_cast<float>(rest_from_mesh.m[i] * n.x + rest_from_mesh.m[4 + i] * n.y +
                                                rest_from_mesh.m[8 + i] * n.z));
       }
-      nook_vertex_match match{};
-      match.struct_size = sizeof match;
+      nook_vertex_match_desc match;
+      REQUIRE(nook_vertex_match_desc_init(&match) == NOOK_OK);
       match.vertex_count = static_cast<std::uint32_t>(order.size());
       match.positions = positions.data();
       match.normals = normals.data();
       match.primitive = static_cast<std::int32_t>(p);
       std::vector<std::uint32_t> part(order.size());
       std::uint32_t unmatched = 1;
-      REQUIRE(nook_character_model_match_vertices(host.model, &match, part.data(), &unmatched) == NOOK_OK);
+      REQUIRE(nook_model_match_vertices(host.model, &match, part.data(), &unmatched) == NOOK_OK);
       CHECK(unmatched == 0);
       found.insert(found.end(), part.begin(), part.end());
       expected.insert(expected.end(), order.begin(), order.end());
     }
-    nook_character_model remapped = nullptr;
-    REQUIRE(nook_character_model_remap(host.model, found.data(), static_cast<std::uint32_t>(found.size()),
-                                       &remapped) == NOOK_OK);
+    nook_model remapped = nullptr;
+    REQUIRE(nook_model_remap(host.model, found.data(), static_cast<std::uint32_t>(found.size()), &remapped) ==
+            NOOK_OK);
     nook_instance_id id = 0;
     REQUIRE(nook_scene_remove_instance(host.scene, host.instance) == NOOK_OK);
     REQUIRE(nook_scene_add_instance(host.scene, remapped, &id) == NOOK_OK);
-    nook_character_model_destroy(&remapped);
+    nook_model_destroy(&remapped);
     host.instance = id;
     host.vertices = static_cast<std::uint32_t>(found.size());
     set_engine_pose(host, host.engine.globals(clip, 0.3f), nullptr);

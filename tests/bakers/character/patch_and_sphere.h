@@ -1,4 +1,4 @@
-// A patch of a surface and a sphere over it, whose AO and blocked vectors have closed forms.
+// A patch of a surface and a sphere over it, whose AO and occluded directions have closed forms.
 #pragma once
 
 #include <cmath>
@@ -55,7 +55,7 @@ inline float ao_under_sphere(Vec3 centre, float radius, Vec3 normal) {
 
 // The mean under cos / pi of the directions inside the cone of such a sphere: the integral of w w^T over a
 // cone round d with t = cos(half angle) is pi (2/3 - t + t^3 / 3) across d and 2 pi (1 - t^3) / 3 along it.
-inline Vec3 blocked_by_sphere(Vec3 centre, float radius, Vec3 normal) {
+inline Vec3 occluded_by_sphere(Vec3 centre, float radius, Vec3 normal) {
   const Vec3 d = normalised(centre);
   const float s = radius / length(centre), t = std::sqrt(1 - s * s), along = dot(normal, d);
   return (2.0f / 3 - t + t * t * t / 3) * (normal - along * d) + (2.0f / 3 * (1 - t * t * t) * along) * d;

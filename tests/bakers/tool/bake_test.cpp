@@ -212,6 +212,15 @@ TEST_CASE("an interrupt stops cleanly and an older file stays as it was") {
   CHECK(folder.names() == Names{"hero.glb", "hero.nook"});
 }
 
+TEST_CASE("the rational kernel is no option of a bake") {
+  const TestFolder folder;
+  const ToolRun run =
+      folder.run({"bake", "character", "hero.glb", "-o", folder.path("hero.nook"), "--kernel", "rational"});
+  CHECK(run.exit_code == 2);
+  CHECK(has(run.error, "--kernel"));
+  CHECK(has(run.error, "paper"));
+}
+
 TEST_CASE("help names the options and exits with 0") {
   const TestFolder folder;
   const ToolRun run = folder.run({"bake", "character", "--help"});

@@ -1,4 +1,4 @@
-#include <nook/nook_nnao_recording.h>
+#include <nook/experimental/nook_recording.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -17,10 +17,10 @@ std::string recording_with_layer(std::int32_t layer) {
   const float projection[16] = {1.5f, 0, 0, 0, 0, 1.5f, 0, 0, 0, 0, -1.002f, -1, 0, 0, -0.2002f, 0};
   nook_context_desc context_desc;
   nook_context context = nullptr;
-  REQUIRE(nook_context_desc_init(&context_desc, sizeof context_desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_context_desc_init(&context_desc) == NOOK_OK);
   REQUIRE(nook_context_create(&context_desc, &context) == NOOK_OK);
   nook_nnao_recording_desc desc;
-  REQUIRE(nook_nnao_recording_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_nnao_recording_desc_init(&desc) == NOOK_OK);
   desc.width = 2;
   desc.height = 1;
   desc.depth = depth;
@@ -77,7 +77,7 @@ TEST_CASE("inspect shows what a model holds and refuses what is none") {
 
 TEST_CASE("inspect names every layer that a recording may have") {
   const TestFolder folder;
-  // The index of a name is its value of nook_nnao_layer.
+  // The index of a name is its value of nook_gbuffer_ao.
   const std::vector<std::string> names = {"none", "minimum", "remainder", "replace", "apart"};
   for (std::size_t layer = 0; layer < names.size(); ++layer) {
     CAPTURE(layer);

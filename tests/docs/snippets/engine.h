@@ -2,23 +2,17 @@
 #ifdef __cplusplus
 #include <nook/nook.hpp>
 #endif
+#include <nook/experimental/nook_capture.h>
+#include <nook/experimental/nook_synthesis.h>
+#include <nook/experimental/nook_transfer.h>
+#include <nook/experimental/nook_world_sample.h>
 #include <nook/nook_bake.h>
 #include <nook/nook_character.h>
 #include <nook/nook_clips.h>
 #include <nook/nook_gl.h>
-#include <nook/nook_gl_clips.h>
-#include <nook/nook_gl_material.h>
-#include <nook/nook_gl_probe.h>
-#include <nook/nook_gl_synthesis.h>
-#include <nook/nook_gl_transfer.h>
-#include <nook/nook_gl_world.h>
 #include <nook/nook_material.h>
 #include <nook/nook_nnao.h>
-#include <nook/nook_pose.h>
 #include <nook/nook_probe.h>
-#include <nook/nook_synthesis.h>
-#include <nook/nook_transfer.h>
-#include <nook/nook_vertices.h>
 #include <nook/nook_world.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -45,8 +39,8 @@ void glUniform1i(GLint location, GLint value);
 void glUniform4fv(GLint location, GLsizei count, const float* values);
 
 extern nook_context context;
-extern nook_character_model model;
-extern int8_t* blocked;
+extern nook_model model;
+extern int8_t* occluded;
 extern uint32_t file_vertex_count;
 extern nook_scene scene;
 extern nook_gl gl;

@@ -1,2 +1,2 @@
 extern nook_material material;
-extern nook_gl_material uploaded;
+extern nook_gl_upload uploaded;

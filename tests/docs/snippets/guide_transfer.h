@@ -1,6 +1,5 @@
 extern nook_material material;
 extern nook_transfer transfer;
-extern nook_transfer_fit fit;
 extern nook_transfer_response response;
 extern nook_transfer_light light;
 extern nook_gl_transfer uploaded;

@@ -1,5 +1,5 @@
 extern const float* rest_positions;
 extern const float* rest_normals;
 extern uint32_t vertices[4], unmatched;
-extern nook_character_model mine;
+extern nook_model mine;
 void my_skinned_position(uint32_t vertex, float* position);

@@ -1,3 +1,3 @@
 extern nook_material material;
 extern nook_synthesis synthesis;
-extern nook_gl_synthesis coordinates;
+extern nook_gl_upload coordinates;

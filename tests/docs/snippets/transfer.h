@@ -1,5 +1,5 @@
 extern nook_transfer transfer;
-extern nook_transfer_fit fit;
+extern nook_transfer_vectors_desc vectors_desc;
 extern nook_transfer_response response;
 extern nook_transfer_response_desc response_desc;
 extern nook_transfer_light light;

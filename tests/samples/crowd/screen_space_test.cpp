@@ -1,7 +1,7 @@
 // Where the passes over the screen darken the crowd's pictures: the floor by the body, as rays find it, and
 // not the body.
 #include <OpenImageIO/imageio.h>
-#include <nook/nook_bake_trace.h>
+#include <nook/experimental/nook_trace.h>
 #include <sys/wait.h>
 
 #include <cmath>
@@ -119,7 +119,7 @@ float traced_floor_ao(const Scene& scene, const std::vector<glm::vec3>& points) 
     normals.insert(normals.end(), {0, 1, 0});
   }
   nook_bake_trace_desc desc;
-  REQUIRE(nook_bake_trace_desc_init(&desc, sizeof desc, NOOK_VERSION) == NOOK_OK);
+  REQUIRE(nook_bake_trace_desc_init(&desc) == NOOK_OK);
   desc.meshes = &mesh;
   desc.mesh_count = 1;
   desc.positions = positions.data();

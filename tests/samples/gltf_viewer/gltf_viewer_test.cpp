@@ -59,17 +59,17 @@ TEST_CASE("sample gltf_viewer: its skinning is what Nook expects of the same mat
     const std::vector<glm::vec3> skinned = file.skinned(pose);
     std::vector<glm::vec3> rest_vertices;
     for (std::uint32_t v = 0; v < model.info().check_vertex_count; ++v)
-      rest_vertices.push_back(skinned[model.rest_vertex(v).vertex]);
+      rest_vertices.push_back(skinned[model.check_vertex(v).vertex]);
     nook_pose_desc desc = nook::pose_desc();
     desc.kind = NOOK_POSE_SKINNING;
     desc.layout = NOOK_TRANSFORM_COLUMNS_4X4;
     desc.transforms = &pose.matrices[0][0][0];
     desc.transform_count = std::uint32_t(file.skins[0].joints.size());
-    nook_pose_check check{};
-    check.vertex_count = std::uint32_t(rest_vertices.size());
-    check.positions = &rest_vertices[0].x;
-    model.check_pose(desc, check);
+    nook_pose_check_desc vertices = nook::pose_check_desc();
+    vertices.vertex_count = std::uint32_t(rest_vertices.size());
+    vertices.positions = &rest_vertices[0].x;
+    const nook_pose_check_info check = model.check_pose(desc, vertices);
     INFO(check.text);
-    CHECK(check.fault == NOOK_POSE_RIGHT);
+    CHECK(check.fault == NOOK_POSE_FAULT_NONE);
   }
 }

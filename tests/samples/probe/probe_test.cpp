@@ -24,7 +24,7 @@ int run(const std::string& arguments) {
 std::string write_probe() {
   const nook::Context context;
   nook_probe_fit_desc fit_desc;
-  nook::check(nook_probe_fit_desc_init(&fit_desc, sizeof fit_desc, NOOK_VERSION));
+  nook::check(nook_probe_fit_desc_init(&fit_desc));
   const float axes[6] = {1, 0, 0, -1, 0, 0};
   fit_desc.lobe_count = 2;
   fit_desc.axes = axes;
@@ -34,7 +34,7 @@ std::string write_probe() {
   nook_probe_fit fit = nullptr;
   nook::check(nook_probe_fit_create(context.get(), &fit_desc, &fit));
   nook_probe_desc desc;
-  nook::check(nook_probe_desc_init(&desc, sizeof desc, NOOK_VERSION));
+  nook::check(nook_probe_desc_init(&desc));
   desc.functions = fit;
   desc.coefficients = coefficients;
   nook_probe probe = nullptr;

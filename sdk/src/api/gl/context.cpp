@@ -1,20 +1,10 @@
+#include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/handle.h"
-#include "sdk/src/core/descriptors.h"
 
 using namespace nook;
 
 namespace {
-
-nook_gl_desc default_gl_desc() {
-  nook_gl_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.header_version = NOOK_VERSION;
-  desc.state_mode = NOOK_GL_STATE_PRESERVE;
-  return desc;
-}
-constexpr std::size_t first_gl_desc = offsetof(nook_gl_desc, state_mode) + sizeof(nook_gl_state_mode);
-constexpr std::size_t first_gl_info = offsetof(nook_gl_info, ao_bytes) + sizeof(std::uint64_t);
 
 void check(const nook_gl_desc& desc) {
   need(reinterpret_cast<const void*>(desc.get_proc), "desc.get_proc");
@@ -51,17 +41,12 @@ nook_gl_s::nook_gl_s(nook_context_s* made_by, const nook_gl_desc& desc)
   });
 }
 
-nook_result nook_gl_desc_init(nook_gl_desc* desc, size_t size, uint32_t header_version) {
-  return api::enter("nook_gl_desc_init",
-                    [&] { init_descriptor(desc, size, header_version, first_gl_desc, default_gl_desc()); });
-}
-
 nook_result nook_gl_create(nook_context context, const nook_gl_desc* desc, nook_gl* out) {
   return api::enter("nook_gl_create", [&] {
     need(out, "out");
     *out = nullptr;
     need(context, "context");
-    const nook_gl_desc known = read_descriptor(desc, "nook_gl_desc_init", first_gl_desc, default_gl_desc());
+    const nook_gl_desc known = read_descriptor(desc);
     check(known);
     *out = Owned<nook_gl_s>::make(context->memory(), Ref<nook_context_s>::share(context), context, known)
                .detach();
@@ -91,6 +76,6 @@ nook_result nook_gl_describe(nook_gl gl, nook_gl_info* info) {
     known.renderer = gl->renderer.c_str();
     known.buffer_bytes = gl->device.buffer_bytes;
     known.ao_bytes = gl->device.ao_bytes;
-    write_info(info, first_gl_info, known);
+    write_info(info, known);
   });
 }

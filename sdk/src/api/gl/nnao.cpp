@@ -1,10 +1,11 @@
+#include <nook/experimental/nook_stages.h>
 #include <nook/nook_nnao.h>
 
+#include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/handle.h"
 #include "sdk/src/api/gl/nnao_descriptors.h"
 #include "sdk/src/api/nnao_recording_handle.h"
-#include "sdk/src/core/descriptors.h"
 #include "sdk/src/gl/nnao/frame_check.h"
 #include "sdk/src/gl/nnao/frame_record.h"
 #include "sdk/src/gl/nnao/host_images.h"
@@ -38,8 +39,8 @@ struct nook_nnao_s : RefCounted {
 
   // Those of the host's images.
   unsigned image_users() const {
-    const unsigned samples = desc.layers ? gl::screen_sample_layers : gl::screen_samples;
-    return (desc.layers ? unsigned{gl::screen_layers} : 0u) | (desc.depth_samples ? samples : 0u);
+    const unsigned samples = desc.views ? gl::screen_sample_layers : gl::screen_samples;
+    return (desc.views ? unsigned{gl::screen_layers} : 0u) | (desc.depth_samples ? samples : 0u);
   }
 
   // Returns the file of the network.
@@ -56,9 +57,6 @@ struct nook_nnao_s : RefCounted {
 
 namespace {
 
-constexpr std::size_t first_info = offsetof(nook_nnao_info, horizon_form) + sizeof(std::int32_t);
-constexpr std::size_t first_timings = offsetof(nook_nnao_timings, total) + sizeof(float);
-
 template <class Body>
 nook_result with_pass(const char* function, nook_nnao pass, Body&& body) noexcept {
   return api::enter(function, [&] {
@@ -69,16 +67,10 @@ nook_result with_pass(const char* function, nook_nnao pass, Body&& body) noexcep
 
 }  // namespace
 
-nook_result nook_nnao_desc_init(nook_nnao_desc* desc, size_t size, uint32_t header_version) {
-  return api::enter("nook_nnao_desc_init", [&] {
-    init_descriptor(desc, size, header_version, first_nnao_desc, default_nnao_desc());
-  });
-}
-
 nook_result nook_nnao_desc_set_preset(nook_nnao_desc* desc, nook_nnao_preset preset) {
   return api::enter("nook_nnao_desc_set_preset", [&] {
     // A descriptor of an older or newer host is checked before it is written.
-    read_descriptor(desc, "nook_nnao_desc_init", first_nnao_desc, default_nnao_desc());
+    read_descriptor(desc);
     if (preset < NOOK_NNAO_PRESET_FAST || preset > NOOK_NNAO_PRESET_BEST)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "preset is unknown (got %d, need 0 to %d)", preset,
                     NOOK_NNAO_PRESET_BEST);
@@ -118,23 +110,13 @@ void nook_nnao_destroy(nook_nnao* pass) {
   *pass = nullptr;
 }
 
-nook_result nook_nnao_frame_desc_init(nook_nnao_frame_desc* desc, size_t size, uint32_t header_version) {
-  return api::enter("nook_nnao_frame_desc_init", [&] {
-    init_descriptor(desc, size, header_version, first_nnao_frame, default_nnao_frame());
-  });
-}
-
-nook_result nook_nnao_render(nook_nnao pass, const nook_nnao_frame_desc* frame) {
+nook_result nook_nnao_render(nook_nnao pass, const nook_gl_frame_desc* frame,
+                             const nook_nnao_frame_desc* desc) {
   return with_pass("nook_nnao_render", pass, [&] {
-    const nook_nnao_frame_desc known =
-        read_descriptor(frame, "nook_nnao_frame_desc_init", first_nnao_frame, default_nnao_frame());
+    const gl::NnaoFrame known{read_descriptor(frame), read_descriptor(desc)};
     gl::check_frame(known, pass->desc);
     pass->gl->guarded(pass->users(), [&] { pass->pass->render(known); });
   });
-}
-
-nook_result nook_nnao_recheck(nook_nnao pass) {
-  return with_pass("nook_nnao_recheck", pass, [&] { pass->pass->recheck(); });
 }
 
 nook_result nook_nnao_describe(nook_nnao pass, nook_nnao_info* info) {
@@ -147,7 +129,7 @@ nook_result nook_nnao_describe(nook_nnao pass, nook_nnao_info* info) {
     known.path = pass->pass->path();
     known.bent_normals = pass->desc.bent_normals;
     known.glsl = gl::screen_ao_glsl();
-    write_info(info, first_info, known);
+    write_info(info, known);
   });
 }
 
@@ -165,24 +147,23 @@ nook_result nook_nnao_read_timings(nook_nnao pass, nook_nnao_timings* timings) {
       known.resolve = (*stages)[3];
       known.total = known.normals + known.occlusion + known.blur + known.resolve;
     }
-    write_info(timings, first_timings, known);
+    write_info(timings, known);
   });
 }
 
-nook_result nook_nnao_record(nook_nnao pass, const nook_nnao_frame_desc* frame, const char* note,
-                             nook_nnao_recording* out) {
+nook_result nook_nnao_record(nook_nnao pass, const nook_gl_frame_desc* frame,
+                             const nook_nnao_frame_desc* desc, const char* note, nook_nnao_recording* out) {
   return with_pass("nook_nnao_record", pass, [&] {
     need(out, "out");
     *out = nullptr;
-    const nook_nnao_frame_desc known =
-        read_descriptor(frame, "nook_nnao_frame_desc_init", first_nnao_frame, default_nnao_frame());
+    const gl::NnaoFrame known{read_descriptor(frame), read_descriptor(desc)};
     gl::check_frame(known, pass->desc);
-    if (pass->desc.layers != 0 || pass->desc.depth_samples != 0)
+    if (pass->desc.views != 0 || pass->desc.depth_samples != 0)
       throw Failure(
           NOOK_ERROR_INVALID_ARGUMENT,
-          "the pass reads texture arrays or samples (desc.layers %d, desc.depth_samples %d; need 0); "
+          "the pass reads texture arrays or samples (desc.views %d, desc.depth_samples %d; need 0); "
           "record one view with a pass of 2D textures",
-          pass->desc.layers, pass->desc.depth_samples);
+          pass->desc.views, pass->desc.depth_samples);
     gl::Device& device = pass->gl->device;
     std::optional<nnao::Recording> recorded;
     device.need_alive();

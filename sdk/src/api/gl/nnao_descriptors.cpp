@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sdk/src/core/descriptors.h"
+#include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/nnao/frame_constants.h"
 #include "sdk/src/nnao/network_file.h"
@@ -19,28 +19,6 @@ void check_switch(const char* field, std::int32_t value) {
 
 }  // namespace
 
-nook_nnao_desc default_nnao_desc() {
-  nook_nnao_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.header_version = NOOK_VERSION;
-  desc.taps = nnao::default_taps;
-  desc.blur = 1;
-  desc.blur_sharpness = 16;
-  return desc;
-}
-
-nook_nnao_frame_desc default_nnao_frame() {
-  nook_nnao_frame_desc frame{};
-  frame.struct_size = sizeof frame;
-  frame.header_version = NOOK_VERSION;
-  frame.normal_scale = 1;
-  frame.normal_matrix[0] = frame.normal_matrix[4] = frame.normal_matrix[8] = 1;
-  frame.intensity = frame.power = 1;
-  frame.earlier_from_view[0] = frame.earlier_from_view[5] = frame.earlier_from_view[10] = 1;
-  frame.motion_scale[0] = frame.motion_scale[1] = 1;
-  frame.depth_log_scale = 1;
-  return frame;
-}
 void check_max_size(std::int32_t max_width, std::int32_t max_height) {
   constexpr std::int32_t largest = 16384;
   if (max_width < 1 || max_height < 1 || max_width > largest || max_height > largest)
@@ -50,8 +28,7 @@ void check_max_size(std::int32_t max_width, std::int32_t max_height) {
 }
 
 nook_nnao_desc checked_nnao_desc(const nook_nnao_desc* given) {
-  const nook_nnao_desc desc =
-      read_descriptor(given, "nook_nnao_desc_init", first_nnao_desc, default_nnao_desc());
+  const nook_nnao_desc desc = read_descriptor(given);
   check_max_size(desc.max_width, desc.max_height);
   if (desc.taps < 0 || nnao::horizon_grid(static_cast<std::uint32_t>(desc.taps)).steps == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -68,22 +45,24 @@ nook_nnao_desc checked_nnao_desc(const nook_nnao_desc* given) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.path is unknown (got %d, need 0 to %d)", desc.path,
                   NOOK_NNAO_PATH_COMPUTE);
   check_switch("bent_normals", desc.bent_normals);
-  if (desc.temporal_frames != 0 && (desc.temporal_frames < 2 || desc.temporal_frames > 64))
+  if (desc.max_history_frames != 0 && (desc.max_history_frames < 2 || desc.max_history_frames > 64))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.temporal_frames is out of range (got %d, need 0, or 2 to 64)", desc.temporal_frames);
-  if (desc.temporal_frames != 0 && desc.bent_normals)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.temporal_frames does not go with desc.bent_normals (got %d and 1); use one of them",
-                  desc.temporal_frames);
+                  "desc.max_history_frames is out of range (got %d, need 0, or 2 to 64)",
+                  desc.max_history_frames);
+  if (desc.max_history_frames != 0 && desc.bent_normals)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.max_history_frames does not go with desc.bent_normals (got %d and 1); use one of them",
+        desc.max_history_frames);
   if (desc.depth_samples < 0 || desc.depth_samples > 16)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.depth_samples is out of range (got %d, need 0 to 16)",
                   desc.depth_samples);
   if (desc.depth_sample < NOOK_NNAO_SAMPLE_MEDIAN || desc.depth_sample > NOOK_NNAO_SAMPLE_NEAREST)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.depth_sample is unknown (got %d, need 0 to %d)",
                   desc.depth_sample, NOOK_NNAO_SAMPLE_NEAREST);
-  if (desc.layers < 0 || desc.layers > gl::max_layers)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.layers is out of range (got %d, need 0 to %d)",
-                  desc.layers, gl::max_layers);
+  if (desc.views < 0 || desc.views > gl::max_layers)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.views is out of range (got %d, need 0 to %d)",
+                  desc.views, gl::max_layers);
   if (desc.normal_samples != 0 && desc.normal_samples != desc.depth_samples)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.normal_samples differs from desc.depth_samples (got %d and %d, need 0 or the same "

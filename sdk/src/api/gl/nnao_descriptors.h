@@ -15,13 +15,6 @@ namespace nook::api {
 // over the screen.
 void check_max_size(std::int32_t max_width, std::int32_t max_height);
 
-nook_nnao_desc default_nnao_desc();
-nook_nnao_frame_desc default_nnao_frame();
-
-// The sizes in the first release.
-inline constexpr std::size_t first_nnao_desc = offsetof(nook_nnao_desc, network_size) + sizeof(std::size_t);
-inline constexpr std::size_t first_nnao_frame = offsetof(nook_nnao_frame_desc, view) + sizeof(nook_nnao_view);
-
 // Returns the caller's descriptor in this library's version. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT,
 // NOOK_ERROR_VERSION), naming the field, unless it is sound.
 nook_nnao_desc checked_nnao_desc(const nook_nnao_desc* given);

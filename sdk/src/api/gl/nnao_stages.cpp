@@ -1,12 +1,12 @@
-#include <nook/nook_nnao_stages.h>
+#include <nook/experimental/nook_stages.h>
 
 #include <algorithm>
 #include <iterator>
 
+#include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/nnao_descriptors.h"
 #include "sdk/src/api/handles.h"
-#include "sdk/src/core/descriptors.h"
 #include "sdk/src/core/ref.h"
 #include "sdk/src/gl/nnao/frame_check.h"
 #include "sdk/src/gl/nnao/frame_constants.h"
@@ -28,29 +28,23 @@ struct nook_nnao_stages_s : RefCounted {
 
 namespace {
 
-constexpr std::size_t first_info = offsetof(nook_nnao_stages_info, reserved) + sizeof(std::uint32_t);
-constexpr std::size_t first_image = offsetof(nook_nnao_image_info, height) + sizeof(std::int32_t);
-constexpr std::size_t first_stage =
-    offsetof(nook_nnao_stage_info, inputs) + sizeof(nook_nnao_image) * NOOK_NNAO_STAGE_MAX_INPUTS;
-constexpr std::size_t first_values =
-    offsetof(nook_nnao_frame_values, constants) + sizeof(float) * NOOK_NNAO_STAGE_CONSTANTS;
-
 // The frame with what the host's graphics interface takes the place of: textures and target.
-nook_nnao_frame_desc checked_frame(const nook_nnao_frame_desc* given, const nook_nnao_desc& desc) {
-  nook_nnao_frame_desc frame =
-      read_descriptor(given, "nook_nnao_frame_desc_init", first_nnao_frame, default_nnao_frame());
-  const nook_nnao_blend blend = frame.blend;
+gl::NnaoFrame checked_frame(const nook_gl_frame_desc* given, const nook_nnao_frame_desc* settings,
+                            const nook_nnao_desc& desc) {
+  gl::NnaoFrame frame{read_descriptor(given), read_descriptor(settings)};
+  const nook_blend blend = frame.blend;
   frame.depth_texture = 1;
-  frame.layer_texture = 1;
-  frame.target = NOOK_NNAO_TARGET_OWN;
-  frame.blend = NOOK_NNAO_WRITE;
+  frame.gbuffer_ao_texture = 1;
+  frame.target = NOOK_TARGET_OWN;
+  frame.blend = NOOK_BLEND_WRITE;
   gl::check_frame(frame, desc);
-  if (blend != NOOK_NNAO_WRITE && blend != NOOK_NNAO_MULTIPLY)
+  if (blend != NOOK_BLEND_WRITE && blend != NOOK_BLEND_MULTIPLY)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.blend is unknown (got %d, need 0 or 1)", blend);
-  if (frame.view == NOOK_NNAO_VIEW_RAW && desc.temporal_frames)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.view %d does not go with desc.temporal_frames %d here; read NOOK_NNAO_IMAGE_AO",
-                  frame.view, desc.temporal_frames);
+  if (frame.show == NOOK_NNAO_VIEW_RAW && desc.max_history_frames)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.show %d does not go with the pass's max_history_frames %d here; read NOOK_NNAO_IMAGE_AO",
+        frame.show, desc.max_history_frames);
   frame.blend = blend;
   return frame;
 }
@@ -88,23 +82,24 @@ nook_result nook_nnao_stages_describe(nook_nnao_stages stages, nook_nnao_stages_
     known.vertex_shader = stages->pass.vertex.c_str();
     known.network = stages->pass.network.data();
     known.network_bytes = std::uint32_t(stages->pass.network.size() * sizeof(float));
-    write_info(info, first_info, known);
+    write_info(info, known);
   });
 }
 
-nook_result nook_nnao_stages_image(nook_nnao_stages stages, nook_nnao_image image,
-                                   nook_nnao_image_info* info) {
-  return enter("nook_nnao_stages_image", [&] {
+nook_result nook_nnao_stages_describe_image(nook_nnao_stages stages, nook_nnao_image image,
+                                            nook_nnao_image_info* info) {
+  return enter("nook_nnao_stages_describe_image", [&] {
     need(stages, "stages");
     if (image < 0 || image >= NOOK_NNAO_IMAGE_COUNT)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "image is unknown (got %d, need 0 to %d)", image,
                     NOOK_NNAO_IMAGE_COUNT - 1);
-    write_info(info, first_image, gl::stage_image(stages->desc, image));
+    write_info(info, gl::stage_image(stages->desc, image));
   });
 }
 
-nook_result nook_nnao_stages_stage(nook_nnao_stages stages, uint32_t index, nook_nnao_stage_info* info) {
-  return enter("nook_nnao_stages_stage", [&] {
+nook_result nook_nnao_stages_describe_stage(nook_nnao_stages stages, uint32_t index,
+                                            nook_nnao_stage_info* info) {
+  return enter("nook_nnao_stages_describe_stage", [&] {
     need(stages, "stages");
     if (index >= stages->pass.stages.size())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "index is out of range (got %u, need less than %zu)", index,
@@ -118,25 +113,25 @@ nook_result nook_nnao_stages_stage(nook_nnao_stages stages, uint32_t index, nook
     known.reads_network = stage.reads_network;
     known.input_count = stage.input_count;
     std::copy(std::begin(stage.inputs), std::end(stage.inputs), known.inputs);
-    write_info(info, first_stage, known);
+    write_info(info, known);
   });
 }
 
-nook_result nook_nnao_stages_frame(nook_nnao_stages stages, const nook_nnao_frame_desc* frame,
-                                   const nook_nnao_frame_desc* earlier, uint32_t number, uint32_t layer,
-                                   nook_nnao_frame_values* values) {
+nook_result nook_nnao_stages_frame(nook_nnao_stages stages, const nook_gl_frame_desc* frame,
+                                   const nook_nnao_frame_desc* desc, const nook_gl_frame_desc* earlier,
+                                   uint32_t number, uint32_t view, nook_nnao_frame_values* values) {
   return enter("nook_nnao_stages_frame", [&] {
     need(stages, "stages");
-    const nook_nnao_desc& desc = stages->desc;
-    if (layer >= std::uint32_t(gl::drawn_layers(desc)))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "layer is out of range (got %u, need less than %d)", layer,
-                    gl::drawn_layers(desc));
-    const nook_nnao_frame_desc known = checked_frame(frame, desc);
-    nook_nnao_frame_desc before{};
-    if (earlier) before = checked_frame(earlier, desc);
+    const nook_nnao_desc& pass = stages->desc;
+    if (view >= std::uint32_t(gl::drawn_layers(pass)))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "view is out of range (got %u, need less than %d)", view,
+                    gl::drawn_layers(pass));
+    const gl::NnaoFrame known = checked_frame(frame, desc, pass);
+    gl::NnaoFrame before{};
+    if (earlier) before = checked_frame(earlier, desc, pass);
     nook_nnao_frame_values computed =
-        gl::frame_values(desc, known, earlier ? &before : nullptr, number, int(layer));
-    computed.drawn_stages = gl::drawn_stages(stages->pass.stages.size(), known.layer);
-    write_info(values, first_values, computed);
+        gl::frame_values(pass, known, earlier ? &before : nullptr, number, int(view));
+    computed.drawn_stages = gl::drawn_stages(stages->pass.stages.size(), known.gbuffer_ao);
+    write_info(values, computed);
   });
 }

@@ -1,34 +1,32 @@
-#include <nook/nook_gl_probe.h>
+#include <nook/experimental/nook_capture.h>
 
 #include <algorithm>
 #include <optional>
 
+#include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
-#include "sdk/src/api/gl/probe_handles.h"
+#include "sdk/src/api/gl/upload.h"
 #include "sdk/src/api/probe_handles.h"
-#include "sdk/src/core/descriptors.h"
 #include "sdk/src/gl/probe/probe_capture.h"
 
 using namespace nook;
 
 // Keeps the textures alive that it writes.
-struct nook_gl_probe_capture_s : RefCounted {
-  nook_gl_probe_capture_s(nook_gl_s* made_by, const nook_gl_probe_capture_desc& desc,
-                          const gl::CaptureSettings& settings)
+struct nook_gl_capture_s : RefCounted {
+  nook_gl_capture_s(nook_gl_s* made_by, const nook_gl_capture_desc& desc, const gl::CaptureSettings& settings)
       : gl(made_by),
-        probe(Ref<nook_gl_probe_s>::share(desc.probe)),
-        grid(Ref<nook_gl_probe_grid_s>::share(desc.grid)) {
+        probe(Ref<nook_gl_upload_s>::share(desc.probe)),
+        grid(Ref<nook_gl_upload_s>::share(desc.grid)) {
     gl->device.report_host_errors();
     gl->guarded(gl::captures, [&] {
       capture.emplace(gl->device,
-                      gl::CaptureTargets{probe ? &*probe->texture : nullptr, grid ? &*grid->volume : nullptr},
+                      gl::CaptureTargets{probe ? probe->probe() : nullptr, grid ? grid->grid() : nullptr},
                       settings);
     });
   }
 
   nook_gl_s* gl;
-  Ref<nook_gl_probe_s> probe;
-  Ref<nook_gl_probe_grid_s> grid;
+  Ref<nook_gl_upload_s> probe, grid;
   std::optional<gl::ProbeCapture> capture;
 };
 
@@ -36,55 +34,53 @@ namespace {
 
 constexpr std::uint32_t min_face_px = 4, max_face_px = 512, max_level = 15, max_history = 65536;
 
-nook_gl_probe_capture_desc default_desc() {
-  nook_gl_probe_capture_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.header_version = NOOK_VERSION;
-  desc.face_size_px = 64;
-  desc.history = 1;
-  return desc;
-}
-constexpr std::size_t first_desc = offsetof(nook_gl_probe_capture_desc, reserved) + sizeof(std::uint32_t);
-constexpr std::size_t first_result = offsetof(nook_gl_probe_capture_result, reserved) + sizeof(std::uint32_t);
-
 void need_range(const char* field, std::uint32_t value, std::uint32_t least, std::uint32_t most) {
   if (value < least || value > most)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is out of range (got %u, need %u to %u)", field,
                   value, least, most);
 }
 
-gl::CaptureSettings settings_of(const nook_gl_probe_capture_desc& desc) {
+gl::CaptureSettings settings_of(const nook_gl_capture_desc& desc) {
   need_range("face_size_px", desc.face_size_px, min_face_px, max_face_px);
   need_range("level", desc.level, 0, max_level);
   need_range("history", desc.history, 1, max_history);
-  if (desc.light != NOOK_GL_PROBE_CAPTURE_ALL && desc.light != NOOK_GL_PROBE_CAPTURE_SKY)
+  if (desc.light != NOOK_GL_CAPTURE_ALL && desc.light != NOOK_GL_CAPTURE_SKY)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.light is unknown (got %d, need 0 or %d)", desc.light,
-                  NOOK_GL_PROBE_CAPTURE_SKY);
-  if (desc.constraint != NOOK_PROBE_CONSTRAINT_BANDS && desc.constraint != NOOK_PROBE_CONSTRAINT_NONE)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.constraint is unknown (got %d, need 0 or %d)",
-                  desc.constraint, NOOK_PROBE_CONSTRAINT_NONE);
+                  NOOK_GL_CAPTURE_SKY);
+  if (desc.match_sh != 0 && desc.match_sh != 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.match_sh is out of range (got %d, need 0 or 1)",
+                  desc.match_sh);
   if (desc.reserved != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", desc.reserved);
   gl::CaptureSettings settings;
   settings.face_size_px = desc.face_size_px;
   settings.level = desc.level;
   settings.history = desc.history;
-  settings.sky = desc.light == NOOK_GL_PROBE_CAPTURE_SKY;
-  settings.constraint = static_cast<probe::Constraint>(desc.constraint);
+  settings.sky = desc.light == NOOK_GL_CAPTURE_SKY;
+  settings.constraint = desc.match_sh ? probe::Constraint::bands : probe::Constraint::none;
   return settings;
 }
 
-void check_targets(nook_gl gl, const nook_gl_probe_capture_desc& desc) {
+void check_targets(nook_gl gl, const nook_gl_capture_desc& desc) {
   if (!desc.probe && !desc.grid)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.probe and desc.grid are NULL; at least one texture must receive the light");
   if ((desc.probe && desc.probe->gl != gl) || (desc.grid && desc.grid->gl != gl))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.probe or desc.grid belongs to another nook_gl; create both with this one");
-  if (desc.probe && desc.probe->texture->basis().domain != probe::Domain::sphere)
+  if (desc.probe && !desc.probe->probe())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the lobes of desc.probe are those of a hemisphere; a cube map needs NOOK_PROBE_SPHERE");
-  if (desc.probe && desc.grid && !(desc.probe->texture->grid() == desc.grid->volume->grid()))
+                  "desc.probe is not an upload of NOOK_GL_PROBE_LOBES; give a grid of diffuse light as "
+                  "desc.grid");
+  if (desc.grid && !desc.grid->grid())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.grid is not an upload of NOOK_GL_PROBE_SH or NOOK_GL_PROBE_ZH3; give lobes as "
+                  "desc.probe");
+  if (desc.probe && desc.probe->probe()->basis().domain != probe::Domain::sphere)
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the lobes of desc.probe are those of a hemisphere; a cube map needs NOOK_PROBE_DOMAIN_SPHERE");
+  if (desc.probe && desc.grid && !(desc.probe->probe()->grid() == desc.grid->grid()->grid()))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.probe and desc.grid are different grids; both need the same counts, origin and "
                   "spacing");
@@ -102,8 +98,8 @@ void write_vec3(float* out, Vec3 v) {
   out[2] = v.z;
 }
 
-nook_gl_probe_capture_result to_public(const gl::CaptureResult& result) {
-  nook_gl_probe_capture_result answer{};
+nook_gl_capture_info to_public(const gl::CaptureResult& result) {
+  nook_gl_capture_info answer{};
   answer.maps = result.maps;
   for (std::size_t i = 0; i < result.harmonics.size(); ++i)
     write_vec3(answer.harmonics + 3 * i, result.harmonics[i]);
@@ -116,63 +112,46 @@ nook_gl_probe_capture_result to_public(const gl::CaptureResult& result) {
 
 }  // namespace
 
-nook_result nook_gl_probe_capture_desc_init(nook_gl_probe_capture_desc* desc, size_t size,
-                                            uint32_t header_version) {
-  return api::enter("nook_gl_probe_capture_desc_init",
-                    [&] { init_descriptor(desc, size, header_version, first_desc, default_desc()); });
-}
-
-nook_result nook_gl_probe_capture_create(nook_gl gl, const nook_gl_probe_capture_desc* desc,
-                                         nook_gl_probe_capture* out) {
-  return api::enter("nook_gl_probe_capture_create", [&] {
+nook_result nook_gl_capture_create(nook_gl gl, const nook_gl_capture_desc* desc, nook_gl_capture* out) {
+  return api::enter("nook_gl_capture_create", [&] {
     need(out, "out");
     *out = nullptr;
     need(gl, "gl");
-    const nook_gl_probe_capture_desc known =
-        read_descriptor(desc, "nook_gl_probe_capture_desc_init", first_desc, default_desc());
+    const nook_gl_capture_desc known = read_descriptor(desc);
     const gl::CaptureSettings settings = settings_of(known);
     gl->device.need_alive();
     check_targets(gl, known);
-    *out = Owned<nook_gl_probe_capture_s>::make(gl->device.memory, Ref<nook_gl_s>::share(gl), gl, known,
-                                                settings)
+    *out = Owned<nook_gl_capture_s>::make(gl->device.memory, Ref<nook_gl_s>::share(gl), gl, known, settings)
                .detach();
   });
 }
 
-nook_result nook_gl_probe_capture_add(nook_gl_probe_capture capture, uint32_t index, uint32_t cube_map) {
-  return api::enter("nook_gl_probe_capture_add", [&] {
+nook_result nook_gl_capture_add(nook_gl_capture capture, uint32_t index, uint32_t cube_map, int32_t restart) {
+  return api::enter("nook_gl_capture_add", [&] {
     need(capture, "capture");
     nook_gl_s& gl = *capture->gl;
     gl.device.need_alive();
     need_index(*capture->capture, index);
+    if (restart != 0 && restart != 1)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "restart is %d, need 0 or 1", restart);
     gl.device.report_host_errors();
-    gl.guarded(gl::captures, [&] { capture->capture->add(index, cube_map); });
+    gl.guarded(gl::captures, [&] { capture->capture->add(index, cube_map, restart != 0); });
   });
 }
 
-nook_result nook_gl_probe_capture_reset(nook_gl_probe_capture capture, uint32_t index) {
-  return api::enter("nook_gl_probe_capture_reset", [&] {
-    need(capture, "capture");
-    need_index(*capture->capture, index);
-    capture->capture->forget(index);
-  });
-}
-
-nook_result nook_gl_probe_capture_read(nook_gl_probe_capture capture, uint32_t index,
-                                       nook_gl_probe_capture_result* result) {
-  return api::enter("nook_gl_probe_capture_read", [&] {
+nook_result nook_gl_capture_read(nook_gl_capture capture, uint32_t index, nook_gl_capture_info* result) {
+  return api::enter("nook_gl_capture_read", [&] {
     need(capture, "capture");
     need_index(*capture->capture, index);
     nook_gl_s& gl = *capture->gl;
     gl.device.need_alive();
     gl.device.report_host_errors();
-    gl.guarded(gl::captures,
-               [&] { write_info(result, first_result, to_public(capture->capture->read(index))); });
+    gl.guarded(gl::captures, [&] { write_info(result, to_public(capture->capture->read(index))); });
   });
 }
 
-nook_result nook_gl_probe_capture_solve(nook_gl_probe_capture capture, nook_probe* out) {
-  return api::enter("nook_gl_probe_capture_solve", [&] {
+nook_result nook_gl_capture_solve(nook_gl_capture capture, nook_probe* out) {
+  return api::enter("nook_gl_capture_solve", [&] {
     need(out, "out");
     *out = nullptr;
     need(capture, "capture");
@@ -187,7 +166,7 @@ nook_result nook_gl_probe_capture_solve(nook_gl_probe_capture capture, nook_prob
   });
 }
 
-void nook_gl_probe_capture_destroy(nook_gl_probe_capture* capture) {
+void nook_gl_capture_destroy(nook_gl_capture* capture) {
   if (!capture || !*capture) return;
   (*capture)->release();
   *capture = nullptr;

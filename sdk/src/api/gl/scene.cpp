@@ -7,10 +7,6 @@ using namespace nook;
 
 namespace {
 
-constexpr std::size_t first_ao_view = offsetof(nook_gl_ao_view, count) + sizeof(std::uint32_t);
-
-constexpr std::size_t first_light_view = offsetof(nook_gl_light_view, glsl) + sizeof(const char*);
-
 // `count` is the host's. Waits for the GPU.
 void read_values(nook_gl_s& gl, const gl::VertexValues& values, std::uint32_t count, float* out) {
   if (count != values.vertices)
@@ -36,9 +32,9 @@ void check_target(const nook_gl_ao_target& target, std::uint32_t count) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "target.struct_size is too small (got %u, need at least %zu); set it to sizeof",
                   target.struct_size, size);
-  if (target.format < NOOK_AO_FLOAT || target.format > NOOK_AO_UNORM8)
+  if (target.format < NOOK_FORMAT_FLOAT || target.format > NOOK_FORMAT_UNORM8)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "target.format is unknown (got %d, need 0 to %d)",
-                  target.format, NOOK_AO_UNORM8);
+                  target.format, NOOK_FORMAT_UNORM8);
   if ((target.buffer == 0) == (target.texture == 0))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "target.buffer and target.texture are %u and %u; need exactly one of them", target.buffer,
@@ -73,7 +69,7 @@ gl::SceneHandle handle_of(nook_scene scene) {
 
 }  // namespace
 
-nook_result nook_gl_model_memory(nook_gl gl, nook_character_model model, nook_gl_memory* memory) {
+nook_result nook_gl_model_memory(nook_gl gl, nook_model model, nook_gl_memory* memory) {
   return api::enter("nook_gl_model_memory", [&] {
     need(gl, "gl");
     need(model, "model");
@@ -82,7 +78,7 @@ nook_result nook_gl_model_memory(nook_gl gl, nook_character_model model, nook_gl
     known.model_bytes = bytes.shared;
     known.instance_bytes = bytes.instance;
     known.lit_instance_bytes = bytes.instance + bytes.light;
-    write_info(memory, offsetof(nook_gl_memory, lit_instance_bytes) + sizeof(uint64_t), known);
+    write_info(memory, known);
   });
 }
 
@@ -105,13 +101,13 @@ nook_result nook_gl_scene_ao_buffer(nook_gl gl, nook_scene scene, nook_instance_
     known.offset = ao.offset;
     known.stride = sizeof(float);
     known.count = ao.vertices;
-    write_info(view, first_ao_view, known);
+    write_info(view, known);
   });
 }
 
-nook_result nook_gl_scene_write_ao(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
-                                   uint32_t count, const nook_gl_ao_target* target) {
-  return with_scene("nook_gl_scene_write_ao", gl, scene, [&] {
+nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
+                                uint32_t count, const nook_gl_ao_target* target) {
+  return with_scene("nook_gl_scene_write", gl, scene, [&] {
     need(instances, "instances");
     need(target, "target");
     check_target(*target, count);
@@ -152,7 +148,7 @@ nook_result nook_gl_scene_light(nook_gl gl, nook_scene scene, nook_instance_id i
     known.texture = place.texture;
     known.light = static_cast<std::int32_t>(place.first_texel);
     known.glsl = gl::scene_light_glsl();
-    write_info(view, first_light_view, known);
+    write_info(view, known);
   });
 }
 

@@ -1,4 +1,4 @@
-#include <nook/nook_gl_transfer.h>
+#include <nook/experimental/nook_transfer.h>
 
 #include <algorithm>
 
@@ -35,11 +35,7 @@ struct nook_gl_transfer_s : RefCounted {
   std::optional<gl::PaperTexture> paper;
 };
 
-namespace {
-
-constexpr std::size_t first_info = offsetof(nook_gl_transfer_info, glsl) + sizeof(const char*);
-
-}  // namespace
+namespace {}  // namespace
 
 nook_result nook_gl_transfer_create(nook_gl gl, nook_transfer_response response, uint32_t vertex_count,
                                     nook_gl_transfer* out) {
@@ -92,7 +88,7 @@ nook_result nook_gl_transfer_create_paper(nook_gl gl, nook_transfer baked, nook_
     if (!baked->transfer.paper.is_used())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "transfer has the separated form, need the paper's; call nook_gl_transfer_create and "
-                    "nook_transfer_vectors");
+                    "nook_transfer_read_vectors");
     transfer::check_same_light(baked->transfer, response->response.light_modes,
                                response->response.light_hash);
     transfer::check_same_lobes(baked->transfer, response->response.lobes);
@@ -141,16 +137,16 @@ nook_result nook_gl_transfer_describe(nook_gl_transfer gl_transfer, nook_gl_tran
       const gl::PaperTexture& paper = *gl_transfer->paper;
       known.texture = paper.light();
       known.vertex_texture = paper.vertices();
-      known.form = NOOK_TRANSFER_FORM_PAPER;
+      known.form = NOOK_FORM_PAPER;
       known.bytes = paper.bytes();
       known.glsl = paper.source().c_str();
     } else {
       const gl::TransferTexture& vectors = *gl_transfer->texture;
       known.texture = vectors.name();
-      known.form = NOOK_TRANSFER_FORM_SEPARATED;
+      known.form = NOOK_FORM_DEFAULT;
       known.bytes = vectors.bytes();
       known.glsl = vectors.source().c_str();
     }
-    write_info(info, first_info, known);
+    write_info(info, known);
   });
 }

@@ -10,7 +10,7 @@
 namespace nook::gl {
 namespace {
 
-constexpr std::uint32_t values_per_word(nook_ao_format format) {
+constexpr std::uint32_t values_per_word(nook_format format) {
   return 1u << format;
 }
 
@@ -20,7 +20,7 @@ const void* at_byte(std::uint64_t offset) {
 
 struct PackDefines {
   char text[48];
-  explicit PackDefines(nook_ao_format format) {
+  explicit PackDefines(nook_format format) {
     std::snprintf(text, sizeof text, "#define NOOK_VALUES_PER_WORD %u\n", values_per_word(format));
   }
 };
@@ -36,7 +36,7 @@ std::uint64_t size_of_buffer(const Device& device, GLuint buffer) {
 
 }  // namespace
 
-std::uint64_t packed_bytes(nook_ao_format format, std::uint32_t values) {
+std::uint64_t packed_bytes(nook_format format, std::uint32_t values) {
   const std::uint32_t each = values_per_word(format);
   return (std::uint64_t{values} + each - 1) / each * 4;
 }
@@ -171,14 +171,15 @@ void check_format(const Device& device, const TextureTarget& target) {
   gl.GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_RED_TYPE, &type);
   gl.GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_RED_SIZE, &bits);
   const bool is_float = type == GL_FLOAT;
-  const bool fits = target.format == NOOK_AO_FLOAT  ? is_float
-                    : target.format == NOOK_AO_HALF ? is_float && bits == 16
-                                                    : type == GL_UNSIGNED_NORMALIZED && bits == 8;
+  const bool fits = target.format == NOOK_FORMAT_FLOAT  ? is_float
+                    : target.format == NOOK_FORMAT_HALF ? is_float && bits == 16
+                                                        : type == GL_UNSIGNED_NORMALIZED && bits == 8;
   if (!fits)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "target.format is not that of texture %u (got %d for red in %d bits; OpenGL ES needs "
-                  "NOOK_AO_FLOAT for GL_R32F, NOOK_AO_HALF for GL_R16F, NOOK_AO_UNORM8 for GL_R8)",
-                  target.texture, target.format, bits);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "target.format is not that of texture %u (got %d for red in %d bits; OpenGL ES needs "
+        "NOOK_FORMAT_FLOAT for GL_R32F, NOOK_FORMAT_HALF for GL_R16F, NOOK_FORMAT_UNORM8 for GL_R8)",
+        target.texture, target.format, bits);
 }
 
 struct UploadType {
@@ -186,11 +187,11 @@ struct UploadType {
   std::uint32_t bytes;
 };
 
-constexpr UploadType type_of(nook_ao_format format) {
+constexpr UploadType type_of(nook_format format) {
   switch (format) {
-    case NOOK_AO_HALF:
+    case NOOK_FORMAT_HALF:
       return {GL_HALF_FLOAT, 2};
-    case NOOK_AO_UNORM8:
+    case NOOK_FORMAT_UNORM8:
       return {GL_UNSIGNED_BYTE, 1};
     default:
       return {GL_FLOAT, 4};
@@ -200,8 +201,8 @@ constexpr UploadType type_of(nook_ao_format format) {
 }  // namespace
 
 void AoOutput::write(const VertexValues& source, const TextureTarget& target) {
-  if (device_.gl.profile == Profile::desktop || target.format == NOOK_AO_FLOAT) {
-    write_rows(source, {target.texture, target.first_texel, target.width, NOOK_AO_FLOAT});
+  if (device_.gl.profile == Profile::desktop || target.format == NOOK_FORMAT_FLOAT) {
+    write_rows(source, {target.texture, target.first_texel, target.width, NOOK_FORMAT_FLOAT});
     return;
   }
   // Uploads of OpenGL ES convert nothing: the values take the texture's form before.

@@ -16,18 +16,18 @@ struct BufferTarget {
   GLuint buffer = 0;
   std::uint64_t offset = 0;  // bytes, a multiple of 4
   std::uint32_t stride = 0;  // bytes between values; 0: tightly packed
-  nook_ao_format format = NOOK_AO_FLOAT;
+  nook_format format = NOOK_FORMAT_FLOAT;
 };
 
 struct TextureTarget {
   GLuint texture = 0;
-  std::uint64_t first_texel = 0;          // row by row
-  std::uint32_t width = 0;                // texels; 0: looked up
-  nook_ao_format format = NOOK_AO_FLOAT;  // of the texture; counts on OpenGL ES alone
+  std::uint64_t first_texel = 0;           // row by row
+  std::uint32_t width = 0;                 // texels; 0: looked up
+  nook_format format = NOOK_FORMAT_FLOAT;  // of the texture; counts on OpenGL ES alone
 };
 
 // The bytes of tightly packed values, whole words.
-std::uint64_t packed_bytes(nook_ao_format format, std::uint32_t values);
+std::uint64_t packed_bytes(nook_format format, std::uint32_t values);
 
 // Each kind of target makes its program when it is first written. The caller holds a StateGuard for
 // output_users.

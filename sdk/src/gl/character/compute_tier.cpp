@@ -125,7 +125,7 @@ void ComputeTier::update(Scene& scene) {
   ComputeScene& placed = *placed_scene(scenes_, scene);
   decide(placed, scene);
   placed.lights.upload(device_, scene);
-  if (upload_frame(device_, placed)) run({placed, scene.settings.combine == NOOK_COMBINE_COMPOSED});
+  if (upload_frame(device_, placed)) run({placed, scene.settings.form == NOOK_FORM_DEFAULT});
   remember_update(placed, scene);
   count_update(placed, scene);
 }

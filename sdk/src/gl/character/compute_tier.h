@@ -24,7 +24,7 @@ class ComputeTier final : public Tier {
   // The decisions of the scene's update that the passes need.
   struct Update {
     const ComputeScene& placed;
-    bool composed;  // NOOK_COMBINE_COMPOSED
+    bool composed;  // NOOK_FORM_DEFAULT
   };
   void run(const Update& update) const;
   void run_spheres(const Update& update) const;

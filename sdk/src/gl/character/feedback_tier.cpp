@@ -18,7 +18,7 @@ struct Shadows {
   static constexpr std::uint32_t floats = 2, texels = 1;
   static void write(const Scene& scene, const Instance& instance, float* out) {
     const PointLanes& points = instance.result.arrays.points;
-    const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
+    const bool composed = scene.settings.form == NOOK_FORM_DEFAULT;
     for (std::uint32_t k = 0; k < points.count; ++k) {
       *out++ = points.shadow[k];
       *out++ = composed ? points.added[k] : 0.0f;
@@ -32,7 +32,7 @@ struct Colours {
   static void write(const Scene& scene, const Instance& instance, float* out) {
     const PointLanes& points = instance.result.arrays.points;
     const InstanceLight& light = instance.light;
-    const bool composed = scene.settings.combine == NOOK_COMBINE_COMPOSED;
+    const bool composed = scene.settings.form == NOOK_FORM_DEFAULT;
     for (std::uint32_t k = 0; k < points.count; ++k, out += floats) {
       for (int c = 0; c < 3; ++c) {
         out[c] = light.evaluated ? light.shadow[c][k] : points.shadow[k];

@@ -29,15 +29,15 @@ void check_blocks(const Functions& gl, const TensorTables& t) {
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "the material's modes are in blocks that this %s does not have (got %s, need %s); load the "
                   "material with other modes",
-                  api_name(gl), is_rgtc ? "NOOK_MATERIAL_MODES_RGTC" : "NOOK_MATERIAL_MODES_EAC",
-                  gl.can.rgtc_textures  ? "NOOK_MATERIAL_MODES_RGTC or PLAIN"
-                  : gl.can.eac_textures ? "NOOK_MATERIAL_MODES_EAC or PLAIN"
-                                        : "NOOK_MATERIAL_MODES_PLAIN");
+                  api_name(gl), is_rgtc ? "NOOK_MATERIAL_BLOCKS_RGTC" : "NOOK_MATERIAL_BLOCKS_EAC",
+                  gl.can.rgtc_textures  ? "NOOK_MATERIAL_BLOCKS_RGTC or PLAIN"
+                  : gl.can.eac_textures ? "NOOK_MATERIAL_BLOCKS_EAC or PLAIN"
+                                        : "NOOK_MATERIAL_BLOCKS_NONE");
   // A rule of WebGL's extension alone, for the finest level.
   if (is_rgtc && gl.profile == Profile::webgl && (t.width % 4 != 0 || t.height % 4 != 0))
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "WebGL has no RGTC textures of the material's size (got %u x %u texels, need multiples of "
-                  "4); load the material with NOOK_MATERIAL_MODES_PLAIN",
+                  "4); load the material with NOOK_MATERIAL_BLOCKS_NONE",
                   t.width, t.height);
 }
 

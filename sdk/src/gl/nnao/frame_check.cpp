@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/vec.h"
 #include "sdk/src/gl/nnao/frame_constants.h"
 #include "sdk/src/nnao/host_depth.h"
 
@@ -11,17 +12,16 @@ namespace {
 
 void check_range(const char* field, float value, bool fits, const char* need) {
   if (!std::isfinite(value) || !fits)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.%s is out of range (got %g, need %s)", field,
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is out of range (got %g, need %s)", field,
                   static_cast<double>(value), need);
 }
 
 void check_kind(const char* field, int value, int last) {
   if (value < 0 || value > last)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.%s is unknown (got %d, need 0 to %d)", field, value,
-                  last);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is unknown (got %d, need 0 to %d)", field, value, last);
 }
 
-void check_size(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
+void check_size(const NnaoFrame& frame, const nook_nnao_desc& pass) {
   if (frame.width < 1 || frame.height < 1 || frame.width > pass.max_width || frame.height > pass.max_height)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
@@ -37,104 +37,131 @@ void check_size(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
         v.y, v.width, v.height, frame.width, frame.height);
 }
 
-void check_radius(const nook_nnao_frame_desc& frame) {
+void check_radius(const NnaoFrame& frame) {
   if (frame.radius_kind == NOOK_NNAO_RADIUS_METRES) {
-    check_range("radius", frame.radius, frame.radius > 0, "more than 0 metres");
+    check_range("desc.radius", frame.radius, frame.radius > 0, "more than 0 metres");
     return;
   }
-  check_range("radius", frame.radius, frame.radius > 0 && frame.radius <= 1,
+  check_range("desc.radius", frame.radius, frame.radius > 0 && frame.radius <= 1,
               frame.radius_kind == NOOK_NNAO_RADIUS_SCREEN ? "a share of the screen, more than 0 up to 1"
                                                            : "a share of the scene, more than 0 up to 1");
   if (frame.radius_kind == NOOK_NNAO_RADIUS_SCENE)
-    check_range("scene_size", frame.scene_size, frame.scene_size * frame.radius > 0, "more than 0 metres");
+    check_range("desc.scene_size", frame.scene_size, frame.scene_size * frame.radius > 0,
+                "more than 0 metres");
 }
 
-void check_logarithm(const nook_nnao_frame_desc& frame) {
-  if (frame.depth_kind != NOOK_NNAO_DEPTH_LOGARITHMIC) return;
-  check_range("depth_log_scale", frame.depth_log_scale, frame.depth_log_scale > 0, "more than 0 per metre");
-  check_range("depth_log_near", frame.depth_log_near, frame.depth_log_near >= 0, "0 or more metres");
-  check_range("depth_log_far", frame.depth_log_far, frame.depth_log_far > frame.depth_log_near,
+void check_logarithm(const NnaoFrame& frame) {
+  if (frame.depth_kind != NOOK_DEPTH_LOGARITHMIC) return;
+  check_range("frame.depth_log_scale", frame.depth_log_scale, frame.depth_log_scale > 0,
+              "more than 0 per metre");
+  check_range("frame.depth_log_near", frame.depth_log_near, frame.depth_log_near >= 0, "0 or more metres");
+  check_range("frame.depth_log_far", frame.depth_log_far, frame.depth_log_far > frame.depth_log_near,
               "more metres than depth_log_near");
 }
 
-void check_numbers(const nook_nnao_frame_desc& frame) {
+void check_numbers(const NnaoFrame& frame) {
   check_radius(frame);
-  check_range("max_radius_px", frame.max_radius_px, frame.max_radius_px == 0 || frame.max_radius_px >= 1,
+  check_range("desc.max_radius_px", frame.max_radius_px, frame.max_radius_px == 0 || frame.max_radius_px >= 1,
               "at least 1 pixel, or 0 for the default");
-  check_range("intensity", frame.intensity, frame.intensity >= 0 && frame.intensity <= 16, "0 to 16");
-  check_range("power", frame.power, frame.power > 0 && frame.power <= 16, "more than 0, up to 16");
-  check_range("sky_depth", frame.sky_depth, frame.sky_depth >= 0, "0 or more metres");
+  check_range("desc.intensity", frame.intensity, frame.intensity >= 0 && frame.intensity <= 16, "0 to 16");
+  check_range("desc.power", frame.power, frame.power > 0 && frame.power <= 16, "more than 0, up to 16");
+  check_range("frame.sky_depth", frame.sky_depth, frame.sky_depth >= 0, "0 or more metres");
   check_logarithm(frame);
 }
 
-void check_kinds(const nook_nnao_frame_desc& frame) {
-  check_kind("depth_kind", frame.depth_kind, NOOK_NNAO_DEPTH_LOGARITHMIC);
-  check_kind("radius_kind", frame.radius_kind, NOOK_NNAO_RADIUS_SCENE);
-  check_kind("clip", frame.clip, NOOK_NNAO_CLIP_ZERO_TO_ONE);
-  check_kind("layer", frame.layer, NOOK_NNAO_LAYER_APART);
-  check_kind("target", frame.target, NOOK_NNAO_TARGET_FRAMEBUFFER);
-  check_kind("blend", frame.blend, NOOK_NNAO_MULTIPLY);
-  check_kind("view", frame.view, NOOK_NNAO_VIEW_NORMALS);
+void check_kinds(const NnaoFrame& frame) {
+  check_kind("frame.depth_kind", frame.depth_kind, NOOK_DEPTH_LOGARITHMIC);
+  check_kind("desc.radius_kind", frame.radius_kind, NOOK_NNAO_RADIUS_SCENE);
+  check_kind("frame.clip_space", frame.clip_space, NOOK_CLIP_SPACE_ZERO_TO_ONE);
+  check_kind("frame.gbuffer_ao", frame.gbuffer_ao, NOOK_GBUFFER_AO_EXCLUDE);
+  check_kind("frame.target", frame.target, NOOK_TARGET_FRAMEBUFFER);
+  check_kind("frame.blend", frame.blend, NOOK_BLEND_MULTIPLY);
+  check_kind("desc.show", frame.show, NOOK_NNAO_VIEW_NORMALS);
   if (frame.depth_texture == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.depth_texture is 0; give the name of a texture with depth");
-  if (frame.layer != NOOK_NNAO_LAYER_NONE && frame.layer_texture == 0)
+  if (frame.gbuffer_ao != NOOK_GBUFFER_AO_NONE && frame.gbuffer_ao_texture == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.layer_texture is 0; frame.layer %d needs the name of a texture", frame.layer);
-  if (frame.target == NOOK_NNAO_TARGET_TEXTURE && frame.target_name == 0)
+                  "frame.gbuffer_ao_texture is 0; frame.gbuffer_ao %d needs the name of a texture",
+                  frame.gbuffer_ao);
+  if (frame.target == NOOK_TARGET_TEXTURE && frame.target_name == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.target_name is 0; NOOK_NNAO_TARGET_TEXTURE needs the name of a texture");
-  if (frame.target == NOOK_NNAO_TARGET_OWN &&
-      (frame.blend != NOOK_NNAO_WRITE || frame.view == NOOK_NNAO_VIEW_NORMALS))
+                  "frame.target_name is 0; NOOK_TARGET_TEXTURE needs the name of a texture");
+  if (frame.target == NOOK_TARGET_OWN &&
+      (frame.blend != NOOK_BLEND_WRITE || frame.show == NOOK_NNAO_VIEW_NORMALS))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.%s %d needs a target of the host; set frame.target and frame.target_name",
-                  frame.blend != NOOK_NNAO_WRITE ? "blend" : "view",
-                  frame.blend != NOOK_NNAO_WRITE ? frame.blend : frame.view);
+                  "%s %d needs a target of the host; set frame.target and frame.target_name",
+                  frame.blend != NOOK_BLEND_WRITE ? "frame.blend" : "desc.show",
+                  frame.blend != NOOK_BLEND_WRITE ? frame.blend : frame.show);
 }
 
-void check_normals(const nook_nnao_frame_desc& frame) {
+void check_normals(const NnaoFrame& frame) {
   if (frame.normal_texture == 0) return;
-  check_range("normal_scale", frame.normal_scale, frame.normal_scale != 0, "a number other than 0");
-  check_range("normal_bias", frame.normal_bias, true, "a number");
+  check_range("frame.normal_scale", frame.normal_scale, frame.normal_scale != 0, "a number other than 0");
+  check_range("frame.normal_bias", frame.normal_bias, true, "a number");
   nnao::check_normal_matrix(frame.normal_matrix);
 }
 
 // The numbers of a pass over several frames.
-void check_motion(const nook_nnao_frame_desc& frame) {
-  for (const float number : frame.earlier_from_view)
-    check_range("earlier_from_view", number, true, "twelve finite numbers");
-  for (const float scale : frame.motion_scale) check_range("motion_scale", scale, true, "finite numbers");
+void check_motion(const NnaoFrame& frame) {
+  check_view(frame.view);
+  for (const float scale : frame.motion_vector_scale)
+    check_range("desc.motion_vector_scale", scale, true, "finite numbers");
   if (frame.reset != 0 && frame.reset != 1)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.reset is neither on nor off (got %d, need 0 or 1)",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reset is neither on nor off (got %d, need 0 or 1)",
                   frame.reset);
 }
 
-void check_matrices(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
+void check_matrices(const NnaoFrame& frame, const nook_nnao_desc& pass) {
   check_normals(frame);
-  if (pass.temporal_frames) check_motion(frame);
+  if (pass.max_history_frames) check_motion(frame);
   nnao::check_projection(frame.projection, nnao::DepthKind(frame.depth_kind));
+}
+
+void check_textures_changed(const NnaoFrame& frame) {
+  if (frame.textures_changed != 0 && frame.textures_changed != 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.textures_changed is neither on nor off (got %d, need 0 or 1)",
+                  frame.textures_changed);
 }
 
 }  // namespace
 
-void check_frame(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
+void check_view(const float (&m)[16]) {
+  bool finite = true;
+  for (const float element : m) finite = finite && std::isfinite(element);
+  const Vec3 x{m[0], m[1], m[2]}, y{m[4], m[5], m[6]}, z{m[8], m[9], m[10]};
+  const auto near = [](float value, float need) { return std::abs(value - need) <= 0.01f; };
+  // 1 %, as for the matrices of poses.
+  if (!finite || !near(dot(x, x), 1) || !near(dot(y, y), 1) || !near(dot(z, z), 1) || !near(dot(x, y), 0) ||
+      !near(dot(y, z), 0) || !near(dot(z, x), 0) || !near(m[3], 0) || !near(m[7], 0) || !near(m[11], 0) ||
+      !near(m[15], 1))
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "frame.view is no rotation with a translation (its first axis is %g %g %g; need a rigid matrix "
+        "from world to view space, column-major)",
+        double(m[0]), double(m[1]), double(m[2]));
+}
+
+void check_frame(const NnaoFrame& frame, const nook_nnao_desc& pass) {
   check_size(frame, pass);
   check_kinds(frame);
   check_numbers(frame);
-  if (pass.layers == 0) {
+  check_textures_changed(frame);
+  if (pass.views == 0) {
     check_matrices(frame, pass);
     return;
   }
-  if (frame.target == NOOK_NNAO_TARGET_FRAMEBUFFER)
+  if (frame.target == NOOK_TARGET_FRAMEBUFFER)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.target %d does not go with desc.layers %d; give a texture array by "
-                  "NOOK_NNAO_TARGET_TEXTURE",
-                  frame.target, pass.layers);
-  for (int layer = 0; layer < pass.layers; ++layer) {
+                  "frame.target %d does not go with desc.views %d; give a texture array by "
+                  "NOOK_TARGET_TEXTURE",
+                  frame.target, pass.views);
+  for (int layer = 0; layer < pass.views; ++layer) {
     try {
       check_matrices(layer_frame(frame, layer), pass);
     } catch (const Failure& failure) {
-      throw Failure(failure.code(), "layer %d: %s", layer, failure.what());
+      throw Failure(failure.code(), "view %d: %s", layer, failure.what());
     }
   }
 }

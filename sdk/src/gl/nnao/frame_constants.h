@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "sdk/src/gl/nnao/nnao_frame.h"
 #include "shaders/nnao/layout.h"
 
 namespace nook::gl {
@@ -14,7 +15,7 @@ namespace nook::gl {
 struct Viewport {
   int x = 0, y = 0, width = 0, height = 0;
 };
-Viewport viewport_of(const nook_nnao_frame_desc& frame);
+Viewport viewport_of(const NnaoFrame& frame);
 
 // The length of the surface, which is the image at the resolution at which AO is computed.
 constexpr int surface_length(int length, bool half) {
@@ -27,17 +28,17 @@ struct FrameConstants {
 };
 
 // The frame must have passed check_frame. count: the frames that the pass has drawn, which turns the noise of
-// the taps of passes with temporal_frames.
-// layer: of the host's texture arrays, for passes with layers.
-FrameConstants frame_constants(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass,
-                               std::uint32_t count, int layer = 0);
+// the taps of passes with max_history_frames.
+// layer: of the host's texture arrays, for passes with views.
+FrameConstants frame_constants(const NnaoFrame& frame, const nook_nnao_desc& pass, std::uint32_t count,
+                               int layer = 0);
 
 // Returns the frame of one layer: its matrices are those of the layer.
-nook_nnao_frame_desc layer_frame(const nook_nnao_frame_desc& frame, int layer);
+NnaoFrame layer_frame(const NnaoFrame& frame, int layer);
 
 // The layers that a frame of the pass has: 1 unless its images are texture arrays.
 constexpr int drawn_layers(const nook_nnao_desc& pass) {
-  return pass.layers > 0 ? pass.layers : 1;
+  return pass.views > 0 ? pass.views : 1;
 }
 inline constexpr int max_layers = 8;
 

@@ -30,27 +30,44 @@ void copy_note(const char* note, String& text) {
 }
 
 // The frame that is drawn in place of the host's, so that no target of the host is written.
-nook_nnao_frame_desc own_target(nook_nnao_frame_desc frame) {
-  frame.target = NOOK_NNAO_TARGET_OWN;
+NnaoFrame own_target(NnaoFrame frame) {
+  frame.target = NOOK_TARGET_OWN;
   frame.target_name = 0;
-  frame.blend = NOOK_NNAO_WRITE;
-  if (frame.view == NOOK_NNAO_VIEW_NORMALS) frame.view = NOOK_NNAO_VIEW_AO;
+  frame.blend = NOOK_BLEND_WRITE;
+  if (frame.show == NOOK_NNAO_VIEW_NORMALS) frame.show = NOOK_NNAO_VIEW_AO;
   return frame;
+}
+
+void copy_settings(const NnaoFrame& from, nnao::RecordedFrame& to) {
+  to.depth_kind = from.depth_kind;
+  to.clip = from.clip_space;
+  to.sky_depth = from.sky_depth;
+  to.normal_scale = from.normal_scale;
+  to.normal_bias = from.normal_bias;
+  std::copy(std::begin(from.normal_matrix), std::end(from.normal_matrix), to.normal_matrix);
+  std::copy(std::begin(from.projection), std::end(from.projection), to.projection);
+  to.radius = from.radius;
+  to.max_radius_px = from.max_radius_px;
+  to.intensity = from.intensity;
+  to.power = from.power;
+  to.layer = from.gbuffer_ao;
+  to.view = from.show;
+  to.radius_kind = from.radius_kind;
 }
 
 // Puts simpler kinds in place of those that follow from them: linear depth for logarithmic depth,
 // metres for a share of the scene.
-void simplify(nnao::Recording& recording, const nook_nnao_frame_desc& frame) {
+void simplify(nnao::Recording& recording, const NnaoFrame& frame) {
   if (frame.radius_kind == NOOK_NNAO_RADIUS_SCENE) {
     recording.frame.radius = frame.radius * frame.scene_size;
     recording.frame.radius_kind = NOOK_NNAO_RADIUS_METRES;
   }
-  if (frame.depth_kind != NOOK_NNAO_DEPTH_LOGARITHMIC) return;
+  if (frame.depth_kind != NOOK_DEPTH_LOGARITHMIC) return;
   const nnao::DepthDecode decode =
-      nnao::depth_decode({frame.projection, nnao::DepthKind::logarithmic, nnao::ClipRange(frame.clip),
+      nnao::depth_decode({frame.projection, nnao::DepthKind::logarithmic, nnao::ClipRange(frame.clip_space),
                           frame.sky_depth, frame.depth_log_scale, frame.depth_log_near, frame.depth_log_far});
   for (float& depth : recording.depth) depth = nnao::view_depth(decode, true, depth);
-  recording.frame.depth_kind = NOOK_NNAO_DEPTH_LINEAR;
+  recording.frame.depth_kind = NOOK_DEPTH_LINEAR;
   recording.frame.sky_depth = 0;
 }
 
@@ -67,9 +84,8 @@ Vector<float> ao_of(TexelReader& reader, const NnaoPass& pass, const nook_nnao_d
 }  // namespace
 
 nnao::Recording record_frame(Device& device, NnaoPass& pass, const nook_nnao_desc& made_with,
-                             std::span<const std::byte> network, const nook_nnao_frame_desc& frame,
-                             const char* note) {
-  const nook_nnao_frame_desc drawn = own_target(frame);
+                             std::span<const std::byte> network, const NnaoFrame& frame, const char* note) {
+  const NnaoFrame drawn = own_target(frame);
   const Viewport viewport = viewport_of(frame);
   nnao::Recording recording(device.memory);
   copy_note(note, recording.note);
@@ -77,14 +93,15 @@ nnao::Recording record_frame(Device& device, NnaoPass& pass, const nook_nnao_des
   TexelReader reader(device, viewport.width);
   recording.depth = reader.read(frame.depth_texture, viewport, 1);
   if (frame.normal_texture) recording.normals = reader.read(frame.normal_texture, viewport, 3);
-  if (frame.layer != NOOK_NNAO_LAYER_NONE) recording.layer = reader.read(frame.layer_texture, viewport, 2);
+  if (frame.gbuffer_ao != NOOK_GBUFFER_AO_NONE)
+    recording.layer = reader.read(frame.gbuffer_ao_texture, viewport, 2);
   recording.ao = ao_of(reader, pass, made_with, viewport);
   // AO has 8 bits; some drivers divide by 255 inexactly.
   for (float& ao : recording.ao) ao = std::round(255 * std::clamp(ao, 0.0f, 1.0f)) / 255;
   recording.width = std::uint32_t(viewport.width);
   recording.height = std::uint32_t(viewport.height);
   recording.library_version = NOOK_VERSION;
-  nnao::copy_frame_settings(drawn, recording.frame);
+  copy_settings(drawn, recording.frame);
   simplify(recording, drawn);
   recording.pass = {made_with.taps, made_with.half_resolution, made_with.blur, made_with.blur_sharpness,
                     pass.path()};

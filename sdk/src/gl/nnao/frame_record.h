@@ -5,6 +5,7 @@
 
 #include <span>
 
+#include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/gl/nnao/pass.h"
 #include "sdk/src/nnao/recording.h"
 
@@ -14,7 +15,6 @@ namespace nook::gl {
 // back. made_with: the pass's settings. network: its file. note may be null. Touches the state of a frame's
 // users and of screen_reads. Throws Failure.
 nnao::Recording record_frame(Device& device, NnaoPass& pass, const nook_nnao_desc& made_with,
-                             std::span<const std::byte> network, const nook_nnao_frame_desc& frame,
-                             const char* note);
+                             std::span<const std::byte> network, const NnaoFrame& frame, const char* note);
 
 }  // namespace nook::gl

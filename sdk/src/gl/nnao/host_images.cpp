@@ -64,36 +64,34 @@ BoundTexture bind_checked(const Device& device, const HostImages& images, const 
   const BoundTexture texture{gl, kind.target};
   if (!gl.IsTexture(name))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.%s is no texture of this OpenGL context (got %u, need the name of a 2D texture)",
-                  field, name);
+                  "%s is no texture of this OpenGL context (got %u, need the name of a 2D texture)", field,
+                  name);
   gl.ActiveTexture(GL_TEXTURE0 + kind.unit);
   gl.BindTexture(kind.target, name);
   GLint bound = 0;
   gl.GetIntegerv(kind.binding, &bound);
   if (static_cast<std::uint32_t>(bound) != name) {
     clear_refusal(device);
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.%s is a texture of another kind (got %u, need a %s)",
-                  field, name, kind.name);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is a texture of another kind (got %u, need a %s)", field,
+                  name, kind.name);
   }
   GLint base_level = 0;
   gl.GetTexParameteriv(kind.target, GL_TEXTURE_BASE_LEVEL, &base_level);
   if (base_level != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.%s begins at another level (its GL_TEXTURE_BASE_LEVEL is %d, need 0)", field,
-                  base_level);
+                  "%s begins at another level (its GL_TEXTURE_BASE_LEVEL is %d, need 0)", field, base_level);
   if (!gl.can.texture_sizes) return texture;
   const GLint width = texture.level(GL_TEXTURE_WIDTH), height = texture.level(GL_TEXTURE_HEIGHT);
   if (width != images.width || height != images.height)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.%s has another size (got %d x %d, need frame.width x frame.height, %d x %d)", field,
-                  width, height, images.width, images.height);
+                  "%s has another size (got %d x %d, need frame.width x frame.height, %d x %d)", field, width,
+                  height, images.width, images.height);
   if (is_array(kind) && texture.level(GL_TEXTURE_DEPTH) < images.layers)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.%s has another size (got %d layers, need desc.layers, %d)", field,
-                  texture.level(GL_TEXTURE_DEPTH), images.layers);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s has another size (got %d layers, need desc.views, %d)",
+                  field, texture.level(GL_TEXTURE_DEPTH), images.layers);
   if (has_samples(kind) && texture.level(GL_TEXTURE_SAMPLES) != images.samples)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.%s has another size (got %d samples, need desc.depth_samples, %d)", field,
+                  "%s has another size (got %d samples, need desc.depth_samples, %d)", field,
                   texture.level(GL_TEXTURE_SAMPLES), images.samples);
   return texture;
 }
@@ -103,24 +101,23 @@ bool is_float_or_normalised(GLint type) {
 }
 
 [[noreturn]] void refuse_format(const BoundTexture& texture, const char* field, const char* need) {
-  throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.%s has a format that does not fit (got 0x%04x, need %s)",
-                field, static_cast<unsigned>(texture.level(GL_TEXTURE_INTERNAL_FORMAT)), need);
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s has a format that does not fit (got 0x%04x, need %s)", field,
+                static_cast<unsigned>(texture.level(GL_TEXTURE_INTERNAL_FORMAT)), need);
 }
 
-void check_depth(const BoundTexture& texture, nook_nnao_depth_kind kind) {
+void check_depth(const BoundTexture& texture, nook_depth_kind kind) {
   const Functions& gl = texture.gl;
   if (!gl.can.texture_sizes) return;
   const bool depth_format = texture.level(GL_TEXTURE_DEPTH_SIZE) > 0;
   const GLint red_bits = texture.level(GL_TEXTURE_RED_SIZE);
   const bool red_float = red_bits > 0 && texture.level(GL_TEXTURE_RED_TYPE) == GL_FLOAT;
-  if (kind == NOOK_NNAO_DEPTH_LINEAR) {
+  if (kind == NOOK_DEPTH_LINEAR) {
     if (!red_float)
-      refuse_format(texture, "depth_texture", "red in floats, such as GL_R32F, for NOOK_NNAO_DEPTH_LINEAR");
+      refuse_format(texture, "frame.depth_texture", "red in floats, such as GL_R32F, for NOOK_DEPTH_LINEAR");
   } else if (!depth_format && !(red_float && red_bits >= 32)) {
-    refuse_format(texture, "depth_texture",
-                  kind == NOOK_NNAO_DEPTH_HARDWARE
-                      ? "a depth format or GL_R32F for NOOK_NNAO_DEPTH_HARDWARE"
-                      : "a depth format or GL_R32F for NOOK_NNAO_DEPTH_LOGARITHMIC");
+    refuse_format(texture, "frame.depth_texture",
+                  kind == NOOK_DEPTH_HARDWARE ? "a depth format or GL_R32F for NOOK_DEPTH_HARDWARE"
+                                              : "a depth format or GL_R32F for NOOK_DEPTH_LOGARITHMIC");
   }
   if (!depth_format || !gl.can.stencil_textures) return;
   GLint mode = GL_DEPTH_COMPONENT;
@@ -136,28 +133,29 @@ void check_normal(const BoundTexture& texture) {
   if (!texture.gl.can.texture_sizes) return;
   for (const GLenum channel : {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE, GL_TEXTURE_BLUE_TYPE})
     if (!is_float_or_normalised(texture.level(channel)))
-      refuse_format(texture, "normal_texture", "red, green and blue in floats or normalised integers");
+      refuse_format(texture, "frame.normal_texture", "red, green and blue in floats or normalised integers");
 }
 
-void check_layer(const BoundTexture& texture, nook_nnao_layer layer) {
+void check_layer(const BoundTexture& texture, nook_gbuffer_ao layer) {
   if (!texture.gl.can.texture_sizes) return;
   if (!is_float_or_normalised(texture.level(GL_TEXTURE_RED_TYPE)))
-    refuse_format(texture, "layer_texture", "red in floats or normalised integers");
-  if (layer >= NOOK_NNAO_LAYER_REPLACE && !is_float_or_normalised(texture.level(GL_TEXTURE_GREEN_TYPE)))
-    refuse_format(texture, "layer_texture", "red and green for NOOK_NNAO_LAYER_REPLACE and _APART");
+    refuse_format(texture, "frame.gbuffer_ao_texture", "red in floats or normalised integers");
+  if (layer >= NOOK_GBUFFER_AO_REPLACE && !is_float_or_normalised(texture.level(GL_TEXTURE_GREEN_TYPE)))
+    refuse_format(texture, "frame.gbuffer_ao_texture",
+                  "red and green for NOOK_GBUFFER_AO_REPLACE and _EXCLUDE");
 }
 
 void check_motion(const BoundTexture& texture) {
   if (!texture.gl.can.texture_sizes) return;
   for (const GLenum channel : {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE})
     if (!is_float_or_normalised(texture.level(channel)))
-      refuse_format(texture, "motion_texture", "red and green in floats or normalised integers");
+      refuse_format(texture, "desc.motion_vectors", "red and green in floats or normalised integers");
 }
 
 void check_ao(const BoundTexture& texture) {
   if (!texture.gl.can.texture_sizes) return;
   if (!is_float_or_normalised(texture.level(GL_TEXTURE_RED_TYPE)))
-    refuse_format(texture, "ao_texture", "red in floats or normalised integers");
+    refuse_format(texture, "desc.ao_texture", "red in floats or normalised integers");
 }
 
 void check_complete(const Functions& gl, const HostImages& images) {
@@ -175,17 +173,16 @@ void check_apart(const HostImages& images, std::uint32_t target, const char* tar
   const struct {
     std::uint32_t name;
     const char* field;
-  } inputs[] = {{images.depth, "depth_texture"},
-                {images.normal, "normal_texture"},
-                {images.layer_texture, "layer_texture"},
-                {images.motion, "motion_texture"},
-                {images.ao, "ao_texture"}};
+  } inputs[] = {{images.depth, "frame.depth_texture"},
+                {images.normal, "frame.normal_texture"},
+                {images.layer_texture, "frame.gbuffer_ao_texture"},
+                {images.motion, "desc.motion_vectors"},
+                {images.ao, "desc.ao_texture"}};
   for (const auto& input : inputs)
     if (input.name != 0 && input.name == target)
-      throw Failure(
-          NOOK_ERROR_INVALID_ARGUMENT,
-          "frame.%s is %s as well (got %u for both); a texture cannot be read and drawn into at once",
-          input.field, target_field, target);
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "%s is %s as well (got %u for both); a texture cannot be read and drawn into at once",
+                    input.field, target_field, target);
 }
 
 std::uint32_t attached_texture(const Functions& gl, GLenum attachment) {
@@ -238,32 +235,31 @@ void check_renderable(const Functions& gl, const HostImages& images, std::uint32
 void check_target_texture(const Device& device, const HostImages& images, std::uint32_t own_texture) {
   if (images.target_name == own_texture)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.target_name is the pass's own texture (got %u); use NOOK_NNAO_TARGET_OWN",
-                  own_texture);
+                  "frame.target_name is the pass's own texture (got %u); use NOOK_TARGET_OWN", own_texture);
   check_apart(images, images.target_name, "frame.target_name");
   const BoundTexture texture =
-      bind_checked(device, images, kind_of(images), images.target_name, "target_name");
+      bind_checked(device, images, kind_of(images), images.target_name, "frame.target_name");
   if (device.gl.can.texture_sizes && !is_float_or_normalised(texture.level(GL_TEXTURE_RED_TYPE)))
-    refuse_format(texture, "target_name", "a colour format in floats or normalised integers");
+    refuse_format(texture, "frame.target_name", "a colour format in floats or normalised integers");
 }
 
 }  // namespace
 
-HostImages images_of(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass) {
+HostImages images_of(const NnaoFrame& frame, const nook_nnao_desc& pass) {
   HostImages images;
   images.width = frame.width;
   images.height = frame.height;
-  images.layers = pass.layers;
+  images.layers = pass.views;
   images.samples = pass.depth_samples;
   images.normal_samples = pass.normal_samples;
   images.depth_kind = frame.depth_kind;
-  images.layer = frame.layer;
+  images.layer = frame.gbuffer_ao;
   images.target = frame.target;
   images.depth = frame.depth_texture;
   images.normal = frame.normal_texture;
-  if (frame.layer != NOOK_NNAO_LAYER_NONE) images.layer_texture = frame.layer_texture;
-  if (frame.target != NOOK_NNAO_TARGET_OWN) images.target_name = frame.target_name;
-  if (pass.temporal_frames) images.motion = frame.motion_texture;
+  if (frame.gbuffer_ao != NOOK_GBUFFER_AO_NONE) images.layer_texture = frame.gbuffer_ao_texture;
+  if (frame.target != NOOK_TARGET_OWN) images.target_name = frame.target_name;
+  if (pass.max_history_frames) images.motion = frame.motion_vectors;
   return images;
 }
 
@@ -275,9 +271,9 @@ void check_images_of(const Functions& gl, const nook_nnao_desc& pass) {
                   "desc.depth_samples needs multisample textures (got %s %d.%d, need 3.1 or newer); resolve "
                   "depth to a 2D texture",
                   api_name(gl), major, minor);
-  if (pass.layers != 0 && !gl.can.sample_arrays)
+  if (pass.views != 0 && !gl.can.sample_arrays)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "desc.layers with desc.depth_samples needs multisample texture arrays (got %s %d.%d, need "
+                  "desc.views with desc.depth_samples needs multisample texture arrays (got %s %d.%d, need "
                   "3.2 or newer); resolve depth to a 2D texture array",
                   api_name(gl), major, minor);
 }
@@ -288,17 +284,20 @@ void check_images(const Device& device, const HostImages& images, std::uint32_t 
   check_apart(images, own_texture, "the pass's own texture");
   const TextureKind depth_kind = sampled_kind_of(images, images.samples),
                     normal_kind = sampled_kind_of(images, images.normal_samples);
-  check_depth(bind_checked(device, images, depth_kind, images.depth, "depth_texture"), images.depth_kind);
-  if (images.normal) check_normal(bind_checked(device, images, normal_kind, images.normal, "normal_texture"));
+  check_depth(bind_checked(device, images, depth_kind, images.depth, "frame.depth_texture"),
+              images.depth_kind);
+  if (images.normal)
+    check_normal(bind_checked(device, images, normal_kind, images.normal, "frame.normal_texture"));
   if (images.layer_texture)
-    check_layer(bind_checked(device, images, kind, images.layer_texture, "layer_texture"), images.layer);
-  if (images.motion) check_motion(bind_checked(device, images, kind, images.motion, "motion_texture"));
-  if (images.ao) check_ao(bind_checked(device, images, kind, images.ao, "ao_texture"));
-  if (images.target == NOOK_NNAO_TARGET_TEXTURE) {
+    check_layer(bind_checked(device, images, kind, images.layer_texture, "frame.gbuffer_ao_texture"),
+                images.layer);
+  if (images.motion) check_motion(bind_checked(device, images, kind, images.motion, "desc.motion_vectors"));
+  if (images.ao) check_ao(bind_checked(device, images, kind, images.ao, "desc.ao_texture"));
+  if (images.target == NOOK_TARGET_TEXTURE) {
     check_target_texture(device, images, own_texture);
     check_renderable(device.gl, images, target_framebuffer);
   }
-  if (images.target == NOOK_NNAO_TARGET_FRAMEBUFFER) check_framebuffer(device, images);
+  if (images.target == NOOK_TARGET_FRAMEBUFFER) check_framebuffer(device, images);
 }
 
 }  // namespace nook::gl

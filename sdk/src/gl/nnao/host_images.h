@@ -4,6 +4,7 @@
 #include <nook/nook_nnao.h>
 
 #include "sdk/src/gl/device.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
 
 namespace nook::gl {
 
@@ -13,15 +14,15 @@ struct HostImages {
   int layers = 0;   // of texture arrays; 0: 2D textures
   int samples = 0;  // of depth; 0: it is no multisample texture
   int normal_samples = 0;
-  nook_nnao_depth_kind depth_kind = 0;
-  nook_nnao_layer layer = 0;
-  nook_nnao_target target = 0;
+  nook_depth_kind depth_kind = 0;
+  nook_gbuffer_ao layer = 0;
+  nook_target target = 0;
   std::uint32_t depth = 0, normal = 0, layer_texture = 0, motion = 0, ao = 0, target_name = 0;
 
   bool operator==(const HostImages&) const = default;
 };
 // pass: what the host gave for the pass that reads them.
-HostImages images_of(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass);
+HostImages images_of(const NnaoFrame& frame, const nook_nnao_desc& pass);
 
 // Throws Failure(NOOK_ERROR_UNSUPPORTED) unless this OpenGL has the kinds of images of a pass.
 void check_images_of(const Functions& gl, const nook_nnao_desc& pass);

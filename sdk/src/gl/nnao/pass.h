@@ -4,7 +4,7 @@
 //   full resolution  host depth -> depth -> AO and edges -> [mean ->] [filter ->] filter and resolve
 //   half resolution  host depth -> depth of every fourth pixel -> AO and edges -> [mean ->] filter ->
 //                    [filter ->] upsample and resolve
-// The mean over frames belongs to passes with temporal_frames. Passes with layers draw them one after the
+// The mean over frames belongs to passes with max_history_frames. Passes with views draw them one after the
 // other. The paper's form reads the normals of its taps: a stage between depth and AO writes them.
 #pragma once
 
@@ -16,6 +16,7 @@
 #include "sdk/src/gl/nnao/frame_constants.h"
 #include "sdk/src/gl/nnao/history_constants.h"
 #include "sdk/src/gl/nnao/host_images.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/gl/nnao/render_texture.h"
 #include "sdk/src/gl/nnao/stage_timer.h"
 #include "sdk/src/gl/texel_table.h"
@@ -36,7 +37,7 @@ constexpr int drawn_filters(const nook_nnao_desc& desc) {
 
 // Returns whether the frame writes every texel of a target that is no framebuffer of the host: its old
 // contents are not needed then.
-bool replaces_target(const nook_nnao_frame_desc& frame, const nook_nnao_desc& pass);
+bool replaces_target(const NnaoFrame& frame, const nook_nnao_desc& pass);
 
 // Every call may change any of the touched state; the caller holds a StateGuard.
 class NnaoPass {
@@ -45,8 +46,7 @@ class NnaoPass {
   NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Network& network);
 
   // Draws a frame that passed check_frame. Throws Failure before anything is drawn.
-  void render(const nook_nnao_frame_desc& frame);
-  void recheck() { checked_.reset(); }
+  void render(const NnaoFrame& frame);
 
   // Returns the path of the network's stage: FRAGMENT or COMPUTE.
   nook_nnao_path path() const { return path_; }
@@ -63,8 +63,8 @@ class NnaoPass {
   void make_textures(nnao::NetworkForm form);
   void upload_filters(const nnao::Network& network);
 
-  void check(const nook_nnao_frame_desc& frame);
-  bool temporal() const { return desc_.temporal_frames != 0; }
+  void check(const NnaoFrame& frame);
+  bool temporal() const { return desc_.max_history_frames != 0; }
   bool half() const { return desc_.half_resolution != 0; }
   void bind_texture(GLuint unit, GLuint texture) const;
   // Binds a texture of the host; 0: nothing is bound. samples: it is multisampled.
@@ -76,7 +76,7 @@ class NnaoPass {
   void draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer, const Viewport& viewport,
             bool discards = true) const;
   void run_network(const FrameConstants& constants, const Viewport& surface) const;
-  // The textures that passes with temporal_frames keep for each layer; all layers of others share one.
+  // The textures that passes with max_history_frames keep for each layer; all layers of others share one.
   struct LayerTextures {
     RenderTexture depth[2];    // of the surface; two for means over frames, which use them in turns
     RenderTexture history[2];  // means over frames, in turns
@@ -87,12 +87,11 @@ class NnaoPass {
   std::size_t turn(const LayerTextures& layer) const { return temporal() ? layer.earlier.count % 2 : 0; }
 
   // Draws one layer of a frame that has its matrices.
-  void render_layer(const nook_nnao_frame_desc& frame, int layer);
+  void render_layer(const NnaoFrame& frame, int layer);
   // Blends the frame with those before it, and returns the texture of the mean.
-  GLuint accumulate(const nook_nnao_frame_desc& frame, const FrameConstants& constants,
-                    const Viewport& surface, LayerTextures& kept);
-  void draw_output(const Stage& stage, const nook_nnao_frame_desc& frame, const FrameConstants& constants,
-                   int layer);
+  GLuint accumulate(const NnaoFrame& frame, const FrameConstants& constants, const Viewport& surface,
+                    LayerTextures& kept);
+  void draw_output(const Stage& stage, const NnaoFrame& frame, const FrameConstants& constants, int layer);
   void end_stage() {
     if (timer_) timer_->end_stage();
   }

@@ -53,7 +53,7 @@ PassPlan plan_of(const nook_nnao_desc& desc, nnao::NetworkForm form, const PassF
   const bool half = desc.half_resolution != 0, paper = form == nnao::NetworkForm::paper,
              filtered = drawn_filters(desc) > 0;
   const int width = surface_length(desc.max_width, half), height = surface_length(desc.max_height, half);
-  const int temporal_width = desc.temporal_frames ? width : 0;
+  const int temporal_width = desc.max_history_frames ? width : 0;
   return {{{formats.depth, width, height, "nook: linear depth"},
            {formats.depth, temporal_width, height, "nook: linear depth of the frame before"}},
           {formats.normal, paper ? width : 0, height, "nook: normals"},
@@ -63,7 +63,7 @@ PassPlan plan_of(const nook_nnao_desc& desc, nnao::NetworkForm form, const PassF
            {TextureFormat::ao_image, temporal_width, height, "nook: mean AO over the frames before"}},
           {formats.own, desc.max_width, desc.max_height, "nook: screen-space AO"},
           drawn_layers(desc),
-          desc.temporal_frames ? drawn_layers(desc) : 1};
+          desc.max_history_frames ? drawn_layers(desc) : 1};
 }
 
 }  // namespace
@@ -148,7 +148,7 @@ void NnaoPass::make_programs(const nnao::Network& network) {
   char layered[sizeof given.text + 32], apart[sizeof given.text + 32];
   std::snprintf(layered, sizeof layered, "%s#define NOOK_LAYERED 1\n", defines);
   std::snprintf(apart, sizeof apart, "%s#define NOOK_APART 0.5\n", defines);
-  const bool samples = desc_.depth_samples > 0, sample_arrays = samples && desc_.layers > 0;
+  const bool samples = desc_.depth_samples > 0, sample_arrays = samples && desc_.views > 0;
   const auto drawn = [&](const char* path, const char* text, bool medium_precision = false) {
     return make_stage(
         draw_program(device_, "nnao/screen.vert", path, text, {samples, sample_arrays, medium_precision}));
@@ -194,7 +194,7 @@ void NnaoPass::make_textures(nnao::NetworkForm form) {
   make(normals_, plan.normals);
   make(ao_[0], plan.ao[0]);
   make(ao_[1], plan.ao[1]);
-  if (desc_.layers > 0)
+  if (desc_.views > 0)
     own_ = RenderTexture(device_, plan.own.format, plan.own.width, plan.own.height, plan.own_layers,
                          plan.own.label);
   else
@@ -204,7 +204,7 @@ void NnaoPass::make_textures(nnao::NetworkForm form) {
   const GLfloat aside = desc_.bent_normals ? 0.5f : 1, open[4] = {aside, aside, 1, 1};
   device_.gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, own_.framebuffer());
   for (int layer = 0; layer < plan.own_layers; ++layer) {
-    if (desc_.layers > 0) attach_layer(device_.gl, own_.texture(), layer);
+    if (desc_.views > 0) attach_layer(device_.gl, own_.texture(), layer);
     device_.gl.ClearBufferfv(GL_COLOR, 0, open);
   }
 }

@@ -12,9 +12,9 @@ PassDefines pass_defines(const nook_nnao_desc& desc, bool horizon, const nnao::T
       "#define NOOK_HALF %d\n#define NOOK_HORIZON %d\n#define NOOK_DIRECTIONS %u\n#define NOOK_STEPS %u\n"
       "#define NOOK_BENT_NORMALS %d\n#define NOOK_TEMPORAL %d\n",
       desc.half_resolution != 0, horizon, grid.directions, grid.steps, desc.bent_normals,
-      desc.temporal_frames != 0);
+      desc.max_history_frames != 0);
   std::size_t used = std::strlen(defines.text);
-  if (desc.layers > 0)
+  if (desc.views > 0)
     used += std::size_t(
         std::snprintf(defines.text + used, sizeof defines.text - used, "#define NOOK_LAYERS 1\n"));
   if (desc.depth_samples > 0)

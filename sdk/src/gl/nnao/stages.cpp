@@ -30,9 +30,9 @@ struct ShaderImage {
 };
 constexpr ShaderImage shader_images[] = {
     {"nook_host_depth", NOOK_NNAO_IMAGE_HOST_DEPTH}, {"nook_host_normal", NOOK_NNAO_IMAGE_HOST_NORMAL},
-    {"nook_layer", NOOK_NNAO_IMAGE_HOST_LAYER},      {"nook_motion", NOOK_NNAO_IMAGE_HOST_MOTION},
+    {"nook_layer", NOOK_NNAO_IMAGE_HOST_GBUFFER_AO}, {"nook_motion", NOOK_NNAO_IMAGE_HOST_MOTION_VECTORS},
     {"nook_depth", NOOK_NNAO_IMAGE_DEPTH},           {"nook_ao", NOOK_NNAO_IMAGE_AO},
-    {"nook_history", NOOK_NNAO_IMAGE_EARLIER_MEAN},  {"nook_history_depth", NOOK_NNAO_IMAGE_EARLIER_DEPTH}};
+    {"nook_history", NOOK_NNAO_IMAGE_HISTORY_AO},    {"nook_history_depth", NOOK_NNAO_IMAGE_HISTORY_DEPTH}};
 
 constexpr std::string_view blocks =
     "layout(NOOK_SET binding = 0, std140) uniform nook_frame_block {\n"
@@ -149,10 +149,10 @@ bool uses(const nook_nnao_desc& desc, nook_nnao_image image) {
       return true;
     case NOOK_NNAO_IMAGE_FILTERED:
       return drawn_filters(desc) > 0;
-    case NOOK_NNAO_IMAGE_MEAN:
-    case NOOK_NNAO_IMAGE_EARLIER_DEPTH:
-    case NOOK_NNAO_IMAGE_EARLIER_MEAN:
-      return desc.temporal_frames != 0;
+    case NOOK_NNAO_IMAGE_ACCUMULATED_AO:
+    case NOOK_NNAO_IMAGE_HISTORY_DEPTH:
+    case NOOK_NNAO_IMAGE_HISTORY_AO:
+      return desc.max_history_frames != 0;
     default:
       return false;
   }
@@ -161,10 +161,10 @@ bool uses(const nook_nnao_desc& desc, nook_nnao_image image) {
 nook_nnao_format format_of(const nook_nnao_desc& desc, nook_nnao_image image) {
   switch (image) {
     case NOOK_NNAO_IMAGE_DEPTH:
-    case NOOK_NNAO_IMAGE_EARLIER_DEPTH:
+    case NOOK_NNAO_IMAGE_HISTORY_DEPTH:
       return desc.normal_samples ? NOOK_NNAO_FORMAT_R32G32_UINT : NOOK_NNAO_FORMAT_R32_UINT;
-    case NOOK_NNAO_IMAGE_MEAN:
-    case NOOK_NNAO_IMAGE_EARLIER_MEAN:
+    case NOOK_NNAO_IMAGE_ACCUMULATED_AO:
+    case NOOK_NNAO_IMAGE_HISTORY_AO:
       return NOOK_NNAO_FORMAT_R8G8B8A8_UNORM;
     case NOOK_NNAO_IMAGE_TARGET:
       return desc.bent_normals ? NOOK_NNAO_FORMAT_R8G8B8A8_UNORM : NOOK_NNAO_FORMAT_R8_UNORM;
@@ -189,10 +189,10 @@ PassStages pass_stages(const nook_nnao_desc& desc, const nnao::Network& network,
            NOOK_NNAO_IMAGE_AO, "#define NOOK_APART 0.5\n");
   list.add("occlusion", "nnao/occlusion.frag", NOOK_NNAO_IMAGE_AO, {"nook_depth", "nook_host_normal"});
   nook_nnao_image ao = NOOK_NNAO_IMAGE_AO;
-  if (desc.temporal_frames) {
-    list.add("accumulate", "nnao/accumulate.frag", NOOK_NNAO_IMAGE_MEAN,
+  if (desc.max_history_frames) {
+    list.add("accumulate", "nnao/accumulate.frag", NOOK_NNAO_IMAGE_ACCUMULATED_AO,
              {"nook_depth", "nook_ao", "nook_history", "nook_history_depth", "nook_motion"});
-    ao = NOOK_NNAO_IMAGE_MEAN;
+    ao = NOOK_NNAO_IMAGE_ACCUMULATED_AO;
   }
   for (int filter = 0; filter < drawn_filters(desc); ++filter) {
     const nook_nnao_image to = filter % 2 == 0 ? NOOK_NNAO_IMAGE_FILTERED : NOOK_NNAO_IMAGE_AO;
@@ -227,18 +227,18 @@ nook_nnao_image_info stage_image(const nook_nnao_desc& desc, nook_nnao_image ima
   return info;
 }
 
-std::uint32_t drawn_stages(std::size_t count, nook_nnao_layer layer) {
-  const std::size_t skipped_depth = layer == NOOK_NNAO_LAYER_APART ? 0 : 1;
-  const std::size_t skipped_resolve = layer == NOOK_NNAO_LAYER_NONE ? count - 1 : count - 2;
+std::uint32_t drawn_stages(std::size_t count, nook_gbuffer_ao layer) {
+  const std::size_t skipped_depth = layer == NOOK_GBUFFER_AO_EXCLUDE ? 0 : 1;
+  const std::size_t skipped_resolve = layer == NOOK_GBUFFER_AO_NONE ? count - 1 : count - 2;
   return ((1u << count) - 1) & ~(1u << skipped_depth) & ~(1u << skipped_resolve);
 }
 
-nook_nnao_frame_values frame_values(const nook_nnao_desc& desc, const nook_nnao_frame_desc& frame,
-                                    const nook_nnao_frame_desc* earlier, std::uint32_t number, int layer) {
-  const auto constants_of = [&](const nook_nnao_frame_desc& of) {
+nook_nnao_frame_values frame_values(const nook_nnao_desc& desc, const NnaoFrame& frame,
+                                    const NnaoFrame* earlier, std::uint32_t number, int layer) {
+  const auto constants_of = [&](const NnaoFrame& of) {
     return frame_constants(layer_frame(of, layer), desc, number, layer);
   };
-  const auto surface_of = [&](const nook_nnao_frame_desc& of) {
+  const auto surface_of = [&](const NnaoFrame& of) {
     const Viewport viewport = viewport_of(of);
     const bool half = desc.half_resolution != 0;
     return Viewport{0, 0, surface_length(viewport.width, half), surface_length(viewport.height, half)};
@@ -248,7 +248,9 @@ nook_nnao_frame_values frame_values(const nook_nnao_desc& desc, const nook_nnao_
   EarlierFrame before;
   if (earlier) {
     const Viewport size = surface_of(*earlier);
-    before = {number, true, constants_of(*earlier), size.width, size.height};
+    before = {number, true, constants_of(*earlier), size.width, size.height, {}};
+    const NnaoFrame one = layer_frame(*earlier, layer);
+    std::copy(std::begin(one.view), std::end(one.view), before.view);
   }
   const HistoryConstants history = history_constants(layer_frame(frame, layer), desc, constants, before);
   nook_nnao_frame_values values{};

@@ -1,9 +1,10 @@
 // The stages of the screen-space pass as shader text and images, for hosts without OpenGL.
 #pragma once
 
-#include <nook/nook_nnao_stages.h>
+#include <nook/experimental/nook_stages.h>
 
 #include "sdk/src/core/containers.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/nnao/network.h"
 
 namespace nook::gl {
@@ -32,11 +33,11 @@ PassStages pass_stages(const nook_nnao_desc& desc, const nnao::Network& network,
 
 nook_nnao_image_info stage_image(const nook_nnao_desc& desc, nook_nnao_image image);
 
-// The stages that a frame with this layer draws, as bits; count is that of the pass.
-std::uint32_t drawn_stages(std::size_t count, nook_nnao_layer layer);
+// The stages that a frame with this G-buffer AO draws, as bits; count is that of the pass.
+std::uint32_t drawn_stages(std::size_t count, nook_gbuffer_ao layer);
 
 // frame has passed check_frame, and earlier may be null. drawn_stages stays 0.
-nook_nnao_frame_values frame_values(const nook_nnao_desc& desc, const nook_nnao_frame_desc& frame,
-                                    const nook_nnao_frame_desc* earlier, std::uint32_t number, int layer);
+nook_nnao_frame_values frame_values(const nook_nnao_desc& desc, const NnaoFrame& frame,
+                                    const NnaoFrame* earlier, std::uint32_t number, int layer);
 
 }  // namespace nook::gl

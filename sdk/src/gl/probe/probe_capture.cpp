@@ -129,7 +129,7 @@ void ProbeCapture::check_targets() const {
                   "capture for it");
 }
 
-void ProbeCapture::add(std::size_t probe, GLuint cube_map) {
+void ProbeCapture::add(std::size_t probe, GLuint cube_map, bool restart) {
   check_targets();
   const Functions& gl = device_.gl;
   gl.ActiveTexture(GL_TEXTURE0 + NOOK_CAPTURE_UNIT_CUBE);
@@ -138,7 +138,7 @@ void ProbeCapture::add(std::size_t probe, GLuint cube_map) {
   gl.BindSampler(NOOK_CAPTURE_UNIT_TABLE, 0);
   gl.BindVertexArray(vertex_array_.name());
   feedback_.begin(device_);
-  maps_[probe] = std::min(maps_[probe] + 1, settings_.history);
+  maps_[probe] = restart ? 1 : std::min(maps_[probe] + 1, settings_.history);
   if (settings_.sky) find_limit();
   for (std::uint32_t group = 0; group < plan_.groups(); ++group) {
     sum_rows(group < plan_.lobe_groups() ? lobe_rows_ : band_rows_, group, NOOK_CAPTURE_GROUP);

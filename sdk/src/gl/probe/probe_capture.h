@@ -48,10 +48,9 @@ class ProbeCapture {
   // The functions change the state of the user `captures` in touched_state.h. All throw Failure.
   ProbeCapture(Device& device, const CaptureTargets& targets, const CaptureSettings& settings);
 
-  // Replaces what the targets hold of a probe, which exists, by its average over maps with this one.
-  void add(std::size_t probe, GLuint cube_map);
-  // The next map of the probe is its first one.
-  void forget(std::size_t probe) { maps_[probe] = 0; }
+  // Replaces what the targets hold of a probe, which exists, by its average over maps with this one. With
+  // restart, this map is the first one of the average.
+  void add(std::size_t probe, GLuint cube_map, bool restart);
   // Both wait for the GPU. Without lobes the probes are of harmonics. Probes without a map are 0.
   CaptureResult read(std::size_t probe) const;
   probe::Probes read_all() const;

@@ -16,7 +16,7 @@ ProbeTexture::ProbeTexture(Device& device, const probe::Probes& probes)
 void ProbeTexture::update(const probe::Probes& probes) {
   if (probes.basis.kind != probe::BasisKind::gaussians)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the probe is not of lobes; upload one that was fitted with NOOK_PROBE_GAUSSIANS");
+                  "the probe is not of lobes; upload one that was fitted with NOOK_PROBE_BASIS_LOBES");
   const std::uint64_t count = probe_texel_count(probes);
   if (count > device_.max_texels)
     throw Failure(

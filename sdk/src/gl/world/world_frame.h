@@ -1,12 +1,13 @@
 // The input of a frame of the world pass: the host's images, groups of casters, light.
 #pragma once
 
-#include <nook/nook_gl_world.h>
+#include <nook/nook_world.h>
 
 #include <optional>
 #include <span>
 
 #include "sdk/src/core/capsule.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/world/caster_parts.h"
 #include "sdk/src/world/light_terms.h"
 
@@ -50,10 +51,10 @@ struct LightCone {
 
 // A frame that passed its checks.
 struct WorldFrame {
-  const nook_nnao_frame_desc& screen;
+  const NnaoFrame& screen;
   const float* view;  // column-major
   std::uint32_t ao_texture = 0;
-  nook_world_composition composition = NOOK_WORLD_PRODUCT;
+  nook_world_combine composition = NOOK_WORLD_COMBINE_MULTIPLY;
   float level_error = 0;
   nook_world_view show = NOOK_WORLD_VIEW_AO;
   world::LightTerms light;  // in view space; of coloured passes

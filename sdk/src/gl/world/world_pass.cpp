@@ -63,7 +63,7 @@ constexpr int far_length(int length, int step) {
 
 }  // namespace
 
-WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
+WorldPass::WorldPass(Device& device, const nook_world_desc& desc)
     : device_(device),
       max_width_(desc.max_width),
       max_height_(desc.max_height),
@@ -89,7 +89,7 @@ WorldPass::WorldPass(Device& device, const nook_world_pass_desc& desc)
   if (half_) make_half(desc);
   own_ = RenderTexture(device, result_format(coloured_), desc.max_width, desc.max_height,
                        "nook: AO of the world");
-  casters_.reserve(device, desc.casters);
+  casters_.reserve(device, desc.capsules);
   sampler_ = Object::make(device, Object::Kind::sampler);
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
     gl.SamplerParameteri(sampler_.name(), filter, GL_NEAREST);
@@ -143,7 +143,7 @@ WorldPass::Stage WorldPass::make_stage(Object program) const {
   stage.columns = at("nook_world_tile_columns");
   stage.tile_size = at("nook_world_tile_size");
   stage.first_tile = at("nook_world_first_tile");
-  stage.composition = at("nook_world_composition");
+  stage.composition = at("nook_world_combine");
   stage.counts = at("nook_world_counts");
   stage.far = at("nook_world_far");
   stage.first_far_tile = at("nook_world_first_far_tile");
@@ -171,7 +171,7 @@ TextureFormat WorldPass::half_format() const {
   return red ? TextureFormat::ao_image : result_format(coloured_);
 }
 
-void WorldPass::make_half(const nook_world_pass_desc& desc) {
+void WorldPass::make_half(const nook_world_desc& desc) {
   char masked[80];
   std::snprintf(masked, sizeof masked, "#define NOOK_APART %s\n", float_literal(float(NOOK_REPLACED)).text);
   half_depth_ = make_draw("nnao/depth.frag", "");
@@ -200,7 +200,7 @@ std::uint64_t WorldPass::bytes() const {
 void WorldPass::check(const WorldFrame& frame) {
   HostImages images = images_of(frame.screen, plain_pass(half_));
   images.ao = frame.ao_texture;
-  if (checked_ == images) return;
+  if (checked_ == images && !frame.screen.textures_changed) return;
   checked_.reset();
   check_images(device_, images, own_.texture(), target_framebuffer_.name());
   checked_ = images;
@@ -263,7 +263,7 @@ void WorldPass::draw(GLuint framebuffer, const Viewport& viewport) const {
 
 void WorldPass::draw_depth(const WorldFrame& frame, const FrameConstants& constants) const {
   const Viewport viewport = viewport_of(frame.screen);
-  set_frame(frame.screen.layer >= NOOK_NNAO_LAYER_REPLACE ? masked_half_depth_ : half_depth_, frame,
+  set_frame(frame.screen.gbuffer_ao >= NOOK_GBUFFER_AO_REPLACE ? masked_half_depth_ : half_depth_, frame,
             constants);
   draw(depth_.framebuffer(),
        {0, 0, surface_length(viewport.width, true), surface_length(viewport.height, true)});
@@ -301,19 +301,19 @@ void WorldPass::darken_half(const WorldFrame& frame, const FrameConstants& const
 
 const WorldPass::Stage& WorldPass::output_of(const WorldFrame& frame) const {
   if (half_ && frame.show != NOOK_WORLD_VIEW_AO) return counts_;
-  return frame.screen.layer != NOOK_NNAO_LAYER_NONE ? layered_output_ : output_;
+  return frame.screen.gbuffer_ao != NOOK_GBUFFER_AO_NONE ? layered_output_ : output_;
 }
 
 void WorldPass::draw_output(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants) {
   const Functions& gl = device_.gl;
-  const nook_nnao_frame_desc& screen = frame.screen;
-  const bool to_texture = screen.target == NOOK_NNAO_TARGET_TEXTURE;
+  const NnaoFrame& screen = frame.screen;
+  const bool to_texture = screen.target == NOOK_TARGET_TEXTURE;
   set_frame(stage, frame, constants);
   GLuint framebuffer = own_.framebuffer();
-  if (screen.target != NOOK_NNAO_TARGET_OWN) {
+  if (screen.target != NOOK_TARGET_OWN) {
     framebuffer = to_texture ? target_framebuffer_.name() : screen.target_name;
     if (gl.can.desktop_raster) gl.Enable(GL_FRAMEBUFFER_SRGB);  // OpenGL ES has no switch: it is on
-    if (screen.blend == NOOK_NNAO_MULTIPLY) set_blend(gl, multiplying);
+    if (screen.blend == NOOK_BLEND_MULTIPLY) set_blend(gl, multiplying);
   }
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
   if (to_texture)
@@ -331,8 +331,8 @@ void WorldPass::render(const WorldFrame& frame, const ReachingGroups& groups) {
   check(frame);
   casters_.write(device_, frame, groups);
   const Functions& gl = device_.gl;
-  const nook_nnao_frame_desc& screen = frame.screen;
-  const bool layered = screen.layer != NOOK_NNAO_LAYER_NONE;
+  const NnaoFrame& screen = frame.screen;
+  const bool layered = screen.gbuffer_ao != NOOK_GBUFFER_AO_NONE;
   set_plain_drawing(gl);
   gl.BindVertexArray(vertex_array_.name());
   for (GLuint unit = 0; unit < texture_unit_count; ++unit) gl.BindSampler(unit, sampler_.name());
@@ -346,13 +346,13 @@ void WorldPass::render(const WorldFrame& frame, const ReachingGroups& groups) {
   bind(NOOK_UNIT_LAYER, 0);
   bind(caster_unit, 0);
   casters_.bind(device_);
-  if (layered) bind(NOOK_UNIT_LAYER, screen.layer_texture);
+  if (layered) bind(NOOK_UNIT_LAYER, screen.gbuffer_ao_texture);
   const FrameConstants constants = frame_constants(screen, plain_pass(half_), 0);
   if (half_) {
     draw_depth(frame, constants);
     bind(darkening_depth_unit, depth_.texture());
     darken_half(frame, constants);
-    bind(NOOK_UNIT_LAYER, layered ? screen.layer_texture : 0);
+    bind(NOOK_UNIT_LAYER, layered ? screen.gbuffer_ao_texture : 0);
     bind(other_ao_unit, frame.ao_texture);
     bind(upsample_depth_unit, depth_.texture());
     bind(half_ao_unit, ao_.texture());

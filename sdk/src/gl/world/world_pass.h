@@ -6,7 +6,7 @@
 // whose groups leave out the bodies that reach none of their surfaces.
 #pragma once
 
-#include <nook/nook_gl_world.h>
+#include <nook/nook_world.h>
 
 #include <array>
 #include <optional>
@@ -24,11 +24,10 @@ namespace nook::gl {
 class WorldPass {
  public:
   // Throws Failure.
-  WorldPass(Device& device, const nook_world_pass_desc& desc);
+  WorldPass(Device& device, const nook_world_desc& desc);
 
   // Draws a frame. Throws Failure before anything is drawn.
   void render(const WorldFrame& frame, const ReachingGroups& groups);
-  void recheck() { checked_.reset(); }
 
   // Returns true if the pass has stages that are compute shaders.
   bool computes() const { return computes_; }
@@ -53,7 +52,7 @@ class WorldPass {
   // All defines of a stage.
   std::array<char, 160> defines_of(const char* own) const;
   TextureFormat half_format() const;
-  void make_half(const nook_world_pass_desc& desc);
+  void make_half(const nook_world_desc& desc);
   void check(const WorldFrame& frame);
   void set_light(const Stage& stage, const WorldFrame& frame) const;
   void set_frame(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants) const;

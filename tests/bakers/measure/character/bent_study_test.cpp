@@ -33,21 +33,21 @@ CharacterModel planted_model(const SkinnedMesh& mesh) {
   KeyPoint point{{}, up, {}, up, {}, {1, 0, 0, 0}};
   model.key_points.push_back(point);
   model.influences = 1;
-  const Vec3 blocked = blocked_by_sphere(centre, radius, up);
+  const Vec3 occluded = occluded_by_sphere(centre, radius, up);
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     const bool on_patch = v < patch_vertices;
     model.influence.push_back(0);
     model.alpha.push_back(1e-9f);
     model.blend.push_back(1);
     model.bias.push_back(on_patch ? 1 - ao_under_sphere(centre, radius, up) : 0);
-    model.blocked.push_back(on_patch ? BlockedEnds{blocked, blocked} : BlockedEnds{});
+    model.occluded.push_back(on_patch ? OccludedEnds{occluded, occluded} : OccludedEnds{});
     model.file_to_welded.push_back(std::uint32_t(v));
   }
   return model;
 }
 
 double closed_form_degrees() {
-  const Vec3 bent = normalised((2.0f / 3) * up - blocked_by_sphere(centre, radius, up));
+  const Vec3 bent = normalised((2.0f / 3) * up - occluded_by_sphere(centre, radius, up));
   return std::acos(double(dot(bent, up))) * 180 / std::numbers::pi;
 }
 
@@ -110,7 +110,7 @@ TEST_CASE("the points of a fit have the model's pixels and those of the referenc
 TEST_CASE("a study of a model without bent normals names the command that adds them") {
   const SkinnedMesh mesh = body();
   CharacterModel model = planted_model(mesh);
-  model.blocked.clear();
+  model.occluded.clear();
   const std::vector<Pose> poses{{Mat3x4{}}};
   try {
     nook::measure::bent_rows(mesh, model, poses, {}, {});

@@ -1,4 +1,5 @@
 // The comparisons with an evaluation that ray traces itself, so that the errors are known.
+#include <nook/experimental/nook_debug.h>
 #include <nook/nook_character.h>
 
 #include <algorithm>
@@ -26,7 +27,7 @@ class TracedCrowd final : public EvaluatedCrowd {
   std::vector<float> static_ao() const override { return std::vector<float>(crowd_.vertex_count(), 1.0f); }
   float gamma() const override { return 1; }
   VertexValues directional_ao(std::span<const std::uint32_t> characters,
-                              std::span<const nook_probe_lobe>) override {
+                              std::span<const nook_lobe>) override {
     return VertexValues(characters.size(), std::vector<float>(3 * std::size_t(crowd_.vertex_count()), 1.0f));
   }
 
@@ -127,7 +128,7 @@ TEST_CASE("the sheet has five panels, and three more with screen-space AO") {
 TEST_CASE("under constant light AO is all that counts, and what has no occlusion is wrong") {
   Scene scene;
   const std::vector<float> rgb(3 * 8 * 4, 1.0f);
-  nook_probe_lobe lobe{};
+  nook_lobe lobe{};
   lobe.axis[1] = 1;
   for (float& channel : lobe.amplitude) channel = 1;
   const Light light{std::span(&lobe, 1), {rgb.data(), 8, 4}, 1.0f};

@@ -21,8 +21,8 @@ Character make_character() {
   const std::vector<float> weights(kVertices, 1.0f);
   const std::int32_t parent = -1;
   const float frame[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-  nook_bake_mesh_desc desc;
-  nook_bake_mesh_desc_init(&desc, sizeof desc, NOOK_VERSION);
+  nook_bake_source_desc desc;
+  nook_bake_source_desc_init(&desc);
   desc.positions = positions.data();
   desc.indices = indices.data();
   desc.joints = joints.data();

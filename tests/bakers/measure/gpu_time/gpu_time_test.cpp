@@ -63,8 +63,8 @@ TEST_CASE("a crowd stands on the ground, and its neighbours darken it") {
     crowd.pose(neighbours);
     succeed(nook_scene_update(crowd.scene()));
     std::vector<float> ao(crowd.vertex_count());
-    succeed(
-        nook_scene_read_ao(crowd.scene(), crowd.bodies().front(), ao.data(), std::uint32_t(ao.size()), 0));
+    succeed(nook_scene_read(crowd.scene(), crowd.bodies().front(), NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT,
+                            ao.data(), std::uint32_t(ao.size()), 0));
     double sum = 0;
     for (const float value : ao) sum += value;
     return sum / double(ao.size());

@@ -1,0 +1,51 @@
+// C++17 wrappers of captures: nook_capture.h.
+#ifndef NOOK_CAPTURE_HPP
+#define NOOK_CAPTURE_HPP
+
+#include <cstdint>
+
+#include "../nook_gl.hpp"
+#include "../nook_probe.hpp"
+#include "nook_capture.h"
+
+namespace nook {
+inline namespace wrapper {
+
+// Cube maps that the host renders become probes of one or two Uploads; the same holds.
+class GlProbeCapture : public Unique<nook_gl_capture, nook_gl_capture_destroy> {
+ public:
+  // Defaults, for the caller to change.
+  static nook_gl_capture_desc defaults() {
+    nook_gl_capture_desc desc;
+    check(nook_gl_capture_desc_init(&desc));
+    return desc;
+  }
+  GlProbeCapture(const Gl& gl, const nook_gl_capture_desc& desc) : Unique(create(gl, desc)) {}
+
+  // With restart, this map is the first one of the average.
+  void add(std::uint32_t index, std::uint32_t cube_map, bool restart = false) {
+    check(nook_gl_capture_add(get(), index, cube_map, restart));
+  }
+  nook_gl_capture_info read(std::uint32_t index) const {
+    nook_gl_capture_info result{};
+    result.struct_size = sizeof result;
+    check(nook_gl_capture_read(get(), index, &result));
+    return result;
+  }
+  Probe solve() const {
+    nook_probe handle = nullptr;
+    check(nook_gl_capture_solve(get(), &handle));
+    return Probe(handle);
+  }
+
+ private:
+  static nook_gl_capture create(const Gl& gl, const nook_gl_capture_desc& desc) {
+    nook_gl_capture handle = nullptr;
+    check(nook_gl_capture_create(gl.get(), &desc, &handle));
+    return handle;
+  }
+};
+
+}  // namespace wrapper
+}  // namespace nook
+#endif

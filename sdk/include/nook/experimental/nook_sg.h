@@ -1,0 +1,200 @@
+/* Arithmetic of spherical Gaussians (lobes) and of spherical harmonics (SH) on plain arrays, and methods of
+ * probe fits for comparison.
+ *
+ * Lobes: pass at most NOOK_PROBE_MAX_FUNCTIONS of them. No call of this header allocates. */
+#ifndef NOOK_SG_H
+#define NOOK_SG_H
+
+#include "../nook_probe.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Lobes ---- */
+
+/* Evaluates the radiance of lobes from count unit directions.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_sg_radiance(const nook_lobe* lobes, uint32_t lobe_count, const float* directions,
+                                      float* radiance, size_t count);
+
+/* The method that computes the irradiance of a lobe. */
+enum {
+  /* S. Hill's fit of a lobe under the clamped cosine. Its error is at most 1.6 % of the irradiance of a light
+   * that is perpendicular to the surface. Below sharpness 3, where the fit is not defined, the bands are
+   * used. */
+  NOOK_PROBE_IRRADIANCE_FITTED = 0,
+  /* The clamped cosine as a lobe. It costs less, and is never 0 behind a light. */
+  NOOK_PROBE_IRRADIANCE_INNER_PRODUCT = 1,
+  /* The clamped cosine in spherical harmonics up to band 4, as nook_probe_irradiance uses it. Its error is at
+   * most 0.2 % up to sharpness 6 and 1 % at 16; above, the fitted form is used. */
+  NOOK_PROBE_IRRADIANCE_BANDS = 2
+};
+typedef int32_t nook_probe_irradiance_form;
+
+/* Evaluates the irradiance of lobes on count surfaces with the given unit normals.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_sg_irradiance(const nook_lobe* lobes, uint32_t lobe_count,
+                                        nook_probe_irradiance_form form, const float* normals,
+                                        float* irradiance, size_t count);
+
+/* The shape of what a surface reflects to the eye. */
+enum {
+  /* One spherical Gaussian (after Wang et al. 2009). */
+  NOOK_PROBE_SPECULAR_ISOTROPIC = 0,
+  /* Four of them round normals that the eye sees (Heitz 2018), which stretch at grazing views and where the
+   * two widths differ. */
+  NOOK_PROBE_SPECULAR_ANISOTROPIC = 1
+};
+typedef int32_t nook_probe_specular_form;
+
+typedef struct nook_probe_surface {
+  /* Unit vector. */
+  float normal[3];
+  /* Unit vector from the surface to the eye. */
+  float view[3];
+  /* Unit vector perpendicular to the normal. It is only read where alpha_x and alpha_y differ. */
+  float tangent[3];
+  /* The GGX width along the tangent, roughness squared, in [0.001, 1]. */
+  float alpha_x;
+  /* The width across the tangent. The isotropic form takes the geometric mean of both. */
+  float alpha_y;
+  /* The reflectance at normal incidence (Schlick), in [0, 1]. */
+  float reflectance;
+} nook_probe_surface;
+
+/* Computes the radiance that GGX surfaces reflect to the eye, one colour for each surface. Use it to check
+ * your shader. The model is single scattering with Schlick Fresnel and Smith masking whose heights correlate
+ * (Heitz 2014). Where the cosine between normal and view is 0.02 or more, expect these errors:
+ *     5 %        under constant light, for a reflectance of 0.02 or more
+ *     9 %        anisotropic form, under 12 lobes of sharpness 6 whose amplitudes differ by up to 1 : 9
+ *     13 %       isotropic form, under the same lobes
+ *     40 %       if one lobe is 20 times as bright as the others
+ * Surfaces with two widths are within 14 % in the anisotropic form; under constant light within 5 % at
+ * reflectance 1 and 20 % at 0.04. docs/probes.md has the rest.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_sg_specular(const nook_lobe* lobes, uint32_t lobe_count,
+                                      nook_probe_specular_form form, const nook_probe_surface* surfaces,
+                                      float* rgb, size_t count);
+
+/* Computes the integral of a lobe over the sphere.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_sg_integral(const nook_lobe* lobe, float rgb[3]);
+
+/* Computes the product of two lobes, which is exactly one lobe; amplitudes multiply by channel. Pass it to
+ * nook_sg_integral for the integral of the product.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_sg_product(const nook_lobe* a, const nook_lobe* b, nook_lobe* out);
+
+/* Computes a lobe about the axis of a that approximates a convolved with b: it has the integral and the mean
+ * cosine of the convolution.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_sg_convolve(const nook_lobe* a, const nook_lobe* b, nook_lobe* out);
+
+/* Rotates the axes of lobes by a 3x3 matrix, row-major and orthonormal to 1e-3.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_sg_rotate(nook_lobe* lobes, uint32_t lobe_count, const float rotation[9]);
+
+/* ---- Spherical harmonics: they have the lowest error of diffuse light for their size ----
+ *
+ * A fit of NOOK_PROBE_BASIS_SH gives coefficients from samples (nook_probe_read_coefficients), and
+ * nook_sg_to_sh gives them from lobes. shaders/probe/harmonics.glsl evaluates bands 0 to 2 (27 floats), and
+ * ZH3 (15 floats). */
+
+/* Projects lobes exactly onto real spherical harmonics of bands 0 to order (1 to 4). coefficients receives
+ * (order + 1)^2 x RGB, band by band from m = -l to l, without the Condon-Shortley phase: 0.282095, 0.488603
+ * (y, z, x), and so on.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_sg_to_sh(const nook_lobe* lobes, uint32_t lobe_count, uint32_t order,
+                                   float* coefficients);
+
+/* In place of an order: the coefficients are the 5 x RGB of nook_sh_to_zh3. */
+enum { NOOK_SH_ZH3 = 100 };
+
+/* Evaluates the radiance from count unit directions, exactly for these coefficients. order is 1 to 4, or
+ * NOOK_SH_ZH3. The result is not clamped at 0: harmonics ring below 0 opposite a sun.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_sh_radiance(const float* coefficients, uint32_t order, const float* directions,
+                                      float* rgb, size_t count);
+
+/* Evaluates the irradiance on count surfaces with the given unit normals, exactly for these coefficients.
+ * order is 1 to 4, or NOOK_SH_ZH3. The result is not clamped at 0. Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_sh_irradiance(const float* coefficients, uint32_t order, const float* normals,
+                                        float* rgb, size_t count);
+
+/* Computes quadratic zonal harmonics, ZH3 (Roughton et al. 2024), from bands 0 to 2, 9 x RGB. The result is 5
+ * x RGB: bands 0 and 1 unchanged, then the coefficient of the part of band 2 that is symmetric about the
+ * direction of band 1's luminance. You may interpolate and pack it as other coefficients.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_sh_to_zh3(const float* coefficients, float* zonal);
+
+/* ---- Fits for comparison ---- */
+
+/* The value of nook_probe_info.basis for ambient dice (Iwanicki and Sloan 2017). The functions are
+ * 0.35 c^2 + 0.25 c^4 with c = max(dot(v, s), 0), at the 12 vertices v of an icosahedron. */
+enum { NOOK_PROBE_BASIS_DICE = 2 };
+
+/* Methods in place of nook_probe_fit_desc.method. G_ik is the integral of B_i B_k, and m_i the integral of
+ * B_i f, which the samples estimate. */
+enum {
+  /* The method of nook_probe_fit_desc. */
+  NOOK_PROBE_FIT_STUDY_DEFAULT = 0,
+  /* m_i / sum_k G_ik, and m_i / G_ii for harmonics. Constant light is exact, and other light is blurred.
+   * match_sh has no effect. */
+  NOOK_PROBE_FIT_STUDY_NAIVE = 1,
+  /* The running average in its first published form, b_i += (1 / n) B_i (v - R) / mean of B_i. It has the
+   * same limit as the corrected form with about half the step, so that it converges far more slowly. Not with
+   * harmonics. match_sh has no effect. */
+  NOOK_PROBE_FIT_STUDY_RUNNING_AVERAGE_ORIGINAL = 2,
+  /* b = G^-1 m with the exact G. It merges exactly. */
+  NOOK_PROBE_FIT_STUDY_MOMENTS = 3
+};
+typedef int32_t nook_probe_study_method;
+
+/* D_i of the published step. */
+enum {
+  /* An average over the same samples that is never below the exact integral. */
+  NOOK_PROBE_DENOMINATOR_LOCKSTEP = 0,
+  /* The exact integral. */
+  NOOK_PROBE_DENOMINATOR_PRECOMPUTED = 1
+};
+typedef int32_t nook_probe_denominator;
+
+/* Options of a fit for comparisons of papers. Set nook_probe_fit_desc.next to it. */
+typedef struct nook_probe_fit_study_desc {
+  /* nook_probe_fit_study_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* Default NOOK_PROBE_FIT_STUDY_DEFAULT. Another method replaces nook_probe_fit_desc.method, which must have
+   * its default then, as form must. */
+  nook_probe_study_method method;
+  /* 1: running averages take the published step. At each sample (w, v), with a the domain's area and n the
+   * weight so far, b_i += (1 / n) (B_i(w) (v - sum over k != i of b_k B_k(w)) / D_i - b_i), where D_i is an
+   * estimate of G_ii / a; the non-negative form clamps after each sample. NOOK_FORM_PAPER always does so.
+   * 0 (default): the step by blocks. With S and m the block's sums of B_i B_k and B_i v and n the weight
+   * before it, (n G / a + S) (b' - b) = m - S b. */
+  int32_t published_step;
+  /* Only the published step uses it. Default NOOK_PROBE_DENOMINATOR_LOCKSTEP. */
+  nook_probe_denominator denominator;
+  /* 1: the functions are ambient dice, whatever nook_probe_fit_desc.basis is. match_sh has no effect on them.
+   * Default 0. */
+  int32_t dice;
+} nook_probe_fit_study_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_probe_fit_study_desc_init(nook_probe_fit_study_desc* desc) {
+  return nook_desc_init(NOOK_DESC_PROBE_FIT_STUDY, desc, sizeof *desc, NOOK_VERSION);
+}
+
+/* Starts a running average that has no samples yet from the coefficients of short_run instead of 0; they
+ * count as much as the samples of short_run did. Both fits must have the same basis. Methods that solve
+ * ignore the call, and nook_probe_fit_reset removes the seed. Neither fit may be in use elsewhere.
+ * One at a time. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_probe_fit_seed(nook_probe_fit fit, nook_probe_fit short_run);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

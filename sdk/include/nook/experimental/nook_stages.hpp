@@ -1,0 +1,69 @@
+// C++17 wrappers of the stages of the screen-space pass: nook_stages.h.
+#ifndef NOOK_STAGES_HPP
+#define NOOK_STAGES_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "../nook_clips.hpp"
+#include "nook_stages.h"
+
+namespace nook {
+inline namespace wrapper {
+
+// The stages of a screen-space pass as data, for hosts without OpenGL.
+class NnaoStages : public Unique<nook_nnao_stages, nook_nnao_stages_destroy> {
+ public:
+  NnaoStages() = default;
+  NnaoStages(const Context& context, const nook_nnao_desc& desc) : Unique(create(context, desc)) {}
+
+  nook_nnao_stages_info info() const {
+    nook_nnao_stages_info info{};
+    info.struct_size = sizeof info;
+    check(nook_nnao_stages_describe(get(), &info));
+    return info;
+  }
+  nook_nnao_stage_info stage(std::uint32_t index) const {
+    nook_nnao_stage_info info{};
+    info.struct_size = sizeof info;
+    check(nook_nnao_stages_describe_stage(get(), index, &info));
+    return info;
+  }
+  nook_nnao_image_info image(nook_nnao_image image) const {
+    nook_nnao_image_info info{};
+    info.struct_size = sizeof info;
+    check(nook_nnao_stages_describe_image(get(), image, &info));
+    return info;
+  }
+  // earlier: null for a cut.
+  nook_nnao_frame_values frame(const nook_gl_frame_desc& frame, const nook_nnao_frame_desc& desc,
+                               const nook_gl_frame_desc* earlier = nullptr, std::uint32_t number = 0,
+                               std::uint32_t view = 0) const {
+    nook_nnao_frame_values values{};
+    values.struct_size = sizeof values;
+    check(nook_nnao_stages_frame(get(), &frame, &desc, earlier, number, view, &values));
+    return values;
+  }
+
+ private:
+  static nook_nnao_stages create(const Context& context, const nook_nnao_desc& desc) {
+    nook_nnao_stages handle = nullptr;
+    check(nook_nnao_stages_create(context.get(), &desc, &handle));
+    return handle;
+  }
+};
+
+// The texels of a table of clips, rows without gaps.
+inline std::vector<std::uint8_t> clips_texture(const Clips& clips, nook_clips_table table,
+                                               std::uint32_t& width, std::uint32_t& height) {
+  std::uint64_t bytes = 0;
+  check(nook_clips_texture_size(clips.get(), table, &width, &height, &bytes));
+  std::vector<std::uint8_t> texels(static_cast<std::size_t>(bytes));
+  check(nook_clips_read_texture(clips.get(), table, texels.data(), bytes));
+  return texels;
+}
+
+}  // namespace wrapper
+}  // namespace nook
+#endif

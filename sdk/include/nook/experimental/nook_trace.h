@@ -1,0 +1,185 @@
+/* References for measurements: ray-traced ambient occlusion and path-traced irradiance of a scene, the poses
+ * and the bakes of studies. */
+#ifndef NOOK_TRACE_H
+#define NOOK_TRACE_H
+
+#include "../nook_bake.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Studies of characters ---- */
+
+/* The clips that a model is fitted to, when clip_names names none. */
+enum {
+  /* Every clip with motion; clips whose name says T-pose or A-pose have none. */
+  NOOK_BAKE_SPLIT_ALL = 0,
+  /* Every second of these clips in byte order of their names, from the first on, so that the others can
+   * measure. */
+  NOOK_BAKE_SPLIT_HALF = 1,
+  /* Every second family of these clips. A family is the clips whose names start with the same word, in upper
+   * or lower case. A word ends at a digit, at a sign and before a capital; the part of a name up to its last
+   * | or : does not count, and neither does a prefix of all names that ends at a sign or a digit. A file
+   * whose clips are a single family is refused. */
+  NOOK_BAKE_SPLIT_FAMILIES = 2
+};
+typedef int32_t nook_bake_clip_split;
+
+/* Choices that only comparisons need. Set the `next` of a nook_bake_character_desc to it. */
+typedef struct nook_bake_character_study_desc {
+  /* nook_bake_character_study_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* Default ALL. */
+  nook_bake_clip_split clip_split;
+  /* NOOK_FORM_PAPER: the kernel of Le et al. 2019, whatever the fit is. Default NOOK_FORM_DEFAULT: the one of
+   * the form of the bake. */
+  nook_form kernel;
+  /* NOOK_FORM_PAPER: the block coordinate descent of Le et al. 2019, whatever the kernel is. Default
+   * NOOK_FORM_DEFAULT: the fit of the form of the bake. */
+  nook_form fit;
+  /* Must be 0. */
+  uint32_t reserved;
+} nook_bake_character_study_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_bake_character_study_desc_init(nook_bake_character_study_desc* desc) {
+  return nook_bake_desc_init(NOOK_DESC_BAKE_CHARACTER_STUDY, desc, sizeof *desc, NOOK_VERSION);
+}
+
+/* Writes poses in which one joint is rotated: every joint that moves some but not all vertices, on a grid of
+ * steps^3 rotations over +-range_degrees about its axes. With bones_3x4 NULL the call only sets *pose_count
+ * to the number of poses; otherwise *pose_count must be that number before the call.
+ * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_bake_character_single_joint_poses(nook_bake_character character, uint32_t steps,
+                                                            float range_degrees, uint32_t* pose_count,
+                                                            float* bones_3x4, uint32_t bone_count);
+
+/* ---- Ray-traced ambient occlusion of a scene ---- */
+
+/* A mesh in world space and metres. */
+typedef struct nook_bake_occluder_mesh {
+  /* 3 floats for each vertex. */
+  const float* positions;
+  /* 3 vertex indices for each triangle; both sides occlude. */
+  const uint32_t* indices;
+  uint32_t vertex_count;
+  uint32_t index_count;
+} nook_bake_occluder_mesh;
+
+typedef struct nook_bake_trace_desc {
+  /* nook_bake_trace_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* NULL only if mesh_count is 0; then everything is open. */
+  const nook_bake_occluder_mesh* meshes;
+  /* The receivers: world space, metres, 3 floats for each point. */
+  const float* positions;
+  /* 3 floats for each point, of unit length to 1e-3. */
+  const float* normals;
+  uint32_t mesh_count;
+  uint32_t point_count;
+  /* Cosine-weighted rays for each point, up to 65,536; default 64. */
+  uint32_t rays;
+  /* Default 0: all cores; up to 1024. */
+  uint32_t threads;
+  /* Default 1. The result does not depend on the number of threads. */
+  uint64_t seed;
+  /* Metres, > 0, default infinity: hits beyond this distance count as open. */
+  float radius;
+  /* Metres along the normal, >= 0, default 1e-4: the distance of a ray's origin from its point. */
+  float origin_offset;
+} nook_bake_trace_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_bake_trace_desc_init(nook_bake_trace_desc* desc) {
+  return nook_bake_desc_init(NOOK_DESC_BAKE_TRACE, desc, sizeof *desc, NOOK_VERSION);
+}
+
+/* Traces the cosine-weighted visibility of all points and writes point_count values to ao; count must be
+ * point_count. The call returns when all points are done.
+ * Any thread. Errors: INVALID_ARGUMENT, VERSION, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float* ao, uint32_t count);
+
+/* ---- Path-traced irradiance of a scene under an environment ---- */
+
+/* A latitude-longitude map of linear radiance, which is constant over a texel. Rows go from +y to -y, and
+ * columns around y: the middle column looks along +x, and the column a quarter of the width to its right
+ * along +z. */
+typedef struct nook_bake_environment {
+  /* 3 floats in [0, 1e15] for each texel, rows from the top. NULL only if width is 0; then the environment is
+   * black. */
+  const float* rgb;
+  /* Texels, up to 16384. */
+  uint32_t width;
+  /* Texels, up to 8192. */
+  uint32_t height;
+} nook_bake_environment;
+
+/* A mesh in world space and metres with a diffuse surface, which is the same from both sides. */
+typedef struct nook_bake_lit_mesh {
+  /* 3 floats for each vertex. */
+  const float* positions;
+  /* 3 vertex indices for each triangle. */
+  const uint32_t* indices;
+  uint32_t vertex_count;
+  uint32_t index_count;
+  /* RGB, the share of light that the surface reflects, in [0, 1]. A surface with 0 only occludes. */
+  float base_colour[3];
+  /* RGB, the radiance that the surface emits, in [0, 1e15]. */
+  float emission[3];
+} nook_bake_lit_mesh;
+
+typedef struct nook_bake_irradiance_desc {
+  /* nook_bake_irradiance_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* NULL only if mesh_count is 0; then everything is open. */
+  const nook_bake_lit_mesh* meshes;
+  /* The receivers: world space, metres, 3 floats for each point. */
+  const float* positions;
+  /* 3 floats for each point, of unit length to 1e-3. */
+  const float* normals;
+  /* Default black. */
+  nook_bake_environment environment;
+  uint32_t mesh_count;
+  uint32_t point_count;
+  /* Paths for each point, up to 65,536; default 64. */
+  uint32_t rays;
+  /* Default 0: all cores; up to 1024. */
+  uint32_t threads;
+  /* Default 1. The result does not depend on the number of threads. */
+  uint64_t seed;
+  /* The maximum number of reflections; 0 traces direct light only. Default UINT32_MAX: all of them, without
+   * bias. */
+  uint32_t max_bounces;
+  /* Metres along the normal, >= 0, default 1e-4: the distance of a ray's origin from the surface that it
+   * leaves. */
+  float origin_offset;
+} nook_bake_irradiance_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_bake_irradiance_desc_init(nook_bake_irradiance_desc* desc) {
+  return nook_bake_desc_init(NOOK_DESC_BAKE_IRRADIANCE, desc, sizeof *desc, NOOK_VERSION);
+}
+
+/* Traces the irradiance of all points and writes 3 floats (RGB) for each to irradiance; count must be
+ * point_count. E(n) = integral of L(w) max(dot(n, w), 0) over the sphere, in the map's unit times steradians;
+ * a diffuse surface there reflects the radiance E * base colour / pi. Each path samples the environment by
+ * luminance and the hemisphere by cosine, combined by the balance heuristic. The estimate is unbiased, and
+ * its noise falls with the square root of rays. The call returns when all points are done.
+ * Any thread. Errors: INVALID_ARGUMENT, VERSION, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_bake_trace_irradiance(const nook_bake_irradiance_desc* desc, float* irradiance,
+                                                uint32_t count);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,410 @@
+/* Radiance transfer: compressed materials on static shapes under any distant light, with the shapes' own
+ * shadows. `nook bake transfer` bakes the visibility of a shape; any material can be put on it at run time.
+ *
+ * Light is held by lobes, spherical Gaussians of one sharpness that are evenly spread over the sphere. A
+ * vertex p has, for channel c and light mode a of a material, the vector
+ *     r_p[c, a] = sum over lobes j of amplitude_j[c] share_p,j response[c, a](direction of lobe j at p),
+ * where the share, a byte of the file, is the cosine-weighted part of the lobe that no triangle hides from
+ * the vertex, and the response is the integral of the lobe and the material's light basis over the upper
+ * hemisphere. Light that the shape reflects onto itself, baked with `--bounces`, is added for the mean
+ * reflectance of the response's material. A pixel's radiance is sum_a L_a r[c, a] with the light modes L_a of
+ * nook_material_decode and the vectors interpolated between vertices.
+ *
+ * When the light or the shape turns, call
+ *     nook_transfer_light_project(light, lobe_count, NULL, amplitudes, NULL);
+ *     nook_transfer_read_vectors(response, &desc, vectors, vertex_count, 0);
+ * where desc has the transfer and the amplitudes. When only the view moves, call nothing. The paper's form of
+ * a file, baked with `--form paper`, has the matrices from lobes to the light modes of one material in place
+ * of shares; the calls are the same.
+ *
+ * The space of directions is that of the baked vertices. Frames have x along growing u, z along the normal,
+ * and y = handedness * cross(normal, tangent) along growing v. The vectors of a vertex are 3 x light_modes
+ * floats: the modes of red, then of green, then of blue. Least squares rings around bright sources, so that
+ * light and vectors can be slightly negative; nook_transfer_projection_info gives the share.
+ *
+ * nook_transfer.h keeps vectors in a buffer and has the GLSL. The method follows section 6.3 of Y.-T.
+ * Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012, in a separated form and in its
+ * own. */
+#ifndef NOOK_TRANSFER_H
+#define NOOK_TRANSFER_H
+
+#include "../nook_material.h"
+#include "../nook_probe.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct nook_transfer_s* nook_transfer;
+typedef struct nook_transfer_light_s* nook_transfer_light;
+typedef struct nook_transfer_response_s* nook_transfer_response;
+
+/* ---- Baked shapes: immutable, shared by threads ---- */
+
+/* Loads baked transfer from the bytes of a .nook file; the caller may free the bytes afterwards. The library
+ * validates everything, so that hostile bytes are safe. On failure *out is NULL.
+ * Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_transfer_load(nook_context context, const void* bytes, size_t size,
+                                        nook_transfer* out);
+
+/* Releases the caller's reference and sets *transfer to NULL.
+ * Any thread. */
+NOOK_API void nook_transfer_destroy(nook_transfer* transfer);
+
+typedef struct nook_transfer_info {
+  /* sizeof(nook_transfer_info); the caller sets it. */
+  uint32_t struct_size;
+  /* Vertices of the baked file, over all primitives in its order. */
+  uint32_t vertex_count;
+  /* The axes of the lobes are H. Vogel's spiral, so that the number alone determines them: lobe i has
+   * z = 1 - (2 i + 1) / lobe_count and the azimuth i * pi * (3 - sqrt(5)) from +x towards +y. */
+  uint32_t lobe_count;
+  /* The sharpness of every lobe, 0.35 times their number. */
+  float sharpness;
+  /* Bytes of shares in memory, vertex_count * lobe_count. */
+  uint64_t share_bytes;
+  /* Reflections of the shape onto itself that the vectors hold, 0 to 2. */
+  uint32_t bounces;
+  /* 1: light fell through the holes of a material's VOTF; see nook_transfer_check. */
+  int32_t has_holes;
+  /* Bytes of reflected light in memory, vertex_count * bounces * 18. */
+  uint64_t indirect_bytes;
+  /* NOOK_FORM_DEFAULT: a share for each vertex and lobe, which takes any material. NOOK_FORM_PAPER: the
+   * matrices from lobes to the light modes of one material, compressed by CTA, with less work when the light
+   * changes. */
+  nook_form form;
+  /* Of the paper's form: the light modes of the material that it was baked with; else 0. */
+  uint32_t light_modes;
+  /* Of the paper's form: bytes of its compressed matrices in memory, and in the file; else 0. */
+  uint64_t paper_bytes;
+} nook_transfer_info;
+
+/* Describes a baked shape.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_transfer_describe(nook_transfer transfer, nook_transfer_info* info);
+
+/* Writes the frames that the vectors refer to: normals with 3 floats and tangents with 4, the handedness
+ * last, for each vertex; either may be NULL. A host that draws with them needs no tangents of its own.
+ * vertex_count must be the transfer's. The paper's form has no frames.
+ * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the paper's form). */
+NOOK_API nook_result nook_transfer_read_frames(nook_transfer transfer, float* normals, float* tangents,
+                                               uint32_t vertex_count);
+
+/* The arrays of a mesh in the form in which they were baked. */
+typedef struct nook_transfer_mesh_desc {
+  /* nook_transfer_mesh_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* Required. */
+  uint32_t vertex_count;
+  /* 3, 3, 4 and 2 floats for each vertex; arrays that are NULL (default) are not compared. The numbers must
+   * be equal bit for bit to those of the bake, which are in the space of the file's scene. */
+  const float* positions;
+  const float* normals;
+  const float* tangents;
+  const float* uvs;
+} nook_transfer_mesh_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_transfer_mesh_desc_init(nook_transfer_mesh_desc* desc) {
+  return nook_desc_init(NOOK_DESC_TRANSFER_MESH, desc, sizeof *desc, NOOK_VERSION);
+}
+
+/* Checks that a mesh and a material are those of the bake. Pass NULL for what you do not want to check. Call
+ * it once after loading; nook_transfer_read_vectors does not compare meshes.
+ *
+ * The mesh must have the baked number of vertices, and the same checksum of each array. The material must
+ * have the baked light modes in the paper's form, and the baked VOTF if light fell through its holes. You can
+ * nevertheless draw a material with another VOTF; the shadows are then those of the baked holes, and `nook
+ * evaluate transfer` measures the error. Reflected light follows any material.
+ * Any thread. Errors: INVALID_ARGUMENT (the message names the first array or the part of the material that
+ * differs). */
+NOOK_API nook_result nook_transfer_check(nook_transfer transfer, const nook_transfer_mesh_desc* mesh,
+                                         nook_material material);
+
+/* ---- Light: immutable, shared by threads ---- */
+
+/* The layout of a map. */
+enum {
+  /* Latitude and longitude: rows from +y down to -y; the middle column looks along +x, and the column a
+   * quarter of the width to its right along +z. */
+  NOOK_TRANSFER_MAP_LATLONG = 0,
+  /* Six square faces below each other, +x, -x, +y, -y, +z, -z, each with the axes of an OpenGL cube map. */
+  NOOK_TRANSFER_MAP_CUBE = 1
+};
+typedef int32_t nook_transfer_map_layout;
+
+/* Exactly one source of light: a map (rgb), a probe, or a direction. */
+typedef struct nook_transfer_light_desc {
+  /* nook_transfer_light_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* A map of width * height linear RGB radiances, each 0 to 1e15. Default NULL. */
+  const float* rgb;
+  /* 1 to 16,384; the height of a cube map is 6 times its width. */
+  uint32_t width;
+  uint32_t height;
+  /* Default NOOK_TRANSFER_MAP_LATLONG. */
+  nook_transfer_map_layout layout;
+  /* 1: Nook takes suns out of the map, and nook_transfer_light_read_suns lists them. Draw them yourself, with
+   * shadow maps and nook_material_radiance, because lobes hold a sun badly: it rings. Default 0. A sun is a
+   * texel whose luminance is above 100 times the mean of the map without its suns. */
+  int32_t split_suns;
+  /* The light of a probe at a point. Default NULL. */
+  nook_probe probe;
+  /* 3 floats, as in nook_probe_read_lobes. Default NULL. */
+  const float* position_ws;
+  /* The light from one direction: a unit vector of 3 floats towards the light. Default NULL. The sharpest
+   * light that lobes can hold is one lobe, which is 5 degrees wide at 642 lobes, and it rings;
+   * nook_material_radiance with a shadow map is exact. */
+  const float* direction;
+  /* With a direction: RGB on a surface that faces the light, finite numbers up to 1e15. */
+  float irradiance[3];
+} nook_transfer_light_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_transfer_light_desc_init(nook_transfer_light_desc* desc) {
+  return nook_desc_init(NOOK_DESC_TRANSFER_LIGHT, desc, sizeof *desc, NOOK_VERSION);
+}
+
+/* Creates a light. Nook copies what it needs: you may free the map and destroy the probe afterwards. On
+ * failure *out is NULL.
+ * Any thread. Errors: INVALID_ARGUMENT (also, a texel is not a number in range), VERSION, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_transfer_light_create(nook_context context, const nook_transfer_light_desc* desc,
+                                                nook_transfer_light* out);
+
+/* Releases the caller's reference and sets *light to NULL.
+ * Any thread. */
+NOOK_API void nook_transfer_light_destroy(nook_transfer_light* light);
+
+typedef struct nook_transfer_sun {
+  /* Unit vector towards the sun, in the map's space. */
+  float direction[3];
+  /* RGB, on a surface that faces the sun. */
+  float irradiance[3];
+  /* Steradians. */
+  float solid_angle;
+} nook_transfer_sun;
+
+/* Writes the suns that split_suns took out, the brightest first. *count is the number of entries before the
+ * call and the number of suns afterwards. Pass NULL for suns to ask for the number. With too little room the
+ * call fails, sets *count and writes no sun.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_transfer_light_read_suns(nook_transfer_light light, nook_transfer_sun* suns,
+                                                   uint32_t* count);
+
+/* The error of lobes that hold a light. */
+typedef struct nook_transfer_projection_info {
+  /* sizeof(nook_transfer_projection_info); the caller sets it. */
+  uint32_t struct_size;
+  /* The root of the integral of the squared difference, relative to the integral of the squared light. */
+  float relative_error;
+  /* The negative part of the light that the lobes hold, relative to its magnitude. */
+  float negative_share;
+} nook_transfer_projection_info;
+
+/* Projects a light to lobes by least squares over the sphere. amplitudes gets lobe_count x RGB; lobe_count is
+ * 12 to 2562, as many as your response and your transfer have. light_from_shape is a rotation, 9 floats
+ * row-major, from the shape's space to the light's; NULL is none.
+ *
+ * The first call for a number of lobes factors a Gram matrix, about lobe_count^3 / 6 multiply-adds, and the
+ * context keeps it until it is destroyed, lobe_count^2 * 4 bytes (25 MiB at 2562). All other calls only
+ * solve. info may be NULL; filling it takes about as long as the projection. It must be NULL with the light
+ * of a direction, whose square has no integral. The call allocates from the host's allocator. Any thread.
+ * Errors: INVALID_ARGUMENT (also, light_from_shape is not a rotation within 1e-3), OUT_OF_MEMORY. */
+NOOK_API nook_result nook_transfer_light_project(nook_transfer_light light, uint32_t lobe_count,
+                                                 const float* light_from_shape, float* amplitudes,
+                                                 nook_transfer_projection_info* info);
+
+/* ---- Materials under lobes: immutable, shared by threads ---- */
+
+typedef struct nook_transfer_response_desc {
+  /* nook_transfer_response_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* Required; it may be destroyed after the call. */
+  nook_material material;
+  /* 12 to 2562; default 642. */
+  uint32_t lobe_count;
+  /* Must be 0. */
+  uint32_t reserved;
+} nook_transfer_response_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_transfer_response_desc_init(nook_transfer_response_desc* desc) {
+  return nook_desc_init(NOOK_DESC_TRANSFER_RESPONSE, desc, sizeof *desc, NOOK_VERSION);
+}
+
+/* Tabulates the response of a material to lobes from all directions, in about 0.2 s. On failure *out is NULL.
+ * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the material is neural), OUT_OF_MEMORY. */
+NOOK_API nook_result nook_transfer_response_create(nook_context context,
+                                                   const nook_transfer_response_desc* desc,
+                                                   nook_transfer_response* out);
+
+/* Releases the caller's reference and sets *response to NULL.
+ * Any thread. */
+NOOK_API void nook_transfer_response_destroy(nook_transfer_response* response);
+
+typedef struct nook_transfer_response_info {
+  /* sizeof(nook_transfer_response_info); the caller sets it. */
+  uint32_t struct_size;
+  uint32_t lobe_count;
+  /* The modes of one channel, R_l of the material rounded up to a multiple of 4; NOOK_LIGHT_VEC4_COUNT of its
+   * GLSL is a quarter of it. */
+  uint32_t light_modes;
+  /* Floats of a vertex, 3 * light_modes. */
+  uint32_t vector_floats;
+  /* Memory of the table. */
+  uint64_t table_bytes;
+  /* The share of light that the material reflects under even light, RGB, 0 to 1. */
+  float reflectance[3];
+  /* 0. */
+  uint32_t reserved;
+} nook_transfer_response_info;
+
+/* Describes a response.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_transfer_response_describe(nook_transfer_response response,
+                                                     nook_transfer_response_info* info);
+
+typedef struct nook_transfer_vectors_desc {
+  /* nook_transfer_vectors_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* The baked shape. NULL (default): vertices without baked visibility, which all light above their horizon
+   * reaches. A prop under a probe needs no more than this. */
+  nook_transfer transfer;
+  /* lobe_count x RGB from nook_transfer_light_project, finite numbers whose magnitude is at most 1e22;
+   * required. lobe_count must be the number of the response and of the transfer. */
+  const float* amplitudes;
+  uint32_t lobe_count;
+  /* With a transfer: the first vertex to write. Default 0. */
+  uint32_t first_vertex;
+  /* Without a transfer: unit normals (3 floats each) and tangents (4 floats each, the handedness last);
+   * required. NULL (default) with a transfer. */
+  const float* normals;
+  const float* tangents;
+} nook_transfer_vectors_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_transfer_vectors_desc_init(nook_transfer_vectors_desc* desc) {
+  return nook_desc_init(NOOK_DESC_TRANSFER_VECTORS, desc, sizeof *desc, NOOK_VERSION);
+}
+
+/* Writes the vectors of vertex_count vertices under a light. Call it when the light or the shape turns.
+ * stride_floats is the number of floats between the vectors of two vertices, 0 for vector_floats of
+ * nook_transfer_response_info. The work goes through the context's parallel_for if you set one, and the
+ * result does not depend on it. The call allocates 16 bytes for a lobe, in the paper's form 3 * light_modes *
+ * vertex rank floats for a cluster (2.2 KiB at 16 modes), and without a transfer the frames of the vertices.
+ * Any thread. Errors: INVALID_ARGUMENT (also, in the paper's form, the response is of another material),
+ * OUT_OF_MEMORY. */
+NOOK_API nook_result nook_transfer_read_vectors(nook_transfer_response response,
+                                                const nook_transfer_vectors_desc* desc, float* vectors,
+                                                uint32_t vertex_count, uint32_t stride_floats);
+
+/* Computes the radiance, linear RGB, of material pixels from vectors of vector_floats floats each, one for
+ * each pixel. The call does not read the light of a pixel, and decodes it with one fetch. Use it to check
+ * your shader: it is the reference of the GLSL of nook_transfer.h. Any thread. Errors: INVALID_ARGUMENT
+ * (also, vector_floats is not the material's, or a number is not finite). */
+NOOK_API nook_result nook_transfer_shade(nook_material material, const nook_material_pixel* pixels,
+                                         const float* vectors, uint32_t vector_floats, uint32_t count,
+                                         float* radiance);
+
+/* ---- In shaders ----
+ *
+ * Radiance transfer in the host's shaders: the vectors of a shape's vertices in a texture, and the GLSL that
+ * lights a material with them.
+ *
+ * An engine calls nook_gl_transfer_create once for a shape and nook_gl_transfer_update when the light or the
+ * shape turns. It puts the GLSL of nook_gl_transfer_describe after the #version line of the vertex shader,
+ * and after the material's GLSL in the fragment shader, and sets the uniform nook_transfer_texels to a
+ * texture unit. For each draw it binds the texture to GL_TEXTURE_BUFFER of that unit, on OpenGL ES to
+ * GL_TEXTURE_2D. The vertex shader:
+ *     out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT];
+ *     nook_transfer_vectors(gl_VertexID, vectors);
+ * The fragment shader:
+ *     vec3 view = nook_transfer_tangent_space(normal, tangent, normalize(eye - position));
+ *     vec4 modes[NOOK_LIGHT_VEC4_COUNT];
+ *     nook_material_decode(uv, dFdx(uv), dFdy(uv), view, modes);
+ *     colour = max(nook_transfer_radiance(modes, vectors), 0.0);
+ * 16 light modes are 12 varyings of the 15 that every OpenGL 3.3 has. A material with more uses
+ * nook_transfer_mix in the fragment shader instead. A host may also upload the floats of
+ * nook_transfer_read_vectors as vertex attributes of its own; nook_transfer_radiance is the same.
+ *
+ * A transfer in the paper's form can leave its vertices to the GPU: nook_gl_transfer_create_paper takes them
+ * once, and nook_gl_transfer_update_light uploads no vectors but the matrices of the clusters under the
+ * light. The host then binds vertex_texture too, to the uniform nook_transfer_vertices, and
+ * nook_transfer_vectors in the vertex shader mixes the matrices, on every OpenGL. */
+
+typedef struct nook_gl_transfer_s* nook_gl_transfer;
+
+/* Makes room for the vectors of vertex_count vertices under a response, which may be destroyed afterwards.
+ * All vectors are 0 at first. On failure *out is NULL and no OpenGL object is left. Context thread. Errors:
+ * INVALID_ARGUMENT, UNSUPPORTED (the vectors exceed the texture buffer of this OpenGL: they take vertex_count
+ * * vector_floats / 4 texels, and every OpenGL has 65,536), GL, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_gl_transfer_create(nook_gl gl, nook_transfer_response response,
+                                             uint32_t vertex_count, nook_gl_transfer* out);
+
+/* Uploads the vectors of all vertices, vertex_count x vector_floats without gaps, as
+ * nook_transfer_read_vectors writes them, of an object of nook_gl_transfer_create. Draws that were issued
+ * before still read the old ones. The call does not wait for the GPU. Context thread. Errors:
+ * INVALID_ARGUMENT (also, float_count is not vertex_count * vector_floats), GL, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_gl_transfer_update(nook_gl_transfer gl_transfer, const float* vectors,
+                                             uint64_t float_count);
+
+/* Makes room for a transfer in the paper's form under a response. The vertices of the transfer are uploaded
+ * here, and all light is 0 at first. The object keeps what it needs of both, which may be destroyed
+ * afterwards. On failure *out is NULL and no OpenGL object is left. Context thread. Errors: INVALID_ARGUMENT
+ * (also, the transfer has the separated form, or light modes or lobes that are not those of the response),
+ * UNSUPPORTED (a table exceeds the texture buffer of this OpenGL), GL, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_gl_transfer_create_paper(nook_gl gl, nook_transfer transfer,
+                                                   nook_transfer_response response, nook_gl_transfer* out);
+
+/* Uploads the clusters' matrices under the light of lobes, lobe_count x RGB, of an object of
+ * nook_gl_transfer_create_paper. The CPU makes them, with the parallel-for of the context. Draws that were
+ * issued before still read the old ones. The call does not wait for the GPU. Context thread. Errors:
+ * INVALID_ARGUMENT (also, lobe_count is not that of the response), GL, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_gl_transfer_update_light(nook_gl_transfer gl_transfer, const float* amplitudes,
+                                                   uint32_t lobe_count);
+
+/* Deletes the OpenGL objects and sets *gl_transfer to NULL; *gl_transfer may be NULL. The nook_gl may have
+ * been destroyed before, but the OpenGL context of nook_gl_create must be current; after nook_gl_context_lost
+ * none is needed.
+ * Context thread. */
+NOOK_API void nook_gl_transfer_destroy(nook_gl_transfer* gl_transfer);
+
+typedef struct nook_gl_transfer_info {
+  /* sizeof(nook_gl_transfer_info); the caller sets it. */
+  uint32_t struct_size;
+  /* The OpenGL name of a GL_TEXTURE_BUFFER (OpenGL ES: GL_TEXTURE_2D) that Nook owns: the host binds it, and
+   * never changes or deletes it. */
+  uint32_t texture;
+  /* The size of the textures' buffers; on OpenGL ES of the textures, in rows of 2048 texels. */
+  uint64_t bytes;
+  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions: the uniform samplerBuffer (OpenGL ES:
+   * sampler2D) nook_transfer_texels and the functions above. Every name in it begins with nook_ or NOOK_. The
+   * text is the same for all responses with as many light modes, in the paper's form for all transfers with
+   * as many clusters, ranks and reflections too, and is valid while the object lives. */
+  const char* glsl;
+  /* NOOK_FORM_PAPER of nook_gl_transfer_create_paper, otherwise NOOK_FORM_DEFAULT. */
+  nook_form form;
+  /* In the paper's form a second texture of the same kind, for nook_transfer_vertices; otherwise 0. */
+  uint32_t vertex_texture;
+} nook_gl_transfer_info;
+
+/* Describes the texture. The call makes no OpenGL call.
+ * Any thread. Errors: INVALID_ARGUMENT. */
+NOOK_API nook_result nook_gl_transfer_describe(nook_gl_transfer gl_transfer, nook_gl_transfer_info* info);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

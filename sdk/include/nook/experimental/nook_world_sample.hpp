@@ -1,0 +1,46 @@
+// C++17 wrappers of AO and light at points of the world: nook_world_sample.h.
+#ifndef NOOK_WORLD_SAMPLE_HPP
+#define NOOK_WORLD_SAMPLE_HPP
+
+#include <cstdint>
+#include <vector>
+
+#include "../nook_character.hpp"
+#include "nook_world_sample.h"
+
+namespace nook {
+inline namespace wrapper {
+
+// The casters of a model; throws UNSUPPORTED for a model that was baked without.
+inline std::vector<nook_model_capsule> world_casters(const CharacterModel& model) {
+  std::uint32_t count = NOOK_WORLD_MAX_CASTERS;
+  std::vector<nook_model_capsule> casters(count);
+  check(nook_model_read_capsules(model.get(), casters.data(), &count));
+  casters.resize(count);
+  return casters;
+}
+
+// The caller sets points and normals, and a light where there is one.
+inline nook_world_sample_desc world_sample_desc() {
+  nook_world_sample_desc desc;
+  check(nook_world_sample_desc_init(&desc));
+  return desc;
+}
+
+// The AO at the points of desc.
+inline std::vector<float> world_ao(const Scene& scene, const nook_world_sample_desc& desc) {
+  std::vector<float> ao(desc.point_count);
+  check(nook_world_sample(scene.get(), &desc, ao.data(), nullptr));
+  return ao;
+}
+
+// The open share of the light of desc at its points.
+inline std::vector<float> world_light(const Scene& scene, const nook_world_sample_desc& desc) {
+  std::vector<float> light(desc.point_count);
+  check(nook_world_sample(scene.get(), &desc, nullptr, light.data()));
+  return light;
+}
+
+}  // namespace wrapper
+}  // namespace nook
+#endif

@@ -1,0 +1,51 @@
+// The object behind the handle nook_gl_upload: textures of one kind, and the GLSL that reads them. Its OpenGL
+// objects outlive the handle nook_gl, because it holds a reference to its owner.
+#pragma once
+
+#include <nook/nook_gl.h>
+
+#include <utility>
+#include <variant>
+
+#include "sdk/src/api/gl/handle.h"
+#include "sdk/src/gl/character/clip_textures.h"
+#include "sdk/src/gl/material/material_textures.h"
+#include "sdk/src/gl/probe/grid_volume.h"
+#include "sdk/src/gl/probe/probe_texture.h"
+#include "sdk/src/gl/synthesis/coordinate_texture.h"
+
+struct nook_gl_upload_s : nook::RefCounted {
+  // Makes the content of a type from its arguments under a guard for these users of the OpenGL state.
+  template <class Content, class... Arguments>
+  nook_gl_upload_s(std::in_place_type_t<Content>, nook_gl_s* made_by, unsigned users,
+                   Arguments&&... arguments)
+      : gl(made_by) {
+    gl->device.report_host_errors();
+    gl->guarded(users, [&] { content.emplace<Content>(gl->device, std::forward<Arguments>(arguments)...); });
+  }
+
+  // NULL if the upload is of another kind.
+  nook::gl::ProbeTexture* probe() { return std::get_if<nook::gl::ProbeTexture>(&content); }
+  nook::gl::GridVolume* grid() { return std::get_if<nook::gl::GridVolume>(&content); }
+
+  nook_gl_s* gl;
+  std::variant<std::monostate, nook::gl::ProbeTexture, nook::gl::GridVolume, nook::gl::MaterialTextures,
+               nook::gl::CoordinateTexture, nook::gl::ClipTextures>
+      content;
+};
+
+namespace nook::api {
+
+template <class Content, class... Arguments>
+nook_gl_upload make_upload(nook_gl gl, unsigned users, Arguments&&... arguments) {
+  gl->device.need_alive();
+  return Owned<nook_gl_upload_s>::make(gl->device.memory, Ref<nook_gl_s>::share(gl),
+                                       std::in_place_type<Content>, gl, users,
+                                       std::forward<Arguments>(arguments)...)
+      .detach();
+}
+
+// max_layers is the maximum of one texture array, 0 for the limit of this OpenGL. Tests give another limit.
+nook_gl_upload upload_material(nook_gl gl, nook_material material, std::uint32_t max_layers);
+
+}  // namespace nook::api
