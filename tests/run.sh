@@ -33,9 +33,6 @@ export LSAN_OPTIONS="suppressions=\"$root/tests/lsan.supp\":print_suppressions=0
 # for each source.
 export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}
 export CCACHE_DEPEND=1
-# A clone in another folder finds what this one compiled.
-export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$root}
-export CCACHE_NOHASHDIR=1
 
 configure() {  # folder, options...
   local folder=$1

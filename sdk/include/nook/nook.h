@@ -25,8 +25,8 @@ extern "C" {
 #define NOOK_VERSION_PATCH 0
 /* The text behind the numbers: "-rc1" for the first candidate of a release, "" for the release. */
 #define NOOK_VERSION_SUFFIX "-rc1"
-/* The caller passes this value to every *_desc_init, so that the library knows with which header the caller
- * was compiled. Unsigned, and without a cast, so that #if can compare it too. */
+/* The init functions pass this value to nook_desc_init, so that the library knows with which header you
+ * compiled. The value is unsigned and has no cast, so that #if can compare it too. */
 #define NOOK_VERSION (((NOOK_VERSION_MAJOR + 0u) << 22) | (NOOK_VERSION_MINOR << 12) | NOOK_VERSION_PATCH)
 
 /* Hosts of the static library define NOOK_STATIC; the CMake target and the pkg-config file do it for them.
@@ -282,8 +282,8 @@ static inline nook_result nook_context_desc_init(nook_context_desc* desc) {
 }
 
 /* Creates a context, which models, scenes and GL objects are created from. On failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT, VERSION, UNSUPPORTED (the build or the processor lacks desc->isa; the
- * message names the sets that it has), OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the build or the processor lacks desc->isa; the message
+ * names the sets that it has), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_context_create(const nook_context_desc* desc, nook_context* out);
 
 /* Releases the caller's reference and sets *context to NULL; context and *context may be NULL. Models, scenes

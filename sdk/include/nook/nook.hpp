@@ -1,6 +1,6 @@
 // C++17 wrappers of the C headers: handles destroy their objects, and failed calls throw nook::Error. This
-// header is all of them but those of nook/experimental; each nook_X.hpp wraps nook_X.h and can be included
-// alone.
+// header includes all of the stable ones. nook_gl.hpp and nook_nnao.hpp also include the experimental headers
+// that their members need. Each nook_X.hpp wraps nook_X.h, and you can include it alone.
 #ifndef NOOK_NOOK_HPP
 #define NOOK_NOOK_HPP
 

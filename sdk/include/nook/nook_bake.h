@@ -4,9 +4,10 @@
  * transfer, and experimental/nook_trace.h ray-traced references.
  *
  * nook_bake is for offline use. It links Embree, oneTBB and other libraries, and the runtime library, nook,
- * never needs it. Its results are the bytes of .nook files, which nook_model_load,
- * nook_material_load, nook_synthesis_load and nook_transfer_load take. Thread contracts, descriptors and
- * results follow the rules of nook.h; the messages of this library are in nook_bake_last_message(). */
+ * never needs it. Its results are the bytes of .nook files, which nook_model_load, nook_clips_load and
+ * nook_material_load take, and nook_synthesis_load and nook_transfer_load of nook/experimental. Thread
+ * contracts, descriptors and results follow the rules of nook.h; the messages of this library are in
+ * nook_bake_last_message(). */
 #ifndef NOOK_BAKE_H
 #define NOOK_BAKE_H
 
@@ -58,7 +59,7 @@ typedef int32_t (*nook_bake_progress_fn)(void* user, const nook_bake_progress* p
  * tells the kind from the field `type`. Where you know the kind, call a typed function instead, such as
  * nook_bake_start_character. This function checks the descriptor and copies what it points to, so you may
  * free its arrays afterwards. On failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), VERSION, BAD_FILE, FILE_VERSION,
+ * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE, FILE_VERSION,
  * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_start(const void* desc, nook_bake_job* out);
 
@@ -142,8 +143,8 @@ static inline nook_result nook_bake_source_desc_init(nook_bake_source_desc* desc
 }
 
 /* Creates a character from a file or from arrays. On failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), VERSION, BAD_FILE (the message
- * names the file and the fault), OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (the message names the
+ * file and the fault), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_character_create(const nook_bake_source_desc* desc, nook_bake_character* out);
 
 /* Releases the caller's reference and sets *character to NULL; *character may be NULL. Jobs that still run
@@ -348,7 +349,7 @@ static inline nook_result nook_bake_character_desc_init(nook_bake_character_desc
 }
 
 /* Starts to bake a character's model, as nook_bake_start does. nook_bake_job_file gives the bytes for
- * nook_model_load. Any thread. Errors: INVALID_ARGUMENT, VERSION, OUT_OF_MEMORY. */
+ * nook_model_load. Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 static inline nook_result nook_bake_start_character(const nook_bake_character_desc* desc,
                                                     nook_bake_job* out) {
   return nook_bake_start(desc, out);
@@ -395,8 +396,8 @@ static inline nook_result nook_bake_bent_desc_init(nook_bake_bent_desc* desc) {
 
 /* Starts to bake bent normals, as nook_bake_start does. nook_bake_job_file gives the bytes of the model with
  * bent normals, all else in it unchanged, for nook_model_load. The report holds the sizes and the time.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), VERSION, BAD_FILE (no model, or
- * that of another character), FILE_VERSION, OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (no model, or that of
+ * another character), FILE_VERSION, OUT_OF_MEMORY. */
 static inline nook_result nook_bake_start_bent(const nook_bake_bent_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }
@@ -454,8 +455,7 @@ static inline nook_result nook_bake_clips_desc_init(nook_bake_clips_desc* desc) 
 /* Starts to bake the clips of a character, as nook_bake_start does. nook_bake_job_file gives the bytes for
  * nook_clips_load. The report holds the sizes, the errors of the tables and the time.
  * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault; an unknown clip's lists the clips
- * of the character), VERSION, BAD_FILE (no model, or that of another character), FILE_VERSION,
- * OUT_OF_MEMORY. */
+ * of the character), BAD_FILE (no model, or that of another character), FILE_VERSION, OUT_OF_MEMORY. */
 static inline nook_result nook_bake_start_clips(const nook_bake_clips_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }
@@ -587,7 +587,7 @@ static inline nook_result nook_bake_material_desc_init(nook_bake_material_desc* 
 /* Starts to bake a material, as nook_bake_start does. Faults that only the data show, such as ranks that
  * exceed the sizes, fail here as well. nook_bake_job_file gives the material's file. The report holds the
  * settings, sizes, times, the signal-to-error ratio in dB and the share of wrong texels.
- * Any thread. Errors: INVALID_ARGUMENT, VERSION, OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 static inline nook_result nook_bake_start_material(const nook_bake_material_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }

@@ -60,7 +60,7 @@ typedef struct nook_model_info {
   uint64_t lit_instance_bytes;
 } nook_model_info;
 
-/* Describes a model. nook_gl_model_memory gives the memory on the GPU.
+/* Describes a model. nook_gl_model_memory of experimental/nook_debug.h gives the memory on the GPU.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_model_describe(nook_model model, nook_model_info* info);
 
@@ -133,8 +133,8 @@ typedef struct nook_scene_desc {
   /* The change of AO, root mean square over a body, that you allow when nook_scene_update replaces far
    * spheres by fewer, larger ones; 0 to 1, default 1/1024. Linked casters become 16, 6 or 2 groups. The
    * body's own spheres take part only with the default kernel, at most 256 spheres, full detail and no light.
-   * A single vertex can change 18 times as much. 0 turns it off; NOOK_FORM_PAPER and the OpenGL 4.3 tier
-   * ignore it. */
+   * A single vertex can change 18 times as much. 0 turns it off; NOOK_FORM_PAPER and the tiers 43 and ES31 of
+   * OpenGL ignore it. */
   float far_error;
 } nook_scene_desc;
 
@@ -554,8 +554,8 @@ NOOK_API nook_result nook_model_check_pose(nook_model model, const nook_pose_des
  *
  * AO comes in the order of the file's vertices. If your engine re-indexes, splits, strips or optimises
  * meshes, match your vertices once and remap the model: the new model gives AO in your order on the CPU and
- * on every tier of OpenGL. For a mesh with other vertices, such as a level of detail, see
- * nook_model_resample. */
+ * on every tier of OpenGL. For a mesh with other vertices, such as a level of detail, see nook_model_resample
+ * in experimental/nook_lod.h. */
 
 enum {
   /* Every primitive of the file. */

@@ -9,10 +9,10 @@
  * clip, and neighbours, ground, occluders and the world casters work as for a character with bones: AO = AO
  * of the clip * (1 - added), where the added casters are evaluated at key points in the pose of the clip.
  *
- * On the GPU a vertex shader decodes the AO itself (nook_gl.h), without work for each vertex on the
- * CPU, and multiplies by what nook_gl_scene_update leaves in its buffers for an instance with a clip:
- * 1 - added. Where the CPU updates the scene, nook_scene_read gives the same if the scene's terms leave
- * out NOOK_TERM_SELF. */
+ * On the GPU a vertex shader decodes the AO itself (nook_gl.h), without work for each vertex on the CPU, and
+ * multiplies by what nook_gl_scene_update leaves in its buffers for an instance with a clip: 1 - added. If
+ * the CPU updates the scene, leave out NOOK_TERM_SELF by nook_scene_set_terms (experimental/nook_debug.h):
+ * nook_scene_read then gives the same. */
 #ifndef NOOK_CLIPS_H
 #define NOOK_CLIPS_H
 

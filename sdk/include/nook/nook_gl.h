@@ -1,5 +1,5 @@
-/* The OpenGL functions: characters evaluated on the GPU, with their ambient occlusion in buffers that the
- * host's shaders read.
+/* The OpenGL functions: characters on the GPU, the frame that the screen pass and the world pass take, and
+ * uploads of probes, materials and clips for your shaders.
  *
  * Nook needs OpenGL 3.3 core, OpenGL ES 3.0 or WebGL 2, or newer, and includes no OpenGL header. There are
  * two ways. Tiers 43 and ES31: on OpenGL 4.3 and OpenGL ES 3.1, spheres, shadows and vertices are evaluated
@@ -90,8 +90,8 @@ static inline nook_result nook_gl_desc_init(nook_gl_desc* desc) {
 /* Loads functions and compiles shaders for the OpenGL context that is current. Host memory comes from the
  * context's allocator, except for one small allocation of the function loader. On failure *out is NULL and no
  * OpenGL object is left.
- * Context thread. Errors: INVALID_ARGUMENT, VERSION, UNSUPPORTED (the message names the OpenGL version or the
- * missing function), GL, OUT_OF_MEMORY. */
+ * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the message names the OpenGL version or the missing
+ * function), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_create(nook_context context, const nook_gl_desc* desc, nook_gl* out);
 
 /* Deletes every OpenGL object that gl created and sets *gl to NULL; *gl may be NULL. The context and the
@@ -402,7 +402,7 @@ static inline nook_result nook_gl_frame_desc_init(nook_gl_frame_desc* desc) {
   return nook_desc_init(NOOK_DESC_GL_FRAME, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* ---- Uploads: probes and materials in shaders ----
+/* ---- Uploads: probes, materials and clips in shaders ----
  *
  * An upload is a probe, a grid, a material or baked clips as textures, together with the GLSL that reads
  * them. Upload once with nook_gl_upload_probe, nook_gl_upload_material or nook_gl_upload_clips. Put the GLSL
@@ -483,13 +483,14 @@ NOOK_API void nook_gl_upload_destroy(nook_gl_upload* upload);
  * faster than lobes. The sampler is nook_grid_texels, the constant nook_grid_frame. Your shader:
  *     vec3 e = nook_grid_irradiance(position_ws, normal_ws);
  *
- * A capture turns cube maps that your engine renders into probes, while the game runs: see nook_capture.h. */
+ * A capture turns cube maps that your engine renders into probes, while the game runs: see
+ * experimental/nook_capture.h. */
 
 /* The numbers that an upload holds for each probe. */
 enum {
   /* Bands 0 to 2 of spherical harmonics, 27 half floats. */
   NOOK_GL_PROBE_SH = 0,
-  /* ZH3, see nook_sh_to_zh3, 15 half floats. */
+  /* ZH3, see nook_sh_to_zh3 of experimental/nook_sg.h; 15 half floats. */
   NOOK_GL_PROBE_ZH3 = 1,
   /* The lobes of the probe, four floats each. */
   NOOK_GL_PROBE_LOBES = 2

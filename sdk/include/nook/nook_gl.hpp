@@ -1,5 +1,5 @@
-// C++17 wrappers of the OpenGL objects of characters: nook_gl.h. Every function and every destructor belongs
-// to the context thread.
+// C++17 wrappers of nook_gl.h: characters on the GPU, and uploads of probes, materials and clips. Every
+// function and every destructor belongs to the context thread.
 #ifndef NOOK_GL_HPP
 #define NOOK_GL_HPP
 
@@ -90,8 +90,8 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
   }
 };
 
-// A probe, a grid or a material as textures, and the GLSL that reads them. Every function and the destructor
-// belong to the context thread, as nook_gl.h documents.
+// A probe, a grid, a material or clips as textures, and the GLSL that reads them. Every function and the
+// destructor belong to the context thread, as nook_gl.h documents.
 class Upload : public Unique<nook_gl_upload, nook_gl_upload_destroy> {
  public:
   Upload() = default;

@@ -82,7 +82,7 @@ typedef struct nook_nnao_desc {
   /* > 0, default 16. Depths that depart from a surface by more than 1 / blur_sharpness radii are an edge of
    * it, which the filter does not cross. */
   float blur_sharpness;
-  /* 1: every stage is timed for nook_nnao_read_timings. Default 0. */
+  /* 1: every stage is timed for nook_nnao_read_timings of experimental/nook_stages.h. Default 0. */
   int32_t timers;
   /* Default NOOK_NNAO_PATH_AUTOMATIC. */
   nook_nnao_path path;
@@ -136,15 +136,14 @@ typedef int32_t nook_nnao_preset;
 
 /* Sets taps, half_resolution and blur of a descriptor that nook_nnao_desc_init has filled. The call makes no
  * OpenGL call.
- * Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+ * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_nnao_desc_set_preset(nook_nnao_desc* desc, nook_nnao_preset preset);
 
 /* Creates textures and shaders; the caller may free the network's bytes afterwards. On failure *out is NULL
  * and no OpenGL object is left.
- * Context thread. Errors: INVALID_ARGUMENT, VERSION, UNSUPPORTED (the size exceeds the textures of this
- * OpenGL, or this OpenGL lacks the path, multisample textures or arrays of them), BAD_FILE, FILE_VERSION, GL,
- * OUT_OF_MEMORY.
- */
+ * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the size exceeds the textures of this OpenGL, or
+ * this OpenGL lacks the path, multisample textures or arrays of them), BAD_FILE, FILE_VERSION, GL,
+ * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_create(nook_gl gl, const nook_nnao_desc* desc, nook_nnao* out);
 
 /* Deletes every OpenGL object of the pass and sets *pass to NULL; *pass may be NULL. The nook_gl may have
@@ -224,8 +223,8 @@ static inline nook_result nook_nnao_frame_desc_init(nook_nnao_frame_desc* desc) 
  * leaves no OpenGL error, changes no state and draws nothing.
  * Context thread. Errors: INVALID_ARGUMENT (the message names the field, its value and what is needed: a size
  * exceeds the maximum or is not the size of a texture, a format is of another kind, an input is the target, a
- * matrix is not finite, is singular or is no projection, or the radius is not above 0), VERSION, GL (the
- * OpenGL context was lost). */
+ * matrix is not finite, is singular or is no projection, or the radius is not above 0), GL (the OpenGL
+ * context was lost). */
 NOOK_API nook_result nook_nnao_render(nook_nnao pass, const nook_gl_frame_desc* frame,
                                       const nook_nnao_frame_desc* desc);
 

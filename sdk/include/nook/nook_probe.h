@@ -114,7 +114,7 @@ static inline nook_result nook_probe_fit_desc_init(nook_probe_fit_desc* desc) {
 /* Creates a fit without samples. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT (also, form is NOOK_FORM_PAPER and method or match_sh is set; or two
  * functions are equal, or so nearly equal that no fit can separate them, and the message names both),
- * VERSION, UNSUPPORTED, OUT_OF_MEMORY. */
+ * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_fit_create(nook_context context, const nook_probe_fit_desc* desc,
                                            nook_probe_fit* out);
 
@@ -218,7 +218,7 @@ static inline nook_result nook_probe_desc_init(nook_probe_desc* desc) {
 /* Creates a probe or a grid from fits, lobes or coefficients. On failure *out is NULL. No other thread may
  * use the fits during the call. Any thread. Errors: INVALID_ARGUMENT (also, not exactly one source is set,
  * the fits differ in their functions, or a coefficient is not finite or its magnitude is above 1e22),
- * VERSION, OUT_OF_MEMORY. */
+ * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_create(nook_context context, const nook_probe_desc* desc, nook_probe* out);
 
 /* Loads a probe or a grid from the bytes of a .nook file; the caller may free the bytes afterwards. The

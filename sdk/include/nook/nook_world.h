@@ -3,7 +3,7 @@
  * A world caster is a capsule, the convex hull of two spheres, that is rigid to one bone. `nook bake
  * character` fits at most 64 of them to each body against ray tracing, on floors, on walls and on neighbours,
  * and stores them in the model's file. The instances of a scene (nook_character.h) cast with them, and so do
- * the scene's free occluders, as spheres, and props, which are capsules that the host places.
+ * the scene's free occluders, as spheres, and the capsules that you pass in nook_world_frame_desc.
  *
  * AO: the share of a point's cosine-weighted hemisphere that a capsule covers has a closed form, exact where
  * the capsule is above the horizon. Casters overlap by the product of what each leaves open, as if they
@@ -17,7 +17,8 @@
  * the mean radiance of the hemisphere. A capsule before a bright window darkens more than one before a wall.
  * Under constant light the result is AO. Below 24 lobes, SH bands 0 to 2 count; from 24 on, 0 to 4.
  *
- * nook_world.h darkens what a depth buffer shows. */
+ * nook_world_render darkens what a depth buffer shows. nook_world_sample of experimental/nook_world_sample.h
+ * computes the same at points on the CPU. */
 #ifndef NOOK_WORLD_H
 #define NOOK_WORLD_H
 
@@ -29,7 +30,7 @@ extern "C" {
 
 /* ---- The pass ----
  *
- * Characters darken what a depth buffer shows: the AO of nook_world.h at each pixel, on the GPU.
+ * Characters darken what a depth buffer shows. The pass computes this AO at each pixel on the GPU.
  *
  * After depth, one call darkens the whole screen by the capsules of a scene, also by capsules that the screen
  * does not show. You pass the frame that the screen pass (nook_nnao.h) takes as well, and the scene. The pass
@@ -74,8 +75,8 @@ static inline nook_result nook_world_desc_init(nook_world_desc* desc) {
 }
 
 /* Creates textures and shaders. On failure *out is NULL and no OpenGL object is left.
- * Context thread. Errors: INVALID_ARGUMENT, VERSION, UNSUPPORTED (the size exceeds the textures of this
- * OpenGL, or the casters its tables), GL, OUT_OF_MEMORY. */
+ * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the size exceeds the textures of this OpenGL, or the
+ * casters its tables), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_world_create(nook_gl gl, const nook_world_desc* desc, nook_world* out);
 
 /* Deletes every OpenGL object of the pass and sets *pass to NULL; *pass may be NULL. The nook_gl may have
@@ -99,8 +100,8 @@ enum {
   /* The number of casters that a pixel evaluates, over 255; those of far bodies at half resolution count by
    * the share of their pixels. */
   NOOK_WORLD_VIEW_CASTERS = 1,
-  /* The number of those of them that are capsules of the model or props, in place of the capsule of a limb or
-   * a body; over 255. */
+  /* The number of those casters that are capsules of the model or of nook_world_frame_desc, in place of the
+   * capsule of a limb or a body; over 255. */
   NOOK_WORLD_VIEW_EXACT_CASTERS = 2,
   /* The number of bodies whose reach a pixel tests, over 255. */
   NOOK_WORLD_VIEW_TESTS = 3,
@@ -168,8 +169,8 @@ static inline nook_result nook_world_frame_desc_init(nook_world_frame_desc* desc
  * such as on characters, its red channel is the result. The call reads nothing back and never waits for the
  * GPU, and allocates only where the capsules outgrow their room. On failure it leaves no OpenGL error,
  * changes no state and draws nothing. Context thread, while no other call changes the scene. Errors:
- * INVALID_ARGUMENT (the message names the field, its value and what is needed), VERSION, OUT_OF_MEMORY, GL
- * (the OpenGL context was lost). */
+ * INVALID_ARGUMENT (the message names the field, its value and what is needed), OUT_OF_MEMORY, GL (the OpenGL
+ * context was lost). */
 NOOK_API nook_result nook_world_render(nook_world pass, const nook_gl_frame_desc* frame,
                                        const nook_world_frame_desc* desc);
 

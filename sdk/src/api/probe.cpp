@@ -141,7 +141,7 @@ nook_result at_directions(const char* function, nook_probe probe, const float* p
     const Probes& probes = probe->probes;
     Coefficients storage;
     const std::span<Vec3> coefficients = std::span(storage).first(probes.basis.count);
-    std::ranges::copy(probes.of(0), coefficients.begin());
+    std::copy_n(probes.of(0).begin(), coefficients.size(), coefficients.begin());
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3 direction = vec3(directions + 3 * i);
       if (positions_ws) look_up(probes, vec3(positions_ws + 3 * i), direction, coefficients);

@@ -56,7 +56,7 @@ static inline nook_result nook_bake_synthesis_desc_init(nook_bake_synthesis_desc
 
 /* Starts to bake a synthesis, as nook_bake_start does. nook_bake_job_file gives the bytes for
  * nook_synthesis_load. The report holds the sizes, the time and the seams.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), VERSION, BAD_FILE (of material),
+ * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (of material),
  * FILE_VERSION, OUT_OF_MEMORY. */
 static inline nook_result nook_bake_start_synthesis(const nook_bake_synthesis_desc* desc,
                                                     nook_bake_job* out) {
@@ -128,8 +128,8 @@ static inline nook_result nook_bake_transfer_desc_init(nook_bake_transfer_desc* 
 
 /* Starts to bake radiance transfer, as nook_bake_start does. nook_bake_job_file gives the bytes for
  * nook_transfer_load. The report holds the settings, sizes, the time and warnings.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), VERSION, BAD_FILE (of votf or
- * material), OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (of votf or material),
+ * OUT_OF_MEMORY. */
 static inline nook_result nook_bake_start_transfer(const nook_bake_transfer_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }

@@ -61,8 +61,8 @@ static inline nook_result nook_gl_capture_desc_init(nook_gl_capture_desc* desc) 
 /* Makes the programs and buffers of a capture: for each probe 16 * 12 bytes for every 12 lobes and 16 * 12
  * for the harmonics, twice, and 2304 bytes for each texel of face_size_px. The textures keep their light
  * until the first map of each probe. On failure *out is NULL and no OpenGL object is left. Context thread.
- * Errors: INVALID_ARGUMENT, VERSION, UNSUPPORTED (the sums of all probes exceed the texture buffer of this
- * OpenGL; every OpenGL has room for 2,500 probes of 12 lobes), GL, OUT_OF_MEMORY. */
+ * Errors: INVALID_ARGUMENT, UNSUPPORTED (the sums of all probes exceed the texture buffer of this OpenGL;
+ * every OpenGL has room for 2,500 probes of 12 lobes), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_capture_create(nook_gl gl, const nook_gl_capture_desc* desc,
                                             nook_gl_capture* out);
 

@@ -11,7 +11,8 @@
 namespace nook {
 inline namespace wrapper {
 
-// Cube maps that the host renders become probes of one or two Uploads; the same holds.
+// Cube maps that the host renders become probes of one or two Uploads. Every function and the destructor
+// belong to the context thread, as nook_capture.h documents.
 class GlProbeCapture : public Unique<nook_gl_capture, nook_gl_capture_destroy> {
  public:
   // Defaults, for the caller to change.

@@ -1,10 +1,11 @@
-/* Shapes for debug drawing, which show the parts that a scene evaluates: the proxy spheres and key points of
- * an instance in its pose, its links, and its level of detail. A host draws them over its own picture to see
- * why a character is dark: a sphere that sticks out of the body, a bone that does not follow, a neighbour
- * that is not linked.
+/* Shapes for debug drawing, the terms that updates evaluate, and the memory of a model on the GPU. The shapes
+ * show the parts that a scene evaluates: the proxy spheres and key points of an instance in its pose, its
+ * links, and its level of detail. A host draws them over its own picture to see why a character is dark: a
+ * sphere that sticks out of the body, a bone that does not follow, a neighbour that is not linked.
  *
- * The calls do not allocate and change nothing. Spheres and points follow the pose that is set; links and
- * levels are those of the last update, on the CPU or on OpenGL. */
+ * Calls that describe or read do not allocate and change nothing. nook_scene_set_terms changes what the next
+ * updates evaluate, and nook_gl_model_memory gives the memory of a model on the GPU. Spheres and points
+ * follow the pose that is set; links and levels are those of the last update, on the CPU or on OpenGL. */
 #ifndef NOOK_DEBUG_H
 #define NOOK_DEBUG_H
 

@@ -2,11 +2,11 @@
  * frame, with the AO that the pass made of them, in one .nook file. `nook evaluate nnao --frame FILE.nook`
  * draws the frame anew on another machine, and `nook inspect FILE.nook` lists what it holds.
  *
- * nook_nnao_record in nook_nnao.h records a frame of OpenGL. A host with another graphics interface, or a
- * tool, fills nook_nnao_recording_desc itself. No function here makes an OpenGL call.
+ * nook_nnao_record records a frame of OpenGL. A host with another graphics interface, or a tool, fills
+ * nook_nnao_recording_desc itself. Only nook_nnao_record makes OpenGL calls.
  *     nook_nnao_recording recording;
  *     size_t size = 0;
- *     nook_nnao_record(pass, &frame, "floor too dark", &recording);
+ *     nook_nnao_record(pass, &frame, &desc, "floor too dark", &recording);
  *     nook_nnao_recording_save(recording, NULL, &size);
  *     nook_nnao_recording_save(recording, bytes = malloc(size), &size);
  *     nook_nnao_recording_destroy(&recording);
@@ -28,8 +28,8 @@ typedef struct nook_nnao_recording_s* nook_nnao_recording;
 
 /* The contents of a recording. Images have width x height texels, row by row from the one where clip y is -1,
  * x first; they are the part of the host's images that the projection fills. The members of the frame and of
- * the pass have the meaning, the ranges and the constants of nook_nnao_frame_desc and nook_nnao_desc in
- * nook_nnao.h. */
+ * the pass have the meaning, the ranges and the constants of nook_gl_frame_desc (nook_gl.h),
+ * nook_nnao_frame_desc and nook_nnao_desc (nook_nnao.h). */
 typedef struct nook_nnao_recording_desc {
   /* nook_nnao_recording_desc_init sets these two. */
   uint32_t struct_size;
@@ -43,13 +43,13 @@ typedef struct nook_nnao_recording_desc {
   /* Three floats for each texel, as a shader reads them from the normal texture, any numbers. NULL: none; the
    * pass reconstructs normals. */
   const float* normals;
-  /* Two floats for each texel: the red and the green channel of the layer texture, any numbers. Required if
+  /* Two floats for each texel: the red and the green channel of the G-buffer AO, any numbers. Required if
    * layer is not 0. */
   const float* layer_texels;
   /* The AO of the frame, as the pass writes it to its own texture, in [0, 1]. NULL: none. */
   const float* ao;
-  /* The frame. depth_kind: 0 hardware depth, 1 linear depth. clip: 0 from -1 to 1, 1 from 0 to 1. projection
-   * and radius are required. */
+  /* The frame. depth_kind: 0 hardware depth, 1 linear depth. clip, a nook_clip_space: 0 from -1 to 1, 1 from
+   * 0 to 1. projection and radius are required. */
   int32_t depth_kind;
   int32_t clip;
   float sky_depth;
@@ -59,9 +59,9 @@ typedef struct nook_nnao_recording_desc {
   float radius;
   float max_radius_px;
   float intensity, power;
-  /* 0 none, 1 minimum, 2 remainder, 3 replace, 4 apart, as nook_gbuffer_ao. */
+  /* A nook_gbuffer_ao: 0 none, 1 min, 2 remainder, 3 replace, 4 exclude. */
   int32_t layer;
-  /* The view that ao holds: 0 the result, 1 raw, 2 blurred. */
+  /* The quantity that ao holds, a nook_nnao_view: 0 the result, 1 raw, 2 blurred. */
   int32_t view;
   /* The pass. path: 0 unknown, 1 fragment, 2 compute. */
   int32_t taps;
@@ -91,8 +91,8 @@ static inline nook_result nook_nnao_recording_desc_init(nook_nnao_recording_desc
 }
 
 /* Makes a recording; it copies everything. On failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the field, its value and what is needed), VERSION,
- * BAD_FILE (network is no network's file), OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT (the message names the field, its value and what is needed), BAD_FILE
+ * (network is no network's file), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_recording_create(nook_context context, const nook_nnao_recording_desc* desc,
                                                 nook_nnao_recording* out);
 
@@ -131,7 +131,7 @@ struct nook_nnao_frame_desc;
  * The call may stand before nook_nnao_render of the same frame or after it. It WAITS FOR THE GPU, allocates,
  * and makes a program: it is meant for reports of errors and for measurements. It is not for passes with
  * depth_samples or views. On failure *out is NULL. Context thread. Errors: INVALID_ARGUMENT (as
- * nook_nnao_render; also, the note is longer than 1000 bytes or has control characters), VERSION, GL,
+ * nook_nnao_render; also, the note is longer than 1000 bytes or has control characters), GL,
  * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_record(nook_nnao pass, const struct nook_gl_frame_desc* frame,
                                       const struct nook_nnao_frame_desc* desc, const char* note,

@@ -1,11 +1,11 @@
 /* The stages of the screen-space pass as data, for hosts whose graphics interface is not OpenGL, such as
  * Vulkan or Direct3D: shader text, images, and the numbers that the shaders read. The host makes the images
- * and pipelines, and draws; no function here makes an OpenGL call or needs an OpenGL context. The library
- * must have been built with its OpenGL half (NOOK_GL, the default), which holds the shaders.
+ * and pipelines, and draws. Only nook_nnao_read_timings makes OpenGL calls and needs an OpenGL context. The
+ * library must have been built with its OpenGL half (NOOK_GL, the default), which holds the shaders.
  *
  * Once:
  *     nook_nnao_stages stages;
- *     nook_nnao_stages_create(context, &desc, &stages);        the descriptor of nook_nnao_create
+ *     nook_nnao_stages_create(context, &settings, &stages);    the nook_nnao_desc of nook_nnao_create
  *     nook_nnao_stages_describe(stages, &info);                vertex shader, numbers of the network
  *     nook_nnao_stages_describe_image(stages, image, &description);     format and size of each image
  *     nook_nnao_stages_describe_stage(stages, i, &stage);               fragment shader, output, inputs
@@ -56,8 +56,9 @@ enum {
   /* The same after filters; with two of them AO is written anew by the second. */
   NOOK_NNAO_IMAGE_FILTERED = 6,
   /* With max_history_frames: the mean over frames, and what it and linear depth were in the frame before.
-   * After each frame the host swaps NOOK_NNAO_IMAGE_DEPTH with EARLIER_DEPTH, and MEAN with EARLIER_MEAN.
-   * Each view has four such images of its own. */
+   * After each frame you swap NOOK_NNAO_IMAGE_DEPTH with NOOK_NNAO_IMAGE_HISTORY_DEPTH, and
+   * NOOK_NNAO_IMAGE_ACCUMULATED_AO with NOOK_NNAO_IMAGE_HISTORY_AO. Each view has four such images of its
+   * own. */
   NOOK_NNAO_IMAGE_ACCUMULATED_AO = 7,
   NOOK_NNAO_IMAGE_HISTORY_DEPTH = 8,
   NOOK_NNAO_IMAGE_HISTORY_AO = 9,
@@ -89,7 +90,7 @@ enum {
 
 /* Describes the stages of a pass. path and timers of the descriptor have no effect. Not with a network of the
  * paper's form. It allocates; on failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT, VERSION, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_stages_create(nook_context context, const nook_nnao_desc* desc,
                                              nook_nnao_stages* out);
 
@@ -170,7 +171,7 @@ typedef struct nook_nnao_frame_values {
  * NOOK_NNAO_VIEW_AO, RAW or BLURRED, and RAW only without max_history_frames.
  * earlier: the frame before, or NULL for a cut. number: the count of frames before, which turns the noise of
  * passes with max_history_frames. view: less than nook_nnao_desc.views, or 0.
- * Any thread. Errors: INVALID_ARGUMENT (as nook_nnao_render), VERSION. */
+ * Any thread. Errors: INVALID_ARGUMENT (as nook_nnao_render). */
 NOOK_API nook_result nook_nnao_stages_frame(nook_nnao_stages stages, const nook_gl_frame_desc* frame,
                                             const nook_nnao_frame_desc* desc,
                                             const nook_gl_frame_desc* earlier, uint32_t number, uint32_t view,
@@ -202,11 +203,11 @@ NOOK_API nook_result nook_clips_read_texture(nook_clips clips, nook_clips_table 
 
 /* Computes the texture memory that a pass will take, before you create it: 58 MB at 3840 x 2160, 25 MB at
  * half resolution, 100 and 58 MB with bent normals. docs/nnao.md has the bytes for each option. Makes no
- * OpenGL call. Any thread. Errors: INVALID_ARGUMENT, VERSION, BAD_FILE, FILE_VERSION. */
+ * OpenGL call. Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION. */
 NOOK_API nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* bytes);
 
 /* The time that the GPU took for each stage of the newest finished frame, in milliseconds; with
- * nook_nnao_desc.views, for the last layer. */
+ * nook_nnao_desc.views, for the last view. */
 typedef struct nook_nnao_timings {
   /* sizeof(nook_nnao_timings); the caller sets it. */
   uint32_t struct_size;

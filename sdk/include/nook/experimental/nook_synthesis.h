@@ -2,7 +2,7 @@
  * synthesis` makes from a material that tiles or does not. A texel of the plane names the texel of the
  * material that is shown there.
  *
- * nook_synthesis.h uploads a coordinate texture and has its GLSL. */
+ * nook_gl_upload_synthesis uploads a coordinate texture and gives its GLSL. */
 #ifndef NOOK_SYNTHESIS_H
 #define NOOK_SYNTHESIS_H
 

@@ -103,7 +103,7 @@ static inline nook_result nook_bake_trace_desc_init(nook_bake_trace_desc* desc) 
 
 /* Traces the cosine-weighted visibility of all points and writes point_count values to ao; count must be
  * point_count. The call returns when all points are done.
- * Any thread. Errors: INVALID_ARGUMENT, VERSION, OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float* ao, uint32_t count);
 
 /* ---- Path-traced irradiance of a scene under an environment ---- */
@@ -175,7 +175,7 @@ static inline nook_result nook_bake_irradiance_desc_init(nook_bake_irradiance_de
  * a diffuse surface there reflects the radiance E * base colour / pi. Each path samples the environment by
  * luminance and the hemisphere by cosine, combined by the balance heuristic. The estimate is unbiased, and
  * its noise falls with the square root of rays. The call returns when all points are done.
- * Any thread. Errors: INVALID_ARGUMENT, VERSION, OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_trace_irradiance(const nook_bake_irradiance_desc* desc, float* irradiance,
                                                 uint32_t count);
 

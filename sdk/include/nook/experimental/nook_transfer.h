@@ -22,9 +22,9 @@
  * floats: the modes of red, then of green, then of blue. Least squares rings around bright sources, so that
  * light and vectors can be slightly negative; nook_transfer_projection_info gives the share.
  *
- * nook_transfer.h keeps vectors in a buffer and has the GLSL. The method follows section 6.3 of Y.-T.
- * Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012, in a separated form and in its
- * own. */
+ * nook_gl_transfer_create keeps vectors in a buffer, and nook_gl_transfer_describe gives the GLSL. The method
+ * follows section 6.3 of Y.-T. Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012, in a
+ * separated form and in its own. */
 #ifndef NOOK_TRANSFER_H
 #define NOOK_TRANSFER_H
 
@@ -173,7 +173,7 @@ static inline nook_result nook_transfer_light_desc_init(nook_transfer_light_desc
 
 /* Creates a light. Nook copies what it needs: you may free the map and destroy the probe afterwards. On
  * failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT (also, a texel is not a number in range), VERSION, OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT (also, a texel is not a number in range), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_transfer_light_create(nook_context context, const nook_transfer_light_desc* desc,
                                                 nook_transfer_light* out);
 
@@ -312,8 +312,8 @@ NOOK_API nook_result nook_transfer_read_vectors(nook_transfer_response response,
 
 /* Computes the radiance, linear RGB, of material pixels from vectors of vector_floats floats each, one for
  * each pixel. The call does not read the light of a pixel, and decodes it with one fetch. Use it to check
- * your shader: it is the reference of the GLSL of nook_transfer.h. Any thread. Errors: INVALID_ARGUMENT
- * (also, vector_floats is not the material's, or a number is not finite). */
+ * your shader: it is the reference of the GLSL of nook_gl_transfer_describe. Any thread. Errors:
+ * INVALID_ARGUMENT (also, vector_floats is not the material's, or a number is not finite). */
 NOOK_API nook_result nook_transfer_shade(nook_material material, const nook_material_pixel* pixels,
                                          const float* vectors, uint32_t vector_floats, uint32_t count,
                                          float* radiance);

@@ -59,26 +59,25 @@ static inline nook_result nook_world_sample_desc_init(nook_world_sample_desc* de
 }
 
 /* Computes at each point the AO that the casters leave, in [0, 1], and the open share of the light, for
- * lightmaps, particles and whatever a pass cannot see. scene may be NULL where props alone cast. The poses
- * are those of the last nook_scene_set_pose; no nook_scene_update is needed. ao and light have room for
- * point_count floats; either may be NULL. An occluder with a receiver casts on that
- * receiver only.
+ * lightmaps, particles and whatever a pass cannot see. scene may be NULL if only desc->capsules cast. The
+ * poses are those of the last nook_scene_set_pose; no nook_scene_update is needed. ao and light have room for
+ * point_count floats; either may be NULL. An occluder with a receiver casts on that receiver only.
  *
  * A body is left out of a block of points if it takes less AO than the scene's cutoff_error from any of them:
  * (sum over its casters of r (r + 2 l / pi)) / d^2, with the radii r in AO, the lengths l, and the distance d
  * between the spheres round both. What is left out of a point is at most cutoff_error for each body. Free
- * occluders and props are never left out.
+ * occluders and desc->capsules are never left out.
  *
  * The call does not allocate, and runs through the context's parallel_for if the scene has one. One at a
- * time. Errors: INVALID_ARGUMENT, VERSION, INVALID_HANDLE. */
+ * time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_world_sample(nook_scene scene, const nook_world_sample_desc* desc, float* ao,
                                        float* light);
 
-/* Writes the world casters of the model (nook_world.h) at a time of a clip, in world space, for
- * nook_world_sample and the world pass as props, where no scene holds the character. *count is the room in
- * `out`, and becomes the number of the model's; with out NULL only that is written. The radii are those of
- * AO. Any thread. Errors: INVALID_ARGUMENT (also, there is too little room), UNSUPPORTED (the model was baked
- * without; *count becomes 0). */
+/* Poses the capsules that nook_model_read_capsules gives at a time of a clip, and writes them in world space.
+ * They are for the field capsules of nook_world_sample_desc and nook_world_frame_desc, where no scene holds
+ * the character. *count is the room in `out`, and becomes the number of the model's; with out NULL only that
+ * is written. The radii are those of AO. Any thread. Errors: INVALID_ARGUMENT (also, there is too little
+ * room), UNSUPPORTED (the model was baked without; *count becomes 0). */
 NOOK_API nook_result nook_clips_read_capsules(nook_clips clips, const nook_clip_time* time,
                                               const float* place_3x4, nook_capsule* out, uint32_t* count);
 

@@ -15,8 +15,8 @@ namespace nook::api {
 // over the screen.
 void check_max_size(std::int32_t max_width, std::int32_t max_height);
 
-// Returns the caller's descriptor in this library's version. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT,
-// NOOK_ERROR_VERSION), naming the field, unless it is sound.
+// Returns the caller's descriptor in this library's version. Throws
+// Failure(NOOK_ERROR_INVALID_ARGUMENT), naming the field, unless it is sound.
 nook_nnao_desc checked_nnao_desc(const nook_nnao_desc* given);
 
 // Returns the file of the network, which is the embedded one if the host gave none.
