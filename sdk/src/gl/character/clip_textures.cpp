@@ -2,7 +2,7 @@
 
 #include "sdk/src/character/clip_texels.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/gl/program.h"
+#include "sdk/src/gl/shader_program.h"
 #include "sdk/src/gl/state_guard.h"
 
 namespace nook::gl {

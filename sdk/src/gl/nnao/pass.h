@@ -13,8 +13,7 @@
 #include <array>
 #include <optional>
 
-#include "sdk/src/gl/nnao/frame_constants.h"
-#include "sdk/src/gl/nnao/history_constants.h"
+#include "sdk/src/gl/functions.h"
 #include "sdk/src/gl/nnao/host_images.h"
 #include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/gl/nnao/render_texture.h"
@@ -112,5 +111,11 @@ class NnaoPass {
   std::optional<StageTimer> timer_;
   std::optional<HostImages> checked_;
 };
+
+// The choice between a draw and a dispatch for the network.
+
+// Returns NOOK_NNAO_PATH_FRAGMENT or NOOK_NNAO_PATH_COMPUTE for the path of a descriptor. Throws
+// Failure(NOOK_ERROR_UNSUPPORTED) if the path is compute and compute is not available.
+nook_nnao_path chosen_path(const Functions& gl, nook_nnao_path asked);
 
 }  // namespace nook::gl

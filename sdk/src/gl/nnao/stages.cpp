@@ -8,12 +8,10 @@
 #include <string_view>
 
 #include "sdk/src/core/bit_cast.h"
-#include "sdk/src/gl/nnao/frame_constants.h"
-#include "sdk/src/gl/nnao/history_constants.h"
-#include "sdk/src/gl/nnao/network_constants.h"
+#include "sdk/src/gl/nnao/network_shader.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/gl/nnao/pass.h"
-#include "sdk/src/gl/nnao/pass_defines.h"
-#include "sdk/src/gl/program.h"
+#include "sdk/src/gl/shader_program.h"
 #include "sdk/src/nnao/taps.h"
 
 namespace nook::gl {

@@ -8,7 +8,7 @@
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/float_literal.h"
 #include "sdk/src/gl/nnao/pass.h"
-#include "sdk/src/gl/program.h"
+#include "sdk/src/gl/shader_program.h"
 #include "sdk/src/gl/state_guard.h"
 #include "sdk/src/gl/world/caster_texels.h"
 #include "sdk/src/world/cone.h"

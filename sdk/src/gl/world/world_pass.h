@@ -11,8 +11,8 @@
 #include <array>
 #include <optional>
 
-#include "sdk/src/gl/nnao/frame_constants.h"
 #include "sdk/src/gl/nnao/host_images.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/gl/nnao/render_texture.h"
 #include "sdk/src/gl/world/frame_casters.h"
 #include "sdk/src/gl/world/world_frame.h"

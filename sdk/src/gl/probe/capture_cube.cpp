@@ -1,7 +1,7 @@
-#include "sdk/src/gl/probe/cube_map.h"
+#include "sdk/src/gl/probe/capture.h"
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/gl/state_access.h"
+#include "sdk/src/gl/functions.h"
 
 namespace nook::gl {
 namespace {

@@ -1,4 +1,4 @@
-#include "sdk/src/gl/program.h"
+#include "sdk/src/gl/shader_program.h"
 
 #include <cstring>
 #include <initializer_list>
