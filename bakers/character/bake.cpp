@@ -15,7 +15,7 @@
 #include "bakers/import/skinning.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/character/levels.h"
-#include "sdk/src/character/model_check.h"
+#include "sdk/src/character/model.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/place.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bakers/character/low_rank.h"
-#include "sdk/src/character/clip_set_check.h"
+#include "sdk/src/character/clip_set.h"
 
 namespace nook::bake {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "bakers/import/skinning.h"
-#include "sdk/src/character/vertex_resample.h"
+#include "sdk/src/character/host_vertices.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {

@@ -1,7 +1,7 @@
 #include "bakers/tool/inspect/describe.h"
 
 #include "bakers/job/material_source.h"
-#include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/material/material_file.h"
 #include "sdk/src/nnao/network_file.h"

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "sdk/src/character/loaded_model.h"
-#include "sdk/src/character/memory_use.h"
 #include "sdk/src/character/model_file.h"
+#include "sdk/src/character/scene_readings.h"
 
 namespace nook::tool {
 namespace {

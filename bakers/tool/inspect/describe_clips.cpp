@@ -1,7 +1,7 @@
 #include <string>
 
 #include "bakers/tool/inspect/describe.h"
-#include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/clip_set.h"
 
 namespace nook::tool {
 

@@ -1,4 +1,4 @@
-#include "sdk/src/character/model_check.h"
+#include "sdk/src/character/model.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sdk/src/character/model_check.h"
+#include "sdk/src/character/model.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/character/model_file_packing.h"
 #include "sdk/src/core/place.h"

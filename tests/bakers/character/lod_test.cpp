@@ -6,7 +6,7 @@
 #include "bakers/character/refit_vertices.h"
 #include "bakers/import/skinning.h"
 #include "bakers/measure/character/lods.h"
-#include "sdk/src/character/vertex_resample.h"
+#include "sdk/src/character/host_vertices.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/catch.h"
 

@@ -1,6 +1,6 @@
 #include "sdk/src/gl/character/clip_textures.h"
 
-#include "sdk/src/character/clip_texels.h"
+#include "sdk/src/character/loaded_clips.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/shader_program.h"
 #include "sdk/src/gl/state_guard.h"

@@ -1,4 +1,4 @@
-#include "sdk/src/character/light.h"
+#include "sdk/src/character/instance_light.h"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,23 @@
-// The shapes that a scene evaluates, one by one in world space, for debug drawing. The kernels of an update
-// pose the same shapes in lanes (shadow_kernels.h).
+// What a host may ask about the instances of a scene: their memory, and for debug drawing the shapes that
+// stand for them.
 #pragma once
 
 #include <nook/experimental/nook_debug.h>
 
+#include <cstdint>
+
+#include "sdk/src/character/loaded_model.h"
 #include "sdk/src/character/scene.h"
 
 namespace nook {
+
+// Bytes of an instance without light and without links.
+std::uint64_t instance_bytes(const LoadedModel& model);
+// The bytes that a light adds.
+std::uint64_t light_bytes(const LoadedModel& model);
+
+// The shapes that a scene evaluates, one by one in world space, for debug drawing. The kernels of an update
+// pose the same shapes in lanes (shadow_kernels.h).
 
 nook_scene_instance_info describe_instance(const Scene& scene, const Instance& instance) noexcept;
 

@@ -1,4 +1,4 @@
-#include "sdk/src/character/vertex_resample.h"
+#include "sdk/src/character/host_vertices.h"
 
 #include <algorithm>
 #include <array>

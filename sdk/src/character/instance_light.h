@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "sdk/src/character/directional.h"
-#include "sdk/src/character/directional_bands.h"
+#include "sdk/src/character/directional_occlusion.h"
 #include "sdk/src/core/aligned_array.h"
 #include "sdk/src/core/spherical_gaussian.h"
 
