@@ -18,7 +18,7 @@
 #include "sdk/src/character/model.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::bake {
 namespace {

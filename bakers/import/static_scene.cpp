@@ -12,7 +12,7 @@
 #include "bakers/import/shown_primitives.h"
 #include "bakers/import/validate.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::bake {
 namespace {

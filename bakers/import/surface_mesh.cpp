@@ -11,7 +11,7 @@
 #include "bakers/import/tangents.h"
 #include "bakers/import/validate.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::bake {
 namespace {

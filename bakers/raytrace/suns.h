@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bakers/raytrace/environment.h"
-#include "sdk/src/core/map_suns.h"
+#include "sdk/src/core/light_map.h"
 
 namespace nook::bake {
 

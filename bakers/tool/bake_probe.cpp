@@ -11,7 +11,7 @@
 #include "bakers/tool/distinct_files.h"
 #include "bakers/tool/tool_error.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::tool {
 namespace {

@@ -11,7 +11,7 @@
 #include "bakers/transfer/vertex_loop.h"
 #include "bakers/transfer/visible_directions.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/transfer/check.h"
 #include "sdk/src/transfer/light_cube.h"
 

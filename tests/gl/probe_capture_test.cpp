@@ -5,7 +5,7 @@
 #include <string>
 
 #include "platform/program.h"
-#include "sdk/src/core/map_suns.h"
+#include "sdk/src/core/light_map.h"
 #include "sdk/src/probe/evaluate.h"
 #include "sdk/src/probe/fit.h"
 #include "sdk/src/probe/harmonics.h"

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "platform/program.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/gl/touched_state.h"
 #include "sdk/src/probe/harmonics.h"
 #include "sdk/src/probe/probe_file.h"

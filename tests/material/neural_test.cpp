@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/material/evaluate.h"
 #include "sdk/src/material/material_file.h"
 #include "tests/catch.h"

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "sdk/src/core/map_suns.h"
+#include "sdk/src/core/light_map.h"
 #include "sdk/src/core/spherical_gaussian.h"
 #include "sdk/src/material/evaluate.h"
 #include "sdk/src/transfer/fit_cache.h"

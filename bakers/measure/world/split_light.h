@@ -12,7 +12,7 @@
 #include "bakers/raytrace/suns.h"
 #include "bakers/world/surroundings.h"
 #include "sdk/src/character/model.h"
-#include "sdk/src/core/capsule.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/world/light_terms.h"
 
 namespace nook::measure {

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "bakers/tool/tool_error.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::tool {
 namespace {

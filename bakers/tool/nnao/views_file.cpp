@@ -5,7 +5,7 @@
 
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/nnao/scenes.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::tool {
 namespace {

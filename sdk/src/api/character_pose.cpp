@@ -11,7 +11,7 @@
 #include "sdk/src/character/host_vertices.h"
 #include "sdk/src/character/pose_check.h"
 #include "sdk/src/character/pose_source.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 using namespace nook;
 

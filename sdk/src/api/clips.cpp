@@ -15,8 +15,8 @@
 #include "sdk/src/character/pose_source.h"
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/descriptors.h"
-#include "sdk/src/core/half.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/floats.h"
+#include "sdk/src/core/geometry.h"
 
 using namespace nook;
 

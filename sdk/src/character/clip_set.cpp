@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/core/hash.h"
-#include "sdk/src/core/place.h"
 
 namespace nook {
 namespace {

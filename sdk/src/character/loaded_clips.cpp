@@ -7,7 +7,7 @@
 
 #include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/pose_source.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 
 namespace nook {
 namespace {

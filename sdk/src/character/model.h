@@ -13,8 +13,8 @@
 #include "sdk/src/character/bent_normal.h"
 #include "sdk/src/character/bind_data.h"
 #include "sdk/src/character/kernel.h"
-#include "sdk/src/core/capsule.h"
 #include "sdk/src/core/containers.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook {

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook {
 

@@ -18,8 +18,8 @@
 #include "sdk/src/character/neighbours.h"
 #include "sdk/src/character/pose_source.h"
 #include "sdk/src/core/aligned_array.h"
-#include "sdk/src/core/capsule.h"
 #include "sdk/src/core/containers.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/core/parallel.h"
 
 namespace nook {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/material/rice_code.h"
 
 namespace nook::material {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/core/hash.h"
 #include "sdk/src/material/check.h"
 #include "sdk/src/material/direction_mesh.h"

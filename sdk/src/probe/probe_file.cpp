@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/probe/harmonics.h"
 
 namespace nook::probe {

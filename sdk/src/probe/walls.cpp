@@ -1,6 +1,6 @@
 #include "sdk/src/probe/walls.h"
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 
 namespace nook::probe {
 

@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include "sdk/src/core/bit_cast.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/core/hash.h"
 
 namespace nook::transfer {

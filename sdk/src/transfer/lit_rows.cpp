@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/transfer/reflected_light.h"
 
 namespace nook::transfer {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "sdk/src/core/aligned_array.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/transfer/reflected_light.h"
 #include "sdk/src/transfer/vector_kernels.h"
 

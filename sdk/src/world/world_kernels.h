@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "sdk/src/core/capsule.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/core/isa.h"
 #include "sdk/src/world/cone.h"
 #include "sdk/src/world/directional.h"

@@ -8,7 +8,7 @@
 #include "bakers/import/surface_mesh.h"
 #include "bakers/transfer/bake.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/core/spherical_gaussian.h"
 #include "sdk/src/material/evaluate.h"
 #include "sdk/src/transfer/light_cube.h"

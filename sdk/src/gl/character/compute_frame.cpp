@@ -3,8 +3,8 @@
 #include <cstring>
 
 #include "sdk/src/character/instance_views.h"
-#include "sdk/src/core/bit_cast.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/gl/character/light_texture.h"
 
 namespace nook::gl {

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "sdk/src/core/bit_cast.h"
+#include "sdk/src/core/floats.h"
 #include "shaders/character/layout.h"
 
 namespace nook::gl {

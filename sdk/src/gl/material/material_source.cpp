@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "sdk/src/core/float_literal.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/gl/embedded_shaders.h"
 #include "sdk/src/material/footprint.h"
 

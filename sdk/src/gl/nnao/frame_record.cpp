@@ -5,8 +5,8 @@
 #include <cstring>
 #include <iterator>
 
-#include "sdk/src/core/bit_cast.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/gl/shader_program.h"
 #include "sdk/src/gl/state_guard.h"
 

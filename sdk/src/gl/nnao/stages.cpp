@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "sdk/src/core/bit_cast.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/gl/nnao/network_shader.h"
 #include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/gl/nnao/pass.h"

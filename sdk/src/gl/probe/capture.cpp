@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/map_suns.h"
+#include "sdk/src/core/light_map.h"
 #include "sdk/src/gl/shader_program.h"
 #include "sdk/src/probe/solution_map.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/gl/shader_program.h"
 #include "sdk/src/gl/state_guard.h"
 #include "sdk/src/probe/convert.h"

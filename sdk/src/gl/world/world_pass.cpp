@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/float_literal.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/gl/nnao/pass.h"
 #include "sdk/src/gl/shader_program.h"
 #include "sdk/src/gl/state_guard.h"

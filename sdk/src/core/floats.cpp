@@ -1,10 +1,8 @@
-#include "sdk/src/core/float_literal.h"
+#include "sdk/src/core/floats.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-
-#include "sdk/src/core/bit_cast.h"
 
 namespace nook {
 namespace {

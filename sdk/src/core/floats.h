@@ -1,11 +1,22 @@
-// IEEE half floats by integer arithmetic, with the same bits on every machine.
+// Floats as bits, as half floats and as text of shaders, the same on every machine.
 #pragma once
 
 #include <cstdint>
-
-#include "sdk/src/core/bit_cast.h"
+#include <cstring>
+#include <type_traits>
 
 namespace nook {
+
+template <typename To, typename From>
+To bit_cast(const From& from) noexcept {
+  static_assert(sizeof(To) == sizeof(From) && std::is_trivially_copyable_v<To> &&
+                std::is_trivially_copyable_v<From>);
+  To to;
+  std::memcpy(&to, &from, sizeof to);
+  return to;
+}
+
+// IEEE half floats by integer arithmetic, with the same bits on every machine.
 
 // Rounds to the nearest half, ties to even. Values beyond 65504 become infinity.
 inline std::uint16_t to_half(float value) {
@@ -34,5 +45,17 @@ inline float from_half(std::uint16_t half) {
   const float value = float(magnitude) * 0x1p-24f;
   return sign ? -value : value;
 }
+
+// Numbers in the text of shaders.
+
+// Holds the longest text, -1.17549435e-38, and the zero at its end.
+struct FloatLiteral {
+  char text[16];
+};
+
+// Returns the shortest literal of GLSL that is read as the same float, such as 1.5e-01: the text of
+// std::to_chars in its scientific format. libc++ 13 has no std::to_chars for floats, and printf writes the
+// decimal sign of the host's locale. The value must be finite.
+FloatLiteral float_literal(float value);
 
 }  // namespace nook

@@ -1,4 +1,4 @@
-// The maximum distance of geometry from the origin.
+// Capsules, and the maximum distance of geometry from the origin.
 #pragma once
 
 #include <cmath>
@@ -6,6 +6,21 @@
 #include "sdk/src/core/vec.h"
 
 namespace nook {
+
+// Metres. A sphere is a capsule whose ends are equal.
+struct Capsule {
+  Vec3 a, b;
+  float radius_a = 0, radius_b = 0;
+};
+
+// A capsule in world space that casts. It hides a light with its radii, and counts in AO with ao_scale times
+// them.
+struct PosedCaster {
+  Capsule capsule;
+  float ao_scale = 1;
+};
+
+// The maximum distance of geometry from the origin.
 
 // Metres along each axis. A float's step is 6 cm at the bound, so that neither a character nor a scene makes
 // sense beyond it, and every later product of coordinates stays finite.
