@@ -14,7 +14,6 @@
 #include "sdk/src/gl/touched_state.h"
 #include "sdk/src/probe/harmonics.h"
 #include "sdk/src/probe/probe_file.h"
-#include "sdk/src/probe/zonal_harmonics.h"
 #include "tests/gl/crowd.h"
 #include "tests/gl/host_textures.h"
 #include "tests/gl/poison.h"

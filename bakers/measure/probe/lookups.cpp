@@ -8,7 +8,7 @@
 
 #include "sdk/src/core/floats.h"
 #include "sdk/src/probe/axes.h"
-#include "sdk/src/probe/zonal_harmonics.h"
+#include "sdk/src/probe/harmonics.h"
 
 namespace nook::measure {
 namespace {

@@ -8,7 +8,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/probe_handles.h"
 #include "sdk/src/api/transfer_handles.h"
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_light.h"
 #include "sdk/src/transfer/check.h"
 #include "sdk/src/transfer/lobe_fit.h"
 

@@ -7,7 +7,7 @@
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/light_map.h"
 #include "sdk/src/gl/shader_program.h"
-#include "sdk/src/probe/solution_map.h"
+#include "sdk/src/probe/fit.h"
 
 namespace nook::gl {
 namespace {

@@ -9,9 +9,8 @@
 #include "sdk/src/core/floats.h"
 #include "sdk/src/gl/shader_program.h"
 #include "sdk/src/gl/state_guard.h"
-#include "sdk/src/probe/convert.h"
-#include "sdk/src/probe/packing.h"
-#include "sdk/src/probe/zonal_harmonics.h"
+#include "sdk/src/probe/harmonics.h"
+#include "sdk/src/probe/probe_file.h"
 #include "shaders/probe/constants.h"
 
 namespace nook::gl {

@@ -1,4 +1,4 @@
-#include "sdk/src/probe/light_bands.h"
+#include "sdk/src/probe/fit_bands.h"
 
 #include <cmath>
 
