@@ -15,7 +15,7 @@
 #include "bakers/tool/material/options.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 
 namespace nook::tool {
 namespace {

@@ -13,7 +13,7 @@
 #include "bakers/transfer/light_matrices.h"
 #include "sdk/src/core/floats.h"
 #include "sdk/src/core/spherical_gaussian.h"
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 
 namespace nook::bake::transfer {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/floats.h"
-#include "sdk/src/material/evaluate.h"
 #include "sdk/src/material/material_file.h"
+#include "sdk/src/material/reflectance.h"
 #include "tests/catch.h"
 #include "tests/material/material_sample.h"
 

@@ -5,7 +5,7 @@
 #include "bakers/measure/material/table_error.h"
 #include "bakers/measure/material/unseen_views.h"
 #include "bakers/measure/material/whole_file.h"
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 
 namespace nook::measure {
 namespace {

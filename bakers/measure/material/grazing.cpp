@@ -9,7 +9,7 @@
 #include "bakers/raytrace/random.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 
 namespace nook::bake::material {
 namespace {

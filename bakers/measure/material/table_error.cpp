@@ -6,7 +6,7 @@
 #include "bakers/measure/material/decoded_radiances.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 
 namespace nook::bake::material {
 namespace {

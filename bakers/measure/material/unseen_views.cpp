@@ -4,7 +4,6 @@
 
 #include "bakers/measure/material/measures.h"
 #include "sdk/src/material/direction_mesh.h"
-#include "sdk/src/material/low_light.h"
 #include "sdk/src/material/parabolic.h"
 #include "sdk/src/material/tables.h"
 #include "sdk/src/material/view_cells.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bakers/raytrace/random.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 
 namespace nook::bake::material {
 namespace {

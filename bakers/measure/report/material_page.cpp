@@ -12,7 +12,7 @@
 #include "bakers/measure/material/pictures.h"
 #include "bakers/measure/report/advice.h"
 #include "bakers/measure/report/light_picture.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 
 namespace nook::report {
 namespace {

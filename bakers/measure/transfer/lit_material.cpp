@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "sdk/src/material/check.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/material_check.h"
 #include "sdk/src/material/reflectance.h"
 
 namespace nook::measure {

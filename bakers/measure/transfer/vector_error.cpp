@@ -19,7 +19,7 @@
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/spherical_gaussian.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 #include "sdk/src/transfer/vectors.h"
 
 namespace nook::measure {

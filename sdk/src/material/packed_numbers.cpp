@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sdk/src/core/floats.h"
-#include "sdk/src/material/rice_code.h"
+#include "sdk/src/material/map_rows.h"
 
 namespace nook::material {
 namespace {

@@ -34,8 +34,7 @@ Vec3 from_rgb9e5(std::uint32_t bits);
 //   LOBE Gaussians only: for each function axis 3 f32 and sharpness f32
 //   COEF coefficients, probe by probe, packed as HEAD says: 3 f32, 3 half floats, or one RGB9E5 word
 //   RECP recipe, JSON; may be empty
-//   WALL version 2, only of grids with walls: f32 bias; for each cell, as probe.h has them, its planes, 4
-//   half
+//   WALL version 2, only of grids with walls: f32 bias; for each cell, as probe.h has them, its planes, 4 half
 //        floats each, and a byte for each side
 // A grid without walls is written as version 1, which older libraries read.
 

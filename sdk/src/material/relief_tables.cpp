@@ -1,4 +1,4 @@
-#include "sdk/src/material/relief.h"
+#include "sdk/src/material/relief_tables.h"
 
 #include <algorithm>
 #include <cmath>

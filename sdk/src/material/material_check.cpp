@@ -1,4 +1,4 @@
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 
 #include <algorithm>
 #include <cmath>
