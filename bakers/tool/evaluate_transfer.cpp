@@ -17,7 +17,7 @@
 #include "platform/stopwatch.h"
 #include "sdk/src/material/material_check.h"
 #include "sdk/src/material/material_file.h"
-#include "sdk/src/transfer/check.h"
+#include "sdk/src/transfer/transfer_check.h"
 #include "sdk/src/transfer/transfer_file.h"
 
 namespace nook::tool {

@@ -7,7 +7,7 @@
 #include "sdk/src/nnao/network_file.h"
 #include "sdk/src/nnao/recording_file.h"
 #include "sdk/src/probe/probe_file.h"
-#include "sdk/src/synthesis/coordinates_file.h"
+#include "sdk/src/synthesis/coordinates.h"
 #include "sdk/src/transfer/transfer_file.h"
 
 namespace nook::tool {

@@ -1,5 +1,5 @@
 #include "bakers/tool/inspect/describe.h"
-#include "sdk/src/synthesis/coordinates_file.h"
+#include "sdk/src/synthesis/coordinates.h"
 
 namespace nook::tool {
 

@@ -9,7 +9,7 @@
 #include "sdk/src/api/transfer_handles.h"
 #include "sdk/src/material/material_check.h"
 #include "sdk/src/material/reflectance.h"
-#include "sdk/src/transfer/check.h"
+#include "sdk/src/transfer/transfer_check.h"
 #include "sdk/src/transfer/transfer_file.h"
 #include "sdk/src/transfer/vectors.h"
 

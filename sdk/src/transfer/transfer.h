@@ -23,10 +23,9 @@
 #include <vector>
 
 #include "sdk/src/core/containers.h"
-#include "sdk/src/transfer/frame.h"
-#include "sdk/src/transfer/light_bands.h"
-#include "sdk/src/transfer/lobes.h"
+#include "sdk/src/transfer/distant_light.h"
 #include "sdk/src/transfer/paper.h"
+#include "sdk/src/transfer/tangent_frame.h"
 
 namespace nook::transfer {
 

@@ -11,7 +11,7 @@
 #include "sdk/src/core/floats.h"
 #include "sdk/src/core/spherical_gaussian.h"
 #include "sdk/src/material/reflectance.h"
-#include "sdk/src/transfer/light_cube.h"
+#include "sdk/src/transfer/distant_light.h"
 #include "sdk/src/transfer/transfer_file.h"
 #include "tests/catch.h"
 #include "tests/material/material_sample.h"

@@ -1,4 +1,4 @@
-#include "sdk/src/transfer/check.h"
+#include "sdk/src/transfer/transfer_check.h"
 
 #include <cmath>
 

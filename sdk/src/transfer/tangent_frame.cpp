@@ -1,4 +1,4 @@
-#include "sdk/src/transfer/frame.h"
+#include "sdk/src/transfer/tangent_frame.h"
 
 #include <algorithm>
 #include <cmath>
