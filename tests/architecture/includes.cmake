@@ -101,7 +101,7 @@ room(bakers/measure/composite bakers/measure/composite bakers/measure/nnao baker
 room(bakers/measure/probe bakers/measure/probe bakers/probe ${ground} sdk/src/probe)
 room(bakers/measure/material bakers/measure/material bakers/images bakers/material bakers/tensor ${process}
      ${ground} sdk/src/material)
-room(bakers/measure/gpu_cost bakers/measure/gpu_cost bakers/measure/nnao/baselines.h shaders sdk/src/gl/material/material_source.h
+room(bakers/measure/gpu_cost bakers/measure/gpu_cost bakers/measure/nnao/baselines.h shaders sdk/src/gl/material/material_glsl.h
      sdk/src/gl/embedded_shaders.h)
 room(bakers/measure/gpu_time bakers/measure/gpu_time bakers/measure/nnao bakers/nnao bakers/raytrace platform sdk/src/core)
 room(bakers/measure/crowd bakers/measure/crowd bakers/measure/truth platform)

@@ -10,7 +10,7 @@
 #include "bakers/measure/gpu_cost/instruction_count.h"
 #include "bakers/measure/gpu_cost/source_text.h"
 #include "bakers/measure/nnao/baselines.h"
-#include "sdk/src/gl/material/material_source.h"
+#include "sdk/src/gl/material/material_glsl.h"
 
 namespace nook::measure {
 

@@ -5,7 +5,7 @@
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/functions.h"
-#include "sdk/src/gl/material/material_source.h"
+#include "sdk/src/gl/material/material_glsl.h"
 #include "sdk/src/gl/material/texture_array.h"
 #include "sdk/src/gl/shader_program.h"
 

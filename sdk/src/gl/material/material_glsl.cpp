@@ -1,4 +1,4 @@
-#include "sdk/src/gl/material/material_source.h"
+#include "sdk/src/gl/material/material_glsl.h"
 
 #include <algorithm>
 #include <string_view>
