@@ -4,6 +4,7 @@
 #include <span>
 
 #include "bakers/import/weld.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/hash.h"
 
@@ -36,9 +37,7 @@ ImportedCharacter character_of_arrays(const nook_bake_source_desc& desc) {
   need(desc.weights, "desc.weights");
   need(desc.bone_parents, "desc.bone_parents");
   need(desc.bone_frames_3x4, "desc.bone_frames_3x4");
-  if (desc.influences < 1 || desc.influences > 64)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.influences is out of range (got %u, need 1 to 64)",
-                  desc.influences);
+  check_range("desc.influences", desc.influences, 1, 64);
   if (desc.primitive_count > 0) need(desc.primitives, "desc.primitives");
   const std::vector<Vec3> position = points(desc.positions, desc.vertex_count);
   const std::size_t pairs = std::size_t(desc.influences) * desc.vertex_count;

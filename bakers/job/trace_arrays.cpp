@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bakers/job/worker_arena.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/geometry.h"
 
@@ -62,13 +63,10 @@ std::vector<Vec3> read_normals(const char* name, const float* xyz, std::uint32_t
 }
 
 void need_trace_settings(std::uint32_t rays, std::uint32_t threads, float origin_offset) {
-  if (rays < 1 || rays > most_rays)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.rays is out of range (got %u, need 1 to %u)", rays,
-                  most_rays);
+  check_range("desc.rays", rays, 1, most_rays);
   need_threads(threads);
-  if (!(origin_offset >= 0 && origin_offset <= max_metres))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.origin_offset is out of range (got %g, need 0 to 1e6 metres)", double(origin_offset));
+  check_fits("desc.origin_offset", origin_offset, origin_offset >= 0 && origin_offset <= max_metres,
+             "0 to 1e6 metres");
 }
 
 }  // namespace nook::bake

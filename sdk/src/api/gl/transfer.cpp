@@ -5,6 +5,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/handle.h"
 #include "sdk/src/api/transfer_handles.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/gl/transfer/transfer_textures.h"
 #include "sdk/src/transfer/lit_rows.h"
@@ -43,9 +44,7 @@ nook_result nook_gl_transfer_create(nook_gl gl, nook_transfer_response response,
     *out = nullptr;
     need(gl, "gl");
     need(response, "response");
-    if (vertex_count < 1 || vertex_count > transfer::max_vertices)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "vertex_count is out of range (got %u, need 1 to %u)",
-                    vertex_count, transfer::max_vertices);
+    check_range("vertex_count", vertex_count, 1, transfer::max_vertices);
     gl->device.need_alive();
     *out = Owned<nook_gl_transfer_s>::make(gl->device.memory, Ref<nook_gl_s>::share(gl), gl,
                                            response->response.light_modes, vertex_count)

@@ -8,6 +8,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/material_handle.h"
 #include "sdk/src/api/probe_handles.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/gl/functions.h"
 #include "sdk/src/gl/texel_table.h"
@@ -145,9 +146,7 @@ void bind(const gl::Functions& gl, const nook_gl_upload_info& info, GLuint progr
 }
 
 void need_form(nook_gl_probe_form form) {
-  if (form < NOOK_GL_PROBE_SH || form > NOOK_GL_PROBE_LOBES)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "form is unknown (got %d, need 0 to %d)", form,
-                  NOOK_GL_PROBE_LOBES);
+  check_known("form", form, NOOK_GL_PROBE_LOBES);
 }
 
 }  // namespace

@@ -29,9 +29,6 @@ inline void add(String& out, const char* format, ...) {
 
 void add_neural_declarations(const material::NeuralTables& tables, String& out);
 
-// The GLSL of a material: constants and samplers for its sizes, then shaders/material/host.glsl, or that of
-// neural ones.
-
 // max_layers is the maximum for one texture array. Both layers of a mode in blocks are in one array.
 inline std::uint32_t array_count(const material::TensorTables& tables, std::uint32_t max_layers) {
   return (tables.layers() + max_layers - 1) / max_layers;

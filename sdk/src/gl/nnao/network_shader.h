@@ -15,8 +15,6 @@ struct PassDefines {
 // horizon: the network has the horizon form.
 PassDefines pass_defines(const nook_nnao_desc& desc, bool horizon, const nnao::TapGrid& grid);
 
-// A network in the layout of the shaders.
-
 // Returns the uniform array nook_network of horizon.glsl or paper.glsl; its length is a multiple of four.
 // The weights of the horizon form's means are those of sums over the grid.
 Vector<float> network_constants(const nnao::Network& network, nnao::TapGrid grid, Memory* memory);
