@@ -16,7 +16,7 @@ from markdown_table import show, table
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SCRIPT = pathlib.Path(__file__).name
 DOCUMENT = ROOT / "docs/gpu_cost.md"
-COUNTS = ROOT / "tests/bakers/measure/gpu_cost/counts.json"
+COUNTS = ROOT / "tests/bakers/lab/gpu_cost/counts.json"
 FAMILIES = ["navi21", "gfx1100", "vega10"]
 
 
@@ -75,7 +75,7 @@ def check():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/measure/gpu_cost/nook_gpu_cost")
+    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/lab/gpu_cost/nook_gpu_cost")
     parser.add_argument("--write", action="store_true", help="write the document and the committed counts")
     parser.add_argument("--check", action="store_true", help="compare the document with the committed counts")
     options = parser.parse_args()

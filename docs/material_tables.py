@@ -250,7 +250,7 @@ def neural_table(rows):
 
 def cycles_table():
     """Modelled cycles, as docs/gpu_cost.py counts them."""
-    counts = json.loads((ROOT / "tests/bakers/measure/gpu_cost/counts.json").read_text())["rows"]
+    counts = json.loads((ROOT / "tests/bakers/lab/gpu_cost/counts.json").read_text())["rows"]
     sums = {row["shader"]: row["alu_cycles"] + row["texture_cycles"] for row in counts if row["family"] == "navi21"}
     names = {"K-CTA, weave": "material, weave, K-CTA, K = 3", "neural, small": "neural material, small",
              "neural, equal bytes": "neural material, equal bytes"}

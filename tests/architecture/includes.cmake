@@ -101,9 +101,6 @@ room(bakers/measure/composite bakers/measure/composite bakers/measure/nnao baker
 room(bakers/measure/probe bakers/measure/probe bakers/probe ${ground} sdk/src/probe)
 room(bakers/measure/material bakers/measure/material bakers/images bakers/material bakers/tensor ${process}
      ${ground} sdk/src/material)
-room(bakers/measure/gpu_cost bakers/measure/gpu_cost bakers/measure/nnao/baselines.h shaders sdk/src/gl/material/source.h
-     sdk/src/gl/embedded_shaders.h)
-room(bakers/measure/gpu_time bakers/measure/gpu_time bakers/measure/nnao bakers/nnao bakers/raytrace platform sdk/src/core)
 room(bakers/measure/crowd bakers/measure/crowd bakers/measure/truth platform)
 # Pages show what the other measures have, and draw nothing.
 room(bakers/measure/report bakers/measure bakers/images platform ${makers})
@@ -111,6 +108,10 @@ room(bakers/job bakers/job bakers/measure ${process} ${makers})
 room(bakers/api bakers/api bakers/job ${makers})
 room(bakers/tool bakers/tool bakers/api/import.h bakers/import/linked_files.h bakers/job bakers/measure bakers/images platform
      ${systems} sdk/src/core)
+
+# The lab compares Nook with other methods. It takes from every room, but neither from samples nor from tests, and no room takes from it.
+room(bakers/lab bakers/lab bakers/measure bakers/tool bakers/images bakers/job platform shaders sdk/src/gl/material/source.h
+     sdk/src/gl/embedded_shaders.h ${makers})
 
 forbid(sdk/src "tbb/|embree|Eigen|tiny_gltf|OpenImageIO|nlohmann|LBFGS|CLI/" "the runtime depends on nothing")
 foreach(folder core character nnao probe material synthesis transfer world isa)
@@ -127,7 +128,7 @@ forbid(bakers "embree|[a-z]mmintrin|arm_neon|<intrin" "only sources of raytrace 
 foreach(folder platform samples tests)
   forbid(${folder} "embree[0-9]*/" "only sources of bakers/raytrace know Embree")
 endforeach()
-forbid(bakers/tool "CLI/" "CLI11 costs every file seconds: take bakers/tool/command_line.h" "/(command_line|main)[.]cpp$")
+forbid(bakers/tool "CLI/" "CLI11 costs every file seconds: take bakers/tool/command_line.h" "/(command_line|main|program)[.]cpp$")
 forbid(bakers/measure/crowd "nook_gl|glad" "the sample draws what is measured")
 foreach(sample offscreen minimal)
   room(samples/${sample} samples/${sample})
