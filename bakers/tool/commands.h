@@ -15,7 +15,6 @@ void add_bake_material(Command bake);
 void add_bake_synthesis(Command bake);
 void add_bake_transfer(Command bake);
 void add_evaluate_bent(Command evaluate);
-void add_evaluate_character(Command evaluate);
 void add_evaluate_casters(Command evaluate);
 void add_evaluate_clips(Command evaluate);
 void add_evaluate_lods(Command evaluate);

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/measure/character/evaluated_poses.h"
-#include "bakers/measure/character/report.h"
+#include "bakers/measure/character/character_report.h"
+#include "bakers/measure/character/evaluated_character.h"
 #include "bakers/measure/composite/composite.h"
 #include "bakers/measure/composite/lit_room.h"
 #include "bakers/measure/composite/own_room.h"

@@ -3,6 +3,7 @@
 
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
+#include "bakers/tool/peers.h"
 #include "bakers/tool/program.h"
 
 namespace {

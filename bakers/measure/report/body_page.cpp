@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bakers/character/pose_sets.h"
-#include "bakers/measure/character/evaluate.h"
+#include "bakers/measure/character/character_error.h"
 #include "bakers/measure/report/advice.h"
 #include "bakers/measure/report/body_findings.h"
 #include "bakers/measure/report/body_pictures.h"

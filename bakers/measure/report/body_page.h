@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "bakers/measure/character/report.h"
+#include "bakers/measure/character/character_report.h"
 #include "bakers/measure/report/page.h"
 
 namespace nook::report {

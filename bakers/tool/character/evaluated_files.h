@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bakers/import/linked_files.h"
-#include "bakers/measure/character/baked_character.h"
+#include "bakers/measure/character/evaluated_character.h"
 #include "bakers/tool/distinct_files.h"
 
 namespace nook::tool {

@@ -1,4 +1,4 @@
-#include "bakers/measure/character/lods.h"
+#include "bakers/measure/character/lod_error.h"
 
 #include <meshoptimizer.h>
 

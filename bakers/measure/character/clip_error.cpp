@@ -1,4 +1,4 @@
-#include "bakers/measure/character/clips.h"
+#include "bakers/measure/character/clip_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "bakers/character/rotation.h"
 #include "bakers/import/clip.h"
 #include "bakers/import/skinning.h"
-#include "bakers/measure/character/evaluate.h"
+#include "bakers/measure/character/character_error.h"
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/failure.h"
 

@@ -1,8 +1,10 @@
-#include "bakers/measure/character/baseline_validation.h"
+#include "bakers/lab/character/cross_validation.h"
 
 #include <algorithm>
 
-namespace nook::bake {
+namespace nook::lab {
+
+using namespace bake;
 
 std::vector<ValidationFold> validation_folds(std::size_t poses, std::size_t folds, std::size_t runs_a_fold) {
   const std::size_t runs = std::min(folds * runs_a_fold, poses);
@@ -57,4 +59,4 @@ void round_to_half(BaselineMatrix& values) {
   values = values.cast<Eigen::half>().cast<float>().eval();
 }
 
-}  // namespace nook::bake
+}  // namespace nook::lab

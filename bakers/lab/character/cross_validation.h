@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "bakers/measure/character/baseline_features.h"
+#include "bakers/lab/character/pose_space.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 
-namespace nook::bake {
+namespace nook::lab {
 
 // Poses are dealt to folds in runs of neighbours, not one by one: consecutive frames of a clip are nearly
 // equal, and a fold that holds one and fits the next would choose far too little regularisation.
@@ -23,8 +23,8 @@ std::vector<ValidationFold> validation_folds(std::size_t poses, std::size_t fold
 std::vector<std::size_t> sample_vertices(std::size_t vertex_count, std::size_t count);
 
 // AO of some vertices: poses x vertices.
-BaselineMatrix target_columns(const AoTargets& targets, const std::vector<std::size_t>& vertices);
-BaselineMatrix target_columns(const AoTargets& targets, std::size_t first, std::size_t last);
+BaselineMatrix target_columns(const bake::AoTargets& targets, const std::vector<std::size_t>& vertices);
+BaselineMatrix target_columns(const bake::AoTargets& targets, std::size_t first, std::size_t last);
 
 // Sum of squared errors of clamped predictions.
 double clamped_squared_error(const BaselineMatrix& prediction, const BaselineMatrix& target);
@@ -40,4 +40,4 @@ std::size_t smallest_near_best(const std::vector<SizedError>& candidates, double
 // Rounds to half precision and back: what a stored model would hold.
 void round_to_half(BaselineMatrix& values);
 
-}  // namespace nook::bake
+}  // namespace nook::lab

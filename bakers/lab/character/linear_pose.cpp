@@ -1,4 +1,4 @@
-#include "bakers/measure/character/linear_pose.h"
+#include "bakers/lab/character/character_peers.h"
 
 #include <tbb/parallel_for.h>
 
@@ -9,11 +9,13 @@
 #include <utility>
 
 #include "bakers/algebra/symmetric_eigen.h"
-#include "bakers/measure/character/baseline_features.h"
-#include "bakers/measure/character/baseline_validation.h"
+#include "bakers/lab/character/cross_validation.h"
+#include "bakers/lab/character/pose_space.h"
 
-namespace nook::bake {
+namespace nook::lab {
 namespace {
+
+using namespace bake;
 
 using Eigen::Index;
 
@@ -247,4 +249,4 @@ std::unique_ptr<PoseRegression> fit_linear_pose(const SkinnedMesh& mesh, std::sp
   return model;
 }
 
-}  // namespace nook::bake
+}  // namespace nook::lab

@@ -1,10 +1,9 @@
 // Errors over all vertex-poses and over those that can be seen, on a body half of which is inside the other
 // half.
-#include "bakers/measure/character/evaluate.h"
+#include "bakers/measure/character/character_error.h"
 
 #include "bakers/character/bake.h"
 #include "bakers/import/skinning.h"
-#include "bakers/measure/character/baseline.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/catch.h"
 

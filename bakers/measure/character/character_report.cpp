@@ -1,4 +1,4 @@
-#include "bakers/measure/character/report.h"
+#include "bakers/measure/character/character_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,6 @@
 #include "bakers/character/pose_sets.h"
 #include "bakers/import/clip.h"
 #include "bakers/import/skinning.h"
-#include "bakers/measure/character/linear_pose.h"
-#include "bakers/measure/character/pose_clusters.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/failure.h"
@@ -81,28 +79,30 @@ Json model_row(const BakedCharacter& baked, const EvaluatedPoses& measured, cons
   return row;
 }
 
-// Fits the baselines to the model's own training poses and measures them on the same targets.
-void add_baselines(Json& row, const ImportedCharacter& character, const Recipe* recipe,
-                   std::span<const Pose> measured, const AoTargets& truth,
-                   const CharacterReportSettings& settings, const StageProgress& progress) {
+// Fits the peers to the model's own training poses and measures them on the same targets.
+void add_peers(Json& row, const ImportedCharacter& character, const Recipe* recipe,
+               std::span<const Pose> measured, const AoTargets& truth,
+               const CharacterReportSettings& settings, const StageProgress& progress) {
   const std::vector<Pose> training = recipe ? recipe_poses(character, *recipe) : std::vector<Pose>();
   if (training.empty())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "--peers: the model holds no recipe from which its training poses can be made again");
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "other methods are fitted to the model's training poses, which cannot be made again: the model "
+        "holds no recipe of them");
   const SkinnedMesh& mesh = character.mesh;
   const std::vector<float> area = vertex_areas(mesh, mesh.position);
   const AoTargets fitted = trace_character_ao(mesh, training, recipe->settings.rays, recipe->settings.seed,
-                                              progress("ray tracing the baselines' training poses"));
-  const auto measure = [&](const char* name, const std::unique_ptr<PoseRegression>& baseline) {
-    const RegressionError error = measure_regression(*baseline, measured, truth, area);
-    row[std::string("mse_") + name] = error.mse;
-    row[std::string("mse_") + name + "_visible"] = error.mse_visible;
-    row[std::string("mse_area_") + name] = error.mse_area;
-    row[std::string("bytes_") + name] = baseline->model_bytes();
-    row[std::string("tuned_") + name] = baseline->description();
-  };
-  measure("linear_pose", fit_linear_pose(mesh, training, fitted));
-  measure("pose_clusters", fit_pose_clusters(mesh, training, fitted, settings.seed));
+                                              progress("ray tracing the training poses"));
+  for (const CharacterPeer& peer : settings.peers) {
+    const auto regression = peer.fit(mesh, training, fitted, settings.seed);
+    const RegressionError error = measure_regression(*regression, measured, truth, area);
+    const std::string name = peer.name;
+    row["mse_" + name] = error.mse;
+    row["mse_" + name + "_visible"] = error.mse_visible;
+    row["mse_area_" + name] = error.mse_area;
+    row["bytes_" + name] = regression->model_bytes();
+    row["tuned_" + name] = regression->description();
+  }
 }
 
 // The runtime's update with the far_error that scenes have by default, and with exact sums.
@@ -135,9 +135,9 @@ CharacterReport measure_character(const BakedCharacter& baked, const Recipe* rec
                                          evaluation_ray_seed(settings.seed), progress("ray tracing"));
   report.row = model_row(baked, measured, settings.name, report.evaluation);
   add_update_errors(report.row, baked.model, measured.poses, report.evaluation.truth);
-  if (settings.baselines)
-    add_baselines(report.row, baked.character, recipe, measured.poses, report.evaluation.truth, settings,
-                  progress);
+  if (!settings.peers.empty())
+    add_peers(report.row, baked.character, recipe, measured.poses, report.evaluation.truth, settings,
+              progress);
   return report;
 }
 

@@ -4,26 +4,35 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 
-#include "bakers/measure/character/baked_character.h"
-#include "bakers/measure/character/casters.h"
-#include "bakers/measure/character/evaluate.h"
-#include "bakers/measure/character/evaluated_poses.h"
+#include "bakers/measure/character/caster_error.h"
+#include "bakers/measure/character/character_error.h"
+#include "bakers/measure/character/evaluated_character.h"
 
 namespace nook::measure {
 
 // The recipe in the model's file; none where the model holds none. Throws Failure (BAD_FILE).
 std::optional<bake::Recipe> recipe_of(const BakedCharacter& baked);
 
+// Another method to measure beside the model: it is fitted to the model's own training poses. Its name ends
+// its keys in the row: mse_NAME, mse_NAME_visible, mse_area_NAME, bytes_NAME and tuned_NAME.
+struct CharacterPeer {
+  const char* name;
+  std::unique_ptr<bake::PoseRegression> (*fit)(const bake::SkinnedMesh& mesh,
+                                               std::span<const bake::Pose> training,
+                                               const bake::AoTargets& targets, std::uint64_t seed);
+};
+
 struct CharacterReportSettings {
   std::string name;  // in the row
   std::uint32_t rays = 256;
   std::uint64_t seed = 1;
-  bool baselines =
-      false;  // also fit the linear pose model and the pose clusters, to the model's own training poses
+  std::span<const CharacterPeer> peers;
 };
 
 // Shows a stage. The function that it returns is called at every step; false stops with Failure (CANCELLED).
@@ -34,7 +43,7 @@ struct CharacterReport {
   bake::CharacterEvaluation evaluation;
 };
 
-// Throws Failure (INVALID_ARGUMENT) where the baselines lack a recipe.
+// Throws Failure (INVALID_ARGUMENT) for peers where the model's training poses cannot be made again.
 CharacterReport measure_character(const BakedCharacter& baked, const bake::Recipe* recipe,
                                   const EvaluatedPoses& measured, const CharacterReportSettings& settings,
                                   const StageProgress& progress);

@@ -1,4 +1,4 @@
-#include "bakers/measure/character/casters.h"
+#include "bakers/measure/character/caster_error.h"
 
 #include <algorithm>
 #include <cmath>

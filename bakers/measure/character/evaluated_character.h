@@ -1,16 +1,32 @@
-// Which poses an evaluation measures.
+// What an evaluation of a character measures: a file and the model baked from it, and in which poses.
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bakers/character/recipe.h"
 #include "bakers/import/gltf.h"
+#include "sdk/src/character/model.h"
 
 namespace nook::measure {
 
+// The imported file and the model that was baked from it.
+struct BakedCharacter {
+  bake::ImportedCharacter character;
+  std::vector<std::byte> model_bytes;
+  CharacterModel model;
+};
+
+// Throws Failure (BAD_FILE) for a character that cannot be imported.
+bake::ImportedCharacter read_character(const std::filesystem::path& path, bake::LinkedFiles linked);
+
+// Throws Failure (BAD_FILE, FILE_VERSION) for bytes that are no model, or the model of another character.
+BakedCharacter read_baked_character(bake::ImportedCharacter character, std::vector<std::byte> model_bytes);
+
+// Which poses to measure.
 struct PoseChoice {
   bool training = false;           // the poses that the model was fitted to, made again from its recipe
   std::vector<std::string> clips;  // only these, all of the file; empty: see below

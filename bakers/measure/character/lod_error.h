@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bakers/character/refit_vertices.h"
-#include "bakers/measure/character/evaluate.h"
+#include "bakers/measure/character/character_error.h"
 
 namespace nook::bake {
 

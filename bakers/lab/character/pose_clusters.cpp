@@ -1,4 +1,4 @@
-#include "bakers/measure/character/pose_clusters.h"
+#include "bakers/lab/character/character_peers.h"
 
 #include <tbb/parallel_for.h>
 
@@ -8,13 +8,13 @@
 #include <cstdio>
 
 #include "bakers/algebra/symmetric_eigen.h"
-#include "bakers/measure/character/baseline_features.h"
-#include "bakers/measure/character/baseline_k_means.h"
-#include "bakers/measure/character/baseline_pose_space.h"
-#include "bakers/measure/character/baseline_validation.h"
+#include "bakers/lab/character/cross_validation.h"
+#include "bakers/lab/character/pose_space.h"
 
-namespace nook::bake {
+namespace nook::lab {
 namespace {
+
+using namespace bake;
 
 using Eigen::Index;
 
@@ -323,4 +323,4 @@ std::unique_ptr<PoseRegression> fit_pose_clusters(const SkinnedMesh& mesh, std::
                                         seed);
 }
 
-}  // namespace nook::bake
+}  // namespace nook::lab

@@ -1,4 +1,4 @@
-#include "bakers/measure/character/baseline.h"
+#include "bakers/measure/character/character_error.h"
 
 #include <tbb/global_control.h>
 
@@ -7,15 +7,14 @@
 #include <random>
 
 #include "bakers/character/pose_sets.h"
-#include "bakers/measure/character/baseline_features.h"
-#include "bakers/measure/character/baseline_k_means.h"
-#include "bakers/measure/character/baseline_validation.h"
-#include "bakers/measure/character/linear_pose.h"
-#include "bakers/measure/character/pose_clusters.h"
+#include "bakers/lab/character/character_peers.h"
+#include "bakers/lab/character/cross_validation.h"
+#include "bakers/lab/character/pose_space.h"
 #include "tests/catch.h"
 
 using namespace nook;
 using namespace nook::bake;
+using namespace nook::lab;
 
 namespace {
 
