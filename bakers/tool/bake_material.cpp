@@ -8,10 +8,10 @@
 
 #include "bakers/images/pbr_reader.h"
 #include "bakers/images/ubo_reader.h"
+#include "bakers/job/material_bake.h"
 #include "bakers/job/material_source.h"
 #include "bakers/job/worker_arena.h"
 #include "bakers/measure/material/pictures.h"
-#include "bakers/measure/material/report.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
@@ -181,53 +181,56 @@ void set_heights(const Options& o, const PbrMaps& image, RawMaterial& raw) {
     for (std::size_t y = 0; y < raw.height; ++y) raw.heights[x * raw.height + y] = z[y * raw.width + x];
 }
 
+// Decoding without a view map costs more than the settings of K-CTA suggest.
+void note_missing_map(const Options& o, const CompressionSettings& settings) {
+  if (!o.common.quiet && settings.method == Method::k_cta && settings.map_side == 0)
+    std::fprintf(stderr, "nook: without a view map decoding mixes up to %u clusters a pixel instead of %u\n",
+                 std::min(settings.cluster_count(), 3 * settings.mixture), settings.mixture);
+}
+
+void write_pictures(const Options& o, const RawMaterial& raw, std::span<const std::byte> file) {
+  if (o.images.empty()) return;
+  bake::write_png(o.images / (as_file_name(raw.name) + "_raw.png"), measure::raw_sheet(raw));
+  bake::write_png(o.images / (as_file_name(raw.name) + "_difference.png"),
+                  measure::difference_sheet(raw, nook::material::read_material(file)));
+}
+
 Json bake(const Options& o, platform::OutputFile& output, std::optional<platform::OutputFile>& raw_file) {
   platform::ProgressBar bar(o.common.quiet);
   PbrMaps relief;
   if (!o.relief.empty()) relief = read_relief(o);
-  platform::Stopwatch watch;
+  const platform::Stopwatch watch;
   RawMaterial raw = obtain(o, bar);
   const double seconds_obtain = watch.seconds();
   if (raw_file) raw_file->commit(write_raw_material(raw));
-  if (!o.relief.empty()) set_heights(o, relief, raw);
-  check_compression(o.compression, raw, !raw.mask.empty());
-
-  watch = {};
-  const StageProgress progress = stage_progress(bar, "compressing the ");
-  const MovedMaterial moved = move_views(raw, o.compression.settings.relief, progress);
-  CompressionSettings settings = compression_settings(o.compression, moved.or_still(raw));
-  settings.seed = o.common.seed;
-  nook::material::Material material = compress_moved(raw, moved, settings, progress);
-  const double seconds_compress = watch.seconds();
-  if (!o.common.quiet && settings.method == Method::k_cta && settings.map_side == 0)
-    std::fprintf(stderr, "nook: without a view map decoding mixes up to %u clusters a pixel instead of %u\n",
-                 std::min(settings.cluster_count(), 3 * settings.mixture), settings.mixture);
-  Json recipe = {{"source", recipe_of_trace(o)}, {"compression", describe(settings)}};
-  if (!o.relief.empty())
-    recipe["relief"] = {{"heights", o.relief.filename().string()},
-                        {"height_scale", o.height_scale_m},
-                        {"tile_side", o.tile_side_m}};
-  material.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
-  set_core_rounding(raw, material);
-  const std::vector<std::byte> file = nook::material::write_material(material);
-  material = nook::material::read_material(file);
-  MethodRow row = measure_material(raw, material);
-  row.method = method_name(settings.method);
-  row.seconds = seconds_compress;
-  if (!o.images.empty()) {
-    bake::write_png(o.images / (as_file_name(raw.name) + "_raw.png"), measure::raw_sheet(raw));
-    bake::write_png(o.images / (as_file_name(raw.name) + "_difference.png"),
-                    measure::difference_sheet(raw, material));
+  Json relief_source;
+  if (!o.relief.empty()) {
+    set_heights(o, relief, raw);
+    relief_source = {{"heights", o.relief.filename().string()},
+                     {"height_scale", o.height_scale_m},
+                     {"tile_side", o.tile_side_m}};
   }
-  Json json = report_row(raw.name, row);
+  check_compression(o.compression, raw, !raw.mask.empty());
+  CompressionSettings settings;
+  const auto choose = [&](const RawMaterial& fitted) {
+    settings = compression_settings(o.compression, fitted);
+    settings.seed = o.common.seed;
+    return settings;
+  };
+  const bake::CompressedMaterial compressed =
+      bake::compress_to_file(raw, o.compression.settings.relief, choose, recipe_of_trace(o), relief_source,
+                             stage_progress(bar, "compressing the "));
+  note_missing_map(o, settings);
+  write_pictures(o, raw, compressed.file);
+  Json json = compressed.row;
   json["lights"] = raw.lights.size();
   json["views"] = raw.views.size();
   json["width"] = raw.width;
   json["height"] = raw.height;
   json["raw_bytes"] = sizeof(float) * raw.btf.size();
   json["seconds_source"] = seconds_obtain;
-  output.commit(file);
-  return {{"rows", Json::array({json})}, {"recipe", recipe}};
+  output.commit(compressed.file);
+  return {{"rows", Json::array({json})}, {"recipe", compressed.recipe}};
 }
 
 // The sizes of a material that will be ray traced; no views for one that is read.

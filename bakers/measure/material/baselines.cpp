@@ -130,7 +130,7 @@ CompressionSettings settings_of(const Material& material, std::uint64_t seed) {
 }
 
 MethodRow material_file_row(const RawMaterial& raw, const MaterialFile& file, const FileMeasures& measures) {
-  MethodRow own = measure_material(raw, file.material);
+  MethodRow own(measure_material(raw, file.material));
   own.method = "file: " + own.method;
   own.file_bytes = file.bytes.size();
   const nook::material::MaterialTables tables = nook::material::make_tables(

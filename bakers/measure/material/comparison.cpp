@@ -1,61 +1,17 @@
 #include "bakers/measure/material/comparison.h"
 
-#include <algorithm>
-
+#include "bakers/material/btf_error.h"
 #include "bakers/material/neural_training.h"
-#include "bakers/measure/material/measures.h"
 #include "bakers/measure/material/pbr_tile.h"
 #include "bakers/measure/material/pca.h"
-#include "bakers/measure/material/report.h"
 #include "bakers/measure/material/whole_file.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/material/material_file.h"
 
 namespace nook::bake::material {
-namespace {
 
-using nook::material::ClusteredTensor;
 using nook::material::Material;
 using nook::material::VisibilityForm;
-
-Method method_of(const Material& material) {
-  if (material.neural.is_used()) return Method::neural;
-  const auto& shape = material.btf.shape;
-  return shape.clusters == 1 ? Method::n_svd : shape.mixture == 1 ? Method::cta : Method::k_cta;
-}
-
-}  // namespace
-
-const char* method_name(Method method) {
-  constexpr const char* names[] = {"N-SVD", "CTA", "K-CTA", "neural"};
-  return names[std::size_t(method)];
-}
-
-void set_core_rounding(const RawMaterial& raw, Material& material) {
-  if (material.bits == 16 || material.neural.is_used()) return;
-  constexpr double added = 0.01, least = 0x1p-30, largest = 0x1p-7;
-  const BtfError error = measure_btf(raw, material);
-  const double share =
-      error.squared_signal > 0 ? added * error.squared_error / error.squared_signal : largest;
-  material.core_rounding = float(std::clamp(share, least, largest));
-}
-
-MethodRow measure_material(const RawMaterial& raw, const Material& material) {
-  MethodRow row;
-  row.method = method_name(method_of(material));
-  row.mixture = material.btf.shape.mixture;
-  if (!material.neural.is_used()) row.view_rank = material.btf.shape.rank_view * material.btf.shape.clusters;
-  row.bytes = nook::material::compressed_bytes(material);
-  row.file_bytes = whole_file_bytes(material, 0);
-  const BtfError error = measure_btf(raw, material);
-  row.se_db = error.se_db();
-  row.psnr_db = error.psnr_db();
-  row.psnr_toned_db = error.psnr_toned_db();
-  if (material.visibility == VisibilityForm::none || raw.mask.empty()) return row;
-  (material.visibility == VisibilityForm::binary ? row.error_texels_binary : row.error_texels_distance) =
-      count_error_texels(raw, material.votf, material.visibility);
-  return row;
-}
 
 MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, const StageProgress& progress,
                          Material* material) {
@@ -69,7 +25,7 @@ MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, c
   whole.recipe = recipe.dump().c_str();
   set_core_rounding(raw, whole);
   whole = nook::material::quantise(whole);
-  MethodRow row = measure_material(raw, whole);
+  MethodRow row(measure_material(raw, whole));
   row.file_bytes = whole_file_bytes(whole, map_side);
   row.method = method_name(settings.method);
   row.seconds = seconds;

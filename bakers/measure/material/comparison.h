@@ -6,23 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "bakers/material/compression.h"
+#include "bakers/material/baked_figures.h"
 #include "bakers/measure/material/grazing.h"
 #include "bakers/measure/material/table_error.h"
 #include "bakers/measure/material/view_jumps.h"
 
 namespace nook::bake::material {
 
-struct MethodRow {
-  std::string method;  // "PCA", "N-SVD", "CTA", "K-CTA", "neural"
-  std::uint32_t mixture = 1;
-  std::optional<std::uint32_t> view_rank;  // in total over the clusters; of tensors
-  // Of the whole file that a user ships, view maps of the settings' size included, and of the numbers alone
-  // that the paper's Table I counts: numbers and indices without view maps.
-  std::size_t file_bytes = 0, bytes = 0;
-  double se_db = 0, psnr_db = 0;
-  std::optional<double> psnr_toned_db;  // of toned() in measures.h
-  std::optional<std::size_t> error_texels_binary, error_texels_distance;
+struct MethodRow : BakedFigures {
+  MethodRow() = default;
+  explicit MethodRow(BakedFigures figures) : BakedFigures(std::move(figures)) {}
+
   // As drawn from textures, see table_error.h: the error, and the textures' bytes for each texel.
   std::optional<double> se_db_drawn, se_db_drawn_unseen, gpu_bytes_texel;
   std::vector<LevelError> levels;     // of pixels that cover many texels
@@ -32,7 +26,6 @@ struct MethodRow {
   std::optional<std::size_t> error_texels_unseen;
   // Jumps as the view moves, see view_jumps.h, and those of the material without its view map.
   std::optional<ViewJumps> jumps, jumps_without_map;
-  double seconds = 0;  // of the BTF and of one VOTF
   int iterations = 0;  // of the BTF
 };
 
@@ -40,13 +33,6 @@ struct MethodRow {
 // with the VOTF of settings.visibility and with view maps; without it they are counted but not made.
 MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings,
                          const StageProgress& progress = {}, nook::material::Material* material = nullptr);
-
-// Sets the rounding of the cores of a material that is not rounded yet, so that it adds a hundredth to the
-// squared error of the compression: 0.04 dB.
-void set_core_rounding(const RawMaterial& raw, nook::material::Material& material);
-
-// A material that is there already.
-MethodRow measure_material(const RawMaterial& raw, const nook::material::Material& material);
 
 // Principal components in the place of the BTF in another material's file, as many as its bytes hold: the
 // VOTF and the rest of that file stay and are counted.
@@ -63,7 +49,5 @@ enum class NeuralSize {
 };
 MethodRow measure_neural(const RawMaterial& raw, const RawMaterial* unseen, std::span<const std::byte> file,
                          NeuralSize size, std::uint64_t seed, const StageProgress& progress = {});
-
-const char* method_name(Method method);
 
 }  // namespace nook::bake::material

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bakers/material/raw_material.h"
-#include "bakers/measure/material/measures.h"
+#include "bakers/material/btf_error.h"
 
 namespace nook::bake::material {
 

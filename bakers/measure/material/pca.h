@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "bakers/measure/material/measures.h"
+#include "bakers/material/btf_error.h"
 
 namespace nook::bake::material {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-#include "bakers/measure/material/measures.h"
+#include "bakers/material/btf_error.h"
 #include "sdk/src/material/evaluate.h"
 
 namespace nook::measure {

@@ -1,4 +1,4 @@
-// The description of a compression in files and reports.
+// A compression in the tables of the measurements.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,9 +8,7 @@
 
 namespace nook::bake::material {
 
-// One row of the tables, with the most memory that the process has held so far.
+// The row of baked_figures.h with all that was measured besides.
 nlohmann::ordered_json report_row(const std::string& material, const MethodRow& row);
-
-nlohmann::ordered_json describe(const CompressionSettings& settings);
 
 }  // namespace nook::bake::material

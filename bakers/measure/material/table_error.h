@@ -3,7 +3,7 @@
 // map count.
 #pragma once
 
-#include "bakers/measure/material/measures.h"
+#include "bakers/material/btf_error.h"
 #include "sdk/src/material/tables.h"
 
 namespace nook::bake::material {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bakers/measure/material/measures.h"
+#include "bakers/material/btf_error.h"
 #include "sdk/src/material/direction_mesh.h"
 #include "sdk/src/material/low_light.h"
 #include "sdk/src/material/parabolic.h"

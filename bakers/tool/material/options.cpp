@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <map>
 
-#include "bakers/job/material_source.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/tool_error.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "bakers/measure/material/report.h"
+#include "bakers/job/material_source.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {

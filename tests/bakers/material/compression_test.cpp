@@ -10,7 +10,7 @@
 #include "bakers/material/relief.h"
 #include "bakers/material/visibility_margin.h"
 #include "bakers/measure/material/comparison.h"
-#include "bakers/measure/material/measures.h"
+#include "bakers/material/btf_error.h"
 #include "bakers/measure/material/unseen_views.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/material/evaluate.h"

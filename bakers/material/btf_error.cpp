@@ -1,4 +1,4 @@
-#include "bakers/measure/material/measures.h"
+#include "bakers/material/btf_error.h"
 
 #include <algorithm>
 #include <atomic>
