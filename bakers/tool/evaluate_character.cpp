@@ -6,8 +6,8 @@
 
 #include "bakers/measure/character/pictures.h"
 #include "bakers/measure/character/report.h"
-#include "bakers/tool/character/clip_names.h"
 #include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
@@ -42,9 +42,7 @@ std::optional<bake::Recipe> known_recipe(const BakedCharacter& baked, const Opti
 
 Json evaluate(const Options& options) {
   const BakedCharacter baked = read_evaluated_files(options.files);
-  std::vector<std::string> present;
-  for (const bake::Clip& clip : baked.character.clips) present.push_back(clip.name);
-  require_clips(options.poses.clips, present);
+  require_clips(options.poses.clips, baked.character);
   const std::optional<bake::Recipe> recipe = known_recipe(baked, options);
   const EvaluatedPoses measured = choose_poses(baked.character, recipe ? &*recipe : nullptr, options.poses);
 

@@ -109,7 +109,7 @@ room(bakers/measure/crowd bakers/measure/crowd bakers/measure/truth platform)
 room(bakers/measure/report bakers/measure bakers/images platform ${makers})
 room(bakers/job bakers/job ${process} ${makers})
 room(bakers/api bakers/api bakers/job ${makers})
-room(bakers/tool bakers/tool bakers/api/import.h bakers/import/linked_files.h bakers/job bakers/measure bakers/images platform
+room(bakers/tool bakers/tool bakers/import/gltf.h bakers/import/linked_files.h bakers/job bakers/measure bakers/images platform
      ${systems} sdk/src/core)
 
 forbid(sdk/src "tbb/|embree|Eigen|tiny_gltf|OpenImageIO|nlohmann|LBFGS|CLI/" "the runtime depends on nothing")
