@@ -10,12 +10,10 @@
 #include "bakers/images/ubo_reader.h"
 #include "bakers/job/material_bake.h"
 #include "bakers/job/material_source.h"
-#include "bakers/job/worker_arena.h"
 #include "bakers/measure/material/pictures.h"
+#include "bakers/tool/baking.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
-#include "bakers/tool/common_options.h"
-#include "bakers/tool/distinct_files.h"
 #include "bakers/tool/image_folder.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
@@ -195,7 +193,9 @@ void write_pictures(const Options& o, const RawMaterial& raw, std::span<const st
                   measure::difference_sheet(raw, nook::material::read_material(file)));
 }
 
-Json bake(const Options& o, platform::OutputFile& output, std::optional<platform::OutputFile>& raw_file) {
+BakeOutput bake(const Options& o) {
+  std::optional<platform::OutputFile> raw_file;
+  if (!o.keep_raw.empty()) raw_file.emplace(o.keep_raw);
   platform::ProgressBar bar(o.common.quiet);
   PbrMaps relief;
   if (!o.relief.empty()) relief = read_relief(o);
@@ -217,7 +217,7 @@ Json bake(const Options& o, platform::OutputFile& output, std::optional<platform
     settings.seed = o.common.seed;
     return settings;
   };
-  const bake::CompressedMaterial compressed =
+  bake::CompressedMaterial compressed =
       bake::compress_to_file(raw, o.compression.settings.relief, choose, recipe_of_trace(o), relief_source,
                              stage_progress(bar, "compressing the "));
   note_missing_map(o, settings);
@@ -229,8 +229,9 @@ Json bake(const Options& o, platform::OutputFile& output, std::optional<platform
   json["height"] = raw.height;
   json["raw_bytes"] = sizeof(float) * raw.btf.size();
   json["seconds_source"] = seconds_obtain;
-  output.commit(compressed.file);
-  return {{"rows", Json::array({json})}, {"recipe", compressed.recipe}};
+  const Json report{{"rows", Json::array({json})}, {"recipe", compressed.recipe}};
+  return {std::move(compressed.file), report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
+          table_text(report["rows"])};
 }
 
 // The sizes of a material that will be ray traced; no views for one that is read.
@@ -252,13 +253,6 @@ void run(Options& o) {
     throw ToolError(exit_bad_arguments,
                     "bake material: --relief known needs --meso or --pbr, whose heights are known; give an "
                     "image of the heights of --btf or --raw");
-  require_distinct_files({{{"--pbr", o.pbr},
-                           {"--btf", o.btf},
-                           {"--raw", o.raw},
-                           {"--meso", is_mesh(o.meso) ? o.meso : ""},
-                           {"--relief", o.relief}},
-                          {{"-o", o.output}, {"--keep-raw", o.keep_raw}, {"--report", o.common.report}},
-                          o.images});
   if (is_mesh(o.meso) && !std::filesystem::exists(o.meso)) meso_parameters(o.meso);
   if (!o.relief.empty() && !std::filesystem::exists(o.relief))
     throw ToolError(exit_bad_input, "bake material: --relief: there is no file " + o.relief.string() +
@@ -271,20 +265,15 @@ void run(Options& o) {
     settings.mapping = visibility_mapping(o.visibility_mapping, settings.visibility);
   // A height field has no gaps.
   check_compression(o.compression, expected_sizes(o), !o.meso.empty());
-  platform::OutputFile output(o.output);
-  std::optional<platform::OutputFile> raw_file, report_file;
-  if (!o.keep_raw.empty()) raw_file.emplace(o.keep_raw);
-  if (!o.common.report.empty()) report_file.emplace(o.common.report);
-  make_image_folder(o.images);
-  Json report;
-  try {
-    bake::run_with_threads(o.common.threads, [&] { report = bake(o, output, raw_file); });
-  } catch (const Failure& failure) {
-    if (failure.code() != NOOK_ERROR_CANCELLED) throw;
-    throw ToolError(exit_other, "stopped; no material was written");
-  }
-  if (report_file) report_file->commit(report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  if (!o.common.quiet) std::fputs(table_text(report["rows"]).c_str(), stdout);
+  CommandFiles files{{{"--pbr", o.pbr},
+                      {"--btf", o.btf},
+                      {"--raw", o.raw},
+                      {"--meso", is_mesh(o.meso) ? o.meso : ""},
+                      {"--relief", o.relief}},
+                     {{"--keep-raw", o.keep_raw}},
+                     o.images};
+  run_bake({o.common, o.output, std::move(files), "stopped; no material was written"},
+           [&] { return bake(o); });
 }
 
 }  // namespace

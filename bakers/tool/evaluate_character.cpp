@@ -6,8 +6,8 @@
 
 #include "bakers/measure/character/character_pictures.h"
 #include "bakers/measure/character/character_report.h"
-#include "bakers/tool/character/clip_names.h"
 #include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
@@ -41,9 +41,7 @@ std::optional<bake::Recipe> known_recipe(const BakedCharacter& baked, const Opti
 
 Json evaluate(const Options& options, std::span<const CharacterPeer> peers) {
   const BakedCharacter baked = read_evaluated_files(options.files);
-  std::vector<std::string> present;
-  for (const bake::Clip& clip : baked.character.clips) present.push_back(clip.name);
-  require_clips(options.poses.clips, present);
+  require_clips(options.poses.clips, baked.character);
   const std::optional<bake::Recipe> recipe = known_recipe(baked, options);
   const EvaluatedPoses measured = choose_poses(baked.character, recipe ? &*recipe : nullptr, options.poses);
 

@@ -62,7 +62,7 @@ Json rows_of(const Options& options, const measure::LookupScene& scene, float or
   measure::LookupSettings settings = options.settings;
   settings.seed = options.common.seed;
   settings.path.origin_offset = origin_offset;
-  settings.path.direct = measure::direct_of(options.direct);
+  settings.path.direct = bake::direct_of(options.direct);
   const auto counts = options.counts[0] > 0 ? options.counts : eight_a_room;
   platform::ProgressBar bar(options.common.quiet);
   return measure::lookup_rows(
@@ -138,7 +138,7 @@ void add_evaluate_grid(Command evaluate_command) {
       .add_option("--direct", o.direct,
                   "what both sides hold of the map's light that comes straight: none, the sky without suns, "
                   "or all")
-      .check(one_of(measure::direct_names()))
+      .check(one_of(bake::direct_names()))
       .capture_default_str();
   command.add_option(
       "--picture", o.picture,

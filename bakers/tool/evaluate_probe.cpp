@@ -137,7 +137,7 @@ void add_evaluate_probe(Command evaluate_command) {
       .add_option("--direct", o.grid.direct,
                   "of grids: what both sides hold of the map's light that comes straight: none, the sky "
                   "without suns, or all; default as the grid was baked")
-      .check(one_of(measure::direct_names()));
+      .check(one_of(bake::direct_names()));
   add_linked_files_option(command, o.grid.linked);
   command.add_flag("--no-textures", o.grid.no_textures,
                    "of grids: colour factors stand for textures, and alpha masks are solid");

@@ -12,8 +12,8 @@
 #include "bakers/measure/world/light_report.h"
 #include "bakers/measure/world/pictures.h"
 #include "bakers/measure/world/report.h"
-#include "bakers/tool/character/clip_names.h"
 #include "bakers/tool/character/evaluated_files.h"
+#include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
@@ -95,9 +95,7 @@ void draw_lit_rooms(const Options& options, const measure::BakedCharacter& baked
 
 Json evaluate(const Options& options) {
   const measure::BakedCharacter baked = read_evaluated_files(options.files);
-  std::vector<std::string> present;
-  for (const bake::Clip& clip : baked.character.clips) present.push_back(clip.name);
-  require_clips(options.poses.clips, present);
+  require_clips(options.poses.clips, baked.character);
   const std::optional<bake::Recipe> recipe =
       naming_file(options.files.model, [&] { return measure::recipe_of(baked); });
   const measure::EvaluatedPoses measured =

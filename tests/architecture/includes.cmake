@@ -106,7 +106,7 @@ room(bakers/measure/crowd bakers/measure/crowd bakers/measure/truth platform)
 room(bakers/measure/report bakers/measure bakers/images platform ${makers})
 room(bakers/job bakers/job ${process} ${makers})
 room(bakers/api bakers/api bakers/job ${makers})
-room(bakers/tool bakers/tool bakers/api/import.h bakers/import/linked_files.h bakers/job bakers/measure bakers/images platform
+room(bakers/tool bakers/tool bakers/import/gltf.h bakers/import/linked_files.h bakers/job bakers/measure bakers/images platform
      ${systems} sdk/src/core)
 
 # The lab compares Nook with other methods. It takes from every room, but neither from samples nor from tests, and no room takes from it.

@@ -72,21 +72,12 @@ double geometric_mean(const std::vector<double>& values) {
 std::string direct_of_recipe(const nook::probe::Probes& probes) {
   const Json recipe = Json::parse(probes.recipe, nullptr, false);
   const Json direct = recipe.is_object() ? recipe.value("direct", Json()) : Json();
-  for (const std::string& known : direct_names())
+  for (const std::string& known : bake::direct_names())
     if (direct == known) return known;
   return "all";
 }
 
 }  // namespace
-
-const std::vector<std::string>& direct_names() {
-  static const std::vector<std::string> names{"none", "sky", "all"};
-  return names;
-}
-
-bake::DirectLight direct_of(const std::string& name) {
-  return bake::DirectLight(std::ranges::find(direct_names(), name) - direct_names().begin());
-}
 
 Json sun_rows(const bake::Environment& map) {
   constexpr std::size_t max_suns = 4;
@@ -186,7 +177,7 @@ Json grid_rows(const bake::LitScene& scene, const bake::TriangleSoup& soup, cons
                const GridReportSettings& settings, const PlacesProgress& progress) {
   const std::vector<bool> inside = inside_probes(scene, probes.grid);
   const std::string direct = settings.direct.empty() ? direct_of_recipe(probes) : settings.direct;
-  const bake::PathSettings trace{settings.max_bounces, settings.origin_offset, direct_of(direct)};
+  const bake::PathSettings trace{settings.max_bounces, settings.origin_offset, bake::direct_of(direct)};
   const Places surfaces = places_on_surfaces(scene, soup, probes.grid, inside, settings.origin_offset,
                                              settings.points, settings.seed);
   const Places open = places_in_the_open(scene, probes.grid, settings.points, settings.seed);

@@ -48,10 +48,6 @@ nlohmann::ordered_json probe_errors(const bake::Environment& map, const probe::P
 nlohmann::ordered_json probe_file_row(const bake::Environment& map, const std::string& map_name,
                                       const std::string& file_name, const probe::Probes& probes);
 
-// Names of DirectLight, in its order, and back.
-const std::vector<std::string>& direct_names();
-bake::DirectLight direct_of(const std::string& name);
-
 // The map's suns, the brightest four: direction, RGB irradiance on a surface that faces one, and solid angle.
 nlohmann::ordered_json sun_rows(const bake::Environment& map);
 
