@@ -185,4 +185,17 @@ GLuint BaselinePass::blur(GLuint ao, const GpuView& view, const AoRequest& reque
   return images_[0].texture();
 }
 
+std::vector<FrameMethod> frame_baselines(const GladGLContext& gl) {
+  // Made by the first baseline that is drawn: most replays draw none.
+  const auto pass = std::make_shared<std::unique_ptr<BaselinePass>>();
+  std::vector<FrameMethod> methods;
+  for (const BaselineMethod& method : baseline_methods())
+    methods.push_back({baseline_row(method), method.taps, [&gl, pass, method](const FrameReplay& replay) {
+                         const GpuView& view = replay.gpu_view();
+                         if (!*pass) *pass = std::make_unique<BaselinePass>(gl, view.width, view.height);
+                         return replay.read((*pass)->draw(method, view, replay.request(), true));
+                       }});
+  return methods;
+}
+
 }  // namespace nook::measure

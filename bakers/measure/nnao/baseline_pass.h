@@ -8,17 +8,11 @@
 #include "bakers/measure/nnao/baselines.h"
 #include "bakers/measure/nnao/depth_levels.h"
 #include "bakers/measure/nnao/edge_denoiser.h"
+#include "bakers/measure/nnao/frame_comparison.h"
 #include "bakers/measure/nnao/gpu_image.h"
+#include "bakers/measure/nnao/network_pass.h"
 
 namespace nook::measure {
-
-// The request that every method gets.
-struct AoRequest {
-  float radius = 0.5f;        // metres
-  float max_radius_px = 90;   // where the radius covers more pixels, it shrinks
-  float blur_sharpness = 16;  // as nook_nnao_desc's
-  float intensity = 1;        // of the library's pass after its filter, as nook_nnao_frame_desc's
-};
 
 class BaselinePass {
  public:
@@ -57,5 +51,8 @@ class BaselinePass {
   DepthLevels depth_levels_;
   GpuImage hilbert_;
 };
+
+// The baselines as rows of a replayed frame, each denoised. gl must outlive the result.
+std::vector<FrameMethod> frame_baselines(const GladGLContext& gl);
 
 }  // namespace nook::measure

@@ -82,7 +82,8 @@ std::vector<std::string> frame_method_names() {
 
 std::vector<FrameRow> compare_frame(FrameReplay& replay, const Recording& recording,
                                     const MethodFilter& methods, std::span<const std::byte> other_network,
-                                    const std::function<bool(std::size_t, std::size_t)>& progress) {
+                                    const std::function<bool(std::size_t, std::size_t)>& progress,
+                                    std::span<const FrameMethod> further) {
   const nook::nnao::RecordedNetwork network = nook::nnao::recorded_network(recording);
   const bool own_network = network.readable && !network.embedded;
   const auto shown = nook_nnao_view(recording.frame.view);
@@ -107,13 +108,13 @@ std::vector<FrameRow> compare_frame(FrameReplay& replay, const Recording& record
   for (const Preset& preset : presets)
     add_library(preset.name, settings_of(preset.preset, recording.pass.blur_sharpness), {}, "embedded");
   std::vector<std::pair<Oracle, FrameRow>> oracles;
-  if (replay.has_baselines()) {
-    for (const BaselineMethod& method : baseline_methods())
-      if (is_wanted(methods, baseline_row(method), method.taps)) {
+  if (replay.has_oracle()) {
+    for (const FrameMethod& method : further)
+      if (is_wanted(methods, method.name, method.taps)) {
         FrameRow row;
-        row.method = baseline_row(method);
+        row.method = method.name;
         row.pass.taps = method.taps;
-        jobs.push_back({std::move(row), [method, &replay] { return replay.draw(method); }, nullptr});
+        jobs.push_back({std::move(row), [&method, &replay] { return method.draw(replay); }, nullptr});
       }
     for (const Oracle oracle : all_oracles)
       if (methods.empty() ? oracle == Oracle::solid : is_wanted(methods, oracle_name(oracle), oracle_taps)) {

@@ -94,14 +94,13 @@ std::vector<float> FrameReplay::draw(const nook::nnao::RecordedPass& settings,
   return read(info.texture);
 }
 
-std::vector<float> FrameReplay::draw(const BaselineMethod& method) {
-  if (!baselines_) baselines_ = std::make_unique<BaselinePass>(gl_, width(), height());
+AoRequest FrameReplay::request() const {
   AoRequest request;
   request.radius = recording_.frame.radius;
   request.max_radius_px =
       recording_.frame.max_radius_px > 0 ? recording_.frame.max_radius_px : 0.25f * float(height());
   request.blur_sharpness = recording_.pass.blur_sharpness;
-  return read(baselines_->draw(method, gpu_view_, request, true));
+  return request;
 }
 
 std::vector<float> FrameReplay::draw(Oracle oracle) {

@@ -1,16 +1,18 @@
-#include "bakers/tool/nnao/options.h"
+#include "bakers/lab/tool/nnao_options.h"
 
 #include <cstdio>
 
+#include "bakers/measure/nnao/baselines.h"
 #include "bakers/measure/nnao/comparison.h"
 #include "bakers/measure/nnao/frame_comparison.h"
 #include "bakers/measure/nnao/oracle_pass.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/tool_error.h"
 
-namespace nook::tool {
+namespace nook::lab {
 
 using namespace measure;
+using namespace tool;
 
 void parse_size(const std::string& text, TruthSettings& truth) {
   unsigned width = 0, height = 0;
@@ -175,4 +177,4 @@ void add_options(Command command, EvaluateNnaoOptions& options) {
   add_common_options(command, options.common);
 }
 
-}  // namespace nook::tool
+}  // namespace nook::lab

@@ -1,22 +1,33 @@
-// The options of `nook evaluate nnao`.
+// The options of `nook-lab evaluate nnao`, and the protocols that take them.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "bakers/measure/nnao/scene_views.h"
 #include "bakers/tool/common_options.h"
-#include "bakers/tool/nnao/scenes.h"
 
 namespace nook::tool {
-
 class Command;
+}
 
-// The settings of `nook evaluate nnao` from the command line.
+namespace nook::lab {
+
+// Scenes with their cameras and radii, still as text.
+struct SceneWords {
+  std::vector<std::filesystem::path> files;
+  bool thin = false;
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;  // of all files
+  std::vector<std::string> cameras;  // [NAME:]ox,oy,oz,tx,ty,tz,fov; without a name, of every scene
+  std::vector<std::string> radii;    // [NAME:]metres
+};
+
+// The settings of `nook-lab evaluate nnao` from the command line.
 struct EvaluateNnaoOptions {
-  CommonOptions common;
+  tool::CommonOptions common;
   measure::TruthSettings truth;
   SceneWords scenes;
   std::filesystem::path views;                // a list of scenes with their cameras, instead of files
@@ -40,7 +51,7 @@ struct EvaluateNnaoOptions {
 };
 
 // Adds the options to the command. They stay where they are until the command has run.
-void add_options(Command command, EvaluateNnaoOptions& options);
+void add_options(tool::Command command, EvaluateNnaoOptions& options);
 
 // Reads WxH, pixels. Throws ToolError (bad arguments).
 void parse_size(const std::string& text, measure::TruthSettings& truth);
@@ -48,4 +59,20 @@ void parse_size(const std::string& text, measure::TruthSettings& truth);
 // Throws ToolError (bad arguments) where options exclude each other or no work is named.
 void check_options(const EvaluateNnaoOptions& options);
 
-}  // namespace nook::tool
+// Each protocol returns a report, and throws ToolError or Failure (cancelled).
+// AO of single frames, by every method and number of taps.
+nlohmann::ordered_json evaluate_views(EvaluateNnaoOptions& options);
+
+// Bent normals and specular occlusion in place of AO.
+nlohmann::ordered_json evaluate_bent_normals(EvaluateNnaoOptions& options);
+
+// Means over the frames of a moving camera in place of single frames.
+nlohmann::ordered_json evaluate_sequences(EvaluateNnaoOptions& options);
+
+// Means over frames where a skinned character walks.
+nlohmann::ordered_json evaluate_movers(const EvaluateNnaoOptions& options);
+
+// The best settings of baselines on training scenes; prints the rows of their table.
+nlohmann::ordered_json evaluate_tuning(const EvaluateNnaoOptions& options);
+
+}  // namespace nook::lab

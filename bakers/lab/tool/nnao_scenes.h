@@ -1,17 +1,16 @@
-// The common start of the protocols of `nook evaluate nnao`: scenes, their ray-traced views, and OpenGL; and
-// what all their reports end with.
+// The common start of the protocols of `nook-lab evaluate nnao`: scenes from the command line or from a list
+// of test views, their ray-traced views; and what all their reports end with.
 #pragma once
 
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "bakers/lab/tool/nnao_options.h"
 #include "bakers/measure/nnao/report.h"
 #include "bakers/measure/nnao/scene_views.h"
-#include "bakers/tool/nnao/options.h"
 #include "platform/platform.h"
 
-namespace nook::tool {
+namespace nook::lab {
 
 // The scenes of the command line or of the list, and the ratios to report.
 struct Work {
@@ -30,9 +29,6 @@ std::vector<measure::MeasuredView> traced_views(const measure::SceneRequest& sce
 // The views of all scenes.
 std::vector<measure::MeasuredView> traced_views(const Work& work, const EvaluateNnaoOptions& options);
 
-// OpenGL 3.3 without a display.
-std::unique_ptr<platform::Context> make_context();
-
 // Adds the conditions of all rows of a report: rays of a reference, OpenGL and the seed.
 void add_conditions(nlohmann::ordered_json& report, const EvaluateNnaoOptions& options,
                     platform::Context& context);
@@ -40,4 +36,4 @@ void add_conditions(nlohmann::ordered_json& report, const EvaluateNnaoOptions& o
 // The largest radius on the screen that every method takes, pixels.
 float max_radius_px(const EvaluateNnaoOptions& options);
 
-}  // namespace nook::tool
+}  // namespace nook::lab

@@ -1,0 +1,12 @@
+// The subcommands of nook-lab, as in bakers/tool/commands.h.
+#pragma once
+
+namespace nook::tool {
+class Command;
+}
+
+namespace nook::lab {
+
+void add_evaluate_nnao(tool::Command evaluate);
+
+}  // namespace nook::lab
