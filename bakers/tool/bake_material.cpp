@@ -10,7 +10,7 @@
 #include "bakers/images/ubo_reader.h"
 #include "bakers/job/material_bake.h"
 #include "bakers/job/material_source.h"
-#include "bakers/measure/material/pictures.h"
+#include "bakers/measure/material/material_pictures.h"
 #include "bakers/tool/baking.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"

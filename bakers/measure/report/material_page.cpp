@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "bakers/measure/material/baselines.h"
-#include "bakers/measure/material/pictures.h"
+#include "bakers/measure/material/material_pictures.h"
+#include "bakers/measure/material/material_report.h"
 #include "bakers/measure/report/advice.h"
 #include "bakers/measure/report/light_picture.h"
 #include "sdk/src/material/evaluate.h"

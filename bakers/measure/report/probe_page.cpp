@@ -6,7 +6,7 @@
 #include <span>
 
 #include "bakers/images/map_picture.h"
-#include "bakers/measure/probe/report.h"
+#include "bakers/measure/probe/probe_report.h"
 #include "bakers/measure/report/advice.h"
 #include "bakers/measure/report/light_picture.h"
 #include "sdk/src/core/failure.h"

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "bakers/import/skinned_mesh.h"
-#include "bakers/measure/world/report.h"
 #include "bakers/measure/world/split_light.h"
+#include "bakers/measure/world/world_report.h"
 #include "sdk/src/character/model.h"
 
 namespace nook::measure {
