@@ -9,7 +9,6 @@
 #include "bakers/measure/composite/composite.h"
 #include "bakers/measure/composite/lit_room.h"
 #include "bakers/measure/composite/own_room.h"
-#include "bakers/measure/world/light_report.h"
 #include "bakers/measure/world/world_pictures.h"
 #include "bakers/measure/world/world_report.h"
 #include "bakers/tool/character/evaluated_files.h"

@@ -4,11 +4,7 @@
 
 #include "bakers/job/material_source.h"
 #include "bakers/job/worker_arena.h"
-#include "bakers/measure/report/body_page.h"
-#include "bakers/measure/report/frame_page.h"
-#include "bakers/measure/report/material_page.h"
-#include "bakers/measure/report/probe_page.h"
-#include "bakers/measure/report/transfer_page.h"
+#include "bakers/measure/report/pages.h"
 #include "bakers/tool/character/evaluated_files.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"

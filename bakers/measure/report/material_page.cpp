@@ -1,4 +1,4 @@
-#include "bakers/measure/report/material_page.h"
+#include "bakers/measure/report/pages.h"
 
 #include <tbb/parallel_for.h>
 
@@ -11,7 +11,7 @@
 #include "bakers/measure/material/material_pictures.h"
 #include "bakers/measure/material/material_report.h"
 #include "bakers/measure/report/advice.h"
-#include "bakers/measure/report/light_picture.h"
+#include "bakers/measure/report/report_pictures.h"
 #include "sdk/src/material/evaluate.h"
 
 namespace nook::report {

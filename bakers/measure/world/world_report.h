@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bakers/import/skinned_mesh.h"
+#include "bakers/measure/world/split_light.h"
 #include "sdk/src/character/model.h"
 
 namespace nook::measure {
@@ -32,5 +33,13 @@ using WorldProgress = std::function<bool(std::size_t done, std::size_t total)>;
 nlohmann::ordered_json world_rows(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                   std::span<const bake::Pose> poses, const WorldStudy& study,
                                   const WorldProgress& progress);
+
+// One row for each map, surface and method: "none" (the light as if no body stood in it), "ao_x_probe" and
+// "per_lobe". In both of the latter the map's brightest sun is a cone of light, and the rest 32 lobes. The
+// casters are those of the model; study.rays are paths for a point. Throws Failure (INVALID_ARGUMENT: the
+// model has no world casters; CANCELLED).
+nlohmann::ordered_json world_light_rows(const bake::SkinnedMesh& mesh, const CharacterModel& model,
+                                        std::span<const bake::Pose> poses, std::span<const NamedMap> maps,
+                                        const WorldStudy& study, const WorldProgress& progress);
 
 }  // namespace nook::measure

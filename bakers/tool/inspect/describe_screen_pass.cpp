@@ -4,6 +4,7 @@
 #include "bakers/tool/inspect/describe.h"
 #include "sdk/src/core/hash.h"
 #include "sdk/src/nnao/exact_packing.h"
+#include "sdk/src/nnao/layers.h"
 #include "sdk/src/nnao/network_file.h"
 #include "sdk/src/nnao/recording_file.h"
 
@@ -125,6 +126,19 @@ Row describe_recording(std::span<const std::byte> bytes) {
   row["blur_sharpness"] = pass.blur_sharpness;
   row["path"] = text_of(paths, std::size_t(pass.path));
   add_network(row, recording);
+  return row;
+}
+
+Row describe_network(std::span<const std::byte> bytes) {
+  const nnao::Network network = nnao::read_network(bytes);
+  Row row;
+  row["kind"] = "screen-space network";
+  row["format_version"] = Container(bytes, nnao::network_kind).version();
+  row["bytes"] = bytes.size();
+  std::size_t parameters = network.paper.filters.size();
+  nnao::visit_layers(network, [&](std::span<const float> values) { parameters += values.size(); });
+  row["parameters"] = parameters;
+  add_recipe(row, network.recipe);
   return row;
 }
 
