@@ -1,4 +1,6 @@
 // nook report: a page for artists on what a .nook file holds, and on how right it is.
+#include <algorithm>
+#include <cctype>
 #include <memory>
 #include <optional>
 
@@ -14,7 +16,7 @@
 #include "bakers/tool/inspect/describe.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/probe/scene.h"
-#include "bakers/tool/report/sources.h"
+#include "bakers/tool/tool_error.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
 #include "platform/stopwatch.h"
@@ -25,6 +27,63 @@
 
 namespace nook::tool {
 namespace {
+
+// The files that a page is made from beside its .nook file, by what they are.
+struct ReportSources {
+  std::filesystem::path shape;               // .glb or .gltf
+  std::filesystem::path map;                 // .hdr or .exr
+  std::vector<std::filesystem::path> nooks;  // other .nook files, and raw materials
+};
+
+// What a page of one kind takes.
+struct TakenSources {
+  bool shape = false, map = false;
+  std::size_t nooks = 0;
+};
+
+std::string end_of(const std::filesystem::path& file) {
+  std::string end = file.extension().string();
+  std::ranges::transform(end, end.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return end;
+}
+
+void take_once(std::filesystem::path& place, const std::filesystem::path& file, const char* what) {
+  if (!place.empty())
+    throw ToolError(exit_bad_arguments, file.string() + ": is the second " + what + "; give one");
+  place = file;
+}
+
+// By the ends of their names. Throws ToolError (bad arguments) for a name that is none of these, or a second
+// shape or map.
+ReportSources sort_sources(const std::vector<std::filesystem::path>& files) {
+  ReportSources sources;
+  for (const std::filesystem::path& file : files) {
+    const std::string end = end_of(file);
+    if (end == ".glb" || end == ".gltf")
+      take_once(sources.shape, file, "shape");
+    else if (end == ".hdr" || end == ".exr")
+      take_once(sources.map, file, "map");
+    else if (end == ".nook" || end == ".raw")
+      sources.nooks.push_back(file);
+    else
+      throw ToolError(exit_bad_arguments,
+                      file.string() + ": a source is a .glb, .gltf, .hdr, .exr, .nook or .raw file");
+  }
+  return sources;
+}
+
+// Throws ToolError (bad arguments) where the sources have what a page of `kind` does not take. need: in
+// words.
+void require_sources(const ReportSources& sources, const TakenSources& taken, const std::string& kind,
+                     const std::string& need) {
+  const std::filesystem::path* extra = nullptr;
+  if (!taken.shape && !sources.shape.empty()) extra = &sources.shape;
+  if (!taken.map && !sources.map.empty()) extra = &sources.map;
+  if (sources.nooks.size() > taken.nooks) extra = &sources.nooks[taken.nooks];
+  if (extra)
+    throw ToolError(exit_bad_arguments,
+                    extra->string() + ": is no source of the page of a " + kind + "; give " + need);
+}
 
 struct Options {
   CommonOptions common;
