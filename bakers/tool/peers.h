@@ -21,7 +21,7 @@ class Command;
 
 void add_evaluate_character(Command evaluate, std::span<const measure::CharacterPeer> peers = {});
 
-// What `evaluate material` has read and measured when other methods take their turn.
+// `evaluate material` has read and measured this when other methods take their turn.
 struct MaterialEvaluation {
   const bake::material::RawMaterial& raw;
   measure::MaterialFile file;

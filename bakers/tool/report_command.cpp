@@ -35,7 +35,7 @@ struct ReportSources {
   std::vector<std::filesystem::path> nooks;  // other .nook files, and raw materials
 };
 
-// What a page of one kind takes.
+// The sources that a page of one kind takes.
 struct TakenSources {
   bool shape = false, map = false;
   std::size_t nooks = 0;

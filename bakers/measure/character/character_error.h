@@ -38,7 +38,7 @@ struct CharacterEvaluation {
   // mse_visible over those in which the vertex is visible.
   ErrorColumns model, static_bake, oracle;
   std::vector<PoseErrorSums> pose_visible;  // a value a pose
-  AoTargets truth;                          // what was measured against, for baselines on the same
+  AoTargets truth;                          // what was measured against, for other methods on the same
   std::vector<float> vertex_rms;  // of the model, a value a welded vertex: what a picture of the error shows
 };
 

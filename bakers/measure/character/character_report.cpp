@@ -79,7 +79,7 @@ Json model_row(const BakedCharacter& baked, const EvaluatedPoses& measured, cons
   return row;
 }
 
-// Fits the peers to the model's own training poses and measures them on the same targets.
+// Fits other methods to the model's own training poses and measures them on the same targets.
 void add_peers(Json& row, const ImportedCharacter& character, const Recipe* recipe,
                std::span<const Pose> measured, const AoTargets& truth,
                const CharacterReportSettings& settings, const StageProgress& progress) {

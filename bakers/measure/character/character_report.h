@@ -43,7 +43,7 @@ struct CharacterReport {
   bake::CharacterEvaluation evaluation;
 };
 
-// Throws Failure (INVALID_ARGUMENT) for peers where the model's training poses cannot be made again.
+// Throws Failure (INVALID_ARGUMENT) for other methods where the model's training poses cannot be made again.
 CharacterReport measure_character(const BakedCharacter& baked, const bake::Recipe* recipe,
                                   const EvaluatedPoses& measured, const CharacterReportSettings& settings,
                                   const StageProgress& progress);

@@ -1,4 +1,4 @@
-// What an evaluation of a character measures: a file and the model baked from it, and in which poses.
+// An evaluation of a character measures a file and the model that was baked from it, in chosen poses.
 #pragma once
 
 #include <cstddef>

@@ -17,7 +17,7 @@
 
 namespace nook::report {
 
-// Of a character model.
+// The page of a character model.
 struct BodySettings {
   std::uint32_t rays = 128;  // for each vertex and pose
   std::uint64_t seed = 1;
@@ -30,18 +30,20 @@ struct BodySettings {
 PageParts body_parts(const measure::BakedCharacter& baked, const BodySettings& settings,
                      const measure::StageProgress& progress);
 
-// Of a recorded frame of the screen-space pass.
+// The page of a recorded frame of the screen-space pass.
 PageParts frame_parts(const nook::nnao::Recording& recording);
 
-// Of a compressed material. bytes: the file. raw: what it was compressed from; null: it is not compared.
+// The page of a compressed material. bytes: the file. raw: what it was compressed from; null: it is not
+// compared.
 PageParts material_parts(std::span<const std::byte> bytes, const nook::material::Material& material,
                          const bake::material::RawMaterial* raw);
 
-// Of a light probe or a grid of probes. map: what a single probe was baked from; null: it is not compared. A
-// grid takes none.
+// The page of a light probe or a grid of probes. map: what a single probe was baked from; null: it is not
+// compared. A grid takes none.
 PageParts probe_parts(const probe::Probes& probes, const bake::Environment* map);
 
-// Of baked radiance transfer. mesh: what it was baked from. Throws Failure(BAD_FILE) for another one.
+// The page of baked radiance transfer. mesh: what it was baked from. Throws Failure(BAD_FILE) for another
+// one.
 PageParts transfer_parts(std::size_t bytes, const transfer::Transfer& transfer,
                          const bake::SurfaceMesh& mesh);
 
