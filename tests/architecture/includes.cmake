@@ -99,7 +99,7 @@ room(bakers/measure/nnao bakers/measure/nnao bakers/nnao platform ${ground} sdk/
 room(bakers/measure/composite bakers/measure/composite bakers/measure/nnao bakers/measure/world bakers/nnao bakers/world
      platform ${ground} sdk/src/character sdk/src/world sdk/src/nnao)
 room(bakers/measure/probe bakers/measure/probe bakers/probe ${ground} sdk/src/probe)
-room(bakers/measure/material bakers/measure/material bakers/images bakers/material bakers/tensor ${process}
+room(bakers/measure/material bakers/measure/material bakers/images bakers/material bakers/tensor
      ${ground} sdk/src/material)
 room(bakers/measure/crowd bakers/measure/crowd bakers/measure/truth platform)
 # Pages show what the other measures have, and draw nothing.
