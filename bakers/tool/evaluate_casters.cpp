@@ -8,7 +8,6 @@
 
 #include "bakers/measure/character/character_pictures.h"
 #include "bakers/measure/character/character_report.h"
-#include "bakers/tool/character/evaluated_files.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"

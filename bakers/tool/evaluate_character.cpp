@@ -6,7 +6,6 @@
 
 #include "bakers/measure/character/character_pictures.h"
 #include "bakers/measure/character/character_report.h"
-#include "bakers/tool/character/evaluated_files.h"
 #include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/evaluation.h"

@@ -4,7 +4,6 @@
 
 #include "bakers/measure/character/character_report.h"
 #include "bakers/measure/character/clip_error.h"
-#include "bakers/tool/character/evaluated_files.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"

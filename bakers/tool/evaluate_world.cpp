@@ -11,7 +11,6 @@
 #include "bakers/measure/composite/own_room.h"
 #include "bakers/measure/world/world_pictures.h"
 #include "bakers/measure/world/world_report.h"
-#include "bakers/tool/character/evaluated_files.h"
 #include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"

@@ -1,4 +1,4 @@
-#include "bakers/tool/material/options.h"
+#include "bakers/tool/compression_options.h"
 
 #include <algorithm>
 #include <cstdio>
