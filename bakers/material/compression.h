@@ -140,6 +140,10 @@ nook::material::Material compress_moved(const RawMaterial& raw, const MovedMater
                                         const CompressionSettings& settings,
                                         const StageProgress& progress = {});
 
+// Sets the rounding of the cores of a material that is not rounded yet, so that it adds a hundredth to the
+// squared error of the compression: 0.04 dB.
+void set_core_rounding(const RawMaterial& raw, nook::material::Material& material);
+
 // Chooses ranks as in section 6 of the paper, for light, view, x, y, and x, y of the VOTF: in each mode alone
 // the smallest multiple of 4 at which the squared error stays below a share of the squared norm. Of a
 // material with a relief, raw is what move_views() returns.

@@ -78,7 +78,7 @@ room(bakers/character bakers/character ${stopwatch} ${ground} sdk/src/character)
 room(bakers/world bakers/world ${stopwatch} ${ground} sdk/src/character sdk/src/world)
 room(bakers/nnao bakers/nnao ${ground} sdk/src/nnao)
 room(bakers/probe bakers/probe ${ground} sdk/src/probe)
-room(bakers/material bakers/material bakers/tensor ${ground} sdk/src/material)
+room(bakers/material bakers/material bakers/tensor ${process} ${ground} sdk/src/material)
 room(bakers/synthesis bakers/synthesis bakers/tensor ${ground} sdk/src/synthesis)
 room(bakers/transfer bakers/transfer bakers/tensor ${ground} sdk/src/material sdk/src/transfer)
 set(makers bakers/character bakers/world bakers/nnao bakers/probe bakers/material bakers/synthesis bakers/tensor
@@ -99,14 +99,14 @@ room(bakers/measure/nnao bakers/measure/nnao bakers/nnao platform ${ground} sdk/
 room(bakers/measure/composite bakers/measure/composite bakers/measure/nnao bakers/measure/world bakers/nnao bakers/world
      platform ${ground} sdk/src/character sdk/src/world sdk/src/nnao)
 room(bakers/measure/probe bakers/measure/probe bakers/probe ${ground} sdk/src/probe)
-room(bakers/measure/material bakers/measure/material bakers/images bakers/material bakers/tensor ${process}
+room(bakers/measure/material bakers/measure/material bakers/images bakers/material bakers/tensor
      ${ground} sdk/src/material)
 room(bakers/measure/crowd bakers/measure/crowd bakers/measure/truth platform)
 # Pages show what the other measures have, and draw nothing.
 room(bakers/measure/report bakers/measure bakers/images platform ${makers})
-room(bakers/job bakers/job bakers/measure ${process} ${makers})
+room(bakers/job bakers/job ${process} ${makers})
 room(bakers/api bakers/api bakers/job ${makers})
-room(bakers/tool bakers/tool bakers/api/import.h bakers/import/linked_files.h bakers/job bakers/measure bakers/images platform
+room(bakers/tool bakers/tool bakers/import/gltf.h bakers/import/linked_files.h bakers/job bakers/measure bakers/images platform
      ${systems} sdk/src/core)
 
 # The lab compares Nook with other methods. It takes from every room, but neither from samples nor from tests, and no room takes from it.

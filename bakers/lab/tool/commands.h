@@ -7,6 +7,9 @@ class Command;
 
 namespace nook::lab {
 
+void add_evaluate_grid(tool::Command evaluate);
+void add_evaluate_material(tool::Command evaluate);
 void add_evaluate_nnao(tool::Command evaluate);
+void add_evaluate_probe(tool::Command evaluate);
 
 }  // namespace nook::lab

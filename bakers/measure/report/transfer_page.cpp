@@ -1,4 +1,4 @@
-#include "bakers/measure/report/transfer_page.h"
+#include "bakers/measure/report/pages.h"
 
 #include <tbb/parallel_for.h>
 

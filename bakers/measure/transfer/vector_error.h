@@ -77,4 +77,7 @@ VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const nook::transfe
                               std::span<const MeasuredLight> lights, const TruthSettings& settings,
                               const VectorProgress& progress);
 
+// The response of a material to light from the directions of the lobes.
+nook::transfer::Response response_of(const nook::material::MaterialTables& tables, std::uint32_t lobes);
+
 }  // namespace nook::measure

@@ -5,7 +5,7 @@
 #include "bakers/character/bind_data.h"
 #include "bakers/character/refit_vertices.h"
 #include "bakers/import/skinning.h"
-#include "bakers/measure/character/lods.h"
+#include "bakers/measure/character/lod_error.h"
 #include "sdk/src/character/vertex_resample.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/catch.h"
