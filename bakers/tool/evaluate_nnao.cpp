@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "bakers/measure/nnao/frame_pictures.h"
-#include "bakers/measure/nnao/frame_report.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"

@@ -10,7 +10,7 @@
 
 namespace {
 
-using namespace nook::measure;
+using namespace nook::lab;
 namespace fs = std::filesystem;
 
 // RADV ends the process where it does not know a name. The loops of materials are stated for the default

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace nook::measure {
+namespace nook::lab {
 
 enum class Stage { vertex, fragment, compute };
 
@@ -17,4 +17,4 @@ std::string expand_includes(const std::filesystem::path& root, const std::string
 // Puts the version line of sdk/src/gl/program.cpp and the defines in front of an expanded text.
 std::string with_version(Stage stage, const std::string& defines, const std::string& text);
 
-}  // namespace nook::measure
+}  // namespace nook::lab

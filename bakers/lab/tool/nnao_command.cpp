@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <memory>
 
+#include "bakers/lab/nnao/baseline_pass.h"
+#include "bakers/lab/nnao/tuning.h"
 #include "bakers/lab/tool/commands.h"
 #include "bakers/lab/tool/nnao_options.h"
-#include "bakers/measure/nnao/baseline_pass.h"
-#include "bakers/measure/nnao/tuning.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/evaluate_nnao.h"
 #include "bakers/tool/evaluation.h"

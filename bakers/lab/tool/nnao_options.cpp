@@ -2,8 +2,8 @@
 
 #include <cstdio>
 
-#include "bakers/measure/nnao/baselines.h"
-#include "bakers/measure/nnao/comparison.h"
+#include "bakers/lab/nnao/screen_baselines.h"
+#include "bakers/lab/nnao/screen_comparison.h"
 #include "bakers/measure/nnao/frame_comparison.h"
 #include "bakers/measure/nnao/oracle_pass.h"
 #include "bakers/tool/command_line.h"

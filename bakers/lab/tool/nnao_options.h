@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bakers/measure/nnao/scene_views.h"
+#include "bakers/lab/nnao/measured_view.h"
 #include "bakers/tool/common_options.h"
 
 namespace nook::tool {
@@ -28,7 +28,7 @@ struct SceneWords {
 // The settings of `nook-lab evaluate nnao` from the command line.
 struct EvaluateNnaoOptions {
   tool::CommonOptions common;
-  measure::TruthSettings truth;
+  TruthSettings truth;
   SceneWords scenes;
   std::filesystem::path views;                // a list of scenes with their cameras, instead of files
   std::filesystem::path folder;               // of the list's scenes
@@ -54,7 +54,7 @@ struct EvaluateNnaoOptions {
 void add_options(tool::Command command, EvaluateNnaoOptions& options);
 
 // Reads WxH, pixels. Throws ToolError (bad arguments).
-void parse_size(const std::string& text, measure::TruthSettings& truth);
+void parse_size(const std::string& text, TruthSettings& truth);
 
 // Throws ToolError (bad arguments) where options exclude each other or no work is named.
 void check_options(const EvaluateNnaoOptions& options);

@@ -2,11 +2,11 @@
 #include <filesystem>
 #include <optional>
 
+#include "bakers/lab/nnao/built_in_scenes.h"
+#include "bakers/lab/nnao/mover_comparison.h"
+#include "bakers/lab/nnao/sequence_comparison.h"
+#include "bakers/lab/nnao/view_pictures.h"
 #include "bakers/lab/tool/nnao_scenes.h"
-#include "bakers/measure/nnao/mover_comparison.h"
-#include "bakers/measure/nnao/mover_stage.h"
-#include "bakers/measure/nnao/sequence_comparison.h"
-#include "bakers/measure/nnao/sheet.h"
 #include "bakers/tool/evaluate_nnao.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"

@@ -2,11 +2,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "bakers/lab/nnao/bent_comparison.h"
+#include "bakers/lab/nnao/screen_comparison.h"
+#include "bakers/lab/nnao/view_pictures.h"
 #include "bakers/lab/tool/nnao_scenes.h"
-#include "bakers/measure/nnao/bent_comparison.h"
-#include "bakers/measure/nnao/comparison.h"
-#include "bakers/measure/nnao/network_picture.h"
-#include "bakers/measure/nnao/sheet.h"
 #include "bakers/tool/evaluate_nnao.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/tool_error.h"

@@ -1,7 +1,9 @@
-// Every method over one recorded frame: its AO against the recorded AO, and against the oracle.
+// Every method over one recorded frame: its AO against the recorded AO, and against the oracle; and the rows
+// of a report.
 #pragma once
 
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,5 +57,16 @@ std::vector<FrameRow> compare_frame(FrameReplay& replay, const nook::nnao::Recor
                                     const MethodFilter& methods, std::span<const std::byte> other_network,
                                     const std::function<bool(std::size_t, std::size_t)>& progress,
                                     std::span<const FrameMethod> further = {});
+
+// The rows of `nook evaluate nnao --frame`.
+// One object for each row. Differences are those from the recorded AO, null for a frame without; errors those
+// against the oracle, null without one. network is null for the baselines and the oracles.
+nlohmann::ordered_json frame_rows(const std::string& frame, const nook::nnao::Recording& recording,
+                                  std::span<const FrameRow> rows);
+
+// For each method and number of taps the means over the frames that have the number, as a row of the frame
+// "mean"; none for fewer than two frames. The difference largest_difference is the largest. rows: those of
+// frame_rows of every frame in turn.
+nlohmann::ordered_json frame_mean_rows(const nlohmann::ordered_json& rows);
 
 }  // namespace nook::measure

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "bakers/measure/nnao/frame_pictures.h"
-#include "bakers/measure/nnao/frame_report.h"
 #include "sdk/src/nnao/network_file.h"
 #include "sdk/src/nnao/recording_file.h"
 #include "tests/bakers/measure/nnao/small_scenes.h"
@@ -115,8 +114,7 @@ TEST_CASE("a frame replays to its recorded AO, and its errors are those against 
   // The corner is in view whole, so that the oracle is near the truth there, and the pass near the oracle.
   CHECK(replayed.oracle_mse.value() < 5e-3);
   CHECK(std::abs(replayed.oracle_bias.value()) < 0.05);
-  const std::vector<float> truth =
-      bake::nnao::trace_truth(bake::RayScene(corner()), traced(corner(), camera()), 0.6f, 64, 1);
+  const std::vector<float> truth = traced_ao(corner(), traced(corner(), camera()), 0.6f, 64);
   double squared = 0;
   int count = 0;
   for (int y = height / 4; y < 3 * height / 4; ++y)
