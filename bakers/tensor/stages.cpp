@@ -1,15 +1,57 @@
-#include "bakers/tensor/clustering_stage.h"
+#include "bakers/tensor/stages.h"
 
 #include <Eigen/SVD>
 #include <algorithm>
 
-#include "bakers/tensor/atoms.h"
 #include "bakers/tensor/blocks.h"
-#include "bakers/tensor/empty_clusters.h"
 #include "bakers/tensor/gram.h"
-#include "bakers/tensor/mode_product.h"
+#include "bakers/tensor/mixture_search.h"
+#include "bakers/tensor/tensor.h"
 
 namespace nook::bake::tensor {
+namespace {
+
+// Entries of the membership by cluster.
+std::vector<std::vector<std::size_t>> entries_of(const std::vector<std::uint32_t>& membership,
+                                                 std::size_t clusters) {
+  std::vector<std::vector<std::size_t>> entries(clusters);
+  for (std::size_t e = 0; e < membership.size(); ++e) entries[membership[e]].push_back(e);
+  return entries;
+}
+
+}  // namespace
+
+std::vector<std::size_t> split_into_empty(std::vector<std::uint32_t>& membership, std::size_t mixture,
+                                          std::size_t clusters, const std::vector<double>& error) {
+  std::vector<std::vector<std::size_t>> entries = entries_of(membership, clusters);
+  std::vector<std::size_t> changed;
+  const auto error_of = [&](std::size_t entry) { return error[entry / mixture]; };
+  for (std::size_t empty = 0; empty < clusters; ++empty) {
+    if (!entries[empty].empty()) continue;
+    std::size_t worst = clusters;
+    double greatest = -1;
+    for (std::size_t c = 0; c < clusters; ++c) {
+      double sum = 0;
+      for (std::size_t e : entries[c]) sum += error_of(e);
+      if (entries[c].size() < 2 || sum <= greatest) continue;
+      greatest = sum;
+      worst = c;
+    }
+    if (worst == clusters) break;
+    std::vector<std::size_t>& from = entries[worst];
+    std::stable_sort(from.begin(), from.end(),
+                     [&](std::size_t a, std::size_t b) { return error_of(a) < error_of(b); });
+    const auto half = from.begin() + std::ptrdiff_t((from.size() + 1) / 2);
+    entries[empty].assign(half, from.end());
+    from.erase(half, from.end());
+    for (std::size_t e : entries[empty]) membership[e] = std::uint32_t(empty);
+    changed.insert(changed.end(), entries[empty].begin(), entries[empty].end());
+  }
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  return changed;
+}
+
 namespace {
 
 using Eigen::Index;
@@ -163,6 +205,42 @@ std::size_t clustering_stage(WorkingFit& fit, const TensorView& reduced, const C
     orthonormalise(fit.clusters[c], rows_of(fit.clusters[c], std::uint32_t(c), mixes, rank), dual[c].v, m);
   subtract(reduced, all_rows(mixes, fit.clusters.size(), rank), joined, m, residual);
   return splits;
+}
+
+namespace {
+
+void add(Tensor& to, const Tensor& from, float sign) {
+  for_each_block(to.data.size(), std::size_t(1) << 18, [&](std::size_t first, std::size_t last) {
+    for (std::size_t e = first; e < last; ++e) to.data[e] += sign * from.data[e];
+  });
+}
+
+void put_back(Tensor& residual, std::size_t mode, const std::vector<std::size_t>& members,
+              const Tensor& shrunk) {
+  const ModeLayout layout = layout_of(residual.dimensions, mode);
+  const float* from = shrunk.data.data();
+  for (std::size_t o = 0; o < layout.outer; ++o)
+    for (std::size_t i : members) {
+      std::copy_n(from, layout.inner, &residual.data[(o * layout.size + i) * layout.inner]);
+      from += layout.inner;
+    }
+}
+
+}  // namespace
+
+void update_stage(WorkingFit& fit, Tensor& residual, const ClusteredSettings& settings,
+                  const OnClustered& progress, int iteration, double objective) {
+  for (std::size_t c = 0; c < fit.clusters.size(); ++c) {
+    WorkingCluster& cluster = fit.clusters[c];
+    report(progress, iteration, settings, c, objective);
+    if (cluster.members.empty()) continue;
+    // R'_c: the residual of all clusters and this one's own part, of its members only.
+    Tensor shrunk = sub_tensors(residual, fit.mode, cluster.members);
+    add(shrunk, expand_members(cluster, fit.mode), 1);
+    fit_members(cluster, shrunk, settings);
+    add(shrunk, expand_members(cluster, fit.mode), -1);
+    put_back(residual, fit.mode, cluster.members, shrunk);
+  }
 }
 
 }  // namespace nook::bake::tensor
