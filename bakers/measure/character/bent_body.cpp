@@ -1,6 +1,6 @@
 #include "bakers/measure/character/bent_body.h"
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/character/evaluate.h"
 #include "sdk/src/core/failure.h"
 

@@ -11,10 +11,10 @@
 #include "bakers/measure/character/bent_body.h"
 #include "bakers/measure/character/specular_numbers.h"
 #include "bakers/nnao/specular_fit.h"
+#include "bakers/raytrace/environment.h"
 #include "bakers/raytrace/random.h"
 #include "bakers/raytrace/ray_scene.h"
 #include "bakers/raytrace/specular_visibility.h"
-#include "bakers/raytrace/suns.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/nnao/lighting.h"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "bakers/character/refit_vertices.h"
+#include "bakers/character/vertex_fits.h"
 #include "bakers/measure/character/evaluate.h"
 
 namespace nook::bake {

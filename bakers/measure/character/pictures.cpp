@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bakers/images/picture.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/character/evaluate.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 

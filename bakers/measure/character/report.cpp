@@ -7,7 +7,7 @@
 
 #include "bakers/character/pose_sets.h"
 #include "bakers/import/clip.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/character/linear_pose.h"
 #include "bakers/measure/character/pose_clusters.h"
 #include "sdk/src/character/model_file.h"

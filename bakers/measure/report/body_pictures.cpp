@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/raytrace/ray_scene.h"
 
 namespace nook::report {

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/report/body_pictures.h"
 #include "bakers/measure/report/template.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bakers/character/pose_sets.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/world/light_report.h"
 #include "bakers/measure/world/report.h"
 #include "bakers/world/dual.h"

@@ -1,4 +1,4 @@
-#include "bakers/character/joint_roles.h"
+#include "bakers/character/rig_anatomy.h"
 
 #include <cctype>
 #include <initializer_list>
@@ -136,6 +136,69 @@ std::vector<Joint> joint_roles(const SkinnedMesh& mesh) {
   }
   attach_loose_ends(joints);
   return joints;
+}
+
+namespace {
+
+std::vector<std::uint32_t> parents_first(std::span<const std::int32_t> parent) {
+  std::vector<std::uint32_t> order;
+  std::vector<char> placed(parent.size(), 0);
+  std::vector<std::size_t> chain;
+  for (std::size_t b = 0; b < parent.size(); ++b) {
+    for (std::int32_t at = std::int32_t(b); at >= 0 && !placed[std::size_t(at)]; at = parent[std::size_t(at)])
+      chain.push_back(std::size_t(at));
+    for (; !chain.empty(); chain.pop_back()) {
+      placed[chain.back()] = 1;
+      order.push_back(std::uint32_t(chain.back()));
+    }
+  }
+  return order;
+}
+
+}  // namespace
+
+bool is_below(const BodyTree& tree, std::size_t bone, std::size_t ancestor) {
+  for (std::int32_t b = tree.parent[bone]; b >= 0; b = tree.parent[std::size_t(b)])
+    if (std::size_t(b) == ancestor) return true;
+  return false;
+}
+
+BodyTree body_tree(const SkinnedMesh& mesh, std::span<const Joint> joints) {
+  BodyTree tree;
+  for (const Bone& bone : mesh.bones) tree.parent.push_back(bone.parent);
+  for (std::size_t b = 0; b < joints.size(); ++b) {
+    const std::int32_t next = joints[b].continuation;
+    if (next < 0 || tree.parent[std::size_t(next)] == std::int32_t(b)) continue;
+    // A limb that hangs on its own end would be a ring.
+    if (!is_below(tree, b, std::size_t(next))) tree.parent[std::size_t(next)] = std::int32_t(b);
+  }
+  tree.order = parents_first(tree.parent);
+  return tree;
+}
+
+BodyTree body_tree(const SkinnedMesh& mesh) {
+  return body_tree(mesh, joint_roles(mesh));
+}
+
+BodyFrame body_frame(const SkinnedMesh& mesh, std::span<const Joint> joints) {
+  Vec3 sum;
+  for (std::size_t b = 0; b < joints.size(); ++b) {
+    if (joints[b].role == JointRole::other) continue;
+    if (joints[b].side == Side::left) sum += joint_origin(mesh.bones[b]);
+    if (joints[b].side == Side::right) sum += -1.0f * joint_origin(mesh.bones[b]);
+  }
+  BodyFrame frame;
+  frame.up = {0, 1, 0};
+  frame.left = normalised({sum.x, 0, sum.z});
+  if (dot(frame.left, frame.left) == 0) frame.left = {1, 0, 0};
+  frame.forward = cross(frame.left, frame.up);
+  return frame;
+}
+
+Vec3 limb_direction(const SkinnedMesh& mesh, std::span<const Joint> joints, std::size_t bone) {
+  const std::int32_t next = joints[bone].continuation;
+  return next < 0 ? Vec3{}
+                  : normalised(joint_origin(mesh.bones[std::size_t(next)]) - joint_origin(mesh.bones[bone]));
 }
 
 }  // namespace nook::bake

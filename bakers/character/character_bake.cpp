@@ -1,10 +1,9 @@
-#include "bakers/character/bake.h"
+#include "bakers/character/character_bake.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
-#include "bakers/character/blend_fit.h"
 #include "bakers/character/block_descent.h"
 #include "bakers/character/caster_fit.h"
 #include "bakers/character/export_model.h"
@@ -12,7 +11,7 @@
 #include "bakers/character/initialise.h"
 #include "bakers/character/linear_fit.h"
 #include "bakers/character/mini_batch_fit.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/character/levels.h"
 #include "sdk/src/character/model_check.h"
