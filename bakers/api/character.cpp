@@ -11,7 +11,7 @@
 #include "bakers/api/handles.h"
 #include "bakers/character/auto_poses.h"
 #include "bakers/character/pose_sets.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/job/mesh_arrays.h"
 #include "bakers/job/pose_arrays.h"
 

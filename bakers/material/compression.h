@@ -48,7 +48,7 @@ struct CompressionSettings {
   nook::material::VisibilityForm visibility = nook::material::VisibilityForm::distance;
   std::optional<nook::material::VisibilityMapping> mapping;  // none: default_mapping() below
   std::uint32_t map_side = 64;  // cells of the resampled view maps of K-CTA; 0: none
-  double step_penalty = 0;      // of the steps in the BTF's view map, see tensor/map_steps.h; 0: none
+  double step_penalty = 0;      // of the steps in the BTF's view map, see tensor/resample.h; 0: none
   bool is_cta_mapped = false;   // CTA has view maps as well, whose cells show one cluster each
   std::uint32_t bits = 16;      // form of the numbers, see Material in sdk's material/material.h
   ReliefSource relief = ReliefSource::none;

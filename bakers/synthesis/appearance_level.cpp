@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bakers/tensor/principal_components.h"
+#include "bakers/tensor/gram.h"
 
 namespace nook::bake::synthesis {
 namespace {

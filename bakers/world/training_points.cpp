@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/random.h"
 #include "bakers/world/cone_rays.h"

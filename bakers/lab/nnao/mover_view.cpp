@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/nnao/solids.h"
 #include "sdk/src/core/failure.h"
 

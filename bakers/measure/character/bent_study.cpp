@@ -10,13 +10,13 @@
 #include <numbers>
 #include <span>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/character/character_error.h"
 #include "bakers/nnao/specular_fit.h"
+#include "bakers/raytrace/environment.h"
 #include "bakers/raytrace/random.h"
 #include "bakers/raytrace/ray_scene.h"
 #include "bakers/raytrace/specular_visibility.h"
-#include "bakers/raytrace/suns.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/nnao/lighting.h"
 #include "shaders/character/specular_numbers.h"

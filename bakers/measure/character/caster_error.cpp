@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "bakers/character/rotation.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "sdk/src/character/loaded_model.h"
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/failure.h"

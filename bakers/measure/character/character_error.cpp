@@ -8,8 +8,8 @@
 
 #include "bakers/character/export_model.h"
 #include "bakers/character/fit_state.h"
-#include "bakers/character/joint_roles.h"
-#include "bakers/import/skinning.h"
+#include "bakers/character/rig_anatomy.h"
+#include "bakers/import/skinned_mesh.h"
 #include "sdk/src/character/loaded_model.h"
 #include "sdk/src/character/scene.h"
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "bakers/images/picture.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/character/bent_study.h"
 #include "bakers/measure/character/character_error.h"
 #include "bakers/raytrace/ambient_occlusion.h"

@@ -7,7 +7,7 @@
 
 #include "bakers/character/pose_sets.h"
 #include "bakers/import/clip.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/failure.h"

@@ -6,7 +6,7 @@
 
 #include "bakers/character/rotation.h"
 #include "bakers/import/clip.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/character/character_error.h"
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/failure.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "sdk/src/character/vertex_resample.h"
 #include "sdk/src/core/failure.h"
 

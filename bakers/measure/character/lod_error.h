@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "bakers/character/refit_vertices.h"
+#include "bakers/character/vertex_fits.h"
 #include "bakers/measure/character/character_error.h"
 
 namespace nook::bake {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/report/html.h"
 #include "bakers/raytrace/ray_scene.h"
 

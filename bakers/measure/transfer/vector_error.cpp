@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bakers/raytrace/ambient_occlusion.h"
-#include "bakers/raytrace/suns.h"
+#include "bakers/raytrace/environment.h"
 #include "bakers/transfer/bake.h"
 #include "bakers/transfer/visible_directions.h"
 #include "platform/stopwatch.h"

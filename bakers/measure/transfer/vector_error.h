@@ -37,7 +37,7 @@ struct MeasuredLight {
   nook::transfer::FitQuality quality;
   double fit_ms = 0;
 };
-// without_suns: the suns of the map are taken out first (bakers/raytrace/suns.h).
+// without_suns: the suns of the map are taken out first (bakers/raytrace/environment.h).
 MeasuredLight measured_light(std::string name, bake::Environment map, const nook::transfer::LobeFit& fit,
                              bool without_suns = false);
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <numbers>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/world/ratio_bounds.h"
 #include "bakers/measure/world/split_light.h"
 #include "bakers/probe/map_bake.h"

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "bakers/images/picture.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/world/darkeners.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/random.h"

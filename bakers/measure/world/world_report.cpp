@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/world/darkeners.h"
 #include "bakers/measure/world/ratio_bounds.h"
 #include "bakers/raytrace/ambient_occlusion.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bakers/character/pose_sets.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/world/world_report.h"
 #include "bakers/world/dual.h"
 #include "bakers/world/initial_casters.h"

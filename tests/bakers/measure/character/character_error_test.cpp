@@ -2,8 +2,8 @@
 // half.
 #include "bakers/measure/character/character_error.h"
 
-#include "bakers/character/bake.h"
-#include "bakers/import/skinning.h"
+#include "bakers/character/character_bake.h"
+#include "bakers/import/skinned_mesh.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/catch.h"
 
