@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "bakers/raytrace/environment.h"
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_light.h"
 
 namespace nook::bake::probe {
 namespace {

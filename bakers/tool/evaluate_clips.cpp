@@ -10,8 +10,7 @@
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
 #include "platform/progress_bar.h"
-#include "sdk/src/character/clip_file.h"
-#include "sdk/src/character/clip_set_check.h"
+#include "sdk/src/character/clip_set.h"
 
 namespace nook::tool {
 namespace {

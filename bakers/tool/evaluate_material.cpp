@@ -13,7 +13,7 @@
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/peers.h"
 #include "platform/progress_bar.h"
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 #include "sdk/src/material/material_file.h"
 
 namespace nook::tool {

@@ -15,9 +15,9 @@
 #include "bakers/tool/probe/scene.h"
 #include "platform/progress_bar.h"
 #include "platform/stopwatch.h"
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 #include "sdk/src/material/material_file.h"
-#include "sdk/src/transfer/check.h"
+#include "sdk/src/transfer/transfer_check.h"
 #include "sdk/src/transfer/transfer_file.h"
 
 namespace nook::tool {

@@ -1,7 +1,7 @@
 #include "bakers/transfer/light_matrices.h"
 
 #include "bakers/transfer/bake.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 
 namespace nook::bake::transfer {
 

@@ -1,7 +1,7 @@
 #include "bakers/transfer/lobes_of_directions.h"
 
 #include "sdk/src/core/spherical_gaussian.h"
-#include "sdk/src/transfer/lobes.h"
+#include "sdk/src/transfer/distant_light.h"
 
 namespace nook::bake::transfer {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdk/src/transfer/light_cube.h"
+#include "sdk/src/transfer/distant_light.h"
 
 namespace nook::bake::transfer {
 

@@ -11,9 +11,9 @@
 #include "bakers/tensor/seed_clusters.h"
 #include "bakers/transfer/inter_reflections.h"
 #include "bakers/transfer/light_matrices.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/core/spherical_gaussian.h"
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 
 namespace nook::bake::transfer {
 namespace {

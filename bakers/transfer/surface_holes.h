@@ -7,7 +7,7 @@
 #include "bakers/import/surface_mesh.h"
 #include "bakers/raytrace/ray_scene.h"
 #include "bakers/transfer/hole_table.h"
-#include "sdk/src/transfer/frame.h"
+#include "sdk/src/transfer/tangent_frame.h"
 
 namespace nook::bake::transfer {
 

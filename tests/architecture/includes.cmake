@@ -110,7 +110,7 @@ room(bakers/tool bakers/tool bakers/import/gltf.h bakers/import/linked_files.h b
      ${systems} sdk/src/core)
 
 # The lab compares Nook with other methods. It takes from every room, but neither from samples nor from tests, and no room takes from it.
-room(bakers/lab bakers/lab bakers/measure bakers/tool bakers/images bakers/job platform shaders sdk/src/gl/material/source.h
+room(bakers/lab bakers/lab bakers/measure bakers/tool bakers/images bakers/job platform shaders sdk/src/gl/material/material_glsl.h
      sdk/src/gl/embedded_shaders.h ${makers})
 
 forbid(sdk/src "tbb/|embree|Eigen|tiny_gltf|OpenImageIO|nlohmann|LBFGS|CLI/" "the runtime depends on nothing")

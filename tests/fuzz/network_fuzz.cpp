@@ -6,7 +6,7 @@
 #include <nook/nook_nnao.h>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_evaluate.h"
 #include "sdk/src/nnao/network_file.h"
 #include "tests/fuzz/container_input.h"
 #include "tests/fuzz/library.h"

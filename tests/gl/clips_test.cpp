@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "platform/program.h"
-#include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/model_file.h"
 #include "tests/character/clip_sample.h"
 #include "tests/gl/crowd.h"

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "platform/platform.h"
-#include "sdk/src/nnao/evaluate.h"
 #include "sdk/src/nnao/network.h"
+#include "sdk/src/nnao/network_evaluate.h"
 #include "tests/gl/crowd.h"
 #include "tests/gl/host_textures.h"
 

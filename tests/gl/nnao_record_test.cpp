@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "sdk/src/core/bit_cast.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/gl/touched_state.h"
 #include "sdk/src/nnao/network_file.h"
 #include "tests/gl/nnao_images.h"

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <vector>
 
-#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_evaluate.h"
 #include "tests/gl/nnao_images.h"
 #include "tests/gl/test_context.h"
 

@@ -10,7 +10,7 @@
 #include "bakers/lab/gpu_cost/instruction_count.h"
 #include "bakers/lab/gpu_cost/source_text.h"
 #include "bakers/lab/nnao/screen_baselines.h"
-#include "sdk/src/gl/material/source.h"
+#include "sdk/src/gl/material/material_glsl.h"
 
 namespace nook::lab {
 

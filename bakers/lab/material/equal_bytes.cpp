@@ -6,7 +6,7 @@
 #include "bakers/raytrace/hemisphere.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/material/material_file.h"
 
 namespace nook::lab {

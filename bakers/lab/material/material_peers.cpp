@@ -7,7 +7,7 @@
 #include "bakers/material/btf_error.h"
 #include "bakers/material/neural_training.h"
 #include "platform/stopwatch.h"
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 #include "sdk/src/material/material_file.h"
 
 namespace nook::lab {

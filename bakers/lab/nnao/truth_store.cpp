@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "platform/file_bytes.h"
-#include "sdk/src/core/bit_cast.h"
 #include "sdk/src/core/bytes.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/core/hash.h"
 
 namespace nook::lab {

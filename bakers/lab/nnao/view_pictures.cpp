@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_evaluate.h"
 
 namespace nook::lab {
 

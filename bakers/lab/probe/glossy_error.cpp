@@ -13,7 +13,7 @@
 #include "bakers/raytrace/hemisphere.h"
 #include "bakers/raytrace/random.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/probe/specular.h"
+#include "sdk/src/probe/probe_light.h"
 
 namespace nook::lab {
 namespace {

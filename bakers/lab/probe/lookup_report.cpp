@@ -13,8 +13,8 @@
 #include "bakers/probe/training_places.h"
 #include "bakers/probe/wall_fit.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/probe/evaluate.h"
-#include "sdk/src/probe/zonal_harmonics.h"
+#include "sdk/src/probe/harmonics.h"
+#include "sdk/src/probe/probe_light.h"
 
 namespace nook::lab {
 namespace {

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/probe/axes.h"
-#include "sdk/src/probe/zonal_harmonics.h"
+#include "sdk/src/probe/harmonics.h"
 
 namespace nook::lab {
 namespace {

@@ -8,7 +8,7 @@
 #include "bakers/tool/image_folder.h"
 #include "bakers/tool/peers.h"
 #include "platform/output_file.h"
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 
 namespace nook::lab {
 namespace {

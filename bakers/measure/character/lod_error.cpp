@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "bakers/import/skinned_mesh.h"
-#include "sdk/src/character/vertex_resample.h"
+#include "sdk/src/character/host_vertices.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "bakers/material/btf_error.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 
 namespace nook::measure {
 namespace {

@@ -12,7 +12,7 @@
 #include "bakers/measure/material/material_report.h"
 #include "bakers/measure/report/advice.h"
 #include "bakers/measure/report/report_pictures.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 
 namespace nook::report {
 namespace {

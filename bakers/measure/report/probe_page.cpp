@@ -10,7 +10,7 @@
 #include "bakers/measure/report/advice.h"
 #include "bakers/measure/report/report_pictures.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_light.h"
 
 namespace nook::report {
 namespace {

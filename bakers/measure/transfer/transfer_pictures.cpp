@@ -15,7 +15,7 @@
 #include "bakers/transfer/surface_holes.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/spherical_gaussian.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 
 namespace nook::measure {
 namespace {

@@ -19,8 +19,7 @@
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/spherical_gaussian.h"
-#include "sdk/src/material/check.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/material_check.h"
 #include "sdk/src/material/reflectance.h"
 #include "sdk/src/transfer/vectors.h"
 

@@ -12,7 +12,7 @@
 #include "bakers/transfer/hole_table.h"
 #include "sdk/src/core/vec.h"
 #include "sdk/src/material/tables.h"
-#include "sdk/src/transfer/light_cube.h"
+#include "sdk/src/transfer/distant_light.h"
 #include "sdk/src/transfer/lobe_fit.h"
 #include "sdk/src/transfer/response.h"
 #include "sdk/src/transfer/transfer.h"

@@ -1,10 +1,10 @@
 #include <string>
 
 #include "bakers/tool/inspect/describe.h"
-#include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/loaded_model.h"
-#include "sdk/src/character/memory_use.h"
 #include "sdk/src/character/model_file.h"
+#include "sdk/src/character/scene_readings.h"
 
 namespace nook::tool {
 namespace {

@@ -4,7 +4,7 @@
 #include "bakers/tool/inspect/describe.h"
 #include "sdk/src/material/material_file.h"
 #include "sdk/src/material/view_cells.h"
-#include "sdk/src/synthesis/coordinates_file.h"
+#include "sdk/src/synthesis/coordinates.h"
 
 namespace nook::tool {
 namespace {

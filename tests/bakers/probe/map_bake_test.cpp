@@ -9,7 +9,7 @@
 #include "bakers/measure/probe/fit_error.h"
 #include "bakers/probe/map_samples.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_light.h"
 #include "tests/bakers/probe/small_maps.h"
 #include "tests/catch.h"
 

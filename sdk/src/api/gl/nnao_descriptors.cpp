@@ -4,7 +4,7 @@
 
 #include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/gl/nnao/frame_constants.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/nnao/network_file.h"
 #include "sdk/src/nnao/taps.h"
 

@@ -8,8 +8,7 @@
 #include "sdk/src/api/gl/nnao_descriptors.h"
 #include "sdk/src/api/handles.h"
 #include "sdk/src/core/ref.h"
-#include "sdk/src/gl/nnao/frame_check.h"
-#include "sdk/src/gl/nnao/frame_constants.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/gl/nnao/stages.h"
 #include "sdk/src/nnao/network_file.h"
 

@@ -7,9 +7,9 @@
 #include "sdk/src/api/gl/handle.h"
 #include "sdk/src/api/gl/nnao_descriptors.h"
 #include "sdk/src/api/world_casting.h"
-#include "sdk/src/core/place.h"
-#include "sdk/src/gl/nnao/frame_check.h"
-#include "sdk/src/gl/program.h"
+#include "sdk/src/core/geometry.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
+#include "sdk/src/gl/shader_program.h"
 #include "sdk/src/gl/world/world_pass.h"
 
 using namespace nook;

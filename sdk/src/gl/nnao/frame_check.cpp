@@ -1,10 +1,9 @@
-#include "sdk/src/gl/nnao/frame_check.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
 
 #include <cmath>
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/vec.h"
-#include "sdk/src/gl/nnao/frame_constants.h"
 #include "sdk/src/nnao/host_depth.h"
 
 namespace nook::gl {
