@@ -42,11 +42,11 @@ TEST_CASE("the C++ wrapper evaluates on the GPU what it evaluates on the CPU") {
   nook::Gl gl = std::move(made);
   CHECK_FALSE(made);
   gl.prepare(scene);
-  const nook_gl_ao_view view = gl.ao_buffer(scene, id);
+  const nook_gl_view view = gl.view(scene, id);
   CHECK(view.count == count);
   CHECK(context.gl().IsBuffer(view.buffer));
   gl.update(scene);
-  gl.read_ao(scene, id, gpu.data(), count);
+  gl.read(scene, id, NOOK_CHANNEL_AO, gpu.data(), count);
   scene.update();
   scene.read_ao(id, cpu.data(), count);
   // The header's promise.

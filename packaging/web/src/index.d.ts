@@ -189,16 +189,15 @@ export interface GlInfo {
   bufferBytes: number;
   aoBytes: number;
 }
-export interface AoView {
+export type GlChannel = "ao" | "directional-ao";
+export interface GlView {
   buffer: WebGLBuffer;
   offset: number;
   stride: number;
   count: number;
-}
-export interface LightView extends AoView {
-  /** A TEXTURE_2D for the sampler nook_scene_lights of the GLSL. */
-  texture: WebGLTexture;
-  /** The first argument of the GLSL's functions. */
+  /** Of "directional-ao": a TEXTURE_2D for the sampler nook_scene_lights of the GLSL. */
+  texture: WebGLTexture | null;
+  /** Of "directional-ao": the first argument of the GLSL's functions. */
   light: number;
   glsl: string;
 }
@@ -222,12 +221,10 @@ export class Gl extends Owned {
   /** Evaluates the AO of all instances. */
   update(scene: Scene): void;
   release(scene: Scene): void;
-  aoBuffer(scene: Scene, instance: Instance): AoView;
-  light(scene: Scene, instance: Instance): LightView;
+  view(scene: Scene, instance: Instance, channel?: GlChannel): GlView;
   writeAo(scene: Scene, instances: Numbers, target: AoTarget): void;
   /** For tests: waits for the GPU. */
-  readAo(scene: Scene, instance: Instance, out?: Float32Array): Float32Array;
-  readDirectionalAo(scene: Scene, instance: Instance, out?: Float32Array): Float32Array;
+  read(scene: Scene, instance: Instance, channel?: GlChannel, out?: Float32Array): Float32Array;
   createNnao(options: NnaoOptions): Nnao;
   uploadProbe(probe: Probe, form?: "lobes" | "sh" | "zh3"): Upload;
   uploadMaterial(material: Material): Upload;
