@@ -75,7 +75,7 @@ export class Gl extends OnSurface {
       this.library.module._nook_gl_scene_read(this.handle, scene.handle, instance, this.#channel(channel), address, count)));
   }
 
-  // { maxWidth, maxHeight, taps, halfResolution, blur, blurSharpness, network }.
+  // { maxWidth, maxHeight, preset, taps, halfResolution, blur, blurSharpness, network }.
   createNnao({ network, ...options }) {
     const { library } = this;
     return makeOnSurface(Nnao, library, this.surface, (out) => {

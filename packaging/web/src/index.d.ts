@@ -233,9 +233,12 @@ export class Gl extends Owned {
 export interface NnaoOptions {
   maxWidth: number;
   maxHeight: number;
+  /** Gives taps, halfResolution and blur that are not set. Default "default". */
+  preset?: "default" | "fast" | "best";
   taps?: 9 | 16 | 32 | 64 | 128 | 256;
   halfResolution?: boolean | number;
-  blur?: boolean | number;
+  /** How often the filter runs: 0, 1 or 2. */
+  blur?: number;
   blurSharpness?: number;
   /** The texture is then RGBA8: the bent normal in view space as (n + 1) / 2, and AO in alpha. */
   bentNormals?: boolean | number;
@@ -280,6 +283,7 @@ export interface NnaoFrame {
   /** Where the result goes: nothing for the pass's own texture, null for the canvas. */
   target?: WebGLTexture | WebGLFramebuffer | null;
   blend?: "write" | "multiply";
+  /** A debug view. */
   show?: "ao" | "raw" | "blurred" | "normals";
   /** Set it after a texture of yours has been given another size or format. */
   texturesChanged?: boolean | number;
@@ -288,8 +292,10 @@ export interface NnaoInfo {
   texture: WebGLTexture;
   textureBytes: number;
   taps: number;
+  halfResolution: number;
+  blur: number;
   horizonForm: number;
-  path: string;
+  compute: number;
 }
 export class Nnao extends Owned {
   private constructor();

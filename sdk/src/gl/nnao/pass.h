@@ -43,7 +43,7 @@ bool replaces_target(const NnaoFrame& frame, const nook_nnao_desc& pass);
 class NnaoPass {
  public:
   // Throws Failure.
-  NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Network& network);
+  NnaoPass(Device& device, const NnaoSettings& desc, const nnao::Network& network);
 
   // Draws a frame that passed check_frame. Throws Failure before anything is drawn.
   void render(const NnaoFrame& frame);
@@ -97,7 +97,7 @@ class NnaoPass {
   }
 
   Device& device_;
-  nook_nnao_desc desc_;  // without network and next
+  NnaoSettings desc_;  // without network
   nook_nnao_path path_;
   // The stage of normals belongs to the paper's form, that of the filter where it is a draw.
   Stage depth_stage_, apart_depth_stage_, normals_stage_, occlusion_stage_, accumulate_stage_, filter_stage_,

@@ -84,7 +84,7 @@ std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form) 
          bytes(plan.ao[1]) + std::uint64_t(plan.own_layers) * bytes(plan.own);
 }
 
-NnaoPass::NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Network& network)
+NnaoPass::NnaoPass(Device& device, const NnaoSettings& desc, const nnao::Network& network)
     : device_(device),
       desc_(desc),
       path_(chosen_path(device.gl, desc.path)),
@@ -108,8 +108,8 @@ NnaoPass::NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Netwo
   target_framebuffer_ = Object::make(device, Object::Kind::framebuffer);
   if (desc.timers && !device.gl.can.timestamps)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "desc.timers needs time stamps, which this %s has not (need OpenGL 3.3 or "
-                  "GL_EXT_disjoint_timer_query); leave desc.timers 0",
+                  "debug.timers needs time stamps, which this %s has not (need OpenGL 3.3 or "
+                  "GL_EXT_disjoint_timer_query); leave debug.timers 0",
                   api_name(device.gl));
   if (desc.timers) timer_.emplace(device);
   device.check("making the screen-space pass");

@@ -1,8 +1,7 @@
 // The definitions that a pass puts before its shaders.
 #pragma once
 
-#include <nook/nook_nnao.h>
-
+#include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/nnao/taps.h"
 
 namespace nook::gl {
@@ -12,6 +11,6 @@ struct PassDefines {
 };
 
 // horizon: the network has the horizon form.
-PassDefines pass_defines(const nook_nnao_desc& desc, bool horizon, const nnao::TapGrid& grid);
+PassDefines pass_defines(const NnaoSettings& desc, bool horizon, const nnao::TapGrid& grid);
 
 }  // namespace nook::gl

@@ -9,17 +9,17 @@ namespace {
   const int major = gl.version / 10, minor = gl.version % 10;
   if (gl.limited_by_host)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "desc.path needs compute shaders (got tier %d on %s %d.%d, need tier %d); leave "
+                  "debug.path needs compute shaders (got tier %d on %s %d.%d, need tier %d); leave "
                   "nook_gl_desc.max_tier 0, or use NOOK_NNAO_PATH_AUTOMATIC",
                   tier_of(gl), api_name(gl), major, minor,
                   gl.profile == Profile::desktop ? NOOK_GL_TIER_43 : NOOK_GL_TIER_ES31);
   if (!gl.can.compute)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "desc.path needs compute shaders (got %s %d.%d, need %s or newer); use "
+                  "debug.path needs compute shaders (got %s %d.%d, need %s or newer); use "
                   "NOOK_NNAO_PATH_AUTOMATIC",
                   api_name(gl), major, minor, gl.profile == Profile::desktop ? "4.3" : "3.1");
   throw Failure(NOOK_ERROR_UNSUPPORTED,
-                "desc.path needs compute shaders (got no \"glBindImageTexture\" from get_proc on %s "
+                "debug.path needs compute shaders (got no \"glBindImageTexture\" from get_proc on %s "
                 "%d.%d, need it); pass the context's own loader, or use NOOK_NNAO_PATH_AUTOMATIC",
                 api_name(gl), major, minor);
 }

@@ -1,7 +1,7 @@
 // The choice between a draw and a dispatch for the network.
 #pragma once
 
-#include <nook/nook_nnao.h>
+#include <nook/experimental/nook_debug.h>
 
 #include "sdk/src/gl/functions.h"
 
