@@ -66,6 +66,12 @@ for (const value of probe.irradiance([0, 1, 0, 1, 0, 0])) assert.ok(Math.abs(val
 // One position for all, and one for each.
 assert.deepEqual(probe.irradiance([0, 1, 0, 1, 0, 0], [0, 0, 0]), probe.irradiance([0, 1, 0, 1, 0, 0], [0, 0, 0, 0, 0, 0]));
 assert.equal(probe.lobes().length, 12);
+const half = nook.createProbeFit();
+half.addSamples(directions, directions.map(() => 2));
+half.merge(fit);
+assert.equal(half.info.samples, 1000);
+half.solve().coefficients().forEach((value, i) => assert.ok(Math.abs(value - probe.coefficients()[i]) < 1e-4));
+half.destroy();
 assert.equal(fit.info.samples, 500);
 
 // Memory that is freed is used again: as many scenes as would not fit beside one another.

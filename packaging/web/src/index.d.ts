@@ -358,6 +358,8 @@ export class ProbeFit extends Owned {
   readonly info: ProbeFitInfo;
   /** Three floats for each direction and radiance. */
   addSamples(directions: Numbers, radiance: Numbers, weights?: Numbers): void;
+  /** Adds the samples of another fit with the same options. */
+  merge(other: ProbeFit): void;
   reset(): void;
   solve(): Probe;
 }
@@ -365,6 +367,8 @@ export class Probe extends Owned {
   private constructor();
   readonly info: ProbeInfo;
   lobes(position?: Numbers): Lobe[];
+  /** Three floats for each function of a probe of the grid. */
+  coefficients(index?: number): Float32Array;
   /** The position is three floats for all directions, or three for each. */
   radiance(directions: Numbers, position?: Numbers): Float32Array;
   /** As radiance. Only probes on the surface's side of a wall count. */
