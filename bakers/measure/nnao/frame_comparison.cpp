@@ -6,6 +6,7 @@
 
 #include "bakers/measure/nnao/image_error.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/nnao/taps.h"
 
 namespace nook::measure {
 namespace {
@@ -14,18 +15,18 @@ using Json = nlohmann::ordered_json;
 using nook::nnao::RecordedPass;
 using nook::nnao::Recording;
 
+// The presets of nook_nnao_preset.
 struct Preset {
   const char* name;
-  nook_nnao_preset preset;
+  int taps;
+  int half_resolution;
 };
-constexpr Preset presets[] = {
-    {"fast", NOOK_NNAO_PRESET_FAST}, {"default", NOOK_NNAO_PRESET_DEFAULT}, {"best", NOOK_NNAO_PRESET_BEST}};
+constexpr Preset presets[] = {{"fast", nook::nnao::default_taps, 1},
+                              {"default", nook::nnao::default_taps, 0},
+                              {"best", nook::nnao::best_taps, 0}};
 
-RecordedPass settings_of(nook_nnao_preset preset, float blur_sharpness) {
-  nook_nnao_desc desc;
-  if (nook_nnao_desc_init(&desc) != NOOK_OK || nook_nnao_desc_set_preset(&desc, preset) != NOOK_OK)
-    throw Failure(NOOK_ERROR_INTERNAL, "%s", nook_last_message());
-  return {desc.taps, desc.half_resolution, desc.blur, blur_sharpness, 0};
+RecordedPass settings_of(const Preset& preset, float blur_sharpness) {
+  return {preset.taps, preset.half_resolution, 1, blur_sharpness, 0};
 }
 
 bool is_wanted(const MethodFilter& methods, const std::string& name, int taps) {
@@ -107,7 +108,7 @@ std::vector<FrameRow> compare_frame(FrameReplay& replay, const Recording& record
     add_library(replayed_name, recording.pass, {}, "embedded");
   if (!other_network.empty()) add_library(file_name, recording.pass, other_network, "file");
   for (const Preset& preset : presets)
-    add_library(preset.name, settings_of(preset.preset, recording.pass.blur_sharpness), {}, "embedded");
+    add_library(preset.name, settings_of(preset, recording.pass.blur_sharpness), {}, "embedded");
   std::vector<std::pair<Oracle, FrameRow>> oracles;
   if (replay.has_oracle()) {
     for (const FrameMethod& method : further)

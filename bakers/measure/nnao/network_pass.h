@@ -1,6 +1,7 @@
 // The library's own pass, through its public interface.
 #pragma once
 
+#include <nook/experimental/nook_debug.h>
 #include <nook/nook_nnao.h>
 
 #include <cstddef>
