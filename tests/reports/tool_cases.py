@@ -194,20 +194,22 @@ def screen_space(run, glb, recording, scenes):
     horizon, paper = networks(run)
     small = ["--size", "96x64", "--rays", 16, "--cameras", 1]
     tiny = ["--size", "64x48", "--rays", 8, "--cameras", 1]
-    evaluate = ["evaluate", "nnao"]
-    run.report("evaluate_nnao_thin", *evaluate, "--thin", *small, "--network", paper, "--markdown", "nnao.md",
-               "--images", "nnao_sheets")
-    run.report("evaluate_nnao_network", *evaluate, "--thin", *scenes, *small, "--network", horizon,
-               "--methods", "nnao,nnao_file,gtao", "--max-radius-px", 20)
-    run.report("evaluate_nnao_oracle", *evaluate, "--thin", *tiny, "--methods", "nnao:16,oracle,oracle_bitmask",
-               "--no-raw", "--radius", "thin:0.3", "--intensity", 1.5)
-    run.report("evaluate_nnao_views", *evaluate, "--views", "views.json", "--references", "references")
-    run.report("evaluate_nnao_bent", *evaluate, "--thin", *small, "--bent-normals")
-    run.report("evaluate_nnao_sequence", *evaluate, "--thin", *tiny, "--temporal", "--markdown", "sequence.md")
-    run.report("evaluate_nnao_mover", *evaluate, "--temporal", "--mover", glb, "--size", "40x30", "--rays", 4,
-               "--cameras", 1, "--images", "nnao_mover", "--markdown", "mover.md")
-    run.report("evaluate_nnao_frame", *evaluate, "--frame", recording, "--images", "nnao_frame")
-    run.report("evaluate_nnao_tune", *evaluate, "--tune", "ssao")
+
+    def lab(name, *arguments):
+        run.report(name, "evaluate", "nnao", *arguments, tool="nook-lab")
+
+    lab("evaluate_nnao_thin", "--thin", *small, "--network", paper, "--markdown", "nnao.md", "--images", "nnao_sheets")
+    lab("evaluate_nnao_network", "--thin", *scenes, *small, "--network", horizon, "--methods",
+        "nnao,nnao_file,gtao", "--max-radius-px", 20)
+    lab("evaluate_nnao_oracle", "--thin", *tiny, "--methods", "nnao:16,oracle,oracle_bitmask", "--no-raw",
+        "--radius", "thin:0.3", "--intensity", 1.5)
+    lab("evaluate_nnao_views", "--views", "views.json", "--references", "references")
+    lab("evaluate_nnao_bent", "--thin", *small, "--bent-normals")
+    lab("evaluate_nnao_sequence", "--thin", *tiny, "--temporal", "--markdown", "sequence.md")
+    lab("evaluate_nnao_mover", "--temporal", "--mover", glb, "--size", "40x30", "--rays", 4, "--cameras", 1,
+        "--images", "nnao_mover", "--markdown", "mover.md")
+    run.report("evaluate_nnao_frame", "evaluate", "nnao", "--frame", recording, "--images", "nnao_frame")
+    lab("evaluate_nnao_tune", "--tune", "ssao")
     run.report("inspect_recording", "inspect", recording)
 
 

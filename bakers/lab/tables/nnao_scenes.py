@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fetches the scenes of docs/nnao_views.json into a folder, as .glb files for `nook evaluate nnao --views`.
+"""Fetches the scenes of docs/nnao_views.json into a folder, as .glb files for `nook-lab evaluate nnao --views`.
 
 Each source names a git repository and a commit. Its files come from that repository (a partial clone, so that only these
 files travel), or from a folder of git directories given by --mirrors; files without a repository come from --assets. Every

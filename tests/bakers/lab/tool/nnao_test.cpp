@@ -1,4 +1,4 @@
-// nook evaluate nnao as a user runs it, on the built-in scene and on files.
+// nook-lab evaluate nnao as a user runs it, on the built-in scene and on files.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +7,10 @@
 #include "tests/catch.h"
 
 namespace {
+
+ToolRun lab(const TestFolder& folder, const std::vector<std::string>& words) {
+  return folder.run_program(NOOK_LAB_TOOL, words);
+}
 
 std::vector<std::string> tiny(std::vector<std::string> scene, const TestFolder& folder) {
   std::vector<std::string> arguments{"evaluate", "nnao"};
@@ -34,7 +38,7 @@ TEST_CASE("evaluate nnao measures every method on the thin scene and draws a she
   const TestFolder folder;
   auto arguments = tiny({"--thin", "--camera=0.6,1.1,1.6,0.2,0.4,-0.7,55"}, folder);
   arguments.insert(arguments.end(), {"--images", folder.path("sheets")});
-  const ToolRun run = folder.run(arguments);
+  const ToolRun run = lab(folder, arguments);
   INFO(run.error);
   REQUIRE(run.exit_code == 0);
   CHECK(run.out.find("gtao_bitmask") != std::string::npos);
@@ -70,7 +74,7 @@ TEST_CASE("evaluate nnao tells of several scenes each and their mean, with anoth
   arguments.insert(arguments.end(),
                    {"--markdown", folder.path("t.md"), "--network", folder.path("paper.nook"), "--ratio",
                     "nnao:16,gtao:16", "--methods", "nnao:16,nnao:64,nnao_paper:64,gtao:16"});
-  const ToolRun run = folder.run(arguments);
+  const ToolRun run = lab(folder, arguments);
   INFO(run.error);
   REQUIRE(run.exit_code == 0);
   const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
@@ -132,7 +136,7 @@ TEST_CASE("evaluate nnao measures a list of views by source and keeps their refe
                                            "--no-raw",
                                            "--report",
                                            folder.path("r.json")};
-  const ToolRun run = folder.run(arguments);
+  const ToolRun run = lab(folder, arguments);
   INFO(run.error);
   REQUIRE(run.exit_code == 0);
   const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
@@ -146,7 +150,7 @@ TEST_CASE("evaluate nnao measures a list of views by source and keeps their refe
   // hbao is not measured.
   REQUIRE(report.at("ratios").size() == 1);
   CHECK(report.at("ratios").at(0).at("sources").at("A") > 0);
-  REQUIRE(folder.run(arguments).exit_code == 0);
+  REQUIRE(lab(folder, arguments).exit_code == 0);
   const auto again = nlohmann::json::parse(read_text(folder.path("r.json")));
   for (std::size_t i = 0; i < 4; ++i)
     CHECK(again.at("views").at(i).at("mse") == report.at("views").at(i).at("mse"));
@@ -163,35 +167,35 @@ TEST_CASE("evaluate nnao measures a list of views by source and keeps their refe
     bad.replace(bad.find(from), from.size(), to);
     write_text(folder.path("bad.json"), bad);
     const ToolRun refused =
-        folder.run({"evaluate", "nnao", "--views", folder.path("bad.json"), "--folder", folder.path("")});
+        lab(folder, {"evaluate", "nnao", "--views", folder.path("bad.json"), "--folder", folder.path("")});
     INFO(to << ": " << refused.error);
     CHECK(refused.exit_code == 3);
     CHECK(refused.error.find("bad.json") != std::string::npos);
   }
-  CHECK(folder.run({"evaluate", "nnao", "--views", folder.path("views.json"), folder.path("corner.glb")})
+  CHECK(lab(folder, {"evaluate", "nnao", "--views", folder.path("views.json"), folder.path("corner.glb")})
             .exit_code == 2);
-  CHECK(folder.run({"evaluate", "nnao", "--views", folder.path("views.json"), "--sources", "B"}).exit_code ==
+  CHECK(lab(folder, {"evaluate", "nnao", "--views", folder.path("views.json"), "--sources", "B"}).exit_code ==
         2);
-  CHECK(folder.run({"evaluate", "nnao", "--thin", "--ratio", "nnao:16"}).exit_code == 2);
+  CHECK(lab(folder, {"evaluate", "nnao", "--thin", "--ratio", "nnao:16"}).exit_code == 2);
 }
 
 TEST_CASE("evaluate nnao measures chosen methods alone") {
   const TestFolder folder;
   auto arguments = tiny({"--thin", "--cameras", "1", "--methods", "nnao,hbao"}, folder);
-  REQUIRE(folder.run(arguments).exit_code == 0);
+  REQUIRE(lab(folder, arguments).exit_code == 0);
   const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
   REQUIRE(report.at("rows").size() == 2 * (6 + 3));
   for (const auto& row : report.at("rows")) CHECK((row.at("method") == "nnao" || row.at("method") == "hbao"));
-  CHECK(folder.run({"evaluate", "nnao", "--thin", "--methods", "other"}).exit_code == 2);
-  CHECK(folder.run({"evaluate", "nnao", "--thin", "--temporal", "--intensity", "1.03"}).exit_code == 2);
+  CHECK(lab(folder, {"evaluate", "nnao", "--thin", "--methods", "other"}).exit_code == 2);
+  CHECK(lab(folder, {"evaluate", "nnao", "--thin", "--temporal", "--intensity", "1.03"}).exit_code == 2);
   // Without intensity AO is 1 after the filter, which leaves 0.65 or more where the reference is below 0.35.
   arguments = tiny({"--thin", "--cameras", "1", "--methods", "nnao:9", "--intensity", "0"}, folder);
-  REQUIRE(folder.run(arguments).exit_code == 0);
+  REQUIRE(lab(folder, arguments).exit_code == 0);
   const auto open = nlohmann::json::parse(read_text(folder.path("r.json")));
   for (const auto& row : open.at("rows"))
     if (row.at("blurred")) CHECK(row.at("dark_bias") >= 0.65);
   // No file, no method of that name.
-  CHECK(folder.run({"evaluate", "nnao", "--thin", "--methods", "nnao_paper"}).exit_code == 2);
+  CHECK(lab(folder, {"evaluate", "nnao", "--thin", "--methods", "nnao_paper"}).exit_code == 2);
 }
 
 TEST_CASE("evaluate nnao measures a character by its clip of walking") {
@@ -200,7 +204,7 @@ TEST_CASE("evaluate nnao measures a character by its clip of walking") {
   write_text(folder.path("other.glb"), glb_tube({}));
   auto arguments = tiny({"--temporal", "--mover", folder.path("tube.glb")}, folder);
   arguments.insert(arguments.end(), {"--markdown", folder.path("m.md"), "--images", folder.path("sheets")});
-  const ToolRun run = folder.run(arguments);
+  const ToolRun run = lab(folder, arguments);
   INFO(run.error);
   REQUIRE(run.exit_code == 0);
   const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
@@ -219,38 +223,61 @@ TEST_CASE("evaluate nnao measures a character by its clip of walking") {
            {"--temporal", "--thin", "--clip", "bend"},
            {"--temporal", "--mover", folder.path("tube.glb"), "--radius", "1"}}) {
     INFO(words.back());
-    CHECK(folder.run(tiny(words, folder)).exit_code == 2);
+    CHECK(lab(folder, tiny(words, folder)).exit_code == 2);
   }
-  const ToolRun without = folder.run(tiny({"--temporal", "--mover", folder.path("other.glb")}, folder));
+  const ToolRun without = lab(folder, tiny({"--temporal", "--mover", folder.path("other.glb")}, folder));
   CHECK(without.exit_code == 3);
   CHECK(without.error.find("other.glb") != std::string::npos);
-  CHECK(folder.run(tiny({"--temporal", "--mover", folder.path("tube.glb"), "--clip", "Run"}, folder))
+  CHECK(lab(folder, tiny({"--temporal", "--mover", folder.path("tube.glb"), "--clip", "Run"}, folder))
             .error.find("Walk_Loop") != std::string::npos);
 }
 
 TEST_CASE("evaluate nnao refuses bad arguments and bad scenes, and leaves no half file") {
   const TestFolder folder;
-  CHECK(folder.run({"evaluate", "nnao"}).exit_code == 2);
-  CHECK(folder.run({"evaluate", "nnao", "--thin", "--tune", "all"}).exit_code == 2);
-  CHECK(folder.run({"evaluate", "nnao", "--tune", "other"}).exit_code == 2);
-  CHECK(folder.run({"evaluate", "nnao", "--thin", "--radius", "-1"}).exit_code == 2);
+  CHECK(lab(folder, {"evaluate", "nnao"}).exit_code == 2);
+  CHECK(lab(folder, {"evaluate", "nnao", "--thin", "--tune", "all"}).exit_code == 2);
+  CHECK(lab(folder, {"evaluate", "nnao", "--tune", "other"}).exit_code == 2);
+  CHECK(lab(folder, {"evaluate", "nnao", "--thin", "--radius", "-1"}).exit_code == 2);
   for (const char* size : {"0x10", "640", "640x360x3", "99999x16"})
-    CHECK(folder.run({"evaluate", "nnao", "--thin", "--size", size}).exit_code == 2);
+    CHECK(lab(folder, {"evaluate", "nnao", "--thin", "--size", size}).exit_code == 2);
   for (const char* camera :
        {"1,2,3", "0,0,0,0,0,0,60", "0,0,1,0,0,0,0", "nan,0,1,0,0,0,60", "0,0,1,0,0,0,60,1"})
-    CHECK(folder.run({"evaluate", "nnao", "--thin", std::string("--camera=") + camera}).exit_code == 2);
+    CHECK(lab(folder, {"evaluate", "nnao", "--thin", std::string("--camera=") + camera}).exit_code == 2);
   for (const char* word :
        {"--camera=other:0,0,1,0,0,0,60", "--radius=other:1", "--radius=thin:0", "--radius=1m"})
-    CHECK(folder.run({"evaluate", "nnao", "--thin", word}).exit_code == 2);
-  CHECK(folder.run({"evaluate", "nnao", "a/room.glb", "b/room.glb"}).exit_code == 2);
-  CHECK(folder.run(tiny({folder.path("none.glb")}, folder)).exit_code == 3);
+    CHECK(lab(folder, {"evaluate", "nnao", "--thin", word}).exit_code == 2);
+  CHECK(lab(folder, {"evaluate", "nnao", "a/room.glb", "b/room.glb"}).exit_code == 2);
+  // Methods of recorded frames, and frames beside scenes.
+  CHECK(lab(folder, {"evaluate", "nnao", "--thin", "--methods", "fast"}).exit_code == 2);
+  CHECK(lab(folder, {"evaluate", "nnao", "--thin", "--frame", "frame.nook"}).exit_code == 2);
+  CHECK(lab(folder, tiny({folder.path("none.glb")}, folder)).exit_code == 3);
   write_text(folder.path("bad.glb"), "glTF nonsense");
-  const ToolRun run = folder.run(tiny({folder.path("bad.glb")}, folder));
+  const ToolRun run = lab(folder, tiny({folder.path("bad.glb")}, folder));
   CHECK(run.exit_code == 3);
   CHECK(run.error.find("bad.glb") != std::string::npos);
   write_text(folder.path("bad.nook"), "not a network");
   auto arguments = tiny({"--thin", "--cameras", "1"}, folder);
   arguments.insert(arguments.end(), {"--network", folder.path("bad.nook")});
-  CHECK(folder.run(arguments).exit_code == 3);
+  CHECK(lab(folder, arguments).exit_code == 3);
   CHECK(folder.names() == std::vector<std::string>{"bad.glb", "bad.nook"});
+}
+
+TEST_CASE("evaluate nnao refuses to write two things into one file") {
+  const TestFolder folder;
+  const std::string a = folder.path("a"), b = folder.path("b"), again = folder.path("./b");
+  for (const std::string& path : {a, b}) write_text(path, "kept");
+  std::filesystem::create_directory(folder.path("images"));
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"--thin", "--markdown", b, "--report", again},
+           {a, "--report", a},
+           {a, "--network", b, "--markdown", b},
+           {"--thin", "--images", folder.path("images"), "--report", folder.path("images/thin_0.png")}}) {
+    std::vector<std::string> arguments{"evaluate", "nnao"};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    const ToolRun run = lab(folder, arguments);
+    INFO(run.error);
+    CHECK(run.exit_code == 2);
+    CHECK(run.error.starts_with("nook-lab: "));
+  }
+  for (const std::string& path : {a, b}) CHECK(read_text(path) == "kept");
 }
