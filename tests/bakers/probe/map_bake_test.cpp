@@ -9,7 +9,6 @@
 
 #include "bakers/measure/probe/comparison.h"
 #include "bakers/measure/probe/fit_error.h"
-#include "bakers/probe/map_samples.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/probe/evaluate.h"
 #include "tests/bakers/probe/small_maps.h"
