@@ -11,7 +11,6 @@
 #include "bakers/world/dual.h"
 #include "bakers/world/initial_casters.h"
 #include "bakers/world/posed_casters.h"
-#include "bakers/world/refined_mesh.h"
 #include "bakers/world/training_points.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"

@@ -9,7 +9,6 @@
 #include "bakers/measure/probe/grid_error.h"
 #include "bakers/probe/grid_bake.h"
 #include "bakers/probe/inside_probes.h"
-#include "bakers/probe/surface_fit.h"
 #include "bakers/probe/training_places.h"
 #include "bakers/probe/wall_fit.h"
 #include "sdk/src/core/failure.h"

@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "bakers/probe/map_bake.h"
-#include "bakers/probe/map_samples.h"
 #include "bakers/raytrace/hemisphere.h"
 #include "bakers/raytrace/path_tracer.h"
 #include "sdk/src/core/failure.h"

@@ -14,7 +14,7 @@
 
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/environment.h"
-#include "bakers/transfer/bake.h"
+#include "bakers/transfer/separated_bake.h"
 #include "bakers/transfer/visible_directions.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"

@@ -9,7 +9,7 @@
 
 #include "bakers/import/surface_mesh.h"
 #include "bakers/raytrace/environment.h"
-#include "bakers/transfer/hole_table.h"
+#include "bakers/transfer/surface_holes.h"
 #include "sdk/src/core/vec.h"
 #include "sdk/src/material/tables.h"
 #include "sdk/src/transfer/distant_light.h"

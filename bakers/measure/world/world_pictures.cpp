@@ -12,8 +12,8 @@
 #include "bakers/measure/world/darkeners.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/random.h"
-#include "bakers/world/cone_rays.h"
 #include "bakers/world/surroundings.h"
+#include "bakers/world/training_points.h"
 
 namespace nook::measure {
 namespace {

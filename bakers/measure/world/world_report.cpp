@@ -11,8 +11,8 @@
 #include "bakers/measure/world/ratio_bounds.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/random.h"
-#include "bakers/world/cone_rays.h"
 #include "bakers/world/surroundings.h"
+#include "bakers/world/training_points.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::measure {

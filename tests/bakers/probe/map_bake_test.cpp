@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "bakers/measure/probe/fit_error.h"
-#include "bakers/probe/map_samples.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/probe/probe_light.h"
 #include "tests/bakers/probe/small_maps.h"

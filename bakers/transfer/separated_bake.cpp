@@ -1,4 +1,4 @@
-#include "bakers/transfer/bake.h"
+#include "bakers/transfer/separated_bake.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/transfer/inter_reflections.h"
-#include "bakers/transfer/lobes_of_directions.h"
 #include "bakers/transfer/vertex_loop.h"
 #include "bakers/transfer/visible_directions.h"
 #include "sdk/src/core/failure.h"

@@ -1,12 +1,40 @@
-#include "bakers/synthesis/appearance_level.h"
+#include "bakers/synthesis/exemplar.h"
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
+#include <cmath>
 
 #include "bakers/tensor/gram.h"
 
 namespace nook::bake::synthesis {
+namespace {
+
+using tensor::Matrix;
+
+Matrix filtered(const Matrix& values, const ExemplarShape& shape, Texel step) {
+  constexpr float weights[] = {1 / 16.0f, 4 / 16.0f, 6 / 16.0f, 4 / 16.0f, 1 / 16.0f};
+  Matrix out = Matrix::Zero(values.rows(), values.cols());
+  tbb::parallel_for(0, shape.height, [&](std::int32_t y) {
+    for (std::int32_t x = 0; x < shape.width; ++x)
+      for (std::int32_t i = 0; i < 5; ++i)
+        out.row(shape.row({x, y})) +=
+            weights[i] * values.row(shape.row(shape.inside(Texel{x, y} + step * (i - 2))));
+  });
+  return out;
+}
+
+}  // namespace
+
+std::vector<Matrix> gaussian_stack(const Exemplar& exemplar, std::uint32_t levels) {
+  std::vector<Matrix> stack{exemplar.values};
+  for (std::uint32_t level = 0; level < levels; ++level) {
+    const std::int32_t spacing = 1 << level;
+    stack.push_back(
+        filtered(filtered(stack.back(), exemplar.shape, {spacing, 0}), exemplar.shape, {0, spacing}));
+  }
+  return stack;
+}
+
 namespace {
 
 using tensor::Matrix;
@@ -44,6 +72,21 @@ Matrix appearance_vectors(const Matrix& values, const ExemplarShape& shape, std:
     out.middleRows(first, count) =
         tensor::project(windows(values, shape, spacing, first, 1, count), components);
   });
+  return out;
+}
+
+Exemplar balanced(const Exemplar& exemplar) {
+  Exemplar out = exemplar;
+  const Eigen::RowVectorXf mean = out.values.cast<double>().colwise().mean().cast<float>();
+  out.values.rowwise() -= mean;
+  const double before = out.values.cast<double>().squaredNorm();
+  for (Eigen::Index channel = 0; channel < out.values.cols(); ++channel) {
+    const double deviation =
+        std::sqrt(out.values.col(channel).cast<double>().squaredNorm() / double(out.values.rows()));
+    if (deviation > 0) out.values.col(channel) *= float(1 / std::sqrt(deviation));
+  }
+  const double after = out.values.cast<double>().squaredNorm();
+  if (after > 0) out.values *= float(std::sqrt(before / after));
   return out;
 }
 

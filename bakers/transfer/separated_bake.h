@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "bakers/import/surface_mesh.h"
-#include "bakers/transfer/hole_table.h"
+#include "bakers/transfer/surface_holes.h"
 #include "bakers/transfer/vertex_loop.h"
 #include "sdk/src/transfer/transfer.h"
 
