@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "bakers/character/batch_kernels.h"
+#include "bakers/character/layer_kernels.h"
 #include "sdk/src/character/model.h"
 
 namespace nook::bake {

@@ -4,7 +4,7 @@
 
 #include "bakers/material/appearance.h"
 #include "bakers/material/raw_file.h"
-#include "bakers/synthesis/balance.h"
+#include "bakers/synthesis/exemplar.h"
 #include "bakers/synthesis/seam_energy.h"
 #include "platform/peak_memory.h"
 #include "platform/stopwatch.h"

@@ -2,9 +2,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bakers/measure/character/clips.h"
-#include "bakers/measure/character/report.h"
-#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/measure/character/character_report.h"
+#include "bakers/measure/character/clip_error.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/measure/transfer/pictures.h"
+#include "bakers/measure/transfer/transfer_pictures.h"
 #include "bakers/measure/transfer/vector_error.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"

@@ -122,13 +122,13 @@ void CrowdScene::update(std::uint32_t terms) {
 }
 
 VertexSource CrowdScene::ao(std::size_t character) const {
-  const nook_gl_ao_view view = gl_.ao_buffer(scene_, instances_[character]);
+  const nook_gl_view view = gl_.view(scene_, instances_[character]);
   return {view.buffer, view.offset, view.stride};
 }
 
 std::vector<float> CrowdScene::read_ao(std::size_t character) const {
   std::vector<float> ao(model_.info().file_vertex_count);
-  gl_.read_ao(scene_, instances_[character], ao.data(), std::uint32_t(ao.size()));
+  gl_.read(scene_, instances_[character], NOOK_CHANNEL_AO, ao.data(), std::uint32_t(ao.size()));
   return ao;
 }
 
@@ -137,8 +137,8 @@ void CrowdScene::set_light(std::span<const nook_lobe> lobes) {
     scene_.set_light(id, lobes.data(), std::uint32_t(lobes.size()));
 }
 
-nook_gl_light_view CrowdScene::light(std::size_t character) const {
-  return gl_.light(scene_, instances_[character]);
+nook_gl_view CrowdScene::light(std::size_t character) const {
+  return gl_.view(scene_, instances_[character], NOOK_CHANNEL_DIRECTIONAL_AO);
 }
 
 std::vector<std::vector<float>> CrowdScene::directional_ao(std::span<const std::uint32_t> characters,

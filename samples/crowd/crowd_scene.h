@@ -45,7 +45,7 @@ class CrowdScene {
   // Lights all characters by the same lobes from the next update on. Without lobes there is no light.
   void set_light(std::span<const nook_lobe> lobes);
   // The light after the last update, which needs a light to have been set before it.
-  nook_gl_light_view light(std::size_t character) const;
+  nook_gl_view light(std::size_t character) const;
 
   // The directional occlusion of some characters under one light, three floats for each vertex. The CPU
   // evaluates it.

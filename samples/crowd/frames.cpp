@@ -30,7 +30,7 @@ std::vector<DrawnInstance> drawn_crowd(const CrowdScene& scene, const std::vecto
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     drawn[i] = {&poses[i], scene.ao(i), albedo_of(i), {}, 0};
     if (!lit) continue;
-    const nook_gl_light_view view = scene.light(i);
+    const nook_gl_view view = scene.light(i);
     drawn[i].light = {view.buffer, view.offset, view.stride};
     drawn[i].light_texel = view.light;
   }
@@ -38,7 +38,7 @@ std::vector<DrawnInstance> drawn_crowd(const CrowdScene& scene, const std::vecto
 }
 
 ProbeLight probe_light(const CrowdScene& scene, const Light& light, const Camera& camera) {
-  const nook_gl_light_view view = scene.light(0);
+  const nook_gl_view view = scene.light(0);
   glm::vec3 ahead = camera.target_ws - camera.eye_ws;
   ahead = glm::normalize(glm::vec3(ahead.x, 0.4f * glm::length(glm::vec2(ahead.x, ahead.z)), ahead.z));
   const std::vector<float> up = light.irradiance({0, 1, 0}), horizon = light.radiance(&ahead.x);

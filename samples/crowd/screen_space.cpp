@@ -118,7 +118,10 @@ std::vector<bool> ScreenSpaceAo::read_surfaces() const {
 
 double ScreenSpaceAo::mean_count(nook_world_view view) {
   nook_world_frame_desc frame = world_frame_;
-  frame.show = view;
+  nook_world_frame_debug_desc debug;
+  nook::check(nook_world_frame_debug_desc_init(&debug));
+  debug.show = view;
+  frame.next = &debug;
   // The number is that of AO; the light of the last frame may be gone.
   frame.lobes = nullptr;
   frame.lobe_count = 0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <span>
 
-#include "bakers/measure/material/decoded_radiances.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/material/reflectance.h"

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bakers/character/clip_bake.h"
-#include "bakers/character/low_rank.h"
+#include "bakers/character/clip_tables.h"
 #include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/loaded_clips.h"
 #include "tests/bakers/character/bending_tube.h"

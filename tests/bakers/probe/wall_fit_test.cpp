@@ -7,8 +7,7 @@
 #include <numbers>
 
 #include "bakers/probe/grid_bake.h"
-#include "bakers/probe/moved_probes.h"
-#include "bakers/probe/surface_fit.h"
+#include "bakers/probe/inside_probes.h"
 #include "bakers/raytrace/random.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/probe/probe_light.h"

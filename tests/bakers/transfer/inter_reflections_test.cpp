@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "bakers/import/surface_mesh.h"
-#include "bakers/transfer/bake.h"
+#include "bakers/transfer/separated_bake.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/floats.h"
 #include "sdk/src/core/spherical_gaussian.h"

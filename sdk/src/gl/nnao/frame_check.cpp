@@ -65,7 +65,7 @@ void check_kinds(const NnaoFrame& frame) {
   check_known("frame.gbuffer_ao", frame.gbuffer_ao, NOOK_GBUFFER_AO_EXCLUDE);
   check_known("frame.target", frame.target, NOOK_TARGET_FRAMEBUFFER);
   check_known("frame.blend", frame.blend, NOOK_BLEND_MULTIPLY);
-  check_known("desc.show", frame.show, NOOK_NNAO_VIEW_NORMALS);
+  check_known("debug.show", frame.show, NOOK_NNAO_VIEW_NORMALS);
   if (frame.depth_texture == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.depth_texture is 0; give the name of a texture with depth");
@@ -80,7 +80,7 @@ void check_kinds(const NnaoFrame& frame) {
       (frame.blend != NOOK_BLEND_WRITE || frame.show == NOOK_NNAO_VIEW_NORMALS))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "%s %d needs a target of the host; set frame.target and frame.target_name",
-                  frame.blend != NOOK_BLEND_WRITE ? "frame.blend" : "desc.show",
+                  frame.blend != NOOK_BLEND_WRITE ? "frame.blend" : "debug.show",
                   frame.blend != NOOK_BLEND_WRITE ? frame.blend : frame.show);
 }
 

@@ -8,7 +8,7 @@
 
 namespace nook::gl {
 
-PassDefines pass_defines(const nook_nnao_desc& desc, bool horizon, const nnao::TapGrid& grid) {
+PassDefines pass_defines(const NnaoSettings& desc, bool horizon, const nnao::TapGrid& grid) {
   PassDefines defines;
   std::snprintf(
       defines.text, sizeof defines.text,

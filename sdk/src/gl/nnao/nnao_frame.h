@@ -2,6 +2,7 @@
 // checks, and the uniforms that depend on them.
 #pragma once
 
+#include <nook/experimental/nook_debug.h>
 #include <nook/nook_nnao.h>
 
 #include <array>
@@ -12,7 +13,16 @@
 
 namespace nook::gl {
 
-struct NnaoFrame : nook_gl_frame_desc, nook_nnao_frame_desc {};
+struct NnaoFrame : nook_gl_frame_desc, nook_nnao_frame_desc {
+  nook_nnao_view show = NOOK_NNAO_VIEW_AO;
+};
+
+// The settings of a pass, with the preset's numbers in place of -1.
+struct NnaoSettings : nook_nnao_desc {
+  nook_nnao_path path = NOOK_NNAO_PATH_AUTOMATIC;
+  nook_nnao_sample depth_sample = NOOK_NNAO_SAMPLE_MEDIAN;
+  bool timers = false;
+};
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT), naming the field, unless every number of the frame is in range
 // for a pass of this size. Makes no OpenGL call.

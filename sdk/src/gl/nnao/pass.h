@@ -36,7 +36,7 @@ constexpr int drawn_filters(const nook_nnao_desc& desc) {
 class NnaoPass : public ScreenPass {
  public:
   // Throws Failure.
-  NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Network& network);
+  NnaoPass(Device& device, const NnaoSettings& desc, const nnao::Network& network);
 
   // Draws a frame that passed check_frame. Throws Failure before anything is drawn.
   void render(const NnaoFrame& frame);

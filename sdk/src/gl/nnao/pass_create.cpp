@@ -15,17 +15,17 @@ namespace {
   const int major = gl.version / 10, minor = gl.version % 10;
   if (gl.limited_by_host)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "desc.path needs compute shaders (got tier %d on %s %d.%d, need tier %d); leave "
+                  "debug.path needs compute shaders (got tier %d on %s %d.%d, need tier %d); leave "
                   "nook_gl_desc.max_tier 0, or use NOOK_NNAO_PATH_AUTOMATIC",
                   tier_of(gl), api_name(gl), major, minor,
                   gl.profile == Profile::desktop ? NOOK_GL_TIER_43 : NOOK_GL_TIER_ES31);
   if (!gl.can.compute)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "desc.path needs compute shaders (got %s %d.%d, need %s or newer); use "
+                  "debug.path needs compute shaders (got %s %d.%d, need %s or newer); use "
                   "NOOK_NNAO_PATH_AUTOMATIC",
                   api_name(gl), major, minor, gl.profile == Profile::desktop ? "4.3" : "3.1");
   throw Failure(NOOK_ERROR_UNSUPPORTED,
-                "desc.path needs compute shaders (got no \"glBindImageTexture\" from get_proc on %s "
+                "debug.path needs compute shaders (got no \"glBindImageTexture\" from get_proc on %s "
                 "%d.%d, need it); pass the context's own loader, or use NOOK_NNAO_PATH_AUTOMATIC",
                 api_name(gl), major, minor);
 }
@@ -113,7 +113,7 @@ std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form) 
          bytes(plan.ao[1]) + std::uint64_t(plan.own_layers) * bytes(plan.own);
 }
 
-NnaoPass::NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Network& network)
+NnaoPass::NnaoPass(Device& device, const NnaoSettings& desc, const nnao::Network& network)
     : ScreenPass(device, desc),
       path_(chosen_path(device.gl, desc.path)),
       filters_(device.memory, filter_unit) {
@@ -126,8 +126,8 @@ NnaoPass::NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Netwo
   make_objects({aside, aside, 1, 1});
   if (desc.timers && !device.gl.can.timestamps)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "desc.timers needs time stamps, which this %s has not (need OpenGL 3.3 or "
-                  "GL_EXT_disjoint_timer_query); leave desc.timers 0",
+                  "debug.timers needs time stamps, which this %s has not (need OpenGL 3.3 or "
+                  "GL_EXT_disjoint_timer_query); leave debug.timers 0",
                   api_name(device.gl));
   if (desc.timers) timer_.emplace(device);
   device.check("making the screen-space pass");

@@ -25,7 +25,7 @@ bool replaces_target(const NnaoFrame& frame, const nook_nnao_desc& pass) {
          viewport.width == width && viewport.height == height;
 }
 
-ScreenPass::ScreenPass(Device& device, const nook_nnao_desc& desc) : device_(device), desc_(desc) {
+ScreenPass::ScreenPass(Device& device, const NnaoSettings& desc) : device_(device), desc_(desc) {
   desc_.network = desc_.next = nullptr;
 }
 

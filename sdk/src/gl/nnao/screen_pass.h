@@ -37,7 +37,7 @@ class ScreenPass {
  protected:
   // desc: of the screen-space pass, or with the values that another pass gives to the frame's constants.
   // Network and next of it are not kept. Makes no OpenGL call.
-  ScreenPass(Device& device, const nook_nnao_desc& desc);
+  ScreenPass(Device& device, const NnaoSettings& desc);
 
   // Throws Failure if the pass is larger than this OpenGL's textures.
   void check_size() const;
@@ -63,7 +63,7 @@ class ScreenPass {
   void draw_output(const NnaoFrame& frame, int layer) const;
 
   Device& device_;
-  nook_nnao_desc desc_;
+  NnaoSettings desc_;
   RenderTexture own_;
   Object sampler_, vertex_array_, target_framebuffer_;
 

@@ -109,7 +109,7 @@ String vertex_text(Memory* memory) {
 
 class StageList {
  public:
-  StageList(const nook_nnao_desc& desc, const nnao::TapGrid& grid, PassStages& out, Memory* memory)
+  StageList(const NnaoSettings& desc, const nnao::TapGrid& grid, PassStages& out, Memory* memory)
       : defines_(pass_defines(desc, true, grid)), out_(out), memory_(memory) {}
 
   // ao: the image that nook_ao is.
@@ -173,7 +173,7 @@ nook_nnao_format format_of(const nook_nnao_desc& desc, nook_nnao_image image) {
 
 }  // namespace
 
-PassStages pass_stages(const nook_nnao_desc& desc, const nnao::Network& network, Memory* memory) {
+PassStages pass_stages(const NnaoSettings& desc, const nnao::Network& network, Memory* memory) {
   const nnao::TapGrid grid = nnao::horizon_grid(std::uint32_t(desc.taps));
   PassStages out(memory);
   out.vertex = vertex_text(memory);

@@ -22,8 +22,8 @@ constexpr GLuint upsample_depth_unit = NOOK_UNIT_NORMAL, darkening_depth_unit = 
 constexpr GLuint other_ao_unit = NOOK_UNIT_MOTION, far_unit = NOOK_UNIT_MOTION;
 
 // The frame's constants of the screen pass that this pass does not use have the values of such a pass.
-nook_nnao_desc plain_pass(const nook_world_desc& world) {
-  nook_nnao_desc desc{};
+NnaoSettings plain_pass(const nook_world_desc& world) {
+  NnaoSettings desc{};
   desc.max_width = world.max_width;
   desc.max_height = world.max_height;
   desc.taps = 32;
