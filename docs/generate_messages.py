@@ -20,7 +20,7 @@ CALL = re.compile(r"\b(Failure|ToolError|std::runtime_error|refuse|fault|warn|lo
 # Texts that are put together first.
 ASSIGNED = re.compile(r"\b(?:text|fault_?|warning)\s*\+?=(?!=)")
 # The functions of sdk/src/core/checks.h, whose messages have the name of the value in front.
-CHECK = re.compile(r"\b(check_fits|check_range|check_index|check_known|check_at_most)\s*\(")
+CHECK = re.compile(r"\b(check_fits|check_range|check_index|check_known|check_at_most|check_switch)\s*\(")
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 FORMAT = re.compile(r"%[-+ #0]*(?:\d+|\*)?(?:\.(?:\d+|\*))?(?:hh|h|ll|l|z|j|t)?[diuoxXeEfgGcsp]|%%")
 
@@ -82,13 +82,15 @@ def split_arguments(argument):
 def check_messages(function, argument):
     """The messages of a check, with the numbers that the call has in its text; none if the name is no literal."""
     arguments = split_arguments(argument)
-    if len(arguments) < 3 or not LITERAL.fullmatch(arguments[0]):
+    if len(arguments) < 2 or not LITERAL.fullmatch(arguments[0]):
         return []
     name = message(arguments[0])
     numbers = [re.fullmatch(r"(-?[\d.]+)f?", a) for a in arguments[2:4]]
-    first, second = ([m.group(1) if m else "…" for m in numbers] + ["…"])[:2]
+    first, second = ([m.group(1) if m else "…" for m in numbers] + ["…", "…"])[:2]
     if function == "check_known":
         return [f"{name} is unknown (got …, need 0 to {first})"]
+    if function == "check_switch":
+        return [f"{name} is neither on nor off (got …, need 0 or 1)"]
     if function == "check_fits":
         # A need may depend on a condition.
         alternatives = arguments[3].split("?", 1)[-1].split(" : ")

@@ -51,6 +51,11 @@ void check_at_most(const char* name, std::uint32_t value, std::uint32_t most) {
                   most);
 }
 
+void check_switch(const char* name, std::int32_t value) {
+  if (value != 0 && value != 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is neither on nor off (got %d, need 0 or 1)", name, value);
+}
+
 void check_index(const char* name, std::size_t index, std::size_t count) {
   if (index >= count)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is out of range (got %zu, need less than %zu)", name,

@@ -66,6 +66,9 @@ void check_index(const char* name, std::size_t index, std::size_t count);
 
 void check_at_most(const char* name, std::uint32_t value, std::uint32_t most);
 
+// A switch, which is 0 or 1.
+void check_switch(const char* name, std::int32_t value);
+
 // An enumerator from 0 to `last`.
 inline void check_known(const char* name, std::int32_t value, std::int32_t last) {
   if (value < 0 || value > last) fail_unknown(name, value, last);

@@ -1,5 +1,7 @@
 #include "sdk/src/api/gl/upload.h"
 
+#include <nook/experimental/nook_synthesis.h>
+
 #include <algorithm>
 #include <string_view>
 #include <type_traits>
@@ -8,6 +10,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/material_handle.h"
 #include "sdk/src/api/probe_handles.h"
+#include "sdk/src/api/synthesis_handle.h"
 #include "sdk/src/core/checks.h"
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/gl/functions.h"
@@ -210,6 +213,16 @@ nook_result nook_gl_upload_describe(nook_gl_upload upload, nook_gl_upload_info* 
   return api::enter("nook_gl_upload_describe", [&] {
     need(upload, "upload");
     write_info(info, info_of(*upload));
+  });
+}
+
+nook_result nook_gl_upload_synthesis(nook_gl gl, nook_synthesis synthesis, nook_gl_upload* out) {
+  return api::enter("nook_gl_upload_synthesis", [&] {
+    need(out, "out");
+    *out = nullptr;
+    need(gl, "gl");
+    need(synthesis, "synthesis");
+    *out = api::make_upload<gl::CoordinateTexture>(gl, gl::materials, synthesis->coordinates);
   });
 }
 
