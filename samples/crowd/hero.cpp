@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "platform/file_bytes.h"
-#include "samples/mannequin/mannequin.h"
+#include "bakers/mannequin/mannequin.h"
 
 namespace crowd {
 namespace {
@@ -99,7 +99,7 @@ void Hero::skin(const Bones& bones, std::vector<float>& positions_ws, std::vecto
 }
 
 std::vector<unsigned char> built_in_glb(const std::filesystem::path& cache) {
-  std::vector<unsigned char> bytes = nook_samples::mannequin::make_mannequin_glb();
+  std::vector<unsigned char> bytes = nook::bake::mannequin::make_mannequin_glb();
   platform::write_file(cache / "mannequin.glb", bytes.data(), bytes.size());
   return bytes;
 }
