@@ -3,6 +3,8 @@
 
 #include <nook/nook_bake.h>
 
+#include <cstdint>
+
 namespace nook::bake::api {
 
 // Reads the descriptor, whose type is checked already, and starts its job. Throws Failure.
