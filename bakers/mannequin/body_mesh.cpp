@@ -8,7 +8,7 @@
 #include "bakers/mannequin/shape_primitives.h"
 #include "bakers/mannequin/skeleton.h"
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 
 std::vector<Vec3> area_weighted_normals(const TriangleMesh& mesh) {
   std::vector<Vec3> normals(mesh.positions_m.size(), Vec3(0.0));
@@ -217,4 +217,4 @@ TriangleMesh make_body_mesh() {
   return remesh(march_tetrahedra(sdf, finest_cell_m), sdf, target_edge_m, rounds);
 }
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

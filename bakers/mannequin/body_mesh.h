@@ -6,7 +6,7 @@
 
 #include "bakers/mannequin/shape_primitives.h"
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -25,4 +25,4 @@ std::vector<std::vector<std::uint32_t>> vertex_neighbours(const TriangleMesh& me
 /// face.
 TriangleMesh make_body_mesh();
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

@@ -6,7 +6,7 @@
 
 #include "bakers/mannequin/skeleton.h"
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 namespace {
 
 // Distances of lofts and ellipsoids are estimates that may fall short of the truth; bounds allow for that.
@@ -380,4 +380,4 @@ Part make_hand() {
   return hand;
 }
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

@@ -5,7 +5,7 @@
 
 #include "bakers/mannequin/shape_primitives.h"
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 
 /// One mass of the figure and how it joins those before it.
 struct Mass {
@@ -63,4 +63,4 @@ Part make_foot();
 Part make_arm();
 Part make_hand();
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

@@ -6,7 +6,7 @@
 #include "bakers/mannequin/pose.h"
 #include "bakers/mannequin/shape_primitives.h"
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 namespace {
 
 /// One sine wave for each loop, ahead by `lead` loops.
@@ -343,4 +343,4 @@ const std::vector<Clip>& all_clips() {
   return clips;
 }
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

@@ -4,7 +4,7 @@
 
 #include "bakers/mannequin/pose.h"
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 
 /// A looping motion: `pose_at` takes a phase from 0 to 1, and both ends give the same pose.
 struct Clip {
@@ -28,4 +28,4 @@ Pose pose_wave(const Skeleton& skeleton, double phase);
 Pose pose_punch(const Skeleton& skeleton, double phase);
 Pose pose_dance(const Skeleton& skeleton, double phase);
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const std::vector<unsigned char> bytes = nook::bake::mannequin::make_mannequin_glb();
+    const std::vector<unsigned char> bytes = nook::mannequin::make_mannequin_glb();
     platform::OutputFile(argv[1]).commit(std::as_bytes(std::span(bytes)));
   } catch (const std::exception& error) {
     std::cerr << "mannequin: " << error.what() << '\n';

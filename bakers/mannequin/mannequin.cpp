@@ -13,7 +13,7 @@
 #include "bakers/mannequin/skeleton.h"
 #include "bakers/mannequin/skin_weights.h"
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 namespace {
 
 constexpr double keys_per_second = 24.0;
@@ -266,4 +266,4 @@ std::vector<unsigned char> make_mannequin_glb() {
   return write_glb(mesh, make_skin_weights(mesh, skeleton), skeleton, all_clips());
 }
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 
 Pose::Pose(const Skeleton& skeleton)
     : skeleton_(&skeleton), turns_(skeleton.size(), Quat(1.0, 0.0, 0.0, 0.0)) {}
@@ -248,4 +248,4 @@ void close_fingers(Pose& pose, Side side, double amount) {
   pose.turn(sided("pinky_01", side), axis, s * -13.0);
 }
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

@@ -6,7 +6,7 @@
 
 #include "bakers/mannequin/skeleton.h"
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 
 /// A side of the body, of which left is +x. It addresses everything that exists twice.
 enum class Side { left, right };
@@ -91,4 +91,4 @@ void make_fist(Pose& pose, Side side);
 /// Brings the spread fingers of the bind pose together. At 1 they are parallel.
 void close_fingers(Pose& pose, Side side, double amount);
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

@@ -7,7 +7,7 @@
 
 #include "bakers/mannequin/body_mesh.h"
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 namespace {
 
 /// A closed triangle manifold that can be edited in place. Half-edge `3 f + k` leaves corner k of face f.
@@ -388,4 +388,4 @@ TriangleMesh remesh(const TriangleMesh& dense, const BodySdf& sdf, const EdgeLen
   return Remesher(dense, sdf, edge_length_m).run(rounds);
 }
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

@@ -5,7 +5,7 @@
 #include "bakers/mannequin/body_mesh.h"
 #include "bakers/mannequin/body_sdf.h"
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 
 /// The target length of edges at a point of the skin, in metres.
 using EdgeLength = std::function<double(const Vec3& point_m)>;
@@ -15,4 +15,4 @@ using EdgeLength = std::function<double(const Vec3& point_m)>;
 TriangleMesh remesh(const TriangleMesh& dense, const BodySdf& sdf, const EdgeLength& edge_length_m,
                     int rounds);
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

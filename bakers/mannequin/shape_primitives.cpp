@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 
 double smooth_min(double a_m, double b_m, double blend_m) {
   const double nearness = std::max(blend_m - std::abs(a_m - b_m), 0.0) / blend_m;
@@ -122,4 +122,4 @@ Mat3 axes_from(const Vec3& first, const Vec3& second) {
   return Mat3(a, b, glm::cross(a, b));
 }
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 
 using Vec3 = glm::dvec3;
 using Mat3 = glm::dmat3;
@@ -81,4 +81,4 @@ inline double ramp(double x, double from, double to) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

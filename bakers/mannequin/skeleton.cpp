@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 namespace {
 
 constexpr double upper_arm_m = 0.285;
@@ -154,4 +154,4 @@ void Skeleton::add_leg(const std::string& side, double sign) {
   add("ball" + side, "foot" + side, leg.ball_m * mirror, leg.toe_m * mirror);
 }
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

@@ -7,7 +7,7 @@
 
 #include "bakers/mannequin/shape_primitives.h"
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 
 using Quat = glm::dquat;
 
@@ -62,4 +62,4 @@ struct FingerChain {
 /// Thumb, index, middle, ring, pinky.
 const std::vector<FingerChain>& left_fingers();
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

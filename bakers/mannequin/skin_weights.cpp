@@ -8,7 +8,7 @@
 #include "bakers/mannequin/shape_primitives.h"
 #include "bakers/mannequin/skeleton.h"
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 namespace {
 
 /// The weights of a point in the bind pose before any smoothing.
@@ -253,4 +253,4 @@ std::vector<VertexWeights> make_skin_weights(const TriangleMesh& mesh, const Ske
   return result;
 }
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

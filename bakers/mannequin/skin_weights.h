@@ -7,7 +7,7 @@
 #include "bakers/mannequin/body_mesh.h"
 #include "bakers/mannequin/skeleton.h"
 
-namespace nook::bake::mannequin {
+namespace nook::mannequin {
 
 /// Up to four bones that move a vertex. The weights fall from the first to the last and sum to one. Unused
 /// slots are zero.
@@ -21,4 +21,4 @@ struct VertexWeights {
 /// or from arm to chest.
 std::vector<VertexWeights> make_skin_weights(const TriangleMesh& mesh, const Skeleton& skeleton);
 
-}  // namespace nook::bake::mannequin
+}  // namespace nook::mannequin

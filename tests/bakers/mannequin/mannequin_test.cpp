@@ -28,7 +28,7 @@
 namespace {
 
 const std::vector<unsigned char>& glb_bytes() {
-  static const std::vector<unsigned char> bytes = nook::bake::mannequin::make_mannequin_glb();
+  static const std::vector<unsigned char> bytes = nook::mannequin::make_mannequin_glb();
   return bytes;
 }
 
@@ -355,5 +355,5 @@ TEST_CASE("the mannequin's clips loop and keep their feet on the ground", "[mann
 }
 
 TEST_CASE("the mannequin's bytes are the same every time", "[mannequin]") {
-  CHECK((nook::bake::mannequin::make_mannequin_glb() == glb_bytes()));
+  CHECK((nook::mannequin::make_mannequin_glb() == glb_bytes()));
 }

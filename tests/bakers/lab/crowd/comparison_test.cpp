@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bakers/measure/crowd/errors.h"
-#include "bakers/measure/crowd/light_comparison.h"
-#include "bakers/measure/crowd/sheet.h"
-#include "tests/bakers/measure/crowd/plates.h"
+#include "bakers/lab/crowd/comparison.h"
+#include "bakers/lab/crowd/sheet.h"
+#include "tests/bakers/lab/crowd/plates.h"
 #include "tests/catch.h"
 
-using namespace nook::measure::crowd;
+using namespace nook::lab::crowd;
 
 namespace {
 
@@ -42,7 +41,7 @@ class CountingRenderer final : public PanelRenderer {
   platform::Image draw(const Group& group, const AoPanel& panel) override {
     CHECK((panel.ao.empty() || panel.ao.size() == group.members.size()));
     ao += !panel.ao.empty();
-    screen_space += panel.screen_space != ScreenSpace::kNowhere;
+    screen_space += panel.screen_space != ScreenSpace::nowhere;
     floors += panel.floor_ao.has_value();
     return picture();
   }
@@ -143,7 +142,7 @@ TEST_CASE("under constant light AO is all that counts, and what has no occlusion
 TEST_CASE("a label leaves the picture below its strip as it is") {
   platform::Image image{60, 40, 3, std::vector<std::uint8_t>(60 * 40 * 3, 128)};
   draw_label(image, "AO");
-  const auto strip_end = image.pixels.begin() + 60 * 3 * kLabelHeight_px;
+  const auto strip_end = image.pixels.begin() + 60 * 3 * label_height_px;
   CHECK(std::count(image.pixels.begin(), strip_end, std::uint8_t(240)) > 0);
   CHECK(std::count(image.pixels.begin(), strip_end, std::uint8_t(128)) == 0);
   CHECK(std::all_of(strip_end, image.pixels.end(), [](std::uint8_t value) { return value == 128; }));

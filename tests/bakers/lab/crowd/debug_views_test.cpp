@@ -1,16 +1,13 @@
-// Debug views in pictures and in a window.
+// Debug views in pictures.
 #include <OpenImageIO/imageio.h>
 #include <sys/wait.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
-#include "tests/bakers/tool/glb_tube.h"
 #include "tests/catch.h"
 
 namespace {
@@ -59,25 +56,6 @@ TEST_CASE("each debug view is drawn over the picture and leaves the rest of it")
   }
 }
 
-TEST_CASE("an unknown debug view is refused, as is a window's option without a window") {
+TEST_CASE("an unknown debug view is refused") {
   CHECK(run("'" CROWD "' --debug bones > /dev/null 2>&1") == 2);
-  CHECK(run("'" CROWD "' --bake draft > /dev/null 2>&1") == 2);
 }
-
-#ifdef XVFB_RUN
-TEST_CASE("a window bakes its model, loads it again and shows errors") {
-  const std::filesystem::path out = std::filesystem::path(CROWD_OUT) / "window";
-  std::filesystem::remove_all(out);
-  std::filesystem::create_directories(out);
-  const std::string glb = glb_tube({"bend"});
-  std::ofstream(out / "tube.glb", std::ios::binary).write(glb.data(), std::streamsize(glb.size()));
-  REQUIRE(run("'" XVFB_RUN "' -a -s '-screen 0 640x480x24' '" CROWD
-              "' --quiet --context window --size 640x480 --characters 2 --bake draft --debug "
-              "spheres,links,error --window-picture '" +
-              (out / "window.png").string() + "' --out '" + out.string() + "' '" +
-              (out / "tube.glb").string() + "'") == 0);
-  CHECK(std::filesystem::file_size(out / "model.nook") > 1000);
-  const std::vector<float> picture = pixels(out / "window.png");
-  CHECK(*std::max_element(picture.begin(), picture.end()) > 0.8f);
-}
-#endif

@@ -1,4 +1,4 @@
-#include "tests/bakers/measure/crowd/plates.h"
+#include "tests/bakers/lab/crowd/plates.h"
 
 #include <cmath>
 #include <numbers>
@@ -39,7 +39,7 @@ Character make_character() {
   return Character(character);
 }
 
-nook::measure::crowd::Bones pose(float x_m, float y_m, float z_m, float turns) {
+nook::lab::crowd::Bones pose(float x_m, float y_m, float z_m, float turns) {
   const float angle = 2 * std::numbers::pi_v<float> * turns, c = std::cos(angle), s = std::sin(angle);
   return {1, 0, 0, x_m, 0, c, -s, y_m, 0, s, c, z_m};
 }

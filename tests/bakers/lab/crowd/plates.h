@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "bakers/measure/crowd/posed_crowd.h"
+#include "bakers/lab/crowd/truth.h"
 
 namespace plates {
 
@@ -20,7 +20,7 @@ using Character = std::unique_ptr<nook_bake_character_s, Release>;
 Character make_character();
 
 // The plate at a place, turned about x: by 0 it looks up, by a quarter towards +z, by a half down.
-nook::measure::crowd::Bones pose(float x_m, float y_m, float z_m, float turns = 0);
+nook::lab::crowd::Bones pose(float x_m, float y_m, float z_m, float turns = 0);
 
 // The share of the cosine-weighted hemisphere that the plate covers, seen from distance_m before its middle.
 float covered_share(float distance_m);

@@ -1,11 +1,11 @@
-#include "bakers/measure/crowd/selection.h"
+#include "bakers/lab/crowd/selection.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "tests/catch.h"
 
-using namespace nook::measure::crowd;
+using namespace nook::lab::crowd;
 
 TEST_CASE("neighbours, order by distance and the busiest place of a known crowd") {
   const std::vector<Place> crowd{{0, 0}, {0.8f, 0}, {-0.9f, 0}, {5, 0}};

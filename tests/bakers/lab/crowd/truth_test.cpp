@@ -1,13 +1,12 @@
-#include "bakers/measure/crowd/truth.h"
+#include "bakers/lab/crowd/truth.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "bakers/measure/crowd/errors.h"
-#include "tests/bakers/measure/crowd/plates.h"
+#include "tests/bakers/lab/crowd/plates.h"
 #include "tests/catch.h"
 
-using namespace nook::measure::crowd;
+using namespace nook::lab::crowd;
 
 namespace {
 
