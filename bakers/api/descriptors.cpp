@@ -8,7 +8,7 @@
 #include "bakers/job/material_bake.h"
 #include "bakers/job/synthesis_bake.h"
 #include "bakers/job/transfer_bake.h"
-#include "bakers/material/directions.h"
+#include "bakers/material/raw_material.h"
 
 namespace nook {
 using namespace bake;

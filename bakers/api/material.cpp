@@ -6,7 +6,7 @@
 #include "bakers/api/starters.h"
 #include "bakers/job/job_progress.h"
 #include "bakers/job/material_bake.h"
-#include "bakers/material/directions.h"
+#include "bakers/material/raw_material.h"
 
 using namespace nook;
 using namespace nook::bake;

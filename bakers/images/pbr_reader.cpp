@@ -13,8 +13,8 @@
 #include "bakers/images/image_size.h"
 #include "bakers/images/pbr_names.h"
 #include "bakers/images/srgb.h"
-#include "bakers/material/microfacet.h"
-#include "bakers/material/tile_filter.h"
+#include "bakers/material/pbr_maps.h"
+#include "bakers/material/periodic_tile.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake::material {

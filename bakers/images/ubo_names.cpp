@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "bakers/material/directions.h"
+#include "bakers/material/raw_material.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake::material {

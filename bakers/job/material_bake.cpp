@@ -3,8 +3,8 @@
 #include <string_view>
 
 #include "bakers/material/baked_figures.h"
-#include "bakers/material/builtin_ranks.h"
-#include "bakers/material/fill_gaps.h"
+#include "bakers/material/compression_settings.h"
+#include "bakers/material/raw_material.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/material/material_file.h"
 

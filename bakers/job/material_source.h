@@ -5,12 +5,10 @@
 #include <optional>
 
 #include "bakers/material/btf_file.h"
-#include "bakers/material/builtin_ranks.h"
 #include "bakers/material/compression.h"
-#include "bakers/material/directions.h"
+#include "bakers/material/compression_settings.h"
 #include "bakers/material/meso_surface.h"
-#include "bakers/material/own_tile.h"
-#include "bakers/material/raw_file.h"
+#include "bakers/material/raw_material.h"
 #include "bakers/material/trace_material.h"
 
 namespace nook::bake {

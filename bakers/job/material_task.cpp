@@ -4,10 +4,9 @@
 #include <initializer_list>
 
 #include "bakers/job/worker_arena.h"
-#include "bakers/material/builtin_ranks.h"
-#include "bakers/material/directions.h"
-#include "bakers/material/raw_file.h"
-#include "bakers/material/relief.h"
+#include "bakers/material/compression_settings.h"
+#include "bakers/material/raw_material.h"
+#include "bakers/material/raw_relief.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/material/check.h"
 

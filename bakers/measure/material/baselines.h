@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bakers/material/raw_file.h"
+#include "bakers/material/raw_material.h"
 #include "bakers/measure/material/report.h"
 #include "bakers/measure/material/sweep.h"
 #include "sdk/src/material/material_file.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <span>
 
-#include "bakers/material/tile_taps.h"
+#include "bakers/material/periodic_tile.h"
 #include "bakers/measure/material/decoded_radiances.h"
 #include "bakers/measure/material/table_error.h"
 #include "bakers/raytrace/random.h"

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <string>
 
-#include "bakers/material/directions.h"
-#include "bakers/material/relief.h"
-#include "bakers/material/visibility_margin.h"
-#include "bakers/measure/material/comparison.h"
 #include "bakers/material/btf_error.h"
+#include "bakers/material/raw_material.h"
+#include "bakers/material/raw_relief.h"
+#include "bakers/material/visibility_values.h"
+#include "bakers/measure/material/comparison.h"
 #include "bakers/measure/material/unseen_views.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/material/evaluate.h"

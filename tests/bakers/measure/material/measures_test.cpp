@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "bakers/material/compression.h"
-#include "bakers/material/directions.h"
-#include "bakers/material/height_march.h"
+#include "bakers/material/raw_material.h"
+#include "bakers/material/tile_heights.h"
 #include "bakers/measure/material/pbr_tile.h"
 #include "bakers/measure/material/pca.h"
 #include "sdk/src/core/failure.h"

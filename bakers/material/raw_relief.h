@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "bakers/material/periodic_tile.h"
 #include "bakers/material/raw_material.h"
-#include "bakers/material/tile_taps.h"
-#include "bakers/material/view_heights.h"
+#include "bakers/material/tile_heights.h"
 #include "sdk/src/material/material.h"
 
 namespace nook::bake::material {

@@ -1,4 +1,4 @@
-#include "bakers/material/relief.h"
+#include "bakers/material/raw_relief.h"
 
 #include <algorithm>
 #include <cmath>
