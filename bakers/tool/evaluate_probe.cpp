@@ -3,7 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bakers/images/map_picture.h"
+#include "bakers/images/picture.h"
 #include "bakers/job/probe_bake.h"
 #include "bakers/measure/probe/glossy_error.h"
 #include "bakers/measure/probe/report.h"

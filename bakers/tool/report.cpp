@@ -2,7 +2,7 @@
 #include <memory>
 #include <optional>
 
-#include "bakers/job/material_source.h"
+#include "bakers/job/material_bake.h"
 #include "bakers/job/worker_arena.h"
 #include "bakers/measure/report/body_page.h"
 #include "bakers/measure/report/frame_page.h"

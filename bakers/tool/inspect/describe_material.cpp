@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "bakers/job/material_source.h"
+#include "bakers/job/material_bake.h"
 #include "sdk/src/material/material_file.h"
 #include "sdk/src/material/view_cells.h"
 

@@ -9,7 +9,6 @@
 #include <limits>
 #include <string>
 
-#include "bakers/images/pbr_names.h"
 #include "bakers/images/pbr_reader.h"
 #include "bakers/material/pbr_maps.h"
 #include "sdk/src/core/failure.h"

@@ -5,7 +5,6 @@
 #include <fstream>
 #include <string>
 
-#include "bakers/images/ubo_names.h"
 #include "bakers/images/ubo_reader.h"
 #include "bakers/material/raw_material.h"
 #include "platform/peak_memory.h"

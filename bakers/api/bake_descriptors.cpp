@@ -1,13 +1,13 @@
 // The defaults of all descriptors of the bakers' library, and the call that hands them out.
 #include <limits>
 
-#include "bakers/api/descriptor_list.h"
-#include "bakers/api/entry.h"
-#include "bakers/job/bent_bake.h"
+#include "bakers/api/bake_descriptors.h"
+#include "bakers/api/bake_entry.h"
 #include "bakers/job/clip_bake.h"
 #include "bakers/job/material_bake.h"
 #include "bakers/job/synthesis_bake.h"
 #include "bakers/job/transfer_bake.h"
+#include "bakers/job/vertex_bakes.h"
 #include "bakers/material/raw_material.h"
 
 namespace nook {

@@ -1,4 +1,4 @@
-#include "bakers/job/network_training.h"
+#include "bakers/job/nnao_training.h"
 
 #include <nlohmann/json.hpp>
 
@@ -21,6 +21,15 @@ std::string network_recipe(const nnao::DatasetSettings& data, const nnao::Traini
     recipe["bent_weight"] = t.bent_weight;
   }
   return recipe.dump();
+}
+
+SpecularTraining train_specular(const nnao::SpecularFitSettings& settings,
+                                const nnao::DatasetProgress& progress) {
+  const nook::nnao::Network network = nook::nnao::read_network(nook::nnao::default_network_file());
+  const nnao::SpecularSamples samples = trace_specular_samples(network, settings, progress);
+  const nook::nnao::SpecularNumbers numbers = fit_specular(samples.training, settings);
+  return {specular_header(numbers, settings), specular_error(samples.validation, numbers),
+          samples.training.size(), samples.validation.size()};
 }
 
 }  // namespace nook::bake

@@ -1,4 +1,4 @@
-#include "bakers/api/entry.h"
+#include "bakers/api/bake_entry.h"
 
 #include <nook/nook_bake.h>
 

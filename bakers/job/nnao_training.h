@@ -1,11 +1,23 @@
-// The fit of specular occlusion from samples to the header that shaders and the runtime include.
+// Training of what screen-space passes embed.
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <span>
 #include <string>
 
 #include "bakers/nnao/specular_fit.h"
+#include "bakers/nnao/training.h"
+#include "sdk/src/nnao/network_file.h"
 
 namespace nook::bake {
+
+// Training of a screen-space network, which a checkpoint continues.
+
+// Everything that the network's bits depend on beside the program itself, as one line of JSON.
+std::string network_recipe(const nnao::DatasetSettings& data, const nnao::TrainingSettings& training);
+
+// The fit of specular occlusion from samples to the header that shaders and the runtime include.
 
 struct SpecularTraining {
   std::string header;

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "bakers/job/outcome.h"
+#include "bakers/job/bake_job.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake::api {

@@ -6,14 +6,13 @@
 #include <cmath>
 #include <cstring>
 
-#include "bakers/api/descriptor_list.h"
-#include "bakers/api/entry.h"
-#include "bakers/api/handles.h"
+#include "bakers/api/bake_descriptors.h"
+#include "bakers/api/bake_entry.h"
+#include "bakers/api/bake_handles.h"
 #include "bakers/character/auto_poses.h"
 #include "bakers/character/pose_sets.h"
 #include "bakers/import/skinned_mesh.h"
-#include "bakers/job/mesh_arrays.h"
-#include "bakers/job/pose_arrays.h"
+#include "bakers/job/caller_arrays.h"
 
 using namespace nook;
 using namespace nook::bake;
