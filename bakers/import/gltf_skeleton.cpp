@@ -1,4 +1,4 @@
-#include "bakers/import/skeleton.h"
+#include "bakers/import/gltf_skeleton.h"
 
 #include <algorithm>
 #include <cmath>
