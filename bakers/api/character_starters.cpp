@@ -1,4 +1,4 @@
-#include "bakers/api/starters.h"
+#include "bakers/api/bake_handles.h"
 
 namespace nook::bake {
 

@@ -1,14 +1,12 @@
 // Bake jobs: their start by the type of a descriptor, the bake of a character's model, and the life of a job.
 #include <nook/nook_bake.h>
 
-#include "bakers/api/descriptor_list.h"
-#include "bakers/api/entry.h"
-#include "bakers/api/handles.h"
-#include "bakers/api/starters.h"
-#include "bakers/job/bake_pipeline.h"
-#include "bakers/job/job_progress.h"
-#include "bakers/job/job_recipe.h"
-#include "bakers/job/pose_arrays.h"
+#include "bakers/api/bake_descriptors.h"
+#include "bakers/api/bake_entry.h"
+#include "bakers/api/bake_handles.h"
+#include "bakers/job/bake_job.h"
+#include "bakers/job/caller_arrays.h"
+#include "bakers/job/character_job.h"
 
 using namespace nook;
 using namespace nook::bake;
@@ -50,10 +48,10 @@ nook_bake_job_s* api::start_character(const void* desc) {
   Recipe recipe = recipe_of(settings, study, imported);
   std::vector<Pose> extra =
       read_poses(settings.extra_poses_3x4, settings.extra_pose_count, imported.mesh.bones.size());
-  auto bake = [shared = settings.character->character, recipe = std::move(recipe), extra = std::move(extra)](
-                  const StageReport& report) { return bake_by_recipe(*shared, recipe, extra, report); };
-  return new nook_bake_job_s{
-      BakeJob(std::move(bake), settings.threads, listener_of(settings.progress, settings.progress_user))};
+  return api::start_job(settings, [shared = settings.character->character, recipe = std::move(recipe),
+                                   extra = std::move(extra)](const StageReport& report) {
+    return bake_by_recipe(*shared, recipe, extra, report);
+  });
 }
 
 nook_result nook_bake_start(const void* desc, nook_bake_job* out) {

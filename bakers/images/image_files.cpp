@@ -1,9 +1,12 @@
 #include "bakers/images/image_files.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <fstream>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "sdk/src/core/failure.h"
 
@@ -41,6 +44,136 @@ std::vector<fs::path> images_in(const fs::path& folder) {
 
 std::vector<fs::path> images_below(const fs::path& folder) {
   return images_of<fs::recursive_directory_iterator>(folder);
+}
+
+void check_image_size(const char* what, int width, int height, std::size_t max_texels,
+                      std::uintmax_t file_bytes) {
+  // Deflate packs 1032 bytes into one, which are 8256 texels of one bit; a block of 64 texels takes a bit or
+  // more of a JPEG, and an EXR file packs at most 11,000 of one colour into a byte.
+  constexpr std::uintmax_t max_texels_per_byte = std::uintmax_t{1} << 14;
+  if (width < 1 || height < 1 || std::size_t(width) > max_texels / std::size_t(height))
+    throw Failure(NOOK_ERROR_BAD_FILE, "%.250s has %d x %d texels (need 1 to %zu); make it smaller", what,
+                  width, height, max_texels);
+  const std::uintmax_t texels = std::uintmax_t(width) * std::uintmax_t(height);
+  if (texels / max_texels_per_byte > file_bytes)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%.250s says that it has %d x %d texels, too many for its %ju bytes; it is damaged", what,
+                  width, height, file_bytes);
+}
+
+namespace {
+
+constexpr std::uint32_t exr_magic = 20000630;
+constexpr std::uint32_t is_tiled = 0x200, is_multipart = 0x1000;  // of the version field
+// OpenEXR takes memory for up to 256 whole rows when it opens a file.
+constexpr std::int64_t max_columns = 1 << 16;
+constexpr std::size_t max_name_length = 255;  // of an attribute and of its type, bytes
+
+// Little endian, as all numbers of the format; 0 beyond the end of the file.
+std::uint32_t read_u32(std::istream& file) {
+  unsigned char bytes[4] = {};
+  file.read(reinterpret_cast<char*>(bytes), 4);
+  return file ? std::uint32_t(bytes[0]) | std::uint32_t(bytes[1]) << 8 | std::uint32_t(bytes[2]) << 16 |
+                    std::uint32_t(bytes[3]) << 24
+              : 0;
+}
+
+// Reads up to a zero byte. A longer name than the format allows is cut there: the reader refuses it.
+std::string read_name(std::istream& file) {
+  std::string name;
+  for (char c = 0; name.size() <= max_name_length && file.get(c) && c != 0;) name.push_back(c);
+  return name;
+}
+
+// The types whose values OpenEXR reads by their own size, whatever the attribute says, bytes.
+struct FixedType {
+  std::string_view name;
+  std::uint32_t size;
+};
+constexpr std::array fixed_types{
+    FixedType{"box2f", 16},   FixedType{"box2i", 16},      FixedType{"chromaticities", 32},
+    FixedType{"double", 8},   FixedType{"compression", 1}, FixedType{"deepImageState", 1},
+    FixedType{"envmap", 1},   FixedType{"float", 4},       FixedType{"int", 4},
+    FixedType{"keycode", 28}, FixedType{"lineOrder", 1},   FixedType{"m33d", 72},
+    FixedType{"m33f", 36},    FixedType{"m44d", 128},      FixedType{"m44f", 64},
+    FixedType{"rational", 8}, FixedType{"tiledesc", 9},    FixedType{"timecode", 8},
+    FixedType{"v2d", 16},     FixedType{"v2f", 8},         FixedType{"v2i", 8},
+    FixedType{"v3d", 24},     FixedType{"v3f", 12},        FixedType{"v3i", 12}};
+
+// Returns the bytes of the value where the file is, as OpenEXR reads one of this type; `said` for types that
+// it reads by what the attribute says.
+std::uint64_t value_size(std::istream& file, const std::string& type, std::uint32_t said) {
+  for (const FixedType& fixed : fixed_types)
+    if (type == fixed.name) return fixed.size;
+  if (type == "preview") {
+    const std::uint64_t width = read_u32(file), height = read_u32(file);
+    return height == 0 || width < (std::uint64_t{1} << 32) / height ? 8 + 4 * width * height : UINT64_MAX;
+  }
+  if (type != "chlist") return said;
+  const auto at = file.tellg();
+  while (!read_name(file).empty()) file.seekg(16, std::ios::cur);
+  return file ? std::uint64_t(file.tellg() - at) : UINT64_MAX;
+}
+
+// Moves behind one attribute, whose name is read.
+void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t file_bytes,
+                    const char* what) {
+  const std::string type = read_name(file);
+  const std::uint32_t size = read_u32(file);
+  if (!file) return;
+  const auto at = std::uintmax_t(file.tellg());
+  if (size > file_bytes - at)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%.250s is a damaged EXR file: its attribute \"%.60s\" says %u bytes, and %ju follow", what,
+                  name.c_str(), size, file_bytes - at);
+  // OpenEXR would go on at another place than this does, and take what it finds there for a size.
+  if (value_size(file, type, size) != size)
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "%.250s is a damaged EXR file: its attribute \"%.60s\" says %u bytes, which is not the size "
+        "of its \"%.60s\"",
+        what, name.c_str(), size, type.c_str());
+  file.clear();
+  file.seekg(std::streamoff(at + size));
+}
+
+// Checks the rows and columns that the attribute of the image's extent says; its name is read. A file of
+// scanlines has the place of each block of rows, 8 bytes for at most 256 rows.
+void check_extent(std::istream& file, std::uint32_t version, std::uintmax_t file_bytes, const char* what) {
+  const auto at = file.tellg();
+  read_name(file);  // its type
+  std::int64_t edge[5] = {};
+  for (std::int64_t& value : edge)
+    value = std::int32_t(read_u32(file));  // its size, left, top, right, bottom
+  const std::int64_t rows = edge[4] - edge[2] + 1;
+  if (file && (version & is_tiled) == 0 && rows > 0 && std::uintmax_t(rows) / 32 > file_bytes)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%.250s is a damaged EXR file: it says %lld rows, too many for its %ju bytes", what,
+                  static_cast<long long>(rows), file_bytes);
+  const std::int64_t columns = edge[3] - edge[1] + 1;
+  if (file && columns > max_columns)
+    throw Failure(NOOK_ERROR_BAD_FILE, "%.250s has %lld columns (need at most %lld); make it smaller", what,
+                  static_cast<long long>(columns), static_cast<long long>(max_columns));
+  file.clear();
+  file.seekg(at);
+}
+
+}  // namespace
+
+void check_exr_head(const char* what, const std::filesystem::path& path) {
+  std::error_code unknown;
+  const std::uintmax_t file_bytes = std::filesystem::file_size(path, unknown);
+  std::ifstream file(path, std::ios::binary);
+  if (unknown || read_u32(file) != exr_magic) return;
+  const std::uint32_t version = read_u32(file);
+  // An empty name ends a head; where a file has several parts, an empty head ends the list.
+  for (bool head_is_empty = true; file;) {
+    const std::string name = read_name(file);
+    if (!file || (name.empty() && (head_is_empty || (version & is_multipart) == 0))) return;
+    head_is_empty = name.empty();
+    if (name == "dataWindow") check_extent(file, version, file_bytes, what);
+    if (!head_is_empty) skip_attribute(file, name, file_bytes, what);
+  }
 }
 
 }  // namespace nook::bake

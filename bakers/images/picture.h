@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "bakers/probe/map_light.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook::bake {
@@ -74,3 +75,16 @@ std::vector<std::byte> png_bytes(const Picture& picture);
 void write_png(const std::filesystem::path& path, const Picture& picture);
 
 }  // namespace nook::bake
+
+namespace nook::bake::probe {
+
+// Pictures of a map beside what a probe makes of it.
+
+// Four panels in a row, latitude-longitude, panel_width by half of it: the map; the probe's radiance; its
+// irradiance over pi, as a white surface would look; and the luminance of its radiance error, e / (e + the
+// map's mean luminance), from violet (0) over green to yellow (large). The colours of the first three have
+// one exposure, by the map's mean luminance.
+Picture map_picture(const Environment& map, const Basis& basis, std::span<const Vec3> coefficients,
+                    std::uint32_t panel_width = 512);
+
+}  // namespace nook::bake::probe

@@ -1,12 +1,33 @@
-// A scene from its file, with textures, and the light round it, as probes are baked and measured in.
+// A scene from its file, with textures, and the light round it. Compiled into the tool alone: the library
+// would otherwise load OpenImageIO for nothing.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 
 #include "bakers/import/linked_files.h"
+#include "bakers/raytrace/environment.h"
 #include "bakers/raytrace/lit_scene.h"
+#include "bakers/raytrace/texture.h"
 #include "sdk/src/core/vec.h"
+
+namespace nook::bake {
+
+// Fails with BAD_FILE if OpenImageIO cannot read the image, or if it has more than 2^26 texels; the message
+// starts with the image's name.
+Texture decode_texture(const EncodedImage& image);
+
+}  // namespace nook::bake
+
+namespace nook::bake::probe {
+
+// A latitude-longitude map of floating-point radiance (.hdr, .exr), twice as wide as high, at most 16,384
+// columns. Negative values, which filters leave behind, become 0 where they add up to 1 % of the others or
+// less. Fails with BAD_FILE on anything else, also on values that are not finite or above raytrace's
+// max_radiance; the message names the fault, and the caller adds the name of the file.
+Environment read_environment(const std::filesystem::path& path);
+
+}  // namespace nook::bake::probe
 
 namespace nook::bake {
 

@@ -9,7 +9,7 @@
 #include "bakers/import/gltf_clips.h"
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_mesh.h"
-#include "bakers/import/skeleton.h"
+#include "bakers/import/gltf_skeleton.h"
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/hash.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bakers/import/skeleton.h"
+#include "bakers/import/gltf_skeleton.h"
 #include "bakers/import/weld.h"
 
 namespace nook::bake {

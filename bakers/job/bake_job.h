@@ -1,17 +1,31 @@
-// One bake on a thread of its own.
+// One bake on a thread of its own, with its outcome and its progress as the C interface has them.
 #pragma once
+
+#include <nook/nook.h>
+#include <nook/nook_bake.h>
 
 #include <atomic>
 #include <condition_variable>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
 
 #include "bakers/job/baked_file.h"
-#include "bakers/job/outcome.h"
 #include "bakers/job/worker_arena.h"
 
 namespace nook::bake {
+
+// The result and the text that a caller of the C interface gets for an exception.
+
+struct Outcome {
+  nook_result result = NOOK_OK;
+  char text[480] = "";
+};
+
+Outcome outcome_of(const std::exception_ptr& exception) noexcept;
+
+// One bake on a thread of its own.
 
 // The stage of a job; it is finished once its result is known.
 struct JobProgress {
@@ -53,5 +67,23 @@ class BakeJob {
   Outcome outcome_;
   std::thread thread_;  // the last member, because it uses all of the above
 };
+
+// Progress in the form of the C interface.
+
+inline nook_bake_progress public_progress(const JobProgress& p) {
+  const nook_bake_state state = p.finished                     ? NOOK_BAKE_DONE
+                                : p.stage == JobStage::waiting ? NOOK_BAKE_WAITING
+                                                               : NOOK_BAKE_RUNNING;
+  return {std::uint32_t(sizeof(nook_bake_progress)), state, text_of(p.stage), p.done, p.total};
+}
+
+// Returns an empty listener if there is no callback.
+inline BakeJob::Listener listener_of(nook_bake_progress_fn call, void* user) {
+  if (!call) return {};
+  return [call, user](const JobProgress& p) {
+    const nook_bake_progress now = public_progress(p);
+    return call(user, &now) != 0;
+  };
+}
 
 }  // namespace nook::bake

@@ -28,6 +28,33 @@ enum class JobStage : std::uint8_t {
   done,
 };
 
+// The text that a program shows to its user.
+inline const char* text_of(JobStage stage) {
+  switch (stage) {
+    case JobStage::waiting:
+      return "waiting";
+    case JobStage::raytrace:
+      return "ray tracing";
+    case JobStage::initialise:
+      return "initialising";
+    case JobStage::fit:
+      return "fitting";
+    case JobStage::casters:
+      return "fitting casters";
+    case JobStage::btf:
+      return "compressing colours";
+    case JobStage::votf:
+      return "compressing visibility";
+    case JobStage::view_map:
+      return "making the view map";
+    case JobStage::relief:
+      return "finding the relief";
+    case JobStage::done:
+      break;
+  }
+  return "done";
+}
+
 // Returns false to stop.
 using StageReport = std::function<bool(JobStage stage, std::size_t done, std::size_t total)>;
 

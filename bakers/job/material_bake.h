@@ -1,12 +1,55 @@
-// Makes the bytes of a .nook file and a report from a material task.
+// The bake of a material: its task from a descriptor or a source, its file and its report.
 #pragma once
 
+#include <nook/nook_bake.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 #include "bakers/job/baked_file.h"
-#include "bakers/job/material_task.h"
+#include "bakers/material/btf_file.h"
+#include "bakers/material/compression.h"
+#include "bakers/material/compression_settings.h"
+#include "bakers/material/meso_surface.h"
+#include "bakers/material/raw_material.h"
+#include "bakers/material/trace_material.h"
 
 namespace nook::bake {
+
+// Where a raw material comes from: a traced meso-structure or a file; and the settings of its compression.
+
+struct MesoSource {
+  material::MesoParameters meso;                        // of a built-in structure
+  std::optional<material::MesoSurface> tile;            // in its place
+  std::uint32_t views = 100, lights = 0;                // directions; lights 0: as many as views
+  float max_tilt_deg = material::default_max_tilt_deg;  // their largest angle to the normal, degrees
+  material::TraceSettings trace;
+};
+
+// Traces the meso-structure from every pair of directions. progress counts views; throws Failure (CANCELLED)
+// when it returns false.
+material::RawMaterial trace_meso_source(const MesoSource& source, const Progress& progress);
+
+// The task of a material job, from its descriptor.
+
+struct MaterialTask {
+  std::optional<material::MesoParameters> meso;  // empty: measured data
+  material::TraceSettings trace;                 // of meso
+  // Directions and sizes, and all measured data except for the gaps, which coverage defines; see fill_gaps.h.
+  material::RawMaterial raw;
+  std::vector<float> coverage;  // empty: all 1
+  material::CompressionSettings settings;
+  bool ranks_given = false, votf_ranks_given = false;
+  double rank_threshold = 0.01;
+};
+
+// Throws INVALID_ARGUMENT for unknown names and enum values, numbers that are out of range or not finite, and
+// invalid directions.
+MaterialTask material_task_of(const nook_bake_material_desc& desc);
+
+// Makes the bytes of a .nook file and a report from a material task.
 
 struct CompressedMaterial {
   std::vector<std::byte> file;

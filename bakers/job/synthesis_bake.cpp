@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bakers/material/appearance.h"
-#include "bakers/material/raw_file.h"
+#include "bakers/material/raw_material.h"
 #include "bakers/synthesis/exemplar.h"
 #include "bakers/synthesis/seam_energy.h"
 #include "platform/peak_memory.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bakers/material/relief.h"
+#include "bakers/material/raw_relief.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
 

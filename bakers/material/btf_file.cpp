@@ -8,8 +8,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "bakers/material/directions.h"
-#include "bakers/material/raw_file.h"
+#include "bakers/material/raw_material.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/floats.h"
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bakers/import/static_scene.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook::bake::material {
@@ -52,5 +53,15 @@ MesoSurface make_meso_surface(const MesoParameters& parameters);
 MesoSurface make_fiber(const MesoParameters& parameters);
 MesoSurface make_rough_hole(const MesoParameters& parameters);
 MesoSurface make_weave(const MesoParameters& parameters);
+
+// A mesh of one's own as a meso-structure.
+
+// Takes the triangles of a scene, y up, as one tile of a structure that repeats after side_m metres along x
+// and z: x becomes the tile's x, -z its y, and y its height, with the middle of the scene's heights at z = 0.
+// Normals are averages over faces that share a vertex, also across the border of the tile; the front side of
+// a triangle is outside of the solid. Diffuse colours are the base colours of the materials, and there is no
+// specular part. Throws Failure(INVALID_ARGUMENT) if the scene is flat, higher than half a tile or wider than
+// two, or the side is not above 0.
+MesoSurface tile_of_scene(const StaticScene& scene, float side_m);
 
 }  // namespace nook::bake::material

@@ -4,9 +4,8 @@
 #include <numbers>
 
 #include "bakers/algebra/adam.h"
-#include "bakers/material/height_march.h"
 #include "bakers/material/neural_pass.h"
-#include "bakers/material/view_heights.h"
+#include "bakers/material/tile_heights.h"
 #include "bakers/raytrace/random.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"

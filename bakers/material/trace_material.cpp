@@ -6,7 +6,7 @@
 #include <mutex>
 #include <span>
 
-#include "bakers/material/fill_gaps.h"
+#include "bakers/material/raw_material.h"
 #include "bakers/material/shading.h"
 #include "bakers/raytrace/ray_scene.h"
 #include "sdk/src/core/failure.h"

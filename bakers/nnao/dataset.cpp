@@ -7,8 +7,8 @@
 #include <mutex>
 #include <optional>
 
+#include "bakers/nnao/cameras.h"
 #include "bakers/nnao/host_normals.h"
-#include "bakers/nnao/training_cameras.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "sdk/src/core/failure.h"
 

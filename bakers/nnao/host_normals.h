@@ -2,9 +2,23 @@
 // interpolated over a coarse mesh, and normal maps.
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "bakers/nnao/solids.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake::nnao {
+
+// Vertices that lie at one place.
+
+// Returns for each position the index of a place; equal positions have equal indices, which count from 0.
+struct Places {
+  std::vector<std::uint32_t> of;
+  std::uint32_t count = 0;
+};
+Places weld(std::span<const Vec3> positions);
 
 // The largest angle between a host's normal and the triangle's, radians: 25 degrees.
 inline constexpr float max_normal_tilt = 0.436332f;

@@ -1,11 +1,23 @@
-// Surfaces of smooth bodies that are given as a function of space.
+// Shapes that are given as functions of space: seeded noise, and surfaces of smooth bodies.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "bakers/nnao/solids.h"
+#include "sdk/src/core/vec.h"
 
 namespace nook::bake::nnao {
+
+// Seeded noise in space, for surfaces that are not smooth.
+
+// Value noise on the lattice of whole numbers with a smooth fade, in [-1, 1].
+float value_noise(std::uint64_t seed, Vec3 p);
+
+// A sum of octaves, each half as large as the one before and of twice its frequency.
+float fractal_noise(std::uint64_t seed, Vec3 p, int octaves);
+
+// Surfaces of smooth bodies that are given as a function of space.
 
 // Returns about the distance from the surface, metres; negative inside.
 using DistanceField = std::function<float(Vec3)>;

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "bakers/nnao/noise.h"
+#include "bakers/nnao/level_set.h"
 #include "bakers/nnao/scene_families.h"
 
 namespace nook::bake::nnao {

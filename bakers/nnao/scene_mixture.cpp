@@ -2,8 +2,8 @@
 #include <limits>
 #include <numeric>
 
+#include "bakers/nnao/host_normals.h"
 #include "bakers/nnao/scene_families.h"
-#include "bakers/nnao/weld.h"
 
 namespace nook::bake::nnao {
 namespace {

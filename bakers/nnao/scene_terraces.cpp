@@ -1,4 +1,4 @@
-#include "bakers/nnao/noise.h"
+#include "bakers/nnao/level_set.h"
 #include "bakers/nnao/scene_families.h"
 
 namespace nook::bake::nnao {

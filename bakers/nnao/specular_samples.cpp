@@ -4,8 +4,8 @@
 #include <atomic>
 #include <mutex>
 
+#include "bakers/nnao/cameras.h"
 #include "bakers/nnao/specular_fit.h"
-#include "bakers/nnao/training_cameras.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/specular_visibility.h"
 #include "sdk/src/core/failure.h"

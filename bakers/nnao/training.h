@@ -3,11 +3,15 @@
 // stopped and resumed.
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "bakers/algebra/adam.h"
 #include "bakers/nnao/dataset.h"
+#include "sdk/src/core/container.h"
 #include "sdk/src/nnao/network.h"
 
 namespace nook::bake::nnao {
@@ -68,5 +72,17 @@ Network network_of(const TrainingState& state, const Dataset& data, const Traini
 // false; the state is then that of the last complete epoch.
 Network train(const Dataset& data, const TrainingSettings& settings, TrainingState& state,
               const OnTraining& progress = {}, const OnEpoch& epoch_done = {});
+
+// A training state as a file, so that an interrupted training continues and ends with the same bits. The file
+// is a .nook container of the kind "NNCP" with two sections: HEAD has u64 fingerprint, u32 finished epochs,
+// u64 steps of Adam, and NUMB has value, mean gradient and mean squared gradient of each parameter.
+
+inline constexpr ContainerKind checkpoint_kind{four_letters("NNCP"), "training checkpoint", 1, 1};
+
+// recipe contains everything that the result depends on; a checkpoint fits no other recipe.
+std::vector<std::byte> write_checkpoint(const TrainingState& state, std::string_view recipe);
+
+// Throws Failure(NOOK_ERROR_BAD_FILE), also if the recipe or the number of parameters differs.
+TrainingState read_checkpoint(std::span<const std::byte> bytes, std::string_view recipe, NetworkForm form);
 
 }  // namespace nook::bake::nnao

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "bakers/tensor/clustered_fit.h"
+#include "bakers/tensor/cta_stages.h"
 #include "bakers/tensor/mixture_search.h"
-#include "bakers/tensor/stages.h"
 #include "bakers/tensor/tensor.h"
 #include "bakers/tensor/working_fit.h"
 #include "sdk/src/core/failure.h"

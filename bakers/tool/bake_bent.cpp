@@ -1,8 +1,7 @@
 // nook bake bent: bent normals for a model that is already baked.
 #include <memory>
 
-#include "bakers/job/bent_bake.h"
-#include "bakers/job/character_model.h"
+#include "bakers/job/vertex_bakes.h"
 #include "bakers/tool/baking.h"
 #include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"

@@ -8,9 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/job/bake_pipeline.h"
-#include "bakers/job/job_progress.h"
-#include "bakers/job/job_recipe.h"
+#include "bakers/job/character_job.h"
 #include "bakers/tool/baking.h"
 #include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"

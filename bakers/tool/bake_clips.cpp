@@ -1,8 +1,8 @@
 // nook bake clips: the AO and the poses of a character's clips, for crowds without bones on the CPU.
 #include <memory>
 
-#include "bakers/job/character_model.h"
 #include "bakers/job/clip_bake.h"
+#include "bakers/job/vertex_bakes.h"
 #include "bakers/tool/baking.h"
 #include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"

@@ -1,7 +1,7 @@
 // nook bake lod: the model of a mesh of less detail, from the bake of the full mesh.
 #include <memory>
 
-#include "bakers/job/lod_bake.h"
+#include "bakers/job/vertex_bakes.h"
 #include "bakers/tool/baking.h"
 #include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"

@@ -9,7 +9,6 @@
 #include "bakers/images/pbr_reader.h"
 #include "bakers/images/ubo_reader.h"
 #include "bakers/job/material_bake.h"
-#include "bakers/job/material_source.h"
 #include "bakers/measure/material/material_pictures.h"
 #include "bakers/tool/baking.h"
 #include "bakers/tool/command_line.h"

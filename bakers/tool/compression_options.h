@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "bakers/job/material_source.h"
+#include "bakers/job/material_bake.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bakers/images/map_picture.h"
+#include "bakers/images/picture.h"
 #include "bakers/job/probe_bake.h"
 #include "bakers/measure/probe/probe_report.h"
 #include "bakers/tool/command_line.h"

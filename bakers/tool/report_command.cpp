@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "bakers/job/material_source.h"
+#include "bakers/job/material_bake.h"
 #include "bakers/job/worker_arena.h"
 #include "bakers/measure/report/pages.h"
 #include "bakers/tool/command_line.h"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/job/specular_training.h"
+#include "bakers/job/nnao_training.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"

@@ -3,7 +3,7 @@
 // clang; elsewhere checkpoint_fuzz_replay.cpp drives it.
 #include <cmath>
 
-#include "bakers/nnao/checkpoint.h"
+#include "bakers/nnao/training.h"
 #include "sdk/src/core/failure.h"
 #include "tests/fuzz/checkpoint_recipe.h"
 #include "tests/fuzz/container_input.h"

@@ -1,4 +1,4 @@
-#include "bakers/nnao/checkpoint.h"
+#include "bakers/nnao/training.h"
 #include "tests/fuzz/checkpoint_recipe.h"
 #include "tests/fuzz/seeds.h"
 

@@ -16,10 +16,9 @@
 #include <memory>
 #include <span>
 
-#include "bakers/images/environment_file.h"
-#include "bakers/images/exr_head.h"
+#include "bakers/images/image_files.h"
 #include "bakers/images/image_reader.h"
-#include "bakers/images/texture_file.h"
+#include "bakers/images/scene_file.h"
 #include "bakers/images/ubo_reader.h"
 #include "bakers/material/btf_file.h"
 #include "sdk/src/core/failure.h"

@@ -3,7 +3,7 @@
 // elsewhere raw_fuzz_replay.cpp drives it.
 #include <cmath>
 
-#include "bakers/material/raw_file.h"
+#include "bakers/material/raw_material.h"
 #include "sdk/src/core/failure.h"
 #include "tests/fuzz/container_input.h"
 

@@ -1,4 +1,4 @@
-#include "bakers/material/raw_file.h"
+#include "bakers/material/raw_material.h"
 #include "tests/bakers/material/small_material.h"
 #include "tests/fuzz/seeds.h"
 

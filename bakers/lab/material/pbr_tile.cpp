@@ -4,10 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "bakers/material/height_march.h"
-#include "bakers/material/microfacet.h"
-#include "bakers/material/tile_taps.h"
-#include "bakers/material/view_heights.h"
+#include "bakers/material/pbr_maps.h"
+#include "bakers/material/periodic_tile.h"
+#include "bakers/material/tile_heights.h"
 #include "bakers/tensor/blocks.h"
 
 namespace nook::lab {

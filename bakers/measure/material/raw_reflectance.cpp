@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bakers/material/raw_file.h"
+#include "bakers/material/raw_material.h"
 #include "bakers/material/view_spline.h"
 #include "sdk/src/material/direction_mesh.h"
 #include "sdk/src/material/tables.h"

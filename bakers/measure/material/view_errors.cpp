@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bakers/material/btf_error.h"
-#include "bakers/material/tile_taps.h"
+#include "bakers/material/periodic_tile.h"
 #include "bakers/measure/material/table_error.h"
 #include "bakers/raytrace/random.h"
 #include "bakers/tensor/blocks.h"

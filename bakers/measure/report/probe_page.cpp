@@ -5,7 +5,7 @@
 #include <numbers>
 #include <span>
 
-#include "bakers/images/map_picture.h"
+#include "bakers/images/picture.h"
 #include "bakers/measure/probe/probe_report.h"
 #include "bakers/measure/report/advice.h"
 #include "bakers/measure/report/report_pictures.h"

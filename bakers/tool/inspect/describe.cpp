@@ -1,6 +1,6 @@
 #include "bakers/tool/inspect/describe.h"
 
-#include "bakers/job/material_source.h"
+#include "bakers/job/material_bake.h"
 #include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/material/material_file.h"

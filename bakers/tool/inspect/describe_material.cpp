@@ -1,6 +1,6 @@
 #include <string>
 
-#include "bakers/job/material_source.h"
+#include "bakers/job/material_bake.h"
 #include "bakers/tool/inspect/describe.h"
 #include "sdk/src/material/material_file.h"
 #include "sdk/src/material/view_cells.h"

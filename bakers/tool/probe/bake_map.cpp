@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/images/map_picture.h"
+#include "bakers/images/picture.h"
 #include "bakers/job/probe_bake.h"
 #include "bakers/measure/probe/probe_report.h"
 #include "bakers/tool/interrupt.h"

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 
-#include "bakers/images/environment_file.h"
 #include "bakers/images/scene_file.h"
 
 namespace nook::tool {

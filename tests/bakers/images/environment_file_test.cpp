@@ -1,5 +1,5 @@
 // Image files as environment maps: what comes through, and what is refused with which words.
-#include "bakers/images/environment_file.h"
+#include "bakers/images/scene_file.h"
 
 #include <OpenImageIO/imageio.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "bakers/images/image_size.h"
+#include "bakers/images/image_files.h"
 
 #include <climits>
 

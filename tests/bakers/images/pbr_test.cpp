@@ -9,9 +9,8 @@
 #include <limits>
 #include <string>
 
-#include "bakers/images/pbr_names.h"
 #include "bakers/images/pbr_reader.h"
-#include "bakers/material/microfacet.h"
+#include "bakers/material/pbr_maps.h"
 #include "sdk/src/core/failure.h"
 #include "tests/bakers/images/temporary_folder.h"
 #include "tests/catch.h"

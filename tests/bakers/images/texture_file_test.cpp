@@ -1,5 +1,5 @@
 // Encoded images to textures.
-#include "bakers/images/texture_file.h"
+#include "bakers/images/scene_file.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>

@@ -5,9 +5,8 @@
 #include <fstream>
 #include <string>
 
-#include "bakers/images/ubo_names.h"
 #include "bakers/images/ubo_reader.h"
-#include "bakers/material/directions.h"
+#include "bakers/material/raw_material.h"
 #include "platform/peak_memory.h"
 #include "sdk/src/core/failure.h"
 #include "tests/bakers/images/temporary_folder.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "bakers/material/directions.h"
+#include "bakers/material/raw_material.h"
 #include "sdk/src/core/failure.h"
 #include "tests/bakers/material/btf_writer.h"
 #include "tests/catch.h"

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "bakers/material/btf_error.h"
-#include "bakers/material/directions.h"
-#include "bakers/material/relief.h"
-#include "bakers/material/visibility_margin.h"
+#include "bakers/material/raw_material.h"
+#include "bakers/material/raw_relief.h"
+#include "bakers/material/visibility_values.h"
 #include "bakers/measure/material/material_report.h"
 #include "bakers/measure/material/view_errors.h"
 #include "sdk/src/core/failure.h"

@@ -1,4 +1,4 @@
-#include "bakers/material/fill_gaps.h"
+#include "bakers/material/raw_material.h"
 
 #include <tbb/global_control.h>
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "bakers/material/tile_noise.h"
+#include "bakers/material/periodic_tile.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"
 

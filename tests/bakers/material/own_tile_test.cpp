@@ -1,5 +1,5 @@
 // A mesh of one's own as a meso-structure.
-#include "bakers/material/own_tile.h"
+#include "bakers/material/meso_surface.h"
 
 #include <array>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "bakers/material/tiled_scene.h"
+#include "bakers/material/shading.h"
 #include "bakers/raytrace/ray_scene.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"

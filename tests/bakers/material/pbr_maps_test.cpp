@@ -7,9 +7,8 @@
 #include <numbers>
 #include <string>
 
-#include "bakers/material/directions.h"
-#include "bakers/material/microfacet.h"
-#include "bakers/material/tile_filter.h"
+#include "bakers/material/periodic_tile.h"
+#include "bakers/material/raw_material.h"
 #include "bakers/material/trace_material.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"

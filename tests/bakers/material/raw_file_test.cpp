@@ -1,10 +1,9 @@
-#include "bakers/material/raw_file.h"
+#include "bakers/material/raw_material.h"
 
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "bakers/material/directions.h"
 #include "bakers/raytrace/hemisphere.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"

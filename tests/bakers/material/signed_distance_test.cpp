@@ -1,4 +1,4 @@
-#include "bakers/material/signed_distance.h"
+#include "bakers/material/visibility_values.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "bakers/material/directions.h"
 #include "bakers/material/raw_material.h"
 
 namespace nook::bake::material::test {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bakers/material/directions.h"
+#include "bakers/material/raw_material.h"
 #include "sdk/src/core/failure.h"
 #include "tests/bakers/material/plates.h"
 #include "tests/catch.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "bakers/material/directions.h"
+#include "bakers/material/raw_material.h"
 #include "sdk/src/material/parabolic.h"
 #include "tests/catch.h"
 

@@ -8,9 +8,9 @@
 #include <set>
 #include <string>
 
+#include "bakers/nnao/cameras.h"
 #include "bakers/nnao/host_normals.h"
 #include "bakers/nnao/level_set.h"
-#include "bakers/nnao/training_cameras.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "sdk/src/core/failure.h"
 #include "tests/bakers/nnao/small_dataset.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bakers/nnao/checkpoint.h"
 #include "bakers/nnao/validation.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/nnao/network_evaluate.h"

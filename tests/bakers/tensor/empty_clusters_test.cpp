@@ -1,4 +1,4 @@
-#include "bakers/tensor/stages.h"
+#include "bakers/tensor/cta_stages.h"
 
 #include <set>
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "bakers/material/directions.h"
-#include "bakers/material/height_march.h"
+#include "bakers/material/raw_material.h"
+#include "bakers/material/tile_heights.h"
 #include "tests/catch.h"
 
 using namespace nook;

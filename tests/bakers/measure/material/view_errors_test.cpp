@@ -4,7 +4,7 @@
 
 #include "bakers/material/btf_error.h"
 #include "bakers/material/compression.h"
-#include "bakers/material/directions.h"
+#include "bakers/material/raw_material.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/material/parabolic.h"
 #include "tests/bakers/material/small_material.h"

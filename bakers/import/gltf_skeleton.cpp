@@ -1,0 +1,200 @@
+#include "bakers/import/gltf_skeleton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "bakers/import/node_tree.h"
+#include "bakers/import/skinned_mesh.h"
+#include "sdk/src/core/failure.h"
+
+namespace nook::bake {
+namespace {
+
+struct Builder {
+  const NodeTree& nodes;
+  std::vector<Affine> world;  // default pose
+  std::vector<std::uint32_t> depth;
+  // Frame of each joint in rest space, with its scale; of other nodes only once they became bones.
+  std::vector<std::optional<Affine>> bind_rest;
+  std::vector<std::int32_t> bone_of_node;  // the first bone of a node, -1: none
+  std::vector<BoneBinding> bindings;
+  std::vector<std::vector<std::uint32_t>> bones_of_node;
+
+  explicit Builder(const NodeTree& tree)
+      : nodes(tree),
+        world(default_world_transforms(tree)),
+        depth(tree.size(), 0),
+        bind_rest(tree.size()),
+        bone_of_node(tree.size(), -1),
+        bones_of_node(tree.size()) {
+    for (const std::uint32_t i : nodes.order)
+      if (nodes.nodes[i].parent >= 0) depth[i] = depth[nodes.nodes[i].parent] + 1;
+  }
+
+  // Rest frame of a node that is no joint itself: it hangs on its nearest ancestor with a bind pose, or
+  // stands where the default pose has it.
+  Affine implied_bind(std::uint32_t node) const {
+    Affine below;
+    for (std::int32_t i = static_cast<std::int32_t>(node); i >= 0; i = nodes.nodes[i].parent) {
+      if (bind_rest[i]) return *bind_rest[i] * below;
+      below = default_local(nodes.nodes[i]) * below;
+    }
+    return world[node];
+  }
+
+  void require_invertible(const Affine& a, const char* what, std::uint32_t node) const {
+    // Relative to the matrix's own size, because a 0.01 scale alone gives a determinant of 1e-6.
+    double size = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) size = std::max(size, std::abs(a.m[4 * i + j]));
+    if (!is_finite(a) || !(std::abs(determinant(a)) > 1e-9 * size * size * size))
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "%s of node %u (\"%s\") is singular or not finite; export it with a scale above 0", what,
+                    node, nodes.nodes[node].name.c_str());
+  }
+
+  // The same matrix in every pose: equal up to 0.1 % and 0.1 mm at the joint.
+  static bool same_binding(const Affine& a, const BoneBinding& b) {
+    const Affine difference = inverse(b.node_from_rest) * a;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        if (!(std::abs(difference.m[4 * i + j] - (i == j ? 1 : 0)) < 1e-3)) return false;
+    const auto moved = transform(difference, b.origin_rest[0], b.origin_rest[1], b.origin_rest[2]);
+    for (int i = 0; i < 3; ++i)
+      if (!(std::abs(moved[i] - b.origin_rest[i]) < 1e-4)) return false;
+    return true;
+  }
+
+  std::uint32_t bone_for(std::uint32_t node, const Affine& node_from_rest) {
+    for (const std::uint32_t bone : bones_of_node[node])
+      if (same_binding(node_from_rest, bindings[bone])) return bone;
+    if (bindings.size() == max_bone_count)
+      throw Failure(NOOK_ERROR_BAD_FILE, "too many bones (need at most %zu)", max_bone_count);
+    const std::uint32_t bone = static_cast<std::uint32_t>(bindings.size());
+    const Affine frame = inverse(node_from_rest);
+    bindings.push_back({node, node_from_rest, {frame.m[3], frame.m[7], frame.m[11]}});
+    bones_of_node[node].push_back(bone);
+    if (bone_of_node[node] < 0) bone_of_node[node] = static_cast<std::int32_t>(bone);
+    return bone;
+  }
+};
+
+std::uint32_t top_depth(const Builder& b, const Skin& skin) {
+  std::uint32_t top = b.depth[skin.joint[0]];
+  for (const std::uint32_t node : skin.joint) top = std::min(top, b.depth[node]);
+  return top;
+}
+
+// S of a skin. Skins of one skeleton must agree about rest space, so a joint that an earlier skin has bound
+// decides where there is one; else the top-most joint.
+Affine rest_from_mesh(const Builder& b, const Skin& skin) {
+  std::size_t reference = 0;
+  bool is_shared = false;
+  for (std::size_t j = 0; j < skin.joint.size(); ++j) {
+    const bool shared = b.bind_rest[skin.joint[j]].has_value();
+    const bool higher = b.depth[skin.joint[j]] < b.depth[skin.joint[reference]];
+    if ((shared && !is_shared) || (shared == is_shared && higher)) reference = j;
+    is_shared = is_shared || shared;
+  }
+  const Affine s = b.implied_bind(skin.joint[reference]) * skin.inverse_bind[reference];
+  b.require_invertible(s, "default world matrix times inverse bind matrix", skin.joint[reference]);
+  return s;
+}
+
+void add_skin(Builder& b, const Skin& skin, MeshBinding& out) {
+  for (std::size_t j = 0; j < skin.joint.size(); ++j)
+    b.require_invertible(skin.inverse_bind[j], "inverse bind matrix", skin.joint[j]);
+  out.rest_from_mesh = rest_from_mesh(b, skin);
+  const Affine mesh_from_rest = inverse(out.rest_from_mesh);
+  for (std::size_t j = 0; j < skin.joint.size(); ++j) {
+    const std::uint32_t node = skin.joint[j];
+    const Affine node_from_rest = skin.inverse_bind[j] * mesh_from_rest;
+    out.bone.push_back(static_cast<std::uint16_t>(b.bone_for(node, node_from_rest)));
+    if (!b.bind_rest[node]) b.bind_rest[node] = inverse(node_from_rest);
+  }
+}
+
+void add_rigid_part(Builder& b, std::uint32_t mesh_node, const std::vector<bool>& moves, MeshBinding& out) {
+  std::int32_t anchor = static_cast<std::int32_t>(mesh_node);
+  while (anchor >= 0 && b.bone_of_node[anchor] < 0 && !moves[anchor]) anchor = b.nodes.nodes[anchor].parent;
+  if (anchor < 0) return;
+  const std::uint32_t node = static_cast<std::uint32_t>(anchor);
+  if (b.bone_of_node[node] < 0) {
+    const Affine frame = b.implied_bind(node);
+    b.require_invertible(frame, "default world matrix", node);
+    b.bone_for(node, inverse(frame));
+    b.bind_rest[node] = frame;
+  }
+  out.rest_from_mesh = b.implied_bind(mesh_node);
+  out.bone = {static_cast<std::uint16_t>(b.bone_of_node[node])};
+}
+
+std::int32_t parent_bone(const Builder& b, std::uint32_t bone) {
+  std::int32_t node = b.nodes.nodes[b.bindings[bone].node].parent;
+  while (node >= 0 && b.bone_of_node[node] < 0) node = b.nodes.nodes[node].parent;
+  return node < 0 ? -1 : b.bone_of_node[node];
+}
+
+// New order of the bones: as the skins list them, except that ancestors come first.
+std::vector<std::uint32_t> parents_first(const Builder& b) {
+  std::vector<std::uint32_t> order;
+  std::vector<bool> is_placed(b.bindings.size(), false);
+  std::vector<std::uint32_t> chain;
+  for (std::uint32_t i = 0; i < b.bindings.size(); ++i) {
+    chain.clear();
+    for (std::int32_t bone = static_cast<std::int32_t>(i); bone >= 0 && !is_placed[bone];
+         bone = parent_bone(b, bone))
+      chain.push_back(bone);
+    for (auto bone = chain.rbegin(); bone != chain.rend(); ++bone) {
+      is_placed[*bone] = true;
+      order.push_back(*bone);
+    }
+  }
+  return order;
+}
+
+Mat3x4 frame_of(const Affine& bind_rest) {
+  Similarity frame = nearest_similarity(bind_rest, {0, 0, 0});
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) frame.matrix.m[4 * i + j] /= frame.scale;
+  return to_float(frame.matrix);
+}
+
+}  // namespace
+
+Skeleton build_skeleton(const NodeTree& nodes, const std::vector<Skin>& skins, const std::vector<bool>& moves,
+                        const std::vector<std::uint32_t>& rigid_nodes) {
+  Builder b(nodes);
+  Skeleton out;
+  out.skins.resize(skins.size());
+  std::vector<std::size_t> by_depth(skins.size());
+  std::iota(by_depth.begin(), by_depth.end(), std::size_t{0});
+  std::stable_sort(by_depth.begin(), by_depth.end(), [&](std::size_t a, std::size_t c) {
+    return top_depth(b, skins[a]) < top_depth(b, skins[c]);
+  });
+  for (const std::size_t i : by_depth) add_skin(b, skins[i], out.skins[i]);
+  out.rigid_parts.resize(rigid_nodes.size());
+  for (std::size_t i = 0; i < rigid_nodes.size(); ++i)
+    add_rigid_part(b, rigid_nodes[i], moves, out.rigid_parts[i]);
+
+  const std::vector<std::uint32_t> order = parents_first(b);
+  std::vector<std::uint16_t> new_index(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) new_index[order[i]] = static_cast<std::uint16_t>(i);
+  std::vector<std::string> names;
+  for (const std::uint32_t bone : order) names.push_back(nodes.nodes[b.bindings[bone].node].name);
+  names = unique_names(names, "bone");
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::int32_t parent = parent_bone(b, order[i]);
+    out.bones.push_back({names[i], parent < 0 ? -1 : std::int32_t{new_index[parent]},
+                         frame_of(inverse(b.bindings[order[i]].node_from_rest))});
+    out.bindings.push_back(b.bindings[order[i]]);
+  }
+  for (auto* list : {&out.skins, &out.rigid_parts})
+    for (MeshBinding& binding : *list)
+      for (std::uint16_t& bone : binding.bone) bone = new_index[bone];
+  return out;
+}
+
+}  // namespace nook::bake

@@ -1,0 +1,290 @@
+#include "bakers/job/character_job.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bakers/character/export_model.h"
+#include "bakers/character/pose_sets.h"
+#include "bakers/job/worker_arena.h"
+#include "bakers/world/fit_casters.h"
+#include "platform/peak_memory.h"
+#include "sdk/src/character/model.h"
+#include "sdk/src/character/model_file.h"
+#include "sdk/src/core/checks.h"
+#include "sdk/src/core/failure.h"
+
+namespace nook::bake {
+namespace {
+
+// The bounds are far above any sensible bake, and keep hostile numbers from allocating all memory.
+constexpr std::uint32_t max_spheres = 1024, max_key_points = 4096, max_rays = 65536, max_poses = 1'000'000,
+                        max_steps = 10'000'000;
+
+[[noreturn]] void unknown(const char* name, int value) {
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                "%s has an unknown value (got %d); use a constant of nook_bake.h", name, value);
+}
+
+Preset preset_of(nook_bake_preset preset) {
+  switch (preset) {
+    case NOOK_BAKE_PRESET_DRAFT:
+      return Preset::draft;
+    case NOOK_BAKE_PRESET_STANDARD:
+      return Preset::standard;
+    case NOOK_BAKE_PRESET_PRODUCTION:
+      return Preset::production;
+    default:
+      unknown("desc.preset", preset);
+  }
+}
+
+PoseMode mode_of(nook_bake_pose_mode mode) {
+  switch (mode) {
+    case NOOK_BAKE_POSES_AUTO:
+      return PoseMode::automatic;
+    case NOOK_BAKE_POSES_SINGLE_JOINT:
+      return PoseMode::single_joint;
+    case NOOK_BAKE_POSES_CLIPS:
+      return PoseMode::clips;
+    case NOOK_BAKE_POSES_ALL:
+      return PoseMode::all;
+    case NOOK_BAKE_POSES_EXTRA:
+      return PoseMode::extra;
+    default:
+      unknown("desc.pose_mode", mode);
+  }
+}
+
+bool is_paper(const char* name, nook_form form) {
+  if (form != NOOK_FORM_DEFAULT && form != NOOK_FORM_PAPER) unknown(name, form);
+  return form == NOOK_FORM_PAPER;
+}
+
+FitMethod fit_of(const nook_bake_character_desc& desc, const nook_bake_character_study_desc& study) {
+  const bool whole = is_paper("desc.form", desc.form), part = is_paper("desc.next: fit", study.fit);
+  return whole || part ? FitMethod::paper : FitMethod::nook;
+}
+
+KernelForm kernel_of(const nook_bake_character_desc& desc, const nook_bake_character_study_desc& study) {
+  const bool whole = is_paper("desc.form", desc.form), part = is_paper("desc.next: kernel", study.kernel);
+  return whole || part ? KernelForm::paper : KernelForm::nook;
+}
+
+std::vector<std::size_t> chosen_clips(const nook_bake_character_desc& desc, nook_bake_clip_split clip_split,
+                                      const ImportedCharacter& character) {
+  std::vector<std::size_t> clips;
+  if (desc.clip_count > 0) {
+    need(desc.clip_names, "desc.clip_names");
+    for (std::uint32_t i = 0; i < desc.clip_count; ++i) {
+      need(desc.clip_names[i], "desc.clip_names[i]");
+      clips.push_back(find_clip(character, desc.clip_names[i]));
+    }
+    std::sort(clips.begin(), clips.end(), [&](std::size_t a, std::size_t b) {
+      return character.clips[a].name < character.clips[b].name;
+    });
+    clips.erase(std::unique(clips.begin(), clips.end()), clips.end());
+    return clips;
+  }
+  clips = motion_clips(character);
+  if (clip_split == NOOK_BAKE_SPLIT_HALF) return split_clips(clips).fitted;
+  if (clip_split == NOOK_BAKE_SPLIT_FAMILIES) {
+    const ClipSplit split = split_families(character, clips);
+    if (!clips.empty() && split.measured.empty())
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.next: clip_split: the names of all clips (%zu) begin with the same word and are "
+                    "one family, which "
+                    "leaves none to measure; split by half, or name the clips to fit",
+                    clips.size());
+    return split.fitted;
+  }
+  if (clip_split != NOOK_BAKE_SPLIT_ALL) unknown("desc.next: clip_split", clip_split);
+  return clips;
+}
+
+void choose_settings(const nook_bake_character_desc& desc, const nook_bake_character_study_desc& study,
+                     BakeSettings& settings) {
+  check_at_most("desc.spheres", desc.spheres, max_spheres);
+  check_at_most("desc.key_points", desc.key_points, max_key_points);
+  check_at_most("desc.rays", desc.rays, max_rays);
+  check_at_most("desc.steps", desc.steps, max_steps);
+  need_threads(desc.threads);
+  if (desc.spheres) settings.spheres = desc.spheres;
+  if (desc.key_points) settings.key_points = desc.key_points;
+  if (desc.rays) settings.rays = desc.rays;
+  settings.kernel.form = kernel_of(desc, study);
+  settings.fit = fit_of(desc, study);
+  if (desc.steps) settings.steps = desc.steps;
+  settings.seed = desc.seed;
+  if (desc.saturation == NOOK_BAKE_UNSATURATED) {
+    settings.saturation = 0;
+  } else if (desc.saturation != 0) {
+    if (!(desc.saturation > 0 && desc.saturation <= max_saturation))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.saturation is out of range (got %g, need 0 to %g, or NOOK_BAKE_UNSATURATED)",
+                    double(desc.saturation), double(max_saturation));
+    if (settings.fit != FitMethod::nook || (desc.gamma != 0 && desc.gamma != 1))
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.saturation needs the default form and a gamma of 1 (got %g, fit %s, gamma %g)",
+                    double(desc.saturation), name_of(settings.fit), double(desc.gamma));
+    settings.saturation = desc.saturation;
+  }
+  settings.learn_gamma = desc.gamma == NOOK_BAKE_GAMMA_LEARNED;
+  if (desc.gamma != 0 && !settings.learn_gamma) {
+    check_fits("desc.gamma", desc.gamma, desc.gamma >= 1 && desc.gamma <= 8,
+               "1 to 8, NOOK_BAKE_GAMMA_LEARNED, or 0 for the default");
+    settings.kernel.gamma = desc.gamma;
+  } else if (!settings.learn_gamma && desc.form == NOOK_FORM_PAPER) {
+    settings.kernel.gamma = 2;
+  }
+  check_fits("desc.time_limit_s", desc.time_limit_s, desc.time_limit_s >= 0, "seconds, or 0 for none");
+  settings.time_limit_s = desc.time_limit_s;
+}
+
+}  // namespace
+
+Recipe recipe_of(const nook_bake_character_desc& desc, const nook_bake_character_study_desc& study,
+                 const ImportedCharacter& character) {
+  Recipe recipe;
+  if (study.reserved != 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.next: reserved is %u, need 0", study.reserved);
+  recipe.preset = preset_of(desc.preset);
+  const PresetValues preset = preset_values(recipe.preset, fit_of(desc, study));
+  recipe.settings = preset.settings;
+  choose_settings(desc, study, recipe.settings);
+  recipe.poses = mode_of(desc.pose_mode);
+  recipe.source_hash = character.source_hash;
+  recipe.extra_poses = desc.extra_pose_count;
+  if (desc.extra_pose_count) need(desc.extra_poses_3x4, "desc.extra_poses_3x4");
+  check_at_most("desc.auto_pose_count", desc.auto_pose_count, max_poses);
+  check_at_most("desc.samples_per_clip", desc.samples_per_clip, max_poses);
+  check_at_most("desc.extra_pose_count", desc.extra_pose_count, max_poses);
+
+  const bool clips = recipe.poses == PoseMode::clips || recipe.poses == PoseMode::all;
+  if (!clips && desc.clip_count > 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.clip_names are given but desc.pose_mode uses no clips; use NOOK_BAKE_POSES_CLIPS or "
+                  "NOOK_BAKE_POSES_ALL");
+  if (clips) recipe.clips = chosen_clips(desc, study.clip_split, character);
+  if (recipe.poses == PoseMode::clips && recipe.clips.empty())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.pose_mode is NOOK_BAKE_POSES_CLIPS but the character has no clip that "
+                  "shows motion; use NOOK_BAKE_POSES_AUTO");
+  if (!recipe.clips.empty())
+    recipe.samples_per_clip =
+        desc.samples_per_clip ? desc.samples_per_clip : samples_per_clip(preset, recipe.clips.size());
+  if (recipe.poses == PoseMode::automatic || recipe.poses == PoseMode::all)
+    recipe.auto_poses = desc.auto_pose_count ? desc.auto_pose_count : preset.auto_poses;
+  if (recipe.poses == PoseMode::all) {
+    recipe.variant_poses = recipe.clips.size() * recipe.samples_per_clip;
+    // They take the place of automatic poses, so that the time of a bake does not grow with them.
+    if (!desc.auto_pose_count) recipe.auto_poses -= std::min(recipe.variant_poses, recipe.auto_poses / 2);
+  }
+  if (recipe.poses == PoseMode::single_joint) recipe.single_joint_steps = preset.single_joint_steps;
+  if (recipe.poses == PoseMode::extra && desc.extra_pose_count == 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.pose_mode is NOOK_BAKE_POSES_EXTRA but desc.extra_pose_count is 0; give "
+                  "poses");
+  return recipe;
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+JobStage stage_of(BakeStage stage) {
+  switch (stage) {
+    case BakeStage::raytrace:
+      return JobStage::raytrace;
+    case BakeStage::initialise:
+      return JobStage::initialise;
+    case BakeStage::fit:
+      return JobStage::fit;
+    case BakeStage::casters:
+      break;
+  }
+  return JobStage::casters;
+}
+
+std::string report_text(const ImportedCharacter& character, const Recipe& recipe, const CharacterModel& model,
+                        std::size_t model_bytes, const BakeReport& report, const WorldCasterReport& casters) {
+  Json j;
+  j["vertices"] = model.vertex_count();
+  j["file_vertices"] = model.file_to_welded.size();
+  j["bones"] = model.bone_count();
+  j["spheres"] = model.spheres.size();
+  j["key_points"] = model.key_points.size();
+  j["gamma"] = model.kernel.gamma;
+  j["model_bytes"] = model_bytes;
+  j["seconds_raytrace"] = report.seconds_raytrace;
+  j["seconds_fit"] = report.seconds_fit;
+  j["seconds_world_casters"] = casters.seconds;
+  j["world_casters"] = model.world_casters.size();
+  j["world_caster_error_initial"] = casters.error_initial;
+  j["world_caster_error"] = casters.error_fitted;
+  j["iterations"] = report.iterations;
+  j["train_poses"] = report.train_poses;
+  j["rays"] = recipe.settings.rays;
+  j["noise_floor_mse"] = report.noise_floor_mse;
+  j["noise_floor_held_out_mse"] = report.noise_floor_held_out_mse;
+  j["mse_initial"] = report.mse_initial;
+  j["mse_train"] = report.mse_train;
+  j["mse_held_out"] = report.mse_held_out;
+  j["mse_held_out_file"] = report.mse_held_out_file;
+  j["peak_bytes"] = platform::peak_bytes();
+  Json names = Json::array();
+  for (std::size_t clip : recipe.clips) names.push_back(character.clips[clip].name);
+  j["clips"] = std::move(names);
+  j["warnings"] = character.warnings;
+  j["recipe"] = Json::parse(recipe_text(character, recipe));
+  Json curve = Json::array();
+  for (const CurvePoint& p : report.curve)
+    curve.push_back({{"seconds", p.seconds}, {"mse_train", p.mse_train}, {"mse_held_out", p.mse_held_out}});
+  j["curve"] = std::move(curve);
+  // Names come from files and need not be UTF-8.
+  return j.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+// A draft takes a few seconds for the casters, the others a share of their time.
+WorldCasterSettings caster_settings(const Recipe& recipe) {
+  WorldCasterSettings settings;
+  settings.seed = recipe.settings.seed;
+  if (recipe.preset == Preset::draft) {
+    settings.poses = 32;
+    settings.steps = 8;
+  } else if (recipe.preset == Preset::production) {
+    settings.poses = 256;
+    settings.steps = 30;
+  }
+  return settings;
+}
+
+}  // namespace
+
+BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recipe,
+                         std::span<const Pose> extra_poses, const StageReport& progress) {
+  std::vector<Pose> poses = recipe_poses(character, recipe);
+  poses.insert(poses.end(), extra_poses.begin(), extra_poses.end());
+  BakeResult baked = bake_character(character.mesh, poses, recipe.settings,
+                                    [&](BakeStage stage, std::size_t done, std::size_t total) {
+                                      return progress(stage_of(stage), done, total);
+                                    });
+  WorldCasterReport caster_report;
+  // An object of one bone has no poses but places: it is turned before walls and lights.
+  const std::vector<Pose> caster_poses =
+      character.mesh.bones.size() == 1 ? turned_poses(caster_settings(recipe).poses, 0) : std::move(poses);
+  const std::vector<WorldCaster> casters = fit_world_casters(
+      character.mesh, caster_poses, caster_settings(recipe), &caster_report,
+      [&](std::size_t done, std::size_t total) { return progress(JobStage::casters, done, total); });
+  baked.model.world_casters.assign(casters.begin(), casters.end());
+  baked.model.bind = bind_data_of(character);
+  baked.model.rest = rest_surface_of(character.mesh);
+  baked.model.recipe = recipe_text(character, recipe);
+  BakedFile file;
+  file.model = write_character_model(baked.model);
+  file.report = report_text(character, recipe, baked.model, file.model.size(), baked.report, caster_report);
+  return file;
+}
+
+}  // namespace nook::bake

@@ -1,0 +1,26 @@
+// The bake of a character: the recipe of a descriptor, and the file and the report that a recipe makes.
+#pragma once
+
+#include <nook/experimental/nook_trace.h>
+
+#include <span>
+
+#include "bakers/character/recipe.h"
+#include "bakers/job/baked_file.h"
+
+namespace nook::bake {
+
+// The recipe of a job's descriptor, with the preset's values filled in.
+
+// Throws INVALID_ARGUMENT for unknown enum values, numbers out of range, unknown clips, and if there are no
+// poses.
+Recipe recipe_of(const nook_bake_character_desc& desc, const nook_bake_character_study_desc& study,
+                 const ImportedCharacter& character);
+
+// Makes the bytes of a .nook file and a report from a recipe.
+
+// Throws Failure: INVALID_ARGUMENT (there are no poses, or settings are out of range), CANCELLED.
+BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recipe,
+                         std::span<const Pose> extra_poses, const StageReport& progress);
+
+}  // namespace nook::bake

@@ -1,0 +1,36 @@
+// Training of what screen-space passes embed.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "bakers/nnao/specular_fit.h"
+#include "bakers/nnao/training.h"
+#include "sdk/src/nnao/network_file.h"
+
+namespace nook::bake {
+
+// Everything that the network's bits depend on beside the program itself, as one line of JSON.
+std::string network_recipe(const nnao::DatasetSettings& data, const nnao::TrainingSettings& training);
+
+// The error of the network on the points that no training saw: a row of the constant predictor, then one for
+// each number of taps.
+nlohmann::ordered_json validation_rows(const nook::nnao::Network& network, const nnao::Dataset& data);
+
+// The fit of specular occlusion from samples to the header that shaders and the runtime include.
+
+struct SpecularTraining {
+  std::string header;
+  nnao::SpecularError error;  // over the validation samples
+  std::size_t training_points = 0, validation_points = 0;
+};
+
+// Traces samples with the embedded network and fits them. Return false from progress to stop, which throws
+// Failure(CANCELLED). The same bits on any number of threads.
+SpecularTraining train_specular(const nnao::SpecularFitSettings& settings,
+                                const nnao::DatasetProgress& progress);
+
+}  // namespace nook::bake

@@ -1,0 +1,57 @@
+// Bakes that add to the model of a baked character: bent normals, and the model of another mesh.
+#pragma once
+
+#include <nook/nook_bake.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "bakers/import/gltf.h"
+#include "bakers/job/baked_file.h"
+#include "sdk/src/character/model.h"
+
+namespace nook::bake {
+
+// The baked model of an imported character, for bakes that add to it.
+
+// Reads the character's baked model. Throws Failure: BAD_FILE (no model, or that of another character),
+// FILE_VERSION.
+CharacterModel model_of_character(std::span<const std::byte> bytes, const ImportedCharacter& character);
+
+// Bent normals for a model that is already baked.
+
+struct BentTask {
+  std::uint32_t auto_poses = 48;
+  std::uint32_t samples_per_clip = 3;
+  std::uint32_t rays = 128;
+  std::uint64_t seed = 1;
+};
+
+// Throws Failure(INVALID_ARGUMENT) for a number out of its range.
+BentTask bent_task_of(const nook_bake_bent_desc& desc);
+
+// Adds occluded directions to the model of `character` (character_model.h), fitted to ray tracing in
+// automatic poses and those of the clips that the model was fitted to, or of all clips where it has no
+// recipe. What the model has besides stays as it is. The stage is JobStage::raytrace and counts poses.
+// Throws Failure: BAD_FILE (a recipe that is not that of the character), CANCELLED.
+BakedFile bake_bent_file(const ImportedCharacter& character, CharacterModel model, const BentTask& task,
+                         const StageReport& progress);
+
+// The model of a mesh of less detail, from the bake of the full mesh.
+
+struct LodTask {
+  std::size_t auto_poses = 200;
+  std::size_t samples_per_clip = 8;
+  std::uint32_t rays = 128;
+  std::uint64_t seed = 1;
+};
+
+// `lod` has the bones of the model in the same order, as a mesh of the same rig has. The result has the
+// spheres, key points, levels and casters of the model, and vertices that are fitted to ray tracing of `lod`
+// in automatic poses and those of its clips. The stage is JobStage::raytrace and counts poses. Throws
+// Failure: BAD_FILE (no model, other bones), CANCELLED.
+BakedFile bake_lod_file(const ImportedCharacter& lod, std::span<const std::byte> model_bytes,
+                        const LodTask& task, const StageReport& progress);
+
+}  // namespace nook::bake

@@ -1,0 +1,44 @@
+// The heights of a tile: found from what its views agree on, and met by rays.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "bakers/material/raw_material.h"
+#include "sdk/src/core/vec.h"
+
+namespace nook::bake::material {
+
+// Called with the steps that are done; returns false to stop with Failure(NOOK_ERROR_CANCELLED).
+using ReliefProgress = std::function<bool(std::size_t done, std::size_t total)>;
+
+// Returns heights over the plane z = 0 in tiles, one for each texel. The views within 53 degrees of the
+// normal show the most similar colours there, in 3 x 3 texels. 49 heights up to 0.24 tiles on either side are
+// tried, and a parabola places the result between them. Progress counts texels. The same bits on any number
+// of threads.
+std::vector<float> heights_of_views(const RawMaterial& raw, const ReliefProgress& progress = {});
+
+// Heights over the plane z = 0 in tiles, texel x * height + y, read linearly.
+struct HeightMap {
+  std::uint32_t width = 0, height = 0;
+  std::span<const float> heights;
+};
+
+struct HeightRange {
+  float low = 0, high = 0;
+};
+HeightRange range_of(const HeightMap& map);
+
+// x and y are in tiles.
+float height_at(const HeightMap& map, float x, float y);
+
+// Steps of a march over the whole range of heights: no more than half a texel along the tile.
+int steps_of(const HeightMap& map, Vec3 direction, float depth);
+
+// Where the ray through (x, y, 0) along a view, whose z is above 0, first meets the heights: its height.
+float first_height(const HeightMap& map, HeightRange range, float x, float y, Vec3 view);
+
+}  // namespace nook::bake::material
