@@ -9,10 +9,9 @@
 #include "bakers/api/descriptor_list.h"
 #include "bakers/api/entry.h"
 #include "bakers/api/handles.h"
-#include "bakers/api/import.h"
 #include "bakers/character/auto_poses.h"
 #include "bakers/character/pose_sets.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/job/mesh_arrays.h"
 #include "bakers/job/pose_arrays.h"
 
@@ -36,9 +35,9 @@ void need_index(const char* name, std::size_t index, std::size_t count) {
                   count);
 }
 
-ImportedCharacter import_file(const char* path, LinkedFiles linked) {
+ImportedCharacter import_file(const char* path) {
   try {
-    return import_gltf(std::filesystem::path(reinterpret_cast<const char8_t*>(path)), linked);
+    return import_gltf(std::filesystem::path(reinterpret_cast<const char8_t*>(path)));
   } catch (const Failure& failure) {
     // The message of the importer may already contain the name of the file.
     if (std::string_view(failure.what()).find(path) != std::string_view::npos) throw;
@@ -46,7 +45,7 @@ ImportedCharacter import_file(const char* path, LinkedFiles linked) {
   }
 }
 
-ImportedCharacter character_of(const nook_bake_source_desc& desc, LinkedFiles linked) {
+ImportedCharacter character_of(const nook_bake_source_desc& desc) {
   const bool has_arrays = desc.positions || desc.indices || desc.joints || desc.weights ||
                           desc.bone_parents || desc.bone_frames_3x4;
   const int sources = int(desc.path != nullptr) + int(desc.bytes != nullptr) + int(has_arrays);
@@ -54,7 +53,7 @@ ImportedCharacter character_of(const nook_bake_source_desc& desc, LinkedFiles li
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc has %s of desc.path, desc.bytes and arrays such as desc.positions; give exactly one",
                   sources == 0 ? "none" : "more than one");
-  if (desc.path) return import_file(desc.path, linked);
+  if (desc.path) return import_file(desc.path);
   if (desc.bytes) return import_gltf(std::span(static_cast<const std::byte*>(desc.bytes), desc.byte_count));
   return character_of_arrays(desc);
 }
@@ -146,17 +145,12 @@ void write_vertices(const SkinnedMesh& mesh, const std::vector<Vec3>& position, 
 
 }  // namespace
 
-nook_result api::create_character(const nook_bake_source_desc* desc, LinkedFiles linked,
-                                  nook_bake_character* out) noexcept {
-  return enter("nook_bake_character_create", [&] {
+nook_result nook_bake_character_create(const nook_bake_source_desc* desc, nook_bake_character* out) {
+  return api::enter("nook_bake_character_create", [&] {
     need(out, "out");
     *out = nullptr;
-    hand_out(character_of(read_descriptor(desc), linked), out);
+    hand_out(character_of(read_descriptor(desc)), out);
   });
-}
-
-nook_result nook_bake_character_create(const nook_bake_source_desc* desc, nook_bake_character* out) {
-  return api::create_character(desc, LinkedFiles::folder, out);
 }
 
 void nook_bake_character_destroy(nook_bake_character* character) {

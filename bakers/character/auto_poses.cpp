@@ -2,11 +2,250 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bakers/character/body_plan.h"
+#include "bakers/character/hands.h"
 #include "bakers/character/joined_hands.h"
-#include "bakers/character/planned_rig.h"
+#include "bakers/character/pose_sets.h"
+#include "bakers/character/rig_anatomy.h"
+#include "bakers/character/rotation.h"
 #include "bakers/character/self_collision.h"
 
 namespace nook::bake {
+namespace {
+
+// Turns of a rig's joints by a plan, in rest-space axes round each joint's origin, parents first.
+
+class PlannedRig {
+ public:
+  explicit PlannedRig(const SkinnedMesh& mesh);  // which is kept by reference
+
+  // Lets a hand reach for a place on the body or for the other hand: what hands come near is what shadows of
+  // hands and on hands depend on, and arms that swing freely are seldom there. Of some arms the one that
+  // comes nearest is taken.
+  void reach(BodyPlan& plan, PoseRandom& random) const;
+
+  Pose pose(const BodyPlan& plan, PoseRandom& random) const;
+
+ private:
+  Vec3 in_body(Vec3 v) const { return v.x * frame_.left + v.y * frame_.up + v.z * frame_.forward; }
+  Vec3 joint_turn(std::size_t bone, const BodyPlan& plan, PoseRandom& random) const;
+  void place_arms(const BodyPlan& plan, std::vector<Mat3x4>& local) const;
+  void place_limbs_of_motion(const BodyPlan& plan, std::vector<Mat3x4>& local) const;
+
+  const SkinnedMesh& mesh_;
+  std::vector<Joint> joints_;
+  BodyTree tree_;
+  BodyFrame frame_;
+  std::vector<char> posable_;
+  std::vector<Vec3> curl_axis_;
+  std::array<BodyPoint, 2> palm_;  // left, right
+  std::size_t spine_count_ = 1, neck_count_ = 1;
+};
+
+bool is_arm(JointRole role) {
+  return role == JointRole::upper_arm || role == JointRole::forearm || role == JointRole::hand ||
+         role == JointRole::finger || role == JointRole::thumb;
+}
+
+Vec3 place_in(const Pose& pose, const BodyPoint& place) {
+  return transform_point(pose[std::size_t(place.bone)], place.point);
+}
+
+// The direction in which motion capture holds a limb's joint, in its part's axes; zero where it has none.
+Vec3 wished(const BodyPlan& plan, const Joint& joint) {
+  const PriorLimbs& limbs = plan.motion.limbs[joint.side == Side::right ? 1 : 0];
+  switch (joint.role) {
+    case JointRole::upper_arm:
+      return plan.arms_of_motion ? limbs.upper_arm : Vec3{};
+    case JointRole::forearm:
+      return plan.arms_of_motion ? limbs.forearm : Vec3{};
+    case JointRole::hand:
+      return plan.arms_of_motion ? limbs.hand : Vec3{};
+    case JointRole::thigh:
+      return plan.legs_of_motion ? limbs.thigh : Vec3{};
+    case JointRole::calf:
+      return plan.legs_of_motion ? limbs.calf : Vec3{};
+    case JointRole::foot:
+      return plan.legs_of_motion ? limbs.foot : Vec3{};
+    default:
+      return {};
+  }
+}
+
+std::size_t count_of(std::span<const Joint> joints, JointRole role) {
+  return std::size_t(
+      std::count_if(joints.begin(), joints.end(), [&](const Joint& joint) { return joint.role == role; }));
+}
+
+PlannedRig::PlannedRig(const SkinnedMesh& mesh)
+    : mesh_(mesh),
+      joints_(joint_roles(mesh)),
+      tree_(body_tree(mesh, joints_)),
+      frame_(body_frame(mesh, joints_)),
+      posable_(mesh.bones.size(), 0),
+      curl_axis_(curl_axes(mesh, joints_, tree_, frame_.up)),
+      palm_(palms(mesh, joints_, tree_)),
+      spine_count_(std::max<std::size_t>(1, count_of(joints_, JointRole::spine))),
+      neck_count_(
+          std::max<std::size_t>(1, count_of(joints_, JointRole::neck) + count_of(joints_, JointRole::head))) {
+  for (const std::uint32_t b : posable_joints(mesh)) posable_[b] = 1;
+}
+
+void PlannedRig::reach(BodyPlan& plan, PoseRandom& random) const {
+  constexpr int tries = 24;
+  const int side = random.chance(0.5f) ? 1 : 0;
+  if (palm_[side].bone < 0) return;
+  const bool other_hand = palm_[1 - side].bone >= 0 && random.chance(0.3f);
+  const std::size_t vertex =
+      std::min(std::size_t(random.unit() * float(mesh_.position.size())), mesh_.position.size() - 1);
+  const BodyPoint target =
+      other_hand ? palm_[1 - side]
+                 : BodyPoint{std::int32_t(mesh_.weights[vertex].bone[0]), mesh_.position[vertex]};
+  // A hand cannot reach for its own arm.
+  if (joints_[std::size_t(target.bone)].side == (side ? Side::right : Side::left) &&
+      is_arm(joints_[std::size_t(target.bone)].role))
+    return;
+  const PoseRandom noise = random;  // what a pose draws must not differ between the tries
+  float nearest = INFINITY;
+  LimbPlan best = plan.limb[side];
+  for (int t = 0; t < tries; ++t) {
+    if (t > 0) plan_arm(plan.limb[side], random);
+    PoseRandom own = noise;
+    const Pose candidate = pose(plan, own);
+    const float distance = length(place_in(candidate, palm_[side]) - place_in(candidate, target));
+    if (distance < nearest) {
+      nearest = distance;
+      best = plan.limb[side];
+    }
+  }
+  plan.limb[side] = best;
+}
+
+Pose PlannedRig::pose(const BodyPlan& plan, PoseRandom& random) const {
+  std::vector<Mat3x4> local(mesh_.bones.size());
+  for (std::size_t b = 0; b < local.size(); ++b) {
+    const Vec3 turn = joint_turn(b, plan, random);
+    local[b] = rotation_about(joint_origin(mesh_.bones[b]), turn);
+  }
+  if (!plan.arms_of_motion) place_arms(plan, local);
+  place_limbs_of_motion(plan, local);
+  Pose pose(local.size());
+  for (const std::uint32_t b : tree_.order) {
+    const std::int32_t parent = tree_.parent[b];
+    pose[b] = parent >= 0 ? pose[std::size_t(parent)] * local[b] : local[b];
+  }
+  return pose;
+}
+
+Vec3 PlannedRig::joint_turn(std::size_t b, const BodyPlan& plan, PoseRandom& random) const {
+  const Joint& joint = joints_[b];
+  const int s = joint.side == Side::right ? 1 : 0;
+  const float mirror = joint.side == Side::right ? -1.0f : 1.0f;
+  const LimbPlan& limb = plan.limb[s];
+  const auto& [left, up, forward] = frame_;
+  switch (joint.role) {
+    case JointRole::spine: {
+      const float share = 1 / float(spine_count_);
+      if (plan.trunk_of_motion) return share * in_body(plan.motion.chest) + 0.04f * normal3(random);
+      return share * (plan.bend * left + plan.lean * forward + plan.twist * up) + 0.04f * normal3(random);
+    }
+    case JointRole::neck:
+    case JointRole::head: {
+      const float share = 1 / float(neck_count_);
+      if (plan.trunk_of_motion) return share * in_body(plan.motion.head);
+      return share * (plan.neck.x * left + plan.neck.y * up + plan.neck.z * forward);
+    }
+    case JointRole::clavicle:
+      return limb.clavicle;
+    case JointRole::hand:
+      return limb.hand;
+    case JointRole::finger: {
+      const float curl = limb.curl + 0.2f * random.normal();
+      const Vec3 spread = joint.segment == 0 ? 0.08f * random.normal() * up : Vec3{};
+      return finger_turn(joint, curl_axis_[b], curl) + spread;
+    }
+    case JointRole::thumb:
+      return limb.thumb * std::max(0.2f, limb.curl) * 40 * degree * curl_axis_[b] + 0.08f * normal3(random);
+    case JointRole::thigh:
+      // Flexion swings the knee forwards: a turn about -left.
+      return -limb.hip_flexion * left + mirror * limb.hip_abduction * forward + mirror * limb.hip_twist * up;
+    case JointRole::calf:
+      return limb.knee * left;
+    case JointRole::foot:
+      return limb.ankle * left + 0.12f * normal3(random);
+    case JointRole::toe:
+      return -limb.toe * left;
+    case JointRole::upper_arm:
+    case JointRole::forearm:
+      return {};  // placed by direction, see place_arms
+    case JointRole::pelvis:
+      return {};
+    case JointRole::other: {
+      if (!posable_[b] || joint.side == Side::none) return posable_[b] ? 0.06f * normal3(random) : Vec3{};
+      return 0.08f * std::exp(0.5f * random.normal()) * normal3(random);
+    }
+  }
+  return {};
+}
+
+// Limbs go where motion capture points, seen from the trunk, whatever pose they rest in.
+void PlannedRig::place_limbs_of_motion(const BodyPlan& plan, std::vector<Mat3x4>& local) const {
+  if (!plan.arms_of_motion && !plan.legs_of_motion) return;
+  for (const std::uint32_t b : tree_.order) {
+    const Vec3 wish = wished(plan, joints_[b]);
+    if (dot(wish, wish) == 0) continue;
+    Vec3 rest = limb_direction(mesh_, joints_, b);
+    if (joints_[b].role == JointRole::hand && palm_[joints_[b].side == Side::right].bone == std::int32_t(b))
+      rest = normalised(palm_[joints_[b].side == Side::right].point - joint_origin(mesh_.bones[b]));
+    if (dot(rest, rest) == 0) continue;
+    // The turn of the joints between the trunk and this one.
+    Mat3x4 above;
+    for (std::int32_t p = tree_.parent[b]; p >= 0; p = tree_.parent[std::size_t(p)]) {
+      const JointRole role = joints_[std::size_t(p)].role;
+      if (role == JointRole::spine || role == JointRole::pelvis) break;
+      above = local[std::size_t(p)] * above;
+    }
+    const Vec3 own = transform_vector(inverse_rigid(above), in_body(wish));
+    local[b] = rotation_about(joint_origin(mesh_.bones[b]), shortest_arc(rest, own));
+  }
+}
+
+// Upper arms and forearms go where the plan points, whatever pose they rest in.
+void PlannedRig::place_arms(const BodyPlan& plan, std::vector<Mat3x4>& local) const {
+  const auto& [left, up, forward] = frame_;
+  for (std::size_t b = 0; b < joints_.size(); ++b) {
+    if (joints_[b].role != JointRole::upper_arm) continue;
+    const float mirror = joints_[b].side == Side::right ? -1.0f : 1.0f;
+    const LimbPlan& limb = plan.limb[joints_[b].side == Side::right ? 1 : 0];
+    const Vec3 rest = limb_direction(mesh_, joints_, b);
+    if (dot(rest, rest) == 0) continue;
+    const Vec3 wish = normalised(mirror * limb.arm_direction.x * left + limb.arm_direction.y * up +
+                                 limb.arm_direction.z * forward);
+    const Vec3 origin = joint_origin(mesh_.bones[b]);
+    local[b] =
+        rotation_about(origin, limb.arm_twist * wish) * rotation_about(origin, shortest_arc(rest, wish));
+    const std::int32_t elbow = joints_[b].continuation;
+    if (elbow < 0) continue;
+    // The forearm bends forwards, a little up and inwards, seen from the posed upper arm, then back into
+    // rest axes.
+    const Vec3 lean = forward + 0.5f * up - 0.5f * mirror * left + limb.elbow_lean;
+    const Vec3 inward = normalised(lean - dot(lean, wish) * wish);
+    const Vec3 axis_posed = normalised(cross(wish, inward));
+    const Vec3 axis = transform_vector(inverse_rigid(local[b]), axis_posed);
+    // The rest pose may hold a slight bend already: first straighten, then bend.
+    const Vec3 fore = limb_direction(mesh_, joints_, std::size_t(elbow));
+    const Vec3 joint = joint_origin(mesh_.bones[std::size_t(elbow)]);
+    const Mat3x4 straighten =
+        dot(fore, fore) > 0 ? rotation_about(joint, shortest_arc(fore, rest)) : Mat3x4{};
+    local[std::size_t(elbow)] = rotation_about(joint, limb.elbow * axis) * straighten;
+  }
+}
+
+}  // namespace
 
 std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> vertex_area, std::size_t count,
                              std::uint64_t seed) {

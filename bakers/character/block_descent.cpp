@@ -1,12 +1,92 @@
 #include "bakers/character/block_descent.h"
 
 #include <LBFGS.h>
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <stdexcept>
 
-#include "bakers/character/cached_objective.h"
-
 namespace nook::bake {
+namespace {
+
+// Poses of one task; each has sums of its own, added in order afterwards, so that threads do not change the
+// bits.
+constexpr std::size_t block_poses = 32;
+
+// Returns the quadratic form of a block's shadows (count x padded) without its constant, and turns them, in
+// place, into its gradient by them.
+double quadratic_form(const CachedObjective& cache, std::size_t first, std::size_t count, float* shadow) {
+  const auto rows = Eigen::Index(count);
+  Eigen::Map<CachedObjective::RowMatrix> x(shadow, rows, cache.a.rows());
+  const auto b = cache.b.middleRows(Eigen::Index(first), rows);
+  const CachedObjective::RowMatrix product = x * cache.a;
+  double error = 0;
+  for (Eigen::Index t = 0; t < rows; ++t)
+    error += (product.row(t).cast<double>() - 2 * b.row(t).cast<double>()).dot(x.row(t).cast<double>());
+  x = 2 * (product - b);
+  return error;
+}
+
+}  // namespace
+
+CachedObjective cache_linear_layer(const FitState& state, const TrainingSet& set) {
+  const LinearLayerFit& linear = state.linear;
+  const auto padded = Eigen::Index(state.structure.padded_count()), poses = Eigen::Index(set.fitted());
+  CachedObjective cache;
+  cache.a = Eigen::MatrixXf::Zero(padded, padded);
+  cache.b = CachedObjective::RowMatrix::Zero(poses, padded);
+  for (std::size_t i = 0; i < linear.vertex_count(); ++i)
+    for (std::size_t s = i * linear.entries; s < (i + 1) * linear.entries; ++s)
+      for (std::size_t r = i * linear.entries; r < (i + 1) * linear.entries; ++r)
+        cache.a(linear.key_point[s], linear.key_point[r]) +=
+            set.vertex_weight[i] * linear.alpha[s] * linear.alpha[r];
+  std::vector<double> constant(set.fitted());
+  tbb::parallel_for(std::size_t(0), set.fitted(), [&](std::size_t t) {
+    const auto target = set.targets.row(t);
+    for (std::size_t i = 0; i < linear.vertex_count(); ++i) {
+      const float left = 1 - linear.bias[i] - float(target[i]) * AoTargets::scale;
+      for (std::size_t s = i * linear.entries; s < (i + 1) * linear.entries; ++s)
+        cache.b(Eigen::Index(t), linear.key_point[s]) += set.vertex_weight[i] * linear.alpha[s] * left;
+      constant[t] += double(set.vertex_weight[i]) * double(left) * double(left);
+    }
+  });
+  for (double c : constant) cache.constant += c;
+  return cache;
+}
+
+double evaluate_cached(const FitState& state, const TrainingSet& set, const CachedObjective& cache,
+                       std::vector<double>* gradient) {
+  const std::size_t poses = set.fitted(), padded = state.structure.padded_count();
+  const std::size_t blocks = (poses + block_poses - 1) / block_poses;
+  const NonLinearLayer layer(state.structure);
+  std::vector<double> error(blocks);
+  std::vector<std::vector<float>> partial(blocks);
+  tbb::parallel_for(std::size_t(0), blocks, [&](std::size_t b) {
+    const std::size_t first = b * block_poses, count = std::min(block_poses, poses - first);
+    LayerWorkspace workspace(state.structure);
+    std::vector<float> shadow(count * padded);
+    for (std::size_t t = 0; t < count; ++t)
+      layer.forward(set.poses[first + t], state.parameters, workspace, &shadow[t * padded]);
+    error[b] = quadratic_form(cache, first, count, shadow.data());
+    if (!gradient) return;
+    partial[b].assign(state.parameters.size(), 0.0f);
+    std::vector<float> again(padded);
+    for (std::size_t t = 0; t < count; ++t) {
+      // The workspace holds one pose; a second forward is cheaper than keeping all of them.
+      layer.forward(set.poses[first + t], state.parameters, workspace, again.data());
+      layer.backward(set.poses[first + t], state.parameters, workspace, &shadow[t * padded], 1, partial[b]);
+    }
+  });
+  double total = 0;
+  for (double e : error) total += e;
+  const double vertices = double(state.linear.vertex_count()), scale = 1 / (double(poses) * vertices);
+  if (gradient) {
+    gradient->assign(state.parameters.size(), 0.0);
+    for (const std::vector<float>& p : partial)
+      for (std::size_t i = 0; i < p.size(); ++i) (*gradient)[i] += double(p[i]) * scale;
+  }
+  return total * scale + cache.constant / (double(poses) * vertices);
+}
 
 double descend_non_linear(FitState& state, const TrainingSet& set, const LbfgsSettings& settings) {
   const CachedObjective cache = cache_linear_layer(state, set);

@@ -4,7 +4,9 @@
 #include <span>
 
 #include "bakers/character/fit_state.h"
+#include "bakers/import/gltf.h"
 #include "bakers/import/skinned_mesh.h"
+#include "sdk/src/character/bind_data.h"
 #include "sdk/src/character/model.h"
 
 namespace nook::bake {
@@ -17,5 +19,15 @@ CharacterModel export_model(const FitState& state, const SkinnedMesh& mesh,
 
 // The way back, so that a model can be fitted further or measured by the bakers' own code.
 FitState state_of_model(const CharacterModel& model);
+
+// The part of its source's rest pose that a model keeps, so that hosts can hand over their own matrices and
+// meshes.
+
+// Bind matrices, skins, and rest vertices that are spread over the bones. Bones of a character from arrays
+// have the inverses of their rest frames, and no skins.
+BindData bind_data_of(const ImportedCharacter& character);
+
+// Positions and normals of the welded vertices in the rest pose.
+RestSurface rest_surface_of(const SkinnedMesh& mesh);
 
 }  // namespace nook::bake

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "bakers/character/body_frame.h"
-#include "bakers/character/joint_origin.h"
+#include "bakers/character/rig_anatomy.h"
 
 namespace nook::bake {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "bakers/character/body_tree.h"
+#include "bakers/character/rig_anatomy.h"
 
 namespace nook::bake {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bakers/character/joint_origin.h"
+#include "bakers/character/rig_anatomy.h"
 #include "bakers/character/rotation.h"
 
 namespace nook::bake {

@@ -5,9 +5,9 @@
 #include <array>
 #include <vector>
 
-#include "bakers/character/body_frame.h"
 #include "bakers/character/hands.h"
 #include "bakers/character/joint_motion.h"
+#include "bakers/character/rig_anatomy.h"
 #include "bakers/raytrace/random.h"
 
 namespace nook::bake {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bakers/character/joint_origin.h"
+#include "bakers/character/rig_anatomy.h"
 #include "bakers/character/rotation.h"
 
 namespace nook::bake {

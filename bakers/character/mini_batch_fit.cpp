@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
-#include "bakers/character/batch_kernels.h"
-#include "sdk/src/character/model_check.h"
+#include "bakers/character/layer_kernels.h"
+#include "sdk/src/character/model.h"
 
 namespace nook::bake {
 namespace {

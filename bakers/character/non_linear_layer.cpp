@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "bakers/character/pair_kernels.h"
+#include "bakers/character/layer_kernels.h"
 
 namespace nook::bake {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bakers/character/body_tree.h"
+#include "bakers/character/rig_anatomy.h"
 
 namespace nook::bake {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_light.h"
 
 namespace nook::bake::probe {
 namespace {

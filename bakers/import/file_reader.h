@@ -7,13 +7,30 @@
 #include <cstdint>
 #include <filesystem>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "bakers/import/gltf_preflight.h"
 #include "bakers/import/linked_files.h"
 
 namespace nook::bake {
+
+// The demands of a glTF file, checked before anything is allocated for it or another file is opened.
+
+// Of a file, of the buffers that it declares, and of the files that it names, added up each.
+constexpr std::uint64_t max_file_bytes = std::uint64_t{1} << 31;
+
+struct GltfPreflight {
+  std::set<std::string> buffer_files;  // URIs of the buffers in other files, decoded
+};
+
+// Looks at the JSON of a file. Fails with BAD_FILE on nesting deeper than 128 levels, on more than 2^24
+// values, on extensions that the file requires and nobody reads here, which are named with the tool that
+// takes them out, and on buffers of more than max_file_bytes in all. Anything else that is wrong is left to
+// the parser.
+GltfPreflight check_before_parsing(std::span<const std::byte> json);
+
+// Reads a glTF file and the files that it names, each within limits.
 
 // The bytes of a file that a user named, up to max_file_bytes; it may be a pipe. Fails with BAD_FILE.
 std::vector<std::byte> read_file_bytes(const std::filesystem::path& path);

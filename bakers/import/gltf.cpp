@@ -10,7 +10,7 @@
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_mesh.h"
 #include "bakers/import/skeleton.h"
-#include "bakers/import/validate.h"
+#include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/hash.h"
 

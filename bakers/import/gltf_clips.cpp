@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "bakers/import/accessor.h"
-#include "bakers/import/unique_names.h"
+#include "bakers/import/node_tree.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {

@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "bakers/import/file_reader.h"
-#include "bakers/import/gltf_preflight.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {

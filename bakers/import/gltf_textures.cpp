@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "bakers/import/gltf_preflight.h"
+#include "bakers/import/file_reader.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sdk/src/core/affine.h"
@@ -36,5 +37,11 @@ std::vector<Affine> default_world_transforms(const NodeTree& tree);
 
 // Default local transforms of all nodes, where a clip's sampling begins.
 std::vector<Trs> default_locals(const NodeTree& tree);
+
+// Names that can be looked up: never empty, never twice.
+
+// An empty name becomes `stem` and its index ("clip_0"); one that came before gets the first free suffix
+// "_2", "_3", ...
+std::vector<std::string> unique_names(const std::vector<std::string>& names, std::string_view stem);
 
 }  // namespace nook::bake

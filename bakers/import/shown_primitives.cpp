@@ -1,12 +1,66 @@
 #include "bakers/import/shown_primitives.h"
 
+#include <algorithm>
+
 #include "bakers/import/gltf_document.h"
-#include "bakers/import/morph_targets.h"
-#include "bakers/import/primitive_triangles.h"
-#include "bakers/import/validate.h"
+#include "bakers/import/gltf_mesh.h"
+#include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
+namespace {
+
+constexpr std::size_t max_triangles = std::size_t{1} << 25;
+
+int mode_of(const tinygltf::Primitive& primitive) {
+  return primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+}
+
+}  // namespace
+
+bool has_triangles(const tinygltf::Primitive& primitive) {
+  const int mode = mode_of(primitive);
+  return mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
+         mode == TINYGLTF_MODE_TRIANGLE_FAN;
+}
+
+int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
+  const auto found = primitive.attributes.find(name);
+  return found == primitive.attributes.end() ? -1 : found->second;
+}
+
+// glTF 2.0, section 3.7.2.1: how strips and fans turn into triangles that all face the same way.
+void append_triangles(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                      std::size_t vertices, const std::string& what,
+                      std::vector<std::array<std::uint32_t, 3>>& out) {
+  std::vector<std::uint32_t> index;
+  if (primitive.indices >= 0) {
+    index = read_integers(model, primitive.indices, 1, what + ".indices").value;
+    for (const std::uint32_t i : index)
+      if (i >= vertices)
+        throw Failure(NOOK_ERROR_BAD_FILE, "%s has index %u (it has %zu vertices)", what.c_str(), i,
+                      vertices);
+  } else {
+    for (std::uint32_t i = 0; i < vertices; ++i) index.push_back(i);
+  }
+  const std::size_t n = index.size();
+  if (n > max_triangles - std::min(out.size(), max_triangles))
+    throw Failure(NOOK_ERROR_BAD_FILE, "too many triangles (need at most %zu)", max_triangles);
+  const int mode = mode_of(primitive);
+  if (mode == TINYGLTF_MODE_TRIANGLES) {
+    if (n % 3 != 0)
+      throw Failure(NOOK_ERROR_BAD_FILE, "%s: a triangle list of %zu indices (need three a triangle)",
+                    what.c_str(), n);
+    for (std::size_t i = 0; i + 2 < n; i += 3) out.push_back({index[i], index[i + 1], index[i + 2]});
+    return;
+  }
+  for (std::size_t i = 0; i + 2 < n; ++i) {
+    if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
+      out.push_back({index[i], index[i + 1 + i % 2], index[i + 2 - i % 2]});
+    else
+      out.push_back({index[i + 1], index[i + 2], index[0]});
+  }
+}
 
 void for_each_shown_primitive(const tinygltf::Model& model,
                               const std::function<void(const ShownPrimitive&)>& visit) {

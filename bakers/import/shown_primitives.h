@@ -1,9 +1,11 @@
 // The primitives that the default scene of a file shows, each with its place in the world, for readers of
-// shapes that do not move.
+// shapes that do not move; and the triangles of one, whichever way it lists them.
 #pragma once
 
 #include <tiny_gltf.h>
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -12,6 +14,19 @@
 #include "sdk/src/core/affine.h"
 
 namespace nook::bake {
+
+// False for points and lines.
+bool has_triangles(const tinygltf::Primitive& primitive);
+
+// The accessor of an attribute, -1 without it.
+int attribute(const tinygltf::Primitive& primitive, const std::string& name);
+
+// Appends the triangles of a list, strip or fan of `vertices` vertices; `what` names the primitive in
+// messages. Fails with BAD_FILE on an index out of range, and where `out` would exceed 2^25 triangles, which
+// bounds memory on hostile input.
+void append_triangles(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                      std::size_t vertices, const std::string& what,
+                      std::vector<std::array<std::uint32_t, 3>>& out);
 
 struct ShownPrimitive {
   const tinygltf::Primitive* primitive = nullptr;  // of the model

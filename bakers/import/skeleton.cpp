@@ -5,8 +5,8 @@
 #include <numeric>
 #include <optional>
 
-#include "bakers/import/unique_names.h"
-#include "bakers/import/validate.h"
+#include "bakers/import/node_tree.h"
+#include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {

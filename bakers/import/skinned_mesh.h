@@ -2,8 +2,11 @@
 // transforms), bones with their rest frames, and the way back to the file's own vertex order.
 #pragma once
 
+#include <nook/nook.h>
+
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,5 +48,33 @@ struct SkinnedMesh {
 
 // One matrix per bone, rest space to world.
 using Pose = std::vector<Mat3x4>;
+
+// Posed positions, normals and areas of welded vertices.
+
+// Linear blend skinning. `out_ws` is resized to the mesh's vertices; reuse it between poses.
+void skin_positions(const SkinnedMesh& mesh, const Pose& pose, std::vector<Vec3>& out_ws);
+
+// Area-weighted unit normals. A vertex whose faces cancel out takes the normal of one of them, +y where all
+// its faces are degenerate or where it has none.
+void vertex_normals(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const Vec3> positions,
+                    std::vector<Vec3>& out);
+
+// Mixed Voronoi area of each vertex (Meyer, Desbrun, Schroeder, Barr 2003, "Discrete Differential-Geometry
+// Operators for Triangulated 2-Manifolds", section 3.3). They add up to the surface's area.
+std::vector<float> vertex_areas(const SkinnedMesh& mesh, std::span<const Vec3> positions);
+
+// The check of a mesh before a bake, for meshes from files and from memory.
+
+struct FileMesh;
+
+constexpr std::size_t max_bone_count = 65535;  // bone indices are 16 bits
+constexpr std::size_t max_file_vertices =
+    10'000'000;  // bounds memory on hostile input, far above any character
+
+// Bones: 1 to max_bone_count, parents before children, finite orthonormal frames. Positions finite, weights
+// finite, non-negative, sum 1 and not all zero, bones and indices in range, primitives in a row over all
+// vertices, at least one triangle. Fails with `code`, naming the first fault and how many there are.
+void validate(const FileMesh& mesh, nook_result code = NOOK_ERROR_INVALID_ARGUMENT);
+void validate(const SkinnedMesh& mesh, nook_result code = NOOK_ERROR_INVALID_ARGUMENT);
 
 }  // namespace nook::bake

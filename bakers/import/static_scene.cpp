@@ -8,11 +8,10 @@
 #include "bakers/import/file_reader.h"
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_textures.h"
-#include "bakers/import/primitive_triangles.h"
 #include "bakers/import/shown_primitives.h"
-#include "bakers/import/validate.h"
+#include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::bake {
 namespace {

@@ -2,13 +2,13 @@
 // that ambient occlusion agrees across seams; the two sides of a card stay apart, since each has its own.
 #pragma once
 
+#include <nook/nook.h>
+
 #include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <nook/nook.h>
 
 #include "bakers/import/skinned_mesh.h"
 

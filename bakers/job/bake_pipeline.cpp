@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bakers/character/bind_data.h"
+#include "bakers/character/export_model.h"
 #include "bakers/character/pose_sets.h"
 #include "bakers/world/fit_casters.h"
 #include "platform/peak_memory.h"

@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "bakers/character/occluded_fit.h"
 #include "bakers/character/pose_sets.h"
 #include "bakers/character/recipe.h"
+#include "bakers/character/vertex_fits.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bakers/character/clip_bake.h"
+#include "bakers/character/clip_tables.h"
 #include "bakers/job/baked_file.h"
 
 namespace nook::bake {

@@ -5,7 +5,7 @@
 
 #include "bakers/character/pose_sets.h"
 #include "bakers/job/worker_arena.h"
-#include "sdk/src/character/model_check.h"
+#include "sdk/src/character/model.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {

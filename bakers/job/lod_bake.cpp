@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bakers/character/bind_data.h"
+#include "bakers/character/export_model.h"
 #include "bakers/character/pose_sets.h"
 #include "bakers/character/recipe.h"
-#include "bakers/character/refit_vertices.h"
+#include "bakers/character/vertex_fits.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"

@@ -2,9 +2,9 @@
 
 #include <string_view>
 
+#include "bakers/material/baked_figures.h"
 #include "bakers/material/builtin_ranks.h"
 #include "bakers/material/fill_gaps.h"
-#include "bakers/measure/material/report.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/material/material_file.h"
 
@@ -74,31 +74,43 @@ JobStage stage_of(std::string_view stage) {
 
 }  // namespace
 
-BakedFile bake_material(MaterialTask& task, const StageReport& progress) {
-  platform::Stopwatch watch;
-  const RawMaterial raw = obtain(task, progress);
-  const double seconds_source = watch.lap_seconds();
-  const StageProgress stages = [&](const char* stage, std::size_t done, std::size_t total) {
-    return progress(stage_of(stage), done, total);
-  };
-  const MovedMaterial moved = move_views(raw, task.settings.relief, stages);
-  const CompressionSettings settings = settings_for(task, moved.or_still(raw));
-  nook::material::Material material = compress_moved(raw, moved, settings, stages);
+CompressedMaterial compress_to_file(const RawMaterial& raw, ReliefSource relief, const ChooseSettings& choose,
+                                    const Json& source, const Json& relief_source,
+                                    const StageProgress& progress) {
+  const platform::Stopwatch watch;
+  const MovedMaterial moved = move_views(raw, relief, progress);
+  const CompressionSettings settings = choose(moved.or_still(raw));
+  nook::material::Material material = compress_moved(raw, moved, settings, progress);
   const double seconds = watch.seconds();
-  const Json recipe = {{"source", source_of(task, raw)}, {"compression", describe(settings)}};
-  material.recipe = recipe.dump().c_str();
+  CompressedMaterial out;
+  out.recipe = {{"source", source}, {"compression", describe(settings)}};
+  if (!relief_source.is_null()) out.recipe["relief"] = relief_source;
+  // Names come from files and need not be UTF-8.
+  material.recipe = out.recipe.dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
   set_core_rounding(raw, material);
-  BakedFile file;
-  file.model = nook::material::write_material(material);
-  MethodRow row = measure_material(raw, nook::material::read_material(file.model));
-  row.method = method_name(settings.method);
-  row.seconds = seconds;
-  Json report = report_row(raw.name, row);
+  out.file = nook::material::write_material(material);
+  BakedFigures figures = measure_material(raw, nook::material::read_material(out.file));
+  figures.method = method_name(settings.method);
+  figures.seconds = seconds;
+  out.row = report_row(raw.name, figures);
+  return out;
+}
+
+BakedFile bake_material(MaterialTask& task, const StageReport& progress) {
+  const platform::Stopwatch watch;
+  const RawMaterial raw = obtain(task, progress);
+  const double seconds_source = watch.seconds();
+  CompressedMaterial compressed = compress_to_file(
+      raw, task.settings.relief, [&](const RawMaterial& fitted) { return settings_for(task, fitted); },
+      source_of(task, raw), {},
+      [&](const char* stage, std::size_t done, std::size_t total) {
+        return progress(stage_of(stage), done, total);
+      });
+  Json report = std::move(compressed.row);
   report["seconds_source"] = seconds_source;
-  report["file_bytes"] = file.model.size();
-  report["recipe"] = recipe;
-  file.report = report.dump(2);
-  return file;
+  report["file_bytes"] = compressed.file.size();
+  report["recipe"] = std::move(compressed.recipe);
+  return {std::move(compressed.file), report.dump(2)};
 }
 
 }  // namespace nook::bake

@@ -9,7 +9,7 @@
 #include "bakers/material/raw_file.h"
 #include "bakers/material/relief.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 
 namespace nook::bake {
 namespace {

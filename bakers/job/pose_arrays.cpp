@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::bake {
 

@@ -1,6 +1,5 @@
 #include "bakers/job/probe_bake.h"
 
-#include "bakers/probe/surface_fit.h"
 #include "bakers/probe/wall_fit.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"

@@ -4,13 +4,13 @@
 
 #include "bakers/material/appearance.h"
 #include "bakers/material/raw_file.h"
-#include "bakers/synthesis/balance.h"
+#include "bakers/synthesis/exemplar.h"
 #include "bakers/synthesis/seam_energy.h"
 #include "platform/peak_memory.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/material/material_file.h"
-#include "sdk/src/synthesis/coordinates_file.h"
+#include "sdk/src/synthesis/coordinates.h"
 
 namespace nook::bake {
 namespace {

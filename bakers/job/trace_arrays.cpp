@@ -4,7 +4,7 @@
 
 #include "bakers/job/worker_arena.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::bake {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "bakers/import/tangents.h"
+#include "bakers/import/surface_mesh.h"
 #include "platform/peak_memory.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"

@@ -10,9 +10,8 @@
 
 #include "bakers/material/directions.h"
 #include "bakers/material/raw_file.h"
-#include "sdk/src/core/bit_cast.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 
 namespace nook::bake::material {
 namespace {

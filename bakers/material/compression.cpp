@@ -2,17 +2,18 @@
 
 #include <algorithm>
 
+#include "bakers/material/btf_error.h"
 #include "bakers/material/neural_training.h"
 #include "bakers/material/relief.h"
 #include "bakers/material/signed_distance.h"
 #include "bakers/material/view_spline.h"
 #include "bakers/material/visibility_margin.h"
+#include "bakers/tensor/gram.h"
 #include "bakers/tensor/nsvd.h"
-#include "bakers/tensor/rank_choice.h"
 #include "bakers/tensor/resample.h"
 #include "bakers/tensor/seed_clusters.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 
 namespace nook::bake::material {
 namespace {
@@ -350,6 +351,15 @@ Material compress_moved(const RawMaterial& raw, const MovedMaterial& moved, cons
   material.mapping = s.mapping ? *s.mapping : default_mapping(s.visibility, raw.width, raw.height);
   material.votf = compress_votf(raw, votf_values(raw, s.visibility), votf_settings(s), progress);
   return material;
+}
+
+void set_core_rounding(const RawMaterial& raw, nook::material::Material& material) {
+  if (material.bits == 16 || material.neural.is_used()) return;
+  constexpr double added = 0.01, least = 0x1p-30, largest = 0x1p-7;
+  const BtfError error = measure_btf(raw, material);
+  const double share =
+      error.squared_signal > 0 ? added * error.squared_error / error.squared_signal : largest;
+  material.core_rounding = float(std::clamp(share, least, largest));
 }
 
 CompressionSettings ranks_by_threshold(const RawMaterial& raw, double share, CompressionSettings s) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake::material {

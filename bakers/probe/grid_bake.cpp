@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "bakers/probe/inside_probes.h"
-#include "bakers/probe/map_samples.h"
-#include "bakers/probe/moved_probes.h"
+#include "bakers/probe/map_bake.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake::probe {

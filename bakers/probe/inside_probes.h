@@ -20,4 +20,15 @@ std::vector<bool> inside_probes(const LitScene& scene, const nook::probe::Grid& 
 // Gives each probe inside the mean of its neighbours outside, six at most, and so on from there inwards.
 void fill_inside(nook::probe::Probes& probes, std::vector<bool> inside);
 
+// Where the probes of a grid stand: at their places in the grid, or moved out of solids and away from walls,
+// where most of what they would see is the wall itself.
+
+// Moves a probe that stands in a solid, or nearer to a surface than a tenth of the shortest spacing, to the
+// nearest place that is clear of both, less than half of a spacing away along each axis. A probe without such
+// a place stays.
+std::vector<Vec3> moved_probes(const LitScene& scene, const nook::probe::Grid& grid);
+
+// Those of the grid.
+std::vector<Vec3> grid_probes(const nook::probe::Grid& grid);
+
 }  // namespace nook::bake::probe

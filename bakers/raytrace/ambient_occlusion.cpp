@@ -11,7 +11,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {

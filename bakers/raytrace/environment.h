@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "sdk/src/core/light_map.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook::bake {
@@ -72,5 +73,16 @@ class LightSampler {
   std::vector<float> keep_;                // Walker's alias table, by Vose's construction
   std::vector<std::uint32_t> other_;
 };
+
+// The suns of an environment, by the rule of the runtime: sdk/src/core/map_suns.h.
+
+using Sun = MapSun;
+
+// The luminance where suns begin.
+double sun_limit(const Environment& environment);
+// Without the brightest ones, at most so many.
+Environment without_suns(const Environment& environment, std::size_t max_count = ~std::size_t(0));
+// The brightest ones, by luminance.
+std::vector<Sun> find_suns(const Environment& environment, std::size_t max_count);
 
 }  // namespace nook::bake

@@ -8,7 +8,6 @@
 #include "bakers/import/static_scene.h"
 #include "bakers/raytrace/environment.h"
 #include "bakers/raytrace/ray_scene.h"
-#include "bakers/raytrace/suns.h"
 #include "bakers/raytrace/texture.h"
 
 namespace nook::bake {

@@ -87,6 +87,15 @@ Vec3 irradiance_path(const LitScene& scene, Vec3 position, Vec3 normal, Vec3 dir
 
 }  // namespace
 
+const std::vector<std::string>& direct_names() {
+  static const std::vector<std::string> names{"none", "sky", "all"};
+  return names;
+}
+
+DirectLight direct_of(const std::string& name) {
+  return DirectLight(std::ranges::find(direct_names(), name) - direct_names().begin());
+}
+
 Vec3 trace_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, const PathSettings& settings,
                     Random& random) {
   const RayHit hit = scene.nearest(origin, direction);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "bakers/raytrace/ambient_occlusion.h"
@@ -18,6 +19,10 @@ enum class DirectLight : std::uint8_t {
   sky = 1,  // the environment without its suns, see suns.h
   all = 2
 };
+
+// Names of DirectLight, in its order, and back.
+const std::vector<std::string>& direct_names();
+DirectLight direct_of(const std::string& name);
 
 struct PathSettings {
   std::uint32_t max_bounces = ~0u;  // maximum number of reflections; 0: direct light only

@@ -1,18 +1,36 @@
 // Triangles for ray tracing, and the rays that meet them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "bakers/raytrace/flush_denormals.h"
 #include "sdk/src/core/vec.h"
+
+namespace nook::bake {
+
+// Denormals as zero, for threads that trace.
+
+// Keep one on every thread that traces: Embree is much slower on denormals. The destructor restores the
+// caller's mode. Processors other than x86 and ARM64 keep their mode.
+class FlushDenormals {
+ public:
+  FlushDenormals();
+  ~FlushDenormals();
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  std::uint64_t saved_;
+};
+
+}  // namespace nook::bake
 
 // Embree's handles. Only ray_scene.cpp includes Embree.
 struct RTCDeviceTy;
 struct RTCSceneTy;
-
 namespace nook::bake {
 
 // Occluders in world space and metres.
@@ -71,5 +89,21 @@ class RayScene {
   RTCDeviceTy* device_;
   RTCSceneTy* scene_;
 };
+
+// The box round points.
+
+struct Bounds {
+  Vec3 low, high;
+};
+
+// points has one or more.
+inline Bounds bounds_of(std::span<const Vec3> points) {
+  Bounds b{points.front(), points.front()};
+  for (const Vec3 p : points) {
+    b.low = {std::min(b.low.x, p.x), std::min(b.low.y, p.y), std::min(b.low.z, p.z)};
+    b.high = {std::max(b.high.x, p.x), std::max(b.high.y, p.y), std::max(b.high.z, p.z)};
+  }
+  return b;
+}
 
 }  // namespace nook::bake

@@ -1,12 +1,16 @@
-// The looks of the texels that a synthesis takes from.
+// A material as the example of a plane: its looks, their averages, and what one level of the synthesis
+// compares.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "bakers/tensor/tensor.h"
 
 namespace nook::bake::synthesis {
+
+// The looks of the texels that a synthesis takes from.
 
 // A texel of an exemplar, or a step between two.
 struct Texel {
@@ -64,5 +68,27 @@ struct Exemplar {
   ExemplarShape shape;
   tensor::Matrix values;  // a row for each texel, y * width + x
 };
+
+// The Gaussian stack of an exemplar: versions of growing blur, all with as many texels as the exemplar.
+
+// Returns levels + 1 versions. The first is the exemplar; each further one is the last, filtered along both
+// axes with (1, 4, 6, 4, 1) / 16 at a spacing of 1, 2, 4, ... texels.
+std::vector<tensor::Matrix> gaussian_stack(const Exemplar& exemplar, std::uint32_t levels);
+
+// Appearance vectors: short vectors that describe the surroundings of an exemplar's texels.
+
+inline constexpr std::uint32_t appearance_channels = 8;
+
+// The window of a texel is 5 x 5 texels of `values` at the spacing. Returns the leading principal components
+// of all windows, a row for each texel.
+tensor::Matrix appearance_vectors(const tensor::Matrix& values, const ExemplarShape& shape,
+                                  std::int32_t spacing);
+
+// The weight of small details beside large forms.
+
+// Returns the exemplar with each channel divided by the root of its standard deviation, and the total
+// variance kept. Principal components of a material with holes are the holes above all, and a synthesis that
+// sees nothing else makes the rest flat.
+Exemplar balanced(const Exemplar& exemplar);
 
 }  // namespace nook::bake::synthesis

@@ -1,6 +1,9 @@
 #include "bakers/tensor/clustered_fit.h"
 
-#include "bakers/tensor/mode_product.h"
+#include <algorithm>
+#include <cmath>
+
+#include "bakers/tensor/tensor.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
@@ -48,6 +51,78 @@ Tensor reconstruct(const ClusteredFit& fit) {
     for (std::size_t e = 0; e < sum.data.size(); ++e) sum.data[e] += part.data[e];
   }
   return mode_products(sum, fit.global_basis);
+}
+
+namespace {
+
+void check_seeds(std::size_t sub_tensors, const ClusteredSettings& s) {
+  if (s.seeds.size() != sub_tensors)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "seeds name the clusters of %zu sub-tensors (mode %zu has %zu)", s.seeds.size(), s.mode + 1,
+                  sub_tensors);
+  std::vector<std::size_t> members(s.clusters);
+  for (std::size_t i = 0; i < sub_tensors; ++i) {
+    if (s.seeds[i] >= s.clusters)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "the seed of sub-tensor %zu is cluster %u (need less than %zu)", i, s.seeds[i],
+                    s.clusters);
+    ++members[s.seeds[i]];
+  }
+  const auto empty = std::find(members.begin(), members.end(), std::size_t(0));
+  if (empty != members.end())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "no sub-tensor is seeded in cluster %zu; each needs one",
+                  std::size_t(empty - members.begin()));
+}
+
+}  // namespace
+
+void check_ranks(const Dimensions& dimensions, const std::vector<std::size_t>& ranks) {
+  if (ranks.size() != dimensions.size())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%zu ranks for a tensor of order %zu; one a mode is needed",
+                  ranks.size(), dimensions.size());
+  for (std::size_t n = 0; n < ranks.size(); ++n)
+    if (ranks[n] < 1 || ranks[n] > dimensions[n])
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "the rank of mode %zu is out of range (got %zu, need 1 to %zu)", n + 1, ranks[n],
+                    dimensions[n]);
+}
+
+void check_iterations(int iterations, double tolerance) {
+  if (iterations < 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "iterations are negative (got %d, need 0 or more)",
+                  iterations);
+  if (!(tolerance >= 0) || !std::isfinite(tolerance))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "tolerance is out of range (got %g, need 0 or more)",
+                  tolerance);
+}
+
+void check_clustered(const Dimensions& dimensions, const ClusteredSettings& s) {
+  if (s.mode >= dimensions.size())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the clustered mode is mode %zu of a tensor of order %zu",
+                  s.mode + 1, dimensions.size());
+  check_ranks(dimensions, s.ranks);
+  check_iterations(s.iterations, s.tolerance);
+  const std::size_t sub_tensors = dimensions[s.mode];
+  if (s.clusters < 1 || s.clusters > sub_tensors)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "clusters are out of range (got %zu, need 1 to the %zu sub-tensors of mode %zu)",
+                  s.clusters, sub_tensors, s.mode + 1);
+  if (s.mixture < 1 || s.mixture > s.clusters)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "mixture clusters are out of range (got %zu, need 1 to the %zu clusters)", s.mixture,
+                  s.clusters);
+  if (s.nearest > 0 && s.mode != 0)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the nearest clusters can be tried in mode 1 only (mode %zu is clustered)", s.mode + 1);
+  if (s.sweeps < 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "sweeps are out of range (got %d, need 1 or more)", s.sweeps);
+  for (std::size_t n : s.global_modes)
+    if (n >= dimensions.size() || n == s.mode)
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "mode %zu cannot have a global basis (the tensor has %zu modes, and mode %zu is clustered)", n + 1,
+          dimensions.size(), s.mode + 1);
+  check_seeds(sub_tensors, s);
 }
 
 }  // namespace nook::bake::tensor

@@ -91,4 +91,11 @@ ClusteredFit as_one_cluster(const Nsvd& fit, std::size_t mode);
 
 Tensor reconstruct(const ClusteredFit& fit);
 
+// Checks of settings, with messages that name them.
+
+// All of them throw INVALID_ARGUMENT. Messages count modes from 1, as the paper does.
+void check_ranks(const Dimensions& dimensions, const std::vector<std::size_t>& ranks);
+void check_iterations(int iterations, double tolerance);
+void check_clustered(const Dimensions& dimensions, const ClusteredSettings& settings);
+
 }  // namespace nook::bake::tensor

@@ -1,15 +1,83 @@
 #include <algorithm>
+#include <functional>
 #include <numeric>
+#include <utility>
 
-#include "bakers/tensor/atoms.h"
-#include "bakers/tensor/empty_clusters.h"
-#include "bakers/tensor/iteration.h"
-#include "bakers/tensor/mode_product.h"
-#include "bakers/tensor/progress.h"
+#include "bakers/tensor/clustered_fit.h"
+#include "bakers/tensor/mixture_search.h"
+#include "bakers/tensor/stages.h"
+#include "bakers/tensor/tensor.h"
+#include "bakers/tensor/working_fit.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
+
 namespace {
+
+// The loop of Algorithm 1, which CTA shares.
+
+struct StepResult {
+  double error = 0;        // || A_G - A^ ||^2
+  std::size_t splits = 0;  // empty clusters that were filled
+};
+// One iteration: both stages, from the fit that it changes. objective is that of the iteration before.
+using Step =
+    std::function<StepResult(WorkingFit& fit, const TensorView& reduced, int iteration, double objective)>;
+
+using Eigen::Index;
+
+ClusteredFit as_result(WorkingFit&& fit, Reduction&& reduction, const TensorView& a,
+                       const ClusteredSettings& settings) {
+  ClusteredFit result;
+  result.mode = fit.mode;
+  result.dimensions = a.dimensions;
+  result.ranks = settings.ranks;
+  result.global_basis = std::move(reduction.global_basis);
+  result.mixture.count = fit.mixture;
+  const Index rank = Index(settings.ranks[fit.mode]);
+  result.mixture.coefficients = Matrix::Zero(Index(a.dimensions[fit.mode]), Index(fit.mixture) * rank);
+  std::vector<Index> next(fit.clusters.size());
+  for (std::size_t e = 0; e < fit.membership.size(); ++e) {
+    const std::uint32_t c = fit.membership[e];
+    result.mixture.coefficients.block(Index(e / fit.mixture), Index(e % fit.mixture) * rank, 1, rank) =
+        fit.clusters[c].mixing.row(next[c]++);
+  }
+  result.mixture.membership = std::move(fit.membership);
+  for (WorkingCluster& cluster : fit.clusters) result.clusters.push_back(std::move(cluster.parts));
+  return result;
+}
+
+// Checks the input, reduces global modes, fits the seeds, and then steps until the error hardly falls any
+// more, or a step makes it rise, which is undone and ends it.
+ClusteredFit iterate(const TensorView& a, const ClusteredSettings& settings, const OnClustered& progress,
+                     const Step& step) {
+  check_tensor(a);
+  check_clustered(a.dimensions, settings);
+  Reduction reduction = reduce_global_modes(a, settings, progress);
+  WorkingFit fit;
+  std::vector<double> objective{reduction.lost + fit_seeds(fit, reduction.view, settings, progress)};
+  bool undone = false;
+  std::size_t splits = 0;
+  for (int iteration = 1; iteration <= settings.iterations; ++iteration) {
+    WorkingFit before = fit;
+    const StepResult stepped = step(fit, reduction.view, iteration, objective.back());
+    const double now = reduction.lost + stepped.error;
+    const double before_error = objective.back();
+    if (now > before_error) {
+      fit = std::move(before);
+      undone = true;
+      break;
+    }
+    splits += stepped.splits;
+    objective.push_back(now);
+    if (before_error - now <= settings.tolerance * before_error) break;
+  }
+  ClusteredFit result = as_result(std::move(fit), std::move(reduction), a, settings);
+  result.objective = std::move(objective);
+  result.undone = undone;
+  result.splits = splits;
+  return result;
+}
 
 // The projected square norm of each sub-tensor in cluster c, the objective of (6).
 Eigen::VectorXd projected_norms(const TensorView& reduced, const WorkingCluster& cluster, std::size_t mode) {
@@ -118,6 +186,16 @@ ClusteredFit fit_cta(const TensorView& a, const ClusteredSettings& settings, con
                  [&](WorkingFit& fit, const TensorView& reduced, int iteration, double objective) {
                    const std::size_t splits = classify(fit, reduced, settings.nearest);
                    return StepResult{update(fit, reduced, settings, progress, iteration, objective), splits};
+                 });
+}
+
+ClusteredFit fit_k_cta(const TensorView& a, const ClusteredSettings& settings, const OnClustered& progress) {
+  Tensor residual;
+  return iterate(a, settings, progress,
+                 [&](WorkingFit& fit, const TensorView& reduced, int iteration, double objective) {
+                   const std::size_t splits = clustering_stage(fit, reduced, settings, residual);
+                   update_stage(fit, residual, settings, progress, iteration, objective);
+                   return StepResult{squared_norm(residual), splits};
                  });
 }
 

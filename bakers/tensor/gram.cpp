@@ -105,4 +105,42 @@ Matrix leading_eigenvectors(const MatrixXd& symmetric, std::size_t count) {
   return vectors.cast<float>();
 }
 
+PrincipalComponents principal_components(const Matrix& samples, std::size_t count) {
+  PrincipalComponents out;
+  out.mean = samples.cast<double>().colwise().mean().cast<float>();
+  const Matrix centred = samples.rowwise() - out.mean;
+  Eigen::MatrixXf covariance = Eigen::MatrixXf::Zero(samples.cols(), samples.cols());
+  covariance.selfadjointView<Eigen::Lower>().rankUpdate(centred.transpose());
+  const SymmetricEigen eigen = symmetric_eigen(covariance.cast<double>());
+  const Eigen::Index kept = std::min(Eigen::Index(count), samples.cols());
+  out.basis = eigen.vectors.rightCols(kept).rowwise().reverse().cast<float>();
+  return out;
+}
+
+Matrix project(const Matrix& samples, const PrincipalComponents& components) {
+  return (samples.rowwise() - components.mean) * components.basis;
+}
+
+std::vector<std::size_t> ranks_for_error(const TensorView& a, const std::vector<double>& share,
+                                         std::size_t multiple) {
+  check_tensor(a);
+  if (share.size() != a.order() || multiple < 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%zu shares and multiples of %zu for a tensor of order %zu",
+                  share.size(), multiple, a.order());
+  std::vector<std::size_t> ranks(a.order());
+  for (std::size_t n = 0; n < a.order(); ++n) {
+    // The loss at rank r is the sum of all eigenvalues except for the r largest; they are in ascending order.
+    const Eigen::VectorXd energy = symmetric_eigenvalues(gram(a, n)).cwiseMax(0.0);
+    const double allowed = share[n] * energy.sum();
+    double lost = 0;
+    std::size_t rank = a.dimensions[n];
+    while (rank > 1 && lost + energy[energy.size() - Eigen::Index(rank)] <= allowed) {
+      lost += energy[energy.size() - Eigen::Index(rank)];
+      --rank;
+    }
+    ranks[n] = std::min(a.dimensions[n], (rank + multiple - 1) / multiple * multiple);
+  }
+  return ranks;
+}
+
 }  // namespace nook::bake::tensor

@@ -1,8 +1,10 @@
 #include "bakers/tensor/nsvd.h"
 
-#include "bakers/tensor/alternation.h"
-#include "bakers/tensor/check.h"
-#include "bakers/tensor/mode_product.h"
+#include <algorithm>
+
+#include "bakers/tensor/clustered_fit.h"
+#include "bakers/tensor/gram.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
 
@@ -20,6 +22,72 @@ Nsvd fit_nsvd(const TensorView& a, const NsvdSettings& settings, const OnNsvd& p
 
 Tensor reconstruct(const Nsvd& fit) {
   return mode_products(fit.core, fit.basis);
+}
+
+namespace {
+
+// Returns the modes that have a basis, cyclically from `first` on.
+std::vector<std::size_t> fitted_modes(const Dimensions& dimensions, const Alternation& settings) {
+  std::vector<std::size_t> modes;
+  for (std::size_t k = 0; k < dimensions.size(); ++k) {
+    const std::size_t n = (settings.first + k) % dimensions.size();
+    if (settings.ranks[n] < dimensions[n]) modes.push_back(n);
+  }
+  return modes;
+}
+
+void report(const OnNsvd& progress, const NsvdProgress& now) {
+  if (progress && !progress(now))
+    throw Failure(NOOK_ERROR_CANCELLED, "stopped by the progress callback in sweep %d of the N-SVD",
+                  now.sweep);
+}
+
+}  // namespace
+
+std::vector<Matrix> hosvd_bases(const TensorView& a, const std::vector<std::size_t>& ranks,
+                                const OnNsvd& progress) {
+  std::vector<Matrix> bases(a.order());
+  for (std::size_t n = 0; n < a.order(); ++n) {
+    if (ranks[n] == a.dimensions[n]) continue;
+    report(progress, {0, 0, n, 0});
+    bases[n] = leading_eigenvectors(gram(a, n), ranks[n]);
+  }
+  return bases;
+}
+
+Nsvd alternate(const TensorView& a, double squared, std::vector<Matrix> bases, const Alternation& settings,
+               const OnNsvd& progress) {
+  const std::vector<std::size_t> modes = fitted_modes(a.dimensions, settings);
+  Nsvd best;
+  const auto error_of = [&](const Tensor& core) { return std::max(0.0, squared - squared_norm(core)); };
+  const bool complete =
+      std::all_of(modes.begin(), modes.end(), [&](std::size_t n) { return bases[n].size() > 0; });
+  if (complete) {
+    best.core = project(a, bases);
+    best.basis = bases;
+    best.objective.push_back(error_of(best.core));
+  }
+  if (modes.empty()) return best;
+
+  for (int sweep = 0; sweep < settings.sweeps || best.objective.empty(); ++sweep) {
+    Tensor core;
+    for (std::size_t n : modes) {
+      report(progress, {sweep + 1, settings.sweeps, n, best.objective.empty() ? 0 : best.objective.back()});
+      // All other modes are projected, so that the best subspace of this mode is optimal.
+      bases[n] = Matrix();
+      const Tensor projected = project(a, bases);
+      bases[n] = leading_eigenvectors(gram(projected, n), settings.ranks[n]);
+      if (n == modes.back()) core = mode_product(projected, n, bases[n].transpose());
+    }
+    const double error = error_of(core), before = best.objective.empty() ? squared : best.objective.back();
+    // Only rounding can raise it: the fit is at the precision of floats.
+    if (!best.objective.empty() && error >= before) break;
+    best.core = std::move(core);
+    best.basis = bases;
+    best.objective.push_back(error);
+    if (before - error <= settings.tolerance * before) break;
+  }
+  return best;
 }
 
 }  // namespace nook::bake::tensor

@@ -1,9 +1,23 @@
 // A clustered fit in the making: clusters by their members, on the tensor whose global modes are reduced.
 #pragma once
 
-#include "bakers/tensor/global_modes.h"
+#include "bakers/tensor/clustered_fit.h"
+#include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor {
+
+// Modes with one basis for all clusters (the paper's 5.2).
+
+// A_G of equation (23).
+struct Reduction {
+  std::vector<Matrix> global_basis;  // a mode: I_n x R_n; empty: not global, or of full rank
+  Tensor held;                       // A_G where a mode was reduced, else empty
+  TensorView view;                   // A_G, or the input itself
+  double lost = 0;                   // || A ||^2 - || A_G ||^2, what no cluster can explain
+};
+// Global bases lower || A - A x_n U_n U_n^T ||^2, n in G; other modes stay whole.
+Reduction reduce_global_modes(const TensorView& a, const ClusteredSettings& settings,
+                              const OnClustered& progress);
 
 struct WorkingCluster {
   std::vector<std::size_t> members;  // rising
@@ -32,5 +46,15 @@ Tensor expand_members(const WorkingCluster& cluster, std::size_t mode);
 // Each seed's cluster by an N-SVD of its members. Returns || A_G - A^ ||^2.
 double fit_seeds(WorkingFit& fit, const TensorView& reduced, const ClusteredSettings& settings,
                  const OnClustered& progress);
+
+// Reports the progress of a clustered fit to its caller.
+
+// Throws CANCELLED if the caller's function returns false.
+inline void report(const OnClustered& progress, int iteration, const ClusteredSettings& settings,
+                   std::size_t cluster, double objective) {
+  if (progress && !progress({iteration, settings.iterations, cluster, objective}))
+    throw Failure(NOOK_ERROR_CANCELLED,
+                  "stopped by the progress callback in iteration %d of the clustered fit", iteration);
+}
 
 }  // namespace nook::bake::tensor

@@ -1,15 +1,14 @@
 // nook bake bent: bent normals for a model that is already baked.
-#include <cstdio>
 #include <memory>
 
 #include "bakers/job/bent_bake.h"
 #include "bakers/job/character_model.h"
 #include "bakers/tool/baking.h"
+#include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
-#include "platform/printable.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {
@@ -34,14 +33,9 @@ bake::BakedFile bake(const Options& o, const bake::ImportedCharacter& character)
 
 void run(Options o) {
   o.task.seed = o.common.seed;
-  run_bake(o.common, o.output, {{{"the character", o.input}, {"the model", o.model}}, {}, {}}, [&] {
-    const bake::ImportedCharacter character =
-        naming_file(o.input, [&] { return bake::import_gltf(o.input, o.linked); });
-    if (!o.common.quiet)
-      for (const std::string& warning : character.warnings)
-        std::fprintf(stderr, "%s: %s\n", platform::printable(o.input.string()).c_str(),
-                     platform::printable_lines(warning).c_str());
-    return naming_file(o.model, [&] { return bake(o, character); });
+  run_bake({o.common, o.output, {{{"the character", o.input}, {"the model", o.model}}, {}, {}}}, [&] {
+    const bake::ImportedCharacter character = read_character(o.input, o.linked, o.common);
+    return one_row(naming_file(o.model, [&] { return bake(o, character); }));
   });
 }
 

@@ -1,27 +1,22 @@
-// nook bake character: a thin user of nook_bake.h, but for the choice of the files that a glTF file
-// may name.
+// nook bake character: the model of a rigged character, by the numbers that a program gives nook_bake.h.
 #include <nook/experimental/nook_trace.h>
 #include <nook/nook_bake.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <string_view>
 
-#include "bakers/api/import.h"
-#include "bakers/tool/character/clip_names.h"
+#include "bakers/job/bake_pipeline.h"
+#include "bakers/job/job_progress.h"
+#include "bakers/job/job_recipe.h"
+#include "bakers/tool/baking.h"
+#include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
-#include "bakers/tool/common_options.h"
-#include "bakers/tool/distinct_files.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/table.h"
-#include "bakers/tool/tool_error.h"
-#include "platform/output_file.h"
-#include "platform/printable.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {
@@ -29,7 +24,7 @@ namespace {
 
 struct Options {
   CommonOptions common;
-  std::string input, output;
+  std::filesystem::path input, output;
   bake::LinkedFiles linked = bake::LinkedFiles::folder;
   std::int32_t preset = NOOK_BAKE_PRESET_STANDARD, poses = NOOK_BAKE_POSES_ALL, split = NOOK_BAKE_SPLIT_ALL;
   std::int32_t kernel = NOOK_FORM_DEFAULT, fit = NOOK_FORM_DEFAULT;
@@ -45,72 +40,10 @@ float gamma_of(const std::string& text) {
   return text == "learned" ? NOOK_BAKE_GAMMA_LEARNED : std::strtof(text.c_str(), nullptr);
 }
 
-void require(nook_result result) {
-  if (result == NOOK_OK) return;
-  // The name of the C function, up to the first colon, tells a user of the tool nothing.
-  const std::string text = nook_bake_last_message();
-  throw ToolError(exit_code_of(result), text.substr(text.find(": ") + 2));
-}
-
-struct CharacterRelease {
-  void operator()(nook_bake_character character) const { nook_bake_character_destroy(&character); }
-};
-struct JobRelease {
-  void operator()(nook_bake_job job) const { nook_bake_job_destroy(&job); }
-};
-using Character = std::unique_ptr<nook_bake_character_s, CharacterRelease>;
-using Job = std::unique_ptr<nook_bake_job_s, JobRelease>;
-
-Character import_character(const Options& options) {
-  nook_bake_source_desc desc;
-  require(nook_bake_source_desc_init(&desc));
-  desc.path = options.input.c_str();
-  nook_bake_character handle = nullptr;
-  require(bake::api::create_character(&desc, options.linked, &handle));
-  Character character(handle);
-  if (!options.common.quiet)
-    for (std::uint32_t i = 0; const char* text = nook_bake_character_name(handle, NOOK_BAKE_NAME_WARNING, i);
-         ++i)
-      std::fprintf(stderr, "%s: %s\n", platform::printable(options.input).c_str(),
-                   platform::printable(text).c_str());
-  std::vector<std::string> present;
-  for (std::uint32_t i = 0; const char* name = nook_bake_character_name(handle, NOOK_BAKE_NAME_CLIP, i); ++i)
-    present.emplace_back(name);
-  require_clips(options.clips, present);
-  return character;
-}
-
-// Shows a job's progress; an interrupt cancels it.
-class Follower {
- public:
-  explicit Follower(bool quiet) : bar_(quiet) {}
-
-  static std::int32_t call(void* user, const nook_bake_progress* progress) {
-    static_cast<Follower*>(user)->show(*progress);
-    return !interrupted();
-  }
-
- private:
-  void show(const nook_bake_progress& progress) {
-    if (progress.state != NOOK_BAKE_RUNNING) return;
-    const bool traces = std::string_view(progress.stage) == "ray tracing";
-    bar_.show(progress.stage, traces ? "poses" : "steps", std::size_t(progress.done),
-              std::size_t(progress.total));
-  }
-
-  platform::ProgressBar bar_;
-};
-
-Job start(const Options& options, nook_bake_character character, Follower& follower) {
+// The numbers as a descriptor, without the character, whose handle only programs have.
+nook_bake_character_desc desc_of(const Options& options, const std::vector<const char*>& clips) {
   nook_bake_character_desc desc;
-  require(nook_bake_character_desc_init(&desc));
-  nook_bake_character_study_desc study;
-  require(nook_bake_character_study_desc_init(&study));
-  study.clip_split = options.split;
-  study.kernel = options.kernel;
-  study.fit = options.fit;
-  desc.next = &study;
-  desc.character = character;
+  nook_bake_character_desc_init(&desc);
   desc.preset = options.preset;
   desc.spheres = options.spheres;
   desc.key_points = options.key_points;
@@ -119,51 +52,52 @@ Job start(const Options& options, nook_bake_character character, Follower& follo
   desc.pose_mode = options.poses;
   desc.auto_pose_count = options.auto_poses;
   desc.samples_per_clip = options.samples_per_clip;
-  std::vector<const char*> names;
-  for (const std::string& name : options.clips) names.push_back(name.c_str());
-  desc.clip_names = names.data();
-  desc.clip_count = std::uint32_t(names.size());
+  desc.clip_names = clips.data();
+  desc.clip_count = std::uint32_t(clips.size());
   desc.seed = options.common.seed;
   desc.threads = options.common.threads;
   desc.gamma = options.gamma;
   if (options.saturation)
     desc.saturation = *options.saturation > 0 ? *options.saturation : NOOK_BAKE_UNSATURATED;
   desc.time_limit_s = options.time_limit_s;
-  desc.progress = Follower::call;
-  desc.progress_user = &follower;
-  nook_bake_job handle = nullptr;
-  require(nook_bake_start_character(&desc, &handle));
-  return Job(handle);
+  return desc;
 }
 
-// The report without what only a file wants.
-void print_summary(const char* report) {
-  nlohmann::ordered_json row = nlohmann::ordered_json::parse(report);
+bake::Recipe recipe_of(const Options& options, const bake::ImportedCharacter& character) {
+  nook_bake_character_study_desc study;
+  nook_bake_character_study_desc_init(&study);
+  study.clip_split = options.split;
+  study.kernel = options.kernel;
+  study.fit = options.fit;
+  std::vector<const char*> clips;
+  for (const std::string& name : options.clips) clips.push_back(name.c_str());
+  return bake::recipe_of(desc_of(options, clips), study, character);
+}
+
+bake::BakedFile bake(const Options& options, const bake::ImportedCharacter& character) {
+  const bake::Recipe recipe = recipe_of(options, character);
+  platform::ProgressBar bar(options.common.quiet);
+  return bake::bake_by_recipe(character, recipe, {},
+                              [&](bake::JobStage stage, std::size_t done, std::size_t total) {
+                                const bool traces = stage == bake::JobStage::raytrace;
+                                bar.show(bake::text_of(stage), traces ? "poses" : "steps", done, total);
+                                return !interrupted();
+                              });
+}
+
+// The table goes without what only a file wants.
+BakeOutput output_of(bake::BakedFile file) {
+  nlohmann::ordered_json row = nlohmann::ordered_json::parse(file.report);
   for (const char* key : {"clips", "warnings", "recipe", "curve"}) row.erase(key);
-  std::fputs(table_text(nlohmann::ordered_json::array({row})).c_str(), stdout);
+  return {std::move(file.model), file.report + "\n", table_text(nlohmann::ordered_json::array({row}))};
 }
 
 void run(const Options& options) {
-  require_distinct_files(
-      {{{"the input", options.input}}, {{"-o", options.output}, {"--report", options.common.report}}, {}});
-  const Character character = import_character(options);
-  platform::OutputFile output(options.output);
-  std::optional<platform::OutputFile> report_file;
-  if (!options.common.report.empty()) report_file.emplace(options.common.report);
-  auto follower = std::make_unique<Follower>(options.common.quiet);
-  const Job job = start(options, character.get(), *follower);
-  const nook_result result = nook_bake_job_wait(job.get());
-  follower.reset();  // ends the bar's line before anything else is said
-  if (result == NOOK_ERROR_CANCELLED) throw ToolError(exit_other, "stopped; nothing was written");
-  require(result);
-  const void* bytes = nullptr;
-  std::size_t size = 0;
-  const char* report = nullptr;
-  require(nook_bake_job_file(job.get(), &bytes, &size));
-  require(nook_bake_job_report(job.get(), &report));
-  output.commit(std::span(static_cast<const std::byte*>(bytes), size));
-  if (report_file) report_file->commit(std::string(report) + "\n");
-  if (!options.common.quiet) print_summary(report);
+  run_bake({options.common, options.output, {{{"the input", options.input}}, {}, {}}}, [&] {
+    const bake::ImportedCharacter character = read_character(options.input, options.linked, options.common);
+    require_clips(options.clips, character);
+    return output_of(bake(options, character));
+  });
 }
 
 using Names = std::map<std::string, std::int32_t>;

@@ -1,28 +1,18 @@
 // nook bake clips: the AO and the poses of a character's clips, for crowds without bones on the CPU.
-#include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <optional>
 
 #include "bakers/job/character_model.h"
 #include "bakers/job/clip_bake.h"
-#include "bakers/job/worker_arena.h"
-#include "bakers/tool/character/clip_names.h"
+#include "bakers/tool/baking.h"
+#include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
-#include "bakers/tool/common_options.h"
-#include "bakers/tool/distinct_files.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/table.h"
-#include "platform/output_file.h"
-#include "platform/printable.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Options {
   CommonOptions common;
@@ -30,19 +20,6 @@ struct Options {
   bake::LinkedFiles linked = bake::LinkedFiles::folder;
   bake::ClipTask task;
 };
-
-bake::ImportedCharacter read_character(const Options& o) {
-  bake::ImportedCharacter character =
-      naming_file(o.input, [&] { return bake::import_gltf(o.input, o.linked); });
-  if (!o.common.quiet)
-    for (const std::string& warning : character.warnings)
-      std::fprintf(stderr, "%s: %s\n", platform::printable(o.input.string()).c_str(),
-                   platform::printable_lines(warning).c_str());
-  std::vector<std::string> present;
-  for (const bake::Clip& clip : character.clips) present.push_back(clip.name);
-  require_clips(o.task.clips, present);
-  return character;
-}
 
 bake::BakedFile bake(const Options& o, const bake::ImportedCharacter& character) {
   const CharacterModel model =
@@ -59,27 +36,13 @@ bake::BakedFile bake(const Options& o, const bake::ImportedCharacter& character)
 }
 
 void run(Options o) {
-  require_distinct_files({{{"the character", o.input}, {"the model", o.model}},
-                          {{"-o", o.output}, {"--report", o.common.report}},
-                          {}});
-  platform::OutputFile output(o.output);
-  std::optional<platform::OutputFile> report_file;
-  if (!o.common.report.empty()) report_file.emplace(o.common.report);
   o.task.tables.seed = o.common.seed;
-  const bake::ImportedCharacter character = read_character(o);
-  bake::BakedFile file;
-  try {
-    bake::run_with_threads(o.common.threads, [&] { file = bake(o, character); });
-  } catch (const ToolError&) {
-    if (interrupted()) throw ToolError(exit_other, "stopped; nothing was written");
-    throw;
-  }
-  output.commit(file.model);
-  Json row = Json::parse(file.report);
-  if (report_file) report_file->commit(Json{{"rows", Json::array({row})}}.dump(2) + "\n");
-  // The table has one line for each row; the error by modes is for the report.
-  row.erase("error_of_modes");
-  if (!o.common.quiet) std::fputs(table_text(Json::array({row})).c_str(), stdout);
+  run_bake({o.common, o.output, {{{"the character", o.input}, {"the model", o.model}}, {}, {}}}, [&] {
+    const bake::ImportedCharacter character = read_character(o.input, o.linked, o.common);
+    require_clips(o.task.clips, character);
+    // The table has one line for each row; the error by modes is for the report.
+    return one_row(bake(o, character), {"error_of_modes"});
+  });
 }
 
 }  // namespace

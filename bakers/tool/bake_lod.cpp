@@ -1,14 +1,13 @@
 // nook bake lod: the model of a mesh of less detail, from the bake of the full mesh.
-#include <cstdio>
 #include <memory>
 
 #include "bakers/job/lod_bake.h"
 #include "bakers/tool/baking.h"
+#include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
-#include "platform/printable.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {
@@ -32,15 +31,10 @@ bake::BakedFile bake(const Options& o, const std::vector<std::byte>& model,
 
 void run(Options o) {
   o.task.seed = o.common.seed;
-  run_bake(o.common, o.output, {{{"the model", o.model}, {"the mesh", o.input}}, {}, {}}, [&] {
+  run_bake({o.common, o.output, {{{"the model", o.model}, {"the mesh", o.input}}, {}, {}}}, [&] {
     const std::vector<std::byte> model = read_file(o.model);
-    const bake::ImportedCharacter lod =
-        naming_file(o.input, [&] { return bake::import_gltf(o.input, o.linked); });
-    if (!o.common.quiet)
-      for (const std::string& warning : lod.warnings)
-        std::fprintf(stderr, "%s: %s\n", platform::printable(o.input.string()).c_str(),
-                     platform::printable_lines(warning).c_str());
-    return naming_file(o.model, [&] { return bake(o, model, lod); });
+    const bake::ImportedCharacter lod = read_character(o.input, o.linked, o.common);
+    return one_row(naming_file(o.model, [&] { return bake(o, model, lod); }));
   });
 }
 

@@ -8,18 +8,16 @@
 
 #include "bakers/images/pbr_reader.h"
 #include "bakers/images/ubo_reader.h"
+#include "bakers/job/material_bake.h"
 #include "bakers/job/material_source.h"
-#include "bakers/job/worker_arena.h"
-#include "bakers/measure/material/pictures.h"
-#include "bakers/measure/material/report.h"
+#include "bakers/measure/material/material_pictures.h"
+#include "bakers/tool/baking.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
-#include "bakers/tool/common_options.h"
-#include "bakers/tool/distinct_files.h"
+#include "bakers/tool/compression_options.h"
 #include "bakers/tool/image_folder.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/material/options.h"
 #include "bakers/tool/table.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
@@ -181,53 +179,59 @@ void set_heights(const Options& o, const PbrMaps& image, RawMaterial& raw) {
     for (std::size_t y = 0; y < raw.height; ++y) raw.heights[x * raw.height + y] = z[y * raw.width + x];
 }
 
-Json bake(const Options& o, platform::OutputFile& output, std::optional<platform::OutputFile>& raw_file) {
-  platform::ProgressBar bar(o.common.quiet);
-  PbrMaps relief;
-  if (!o.relief.empty()) relief = read_relief(o);
-  platform::Stopwatch watch;
-  RawMaterial raw = obtain(o, bar);
-  const double seconds_obtain = watch.seconds();
-  if (raw_file) raw_file->commit(write_raw_material(raw));
-  if (!o.relief.empty()) set_heights(o, relief, raw);
-  check_compression(o.compression, raw, !raw.mask.empty());
-
-  watch = {};
-  const StageProgress progress = stage_progress(bar, "compressing the ");
-  const MovedMaterial moved = move_views(raw, o.compression.settings.relief, progress);
-  CompressionSettings settings = compression_settings(o.compression, moved.or_still(raw));
-  settings.seed = o.common.seed;
-  nook::material::Material material = compress_moved(raw, moved, settings, progress);
-  const double seconds_compress = watch.seconds();
+// Decoding without a view map costs more than the settings of K-CTA suggest.
+void note_missing_map(const Options& o, const CompressionSettings& settings) {
   if (!o.common.quiet && settings.method == Method::k_cta && settings.map_side == 0)
     std::fprintf(stderr, "nook: without a view map decoding mixes up to %u clusters a pixel instead of %u\n",
                  std::min(settings.cluster_count(), 3 * settings.mixture), settings.mixture);
-  Json recipe = {{"source", recipe_of_trace(o)}, {"compression", describe(settings)}};
-  if (!o.relief.empty())
-    recipe["relief"] = {{"heights", o.relief.filename().string()},
-                        {"height_scale", o.height_scale_m},
-                        {"tile_side", o.tile_side_m}};
-  material.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
-  set_core_rounding(raw, material);
-  const std::vector<std::byte> file = nook::material::write_material(material);
-  material = nook::material::read_material(file);
-  MethodRow row = measure_material(raw, material);
-  row.method = method_name(settings.method);
-  row.seconds = seconds_compress;
-  if (!o.images.empty()) {
-    bake::write_png(o.images / (as_file_name(raw.name) + "_raw.png"), measure::raw_sheet(raw));
-    bake::write_png(o.images / (as_file_name(raw.name) + "_difference.png"),
-                    measure::difference_sheet(raw, material));
+}
+
+void write_pictures(const Options& o, const RawMaterial& raw, std::span<const std::byte> file) {
+  if (o.images.empty()) return;
+  bake::write_png(o.images / (as_file_name(raw.name) + "_raw.png"), measure::raw_sheet(raw));
+  bake::write_png(o.images / (as_file_name(raw.name) + "_difference.png"),
+                  measure::difference_sheet(raw, nook::material::read_material(file)));
+}
+
+BakeOutput bake(const Options& o) {
+  std::optional<platform::OutputFile> raw_file;
+  if (!o.keep_raw.empty()) raw_file.emplace(o.keep_raw);
+  platform::ProgressBar bar(o.common.quiet);
+  PbrMaps relief;
+  if (!o.relief.empty()) relief = read_relief(o);
+  const platform::Stopwatch watch;
+  RawMaterial raw = obtain(o, bar);
+  const double seconds_obtain = watch.seconds();
+  if (raw_file) raw_file->commit(write_raw_material(raw));
+  Json relief_source;
+  if (!o.relief.empty()) {
+    set_heights(o, relief, raw);
+    relief_source = {{"heights", o.relief.filename().string()},
+                     {"height_scale", o.height_scale_m},
+                     {"tile_side", o.tile_side_m}};
   }
-  Json json = report_row(raw.name, row);
+  check_compression(o.compression, raw, !raw.mask.empty());
+  CompressionSettings settings;
+  const auto choose = [&](const RawMaterial& fitted) {
+    settings = compression_settings(o.compression, fitted);
+    settings.seed = o.common.seed;
+    return settings;
+  };
+  bake::CompressedMaterial compressed =
+      bake::compress_to_file(raw, o.compression.settings.relief, choose, recipe_of_trace(o), relief_source,
+                             stage_progress(bar, "compressing the "));
+  note_missing_map(o, settings);
+  write_pictures(o, raw, compressed.file);
+  Json json = compressed.row;
   json["lights"] = raw.lights.size();
   json["views"] = raw.views.size();
   json["width"] = raw.width;
   json["height"] = raw.height;
   json["raw_bytes"] = sizeof(float) * raw.btf.size();
   json["seconds_source"] = seconds_obtain;
-  output.commit(file);
-  return {{"rows", Json::array({json})}, {"recipe", recipe}};
+  const Json report{{"rows", Json::array({json})}, {"recipe", compressed.recipe}};
+  return {std::move(compressed.file), report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
+          table_text(report["rows"])};
 }
 
 // The sizes of a material that will be ray traced; no views for one that is read.
@@ -249,13 +253,6 @@ void run(Options& o) {
     throw ToolError(exit_bad_arguments,
                     "bake material: --relief known needs --meso or --pbr, whose heights are known; give an "
                     "image of the heights of --btf or --raw");
-  require_distinct_files({{{"--pbr", o.pbr},
-                           {"--btf", o.btf},
-                           {"--raw", o.raw},
-                           {"--meso", is_mesh(o.meso) ? o.meso : ""},
-                           {"--relief", o.relief}},
-                          {{"-o", o.output}, {"--keep-raw", o.keep_raw}, {"--report", o.common.report}},
-                          o.images});
   if (is_mesh(o.meso) && !std::filesystem::exists(o.meso)) meso_parameters(o.meso);
   if (!o.relief.empty() && !std::filesystem::exists(o.relief))
     throw ToolError(exit_bad_input, "bake material: --relief: there is no file " + o.relief.string() +
@@ -268,20 +265,15 @@ void run(Options& o) {
     settings.mapping = visibility_mapping(o.visibility_mapping, settings.visibility);
   // A height field has no gaps.
   check_compression(o.compression, expected_sizes(o), !o.meso.empty());
-  platform::OutputFile output(o.output);
-  std::optional<platform::OutputFile> raw_file, report_file;
-  if (!o.keep_raw.empty()) raw_file.emplace(o.keep_raw);
-  if (!o.common.report.empty()) report_file.emplace(o.common.report);
-  make_image_folder(o.images);
-  Json report;
-  try {
-    bake::run_with_threads(o.common.threads, [&] { report = bake(o, output, raw_file); });
-  } catch (const Failure& failure) {
-    if (failure.code() != NOOK_ERROR_CANCELLED) throw;
-    throw ToolError(exit_other, "stopped; no material was written");
-  }
-  if (report_file) report_file->commit(report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  if (!o.common.quiet) std::fputs(table_text(report["rows"]).c_str(), stdout);
+  CommandFiles files{{{"--pbr", o.pbr},
+                      {"--btf", o.btf},
+                      {"--raw", o.raw},
+                      {"--meso", is_mesh(o.meso) ? o.meso : ""},
+                      {"--relief", o.relief}},
+                     {{"--keep-raw", o.keep_raw}},
+                     o.images};
+  run_bake({o.common, o.output, std::move(files), "stopped; no material was written"},
+           [&] { return bake(o); });
 }
 
 }  // namespace

@@ -5,22 +5,15 @@
 #include <cstdio>
 #include <memory>
 
-#include "bakers/job/worker_arena.h"
-#include "bakers/measure/probe/report.h"
+#include "bakers/job/probe_bake.h"
 #include "bakers/tool/commands.h"
-#include "bakers/tool/distinct_files.h"
 #include "bakers/tool/tool_error.h"
-#include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::tool {
 namespace {
 
 void run(const BakeProbeOptions& options) {
-  require_distinct_files(
-      {{{"the input", options.input}, {"--light", options.light}},
-       {{"-o", options.output}, {"--picture", options.picture}, {"--report", options.common.report}},
-       {}});
   const bool is_grid = options.grid[0] > 0;
   if (is_grid != !options.light.empty())
     throw ToolError(exit_bad_arguments,
@@ -28,20 +21,14 @@ void run(const BakeProbeOptions& options) {
   if (options.walls && (!is_grid || options.probe.basis != "harmonics" || options.probe.order != 2 ||
                         options.probe.hemisphere))
     throw ToolError(exit_bad_arguments, "--walls: needs a grid of --basis harmonics --order 2 on the sphere");
-  try {
-    bake::run_with_threads(options.common.threads, [&] {
-      if (is_grid)
-        bake_probe_grid(options);
-      else
-        bake_probe_of_map(options);
-    });
-  } catch (const Failure& failure) {
-    if (failure.code() != NOOK_ERROR_CANCELLED) throw;
-    throw ToolError(exit_other, is_grid && options.preview_every_s > 0
-                                    ? "stopped; " + options.output.string() +
-                                          " holds the latest preview, if there was one"
-                                    : std::string("stopped; nothing was written"));
-  }
+  BakeCommand command{
+      options.common,
+      options.output,
+      {{{"the input", options.input}, {"--light", options.light}}, {{"--picture", options.picture}}, {}}};
+  if (is_grid && options.preview_every_s > 0)
+    command.stopped = "stopped; " + options.output.string() + " holds the latest preview, if there was one";
+  run_bake(std::move(command),
+           [&] { return is_grid ? bake_probe_grid(options) : bake_probe_of_map(options); });
 }
 
 }  // namespace
@@ -97,7 +84,7 @@ void add_bake_probe(Command bake_command) {
           "of a scene: what probes hold of the map's light that reaches them straight: none, the sky without "
           "suns, "
           "or all; reflected light always counts, and the report names the suns that are left to the host")
-      .check(one_of(measure::direct_names()))
+      .check(one_of(bake::direct_names()))
       .capture_default_str();
   command.add_flag(
       "--walls", o.walls,

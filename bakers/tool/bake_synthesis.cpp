@@ -12,7 +12,7 @@
 #include "platform/progress_bar.h"
 #include "sdk/src/core/container.h"
 #include "sdk/src/material/material_file.h"
-#include "sdk/src/synthesis/coordinates_file.h"
+#include "sdk/src/synthesis/coordinates.h"
 
 namespace nook::tool {
 namespace {
@@ -41,7 +41,7 @@ void run(Options& o) {
   o.settings.seed = o.common.seed;
   const bake::Crop crop =
       o.crop.empty() ? bake::Crop{} : bake::Crop{o.crop[0], o.crop[1], o.crop[2], o.crop[3]};
-  run_bake(o.common, o.output, {{{"the input", o.input}}, {}, o.images}, [&] {
+  run_bake({o.common, o.output, {{{"the input", o.input}}, {}, o.images}}, [&] {
     const std::vector<std::byte> material = read_file(o.input);
     bake::SynthesisTask task =
         naming_file(o.input, [&] { return bake::synthesis_task(material, crop, o.is_tiling, o.settings); });
@@ -53,7 +53,7 @@ void run(Options& o) {
           return !interrupted();
         });
     write_pictures(o, material, task.crop, file);
-    return file;
+    return one_row(std::move(file));
   });
 }
 

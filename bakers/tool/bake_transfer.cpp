@@ -54,14 +54,15 @@ void run(const Options& o) {
   CommandFiles files{{{"the input", o.input}}, {}, {}};
   if (!o.material.empty()) files.inputs.push_back({"--material", o.material});
   if (!o.votf.empty()) files.inputs.push_back({"--votf", o.votf});
-  run_bake(o.common, o.output, files, [&] {
+  run_bake({o.common, o.output, files}, [&] {
     const bake::TransferTask task = read_task(o);
     platform::ProgressBar bar(o.common.quiet);
-    return bake::bake_transfer_file(task, [&](bake::JobStage stage, std::size_t done, std::size_t total) {
-      const bool is_fit = stage == bake::JobStage::fit;
-      bar.show(is_fit ? "fitting" : "ray tracing", is_fit ? "clusters" : "vertices", done, total);
-      return !interrupted();
-    });
+    return one_row(
+        bake::bake_transfer_file(task, [&](bake::JobStage stage, std::size_t done, std::size_t total) {
+          const bool is_fit = stage == bake::JobStage::fit;
+          bar.show(is_fit ? "fitting" : "ray tracing", is_fit ? "clusters" : "vertices", done, total);
+          return !interrupted();
+        }));
   });
 }
 

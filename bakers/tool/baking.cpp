@@ -15,14 +15,11 @@
 namespace nook::tool {
 namespace {
 
-ToolError stopped() {
-  return ToolError(exit_other, "stopped; nothing was written");
-}
-
-bake::BakedFile baked(const CommonOptions& options, const std::function<bake::BakedFile()>& bake) {
-  bake::BakedFile file;
+BakeOutput baked(const BakeCommand& command, const std::function<BakeOutput()>& bake) {
+  const auto stopped = [&] { return ToolError(exit_other, command.stopped); };
+  BakeOutput output;
   try {
-    bake::run_with_threads(options.threads, [&] { file = bake(); });
+    bake::run_with_threads(command.common.threads, [&] { output = bake(); });
   } catch (const Failure& failure) {
     if (failure.code() == NOOK_ERROR_CANCELLED) throw stopped();
     throw;
@@ -31,27 +28,39 @@ bake::BakedFile baked(const CommonOptions& options, const std::function<bake::Ba
     if (interrupted()) throw stopped();
     throw;
   }
-  return file;
+  // Ctrl-C after the last report of progress still counts.
+  if (interrupted()) throw stopped();
+  return output;
 }
 
 }  // namespace
 
-void run_bake(const CommonOptions& options, const std::filesystem::path& output, CommandFiles files,
-              const std::function<bake::BakedFile()>& bake) {
+BakeOutput one_row(bake::BakedFile file, std::initializer_list<const char*> only_in_report) {
   using Json = nlohmann::ordered_json;
-  files.outputs.push_back({"-o", output});
-  files.outputs.push_back({"--report", options.report});
+  Json row = Json::parse(file.report);
+  BakeOutput output;
+  output.file = std::move(file.model);
+  output.report =
+      Json{{"rows", Json::array({row})}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  for (const char* key : only_in_report) row.erase(key);
+  output.table = table_text(Json::array({std::move(row)}));
+  return output;
+}
+
+void run_bake(BakeCommand command, const std::function<BakeOutput()>& bake) {
+  const std::filesystem::path& report = command.common.report;
+  CommandFiles& files = command.files;
+  files.outputs.insert(files.outputs.begin(), {"-o", command.output});
+  files.outputs.push_back({"--report", report});
   require_distinct_files(files);
-  platform::OutputFile output_file(output);
+  platform::OutputFile output_file(command.output);
   std::optional<platform::OutputFile> report_file;
-  if (!options.report.empty()) report_file.emplace(options.report);
+  if (!report.empty()) report_file.emplace(report);
   make_image_folder(files.images);
-  const bake::BakedFile file = baked(options, bake);
-  output_file.commit(file.model);
-  const Json rows = Json::array({Json::parse(file.report)});
-  if (report_file)
-    report_file->commit(Json{{"rows", rows}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  if (!options.quiet) std::fputs(table_text(rows).c_str(), stdout);
+  const BakeOutput output = baked(command, bake);
+  output_file.commit(output.file);
+  if (report_file) report_file->commit(output.report);
+  if (!command.common.quiet) std::fputs(output.table.c_str(), stdout);
 }
 
 }  // namespace nook::tool

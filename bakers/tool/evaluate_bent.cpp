@@ -5,11 +5,10 @@
 #include <optional>
 
 #include "bakers/measure/character/bent_study.h"
-#include "bakers/measure/character/evaluated_poses.h"
-#include "bakers/measure/character/glossy_picture.h"
-#include "bakers/measure/character/report.h"
-#include "bakers/tool/character/clip_names.h"
-#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/measure/character/character_pictures.h"
+#include "bakers/measure/character/character_report.h"
+#include "bakers/measure/character/evaluated_character.h"
+#include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
@@ -53,9 +52,7 @@ void draw(const Options& options, const measure::BakedCharacter& baked, const st
 
 Json evaluate(const Options& options) {
   const measure::BakedCharacter baked = read_evaluated_files(options.files);
-  std::vector<std::string> present;
-  for (const bake::Clip& clip : baked.character.clips) present.push_back(clip.name);
-  require_clips(options.poses.clips, present);
+  require_clips(options.poses.clips, baked.character);
   std::vector<measure::GlossyMap> maps;
   for (const std::filesystem::path& path : options.maps)
     maps.push_back({path.stem().string(), measure::coarse_map(read_map(path), map_columns)});

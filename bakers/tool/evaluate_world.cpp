@@ -4,16 +4,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/measure/character/evaluated_poses.h"
-#include "bakers/measure/character/report.h"
+#include "bakers/measure/character/character_report.h"
+#include "bakers/measure/character/evaluated_character.h"
 #include "bakers/measure/composite/composite.h"
 #include "bakers/measure/composite/lit_room.h"
 #include "bakers/measure/composite/own_room.h"
-#include "bakers/measure/world/light_report.h"
-#include "bakers/measure/world/pictures.h"
-#include "bakers/measure/world/report.h"
-#include "bakers/tool/character/clip_names.h"
-#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/measure/world/world_pictures.h"
+#include "bakers/measure/world/world_report.h"
+#include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
@@ -95,9 +93,7 @@ void draw_lit_rooms(const Options& options, const measure::BakedCharacter& baked
 
 Json evaluate(const Options& options) {
   const measure::BakedCharacter baked = read_evaluated_files(options.files);
-  std::vector<std::string> present;
-  for (const bake::Clip& clip : baked.character.clips) present.push_back(clip.name);
-  require_clips(options.poses.clips, present);
+  require_clips(options.poses.clips, baked.character);
   const std::optional<bake::Recipe> recipe =
       naming_file(options.files.model, [&] { return measure::recipe_of(baked); });
   const measure::EvaluatedPoses measured =

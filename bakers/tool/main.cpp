@@ -3,6 +3,7 @@
 
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
+#include "bakers/tool/peers.h"
 #include "bakers/tool/program.h"
 
 namespace {
@@ -25,7 +26,6 @@ void add_commands(CLI::App& tool) {
   nook::tool::add_evaluate_clips(nook::tool::Command(*evaluate));
   nook::tool::add_evaluate_lods(nook::tool::Command(*evaluate));
   nook::tool::add_evaluate_nnao(nook::tool::Command(*evaluate));
-  nook::tool::add_evaluate_grid(nook::tool::Command(*evaluate));
   nook::tool::add_evaluate_probe(nook::tool::Command(*evaluate));
   nook::tool::add_evaluate_material(nook::tool::Command(*evaluate));
   nook::tool::add_evaluate_transfer(nook::tool::Command(*evaluate));

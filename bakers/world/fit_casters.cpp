@@ -7,11 +7,10 @@
 #include <array>
 #include <cmath>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/world/dual.h"
 #include "bakers/world/initial_casters.h"
 #include "bakers/world/posed_casters.h"
-#include "bakers/world/refined_mesh.h"
 #include "bakers/world/training_points.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"

@@ -10,6 +10,12 @@
 
 namespace nook::bake {
 
+// A mesh of small triangles: capsules begin from vertices, and furniture has few.
+
+// The same surface, of triangles whose edges are at most a fortieth of the diagonal of its box long. Only
+// positions, weights and triangles are there.
+SkinnedMesh refined(const SkinnedMesh& mesh);
+
 // One capsule for each bone with vertices of its own: those whose strongest bone it is, weighted by area. Its
 // axis is the first principal axis, its radius the mean distance from it, its length such that its caps end
 // where the vertices do.

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "bakers/import/skinning.h"
-#include "bakers/raytrace/bounds.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/raytrace/random.h"
+#include "bakers/raytrace/ray_scene.h"
 
 namespace nook::bake {
 namespace {

@@ -6,9 +6,22 @@
 #include <span>
 #include <vector>
 
+#include "bakers/raytrace/ray_scene.h"
 #include "bakers/world/fit_casters.h"
 
 namespace nook::bake {
+
+// The open share of a cone of directions, by rays.
+
+struct RayCone {
+  Vec3 axis;  // unit
+  float half_angle_radians = 0;
+};
+
+// The rays are spread evenly over the cone's solid angle on a spiral, which `turn` in [0, 1) turns about the
+// axis.
+float open_cone_share(const RayScene& scene, Vec3 origin, const RayCone& cone, std::uint32_t rays,
+                      float turn);
 
 enum class PointKind : std::uint8_t { floor, wall, contact, neighbour, cone };
 inline constexpr std::size_t point_kinds = 5;

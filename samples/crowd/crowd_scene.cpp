@@ -110,10 +110,10 @@ void CrowdScene::update(std::uint32_t terms) {
 std::vector<DrawnInstance> CrowdScene::drawn(const std::vector<Bones>& poses) const {
   std::vector<DrawnInstance> drawn(poses.size());
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    const nook_gl_ao_view ao = gl_.ao_buffer(scene_, instances_[i]);
+    const nook_gl_view ao = gl_.view(scene_, instances_[i]);
     drawn[i] = {&poses[i], {ao.buffer, ao.offset, ao.stride}, albedo_of(i), {}, 0};
     if (!lit_) continue;
-    const nook_gl_light_view light = gl_.light(scene_, instances_[i]);
+    const nook_gl_view light = gl_.view(scene_, instances_[i], NOOK_CHANNEL_DIRECTIONAL_AO);
     drawn[i].light = {light.buffer, light.offset, light.stride};
     drawn[i].light_texel = light.light;
   }

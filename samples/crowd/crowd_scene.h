@@ -39,7 +39,7 @@ class CrowdScene {
   // All characters with the results of the last update, in the poses that it had.
   std::vector<DrawnInstance> drawn(const std::vector<Bones>& poses) const;
   // The light of all characters in the last update.
-  nook_gl_light_view light() const { return gl_.light(scene_, instances_[0]); }
+  nook_gl_view light() const { return gl_.view(scene_, instances_[0], NOOK_CHANNEL_DIRECTIONAL_AO); }
 
   nook::Scene& scene() { return scene_; }
   const nook::Scene& scene() const { return scene_; }

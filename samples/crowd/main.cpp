@@ -84,7 +84,7 @@ void draw_frames(platform::Context& context, const Hero& hero, const std::vector
     scene.set_camera(camera.eye_ws);
     scene.update();
     const std::vector<DrawnInstance> drawn = scene.drawn(poses);
-    const nook_gl_light_view view = scene.light();
+    const nook_gl_view view = scene.light();
     Look look{light, view.texture, view.glsl, 1, 1.2f * radius_m + 8, {}};
     look.screen_ao = passes.draw(renderer, drawn, camera, scene.scene().get(), &light);
     const auto write = [&](const char* name) {

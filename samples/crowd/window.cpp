@@ -110,7 +110,7 @@ class Window {
     context_.size(&width, &height);
     width = std::max(width, 1);
     height = std::max(height, 1);
-    const nook_gl_light_view view = scene_.light();
+    const nook_gl_view view = scene_.light();
     Look look{light_, view.texture, view.glsl, c.ao ? c.intensity : 0, fog_start_m, {}};
     if (c.floor) look.screen_ao = draw_passes(drawn, camera, width, height);
     context_.framebuffer();

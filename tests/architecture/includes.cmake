@@ -79,7 +79,7 @@ room(bakers/character bakers/character ${stopwatch} ${ground} sdk/src/character)
 room(bakers/world bakers/world ${stopwatch} ${ground} sdk/src/character sdk/src/world)
 room(bakers/nnao bakers/nnao ${ground} sdk/src/nnao)
 room(bakers/probe bakers/probe ${ground} sdk/src/probe)
-room(bakers/material bakers/material bakers/tensor ${ground} sdk/src/material)
+room(bakers/material bakers/material bakers/tensor ${process} ${ground} sdk/src/material)
 room(bakers/synthesis bakers/synthesis bakers/tensor ${ground} sdk/src/synthesis)
 room(bakers/transfer bakers/transfer bakers/tensor ${ground} sdk/src/material sdk/src/transfer)
 set(makers bakers/character bakers/world bakers/nnao bakers/probe bakers/material bakers/synthesis bakers/tensor
@@ -100,18 +100,18 @@ room(bakers/measure/nnao bakers/measure/nnao bakers/nnao platform ${ground} sdk/
 room(bakers/measure/composite bakers/measure/composite bakers/measure/nnao bakers/measure/world bakers/nnao bakers/world
      platform ${ground} sdk/src/character sdk/src/world sdk/src/nnao)
 room(bakers/measure/probe bakers/measure/probe bakers/probe ${ground} sdk/src/probe)
-room(bakers/measure/material bakers/measure/material bakers/images bakers/material bakers/tensor ${process}
+room(bakers/measure/material bakers/measure/material bakers/images bakers/material bakers/tensor
      ${ground} sdk/src/material)
 # Pages show what the other measures have, and draw nothing.
 room(bakers/measure/report bakers/measure bakers/images platform ${makers})
-room(bakers/job bakers/job bakers/measure ${process} ${makers})
+room(bakers/job bakers/job ${process} ${makers})
 room(bakers/api bakers/api bakers/job ${makers})
-room(bakers/tool bakers/tool bakers/api/import.h bakers/import/linked_files.h bakers/job bakers/measure bakers/images platform
+room(bakers/tool bakers/tool bakers/import/gltf.h bakers/import/linked_files.h bakers/job bakers/measure bakers/images platform
      ${systems} sdk/src/core)
 
 # The lab compares Nook with other methods. It takes from every room and, to measure it, from the
 # crowd of the samples, but not from tests. No room takes from it.
-room(bakers/lab bakers/lab samples/crowd bakers/measure bakers/tool bakers/images bakers/job platform shaders sdk/src/gl/material/source.h
+room(bakers/lab bakers/lab samples/crowd bakers/measure bakers/tool bakers/images bakers/job platform shaders sdk/src/gl/material/material_glsl.h
      sdk/src/gl/embedded_shaders.h ${makers})
 
 forbid(sdk/src "tbb/|embree|Eigen|tiny_gltf|OpenImageIO|nlohmann|LBFGS|CLI/" "the runtime depends on nothing")
@@ -130,6 +130,7 @@ foreach(folder platform samples tests)
   forbid(${folder} "embree[0-9]*/" "only sources of bakers/raytrace know Embree")
 endforeach()
 forbid(bakers/tool "CLI/" "CLI11 costs every file seconds: take bakers/tool/command_line.h" "/(command_line|main|program)[.]cpp$")
+forbid(bakers/lab/tool "CLI/" "CLI11 costs every file seconds: take bakers/tool/command_line.h" "/main[.]cpp$")
 forbid(bakers/lab/crowd "nook_gl|glad" "the program draws what is measured"
        "/(debug_overlay|debug_shapes|frames|main|map_light|options|panels|plain_look)[.](h|cpp)$")
 foreach(sample offscreen minimal)

@@ -12,7 +12,7 @@
 
 #include "bakers/character/pose_sets.h"
 #include "bakers/import/gltf.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "platform/file_bytes.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/character/scene.h"

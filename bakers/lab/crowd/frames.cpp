@@ -73,7 +73,7 @@ class FrameDrawer {
   void draw_lit(const std::vector<DrawnInstance>& drawn, const Camera& camera, const ScreenAo& screen_ao) {
     const float fog_start_m = 1.2f * radius_m_ + 8;
     if (request_.light) {
-      const nook_gl_light_view view = scene_.light();
+      const nook_gl_view view = scene_.light();
       stage_.renderer.draw(drawn, camera,
                            {*request_.light, view.texture, view.glsl, 1, fog_start_m, screen_ao});
     } else {
@@ -148,7 +148,10 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
 
 double mean_count(const GladGLContext& gl, ScreenPasses& passes, nook_world_view view) {
   nook_world_frame_desc frame = last_frame(passes);
-  frame.show = view;
+  nook_world_frame_debug_desc debug;
+  nook::check(nook_world_frame_debug_desc_init(&debug));
+  debug.show = view;
+  frame.next = &debug;
   passes.world.render(passes.frame, frame);
   const std::vector<float> counts = read(gl, passes, passes.world.info().texture, GL_RED);
   return mean_over_surfaces(gl, passes, [&](std::size_t i) { return 255 * double(counts[i]); });

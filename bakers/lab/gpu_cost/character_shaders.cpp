@@ -1,7 +1,7 @@
 #include "bakers/lab/gpu_cost/shader_cases.h"
 #include "bakers/lab/gpu_cost/trip_counts.h"
 
-namespace nook::measure {
+namespace nook::lab {
 namespace {
 
 const std::string form_names[] = {"paper", "nook", "rational"};
@@ -87,4 +87,4 @@ std::vector<ShaderCase> character_shaders() {
   return shaders;
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-namespace nook::measure {
+namespace nook::lab {
 namespace {
 
 // A line of a table, cut where it is longer.
@@ -234,4 +234,4 @@ Comparison compare(const CostReport& before, const CostReport& after, double lim
   return comparison;
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

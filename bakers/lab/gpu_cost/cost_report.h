@@ -8,7 +8,7 @@
 
 #include "bakers/lab/gpu_cost/shader_cost.h"
 
-namespace nook::measure {
+namespace nook::lab {
 
 struct PassCost {
   std::string pass;
@@ -48,4 +48,4 @@ struct Comparison {
 // The ratio of the cycles of every shader and pass that both reports have, by family.
 Comparison compare(const CostReport& before, const CostReport& after, double limit);
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace nook::measure {
+namespace nook::lab {
 namespace {
 
 bool begins_with_any(std::string_view text, std::initializer_list<std::string_view> beginnings) {
@@ -218,4 +218,4 @@ std::string describe_loops(const std::string& disassembly) {
   return describe(blocks, find_loops(blocks));
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace nook::measure {
+namespace nook::lab {
 
 enum class InstructionClass {
   vector,        // full rate
@@ -48,4 +48,4 @@ InstructionCounts count_instructions(const std::string& disassembly, const std::
 // The loops of a disassembly as text, each with its first block and the instructions of one trip.
 std::string describe_loops(const std::string& disassembly);
 
-}  // namespace nook::measure
+}  // namespace nook::lab

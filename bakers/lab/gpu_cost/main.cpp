@@ -10,7 +10,7 @@
 
 namespace {
 
-using namespace nook::measure;
+using namespace nook::lab;
 namespace fs = std::filesystem;
 
 // RADV ends the process where it does not know a name. The loops of materials are stated for the default
@@ -122,7 +122,7 @@ int compare_two(const Options& options) {
   if (of_a_report)
     std::fprintf(
         stderr,
-        "\nif that is meant, write new numbers: docs/gpu_cost.py --write, or nook_gpu_cost --report %s\n",
+        "\nif that is meant, write new numbers: bakers/lab/tables/gpu_cost.py --write, or nook_gpu_cost --report %s\n",
         options.before.c_str());
   return exit_failed;
 }

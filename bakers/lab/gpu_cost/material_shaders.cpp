@@ -5,7 +5,7 @@
 #include "bakers/lab/gpu_cost/shader_cases.h"
 #include "sdk/src/gl/embedded_shaders.h"
 
-namespace nook::measure {
+namespace nook::lab {
 
 std::string material_declarations(const material::MaterialTables& tables, std::string_view host) {
   constexpr std::uint32_t max_layers = 2048;  // of a texture array: the minimum of OpenGL 4.5
@@ -199,4 +199,4 @@ std::vector<ShaderCase> material_shaders() {
   return shaders;
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

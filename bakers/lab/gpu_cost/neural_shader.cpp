@@ -1,6 +1,6 @@
 #include "bakers/lab/gpu_cost/shader_cases.h"
 
-namespace nook::measure {
+namespace nook::lab {
 namespace {
 
 // The decoding of bakers/material/neural_tile.h where features depend on the view, which the library's do
@@ -195,4 +195,4 @@ std::vector<ShaderCase> neural_shaders() {
           host_shader(nodes + ten_lights, name + "equal bytes" + lights, {{"lights", 10, {hidden}}})};
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

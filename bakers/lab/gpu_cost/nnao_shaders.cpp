@@ -1,8 +1,8 @@
 #include "bakers/lab/gpu_cost/shader_cases.h"
 #include "bakers/lab/gpu_cost/trip_counts.h"
-#include "bakers/measure/nnao/baselines.h"
+#include "bakers/lab/nnao/screen_baselines.h"
 
-namespace nook::measure {
+namespace nook::lab {
 namespace {
 
 struct Grid {
@@ -83,7 +83,7 @@ void main() {
 }
 )";
 
-const std::string shader_folder = "bakers/measure/nnao/shaders/";
+const std::string shader_folder = "bakers/lab/nnao/shaders/";
 
 }  // namespace
 
@@ -173,4 +173,4 @@ std::vector<ShaderCase> baseline_shaders() {
   return shaders;
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -8,7 +8,7 @@
 #include <map>
 #include <stdexcept>
 
-namespace nook::measure {
+namespace nook::lab {
 namespace {
 
 // Bindings that the storage blocks and images of a shader may have.
@@ -371,4 +371,4 @@ CompiledShader NullDevice::draw(const Draw& draw) {
   return result;
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

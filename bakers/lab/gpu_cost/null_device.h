@@ -9,7 +9,7 @@
 
 #include "bakers/lab/gpu_cost/vulkan_glsl.h"
 
-namespace nook::measure {
+namespace nook::lab {
 
 struct CompiledShader {
   std::string disassembly;
@@ -54,4 +54,4 @@ class NullDevice {
   std::unique_ptr<Vulkan> vulkan_;
 };
 
-}  // namespace nook::measure
+}  // namespace nook::lab

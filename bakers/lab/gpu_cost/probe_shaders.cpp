@@ -2,7 +2,7 @@
 #include "bakers/lab/gpu_cost/shader_cases.h"
 #include "bakers/lab/gpu_cost/trip_counts.h"
 
-namespace nook::measure {
+namespace nook::lab {
 namespace {
 
 constexpr int lobe_counts[] = {6, 12, 24};
@@ -130,4 +130,4 @@ std::vector<ShaderCase> probe_shaders() {
   return shaders;
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -1,6 +1,6 @@
 #include "bakers/lab/gpu_cost/shader_cases.h"
 
-namespace nook::measure {
+namespace nook::lab {
 namespace {
 
 // Both dimensions of the surface are halved, or a thread makes two pixels of each.
@@ -127,4 +127,4 @@ std::vector<PassCase> all_passes() {
   return passes;
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -9,10 +9,10 @@
 
 #include "bakers/lab/gpu_cost/instruction_count.h"
 #include "bakers/lab/gpu_cost/source_text.h"
-#include "bakers/measure/nnao/baselines.h"
-#include "sdk/src/gl/material/source.h"
+#include "bakers/lab/nnao/screen_baselines.h"
+#include "sdk/src/gl/material/material_glsl.h"
 
-namespace nook::measure {
+namespace nook::lab {
 
 struct FamilyLoops {
   std::string family;
@@ -80,4 +80,4 @@ std::vector<ShaderCase> world_shaders();
 std::vector<ShaderCase> all_shaders();
 std::vector<PassCase> all_passes();
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -4,7 +4,7 @@
 
 #include "bakers/lab/gpu_cost/spirv.h"
 
-namespace nook::measure {
+namespace nook::lab {
 namespace {
 
 std::string located(const char* direction, std::size_t location, const StageVariable& variable) {
@@ -90,4 +90,4 @@ ShaderCost shader_cost(NullDevice& device, const std::string& family, const Sour
   return cost;
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

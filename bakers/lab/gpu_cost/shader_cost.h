@@ -10,7 +10,7 @@
 #include "bakers/lab/gpu_cost/null_device.h"
 #include "bakers/lab/gpu_cost/shader_cases.h"
 
-namespace nook::measure {
+namespace nook::lab {
 
 // The model: cycles that a compute unit of 64 lanes a cycle takes for a wave of 64 threads.
 inline constexpr double quarter_rate_cycles = 4, fetch_cycles = 16;
@@ -47,4 +47,4 @@ CompiledShader compile_shader(NullDevice& device, const SourceTree& tree, const 
 ShaderCost shader_cost(NullDevice& device, const std::string& family, const SourceTree& tree,
                        const ShaderCase& shader);
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace nook::measure {
+namespace nook::lab {
 namespace {
 
 constexpr std::string_view include_begin = "#include \"";
@@ -45,4 +45,4 @@ std::string with_version(Stage stage, const std::string& defines, const std::str
   return (stage == Stage::compute ? "#version 430 core\n" : "#version 330 core\n") + defines + text;
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace nook::measure {
+namespace nook::lab {
 
 enum class Stage { vertex, fragment, compute };
 
@@ -14,7 +14,7 @@ std::string file_text(const std::filesystem::path& path);
 // sdk/src/gl/embed_shaders.cmake does.
 std::string expand_includes(const std::filesystem::path& root, const std::string& text);
 
-// Puts the version line of sdk/src/gl/program.cpp and the defines in front of an expanded text.
+// Puts the version line of sdk/src/gl/shader_program.cpp and the defines in front of an expanded text.
 std::string with_version(Stage stage, const std::string& defines, const std::string& text);
 
-}  // namespace nook::measure
+}  // namespace nook::lab

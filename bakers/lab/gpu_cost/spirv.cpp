@@ -6,7 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
-namespace nook::measure {
+namespace nook::lab {
 namespace {
 
 struct Process {
@@ -77,4 +77,4 @@ std::vector<std::uint32_t> compile_spirv(Stage stage, const std::string& text, c
   return {words, words + glslang_program_SPIRV_get_size(program.get())};
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

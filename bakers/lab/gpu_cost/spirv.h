@@ -7,7 +7,7 @@
 
 #include "bakers/lab/gpu_cost/source_text.h"
 
-namespace nook::measure {
+namespace nook::lab {
 
 // Resolves macros, conditions and comments of a text with a version line.
 std::string preprocess(Stage stage, const std::string& text);
@@ -15,4 +15,4 @@ std::string preprocess(Stage stage, const std::string& text);
 // Compiles Vulkan GLSL. what names the shader in messages.
 std::vector<std::uint32_t> compile_spirv(Stage stage, const std::string& text, const std::string& what);
 
-}  // namespace nook::measure
+}  // namespace nook::lab

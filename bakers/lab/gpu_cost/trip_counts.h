@@ -1,7 +1,7 @@
 // Trip counts of the loops of the shaders, for the frames of the cost table.
 #pragma once
 
-namespace nook::measure::trips {
+namespace nook::lab::trips {
 
 // A character of a crowd: the bench's body in the midst of others.
 inline constexpr int group_size = 64;  // threads of a group, and spheres that it stages at a time
@@ -43,4 +43,4 @@ inline constexpr int capture_face_size = 64;  // texels
 inline constexpr int capture_rows = 6 * capture_face_size;
 inline constexpr int capture_factors = 12 / 4;
 
-}  // namespace nook::measure::trips
+}  // namespace nook::lab::trips

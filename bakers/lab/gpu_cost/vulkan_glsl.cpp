@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace nook::measure {
+namespace nook::lab {
 namespace {
 
 bool is_word(char c) {
@@ -196,4 +196,4 @@ VulkanGlsl to_vulkan_glsl(const std::string& preprocessed) {
   return converter.finish(extensions, body);
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace nook::measure {
+namespace nook::lab {
 
 // Descriptor sets: storage blocks keep the bindings of their text in set 0.
 inline constexpr unsigned storage_block_set = 0, sampler_set = 1, uniform_set = 2, image_set = 3;
@@ -28,4 +28,4 @@ struct VulkanGlsl {
 // The text must be preprocessed: no conditions, no macros, no comments.
 VulkanGlsl to_vulkan_glsl(const std::string& preprocessed);
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -1,7 +1,7 @@
 #include "bakers/lab/gpu_cost/shader_cases.h"
 #include "bakers/lab/gpu_cost/trip_counts.h"
 
-namespace nook::measure {
+namespace nook::lab {
 namespace {
 
 // One caster at a point, in the form that `call` names.
@@ -108,4 +108,4 @@ std::vector<ShaderCase> world_shaders() {
       host_shader(cone_host, "one caster before one part of a cone of light")};
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -1,7 +1,10 @@
 #include "bakers/lab/gpu_time/crowd.h"
 #include "bakers/lab/gpu_time/timed_rows.h"
 
-namespace nook::measure {
+namespace nook::lab {
+
+using namespace measure;
+
 namespace {
 
 constexpr float spacing = 1.4f;  // metres
@@ -49,4 +52,4 @@ std::vector<TimedRow> time_characters(const Timing& timing, const std::filesyste
   return rows;
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -5,7 +5,9 @@
 #include "platform/file_bytes.h"
 #include "sdk/src/core/vec.h"
 
-namespace nook::measure {
+namespace nook::lab {
+
+using namespace measure;
 
 Crowd::Crowd(const NookGl& gl, const std::filesystem::path& model, std::uint32_t count, float spacing)
     : spacing_(spacing) {
@@ -51,4 +53,4 @@ void Crowd::pose(std::uint32_t k) {
   if (k > 0) succeed(nook_scene_link_nearest(scene_, k, 4 * spacing_));
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -8,13 +8,13 @@
 
 #include "bakers/measure/nnao/network_pass.h"
 
-namespace nook::measure {
+namespace nook::lab {
 
 class Crowd {
  public:
   // count bodies stand on the ground y = 0 on a square grid of this spacing, in metres, centred at the
   // origin.
-  Crowd(const NookGl& gl, const std::filesystem::path& model, std::uint32_t count, float spacing);
+  Crowd(const measure::NookGl& gl, const std::filesystem::path& model, std::uint32_t count, float spacing);
   ~Crowd();
   Crowd(const Crowd&) = delete;
   Crowd& operator=(const Crowd&) = delete;
@@ -33,4 +33,4 @@ class Crowd {
   float spacing_;
 };
 
-}  // namespace nook::measure
+}  // namespace nook::lab

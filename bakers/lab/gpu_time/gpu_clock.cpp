@@ -7,7 +7,7 @@
 #include "platform/program.h"
 #include "platform/stopwatch.h"
 
-namespace nook::measure {
+namespace nook::lab {
 namespace {
 
 constexpr int max_calls = 1000;  // of a batch
@@ -122,4 +122,4 @@ GpuTime GpuClock::time(const std::function<void()>& call, const std::function<vo
   return time;
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

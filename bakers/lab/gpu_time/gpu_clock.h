@@ -5,7 +5,7 @@
 
 #include <functional>
 
-namespace nook::measure {
+namespace nook::lab {
 
 struct GpuTime {
   double gpu_ms = 0;   // of one call, between two time stamps of the GPU; the median of the batches
@@ -42,4 +42,4 @@ class GpuClock {
   int busy_loops_ = 1;  // which keep the GPU busy for busy_ms
 };
 
-}  // namespace nook::measure
+}  // namespace nook::lab

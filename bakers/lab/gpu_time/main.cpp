@@ -11,6 +11,7 @@
 
 namespace {
 
+using namespace nook::lab;
 using namespace nook::measure;
 namespace fs = std::filesystem;
 

@@ -4,7 +4,10 @@
 #include "bakers/lab/gpu_time/whole_image.h"
 #include "platform/file_bytes.h"
 
-namespace nook::measure {
+namespace nook::lab {
+
+using namespace measure;
+
 namespace {
 
 // One tile over 256 x 256 pixels, seen and lit from directions that change over the image.
@@ -61,4 +64,4 @@ std::vector<TimedRow> time_materials(const Timing& timing, const std::vector<std
   return rows;
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

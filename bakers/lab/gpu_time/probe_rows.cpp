@@ -5,7 +5,10 @@
 #include "bakers/lab/gpu_time/timed_rows.h"
 #include "bakers/lab/gpu_time/whole_image.h"
 
-namespace nook::measure {
+namespace nook::lab {
+
+using namespace measure;
+
 namespace {
 
 struct Count {
@@ -88,4 +91,4 @@ std::vector<TimedRow> time_probes(const Timing& timing) {
   return rows;
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -1,7 +1,11 @@
 #include "bakers/lab/gpu_time/timed_rows.h"
+#include "bakers/lab/nnao/baseline_pass.h"
 #include "bakers/raytrace/random.h"
 
-namespace nook::measure {
+namespace nook::lab {
+
+using namespace measure;
+
 namespace {
 
 using namespace bake::nnao;
@@ -67,4 +71,4 @@ std::vector<TimedRow> time_screen(const Timing& timing) {
   return rows;
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

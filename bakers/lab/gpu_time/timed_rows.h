@@ -9,7 +9,7 @@
 #include "bakers/lab/gpu_time/gpu_clock.h"
 #include "bakers/measure/nnao/network_pass.h"
 
-namespace nook::measure {
+namespace nook::lab {
 
 struct TimedRow {
   std::string name;
@@ -19,7 +19,7 @@ struct TimedRow {
 // The context and what the rows share.
 struct Timing {
   platform::Context& context;
-  const NookGl& nook;
+  const measure::NookGl& nook;
   const GpuClock& clock;
   int width, height;  // pixels
   std::function<bool(const std::string&)> wanted;
@@ -47,4 +47,4 @@ std::vector<TimedRow> time_materials(const Timing& timing, const std::vector<std
 // The whole image in the irradiance and in the glossy reflection of lobes, of a grid and of one place.
 std::vector<TimedRow> time_probes(const Timing& timing);
 
-}  // namespace nook::measure
+}  // namespace nook::lab

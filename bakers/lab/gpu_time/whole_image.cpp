@@ -2,7 +2,7 @@
 
 #include "platform/program.h"
 
-namespace nook::measure {
+namespace nook::lab {
 namespace {
 
 const char header_text[] = "#version 330 core\n";
@@ -46,4 +46,4 @@ void WholeImage::draw() const {
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

@@ -7,7 +7,7 @@
 
 #include "bakers/measure/nnao/gpu_image.h"
 
-namespace nook::measure {
+namespace nook::lab {
 
 class WholeImage {
  public:
@@ -26,9 +26,9 @@ class WholeImage {
  private:
   const GladGLContext& gl_;
   int width_, height_;
-  GpuImage target_;
+  measure::GpuImage target_;
   GLuint program_ = 0, vertex_array_ = 0;
   GLint units_ = 0;
 };
 
-}  // namespace nook::measure
+}  // namespace nook::lab

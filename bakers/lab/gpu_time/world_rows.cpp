@@ -6,7 +6,10 @@
 #include "bakers/lab/gpu_time/crowd.h"
 #include "bakers/lab/gpu_time/timed_rows.h"
 
-namespace nook::measure {
+namespace nook::lab {
+
+using namespace measure;
+
 namespace {
 
 using namespace bake::nnao;
@@ -76,4 +79,4 @@ std::vector<TimedRow> time_world(const Timing& timing, const std::filesystem::pa
   return rows;
 }
 
-}  // namespace nook::measure
+}  // namespace nook::lab

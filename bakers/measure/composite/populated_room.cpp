@@ -5,10 +5,10 @@
 #include <numbers>
 #include <optional>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/nnao/solids.h"
-#include "bakers/raytrace/bounds.h"
 #include "bakers/raytrace/random.h"
+#include "bakers/raytrace/ray_scene.h"
 #include "bakers/world/surroundings.h"
 
 namespace nook::measure {

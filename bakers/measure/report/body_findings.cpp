@@ -5,8 +5,8 @@
 #include <map>
 #include <tuple>
 
-#include "bakers/character/joint_roles.h"
-#include "bakers/import/skinning.h"
+#include "bakers/character/rig_anatomy.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/truth/visible_truth.h"
 
 namespace nook::report {

@@ -1,4 +1,4 @@
-#include "bakers/measure/report/transfer_page.h"
+#include "bakers/measure/report/pages.h"
 
 #include <tbb/parallel_for.h>
 
@@ -10,9 +10,9 @@
 #include "bakers/measure/report/advice.h"
 #include "bakers/measure/transfer/vector_error.h"
 #include "bakers/raytrace/ambient_occlusion.h"
-#include "bakers/raytrace/bounds.h"
+#include "bakers/raytrace/ray_scene.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/transfer/lobes.h"
+#include "sdk/src/transfer/distant_light.h"
 
 namespace nook::report {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/world/initial_casters.h"
 #include "bakers/world/posed_casters.h"
 #include "sdk/src/character/kernel.h"

@@ -1,10 +1,10 @@
-#include "bakers/measure/world/light_report.h"
+#include "bakers/measure/world/world_report.h"
 
 #include <algorithm>
 #include <array>
 #include <numbers>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/world/ratio_bounds.h"
 #include "bakers/measure/world/split_light.h"
 #include "bakers/probe/map_bake.h"

@@ -9,10 +9,9 @@
 
 #include "bakers/import/skinned_mesh.h"
 #include "bakers/raytrace/environment.h"
-#include "bakers/raytrace/suns.h"
 #include "bakers/world/surroundings.h"
 #include "sdk/src/character/model.h"
-#include "sdk/src/core/capsule.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/world/light_terms.h"
 
 namespace nook::measure {

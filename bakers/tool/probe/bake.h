@@ -4,7 +4,7 @@
 #include <array>
 #include <filesystem>
 
-#include "bakers/tool/common_options.h"
+#include "bakers/tool/baking.h"
 #include "bakers/tool/probe/grid_arguments.h"
 #include "bakers/tool/probe/options.h"
 #include "sdk/src/core/vec.h"
@@ -34,7 +34,7 @@ struct BakeProbeOptions {
   std::uint32_t training_paths = 2048;
 };
 
-void bake_probe_of_map(const BakeProbeOptions& options);
-void bake_probe_grid(const BakeProbeOptions& options);
+BakeOutput bake_probe_of_map(const BakeProbeOptions& options);
+BakeOutput bake_probe_grid(const BakeProbeOptions& options);
 
 }  // namespace nook::tool

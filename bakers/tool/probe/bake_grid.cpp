@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "bakers/job/probe_bake.h"
-#include "bakers/measure/probe/report.h"
+#include "bakers/measure/probe/probe_report.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/probe/bake.h"
 #include "bakers/tool/probe/scene.h"
-#include "bakers/tool/table.h"
 #include "bakers/tool/tool_error.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
@@ -78,11 +76,8 @@ double refine(const BakeProbeOptions& options, GridBake& grid, std::uint32_t max
 
 }  // namespace
 
-void bake_probe_grid(const BakeProbeOptions& options) {
-  platform::OutputFile output(options.output);
-  std::optional<platform::OutputFile> report;
-  if (!options.common.report.empty()) report.emplace(options.common.report);
-  if (options.preview_every_s > 0 && !output.is_regular())
+BakeOutput bake_probe_grid(const BakeProbeOptions& options) {
+  if (options.preview_every_s > 0 && !platform::OutputFile(options.output).is_regular())
     throw ToolError(exit_bad_arguments,
                     "--preview-every: -o is a device or a pipe, where no later version can replace "
                     "a preview (got " +
@@ -99,14 +94,14 @@ void bake_probe_grid(const BakeProbeOptions& options) {
   settings.seed = options.common.seed;
   settings.path.max_bounces = options.max_bounces;
   settings.path.origin_offset = scene.origin_offset;
-  settings.path.direct = measure::direct_of(options.direct);
+  settings.path.direct = bake::direct_of(options.direct);
 
   const platform::Stopwatch watch;
   GridBake bake(*scene.lit, settings);
   const std::uint32_t samples = options.samples > 0 ? options.samples : default_samples;
   const std::uint32_t passes = (samples + settings.samples_per_pass - 1) / settings.samples_per_pass;
   const double error = refine(options, bake, passes);
-  const std::vector<std::byte> bytes =
+  std::vector<std::byte> bytes =
       file_of(options, bake, complete(options, *scene.lit, settings.path, bake), error);
   Json row;
   row["scene"] = options.input.stem().string();
@@ -125,10 +120,7 @@ void bake_probe_grid(const BakeProbeOptions& options) {
   row["seconds"] = watch.seconds();
   row["paths_per_s"] =
       double(bake.samples()) * double(settings.grid.size() - bake.inside_count()) / watch.seconds();
-  output.commit(bytes);
-  const Json rows = Json::array({row});
-  if (report) report->commit(Json{{"rows", rows}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  if (!options.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
+  return one_row({std::move(bytes), row.dump(-1, ' ', false, Json::error_handler_t::replace)});
 }
 
 }  // namespace nook::tool

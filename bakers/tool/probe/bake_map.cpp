@@ -1,15 +1,13 @@
 // nook bake probe MAP: one probe of an environment map.
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bakers/images/map_picture.h"
 #include "bakers/job/probe_bake.h"
-#include "bakers/measure/probe/report.h"
+#include "bakers/measure/probe/probe_report.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/probe/bake.h"
 #include "bakers/tool/probe/scene.h"
-#include "bakers/tool/table.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
 #include "platform/stopwatch.h"
@@ -41,16 +39,14 @@ Json row_of(const BakeProbeOptions& options, const bake::Environment& map, const
 
 }  // namespace
 
-void bake_probe_of_map(const BakeProbeOptions& options) {
+BakeOutput bake_probe_of_map(const BakeProbeOptions& options) {
   MapBakeSettings settings;
   settings.basis = basis_of(options.probe);
   settings.fit = fit_of(options.probe);
   settings.sampling = sampling_of(options.sampling);
   if (options.samples > 0) settings.samples = options.samples;
   settings.seed = options.common.seed;
-  platform::OutputFile output(options.output);
-  std::optional<platform::OutputFile> report, picture;
-  if (!options.common.report.empty()) report.emplace(options.common.report);
+  std::optional<platform::OutputFile> picture;
   if (!options.picture.empty()) picture.emplace(options.picture);
   const bake::Environment map = read_map(options.input);
 
@@ -67,15 +63,13 @@ void bake_probe_of_map(const BakeProbeOptions& options) {
   recipe["samples"] = baked.samples;
   recipe["seed"] = settings.seed;
   baked.probes.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace);
-  const std::vector<std::byte> bytes = probe::write_probes(baked.probes, packing_of(options.probe));
+  std::vector<std::byte> bytes = probe::write_probes(baked.probes, packing_of(options.probe));
 
   // The error and the picture are of what the file gives back, its packing included.
   const probe::Probes stored = probe::read_probes(bytes);
-  const Json rows = Json::array({row_of(options, map, stored, bytes.size(), seconds)});
+  const Json row = row_of(options, map, stored, bytes.size(), seconds);
   if (picture) picture->commit(bake::png_bytes(bake::probe::map_picture(map, stored.basis, stored.of(0))));
-  output.commit(bytes);
-  if (report) report->commit(Json{{"rows", rows}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  if (!options.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
+  return one_row({std::move(bytes), row.dump(-1, ' ', false, Json::error_handler_t::replace)});
 }
 
 }  // namespace nook::tool

@@ -9,7 +9,7 @@ struct NookOsg::Binder : osg::Drawable::DrawCallback {
 
   void drawImplementation(osg::RenderInfo& info, const osg::Drawable* drawable) const override {
     const auto* const gl = info.getState()->get<osg::GLExtensions>();
-    const nook_gl_ao_view view = nook.gl_->ao_buffer(nook.scene_, nook.character_);
+    const nook_gl_view view = nook.gl_->view(nook.scene_, nook.character_);
     info.getState()->unbindVertexBufferObject();  // so that OSG binds its own buffers again
     gl->glBindBuffer(GL_ARRAY_BUFFER, view.buffer);
     gl->glVertexAttribPointer(ao_slot, 1, GL_FLOAT, GL_FALSE, GLsizei(view.stride),

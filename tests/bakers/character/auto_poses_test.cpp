@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "bakers/character/body_tree.h"
+#include "bakers/character/body_plan.h"
 #include "bakers/character/joined_hands.h"
-#include "bakers/character/pose_prior.h"
+#include "bakers/character/rig_anatomy.h"
 #include "bakers/character/self_collision.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "tests/bakers/character/stick_figure.h"
 #include "tests/catch.h"
 
@@ -17,8 +16,6 @@ using namespace nook;
 using namespace nook::bake;
 
 namespace {
-
-constexpr float degree = std::numbers::pi_v<float> / 180;
 
 std::size_t bone_named(const SkinnedMesh& mesh, const char* name) {
   for (std::size_t b = 0; b < mesh.bones.size(); ++b)

@@ -1,15 +1,14 @@
 // A whole bake on a small body: its error is below that of a static bake, it is reproducible, it can be
 // cancelled, and quantisation adds little error.
-#include "bakers/character/bake.h"
+#include "bakers/character/character_bake.h"
 
 #include <tbb/global_control.h>
 
 #include "bakers/character/block_descent.h"
-#include "bakers/character/cached_objective.h"
 #include "bakers/character/caster_fit.h"
 #include "bakers/character/export_model.h"
 #include "bakers/character/mini_batch_fit.h"
-#include "bakers/measure/character/evaluate.h"
+#include "bakers/measure/character/character_error.h"
 #include "sdk/src/character/model_file.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/bakers/character/direct_objective.h"

@@ -1,10 +1,10 @@
 // Blend weights on a bending tube, in poses that their fit has not seen.
-#include "bakers/character/blend_fit.h"
+#include "bakers/character/caster_fit.h"
 
 #include <cmath>
 
-#include "bakers/character/bake.h"
-#include "bakers/import/skinning.h"
+#include "bakers/character/character_bake.h"
+#include "bakers/import/skinned_mesh.h"
 #include "sdk/src/character/kernel.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/catch.h"

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "bakers/character/clip_bake.h"
-#include "bakers/character/low_rank.h"
-#include "sdk/src/character/clip_file.h"
+#include "bakers/character/clip_tables.h"
+#include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/loaded_clips.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/catch.h"

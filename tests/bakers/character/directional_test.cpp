@@ -2,8 +2,8 @@
 // lobes.
 #include <cmath>
 
-#include "bakers/character/bake.h"
-#include "bakers/import/skinning.h"
+#include "bakers/character/character_bake.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/path_tracer.h"
 #include "sdk/src/character/scene.h"

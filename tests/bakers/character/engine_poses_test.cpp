@@ -9,8 +9,8 @@
 #include <random>
 #include <string>
 
-#include "bakers/character/bind_data.h"
-#include "bakers/import/skinning.h"
+#include "bakers/character/export_model.h"
+#include "bakers/import/skinned_mesh.h"
 #include "sdk/src/character/model_file.h"
 #include "tests/bakers/character/engine.h"
 #include "tests/catch.h"

@@ -1,9 +1,9 @@
 // Meshes without any volume, as cloth, flags, cards and leaves are.
 #include <algorithm>
 
-#include "bakers/character/bake.h"
-#include "bakers/import/skinning.h"
-#include "bakers/measure/character/evaluate.h"
+#include "bakers/character/character_bake.h"
+#include "bakers/import/skinned_mesh.h"
+#include "bakers/measure/character/character_error.h"
 #include "sdk/src/character/model_file.h"
 #include "tests/bakers/character/waving_flag.h"
 #include "tests/catch.h"

@@ -5,10 +5,10 @@
 #include <set>
 
 #include "bakers/character/auto_poses.h"
-#include "bakers/character/joint_roles.h"
 #include "bakers/character/linear_fit.h"
+#include "bakers/character/rig_anatomy.h"
 #include "bakers/character/self_collision.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/catch.h"
 

@@ -1,12 +1,12 @@
 // Meshes of less detail: what resampled and refitted vertices give against ray tracing and closed forms.
 #include <cmath>
 
-#include "bakers/character/bake.h"
-#include "bakers/character/bind_data.h"
-#include "bakers/character/refit_vertices.h"
-#include "bakers/import/skinning.h"
-#include "bakers/measure/character/lods.h"
-#include "sdk/src/character/vertex_resample.h"
+#include "bakers/character/character_bake.h"
+#include "bakers/character/export_model.h"
+#include "bakers/character/vertex_fits.h"
+#include "bakers/import/skinned_mesh.h"
+#include "bakers/measure/character/lod_error.h"
+#include "sdk/src/character/host_vertices.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/catch.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "bakers/character/cached_objective.h"
+#include "bakers/character/block_descent.h"
 #include "bakers/character/rotation.h"
 #include "tests/bakers/character/direct_objective.h"
 #include "tests/catch.h"

@@ -1,5 +1,5 @@
 // Occluded directions against closed forms.
-#include "bakers/character/occluded_fit.h"
+#include "bakers/character/vertex_fits.h"
 
 #include <cmath>
 

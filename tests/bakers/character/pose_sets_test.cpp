@@ -1,7 +1,7 @@
 // Which clips are fitted and which are kept for measuring.
 #include "bakers/character/pose_sets.h"
 
-#include "bakers/character/presets.h"
+#include "bakers/character/recipe.h"
 #include "tests/catch.h"
 
 using namespace nook::bake;

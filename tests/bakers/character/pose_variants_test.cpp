@@ -8,11 +8,10 @@
 #include <numbers>
 
 #include "bakers/character/joint_motion.h"
-#include "bakers/character/mirror_rig.h"
 #include "bakers/character/rotation.h"
 #include "bakers/character/self_collision.h"
 #include "bakers/import/gltf.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/random.h"
 #include "tests/bakers/character/bending_tube.h"

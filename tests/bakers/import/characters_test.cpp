@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "bakers/import/gltf.h"
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "tests/catch.h"
 
 using namespace nook;

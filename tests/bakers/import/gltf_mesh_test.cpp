@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "tests/bakers/import/tube_file.h"
 #include "tests/catch.h"
 

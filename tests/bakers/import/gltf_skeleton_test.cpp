@@ -1,5 +1,5 @@
 // Bones of synthetic files: bind poses, several skins, rigid parts, mirrored and uneven nodes.
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "tests/bakers/import/tube_file.h"
 #include "tests/catch.h"
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "bakers/import/weld.h"
 #include "tests/catch.h"
 

@@ -1,5 +1,5 @@
 // Skinning, normals and areas against closed forms.
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 
 #include "bakers/import/weld.h"
 #include "sdk/src/core/failure.h"

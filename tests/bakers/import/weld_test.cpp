@@ -1,7 +1,7 @@
 // Welding and validation of meshes that come from memory.
 #include "bakers/import/weld.h"
 
-#include "bakers/import/validate.h"
+#include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"
 

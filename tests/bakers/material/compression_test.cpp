@@ -6,15 +6,15 @@
 #include <cmath>
 #include <string>
 
+#include "bakers/material/btf_error.h"
 #include "bakers/material/directions.h"
 #include "bakers/material/relief.h"
 #include "bakers/material/visibility_margin.h"
-#include "bakers/measure/material/comparison.h"
-#include "bakers/measure/material/measures.h"
-#include "bakers/measure/material/unseen_views.h"
+#include "bakers/measure/material/material_report.h"
+#include "bakers/measure/material/view_errors.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/evaluate.h"
 #include "sdk/src/material/material_file.h"
+#include "sdk/src/material/reflectance.h"
 #include "sdk/src/material/tables.h"
 #include "tests/bakers/material/small_material.h"
 #include "tests/catch.h"

@@ -7,7 +7,7 @@
 #include "bakers/material/directions.h"
 #include "bakers/material/neural_pass.h"
 #include "bakers/material/neural_training.h"
-#include "bakers/measure/material/measures.h"
+#include "bakers/material/btf_error.h"
 #include "bakers/raytrace/random.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/material/material_file.h"

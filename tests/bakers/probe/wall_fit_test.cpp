@@ -7,11 +7,10 @@
 #include <numbers>
 
 #include "bakers/probe/grid_bake.h"
-#include "bakers/probe/moved_probes.h"
-#include "bakers/probe/surface_fit.h"
+#include "bakers/probe/inside_probes.h"
 #include "bakers/raytrace/random.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_light.h"
 #include "tests/bakers/probe/small_maps.h"
 #include "tests/catch.h"
 

@@ -1,5 +1,5 @@
 // Suns: what is one, what the sky keeps, and that both together are the light.
-#include "bakers/raytrace/suns.h"
+#include "bakers/raytrace/environment.h"
 
 #include <cmath>
 

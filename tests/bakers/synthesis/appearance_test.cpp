@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "bakers/measure/material/measures.h"
+#include "bakers/material/btf_error.h"
 #include "tests/catch.h"
 #include "tests/material/material_sample.h"
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <set>
 
-#include "bakers/tensor/map_steps.h"
 #include "bakers/tensor/resample.h"
 #include "bakers/tensor/seed_clusters.h"
 #include "sdk/src/core/failure.h"

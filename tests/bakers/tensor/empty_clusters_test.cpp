@@ -1,9 +1,7 @@
-#include "bakers/tensor/empty_clusters.h"
+#include "bakers/tensor/stages.h"
 
 #include <set>
 
-#include "bakers/tensor/clustering_stage.h"
-#include "bakers/tensor/update_stage.h"
 #include "tests/bakers/tensor/planted.h"
 #include "tests/catch.h"
 

@@ -3,7 +3,6 @@
 #include <Eigen/QR>
 #include <algorithm>
 
-#include "bakers/tensor/atoms.h"
 #include "bakers/tensor/gram.h"
 #include "tests/bakers/tensor/planted.h"
 #include "tests/catch.h"

@@ -5,7 +5,7 @@
 #include <Eigen/SVD>
 #include <limits>
 
-#include "bakers/tensor/rank_choice.h"
+#include "bakers/tensor/gram.h"
 #include "sdk/src/core/failure.h"
 #include "tests/bakers/tensor/planted.h"
 #include "tests/catch.h"

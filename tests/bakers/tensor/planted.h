@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bakers/tensor/clustered_fit.h"
-#include "bakers/tensor/mode_product.h"
+#include "bakers/tensor/tensor.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake::tensor::test {

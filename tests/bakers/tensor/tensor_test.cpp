@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "bakers/tensor/gram.h"
-#include "bakers/tensor/mode_product.h"
 #include "sdk/src/core/failure.h"
 #include "tests/bakers/tensor/planted.h"
 #include "tests/catch.h"

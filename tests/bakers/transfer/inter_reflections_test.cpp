@@ -6,12 +6,12 @@
 #include <numbers>
 
 #include "bakers/import/surface_mesh.h"
-#include "bakers/transfer/bake.h"
+#include "bakers/transfer/separated_bake.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/core/spherical_gaussian.h"
-#include "sdk/src/material/evaluate.h"
-#include "sdk/src/transfer/light_cube.h"
+#include "sdk/src/material/reflectance.h"
+#include "sdk/src/transfer/distant_light.h"
 #include "sdk/src/transfer/transfer_file.h"
 #include "tests/catch.h"
 #include "tests/material/material_sample.h"

@@ -5,7 +5,6 @@
 
 #include "bakers/import/surface_mesh.h"
 #include "bakers/raytrace/ambient_occlusion.h"
-#include "bakers/transfer/light_matrices.h"
 #include "bakers/transfer/paper_bake.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/transfer/lobe_fit.h"

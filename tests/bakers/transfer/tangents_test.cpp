@@ -3,7 +3,6 @@
 #include <string>
 
 #include "bakers/import/surface_mesh.h"
-#include "bakers/import/tangents.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"
 #include "tests/transfer/shapes.h"

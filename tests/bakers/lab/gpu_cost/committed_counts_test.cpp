@@ -4,7 +4,7 @@
 #include "bakers/lab/gpu_cost/cost_report.h"
 #include "tests/catch.h"
 
-using namespace nook::measure;
+using namespace nook::lab;
 
 namespace {
 

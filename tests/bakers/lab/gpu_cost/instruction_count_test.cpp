@@ -4,7 +4,7 @@
 
 #include "tests/catch.h"
 
-using namespace nook::measure;
+using namespace nook::lab;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "bakers/lab/gpu_cost/cost_report.h"
 #include "tests/catch.h"
 
-using namespace nook::measure;
+using namespace nook::lab;
 namespace fs = std::filesystem;
 
 namespace {
@@ -32,12 +32,11 @@ TEST_CASE("every shader of the tree is counted") {
   std::set<std::string> counted;
   for (const ShaderCase& shader : all_shaders()) counted.insert(shader.path);
   const fs::path root = NOOK_SOURCE_ROOT;
-  for (const char* folder : {"shaders", "bakers/measure/nnao/shaders"})
+  for (const char* folder : {"shaders", "bakers/lab/nnao/shaders"})
     for (const auto& file : fs::recursive_directory_iterator(root / folder)) {
-      // The vertices of the triangle over the screen cost nothing beside its pixels. The oracle is a bound
-      // that no renderer runs.
+      // The vertices of the triangle over the screen cost nothing beside its pixels.
       if (!is_stage(file.path()) || file.path().filename() == "screen.vert" ||
-          file.path().filename() == "nothing.frag" || file.path().filename() == "oracle.frag")
+          file.path().filename() == "nothing.frag")
         continue;
       const std::string path = fs::relative(file.path(), root).generic_string();
       INFO(path);

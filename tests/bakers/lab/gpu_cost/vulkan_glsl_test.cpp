@@ -4,7 +4,7 @@
 #include "bakers/lab/gpu_cost/spirv.h"
 #include "tests/catch.h"
 
-using namespace nook::measure;
+using namespace nook::lab;
 
 namespace {
 

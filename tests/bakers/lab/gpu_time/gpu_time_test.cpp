@@ -9,6 +9,7 @@
 #include "tests/catch.h"
 
 using namespace nook;
+using namespace nook::lab;
 using namespace nook::measure;
 
 TEST_CASE("a clock prepares each call, and its times are of one call") {

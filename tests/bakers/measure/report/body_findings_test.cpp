@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bakers/import/skinning.h"
+#include "bakers/import/skinned_mesh.h"
 #include "tests/catch.h"
 
 using namespace nook;

@@ -1,0 +1,376 @@
+#include "bakers/character/character_bake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "bakers/character/block_descent.h"
+#include "bakers/character/caster_fit.h"
+#include "bakers/character/export_model.h"
+#include "bakers/character/fit_state.h"
+#include "bakers/character/initialise.h"
+#include "bakers/character/linear_fit.h"
+#include "bakers/character/mini_batch_fit.h"
+#include "bakers/import/skinned_mesh.h"
+#include "platform/stopwatch.h"
+#include "sdk/src/character/levels.h"
+#include "sdk/src/character/model.h"
+#include "sdk/src/character/model_file.h"
+#include "sdk/src/core/failure.h"
+#include "sdk/src/core/geometry.h"
+
+namespace nook::bake {
+namespace {
+
+void check(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& s) {
+  const auto refuse = [](const char* what, std::size_t got, const char* need) {
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s out of range (got %zu, need %s)", what, got, need);
+  };
+  if (poses.empty()) refuse("pose count", 0, "at least 1");
+  if (s.spheres < 1 || s.spheres > 1024) refuse("spheres", s.spheres, "1 to 1024");
+  if (s.key_points < 1 || s.key_points > 4096) refuse("key points", s.key_points, "1 to 4096");
+  if (s.entries < 1 || s.entries > 8) refuse("entries", s.entries, "1 to 8");
+  if (s.rays < 1 || s.rays > 65536) refuse("rays", s.rays, "1 to 65536");
+  if (s.steps > 10'000'000) refuse("steps", s.steps, "at most 10,000,000");
+  if (!(s.kernel.gamma >= 1 && s.kernel.gamma <= 8))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "gamma out of range (got %g, need 1 to 8)",
+                  double(s.kernel.gamma));
+  if (!(s.saturation >= 0 && s.saturation <= max_saturation))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "saturation out of range (got %g, need 0 to %g)",
+                  double(s.saturation), double(max_saturation));
+  for (std::size_t p = 0; p < poses.size(); ++p) {
+    if (poses[p].size() != mesh.bones.size())
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "pose %zu has the wrong number of bones (got %zu, need %zu)",
+                    p, poses[p].size(), mesh.bones.size());
+    for (const Mat3x4& m : poses[p])
+      if (!is_pose_matrix(m))
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "pose %zu holds a matrix that is not finite or beyond 1e9 m or a scale of 1e6", p);
+  }
+}
+
+// Returns what reports the progress of one stage.
+Progress stage_progress(const BakeProgress& progress, BakeStage stage) {
+  return [&progress, stage](std::size_t done, std::size_t total) {
+    return !progress || progress(stage, done, total);
+  };
+}
+
+// Every 16th pose is held out and goes to the end.
+std::size_t hold_out(std::vector<Pose>& poses) {
+  constexpr std::size_t every = 16;
+  std::vector<Pose> fitted, held;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    (i % every == every - 1 ? held : fitted).push_back(std::move(poses[i]));
+  const std::size_t count = held.size();
+  poses = std::move(fitted);
+  for (Pose& p : held) poses.push_back(std::move(p));
+  return count;
+}
+
+// So many that their noise is far below any error of a fit.
+constexpr std::uint32_t precise_rays = 512;
+
+// A spread of the fitted poses, traced anew: at most 24, and at most a quarter of the rays that the fit
+// itself takes.
+TrainingSet precise_share(const SkinnedMesh& mesh, const TrainingSet& set, const BakeSettings& settings,
+                          const Progress& progress) {
+  const std::size_t affordable = set.fitted() * settings.rays / (4 * precise_rays);
+  const std::size_t count = std::min(std::clamp<std::size_t>(affordable, 4, 24), set.fitted());
+  TrainingSet share;
+  for (std::size_t i = 0; i < count; ++i) share.poses.push_back(set.poses[i * set.fitted() / count]);
+  share.targets = trace_character_ao(mesh, share.poses, precise_rays, settings.seed + 1, progress);
+  return share;
+}
+
+// Half of the weight by vertex, as the reported mse has it, half by area, as the eye does. The paper sums
+// over vertices alike (slide 25).
+std::vector<float> vertex_weights(std::span<const float> area, FitMethod fit) {
+  if (fit == FitMethod::paper) return std::vector<float>(area.size(), 1.0f);
+  double mean = 0;
+  for (float a : area) mean += double(a);
+  mean /= double(area.size());
+  std::vector<float> weight;
+  for (float a : area) weight.push_back(mean > 0 ? float(0.5 + 0.5 * double(a) / mean) : 1.0f);
+  return weight;
+}
+
+// Non-negative least squares over all candidates of a vertex: near key points have no weights for added
+// casters, and an entry stays however little it gains.
+LinearFitSettings plain_linear_fit(std::size_t entries) {
+  LinearFitSettings plain;
+  plain.entries = entries;
+  plain.least_gain = 0;
+  plain.anchors = 0;
+  plain.anchor_floor = 0;
+  return plain;
+}
+
+// One fit in progress: the state, what it is measured by, and the best state so far by held-out error.
+class Fit {
+ public:
+  Fit(const TrainingSet& set, const std::vector<float>& area, const BakeSettings& settings,
+      const Candidates& candidates, FitState state, BakeReport& report)
+      : set_(set), area_(area), candidates_(candidates), report_(report), state_(std::move(state)) {
+    linear_.entries = settings.entries;
+    if (settings.fit == FitMethod::paper) linear_ = plain_linear_fit(settings.entries);
+  }
+
+  FitState& state() { return state_; }
+  const FitState& best() const { return best_; }
+  double seconds() const { return watch_.seconds(); }
+
+  void solve_linear() {
+    const std::vector<float> shadows = shadows_of(state_, std::span(set_.poses).first(set_.fitted()));
+    state_.linear = fit_linear_layer(shadows, state_.structure.padded_count(), set_, candidates_, linear_);
+  }
+
+  double held_out_mse(const FitState& state) const {
+    const std::size_t first = set_.held_out ? set_.fitted() : 0;
+    return measure_fit(state, set_, first, set_.poses.size(), area_).mse;
+  }
+
+  // Adds a point to the curve and keeps the state if it is the best yet. Returns whether it improved by a
+  // share.
+  bool measure(double least_gain = 0) {
+    const std::size_t fitted = set_.fitted();
+    const double train = measure_fit(state_, set_, 0, fitted, area_).mse;
+    const double held = set_.held_out ? held_out_mse(state_) : train;
+    report_.curve.push_back({watch_.seconds(), train, held});
+    const bool gained = best_.parameters.empty() || held < best_held_ * (1 - least_gain);
+    if (best_.parameters.empty() || held < best_held_) {
+      best_ = state_;
+      best_held_ = held;
+      report_.mse_held_out = held;
+    }
+    return gained;
+  }
+
+ private:
+  const TrainingSet& set_;
+  const std::vector<float>& area_;
+  const Candidates& candidates_;
+  BakeReport& report_;
+  FitState state_, best_;
+  LinearFitSettings linear_;
+  double best_held_ = 0;
+  platform::Stopwatch watch_;
+};
+
+[[noreturn]] void cancelled() {
+  throw Failure(NOOK_ERROR_CANCELLED, "cancelled while fitting");
+}
+
+// Mini-batches in rounds; between rounds each vertex chooses its key points anew.
+void fit_by_mini_batches(Fit& fit, const TrainingSet& set, const BakeSettings& settings, BakeReport& report,
+                         const BakeProgress& progress) {
+  constexpr std::size_t rounds = 3;
+  std::size_t done = 0;
+  for (std::size_t r = 0; r < rounds; ++r) {
+    MiniBatchSettings batch;
+    // The last round is the longest: the key points are chosen, what is left is polish.
+    batch.steps = r + 1 < rounds ? settings.steps / 4 : settings.steps - done;
+    batch.seed = settings.seed + r;
+    batch.final_rate = r + 1 < rounds ? 0.3f : 0.01f;
+    bool stop = false;
+    fit_mini_batches(fit.state(), set, batch, [&](std::size_t step) {
+      if (settings.time_limit_s > 0 && fit.seconds() > settings.time_limit_s) return false;
+      stop = progress && step % 16 == 0 && !progress(BakeStage::fit, done + step, settings.steps);
+      return !stop;
+    });
+    if (stop) cancelled();
+    done += batch.steps;
+    report.iterations = done;
+    if (r + 1 < rounds) fit.solve_linear();
+    fit.measure();
+  }
+}
+
+void fit_by_blocks(Fit& fit, const TrainingSet& set, const BakeSettings& settings, BakeReport& report,
+                   const BakeProgress& progress) {
+  int without_gain = 0;
+  for (std::size_t round = 0; round < settings.steps && without_gain < 3; ++round) {
+    if (progress && !progress(BakeStage::fit, round, settings.steps)) cancelled();
+    if (settings.time_limit_s > 0 && fit.seconds() > settings.time_limit_s) break;
+    descend_non_linear(fit.state(), set, {});
+    fit.solve_linear();
+    report.iterations = round + 1;
+    without_gain = fit.measure(1e-3) ? 0 : without_gain + 1;
+  }
+}
+
+void fit_both_layers(Fit& fit, const TrainingSet& set, const BakeSettings& settings, BakeReport& report,
+                     const BakeProgress& progress) {
+  if (settings.fit == FitMethod::nook)
+    fit_by_mini_batches(fit, set, settings, report, progress);
+  else
+    fit_by_blocks(fit, set, settings, report, progress);
+}
+
+// Returns the exponent whose short fit has the lowest error on held-out poses. Both layers adapt to the
+// exponent, so that the error is flat near its minimum and a coarse grid suffices.
+float learned_gamma(const TrainingSet& set, const std::vector<float>& area, const BakeSettings& settings,
+                    const Candidates& candidates, const FitState& initial, const BakeProgress& progress) {
+  BakeSettings brief = settings;
+  brief.steps = std::max<std::size_t>(1, settings.steps / 20);
+  float best = settings.kernel.gamma;
+  double least = INFINITY;
+  for (const float gamma : {1.0f, 1.25f, 1.5f, 1.75f, 2.0f, 2.5f}) {
+    BakeReport report;
+    FitState state = initial;
+    state.structure.kernel.gamma = gamma;
+    Fit fit(set, area, brief, candidates, std::move(state), report);
+    fit.solve_linear();
+    fit.measure();
+    fit_both_layers(fit, set, brief, report, progress);
+    if (report.mse_held_out < least) {
+      least = report.mse_held_out;
+      best = gamma;
+    }
+  }
+  return best;
+}
+
+// The ray-traced data of a fit.
+struct TracedPoses {
+  TrainingSet set;
+  TrainingSet precise;  // a share of the fitted poses with little noise
+  AoTargets rest;       // of the rest pose
+};
+
+// Measures the noise of the targets and the seconds into the report.
+TracedPoses trace_poses(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& settings,
+                        const BakeProgress& progress, BakeReport& report) {
+  const platform::Stopwatch watch;
+  TracedPoses traced;
+  TrainingSet& set = traced.set;
+  set.poses.assign(poses.begin(), poses.end());
+  set.held_out = hold_out(set.poses);
+  set.targets = trace_character_ao(mesh, set.poses, settings.rays, settings.seed,
+                                   stage_progress(progress, BakeStage::raytrace));
+  report.noise_floor_held_out_mse =
+      measure_noise_floor(mesh, set.poses, set.targets, settings.rays, settings.seed);
+  traced.precise = precise_share(mesh, set, settings, [&](std::size_t, std::size_t) {
+    return !progress || progress(BakeStage::raytrace, set.poses.size(), set.poses.size());
+  });
+  report.noise_floor_mse = measure_noise_floor(mesh, traced.precise.poses, traced.precise.targets,
+                                               precise_rays, settings.seed + 1);
+  const std::vector<Pose> rest{Pose(mesh.bones.size())};
+  constexpr std::uint32_t rest_rays = 1024;
+  traced.rest = trace_character_ao(mesh, rest, rest_rays, settings.seed);
+  report.seconds_raytrace = watch.seconds();
+  report.train_poses = set.poses.size();
+  return traced;
+}
+
+// The rest surface of a mesh, by vertex.
+struct Surface {
+  std::vector<float> area;
+  std::vector<Vec3> normal;
+};
+
+Surface rest_surface(const SkinnedMesh& mesh) {
+  Surface surface;
+  surface.area = vertex_areas(mesh, mesh.position);
+  vertex_normals(mesh.triangle, mesh.position, surface.normal);
+  return surface;
+}
+
+// Where a fit begins.
+struct Start {
+  FitState state;
+  Candidates candidates;
+};
+
+// Makes clusters, key points and spheres. weight is that of each vertex for spheres, which cast as well and
+// so have to cover the body; key_point_weight is that for key points.
+Start initialise(const SkinnedMesh& mesh, const Surface& surface, std::span<const float> weight,
+                 std::span<const float> key_point_weight, const BakeSettings& settings,
+                 const std::function<void(std::size_t)>& step) {
+  const std::vector<Vec3> feature_normal =
+      settings.fit == FitMethod::paper ? centre_of_rotation_normals(mesh, surface.area, surface.normal)
+                                       : surface.normal;
+  step(1);
+  ClusterSettings clustering;
+  clustering.count = std::min(settings.key_points, mesh.vertex_count());
+  const std::vector<std::uint32_t> cluster =
+      cluster_vertices(mesh, key_point_weight, feature_normal, clustering);
+  std::vector<KeyPoint> key_points = key_points_of_clusters(mesh, cluster, key_point_weight, feature_normal);
+  for (KeyPoint& point : key_points) point.saturation = settings.used_saturation();
+  const std::vector<InitialSphere> spheres = initial_spheres(mesh, weight, settings.spheres);
+  Start start;
+  // A vertex of the paper has some local key points (slide 23): those nearest to it. Among more of them the
+  // greedy choice finds better ones.
+  const std::size_t nearest = settings.fit == FitMethod::paper ? settings.entries : 40;
+  start.candidates.count = std::min(nearest, key_points.size());
+  NearKeyPoints near = nearest_key_points(mesh, feature_normal, key_points, start.candidates.count);
+  start.candidates.key_point = std::move(near.key_point);
+  start.candidates.nearness = std::move(near.nearness);
+  start.state = initial_state(settings.kernel, spheres, key_points);
+  step(2);
+  return start;
+}
+
+// Levels of detail are made and measured on a spread of the training poses.
+void add_levels(CharacterModel& model, std::span<const Pose> poses) {
+  constexpr std::size_t max_poses = 120, min_poses = 4;
+  std::vector<Pose> spread;
+  const std::size_t count = std::min(max_poses, poses.size());
+  for (std::size_t i = 0; i < count; ++i) spread.push_back(poses[i * poses.size() / count]);
+  if (spread.size() < min_poses) return;
+  for (CharacterLevel& level : make_levels(model, spread)) model.levels.push_back(std::move(level));
+}
+
+std::vector<float> floats_of(std::span<const std::uint16_t> targets) {
+  std::vector<float> ao;
+  for (const std::uint16_t v : targets) ao.push_back(float(v) * AoTargets::scale);
+  return ao;
+}
+
+}  // namespace
+
+BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& settings,
+                          const BakeProgress& progress) {
+  check(mesh, poses, settings);
+  BakeReport report;
+  TracedPoses traced = trace_poses(mesh, poses, settings, progress, report);
+  TrainingSet& set = traced.set;
+  const TrainingSet& precise = traced.precise;
+
+  const auto step = [&](std::size_t done) {
+    if (progress && !progress(BakeStage::initialise, done, 3))
+      throw Failure(NOOK_ERROR_CANCELLED, "cancelled");
+  };
+  step(0);
+  const Surface surface = rest_surface(mesh);
+  const std::vector<float>& area = surface.area;
+  set.vertex_weight = vertex_weights(area, settings.fit);
+  const std::vector<float> placed_by = settings.fit == FitMethod::paper
+                                           ? set.vertex_weight
+                                           : placement_weights(set.vertex_weight, set.targets, set.fitted());
+  const std::vector<float>& spread_by = settings.fit == FitMethod::paper ? area : set.vertex_weight;
+  Start start = initialise(mesh, surface, spread_by, placed_by, settings, step);
+  if (settings.learn_gamma)
+    start.state.structure.kernel.gamma =
+        learned_gamma(set, area, settings, start.candidates, start.state, progress);
+
+  Fit fit(set, area, settings, start.candidates, std::move(start.state), report);
+  fit.solve_linear();
+  fit.measure();
+  report.mse_initial = measure_fit(fit.state(), precise, 0, precise.poses.size(), area).mse;
+  fit_both_layers(fit, set, settings, report, progress);
+  report.seconds_fit = fit.seconds();
+  report.mse_train = measure_fit(fit.best(), precise, 0, precise.poses.size(), area).mse;
+
+  BakeResult result{export_model(fit.best(), mesh, area, surface.normal, floats_of(traced.rest.row(0))),
+                    std::move(report)};
+  fit_blend_weights(result.model, mesh, set.poses);
+  result.report.mse_held_out_file = fit.held_out_mse(state_of_model(quantise(result.model)));
+  CasterFitSettings casters;
+  casters.seed = settings.seed;
+  fit_caster_weights(result.model, mesh, set.poses, casters, stage_progress(progress, BakeStage::casters));
+  add_levels(result.model, set.poses);
+  return result;
+}
+
+}  // namespace nook::bake

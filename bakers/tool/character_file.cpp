@@ -1,0 +1,34 @@
+#include "bakers/tool/character_file.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "bakers/tool/input_file.h"
+#include "platform/printable.h"
+
+namespace nook::tool {
+
+bake::ImportedCharacter read_character(const std::filesystem::path& path, bake::LinkedFiles linked,
+                                       const CommonOptions& common) {
+  bake::ImportedCharacter character = naming_file(path, [&] { return bake::import_gltf(path, linked); });
+  if (!common.quiet)
+    for (const std::string& warning : character.warnings)
+      std::fprintf(stderr, "%s: %s\n", platform::printable(path.string()).c_str(),
+                   platform::printable_lines(warning).c_str());
+  return character;
+}
+
+void require_clips(const std::vector<std::string>& wanted, const bake::ImportedCharacter& character) {
+  std::vector<std::string> present;
+  for (const bake::Clip& clip : character.clips) present.push_back(clip.name);
+  std::sort(present.begin(), present.end());
+  for (const std::string& name : wanted) {
+    if (std::binary_search(present.begin(), present.end(), name)) continue;
+    std::string text = "--clips: there is no clip \"" + name + "\"; the file has ";
+    text += present.empty() ? "no clips at all" : "these:";
+    for (const std::string& there : present) text += "\n  " + platform::printable(there);
+    throw ToolError(exit_bad_arguments, text);
+  }
+}
+
+}  // namespace nook::tool
