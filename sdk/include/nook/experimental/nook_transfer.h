@@ -52,7 +52,6 @@ NOOK_API nook_result nook_transfer_load(nook_context context, const void* bytes,
 NOOK_API void nook_transfer_destroy(nook_transfer* transfer);
 
 typedef struct nook_transfer_info {
-  /* sizeof(nook_transfer_info); the caller sets it. */
   uint32_t struct_size;
   /* Vertices of the baked file, over all primitives in its order. */
   uint32_t vertex_count;
@@ -92,10 +91,7 @@ NOOK_API nook_result nook_transfer_read_frames(nook_transfer transfer, float* no
 
 /* The arrays of a mesh in the form in which they were baked. */
 typedef struct nook_transfer_mesh_desc {
-  /* nook_transfer_mesh_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* Required. */
   uint32_t vertex_count;
@@ -106,8 +102,6 @@ typedef struct nook_transfer_mesh_desc {
   const float* tangents;
   const float* uvs;
 } nook_transfer_mesh_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_transfer_mesh_desc_init(nook_transfer_mesh_desc* desc) {
   return nook_desc_init(NOOK_DESC_TRANSFER_MESH, desc, sizeof *desc, NOOK_VERSION);
 }
@@ -138,10 +132,7 @@ typedef int32_t nook_transfer_map_layout;
 
 /* Exactly one source of light: a map (rgb), a probe, or a direction. */
 typedef struct nook_transfer_light_desc {
-  /* nook_transfer_light_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* A map of width * height linear RGB radiances, each 0 to 1e15. Default NULL. */
   const float* rgb;
@@ -165,8 +156,6 @@ typedef struct nook_transfer_light_desc {
   /* With a direction: RGB on a surface that faces the light, finite numbers up to 1e15. */
   float irradiance[3];
 } nook_transfer_light_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_transfer_light_desc_init(nook_transfer_light_desc* desc) {
   return nook_desc_init(NOOK_DESC_TRANSFER_LIGHT, desc, sizeof *desc, NOOK_VERSION);
 }
@@ -199,7 +188,6 @@ NOOK_API nook_result nook_transfer_light_read_suns(nook_transfer_light light, no
 
 /* The error of lobes that hold a light. */
 typedef struct nook_transfer_projection_info {
-  /* sizeof(nook_transfer_projection_info); the caller sets it. */
   uint32_t struct_size;
   /* The root of the integral of the squared difference, relative to the integral of the squared light. */
   float relative_error;
@@ -223,20 +211,14 @@ NOOK_API nook_result nook_transfer_light_project(nook_transfer_light light, uint
 /* ---- Materials under lobes: immutable, shared by threads ---- */
 
 typedef struct nook_transfer_response_desc {
-  /* nook_transfer_response_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* Required; it may be destroyed after the call. */
   nook_material material;
   /* 12 to 2562; default 642. */
   uint32_t lobe_count;
-  /* Must be 0. */
   uint32_t reserved;
 } nook_transfer_response_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_transfer_response_desc_init(nook_transfer_response_desc* desc) {
   return nook_desc_init(NOOK_DESC_TRANSFER_RESPONSE, desc, sizeof *desc, NOOK_VERSION);
 }
@@ -252,7 +234,6 @@ NOOK_API nook_result nook_transfer_response_create(nook_context context,
 NOOK_API void nook_transfer_response_destroy(nook_transfer_response* response);
 
 typedef struct nook_transfer_response_info {
-  /* sizeof(nook_transfer_response_info); the caller sets it. */
   uint32_t struct_size;
   uint32_t lobe_count;
   /* The modes of one channel, R_l of the material rounded up to a multiple of 4; NOOK_LIGHT_VEC4_COUNT of its
@@ -274,10 +255,7 @@ NOOK_API nook_result nook_transfer_response_describe(nook_transfer_response resp
                                                      nook_transfer_response_info* info);
 
 typedef struct nook_transfer_vectors_desc {
-  /* nook_transfer_vectors_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* The baked shape. NULL (default): vertices without baked visibility, which all light above their horizon
    * reaches. A prop under a probe needs no more than this. */
@@ -293,8 +271,6 @@ typedef struct nook_transfer_vectors_desc {
   const float* normals;
   const float* tangents;
 } nook_transfer_vectors_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_transfer_vectors_desc_init(nook_transfer_vectors_desc* desc) {
   return nook_desc_init(NOOK_DESC_TRANSFER_VECTORS, desc, sizeof *desc, NOOK_VERSION);
 }
@@ -382,7 +358,6 @@ NOOK_API nook_result nook_gl_transfer_update_light(nook_gl_transfer gl_transfer,
 NOOK_API void nook_gl_transfer_destroy(nook_gl_transfer* gl_transfer);
 
 typedef struct nook_gl_transfer_info {
-  /* sizeof(nook_gl_transfer_info); the caller sets it. */
   uint32_t struct_size;
   /* The OpenGL name of a GL_TEXTURE_BUFFER (OpenGL ES: GL_TEXTURE_2D) that Nook owns: the host binds it, and
    * never changes or deletes it. */
