@@ -184,16 +184,13 @@ enum {
 };
 typedef int32_t nook_clips_table;
 
-/* Gives the size of a table as a 2D texture, in texels; the texels of the table are its rows one after
- * another, and the last row is filled up with zeros. Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_clips_texture_size(nook_clips clips, nook_clips_table table, uint32_t* width,
-                                             uint32_t* height, uint64_t* bytes);
-
-/* Writes the texels of a table, rows without gaps. byte_count must be the bytes of nook_clips_texture_size.
- * The AO of vertex v in frame f is clamp(0.5 + sum of weight * mode over the mode_count numbers of each, 0,
- * 1). Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_clips_read_texture(nook_clips clips, nook_clips_table table, void* texels,
-                                             uint64_t byte_count);
+/* Writes the texels of a table, for a 2D texture of *width x *height texels: rows one after another without
+ * gaps, the last one filled up with zeros. *size is the room in bytes, and becomes the size of the table;
+ * with texels NULL the call only sets *size, *width and *height. The AO of vertex v in frame f is clamp(0.5 +
+ * sum of weight * mode over the mode_count numbers of each, 0, 1). Any thread. Errors: INVALID_ARGUMENT
+ * (also, there is too little room). */
+NOOK_API nook_result nook_clips_read_table(nook_clips clips, nook_clips_table table, void* texels,
+                                           size_t* size, uint32_t* width, uint32_t* height);
 
 /* ---- Memory and time of a pass ---- */
 
