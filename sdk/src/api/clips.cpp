@@ -237,30 +237,22 @@ nook_result nook_scene_set_clip(nook_scene scene, nook_instance_id instance, noo
   });
 }
 
-nook_result nook_clips_texture_size(nook_clips clips, nook_clips_table table, uint32_t* width,
-                                    uint32_t* height, uint64_t* bytes) {
-  return api::enter("nook_clips_texture_size", [&] {
+nook_result nook_clips_read_table(nook_clips clips, nook_clips_table table, void* texels, size_t* size,
+                                  uint32_t* width, uint32_t* height) {
+  return api::enter("nook_clips_read_table", [&] {
     need(clips, "clips");
+    need(size, "size");
     need(width, "width");
     need(height, "height");
-    need(bytes, "bytes");
-    const ClipTexels texels = texels_of(*clips, table);
+    const ClipTexels known = texels_of(*clips, table);
+    const std::size_t bytes = static_cast<std::size_t>(known.bytes());
+    if (texels && *size < bytes)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "there is too little room (got %zu bytes, need %zu)", *size,
+                    bytes);
+    *size = bytes;
     *width = ClipTexels::width;
-    *height = texels.height();
-    *bytes = texels.bytes();
-  });
-}
-
-nook_result nook_clips_read_texture(nook_clips clips, nook_clips_table table, void* texels,
-                                    uint64_t byte_count) {
-  return api::enter("nook_clips_read_texture", [&] {
-    need(clips, "clips");
-    need(texels, "texels");
-    const ClipTexels size = texels_of(*clips, table);
-    if (byte_count != size.bytes())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "byte_count is not that of the table (got %llu, need %llu)",
-                    static_cast<unsigned long long>(byte_count),
-                    static_cast<unsigned long long>(size.bytes()));
-    table == NOOK_CLIPS_MODES ? write_mode_texels(*clips, texels) : write_weight_texels(*clips, texels);
+    *height = known.height();
+    if (texels)
+      table == NOOK_CLIPS_MODES ? write_mode_texels(*clips, texels) : write_weight_texels(*clips, texels);
   });
 }

@@ -58,6 +58,17 @@ struct Describe {
     info.bytes = coordinates.bytes();
     info.glsl = coordinates.source().c_str();
   }
+  void operator()(const gl::TransferTexture& vectors) const {
+    put(info, gl::TexelTable::target(device), vectors.name(), "nook_transfer_texels");
+    info.bytes = vectors.bytes();
+    info.glsl = vectors.source().c_str();
+  }
+  void operator()(const api::PaperUpload& paper) const {
+    put(info, gl::TexelTable::target(device), paper.texture.light(), "nook_transfer_texels");
+    put(info, gl::TexelTable::target(device), paper.texture.vertices(), "nook_transfer_vertices");
+    info.bytes = paper.texture.bytes();
+    info.glsl = paper.texture.source().c_str();
+  }
   void operator()(const gl::ClipTextures& clips) const {
     put(info, GL_TEXTURE_2D, clips.modes(), "nook_clip_modes");
     put(info, GL_TEXTURE_2D, clips.weights(), "nook_clip_weights");
@@ -84,6 +95,7 @@ constexpr Mark marks[] = {{"nook_probe_texels", "a probe of lobes"},
                           {"nook_light_map", "a material"},
                           {"nook_neural_features", "a neural material"},
                           {"nook_synthesis_texels", "a coordinate texture"},
+                          {"nook_transfer_texels", "a transfer"},
                           {"nook_clip_modes", "clips"}};
 
 const char* kind_of(std::string_view uniform) {
