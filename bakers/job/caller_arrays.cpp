@@ -7,8 +7,8 @@
 #include "bakers/job/worker_arena.h"
 #include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/hash.h"
 #include "sdk/src/core/geometry.h"
+#include "sdk/src/core/hash.h"
 
 namespace nook::bake {
 

@@ -16,8 +16,8 @@
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/material/direction_mesh.h"
-#include "sdk/src/material/reflectance.h"
 #include "sdk/src/material/parabolic.h"
+#include "sdk/src/material/reflectance.h"
 #include "sdk/src/material/tables.h"
 #include "sdk/src/material/view_cells.h"
 
