@@ -13,7 +13,7 @@
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/probe/scene.h"
+#include "bakers/tool/probe/probe_scene.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {

@@ -12,7 +12,7 @@
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/peers.h"
-#include "bakers/tool/probe/scene.h"
+#include "bakers/tool/probe/probe_scene.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
 

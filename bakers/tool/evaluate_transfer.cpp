@@ -12,7 +12,7 @@
 #include "bakers/tool/image_folder.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/probe/scene.h"
+#include "bakers/tool/probe/probe_scene.h"
 #include "platform/progress_bar.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/material/material_check.h"

@@ -15,7 +15,7 @@
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/probe/scene.h"
+#include "bakers/tool/probe/probe_scene.h"
 #include "platform/platform.h"
 #include "platform/progress_bar.h"
 

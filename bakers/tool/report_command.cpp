@@ -15,7 +15,7 @@
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/inspect/describe.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/probe/scene.h"
+#include "bakers/tool/probe/probe_scene.h"
 #include "bakers/tool/tool_error.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"

@@ -14,7 +14,7 @@
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/probe/grid_arguments.h"
-#include "bakers/tool/probe/scene.h"
+#include "bakers/tool/probe/probe_scene.h"
 #include "bakers/tool/tool_error.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"

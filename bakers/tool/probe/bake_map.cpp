@@ -7,7 +7,7 @@
 #include "bakers/measure/probe/probe_report.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/probe/bake.h"
-#include "bakers/tool/probe/scene.h"
+#include "bakers/tool/probe/probe_scene.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
 #include "platform/stopwatch.h"

@@ -1,4 +1,4 @@
-#include "bakers/tool/probe/scene.h"
+#include "bakers/tool/probe/probe_scene.h"
 
 #include "bakers/tool/input_file.h"
 

@@ -1,4 +1,4 @@
-#include "bakers/tool/probe/options.h"
+#include "bakers/tool/probe/probe_options.h"
 
 #include "bakers/tool/command_line.h"
 
