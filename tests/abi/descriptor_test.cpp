@@ -1,5 +1,7 @@
 // Structs of older and newer headers, and the version handshake.
-#include <nook/nook_gl.h>
+#include <nook/experimental/nook_debug.h>
+#include <nook/nook_nnao.h>
+#include <nook/nook_world.h>
 
 #include <string>
 
@@ -24,6 +26,14 @@ TEST_CASE("init functions fill what fits into the caller's struct, of every rele
   check_init<nook_context_desc>(nook_desc_init, NOOK_DESC_CONTEXT);
   check_init<nook_scene_desc>(nook_desc_init, NOOK_DESC_SCENE);
   check_init<nook_gl_desc>(nook_desc_init, NOOK_DESC_GL);
+  check_init<nook_gl_frame_desc>(nook_desc_init, NOOK_DESC_GL_FRAME);
+  check_init<nook_nnao_desc>(nook_desc_init, NOOK_DESC_NNAO);
+  check_init<nook_nnao_debug_desc>(nook_desc_init, NOOK_DESC_NNAO_DEBUG);
+  check_init<nook_nnao_frame_desc>(nook_desc_init, NOOK_DESC_NNAO_FRAME);
+  check_init<nook_nnao_frame_debug_desc>(nook_desc_init, NOOK_DESC_NNAO_FRAME_DEBUG);
+  check_init<nook_world_desc>(nook_desc_init, NOOK_DESC_WORLD);
+  check_init<nook_world_frame_desc>(nook_desc_init, NOOK_DESC_WORLD_FRAME);
+  check_init<nook_world_frame_debug_desc>(nook_desc_init, NOOK_DESC_WORLD_FRAME_DEBUG);
 
   nook_context_desc desc;
   CHECK(nook_desc_init(NOOK_DESC_CONTEXT, &desc, sizeof desc - 1, NOOK_VERSION) ==
