@@ -44,7 +44,7 @@
 #define NOOK_SAMPLE_FIRST 1
 #define NOOK_SAMPLE_NEAREST 2
 
-// The values of nook_gbuffer_ao that the shaders tell apart. From REPLACE on the layer has a weight.
+// Values of nook_gbuffer_ao. From REPLACE on, the layer has a weight.
 #define NOOK_LAYER_MIN 1
 #define NOOK_LAYER_REPLACE 3
 // Weights above which depth has no surface: of what the screen-space pass excludes, and of what the layer

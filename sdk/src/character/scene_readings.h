@@ -1,5 +1,5 @@
-// What a host may ask about the instances of a scene: their memory, and for debug drawing the shapes that
-// stand for them.
+// Answers about the instances of a scene: their memory, and for debug drawing the shapes that the scene
+// evaluates.
 #pragma once
 
 #include <nook/experimental/nook_debug.h>

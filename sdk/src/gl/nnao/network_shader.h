@@ -1,4 +1,4 @@
-// What a pass puts into the shaders of its network: definitions before their text, and the network's numbers.
+// The definitions that a pass puts before its shaders, and the network's numbers in their layout.
 #pragma once
 
 #include "sdk/src/gl/nnao/nnao_frame.h"

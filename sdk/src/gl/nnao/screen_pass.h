@@ -1,5 +1,5 @@
-// What the passes over the screen have in common: the screen-space pass and the world pass draw triangles
-// over a host's images, and write AO to the host's target or to a texture of their own.
+// The common part of the screen-space pass and the world pass. Both draw triangles over a host's images, and
+// write AO to the host's target or to a texture of their own.
 #pragma once
 
 #include <nook/nook_nnao.h>
