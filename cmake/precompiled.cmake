@@ -5,6 +5,8 @@
 # Programs (the tool, samples and tests) are compiled with -O1: they wait for the rooms, which keep their optimisation, and a third
 # of the time to compile them went into optimising. Those that measure time keep theirs, and have no precompiled header.
 #
+# A library with the property NOOK_PROGRAM_PART is compiled as programs are.
+#
 # One precompiled header serves all targets whose flags are the same: position-independent code of libraries is not that of
 # programs. Each target below compiles one empty source, from which the others take the header.
 
@@ -36,12 +38,22 @@ function(nook_cxx_options result target)
   set(${result} "${options}" PARENT_SCOPE)
 endfunction()
 
+# nook_kind(RESULT TARGET): the target's type, EXECUTABLE for parts of programs.
+function(nook_kind result target)
+  get_target_property(type ${target} TYPE)
+  get_target_property(part ${target} NOOK_PROGRAM_PART)
+  if(part)
+    set(type EXECUTABLE)
+  endif()
+  set(${result} ${type} PARENT_SCOPE)
+endfunction()
+
 # nook_precompiled_name(RESULT TARGET): the target that has the precompiled headers of this one, or nothing where none has its
 # options.
 function(nook_precompiled_name result target)
   set(${result} "" PARENT_SCOPE)
   get_target_property(standard ${target} CXX_STANDARD)
-  get_target_property(type ${target} TYPE)
+  nook_kind(type ${target})
   get_target_property(libraries ${target} LINK_LIBRARIES)
   if(type MATCHES "LIBRARY")
     set(candidates nook_precompiled_rooms nook_precompiled_fuzzed)
@@ -69,9 +81,9 @@ function(nook_precompile_directory directory)
     if(NOT precompiled)
       continue()
     endif()
-    get_target_property(type ${target} TYPE)
+    nook_kind(type ${target})
     if(type STREQUAL "EXECUTABLE")
-      if(directory MATCHES "^${PROJECT_SOURCE_DIR}/(tests/bench|bakers/measure)(/|$)")
+      if(directory MATCHES "^${PROJECT_SOURCE_DIR}/(tests/bench|bakers/lab/gpu_(cost|time))(/|$)")
         continue()
       endif()
       target_compile_options(${target} PRIVATE -O1)

@@ -26,7 +26,7 @@ export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:+$CCACHE_SLOPPINESS,}pch_defines,t
 
 # The viewer and the character need less than half of the objects of the crowd, and the character's model lies in the tree.
 ninja -C build mannequin gltf_viewer
-build/samples/mannequin/mannequin out/first/mannequin.glb
+build/bakers/mannequin/mannequin out/first/mannequin.glb
 build/samples/gltf_viewer/gltf_viewer out/first/mannequin.glb samples/minimal/mannequin.nook --clip Crouch --out out/first
 mv out/first/frame_0000.png out/first.png
 echo "look at out/first.png: one character, by a model that was baked before; the bake and the crowd follow"

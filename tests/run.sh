@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Builds everything from a fresh checkout and runs all tests.
 #   tests/run.sh            installs packages.txt, checks the format of the sources, builds with GCC and runs every test
-#   tests/run.sh --all      adds what CI checks: the sources by the compilers of other platforms, the library and the bakers
-#                           under the address and undefined-behaviour sanitizers, and the library under the thread sanitizer
+#   tests/run.sh --all      adds what CI checks: nook-lab with its tests, the sources by the compilers of other platforms, the
+#                           library and the bakers under the address and undefined-behaviour sanitizers, and the library under
+#                           the thread sanitizer
 # NOOK_BUILD_DIR is the build folder (default: build).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -49,7 +50,7 @@ git -C "$root" ls-files -z -- '*.h' '*.hpp' '*.cpp' '*.c' '*.inl' |
   (cd "$root" && xargs -0 clang-format-14 --dry-run --Werror)
 
 echo "== build and tests"
-configure "$build" "-DCMAKE_C_COMPILER=$(command -v gcc)" "-DCMAKE_CXX_COMPILER=$(command -v g++)"
+configure "$build" "-DNOOK_LAB=$all" "-DCMAKE_C_COMPILER=$(command -v gcc)" "-DCMAKE_CXX_COMPILER=$(command -v g++)"
 ninja -C "$build"
 ctest --test-dir "$build" --output-on-failure -j "$jobs"
 

@@ -11,7 +11,7 @@
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/random.h"
 #include "sdk/src/character/kernel.h"
-#include "sdk/src/character/model_check.h"
+#include "sdk/src/character/model.h"
 #include "sdk/src/character/model_file_packing.h"
 #include "sdk/src/core/failure.h"
 

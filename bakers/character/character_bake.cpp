@@ -14,10 +14,10 @@
 #include "bakers/import/skinned_mesh.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/character/levels.h"
-#include "sdk/src/character/model_check.h"
+#include "sdk/src/character/model.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::bake {
 namespace {

@@ -27,7 +27,7 @@ struct BakeSettings {
   double time_limit_s = 0;    // of the fit; 0: none. A fit that it ends is not reproducible bit for bit
   std::uint64_t seed = 1;
   Kernel kernel;
-  // Of each key point before the fit, up to max_saturation (model_check.h); the fit changes it. 0: no shadow
+  // Of each key point before the fit, up to max_saturation (model.h); the fit changes it. 0: no shadow
   // is saturated, as with method paper, and with a gamma that is learned or not 1, which has the same
   // purpose.
   float saturation = 0.5f;

@@ -7,7 +7,7 @@
 
 #include "bakers/algebra/symmetric_eigen.h"
 #include "bakers/raytrace/random.h"
-#include "sdk/src/character/clip_set_check.h"
+#include "sdk/src/character/clip_set.h"
 
 namespace nook::bake {
 namespace {

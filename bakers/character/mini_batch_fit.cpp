@@ -8,7 +8,7 @@
 #include <random>
 
 #include "bakers/character/layer_kernels.h"
-#include "sdk/src/character/model_check.h"
+#include "sdk/src/character/model.h"
 
 namespace nook::bake {
 namespace {

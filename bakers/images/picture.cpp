@@ -11,7 +11,7 @@
 #include "bakers/raytrace/ray_scene.h"
 #include "platform/output_file.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_light.h"
 
 namespace nook::bake {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "bakers/import/weld.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::bake {
 

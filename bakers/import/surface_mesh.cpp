@@ -11,7 +11,7 @@
 #include "bakers/import/shown_primitives.h"
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::bake {
 namespace {

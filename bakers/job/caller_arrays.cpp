@@ -6,8 +6,8 @@
 #include "bakers/import/weld.h"
 #include "bakers/job/worker_arena.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/core/hash.h"
-#include "sdk/src/core/place.h"
 
 namespace nook::bake {
 

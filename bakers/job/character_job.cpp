@@ -10,7 +10,7 @@
 #include "bakers/job/worker_arena.h"
 #include "bakers/world/fit_casters.h"
 #include "platform/peak_memory.h"
-#include "sdk/src/character/model_check.h"
+#include "sdk/src/character/model.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"
 

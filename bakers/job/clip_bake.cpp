@@ -6,7 +6,7 @@
 #include "bakers/character/pose_sets.h"
 #include "platform/peak_memory.h"
 #include "platform/stopwatch.h"
-#include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/clip_set.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {

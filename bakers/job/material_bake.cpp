@@ -9,7 +9,7 @@
 #include "bakers/material/raw_relief.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 #include "sdk/src/material/material_file.h"
 
 namespace nook::bake {

@@ -10,7 +10,7 @@
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/material/material_file.h"
-#include "sdk/src/synthesis/coordinates_file.h"
+#include "sdk/src/synthesis/coordinates.h"
 
 namespace nook::bake {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "bakers/raytrace/hemisphere.h"
 #include "bakers/tensor/gram.h"
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 #include "sdk/src/material/spatial_modes.h"
 
 namespace nook::bake::material {

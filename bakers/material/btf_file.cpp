@@ -9,9 +9,8 @@
 #include <string_view>
 
 #include "bakers/material/raw_material.h"
-#include "sdk/src/core/bit_cast.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 
 namespace nook::bake::material {
 namespace {

@@ -12,7 +12,7 @@
 #include "bakers/tensor/resample.h"
 #include "bakers/tensor/seed_clusters.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 
 namespace nook::bake::material {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "bakers/material/visibility_values.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 
 namespace nook::bake::material {
 namespace {

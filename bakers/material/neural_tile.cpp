@@ -6,7 +6,7 @@
 #include "bakers/material/neural_pass.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 
 namespace nook::bake::material {
 

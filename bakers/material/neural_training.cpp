@@ -9,7 +9,7 @@
 #include "bakers/raytrace/random.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 
 namespace nook::bake::material {
 namespace {

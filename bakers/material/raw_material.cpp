@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 
 namespace nook::bake::material {
 

@@ -8,8 +8,8 @@
 #include "bakers/material/view_spline.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/check.h"
-#include "sdk/src/material/relief.h"
+#include "sdk/src/material/material_check.h"
+#include "sdk/src/material/relief_tables.h"
 
 namespace nook::bake::material {
 namespace {

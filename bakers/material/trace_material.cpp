@@ -10,7 +10,7 @@
 #include "bakers/material/shading.h"
 #include "bakers/raytrace/ray_scene.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 
 namespace nook::bake::material {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bakers/nnao/scene_families.h"
-#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_evaluate.h"
 
 namespace nook::bake::nnao {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_evaluate.h"
 
 namespace nook::bake::nnao {
 namespace {

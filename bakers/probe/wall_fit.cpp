@@ -11,8 +11,8 @@
 
 #include "bakers/raytrace/environment.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/probe/evaluate.h"
 #include "sdk/src/probe/harmonics.h"
+#include "sdk/src/probe/probe_light.h"
 
 namespace nook::bake::probe {
 namespace {

@@ -1,4 +1,4 @@
-// Walls of a grid's cells, learned: the planes and masks (sdk/src/probe/walls.h) whose interpolation has the
+// Walls of a grid's cells, learned: the planes and masks (sdk/src/probe/probe.h) whose interpolation has the
 // smallest error of irradiance at places where it was path traced, instead of planes and masks from distances
 // or visibility: what counts is whose light is right there.
 #pragma once

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "sdk/src/core/map_suns.h"
+#include "sdk/src/core/light_map.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook::bake {

@@ -8,7 +8,7 @@
 #include "bakers/job/probe_bake.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/tool_error.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::tool {
 namespace {

@@ -12,7 +12,7 @@
 #include "platform/progress_bar.h"
 #include "sdk/src/core/container.h"
 #include "sdk/src/material/material_file.h"
-#include "sdk/src/synthesis/coordinates_file.h"
+#include "sdk/src/synthesis/coordinates.h"
 
 namespace nook::tool {
 namespace {

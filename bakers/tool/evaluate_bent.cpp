@@ -5,10 +5,9 @@
 #include <optional>
 
 #include "bakers/measure/character/bent_study.h"
-#include "bakers/measure/character/evaluated_poses.h"
-#include "bakers/measure/character/glossy_picture.h"
-#include "bakers/measure/character/report.h"
-#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/measure/character/character_pictures.h"
+#include "bakers/measure/character/character_report.h"
+#include "bakers/measure/character/evaluated_character.h"
 #include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"

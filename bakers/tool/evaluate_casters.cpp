@@ -6,9 +6,8 @@
 #include <string>
 #include <tuple>
 
-#include "bakers/measure/character/pictures.h"
-#include "bakers/measure/character/report.h"
-#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/measure/character/character_pictures.h"
+#include "bakers/measure/character/character_report.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"

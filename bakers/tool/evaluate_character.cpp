@@ -4,15 +4,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/measure/character/pictures.h"
-#include "bakers/measure/character/report.h"
-#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/measure/character/character_pictures.h"
+#include "bakers/measure/character/character_report.h"
 #include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"
-#include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
+#include "bakers/tool/peers.h"
 #include "platform/printable.h"
 #include "platform/progress_bar.h"
 
@@ -27,7 +26,6 @@ struct Options {
   EvaluatedFiles files;
   PoseChoice poses;
   std::uint32_t rays = 256;
-  bool peers = false;
   std::filesystem::path images;
   std::size_t image_count = 4;
 };
@@ -40,7 +38,7 @@ std::optional<bake::Recipe> known_recipe(const BakedCharacter& baked, const Opti
   return recipe;
 }
 
-Json evaluate(const Options& options) {
+Json evaluate(const Options& options, std::span<const CharacterPeer> peers) {
   const BakedCharacter baked = read_evaluated_files(options.files);
   require_clips(options.poses.clips, baked.character);
   const std::optional<bake::Recipe> recipe = known_recipe(baked, options);
@@ -55,7 +53,7 @@ Json evaluate(const Options& options) {
   };
   CharacterReport measured_report = measure_character(
       baked, recipe ? &*recipe : nullptr, measured,
-      {options.files.character.stem().string(), options.rays, options.common.seed, options.peers}, stage);
+      {options.files.character.stem().string(), options.rays, options.common.seed, peers}, stage);
   if (!options.images.empty())
     write_pictures(options.images, baked.character.mesh, baked.model, measured.poses, options.image_count,
                    measured_report.evaluation.vertex_rms, options.rays,
@@ -69,7 +67,7 @@ Json evaluate(const Options& options) {
 
 }  // namespace
 
-void add_evaluate_character(Command evaluate_command) {
+void add_evaluate_character(Command evaluate_command, std::span<const CharacterPeer> peers) {
   const Command command =
       evaluate_command.add_subcommand("character",
                                       "measure a baked character against ray tracing.\n"
@@ -98,18 +96,14 @@ void add_evaluate_character(Command evaluate_command) {
   command.add_option("--rays", o.rays, "rays for each vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
-  command.add_flag(
-      "--peers", o.peers,
-      "also fit a linear pose model (Kontkanen & Aila 2006) and pose clusters (Kirk & Arikan 2007) to the "
-      "model's training poses, tuned by cross-validation, and measure them");
   command.add_option("--images", o.images, "draw the error on the body: PNG files in this directory");
   command.add_option("--image-count", o.image_count, "poses to draw")
       .check(in_range(1, 1000))
       .capture_default_str();
   add_common_options(command, o.common);
-  command.callback([options] {
+  command.callback([options, peers] {
     run_evaluation(options->common, {named_files(options->files), {}, options->images},
-                   [&] { return evaluate(*options); });
+                   [&] { return evaluate(*options, peers); });
   });
 }
 

@@ -2,17 +2,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bakers/measure/character/clips.h"
-#include "bakers/measure/character/report.h"
-#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/measure/character/character_report.h"
+#include "bakers/measure/character/clip_error.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
 #include "platform/progress_bar.h"
-#include "sdk/src/character/clip_file.h"
-#include "sdk/src/character/clip_set_check.h"
+#include "sdk/src/character/clip_set.h"
 
 namespace nook::tool {
 namespace {

@@ -3,9 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/measure/character/lods.h"
-#include "bakers/measure/character/report.h"
-#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/measure/character/character_report.h"
+#include "bakers/measure/character/lod_error.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"

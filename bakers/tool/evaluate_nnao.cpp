@@ -1,55 +1,154 @@
-// nook evaluate nnao: the screen-space pass and its baselines against ray tracing, on OpenGL without a
-// display.
-#include <memory>
-#include <nlohmann/json.hpp>
+// nook evaluate nnao: recorded frames of the screen-space pass drawn anew, on OpenGL without a display.
+#include "bakers/tool/evaluate_nnao.h"
 
+#include <algorithm>
+#include <cstdio>
+
+#include "bakers/measure/nnao/frame_pictures.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
-#include "bakers/tool/nnao/evaluate.h"
-#include "bakers/tool/nnao/evaluate_frames.h"
-#include "bakers/tool/nnao/networks.h"
-#include "bakers/tool/nnao/options.h"
-#include "bakers/tool/nnao/traced_scenes.h"
+#include "bakers/tool/image_folder.h"
+#include "bakers/tool/input_file.h"
+#include "bakers/tool/interrupt.h"
+#include "platform/progress_bar.h"
+#include "sdk/src/nnao/recording_file.h"
 
 namespace nook::tool {
 namespace {
 
-nlohmann::ordered_json replay(const EvaluateNnaoOptions& options) {
-  const Networks networks = read_networks(options.network);
-  const auto context = make_context();
-  return evaluate_frames(
-      *context, {options.frames, options.methods, networks.file, options.images, options.common.quiet});
+using namespace measure;
+using Json = nlohmann::ordered_json;
+using nook::nnao::Recording;
+
+// The file's name without .nook; with a number where an earlier frame has it already.
+std::string frame_name(const std::filesystem::path& file, const std::vector<std::string>& taken) {
+  const std::string stem = as_file_name(file.stem().string());
+  std::string name = stem;
+  for (int number = 2; std::ranges::find(taken, name) != taken.end(); ++number) {
+    name = stem;
+    name.append("_").append(std::to_string(number));
+  }
+  return name;
 }
 
-void run(EvaluateNnaoOptions& options) {
-  check_options(options);
-  options.truth.seed = options.common.seed;
-  CommandFiles files{{{"--network", options.network}}, {{"--markdown", options.markdown}}, options.images};
-  if (!options.views.empty()) files.inputs.push_back({"--views", options.views});
-  for (const std::filesystem::path& scene : options.scenes.files) files.inputs.push_back({"a scene", scene});
+void write_pictures(const std::filesystem::path& folder, const std::string& frame,
+                    const bake::nnao::TracedView& view, std::span<const FrameRow> rows) {
+  const std::vector<NamedPicture> pictures = frame_pictures(view, rows);
+  for (const NamedPicture& picture : pictures)
+    platform::write_image(folder / (frame + "_" + picture.name + ".png"), picture.image);
+  platform::write_image(folder / (frame + ".png"), picture_sheet(pictures));
+}
+
+void warn_about_network(const std::string& frame, const Recording& recording) {
+  if (!nook::nnao::recorded_network(recording).readable)
+    std::fprintf(stderr,
+                 "%s: its network is not one that this version evaluates; the embedded network takes its "
+                 "place\n",
+                 frame.c_str());
+}
+
+Json frame_summary(const std::string& frame, const Recording& recording) {
+  return {{"frame", frame},
+          {"radius", recording.frame.radius},
+          {"renderer", std::string(recording.renderer)},
+          {"driver_version", std::string(recording.driver_version)},
+          {"note", std::string(recording.note)}};
+}
+
+struct Options {
+  CommonOptions common;
+  std::vector<std::filesystem::path> frames;
+  std::vector<std::string> methods;
+  std::filesystem::path network, images;
+};
+
+void run(const Options& options) {
+  CommandFiles files{{{"--network", options.network}}, {}, options.images};
   for (const std::filesystem::path& frame : options.frames) files.inputs.push_back({"--frame", frame});
-  for (const std::filesystem::path& mover : options.movers) files.inputs.push_back({"--mover", mover});
   run_evaluation(options.common, files, [&] {
-    if (!options.frames.empty()) return replay(options);
-    if (!options.tune.empty()) return evaluate_tuning(options);
-    if (!options.movers.empty()) return evaluate_movers(options);
-    if (options.temporal) return evaluate_sequences(options);
-    return options.bent ? evaluate_bent_normals(options) : evaluate_views(options);
+    const Networks networks = read_networks(options.network);
+    const auto context = make_context();
+    return evaluate_frames(
+        *context, {options.frames, options.methods, networks.file, options.images, options.common.quiet},
+        nullptr);
   });
 }
 
 }  // namespace
 
+Networks read_networks(const std::filesystem::path& file) {
+  Networks networks;
+  networks.embedded = nook::nnao::read_network(nook::nnao::default_network_file());
+  if (file.empty()) return networks;
+  networks.file = read_file(file);
+  networks.other = naming_file(file, [&] { return nook::nnao::read_network(networks.file); });
+  return networks;
+}
+
+std::unique_ptr<platform::Context> make_context() {
+  platform::ContextRequest request;
+  request.major = request.minor = 3;
+  return platform::create_context(request);
+}
+
+Json evaluate_frames(platform::Context& context, const FrameWords& words, const FrameMethods& further) {
+  const NookGl nook(context);
+  platform::ProgressBar bar(words.quiet);
+  std::vector<std::string> names;
+  Json report, rows = Json::array(), frames = Json::array();
+  for (const std::filesystem::path& file : words.files) {
+    const std::vector<std::byte> bytes = read_file(file);
+    const Recording recording = naming_file(file, [&] { return nook::nnao::read_recording(bytes); });
+    names.push_back(frame_name(file, names));
+    const std::string& name = names.back();
+    warn_about_network(name, recording);
+    naming_file(file, [&] {
+      FrameReplay replay(context.gl(), nook, recording);
+      const auto methods = further ? further(context.gl()) : std::vector<FrameMethod>();
+      const auto show = [&](std::size_t done, std::size_t total) {
+        bar.show("replaying " + name, "methods", done, total);
+        return !interrupted();
+      };
+      const std::vector<FrameRow> drawn =
+          compare_frame(replay, recording, words.methods, words.network, show, methods);
+      if (drawn.empty() || drawn.back().method == recorded_name)
+        throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: none can replay this frame");
+      for (const Json& row : frame_rows(name, recording, drawn)) rows.push_back(row);
+      if (!words.images.empty()) write_pictures(words.images, name, replay.view(), drawn);
+    });
+    frames.push_back(frame_summary(name, recording));
+  }
+  for (const Json& row : frame_mean_rows(rows)) rows.push_back(row);
+  report["rows"] = std::move(rows);
+  report["frames"] = std::move(frames);
+  report["opengl"] = context.version();
+  report["gpu"] = context.renderer();
+  return report;
+}
+
 void add_evaluate_nnao(Command evaluate_command) {
-  const Command command =
-      evaluate_command.add_subcommand("nnao",
-                                      "the screen-space pass, and SSAO, SSAO+, HBAO, GTAO, "
-                                      "GTAO with a visibility bitmask, XeGTAO, and forms of "
-                                      "what N8AO, Godot, VTK, QGIS and Filament ship, "
-                                      "against ray tracing");
-  const auto options = std::make_shared<EvaluateNnaoOptions>();
-  add_options(command, *options);
+  const Command command = evaluate_command.add_subcommand(
+      "nnao", "recorded frames of the screen-space pass: replayed, by the presets, and against the oracle");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  command.add_option("--frame", o.frames, "a frame that nook_nnao_record wrote; any number of times")
+      .required()
+      .type_name("FILE.nook");
+  std::vector<std::string> names{"all", file_name};
+  for (const std::string& name : frame_method_names()) names.push_back(name);
+  for (const Oracle oracle : all_oracles) names.push_back(oracle_name(oracle));
+  command
+      .add_option(
+          "--methods", o.methods,
+          "draw these alone, NAME or NAME:TAPS, separated by commas; default: replayed, fast, default, best "
+          "and oracle, and nnao_file with --network")
+      .delimiter(',')
+      .check([names](const std::string& text) { return one_of(names)(text.substr(0, text.find(':'))); });
+  command.add_option("--network", o.network,
+                     "a file of `nook train nnao`, such as the paper's form, drawn as well: nnao_file");
+  command.add_option("--images", o.images, "write pictures of each frame into this folder");
+  add_common_options(command, o.common);
   command.callback([options] { run(*options); });
 }
 

@@ -1,18 +1,17 @@
-// nook evaluate probe: every way to fit a probe, and baked ones, against the maps that they stand for.
+// nook evaluate probe: fits of a probe, and baked ones, against the maps that they stand for; baked grids
+// against path tracing.
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "bakers/images/picture.h"
 #include "bakers/job/probe_bake.h"
-#include "bakers/measure/probe/glossy_error.h"
-#include "bakers/measure/probe/report.h"
+#include "bakers/measure/probe/probe_report.h"
 #include "bakers/tool/command_line.h"
-#include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/probe/evaluate_grid.h"
+#include "bakers/tool/peers.h"
 #include "bakers/tool/probe/scene.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
@@ -23,6 +22,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace bake::probe;
 
+struct EvaluateGridOptions {
+  std::filesystem::path scene, light;
+  std::uint32_t points = 1024;  // of each kind
+  std::uint32_t paths = 2048;   // a point
+  std::uint32_t max_bounces = ~0u;
+  bool no_textures = false;
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  std::string direct;  // empty: as each grid was baked
+};
+
 struct Options {
   CommonOptions common;
   EvaluateGridOptions grid;
@@ -30,34 +39,23 @@ struct Options {
   std::uint32_t lobes = 12;
   ComparisonSettings comparison;
   std::filesystem::path images;
-  bool glossy = false;  // in place of all forms of fitting
-  measure::GlossySettings surfaces;
 };
 
-void append_methods(const Options& options, const std::string& name, const bake::Environment& map,
-                    platform::ProgressBar& bar, Json& rows, measure::OverMaps& over_maps) {
-  for (const bool hemisphere : {false, true}) {
-    const std::string label = name + (hemisphere ? ", hemisphere" : ", sphere");
+void append_methods(const Options& options, const ProbePeers* peers, const std::string& name,
+                    const bake::Environment& map, platform::ProgressBar& bar, Json& rows,
+                    measure::OverMaps& over_maps) {
+  for (const Domain domain : {Domain::sphere, Domain::hemisphere}) {
+    const Region region{domain, {0, 1, 0}};
+    const std::string label = name + (domain == Domain::hemisphere ? ", hemisphere" : ", sphere");
     const auto progress = [&](std::size_t done, std::size_t total) {
       bar.show(label, "methods", done, total);
       return !interrupted();
     };
-    const Json measured = measure::probe_method_rows(map, name, options.lobes, hemisphere, options.comparison,
-                                                     progress, &over_maps);
+    const Json measured = measure::probe_method_rows(
+        map, name, peers ? peers->methods(options.lobes, region) : own_probe_methods(options.lobes, region),
+        region, options.comparison, progress, &over_maps);
     for (const Json& row : measured) rows.push_back(row);
   }
-}
-
-void append_glossy(const Options& options, const std::string& name, const bake::Environment& map,
-                   platform::ProgressBar& bar, Json& rows) {
-  measure::GlossySettings settings = options.surfaces;
-  settings.lobes = options.lobes;
-  settings.seed = options.common.seed;
-  const auto progress = [&](std::size_t done, std::size_t total) {
-    bar.show(name + ", glossy", "kinds of surface", done, total);
-    return !interrupted();
-  };
-  for (const Json& row : measure::glossy_rows(map, name, settings, progress)) rows.push_back(row);
 }
 
 Json file_row(const std::filesystem::path& path, const std::string& map_name, const bake::Environment& map) {
@@ -76,7 +74,45 @@ void write_picture(const Options& options, const std::string& name, const bake::
       .commit(bake::png_bytes(map_picture(map, settings.basis, bake_map(map, settings), panel_width)));
 }
 
-Json evaluate(const Options& options) {
+void append_grid(const EvaluateGridOptions& options, const CommonOptions& common,
+                 const bake::ProbeScene& scene, const std::filesystem::path& path, platform::ProgressBar& bar,
+                 Json& rows) {
+  const std::vector<std::byte> bytes = read_file(path);
+  const std::string file = path.filename().string();
+  const measure::PlacesProgress progress = [&](const char* places) {
+    return [&bar, label = file + ", " + places](std::size_t done, std::size_t total) {
+      bar.show(label, "points", done, total);
+      return !interrupted();
+    };
+  };
+  const Json measured = naming_file(path, [&] {
+    return measure::grid_rows(*scene.lit, scene.soup, probe::read_probes(bytes),
+                              {options.points, options.paths, options.max_bounces, scene.origin_offset,
+                               common.seed, options.direct},
+                              progress);
+  });
+  for (const Json& row : measured) {
+    Json named{
+        {"scene", options.scene.stem().string()}, {"light", options.light.stem().string()}, {"grid", file}};
+    named.update(row);
+    rows.push_back(named);
+  }
+}
+
+Json evaluate_grids(const EvaluateGridOptions& options, const CommonOptions& common,
+                    const std::vector<std::filesystem::path>& grids) {
+  const bake::ProbeScene scene =
+      read_probe_scene(options.scene, options.light, !options.no_textures, options.linked);
+  Json report;
+  report["rows"] = Json::array();
+  platform::ProgressBar bar(common.quiet);
+  for (const std::filesystem::path& grid : grids)
+    append_grid(options, common, scene, grid, bar, report["rows"]);
+  report["seed"] = common.seed;
+  return report;
+}
+
+Json evaluate(const Options& options, const ProbePeers* peers) {
   if (options.grid.scene.empty() != options.grid.light.empty())
     throw ToolError(exit_bad_arguments, "evaluate probe: grids need both --scene and --light, maps neither");
   if (!options.grid.scene.empty()) return evaluate_grids(options.grid, options.common, options.files);
@@ -95,10 +131,10 @@ Json evaluate(const Options& options) {
     }
     name = path.stem().string();
     map = std::make_unique<bake::Environment>(read_map(path));
-    if (options.glossy)
-      append_glossy(options, name, *map, bar, report["rows"]);
-    else
-      append_methods(options, name, *map, bar, report["rows"], over_maps);
+    const Json instead =
+        peers ? peers->rows_of_map(*map, name, options.lobes, options.common.seed, bar) : Json();
+    for (const Json& row : instead) report["rows"].push_back(row);
+    if (instead.is_null()) append_methods(options, peers, name, *map, bar, report["rows"], over_maps);
     if (!options.images.empty()) write_picture(options, name, *map);
   }
   for (const Json& row : over_maps.rows()) report["rows"].push_back(row);
@@ -109,12 +145,11 @@ Json evaluate(const Options& options) {
 
 }  // namespace
 
-void add_evaluate_probe(Command evaluate_command) {
+void add_evaluate_probe(Command evaluate_command, std::shared_ptr<ProbePeers> peers) {
   const Command command =
       evaluate_command.add_subcommand("probe",
-                                      "all forms of fitting, spherical harmonics, ambient "
-                                      "dice and baked probes against environment maps; baked "
-                                      "grids against path tracing");
+                                      "the fit of a bake and baked probes against environment maps; "
+                                      "baked grids against path tracing");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command
@@ -154,20 +189,15 @@ void add_evaluate_probe(Command evaluate_command) {
           "spread")
       .check(in_range(0, 1000))
       .capture_default_str();
-  command.add_flag("--glossy", o.glossy,
-                   "of maps: what random glossy surfaces reflect of the lobes and of the map, beside "
-                   "prefiltered cube maps, in place of all forms of fitting");
-  command.add_option("--surfaces", o.surfaces.surfaces, "with --glossy: random ones of each kind")
-      .check(in_range(1u, 1u << 20))
-      .capture_default_str();
   command.add_option("--images", o.images, "write a picture of each map and its lobes here");
+  if (peers) peers->add_options(command);
   add_common_options(command, o.common);
-  command.callback([options] {
+  command.callback([options, peers] {
     options->comparison.seed = options->common.seed;
     CommandFiles files{
         {{"--scene", options->grid.scene}, {"--light", options->grid.light}}, {}, options->images};
     for (const std::filesystem::path& file : options->files) files.inputs.push_back({"an input", file});
-    run_evaluation(options->common, files, [&] { return evaluate(*options); });
+    run_evaluation(options->common, files, [&] { return evaluate(*options, peers.get()); });
   });
 }
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/measure/transfer/pictures.h"
+#include "bakers/measure/transfer/transfer_pictures.h"
 #include "bakers/measure/transfer/vector_error.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
@@ -15,9 +15,9 @@
 #include "bakers/tool/probe/scene.h"
 #include "platform/progress_bar.h"
 #include "platform/stopwatch.h"
-#include "sdk/src/material/check.h"
+#include "sdk/src/material/material_check.h"
 #include "sdk/src/material/material_file.h"
-#include "sdk/src/transfer/check.h"
+#include "sdk/src/transfer/transfer_check.h"
 #include "sdk/src/transfer/transfer_file.h"
 
 namespace nook::tool {

@@ -4,15 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/measure/character/evaluated_poses.h"
-#include "bakers/measure/character/report.h"
+#include "bakers/measure/character/character_report.h"
+#include "bakers/measure/character/evaluated_character.h"
 #include "bakers/measure/composite/composite.h"
 #include "bakers/measure/composite/lit_room.h"
 #include "bakers/measure/composite/own_room.h"
-#include "bakers/measure/world/light_report.h"
-#include "bakers/measure/world/pictures.h"
-#include "bakers/measure/world/report.h"
-#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/measure/world/world_pictures.h"
+#include "bakers/measure/world/world_report.h"
 #include "bakers/tool/character_file.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"

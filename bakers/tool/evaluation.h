@@ -1,18 +1,39 @@
-// The frame of every evaluation: it runs on the requested threads and hands over a report.
+// The frame of every evaluation, which runs on the requested threads and hands over a report, and the files
+// of those that measure a baked character.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <vector>
 
+#include "bakers/import/linked_files.h"
+#include "bakers/measure/character/evaluated_character.h"
 #include "bakers/tool/common_options.h"
 #include "bakers/tool/distinct_files.h"
 
 namespace nook::tool {
+
+class Command;
 
 // Writes what evaluate returns to the report's file, and its rows as a table to the output stream. A report
 // or a folder of pictures that cannot be written, or one that would replace a file that is read, is known
 // before the work begins. files: what evaluate reads and writes, without the report.
 void run_evaluation(const CommonOptions& options, CommandFiles files,
                     const std::function<nlohmann::ordered_json()>& evaluate);
+
+// The two files of a baked character, as arguments of a command.
+struct EvaluatedFiles {
+  std::filesystem::path character, model;
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+};
+
+void add_evaluated_files(Command command, EvaluatedFiles& files);
+
+// Returns both as inputs of the command.
+std::vector<NamedFile> named_files(const EvaluatedFiles& files);
+
+// Throws ToolError (bad input) that names the file: one that cannot be read, or a model of another character.
+measure::BakedCharacter read_evaluated_files(const EvaluatedFiles& files);
 
 }  // namespace nook::tool

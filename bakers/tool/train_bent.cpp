@@ -5,9 +5,7 @@
 #include <optional>
 
 #include "bakers/measure/character/bent_study.h"
-#include "bakers/measure/character/evaluated_poses.h"
-#include "bakers/measure/character/specular_numbers.h"
-#include "bakers/tool/character/evaluated_files.h"
+#include "bakers/measure/character/evaluated_character.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "bakers/job/nnao_training.h"
-#include "bakers/measure/nnao/validation_report.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
@@ -94,7 +93,7 @@ void run_in_arena(Options& options) {
   const double seconds_training = watch.seconds();
   network.recipe = recipe;
   const std::vector<std::byte> file = nook::nnao::write_network(network);
-  const Json rows = measure::validation_rows(network, data);
+  const Json rows = bake::validation_rows(network, data);
   output.commit(file);
   std::error_code gone;
   if (!options.resume.empty()) std::filesystem::remove(options.resume, gone);

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 
 namespace nook::bake::transfer {
 

@@ -6,7 +6,7 @@
 
 #include "bakers/transfer/vertex_loop.h"
 #include "bakers/transfer/visible_directions.h"
-#include "sdk/src/transfer/light_cube.h"
+#include "sdk/src/transfer/distant_light.h"
 #include "sdk/src/transfer/transfer.h"
 
 namespace nook::bake::transfer {

@@ -10,10 +10,10 @@
 #include "bakers/tensor/gram.h"
 #include "bakers/tensor/seed_clusters.h"
 #include "bakers/transfer/inter_reflections.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/core/spherical_gaussian.h"
-#include "sdk/src/material/check.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
+#include "sdk/src/material/material_check.h"
 
 namespace nook::bake::transfer {
 

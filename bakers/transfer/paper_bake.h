@@ -5,7 +5,7 @@
 #include "bakers/transfer/separated_bake.h"
 #include "bakers/transfer/visible_directions.h"
 #include "sdk/src/material/tables.h"
-#include "sdk/src/transfer/frame.h"
+#include "sdk/src/transfer/tangent_frame.h"
 
 namespace nook::bake::transfer {
 

@@ -10,9 +10,9 @@
 #include "bakers/transfer/vertex_loop.h"
 #include "bakers/transfer/visible_directions.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
-#include "sdk/src/transfer/check.h"
-#include "sdk/src/transfer/light_cube.h"
+#include "sdk/src/core/geometry.h"
+#include "sdk/src/transfer/distant_light.h"
+#include "sdk/src/transfer/transfer_check.h"
 
 namespace nook::bake::transfer {
 namespace {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 #include "sdk/src/material/parabolic.h"
 #include "sdk/src/material/spatial_modes.h"
 

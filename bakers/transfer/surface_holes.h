@@ -10,7 +10,7 @@
 #include "bakers/raytrace/ray_scene.h"
 #include "sdk/src/core/vec.h"
 #include "sdk/src/material/tables.h"
-#include "sdk/src/transfer/frame.h"
+#include "sdk/src/transfer/tangent_frame.h"
 
 namespace nook::bake::transfer {
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "sdk/src/core/spherical_gaussian.h"
-#include "sdk/src/transfer/lobes.h"
+#include "sdk/src/transfer/distant_light.h"
 
 namespace nook::bake::transfer {
 namespace {

@@ -8,7 +8,7 @@
 #include "bakers/raytrace/ray_scene.h"
 #include "bakers/transfer/surface_holes.h"
 #include "sdk/src/core/vec.h"
-#include "sdk/src/transfer/light_cube.h"
+#include "sdk/src/transfer/distant_light.h"
 
 namespace nook::bake::transfer {
 

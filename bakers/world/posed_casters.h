@@ -7,7 +7,7 @@
 
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/character/model.h"
-#include "sdk/src/core/capsule.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/world/cone.h"
 #include "sdk/src/world/coverage.h"
 

@@ -216,10 +216,10 @@ static nook_result set_time(const App* a, GLuint program, const nook_clip_time* 
 
 /* ---- For each draw: the buffer of the scene as an attribute, and the time of the clip ---- */
 static nook_result draw_member(const App* a, GLuint program, const Member* m) {
-  nook_gl_ao_view view;
+  nook_gl_view view;
   nook_result r;
   view.struct_size = sizeof view;
-  r = nook_gl_scene_ao_buffer(a->gl, a->scene, m->id, &view);
+  r = nook_gl_scene_view(a->gl, a->scene, m->id, NOOK_CHANNEL_AO, &view);
   if (!r && !m->live) r = set_time(a, program, &m->time);
   if (r) return r;
   glUniform1i(glGetUniformLocation(program, "has_clip"), !m->live);

@@ -2,17 +2,17 @@
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
+#include <string>
 
 namespace crowd {
 namespace {
 
-constexpr float kGroundPlane[4] = {0, 1, 0, 0};
+constexpr float ground_plane[4] = {0, 1, 0, 0};
 // Between the centres of bounding spheres. Neighbours that are farther away hardly darken.
-constexpr float kLinkDistance_m = 4.0f;
+constexpr float link_distance_m = 4.0f;
 
 nook_context_desc host_services() {
   nook_context_desc desc = nook::context_desc();
@@ -25,13 +25,6 @@ nook_context_desc host_services() {
   return desc;
 }
 
-nook_scene_desc scene_settings(const CrowdSceneRequest& request) {
-  nook_scene_desc desc = nook::scene_desc();
-  desc.form = request.form;
-  desc.lod_error = request.lod_error;
-  return desc;
-}
-
 nook_gl_desc gl_settings(platform::Context& context, int tier) {
   nook_gl_desc desc = nook::gl_desc();
   desc.get_proc = platform::Context::loader;
@@ -40,69 +33,58 @@ nook_gl_desc gl_settings(platform::Context& context, int tier) {
   return desc;
 }
 
+// A muted colour that stays with a character.
+glm::vec3 albedo_of(std::size_t character) {
+  // Linear reflectances of plaster, sand, terracotta, sage, slate and rose.
+  static const glm::vec3 colours[] = {{0.62f, 0.60f, 0.56f}, {0.58f, 0.48f, 0.34f}, {0.52f, 0.28f, 0.19f},
+                                      {0.34f, 0.43f, 0.30f}, {0.27f, 0.36f, 0.46f}, {0.54f, 0.38f, 0.37f}};
+  return colours[character * 7 % 6];
+}
+
 }  // namespace
 
-CrowdScene::CrowdScene(platform::Context& context, std::span<const unsigned char> model_bytes,
-                       const CrowdSceneRequest& request)
-    : context_(host_services()),
-      model_(context_, model_bytes.data(), model_bytes.size()),
-      scene_(context_, scene_settings(request)),
-      gl_(context_, gl_settings(context, request.tier)) {
-  for (std::uint32_t i = 0; i < request.characters; ++i) {
+CrowdScene::CrowdScene(platform::Context& context, const Hero& hero, std::span<const unsigned char> model,
+                       const CrowdSize& size, const nook_scene_desc& desc)
+    : hero_(hero),
+      context_(host_services()),
+      model_(load(model)),
+      scene_(context_, desc),
+      gl_(context_, gl_settings(context, size.tier)) {
+  for (std::uint32_t i = 0; i < size.characters; ++i) {
     instances_.push_back(scene_.add_instance(model_));
-    scene_.set_ground(instances_.back(), kGroundPlane);
+    scene_.set_ground(instances_.back(), ground_plane);
   }
-  link_nearest(request.neighbours);
+  link_nearest(size.neighbours);
   gl_.prepare(scene_);
 }
 
-void CrowdScene::set_model(std::span<const unsigned char> model_bytes) {
-  nook::CharacterModel model(context_, model_bytes.data(), model_bytes.size());
-  const nook_model_info before = model_.info(), now = model.info();
-  if (now.file_vertex_count != before.file_vertex_count || now.bone_count != before.bone_count)
-    throw std::runtime_error(
-        "crowd: the model is of another character (got " + std::to_string(now.file_vertex_count) +
-        " vertices and " + std::to_string(now.bone_count) + " bones, need " +
-        std::to_string(before.file_vertex_count) + " and " + std::to_string(before.bone_count) + ")");
+nook::CharacterModel CrowdScene::load(std::span<const unsigned char> bytes) const {
+  nook::CharacterModel model(context_, bytes.data(), bytes.size());
+  const nook_model_info info = model.info();
+  if (info.file_vertex_count != hero_.vertex_count() || info.bone_count != hero_.bone_count())
+    throw std::runtime_error("crowd: the model does not belong to the character (got " +
+                             std::to_string(info.file_vertex_count) + " vertices and " +
+                             std::to_string(info.bone_count) + " bones, need " +
+                             std::to_string(hero_.vertex_count()) + " and " +
+                             std::to_string(hero_.bone_count()) + "); bake the character again");
+  return model;
+}
+
+void CrowdScene::set_model(std::span<const unsigned char> bytes) {
+  nook::CharacterModel model = load(bytes);
   for (const nook_instance_id id : instances_) scene_.set_model(id, model);
   model_ = std::move(model);
   gl_.prepare(scene_);
 }
 
-void CrowdScene::set_camera(const glm::vec3& eye_ws) {
-  scene_.set_camera(glm::value_ptr(eye_ws));
-}
-
-nook_scene_instance_info CrowdScene::info(std::size_t character) const {
-  return nook::instance_info(scene_, instances_[character]);
-}
-
-glm::vec3 CrowdScene::centre_ws(std::size_t character) const {
-  return glm::make_vec3(info(character).bound_centre_ws);
-}
-
-std::vector<nook_scene_sphere> CrowdScene::spheres(std::size_t character) const {
-  return nook::posed_spheres(scene_, instances_[character]);
-}
-
-std::vector<nook_scene_key_point> CrowdScene::key_points(std::size_t character) const {
-  return nook::posed_key_points(scene_, instances_[character]);
-}
-
-std::vector<std::uint32_t> CrowdScene::links(std::size_t character) const {
-  std::vector<std::uint32_t> characters;
-  for (const nook_instance_id caster : nook::linked_casters(scene_, instances_[character]))
-    characters.push_back(
-        std::uint32_t(std::find(instances_.begin(), instances_.end(), caster) - instances_.begin()));
-  return characters;
-}
-
-void CrowdScene::update_on_cpu() {
-  scene_.update();
-}
-
 void CrowdScene::link_nearest(std::uint32_t neighbours) {
-  scene_.link_nearest(neighbours, kLinkDistance_m);
+  scene_.link_nearest(neighbours, link_distance_m);
+}
+
+void CrowdScene::set_light(std::span<const nook_lobe> lobes) {
+  for (const nook_instance_id id : instances_)
+    scene_.set_light(id, lobes.data(), std::uint32_t(lobes.size()));
+  lit_ = !lobes.empty();
 }
 
 void CrowdScene::set_poses(const std::vector<Bones>& poses) {
@@ -116,44 +98,26 @@ void CrowdScene::set_poses(const std::vector<Bones>& poses) {
   }
 }
 
+void CrowdScene::set_camera(const glm::vec3& eye_ws) {
+  scene_.set_camera(glm::value_ptr(eye_ws));
+}
+
 void CrowdScene::update(std::uint32_t terms) {
   nook::set_terms(scene_, terms);
   gl_.update(scene_);
 }
 
-VertexSource CrowdScene::ao(std::size_t character) const {
-  const nook_gl_ao_view view = gl_.ao_buffer(scene_, instances_[character]);
-  return {view.buffer, view.offset, view.stride};
-}
-
-std::vector<float> CrowdScene::read_ao(std::size_t character) const {
-  std::vector<float> ao(model_.info().file_vertex_count);
-  gl_.read_ao(scene_, instances_[character], ao.data(), std::uint32_t(ao.size()));
-  return ao;
-}
-
-void CrowdScene::set_light(std::span<const nook_lobe> lobes) {
-  for (const nook_instance_id id : instances_)
-    scene_.set_light(id, lobes.data(), std::uint32_t(lobes.size()));
-}
-
-nook_gl_light_view CrowdScene::light(std::size_t character) const {
-  return gl_.light(scene_, instances_[character]);
-}
-
-std::vector<std::vector<float>> CrowdScene::directional_ao(std::span<const std::uint32_t> characters,
-                                                           std::span<const nook_lobe> lobes) {
-  for (const std::uint32_t c : characters)
-    scene_.set_light(instances_[c], lobes.data(), std::uint32_t(lobes.size()));
-  nook::set_terms(scene_, NOOK_TERM_ALL);
-  scene_.update();
-  std::vector<std::vector<float>> occlusion;
-  const std::uint32_t count = model_.info().file_vertex_count;
-  for (const std::uint32_t c : characters) {
-    scene_.read_directional_ao(instances_[c], occlusion.emplace_back(3 * std::size_t(count)).data(), count);
-    scene_.set_light(instances_[c], nullptr, 0);
+std::vector<DrawnInstance> CrowdScene::drawn(const std::vector<Bones>& poses) const {
+  std::vector<DrawnInstance> drawn(poses.size());
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const nook_gl_view ao = gl_.view(scene_, instances_[i]);
+    drawn[i] = {&poses[i], {ao.buffer, ao.offset, ao.stride}, albedo_of(i), {}, 0};
+    if (!lit_) continue;
+    const nook_gl_view light = gl_.view(scene_, instances_[i], NOOK_CHANNEL_DIRECTIONAL_AO);
+    drawn[i].light = {light.buffer, light.offset, light.stride};
+    drawn[i].light_texel = light.light;
   }
-  return occlusion;
+  return drawn;
 }
 
 }  // namespace crowd

@@ -2,21 +2,19 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <thread>
 
+#include "bakers/mannequin/mannequin.h"
 #include "platform/file_bytes.h"
-#include "samples/mannequin/mannequin.h"
+#include "platform/progress_bar.h"
 
 namespace crowd {
 namespace {
 
-constexpr std::uint32_t kRestPose = ~0u;
-
-// FNV-1a of 64 bits.
-std::uint64_t hash_of(std::span<const unsigned char> bytes) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ULL;
-  return hash;
-}
+constexpr std::uint32_t rest_pose = ~0u;
 
 // T-poses and A-poses show nothing, and a character that sits needs a chair, which this sample does not have.
 bool is_unfit(std::string name) {
@@ -26,82 +24,83 @@ bool is_unfit(std::string name) {
          name.starts_with("sit");
 }
 
+// FNV-1a of 64 bits.
+unsigned long long hash_of(const std::vector<unsigned char>& bytes) {
+  unsigned long long hash = 14695981039346656037ULL;
+  for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ULL;
+  return hash;
+}
+
 }  // namespace
 
-void check_bake(nook_result result) {
-  if (result != NOOK_OK) throw BakeError(result, nook_bake_last_message());
-}
-
-Hero::Hero(std::span<const unsigned char> glb_bytes) : source_hash_(hash_of(glb_bytes)) {
-  nook_bake_source_desc desc;
-  check_bake(nook_bake_source_desc_init(&desc));
-  desc.bytes = glb_bytes.data();
-  desc.byte_count = glb_bytes.size();
-  nook_bake_character handle = nullptr;
-  check_bake(nook_bake_character_create(&desc, &handle));
-  character_.reset(handle);
-  read();
-}
-
-Hero::Hero(const std::filesystem::path& path) : source_hash_(hash_of(platform::read_file(path))) {
-  nook_bake_source_desc desc;
-  check_bake(nook_bake_source_desc_init(&desc));
-  desc.path = path.c_str();
-  nook_bake_character handle = nullptr;
-  check_bake(nook_bake_character_create(&desc, &handle));
-  character_.reset(handle);
-  read();
-}
-
-void Hero::read() {
-  info_.struct_size = sizeof info_;
-  check_bake(nook_bake_character_describe(handle(), &info_));
+Hero::Hero(const std::filesystem::path& glb) : character_(glb.string()), info_(character_.info()) {
   const std::uint32_t n = vertex_count();
-  positions_m.resize(3 * n);
-  normals.resize(3 * n);
-  joints.resize(4 * n);
-  weights.resize(4 * n);
-  triangles.resize(3 * info_.triangle_count);
-  const auto read_array = [&](nook_bake_array array, void* out, std::uint32_t count) {
-    check_bake(nook_bake_character_read(handle(), array, out, count, 0));
+  const auto read = [&](auto& out, nook_bake_array array, std::uint32_t count, std::size_t each) {
+    out.resize(count * each);
+    character_.read(array, out.data(), count);
   };
-  read_array(NOOK_BAKE_ARRAY_POSITIONS, positions_m.data(), n);
-  read_array(NOOK_BAKE_ARRAY_NORMALS, normals.data(), n);
-  read_array(NOOK_BAKE_ARRAY_JOINTS, joints.data(), n);
-  read_array(NOOK_BAKE_ARRAY_WEIGHTS, weights.data(), n);
-  read_array(NOOK_BAKE_ARRAY_TRIANGLES, triangles.data(), info_.triangle_count);
-  for (std::uint32_t i = 0; i < info_.clip_count; ++i) {
-    Clip clip{i, nook_bake_character_name(handle(), NOOK_BAKE_NAME_CLIP, i), 0};
-    check_bake(nook_bake_character_clip_duration(handle(), i, &clip.duration_s));
-    if (!is_unfit(clip.name)) clips_.push_back(clip);
-  }
-  if (clips_.empty()) clips_.push_back({kRestPose, "rest pose", 1.0f});
+  read(positions_m, NOOK_BAKE_ARRAY_POSITIONS, n, 3);
+  read(normals, NOOK_BAKE_ARRAY_NORMALS, n, 3);
+  read(joints, NOOK_BAKE_ARRAY_JOINTS, n, 4);
+  read(weights, NOOK_BAKE_ARRAY_WEIGHTS, n, 4);
+  read(triangles, NOOK_BAKE_ARRAY_TRIANGLES, info_.triangle_count, 3);
+  for (std::uint32_t i = 0; i < info_.clip_count; ++i)
+    if (!is_unfit(character_.name(NOOK_BAKE_NAME_CLIP, i)))
+      clips_.push_back({i, character_.clip_duration(i)});
+  if (clips_.empty()) clips_.push_back({rest_pose, 1.0f});
 }
 
 Bones Hero::pose(std::size_t clip, float phase) const {
-  Bones bones(12 * std::size_t(bone_count()), 0.0f);
   const Clip& c = clips_.at(clip);
-  if (c.index == kRestPose) {
-    for (std::size_t b = 0; b < bone_count(); ++b)
-      bones[12 * b] = bones[12 * b + 5] = bones[12 * b + 10] = 1.0f;
-  } else {
-    check_bake(
-        nook_bake_character_sample_clip(handle(), c.index, phase * c.duration_s, bones.data(), bone_count()));
-  }
+  if (c.index != rest_pose) return character_.sample_clip(c.index, phase * c.duration_s);
+  Bones bones(12 * std::size_t(bone_count()), 0.0f);
+  for (std::size_t b = 0; b < bones.size(); b += 12) bones[b] = bones[b + 5] = bones[b + 10] = 1.0f;
   return bones;
 }
 
 void Hero::skin(const Bones& bones, std::vector<float>& positions_ws, std::vector<float>& normals_ws) const {
   positions_ws.resize(3 * std::size_t(vertex_count()));
   normals_ws.resize(positions_ws.size());
-  check_bake(nook_bake_character_skin(handle(), bones.data(), bone_count(), positions_ws.data(),
-                                      normals_ws.data(), vertex_count()));
+  nook::bake::check(nook_bake_character_skin(character_.get(), bones.data(), bone_count(),
+                                             positions_ws.data(), normals_ws.data(), vertex_count()));
 }
 
-std::vector<unsigned char> built_in_glb(const std::filesystem::path& cache) {
-  std::vector<unsigned char> bytes = nook_samples::mannequin::make_mannequin_glb();
-  platform::write_file(cache / "mannequin.glb", bytes.data(), bytes.size());
-  return bytes;
+std::filesystem::path built_in_glb(const std::filesystem::path& folder) {
+  const std::vector<unsigned char> bytes = nook::mannequin::make_mannequin_glb();
+  platform::write_file(folder / "mannequin.glb", bytes.data(), bytes.size());
+  return folder / "mannequin.glb";
+}
+
+nook::bake::Job start_bake(const Hero& hero, nook_bake_preset preset, float gamma) {
+  nook_bake_character_desc desc;
+  nook::bake::check(nook_bake_character_desc_init(&desc));
+  desc.character = hero.character().get();
+  desc.preset = preset;
+  desc.gamma = gamma;
+  return nook::bake::Job(desc);
+}
+
+std::vector<unsigned char> cached_model(const Hero& hero, const std::filesystem::path& glb,
+                                        const std::filesystem::path& cache, bool quiet, float gamma) {
+  // The name has the time of the program, so that a model which another build baked is never taken.
+  std::error_code unknown;
+  const auto built = std::filesystem::last_write_time("/proc/self/exe", unknown).time_since_epoch().count();
+  char name[112];
+  std::snprintf(name, sizeof name, "draft_%016llx_gamma%g_%08x_%016llx.nook",
+                hash_of(platform::read_file(glb)), double(gamma), NOOK_VERSION,
+                static_cast<unsigned long long>(built));
+  const std::filesystem::path path = cache / name;
+  if (std::filesystem::exists(path)) return platform::read_file(path);
+  if (!quiet) std::fprintf(stderr, "baking %s\n", path.string().c_str());
+  const nook::bake::Job bake = start_bake(hero, NOOK_BAKE_PRESET_DRAFT, gamma);
+  platform::ProgressBar bar(quiet);
+  for (nook_bake_progress p = bake.progress(); p.state != NOOK_BAKE_DONE; p = bake.progress()) {
+    bar.show(p.stage, std::string(p.stage) == "ray tracing" ? "poses" : "steps", p.done, p.total);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  const std::vector<unsigned char> model = bake.file();
+  platform::write_file(path, model.data(), model.size());
+  return model;
 }
 
 }  // namespace crowd

@@ -1,30 +1,11 @@
-// The sample's character through the public interface of the bakers: its shape and its clips.
+// The character of the crowd: its mesh, its clips and its baked model, all by the library of the bakers.
 #pragma once
 
-#include <nook/nook_bake.h>
-
-#include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <span>
-#include <stdexcept>
-#include <string>
+#include <nook/nook_bake.hpp>
 #include <vector>
 
 namespace crowd {
-
-// A call of the bakers' library failed.
-class BakeError : public std::runtime_error {
- public:
-  BakeError(nook_result result, const char* text) : std::runtime_error(text), result_(result) {}
-  nook_result result() const { return result_; }
-
- private:
-  nook_result result_;
-};
-
-// Throws BakeError with the message of the call that failed.
-void check_bake(nook_result result);
 
 // The skinning matrices of one character: 12 floats for each bone, the three rows of a matrix that takes the
 // rest pose to world space.
@@ -32,26 +13,20 @@ using Bones = std::vector<float>;
 
 struct Clip {
   std::uint32_t index;  // in the character's file
-  std::string name;
   float duration_s;
 };
 
 class Hero {
  public:
-  explicit Hero(std::span<const unsigned char> glb_bytes);
-  // A .gltf file may have other files beside it.
-  explicit Hero(const std::filesystem::path& path);
+  explicit Hero(const std::filesystem::path& glb);
 
-  nook_bake_character handle() const { return character_.get(); }
-  // A hash of the file's bytes, after which cached models are named.
-  std::uint64_t source_hash() const { return source_hash_; }
+  const nook::bake::Character& character() const { return character_; }
   std::uint32_t vertex_count() const { return info_.file_vertex_count; }
   std::uint32_t bone_count() const { return info_.bone_count; }
   // The clips in which a character stands or moves. If the file has none, this is the rest pose as a clip.
   const std::vector<Clip>& clips() const { return clips_; }
   // The pose of a clip at a phase from 0 to 1, which runs once through the clip.
   Bones pose(std::size_t clip, float phase) const;
-
   // The positions and normals of a pose in world space, three floats for each vertex.
   void skin(const Bones& bones, std::vector<float>& positions_ws, std::vector<float>& normals_ws) const;
 
@@ -61,18 +36,20 @@ class Hero {
   std::vector<float> weights;               // four for each vertex
 
  private:
-  struct Release {
-    void operator()(nook_bake_character character) const { nook_bake_character_destroy(&character); }
-  };
-  void read();
-
-  std::unique_ptr<nook_bake_character_s, Release> character_;
-  std::uint64_t source_hash_ = 0;
-  nook_bake_character_info info_{};
+  nook::bake::Character character_;
+  nook_bake_character_info info_;
   std::vector<Clip> clips_;
 };
 
-// Makes the built-in character and leaves its .glb in the cache, where other tools find it.
-std::vector<unsigned char> built_in_glb(const std::filesystem::path& cache);
+// Makes the built-in character and returns the path of its file in the folder.
+std::filesystem::path built_in_glb(const std::filesystem::path& folder);
+
+// Starts a bake. gamma is the exponent of the norm that adds up shadows; 0 takes the preset's.
+nook::bake::Job start_bake(const Hero& hero, nook_bake_preset preset, float gamma = 0);
+
+// The bytes of the model's file for a character, from the cache. If the cache has none, this bakes one with
+// the draft preset and shows the progress.
+std::vector<unsigned char> cached_model(const Hero& hero, const std::filesystem::path& glb,
+                                        const std::filesystem::path& cache, bool quiet, float gamma = 0);
 
 }  // namespace crowd

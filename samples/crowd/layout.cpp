@@ -10,14 +10,14 @@
 namespace crowd {
 namespace {
 
-constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
-constexpr float kGroupSpacing_m = 2.6f;
-constexpr float kClearance_m = 0.03f;
-constexpr int kGroupSize = 3;
+constexpr float two_pi = 2 * std::numbers::pi_v<float>;
+constexpr float group_spacing_m = 2.6f;
+constexpr float clearance_m = 0.03f;
+constexpr int group_size = 3;
 
 int bearing_index(float bearing_rad) {
-  const float turns = bearing_rad / kTwoPi;
-  return int((turns - std::floor(turns)) * Outline::kBearings) % Outline::kBearings;
+  const float turns = bearing_rad / two_pi;
+  return int((turns - std::floor(turns)) * Outline::bearings) % Outline::bearings;
 }
 
 // The distributions of the standard library differ between its implementations, and this one does not.
@@ -31,16 +31,12 @@ class Random {
   std::mt19937 engine_;
 };
 
-float squared_distance(const Placement& a, const Placement& b) {
-  return (a.x_m - b.x_m) * (a.x_m - b.x_m) + (a.z_m - b.z_m) * (a.z_m - b.z_m);
-}
-
 // Bearings turn from +z towards +x, as the yaw does.
 bool overlap(const std::vector<Outline>& outlines, const Placement& a, const Placement& b) {
   const float bearing = std::atan2(b.x_m - a.x_m, b.z_m - a.z_m);
   const float needed = outlines[a.clip].reach(bearing - a.yaw_rad) +
-                       outlines[b.clip].reach(bearing + kTwoPi / 2 - b.yaw_rad) + kClearance_m;
-  return squared_distance(a, b) < needed * needed;
+                       outlines[b.clip].reach(bearing + two_pi / 2 - b.yaw_rad) + clearance_m;
+  return (a.x_m - b.x_m) * (a.x_m - b.x_m) + (a.z_m - b.z_m) * (a.z_m - b.z_m) < needed * needed;
 }
 
 bool fits(const std::vector<Outline>& outlines, const std::vector<Placement>& crowd,
@@ -49,24 +45,17 @@ bool fits(const std::vector<Outline>& outlines, const std::vector<Placement>& cr
                       [&](const Placement& other) { return overlap(outlines, other, candidate); });
 }
 
-Placement beside(const Placement& leader, float bearing_rad, float distance_m, Placement member) {
-  member.x_m = leader.x_m + distance_m * std::sin(bearing_rad);
-  member.z_m = leader.z_m + distance_m * std::cos(bearing_rad);
-  return member;
-}
-
-// Tries bearings round the leader, from near to far. Returns false if the group has no room.
-bool place_beside(const std::vector<Outline>& outlines, std::vector<Placement>& crowd,
-                  const Placement& leader, const Placement& member, Random& random) {
-  const float first = random.unit() * kTwoPi;
+// Tries bearings round the leader, from near to far, and leaves the member out if the group has no room.
+void place_beside(const std::vector<Outline>& outlines, std::vector<Placement>& crowd,
+                  const Placement& leader, Placement member, Random& random) {
+  const float first = random.unit() * two_pi;
   for (float distance_m = 0.45f; distance_m < 1.6f; distance_m += 0.04f)
     for (int k = 0; k < 12; ++k) {
-      const Placement candidate = beside(leader, first + float(k) * kTwoPi / 12, distance_m, member);
-      if (!fits(outlines, crowd, candidate)) continue;
-      crowd.push_back(candidate);
-      return true;
+      const float bearing_rad = first + float(k) * two_pi / 12;
+      member.x_m = leader.x_m + distance_m * std::sin(bearing_rad);
+      member.z_m = leader.z_m + distance_m * std::cos(bearing_rad);
+      if (fits(outlines, crowd, member)) return crowd.push_back(member);
     }
-  return false;
 }
 
 }  // namespace
@@ -75,7 +64,7 @@ float Outline::reach(float bearing_rad) const {
   const int middle = bearing_index(bearing_rad);
   float widest = 0;
   for (int d = -2; d <= 2; ++d)
-    widest = std::max(widest, reach_m[std::size_t((middle + d + kBearings) % kBearings)]);
+    widest = std::max(widest, reach_m[std::size_t((middle + d + bearings) % bearings)]);
   return widest;
 }
 
@@ -103,15 +92,15 @@ std::vector<Placement> make_layout(const std::vector<Outline>& outlines, std::ui
     // The clips come in turn, so that a small crowd shows all of them.
     p.clip = made++ % std::uint32_t(outlines.size());
     p.phase = random.unit();
-    p.yaw_rad = random.unit() * kTwoPi;
+    p.yaw_rad = random.unit() * two_pi;
     return p;
   };
-  const int groups = int((count + kGroupSize - 1) / kGroupSize);
+  const int groups = int((count + group_size - 1) / group_size);
   const int columns = std::max(1, int(std::ceil(std::sqrt(float(groups)))));
   float widest = 0;
   for (const Outline& o : outlines)
     widest = std::max(widest, *std::max_element(o.reach_m.begin(), o.reach_m.end()));
-  const float spacing = std::max(kGroupSpacing_m, 2.4f * widest);
+  const float spacing = std::max(group_spacing_m, 2.4f * widest);
   std::vector<Placement> crowd;
   // Members for whom their group has no room go to further rows of the grid.
   for (int cell = 0; crowd.size() < count; ++cell) {
@@ -120,7 +109,7 @@ std::vector<Placement> make_layout(const std::vector<Outline>& outlines, std::ui
     leader.z_m = (float(cell / columns) - float(columns - 1) / 2 + random.between(-0.2f, 0.2f)) * spacing;
     if (!fits(outlines, crowd, leader)) continue;
     crowd.push_back(leader);
-    for (int m = 1; m < kGroupSize && crowd.size() < count; ++m)
+    for (int m = 1; m < group_size && crowd.size() < count; ++m)
       place_beside(outlines, crowd, leader, next_member(), random);
   }
   return crowd;

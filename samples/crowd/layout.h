@@ -20,8 +20,8 @@ struct Placement {
 
 // The reach of a body from its root in the ground plane over a whole clip, by bearing.
 struct Outline {
-  static constexpr int kBearings = 24;
-  std::array<float, kBearings> reach_m{};
+  static constexpr int bearings = 24;
+  std::array<float, bearings> reach_m{};
   // The largest reach within 30 degrees of the bearing.
   float reach(float bearing_rad) const;
 };

@@ -1,174 +1,71 @@
 #include "samples/crowd/light.h"
+
 #include <nook/experimental/nook_sg.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <stdexcept>
-
-#include "platform/file_bytes.h"
-#include "platform/platform.h"
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <nook/nook.hpp>
 
 namespace crowd {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
+// What nook::ProbeFit finds for a sky that is blue above, white at the horizon, and brown below it.
+const std::vector<nook_lobe> fitted_sky = {
+    {{0.39965263f, 0, 0.916666687f}, 6, {0.373414665f, 0.363219291f, 0.345577747f}, 0},
+    {{-0.487723678f, 0.446794838f, 0.75f}, 6, {0.291322649f, 0.477503419f, 0.884204924f}, 0},
+    {{0.0710100457f, -0.80912286f, 0.583333313f}, 6, {0.278238058f, 0.208205387f, 0.126509026f}, 0},
+    {{0.553107083f, 0.721430242f, 0.416666716f}, 6, {0.193248063f, 0.399598539f, 0.89441514f}, 0},
+    {{-0.953444719f, -0.168650955f, 0.25f}, 6, {0.360850066f, 0.310655624f, 0.236934289f}, 0},
+    {{0.840820491f, -0.534861147f, 0.0833333358f}, 6, {0.279575258f, 0.242725179f, 0.196857944f}, 0},
+    {{-0.258701354f, 0.96235615f, -0.0833333433f}, 6, {0.050801497f, 0.283202499f, 0.877811611f}, 0},
+    {{-0.4462713f, -0.859268248f, -0.25f}, 6, {0.31517449f, 0.250422895f, 0.170471936f}, 0},
+    {{0.853898823f, 0.311842471f, -0.416666657f}, 6, {0.317375243f, 0.454347908f, 0.75225091f}, 0},
+    {{-0.750783861f, 0.309912652f, -0.583333313f}, 6, {0.352694869f, 0.48620677f, 0.767675638f}, 0},
+    {{0.280347794f, -0.59908694f, -0.750000119f}, 6, {0.318020046f, 0.211280927f, 0.0298771728f}, 0},
+    {{0.119609579f, 0.381334186f, -0.916666687f}, 6, {0.281022727f, 0.391988933f, 0.657399476f}, 0}};
+// 30 degrees high, about 15 degrees wide.
+constexpr nook_lobe hazy_sun{{0.62f, 0.5f, 0.605f}, 30, {40, 30, 18}, 0};
 
-constexpr std::uint32_t kSkyHeight = 64, kProbeHeight = 128;  // texels
-
-// The direction of a texel's centre in the layout of nook_bake_environment: the middle column looks along +x,
-// and the column a quarter farther right looks along +z.
-void texel_direction(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height,
-                     float* out) {
-  const float polar = kPi * (float(y) + 0.5f) / float(height);
-  const float azimuth = 2 * kPi * ((float(x) + 0.5f) / float(width) - 0.5f);
-  out[0] = std::sin(polar) * std::cos(azimuth);
-  out[1] = std::cos(polar);
-  out[2] = std::sin(polar) * std::sin(azimuth);
-}
-
-// The share of the sphere that a texel covers.
-float texel_share(std::uint32_t y, std::uint32_t width, std::uint32_t height) {
-  const float top = std::cos(kPi * float(y) / float(height)),
-              bottom = std::cos(kPi * float(y + 1) / float(height));
-  return (top - bottom) / (2 * float(width));
-}
-
-// A hazy sun 30 degrees high, about 15 degrees wide.
-constexpr nook_lobe kSun{{0.62f, 0.5f, 0.605f}, 30, {40, 30, 18}, 0};
-
-// The sky without its sun is blue above and white at the horizon, and dry ground reflects its light.
-void sky_radiance(const float direction[3], float* rgb) {
-  static constexpr float zenith[3] = {0.16f, 0.34f, 0.80f}, horizon[3] = {0.45f, 0.58f, 0.80f},
-                         ground[3] = {0.30f, 0.25f, 0.19f};
-  const float up = direction[1], share = std::pow(std::max(up, 0.0f), 0.6f);
-  for (int c = 0; c < 3; ++c) rgb[c] = up < 0 ? ground[c] : std::lerp(horizon[c], zenith[c], share);
-}
-
-void add_sun(const float direction[3], float* rgb) {
-  float cosine = 0;
-  for (int i = 0; i < 3; ++i) cosine += direction[i] * kSun.axis[i];
-  for (int c = 0; c < 3; ++c) rgb[c] += kSun.amplitude[c] * std::exp(kSun.sharpness * (cosine - 1));
+// The irradiance of a surface that faces up.
+glm::vec3 irradiance_up(const nook_lobe* lobes, std::size_t count) {
+  const float up[3] = {0, 1, 0};
+  glm::vec3 rgb(0);
+  nook::check(nook_sg_irradiance(lobes, std::uint32_t(count), NOOK_PROBE_IRRADIANCE_BANDS, up,
+                                 glm::value_ptr(rgb), 1));
+  return glm::max(rgb, glm::vec3(0));
 }
 
 }  // namespace
 
-Light::Light(const nook::Context& context, const std::filesystem::path& path) : name_(path.stem().string()) {
-  if (path.extension() == ".nook")
-    read_probe(context, path);
-  else {
-    read_map(path);
-    fit_lobes(context);
-  }
-  measure_mean();
-  if (!(mean_radiance_ > 0))
-    throw std::runtime_error("crowd: " + path.string() +
-                             " holds no light (its mean radiance is 0); choose another");
-}
-
-Light Light::built_in_sky(const nook::Context& context) {
-  Light sky("sky");
-  sky.width_ = 2 * kSkyHeight;
-  sky.height_ = kSkyHeight;
-  sky.rgb_.resize(3 * std::size_t(sky.width_) * sky.height_);
-  const auto each_texel = [&](void (*write)(const float*, float*)) {
-    for (std::uint32_t y = 0; y < sky.height_; ++y)
-      for (std::uint32_t x = 0; x < sky.width_; ++x) {
-        float direction[3];
-        texel_direction(x, y, sky.width_, sky.height_, direction);
-        write(direction, &sky.rgb_[3 * (std::size_t(y) * sky.width_ + x)]);
-      }
-  };
-  each_texel(sky_radiance);
-  sky.fit_lobes(context);
-  each_texel(add_sun);
-  sky.lobes_.push_back(kSun);
-  sky.has_sun_ = true;
-  sky.measure_mean();
-  return sky;
-}
-
-void Light::measure_mean() {
-  double sum = 0;
-  for (std::uint32_t y = 0; y < height_; ++y)
-    for (std::uint32_t i = 0; i < 3 * width_; ++i)
-      sum += double(texel_share(y, width_, height_)) * double(rgb_[3 * std::size_t(y) * width_ + i]) / 3;
-  mean_radiance_ = float(sum);
-}
-
-void Light::read_probe(const nook::Context& context, const std::filesystem::path& path) {
-  const std::vector<unsigned char> bytes = platform::read_file(path);
-  lobes_ = nook::Probe(context, bytes.data(), bytes.size()).lobes();
-  // The map is sharp enough for the narrowest lobes that a probe of a few dozen has.
-  width_ = 2 * kProbeHeight;
-  height_ = kProbeHeight;
-  std::vector<float> directions(3 * std::size_t(width_) * height_);
-  for (std::uint32_t y = 0; y < height_; ++y)
-    for (std::uint32_t x = 0; x < width_; ++x)
-      texel_direction(x, y, width_, height_, &directions[3 * (std::size_t(y) * width_ + x)]);
-  rgb_.resize(directions.size());
-  nook::check(nook_sg_radiance(lobes_.data(), std::uint32_t(lobes_.size()), directions.data(), rgb_.data(),
-                               directions.size() / 3));
-  for (float& channel : rgb_) channel = std::max(channel, 0.0f);
-}
-
-void Light::read_map(const std::filesystem::path& path) {
-  platform::FloatImage map = platform::read_float_image(path);
-  if (map.width != 2 * map.height)
-    throw std::runtime_error("crowd: " + path.string() + " is not a latitude-longitude map (got " +
-                             std::to_string(map.width) + " x " + std::to_string(map.height) +
-                             ", need twice as wide as high)");
-  width_ = std::uint32_t(map.width);
-  height_ = std::uint32_t(map.height);
-  rgb_ = std::move(map.rgb);
-  for (float& channel : rgb_) channel = std::isfinite(channel) ? std::max(channel, 0.0f) : 0.0f;
-}
-
-void Light::fit_lobes(const nook::Context& context) {
-  nook::ProbeFit fit(context);
-  std::vector<float> directions(3 * std::size_t(width_)), weights(width_);
-  for (std::uint32_t y = 0; y < height_; ++y) {
-    for (std::uint32_t x = 0; x < width_; ++x) texel_direction(x, y, width_, height_, &directions[3 * x]);
-    std::ranges::fill(weights, texel_share(y, width_, height_) * float(width_) * float(height_));
-    fit.add_samples(directions.data(), &rgb_[3 * std::size_t(y) * width_], weights.data(), width_);
-  }
-  lobes_ = fit.solve().lobes();
-}
-
-std::vector<float> Light::irradiance(const std::vector<float>& normals) const {
-  std::vector<float> e(normals.size());
-  nook::check(nook_sg_irradiance(lobes_.data(), std::uint32_t(lobes_.size()), NOOK_PROBE_IRRADIANCE_BANDS,
-                                 normals.data(), e.data(), normals.size() / 3));
-  for (float& channel : e) channel = std::max(channel, 0.0f);
-  return e;
-}
-
-SplitLight Light::split() const {
-  SplitLight parts;
-  parts.soft = lobes_;
-  const float up[3] = {0, 1, 0};
-  const auto irradiance_up = [&](const nook_lobe* of, std::size_t count, float* rgb) {
-    nook::check(nook_sg_irradiance(of, std::uint32_t(count), NOOK_PROBE_IRRADIANCE_BANDS, up, rgb, 1));
-    for (int c = 0; c < 3; ++c) rgb[c] = std::max(rgb[c], 0.0f);
-  };
-  if (has_sun_) {
-    const nook_lobe& sun = parts.soft.back();
-    std::copy_n(sun.axis, 3, parts.to_sun);
+Light::Light(std::vector<nook_lobe> all_lobes, bool has_sun) : lobes(std::move(all_lobes)), soft(lobes) {
+  if (has_sun) {
+    const nook_lobe& sun = lobes.back();
+    to_sun = glm::make_vec3(sun.axis);
     // A cone whose directions are as far from its axis in the mean: 1 / sharpness = (1 - cos(half angle))
     // / 2.
-    parts.sun_degrees = 2 * std::acos(1 - 2 / sun.sharpness) * 180 / kPi;
-    irradiance_up(&sun, 1, parts.sun_up);
-    parts.soft.pop_back();
+    sun_degrees = 2 * std::acos(1 - 2 / sun.sharpness) * 180 / glm::pi<float>();
+    sun_up = irradiance_up(&sun, 1);
+    soft.pop_back();
   }
-  irradiance_up(parts.soft.data(), parts.soft.size(), parts.soft_up);
-  return parts;
+  soft_up = irradiance_up(soft.data(), soft.size());
+  const glm::vec3 up = irradiance_up(lobes.data(), lobes.size());
+  const float luminance = 0.2126f * up.r + 0.7152f * up.g + 0.0722f * up.b;
+  exposure = 1.2f * glm::pi<float>() / std::max(luminance, 1e-6f);
 }
 
-std::vector<float> Light::radiance(const float direction[3]) const {
-  std::vector<float> rgb(3);
-  nook::check(nook_sg_radiance(lobes_.data(), std::uint32_t(lobes_.size()), direction, rgb.data(), 1));
-  for (float& channel : rgb) channel = std::max(channel, 0.0f);
-  return rgb;
+glm::vec3 Light::radiance(const glm::vec3& direction) const {
+  glm::vec3 rgb(0);
+  nook::check(nook_sg_radiance(lobes.data(), std::uint32_t(lobes.size()), glm::value_ptr(direction),
+                               glm::value_ptr(rgb), 1));
+  return glm::max(rgb, glm::vec3(0));
+}
+
+Light sky() {
+  std::vector<nook_lobe> lobes = fitted_sky;
+  lobes.push_back(hazy_sun);
+  return Light(std::move(lobes), true);
 }
 
 }  // namespace crowd

@@ -1,97 +1,104 @@
-// Bakes a character, fills a plane with a crowd of it, draws the crowd and compares it with ray tracing.
+// Bakes a character, fills a plane with a crowd of it, and draws the crowd with Nook's ambient occlusion.
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "platform/file_bytes.h"
 #include "platform/progress_bar.h"
-#include "samples/crowd/cached_model.h"
-#include "samples/crowd/comparison.h"
-#include "samples/crowd/frames.h"
+#include "platform/render_target.h"
+#include "samples/crowd/crowd_scene.h"
 #include "samples/crowd/layout.h"
-#include "samples/crowd/options.h"
-#ifdef CROWD_HAS_WINDOW_LOOP
-#include "samples/crowd/window_loop.h"
+#include "samples/crowd/screen_passes.h"
+#ifdef CROWD_HAS_WINDOW
+#include "samples/crowd/window.h"
 #endif
 
 namespace crowd {
 namespace {
 
-Hero load_hero(const Options& o) {
-  return o.hero_glb.empty() ? Hero(built_in_glb(o.cache)) : Hero(o.hero_glb);
-}
+struct Options {
+  std::filesystem::path hero_glb, hero_nook, out = "out/crowd", window_picture;
+  std::string context = "egl", size = "1280x720";
+  int width_px = 0, height_px = 0, debug_bodies = 1;
+  std::uint32_t frames = 4, seed = 1;
+  CrowdSize crowd;
+  bool quiet = false;
+  std::vector<std::string> debug;
+};
 
-void require_same_character(const Hero& hero, const nook::CharacterModel& model) {
-  const nook_model_info info = model.info();
-  if (info.file_vertex_count == hero.vertex_count() && info.bone_count == hero.bone_count()) return;
-  throw std::runtime_error("crowd: the model does not belong to the character (got " +
-                           std::to_string(info.file_vertex_count) + " vertices and " +
-                           std::to_string(info.bone_count) + " bones, need " +
-                           std::to_string(hero.vertex_count()) + " and " + std::to_string(hero.bone_count()) +
-                           "); bake the character again");
-}
-
-nlohmann::ordered_json describe(const platform::Context& context, const CrowdScene& scene, const Options& o) {
-  const nook_gl_info gl = scene.gl().info();
-  const nook_model_info model = scene.model().info();
-  return {{"characters", o.characters},
-          {"neighbours", o.neighbours},
-          {"frames", o.frames},
-          {"width", o.width_px},
-          {"height", o.height_px},
-          {"seed", o.seed},
-          {"context", o.context},
-          {"renderer", context.renderer()},
-          {"version", context.version()},
-          {"tier", gl.tier},
-          {"gl_buffer_bytes", gl.buffer_bytes},
-          {"vertices", model.vertex_count},
-          {"bones", model.bone_count},
-          {"spheres", model.sphere_count},
-          {"key_points", model.key_point_count},
-          {"gamma", model.gamma}};
-}
-
-nlohmann::ordered_json describe(const ScreenSpaceQuality& quality) {
-  return {{"taps", quality.taps},
-          {"half_resolution", quality.half_resolution},
-          {"radius_m", ScreenSpaceAo::kRadius_m}};
-}
-
-void compare_with_rays(platform::Context& context, const Stage& stage, CrowdScene& scene, const Options& o,
-                       std::span<const unsigned char> model, nlohmann::ordered_json& report,
-                       platform::ProgressBar& bar) {
-  const std::vector<Bones> poses = pose_crowd(stage.hero, stage.places, 0);
-  scene.set_poses(poses);
-  ComparisonRequest request{o.neighbours, o.tier, o.seed, o.out, model, {}};
-  measure_ao(stage, scene, poses, request, report);
-  bar.show("comparing", "parts", 1, 3);
-  write_ao_sheet(stage, scene, poses, request);
-  bar.show("comparing", "parts", 2, 3);
-  const std::vector<unsigned char> gamma_2 = cached_model(stage.hero, {o.cache, 2.0f, o.quiet});
-  request.gamma_2_model = gamma_2;
-  write_double_shadowing_sheet(context, stage, scene, poses, request);
-  bar.show("comparing", "parts", 3, 3);
-}
-
-void compare_lights(const Stage& stage, CrowdScene& scene, const Options& o, nlohmann::ordered_json& report,
-                    platform::ProgressBar& bar) {
-  const std::vector<Bones> poses = pose_crowd(stage.hero, stage.places, 0);
-  scene.set_poses(poses);
-  const ComparisonRequest request{o.neighbours, o.tier, o.seed, o.out, {}, {}};
-  for (std::size_t i = 0; i < o.lights.size(); ++i) {
-    bar.show("lights", "lights", i, o.lights.size());
-    const Light light(scene.context(), o.lights[i]);
-    compare_light(stage, scene, poses, light, request, report);
+// Returns the code of the program's end, or -1 to go on.
+int parse(int argc, char** argv, Options& o) {
+  CLI::App app("Draws a crowd of animated characters with Nook's ambient occlusion.");
+  // The last of several values wins, so that the caller of a script can override its values.
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  app.add_option("hero", o.hero_glb, "a rigged .glb or .gltf; without it, the built-in character")
+      ->check(CLI::ExistingFile);
+  app.add_option("model", o.hero_nook, "its baked .nook; without it, one is baked (draft preset) and cached")
+      ->check(CLI::ExistingFile);
+  app.add_option("--context", o.context, std::string("OpenGL context: ") + platform::context_kinds())
+      ->check(CLI::IsMember({"window", "egl", "osmesa"}));
+  app.add_option("--characters", o.crowd.characters, "number of characters")->check(CLI::Range(1, 10000));
+  app.add_option("--neighbours", o.crowd.neighbours, "nearest neighbours that darken each character")
+      ->check(CLI::Range(0, 16));
+  app.add_option("--frames", o.frames, "pictures to draw without a window")->check(CLI::Range(1, 100000));
+  app.add_option("--size", o.size, "pixels of a picture, WIDTHxHEIGHT");
+  app.add_option("--out", o.out, "folder of the pictures");
+  app.add_option("--tier", o.crowd.tier, "highest OpenGL tier: 33, 43 or best")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, int>{{"33", 33}, {"43", 43}, {"best", 0}}));
+  app.add_option("--seed", o.seed, "of the places of the crowd");
+  app.add_option("--debug", o.debug, "what a window shows first, with a comma between: spheres, links")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"spheres", "links"}))
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--debug-bodies", o.debug_bodies, "bodies that spheres are shown for")
+      ->check(CLI::Range(1, 16));
+  app.add_option("--window-picture", o.window_picture, "a window writes a picture of itself and closes");
+  app.add_flag("--quiet", o.quiet, "show no progress");
+  try {
+    app.parse(argc, argv);
+    char rest = 0;
+    if (std::sscanf(o.size.c_str(), "%dx%d%c", &o.width_px, &o.height_px, &rest) != 2 ||
+        std::min(o.width_px, o.height_px) < 16 || std::max(o.width_px, o.height_px) > 8192)
+      throw CLI::ValidationError("--size", "got '" + o.size + "', need WIDTHxHEIGHT from 16x16 to 8192x8192");
+    return -1;
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
   }
-  bar.show("lights", "lights", o.lights.size(), o.lights.size());
 }
 
-std::unique_ptr<Light> light_of_frames(const nook::Context& context, const Options& o) {
-  if (!o.probe_light) return nullptr;
-  return std::make_unique<Light>(o.lights.empty() ? Light::built_in_sky(context)
-                                                  : Light(context, o.lights.front()));
+// Writes frame_0000.png and so on, and without_ao.png, the first of them without ambient occlusion.
+void draw_frames(platform::Context& context, const Hero& hero, const std::vector<Placement>& places,
+                 CrowdScene& scene, const Light& light, const Options& o) {
+  constexpr float seconds_per_frame = 1.0f / 30;
+  Renderer renderer(context.gl(), hero);
+  ScreenPasses passes(context, scene.gl(), o.width_px, o.height_px);
+  const platform::RenderTarget target(context, o.width_px, o.height_px);
+  const float radius_m = crowd_radius_m(places);
+  platform::ProgressBar bar(o.quiet);
+  for (std::uint32_t frame = 0; frame < o.frames; ++frame) {
+    const std::vector<Bones> poses = pose_crowd(hero, places, float(frame) * seconds_per_frame);
+    const Camera camera = orbit(radius_m, float(frame) / float(std::max(o.frames, 24u)));
+    scene.set_poses(poses);
+    scene.set_camera(camera.eye_ws);
+    scene.update();
+    const std::vector<DrawnInstance> drawn = scene.drawn(poses);
+    const nook_gl_view view = scene.light();
+    Look look{light, view.texture, view.glsl, 1, 1.2f * radius_m + 8, {}};
+    look.screen_ao = passes.draw(renderer, drawn, camera, scene.scene().get(), &light);
+    const auto write = [&](const char* name) {
+      target.bind();
+      renderer.draw(drawn, camera, look);
+      platform::write_image(o.out / name, target.read());
+    };
+    char name[32];
+    std::snprintf(name, sizeof name, "frame_%04u.png", frame);
+    write(name);
+    look.ao_strength = 0;
+    if (frame == 0) write("without_ao.png");
+    bar.show("drawing", "frames", frame + 1, o.frames);
+  }
 }
 
 // Tries the newest OpenGL first and then 3.3, which is all that the crowd needs.
@@ -110,64 +117,26 @@ std::unique_ptr<platform::Context> create_context(const Options& o) {
 }
 
 void run(const Options& o) {
-  const Hero hero = load_hero(o);
+  const std::filesystem::path glb = o.hero_glb.empty() ? built_in_glb(CROWD_CACHE) : o.hero_glb;
+  const Hero hero(glb);
   const std::vector<unsigned char> model =
-      o.hero_nook.empty() ? cached_model(hero, {o.cache, 0, o.quiet}) : platform::read_file(o.hero_nook);
+      o.hero_nook.empty() ? cached_model(hero, glb, CROWD_CACHE, o.quiet) : platform::read_file(o.hero_nook);
   const std::unique_ptr<platform::Context> context = create_context(o);
-  const std::vector<Placement> places = make_layout(clip_outlines(hero), o.characters, o.seed);
-  CrowdScene scene(*context, model, {o.characters, o.neighbours, o.tier, NOOK_FORM_DEFAULT, o.lod_error});
-  require_same_character(hero, scene.model());
-  Renderer renderer(context->gl(), hero);
-#ifdef CROWD_HAS_WINDOW_LOOP
-  if (o.context == "window" && o.frames == 0) {
-    const std::unique_ptr<Light> light = light_of_frames(scene.context(), o);
-    const std::filesystem::path model_path = o.hero_nook.empty() ? o.out / "model.nook" : o.hero_nook;
-    run_window({*context, hero, places, renderer, light.get(), model_path}, model, o);
-    return;
+  const std::vector<Placement> places = make_layout(clip_outlines(hero), o.crowd.characters, o.seed);
+  CrowdScene scene(*context, hero, model, o.crowd);
+  const Light light = sky();
+  scene.set_light(light.lobes);
+#ifdef CROWD_HAS_WINDOW
+  if (o.context == "window") {
+    const auto shows = [&](const char* name) { return std::ranges::find(o.debug, name) != o.debug.end(); };
+    return run_window(*context, hero, places, scene, light,
+                      {o.hero_nook.empty() ? o.out / "model.nook" : o.hero_nook, o.window_picture,
+                       int(o.crowd.neighbours), shows("spheres"), shows("links"), o.debug_bodies});
   }
 #endif
   std::filesystem::create_directories(o.out);
-  platform::RenderTarget target(*context, o.width_px, o.height_px);
-  std::unique_ptr<ScreenSpaceAo> screen_space;
-  if (o.screen_space)
-    screen_space = std::make_unique<ScreenSpaceAo>(*context, scene.gl(), o.width_px, o.height_px);
-  const Stage stage{*context, hero, places, renderer, target, screen_space.get()};
-  platform::ProgressBar bar(o.quiet);
-  const std::unique_ptr<Light> light = light_of_frames(scene.context(), o);
-  if (light) scene.set_light(light->lobes());
-  const FrameTimes ms =
-      draw_frames(stage, scene, {o.frames, o.out, light.get(), o.record, o.debug},
-                  [&](std::uint32_t done) { bar.show("drawing", "frames", done, o.frames); });
-  // The comparisons below set their own lights.
-  scene.set_light({});
-  nlohmann::ordered_json report = describe(*context, scene, o);
-  report["links"] = scene.stats().links;
-  report["light"] = light ? nlohmann::ordered_json(light->name()) : nlohmann::ordered_json();
-  report["ms"] = {{"pose", ms.pose},
-                  {"scene_update", ms.scene_update},
-                  {"screen_space", ms.screen_space},
-                  {"draw", ms.draw},
-                  {"read", ms.read}};
-  if (screen_space && o.measure_world) report["world_rms"] = screen_space->rms_to_every_caster(scene.gl());
-  if (screen_space) {
-    report["world_casters_per_pixel"] = screen_space->mean_count(NOOK_WORLD_VIEW_CASTERS);
-    report["world_counts"] = {{"exact_casters", screen_space->mean_count(NOOK_WORLD_VIEW_EXACT_CASTERS)},
-                              {"tests", screen_space->mean_count(NOOK_WORLD_VIEW_TESTS)},
-                              {"far_casters", screen_space->mean_count(NOOK_WORLD_VIEW_FAR_CASTERS)},
-                              {"far_tests", screen_space->mean_count(NOOK_WORLD_VIEW_FAR_TESTS)}};
-  }
-  report["screen_space"] = screen_space ? describe(screen_space->quality()) : nlohmann::ordered_json();
-  report["rows"] = nlohmann::ordered_json::array();
-  if (o.sheets) compare_with_rays(*context, stage, scene, o, model, report, bar);
-  if (!o.lights.empty()) compare_lights(stage, scene, o, report, bar);
-  const std::string text = report.dump(2) + "\n";
-  platform::write_file(o.report, text.data(), text.size());
-  std::printf("pictures: %s\nreport:   %s\n", std::filesystem::absolute(o.out).c_str(),
-              std::filesystem::absolute(o.report).c_str());
-}
-
-int exit_code_of(nook_result result) {
-  return result == NOOK_ERROR_BAD_FILE || result == NOOK_ERROR_FILE_VERSION ? 3 : 1;
+  draw_frames(*context, hero, places, scene, light, o);
+  std::printf("pictures: %s\n", std::filesystem::absolute(o.out).c_str());
 }
 
 }  // namespace
@@ -175,17 +144,13 @@ int exit_code_of(nook_result result) {
 
 int main(int argc, char** argv) {
   crowd::Options options;
-  int exit_code = 0;
-  if (!crowd::parse_options(argc, argv, options, exit_code)) return exit_code;
+  if (const int code = crowd::parse(argc, argv, options); code >= 0) return code;
   try {
     crowd::run(options);
     return 0;
   } catch (const nook::Error& e) {
     std::fprintf(stderr, "%s\n", e.what());
-    return crowd::exit_code_of(e.result());
-  } catch (const crowd::BakeError& e) {
-    std::fprintf(stderr, "%s\n", e.what());
-    return crowd::exit_code_of(e.result());
+    return e.result() == NOOK_ERROR_BAD_FILE || e.result() == NOOK_ERROR_FILE_VERSION ? 3 : 1;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());
     return 1;

@@ -2,16 +2,55 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
-
-#include "samples/crowd/shaders.h"
 
 namespace crowd {
 namespace {
 
-constexpr GLsizei kShadowSize_px = 2048;
-constexpr GLuint kAoSlot = 4, kLightSlot = 5;
+constexpr GLuint ao_slot = 4, light_slot = 5;
+
+const char* const surface_fragment = R"(#version 330 core
+in vec3 surface_normal_ws;
+uniform float layer_weight;
+layout(location = 0) out vec4 normal_ws;
+layout(location = 1) out vec2 layer;
+void main() {
+  normal_ws = vec4(0.5 * normalize(surface_normal_ws) + 0.5, 1.0);
+  layer = vec2(1.0, layer_weight);
+}
+)";
+
+const char* const lit_fragment = R"(
+in vec3 surface_position_ws;
+in vec3 surface_normal_ws;
+in vec3 surface_albedo;
+in vec3 surface_light;
+uniform int light;
+#ifdef GROUND
+uniform vec3 ground_irradiance;
+uniform vec3 ground_sun_irradiance;
+#endif
+uniform float ao_strength;
+uniform float exposure;
+uniform float fog_start_m;
+uniform vec3 eye_ws;
+uniform vec3 background;
+out vec4 colour;
+void main() {
+#ifdef GROUND
+  // The open shares of soft light, and in alpha that of the sun, behind characters and the screen.
+  vec4 open = mix(vec4(1.0), use_screen_ao ? fetch_screen_light() : vec4(1.0), ao_strength);
+  vec3 irradiance = ground_irradiance * open.rgb + ground_sun_irradiance * open.a;
+#else
+  vec3 occlusion = mix(vec3(1.0), surface_light, ao_strength);
+  vec3 irradiance = nook_scene_irradiance(light, normalize(surface_normal_ws), occlusion);
+#endif
+  vec3 seen = 1.0 - exp(-exposure * surface_albedo * irradiance * 0.31830989);
+  float distance_m = length(surface_position_ws - eye_ws);
+  float fog = 1.0 - exp(-max(distance_m - fog_start_m, 0.0) / (0.7 * fog_start_m));
+  colour = vec4(mix(seen, background, fog), 1.0);
+}
+)";
 
 struct Vertex {
   float position_m[3];
@@ -37,16 +76,86 @@ const void* at(std::uint64_t offset) {
 
 }  // namespace
 
+const char* const character_vertex = R"(#version 330 core
+layout(location = 0) in vec3 position_m;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in uvec4 joints;
+layout(location = 3) in vec4 weights;
+layout(location = 4) in float ao;
+layout(location = 5) in vec3 light_value;
+uniform samplerBuffer bones;
+uniform int first_bone_texel;
+uniform mat4 clip_from_world;
+uniform vec3 instance_albedo;
+out vec3 surface_position_ws;
+out vec3 surface_normal_ws;
+out vec3 surface_albedo;
+out float surface_ao;
+out vec3 surface_light;
+vec4 bone_row(int bone, int row) { return texelFetch(bones, first_bone_texel + 3 * bone + row); }
+void main() {
+  vec4 rows[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
+  for (int i = 0; i < 4; ++i)
+    for (int r = 0; r < 3; ++r) rows[r] += weights[i] * bone_row(int(joints[i]), r);
+  vec4 p = vec4(position_m, 1.0);
+  surface_position_ws = vec3(dot(rows[0], p), dot(rows[1], p), dot(rows[2], p));
+  surface_normal_ws = vec3(dot(rows[0].xyz, normal), dot(rows[1].xyz, normal), dot(rows[2].xyz, normal));
+  surface_albedo = instance_albedo;
+  surface_ao = ao;
+  surface_light = light_value;
+  gl_Position = clip_from_world * vec4(surface_position_ws, 1.0);
+}
+)";
+
+const char* const ground_vertex = R"(#version 330 core
+uniform mat4 clip_from_world;
+uniform vec3 instance_albedo;
+uniform float ground_half_size_m;
+out vec3 surface_position_ws;
+out vec3 surface_normal_ws;
+out vec3 surface_albedo;
+out float surface_ao;
+out vec3 surface_light;
+void main() {
+  vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1)) * 2.0 - 1.0;
+  surface_position_ws = vec3(corner.x, 0.0, corner.y) * ground_half_size_m;
+  surface_normal_ws = vec3(0.0, 1.0, 0.0);
+  surface_albedo = instance_albedo;
+  surface_ao = 1.0;
+  surface_light = vec3(1.0);
+  gl_Position = clip_from_world * vec4(surface_position_ws, 1.0);
+}
+)";
+
+const char* const glsl_version = "#version 330 core\n";
+
+const char* const fetch_screen_glsl = R"(
+uniform bool use_screen_ao;
+uniform sampler2D screen_ao;
+uniform sampler2D screen_depth;
+// The picture is multisampled and AO is not, so that at an edge the texel may belong to another surface. This takes
+// the texel, of this one and the four beside it, whose depth is nearest.
+vec4 fetch_screen_light() {
+  const ivec2 steps[5] = ivec2[5](ivec2(0), ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
+  ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(screen_depth, 0) - 1, best = pixel;
+  float min_off = 2.0;
+  for (int i = 0; i < 5; ++i) {
+    ivec2 candidate = clamp(pixel + steps[i], ivec2(0), last);
+    float off = abs(texelFetch(screen_depth, candidate, 0).r - gl_FragCoord.z);
+    if (off < min_off) best = candidate;
+    min_off = min(min_off, off);
+  }
+  return texelFetch(screen_ao, best, 0);
+}
+float fetch_screen_ao() { return fetch_screen_light().r; }
+)";
+
 Renderer::Renderer(const GladGLContext& gl, const Hero& hero)
     : gl_(gl),
-      character_(gl, {kCharacterVertex}, {kVersion, kScreenAo, kLitFragment}),
-      ground_(gl, {kGroundVertex}, {kVersion, kScreenAo, kLitFragment}),
-      character_surface_(gl, {kCharacterVertex}, {kSurfaceFragment}),
-      ground_surface_(gl, {kGroundVertex}, {kSurfaceFragment}),
-      shadow_(gl, {kCharacterVertex}, {kShadowFragment}),
+      character_surface_(gl, {character_vertex}, {surface_fragment}),
+      ground_surface_(gl, {ground_vertex}, {surface_fragment}),
       index_count_(GLsizei(hero.triangles.size())),
-      bone_texels_(3 * std::size_t(hero.bone_count())),
-      to_key_ws_(glm::normalize(glm::vec3(0.5f, 0.95f, 0.35f))) {
+      bone_texels_(3 * std::size_t(hero.bone_count())) {
   gl.GenVertexArrays(2, arrays_);
   gl.GenBuffers(3, buffers_);
   gl.GenTextures(1, &bone_texture_);
@@ -54,7 +163,12 @@ Renderer::Renderer(const GladGLContext& gl, const Hero& hero)
   gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
   chunk_ = std::max<std::size_t>(1, std::size_t(texels) / bone_texels_);
   make_character(hero);
-  make_shadow_map();
+}
+
+Renderer::~Renderer() {
+  gl_.DeleteVertexArrays(2, arrays_);
+  gl_.DeleteBuffers(3, buffers_);
+  gl_.DeleteTextures(1, &bone_texture_);
 }
 
 void Renderer::make_character(const Hero& hero) {
@@ -66,37 +180,11 @@ void Renderer::make_character(const Hero& hero) {
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[1]);
   gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(4 * hero.triangles.size()), hero.triangles.data(),
                  GL_STATIC_DRAW);
-  for (GLuint slot = 0; slot < kAoSlot; ++slot) gl_.EnableVertexAttribArray(slot);
+  for (GLuint slot = 0; slot < ao_slot; ++slot) gl_.EnableVertexAttribArray(slot);
   gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, position_m)));
   gl_.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, normal)));
   gl_.VertexAttribIPointer(2, 4, GL_UNSIGNED_SHORT, sizeof(Vertex), at(offsetof(Vertex, joints)));
   gl_.VertexAttribPointer(3, 4, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, weights)));
-}
-
-void Renderer::make_shadow_map() {
-  gl_.GenTextures(1, &shadow_texture_);
-  gl_.BindTexture(GL_TEXTURE_2D, shadow_texture_);
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, kShadowSize_px, kShadowSize_px, 0,
-                 GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
-  for (const GLenum name : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-    gl_.TexParameteri(GL_TEXTURE_2D, name, GL_LINEAR);
-  for (const GLenum name : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-    gl_.TexParameteri(GL_TEXTURE_2D, name, GL_CLAMP_TO_EDGE);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  gl_.GenFramebuffers(1, &shadow_framebuffer_);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, shadow_framebuffer_);
-  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadow_texture_, 0);
-  gl_.DrawBuffer(GL_NONE);
-  gl_.ReadBuffer(GL_NONE);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
-}
-
-Renderer::~Renderer() {
-  gl_.DeleteVertexArrays(2, arrays_);
-  gl_.DeleteBuffers(3, buffers_);
-  gl_.DeleteTextures(1, &bone_texture_);
-  gl_.DeleteTextures(1, &shadow_texture_);
-  gl_.DeleteFramebuffers(1, &shadow_framebuffer_);
 }
 
 void Renderer::upload_bones(std::span<const DrawnInstance> instances) {
@@ -135,8 +223,8 @@ void Renderer::draw_characters(const platform::Program& program, std::span<const
     const auto chunk = instances.subspan(first, std::min(chunk_, instances.size() - first));
     upload_bones(chunk);
     for (std::size_t i = 0; i < chunk.size(); ++i) {
-      bind_values(kAoSlot, 1, chunk[i].ao);
-      bind_values(kLightSlot, 3, chunk[i].light);
+      bind_values(ao_slot, 1, chunk[i].ao);
+      bind_values(light_slot, 3, chunk[i].light);
       gl_.Uniform1i(light, chunk[i].light_texel);
       gl_.Uniform1i(first_texel, GLint(i * bone_texels_));
       gl_.Uniform3fv(albedo, 1, glm::value_ptr(chunk[i].albedo));
@@ -166,111 +254,57 @@ void Renderer::draw_surfaces(std::span<const DrawnInstance> instances, const Cam
   draw_characters(character_surface_, instances, view);
 }
 
-void Renderer::draw_shadow_map(std::span<const DrawnInstance> instances) {
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, shadow_framebuffer_);
-  gl_.Viewport(0, 0, kShadowSize_px, kShadowSize_px);
-  gl_.Clear(GL_DEPTH_BUFFER_BIT);
-  draw_characters(shadow_, instances, shadow_from_world_);
-}
-
-void Renderer::set_look(const platform::Program& program, const Camera& camera, const Look& look) {
-  program.use();
-  gl_.ActiveTexture(GL_TEXTURE1);
-  gl_.BindTexture(GL_TEXTURE_2D, shadow_texture_);
-  gl_.Uniform1i(program.uniform("shadow_map"), 1);
-  gl_.ActiveTexture(GL_TEXTURE2);
-  gl_.BindTexture(GL_TEXTURE_2D, look.screen_ao.texture);
-  gl_.Uniform1i(program.uniform("screen_ao"), 2);
-  gl_.ActiveTexture(GL_TEXTURE3);
-  gl_.BindTexture(GL_TEXTURE_2D, look.screen_ao.depth);
-  gl_.Uniform1i(program.uniform("screen_depth"), 3);
-  gl_.Uniform1i(program.uniform("use_screen_ao"), look.screen_ao.texture != 0);
-  gl_.ActiveTexture(GL_TEXTURE4);
-  gl_.BindTexture(GL_TEXTURE_2D, look.floor_ao.texture);
-  gl_.Uniform1i(program.uniform("floor_ao"), 4);
-  gl_.UniformMatrix4fv(program.uniform("shadow_from_world"), 1, GL_FALSE, glm::value_ptr(shadow_from_world_));
-  gl_.Uniform3fv(program.uniform("to_key_ws"), 1, glm::value_ptr(to_key_ws_));
-  gl_.Uniform3fv(program.uniform("eye_ws"), 1, glm::value_ptr(camera.eye_ws));
-  gl_.Uniform3fv(program.uniform("background"), 1, glm::value_ptr(look.background));
-  gl_.Uniform1f(program.uniform("key_strength"), look.key_strength);
-  gl_.Uniform1f(program.uniform("ao_strength"), look.ao_strength);
-  gl_.Uniform1f(program.uniform("fog_start_m"), look.fog_start_m);
-}
-
-void Renderer::draw(std::span<const DrawnInstance> instances, const Camera& camera, const Look& look,
-                    const glm::vec3& shadow_centre_ws, float shadow_radius_m) {
-  GLint target = 0, viewport[4];
-  gl_.GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
-  gl_.GetIntegerv(GL_VIEWPORT, viewport);
-  gl_.Enable(GL_DEPTH_TEST);
-  const float r = shadow_radius_m;
-  shadow_from_world_ =
-      glm::ortho(-r, r, -r, r, 0.0f, 4 * r) *
-      glm::lookAt(shadow_centre_ws + 2 * r * to_key_ws_, shadow_centre_ws, glm::vec3(0, 0, 1));
-  if (look.key_strength > 0) draw_shadow_map(instances);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, GLuint(target));
-  gl_.Viewport(viewport[0], viewport[1], viewport[2], viewport[3]);
-  gl_.ClearColor(look.background.r, look.background.g, look.background.b, 1);
-  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  const glm::mat4 view = clip_from_world(camera, float(viewport[2]) / float(viewport[3]));
-  set_look(ground_, camera, look);
-  gl_.Uniform1i(ground_.uniform("use_floor_ao"), look.floor_ao.texture != 0);
-  gl_.Uniform2fv(ground_.uniform("floor_first_m"), 1, glm::value_ptr(look.floor_ao.first_m));
-  gl_.Uniform2fv(ground_.uniform("floor_extent_m"), 1, glm::value_ptr(look.floor_ao.extent_m));
-  draw_ground(ground_, look.ground_albedo, view);
-  set_look(character_, camera, look);
-  draw_characters(character_, instances, view);
-}
-
-void Renderer::set_probe_light(const platform::Program& program, const Camera& camera,
-                               const ProbeLight& light, const glm::vec3& background) {
+void Renderer::set_look(const platform::Program& program, const Camera& camera, const Look& look,
+                        const glm::vec3& background) {
   program.use();
   const struct {
     GLint unit;
     GLenum target;
     GLuint texture;
     const char* name;
-  } textures[] = {{2, GL_TEXTURE_2D, light.screen_ao.texture, "screen_ao"},
-                  {3, GL_TEXTURE_2D, light.screen_ao.depth, "screen_depth"},
-                  {5, GL_TEXTURE_BUFFER, light.texture, "nook_scene_lights"}};
+  } textures[] = {{2, GL_TEXTURE_2D, look.screen_ao.texture, "screen_ao"},
+                  {3, GL_TEXTURE_2D, look.screen_ao.depth, "screen_depth"},
+                  {5, GL_TEXTURE_BUFFER, look.lobes_texture, "nook_scene_lights"}};
   for (const auto& t : textures) {
     gl_.ActiveTexture(GL_TEXTURE0 + GLenum(t.unit));
     gl_.BindTexture(t.target, t.texture);
     gl_.Uniform1i(program.uniform(t.name), t.unit);
   }
-  gl_.Uniform3fv(program.uniform("ground_irradiance"), 1, glm::value_ptr(light.ground_irradiance));
-  gl_.Uniform3fv(program.uniform("ground_sun_irradiance"), 1, glm::value_ptr(light.ground_sun_irradiance));
-  gl_.Uniform1i(program.uniform("use_screen_ao"), light.screen_ao.texture != 0);
-  gl_.Uniform1f(program.uniform("ao_strength"), light.ao_strength);
-  gl_.Uniform1f(program.uniform("exposure"), light.exposure);
-  gl_.Uniform1f(program.uniform("fog_start_m"), light.fog_start_m);
+  gl_.Uniform3fv(program.uniform("ground_irradiance"), 1, glm::value_ptr(look.light.soft_up));
+  gl_.Uniform3fv(program.uniform("ground_sun_irradiance"), 1, glm::value_ptr(look.light.sun_up));
+  gl_.Uniform1i(program.uniform("use_screen_ao"), look.screen_ao.texture != 0);
+  gl_.Uniform1f(program.uniform("ao_strength"), look.ao_strength);
+  gl_.Uniform1f(program.uniform("exposure"), look.light.exposure);
+  gl_.Uniform1f(program.uniform("fog_start_m"), look.fog_start_m);
   gl_.Uniform3fv(program.uniform("eye_ws"), 1, glm::value_ptr(camera.eye_ws));
   gl_.Uniform3fv(program.uniform("background"), 1, glm::value_ptr(background));
 }
 
 // An engine does no more with Nook's lights: it binds their texture, and for each instance it sets the number
 // of its light and binds its directional AO.
-void Renderer::draw_probe_light(std::span<const DrawnInstance> instances, const Camera& camera,
-                                const ProbeLight& light) {
+void Renderer::draw(std::span<const DrawnInstance> instances, const Camera& camera, const Look& look) {
+  if (!character_) {
+    character_.emplace(
+        gl_, std::initializer_list<const char*>{character_vertex},
+        std::initializer_list<const char*>{glsl_version, look.glsl, fetch_screen_glsl, lit_fragment});
+    ground_.emplace(gl_, std::initializer_list<const char*>{ground_vertex},
+                    std::initializer_list<const char*>{glsl_version, "#define GROUND\n", look.glsl,
+                                                       fetch_screen_glsl, lit_fragment});
+  }
   GLint viewport[4];
   gl_.GetIntegerv(GL_VIEWPORT, viewport);
-  if (!character_probe_light_) {
-    character_probe_light_.emplace(
-        gl_, std::initializer_list<const char*>{kCharacterVertex},
-        std::initializer_list<const char*>{kVersion, light.glsl, kScreenAo, kProbeLightFragment});
-    ground_probe_light_.emplace(gl_, std::initializer_list<const char*>{kGroundVertex},
-                                std::initializer_list<const char*>{kVersion, "#define GROUND\n", light.glsl,
-                                                                   kScreenAo, kProbeLightFragment});
-  }
   gl_.Enable(GL_DEPTH_TEST);
-  const glm::vec3 background = 1.0f - glm::exp(-light.exposure * light.horizon);
+  // Behind everything is the light from the horizon ahead.
+  glm::vec3 ahead = camera.target_ws - camera.eye_ws;
+  ahead = glm::normalize(glm::vec3(ahead.x, 0.4f * glm::length(glm::vec2(ahead.x, ahead.z)), ahead.z));
+  const glm::vec3 background = 1.0f - glm::exp(-look.light.exposure * look.light.radiance(ahead));
   gl_.ClearColor(background.r, background.g, background.b, 1);
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   const glm::mat4 view = clip_from_world(camera, float(viewport[2]) / float(viewport[3]));
-  set_probe_light(*ground_probe_light_, camera, light, background);
-  draw_ground(*ground_probe_light_, light.ground_albedo, view);
-  set_probe_light(*character_probe_light_, camera, light, background);
-  draw_characters(*character_probe_light_, instances, view);
+  set_look(*ground_, camera, look, background);
+  draw_ground(*ground_, ground_albedo, view);
+  set_look(*character_, camera, look, background);
+  draw_characters(*character_, instances, view);
 }
 
 }  // namespace crowd

@@ -218,9 +218,9 @@ void read_clips(const tinygltf::Model& model, CharacterFile& out) {
       const tinygltf::AnimationSampler& sampler = animation.samplers.at(std::size_t(source.sampler));
       Channel channel;
       channel.node = source.target_node;
-      channel.path = is_rotation                           ? Channel::kRotation
-                     : source.target_path == "translation" ? Channel::kTranslation
-                                                           : Channel::kScale;
+      channel.path = is_rotation                           ? Channel::rotation
+                     : source.target_path == "translation" ? Channel::translation
+                                                           : Channel::scale;
       channel.has_steps = sampler.interpolation == "STEP";
       channel.times_s = read(model, sampler.input, 1);
       const std::size_t width = is_rotation ? 4 : 3;
@@ -253,9 +253,9 @@ void apply(const Channel& channel, float time_s, std::vector<Node>& nodes) {
   if (channel.has_steps) share = 0;
   Node& node = nodes.at(std::size_t(channel.node));
   const glm::vec4 value = glm::mix(channel.values[a], channel.values[b], share);
-  if (channel.path == Channel::kTranslation) node.translation = glm::vec3(value);
-  if (channel.path == Channel::kScale) node.scale = glm::vec3(value);
-  if (channel.path == Channel::kRotation)
+  if (channel.path == Channel::translation) node.translation = glm::vec3(value);
+  if (channel.path == Channel::scale) node.scale = glm::vec3(value);
+  if (channel.path == Channel::rotation)
     node.rotation = glm::normalize(glm::slerp(as_quat(channel.values[a]), as_quat(channel.values[b]), share));
 }
 

@@ -35,9 +35,9 @@ struct Vertex {
 };
 
 struct Channel {
-  enum Path { kTranslation, kRotation, kScale };
+  enum Path { translation, rotation, scale };
   int node = 0;
-  Path path = kTranslation;
+  Path path = translation;
   bool has_steps = false;
   std::vector<float> times_s;
   std::vector<glm::vec4> values;

@@ -96,7 +96,7 @@ void run(const Options& o) {
       time_s = (frame + 0.3) / o.frames * double(duration_s);
     const Pose pose = file.pose(clip, float(time_s));
     const View view = view_of(box, o.out.empty() ? 0.5f : 0.5f + 0.4f * float(frame), aspect);
-    const nook_gl_ao_view ao = nook.character(pose);
+    const nook_gl_view ao = nook.character(pose);
     renderer.draw_depth(pose, view, 2 * size_m);
     const GLuint screen_ao =
         nook.screen(renderer.depth(), renderer.layer(), view.clip_from_view, 0.2f * size_m);

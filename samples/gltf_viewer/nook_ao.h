@@ -34,7 +34,7 @@ class NookAo {
   }
 
   // Evaluates a pose. The result is bound as a vertex attribute of one float.
-  nook_gl_ao_view character(const Pose& pose) {
+  nook_gl_view character(const Pose& pose) {
     // Joint matrices pose the parts without a skin; their nodes are found by the names of the bones.
     const std::span matrices(pose.matrices);
     set_pose(NOOK_POSE_JOINT_TO_WORLD, matrices.subspan(file_.first_node_matrix), node_of_bone_, 0);
@@ -42,7 +42,7 @@ class NookAo {
       if (const Skin& skin = file_.skins[s]; skin.has_mesh)
         set_pose(NOOK_POSE_SKINNING, matrices.subspan(skin.first_matrix, skin.joints.size()), {}, s);
     gl_->update(scene_);
-    return gl_->ao_buffer(scene_, character_);
+    return gl_->view(scene_, character_);
   }
 
   // Returns a texture with the AO of each pixel in red. Where the layer is (c, 1), the result is c.

@@ -7,10 +7,10 @@
 namespace viewer {
 namespace {
 
-enum Slot : GLuint { kPosition, kNormal, kAlbedo, kJoints, kWeights, kAo };
+enum Slot : GLuint { position_slot, normal_slot, albedo_slot, joints_slot, weights_slot, ao_slot };
 
 // Both passes draw the same depth, because gl_Position is invariant.
-const char* const kVertex = R"(#version 330 core
+const char* const vertex_glsl = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 albedo;
@@ -49,14 +49,14 @@ void main() {
 }
 )";
 
-const char* const kDepthFragment = R"(#version 330 core
+const char* const depth_glsl = R"(#version 330 core
 uniform bool is_ground;
 out vec2 layer;
 void main() { layer = vec2(1.0, is_ground ? 0.0 : 1.0); }
 )";
 
 // Ambient light comes from everywhere and is multiplied by AO. AO does not touch the lamp.
-const char* const kColourFragment = R"(#version 330 core
+const char* const colour_glsl = R"(#version 330 core
 in vec3 surface_normal_ws, surface_albedo, surface_position_ws;
 in float surface_ao;
 uniform sampler2D screen_ao;
@@ -81,8 +81,8 @@ const void* at(std::uint64_t offset) {
 
 Renderer::Renderer(const GladGLContext& gl, const CharacterFile& file, int width, int height)
     : gl_(gl),
-      depth_program_(gl, {kVertex}, {kDepthFragment}),
-      colour_program_(gl, {kVertex}, {kColourFragment}),
+      depth_program_(gl, {vertex_glsl}, {depth_glsl}),
+      colour_program_(gl, {vertex_glsl}, {colour_glsl}),
       width_(width),
       height_(height),
       index_count_(GLsizei(file.triangles.size())) {
@@ -95,17 +95,17 @@ Renderer::Renderer(const GladGLContext& gl, const CharacterFile& file, int width
   gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[1]);
   gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(file.triangles.size() * sizeof(std::uint32_t)),
                 file.triangles.data(), GL_STATIC_DRAW);
-  for (GLuint slot = kPosition; slot <= kAo; ++slot) gl.EnableVertexAttribArray(slot);
+  for (GLuint slot = position_slot; slot <= ao_slot; ++slot) gl.EnableVertexAttribArray(slot);
   constexpr GLsizei stride = sizeof(Vertex);
-  gl.VertexAttribPointer(kPosition, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(Vertex, position)));
-  gl.VertexAttribPointer(kNormal, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(Vertex, normal)));
-  gl.VertexAttribPointer(kAlbedo, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(Vertex, albedo)));
-  gl.VertexAttribIPointer(kJoints, 4, GL_UNSIGNED_SHORT, stride, at(offsetof(Vertex, matrices)));
-  gl.VertexAttribPointer(kWeights, 4, GL_FLOAT, GL_FALSE, stride, at(offsetof(Vertex, weights)));
+  gl.VertexAttribPointer(position_slot, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(Vertex, position)));
+  gl.VertexAttribPointer(normal_slot, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(Vertex, normal)));
+  gl.VertexAttribPointer(albedo_slot, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(Vertex, albedo)));
+  gl.VertexAttribIPointer(joints_slot, 4, GL_UNSIGNED_SHORT, stride, at(offsetof(Vertex, matrices)));
+  gl.VertexAttribPointer(weights_slot, 4, GL_FLOAT, GL_FALSE, stride, at(offsetof(Vertex, weights)));
   // Until a frame brings its AO, the attribute reads a float that is there.
-  gl.VertexAttribPointer(kAo, 1, GL_FLOAT, GL_FALSE, stride, at(offsetof(Vertex, weights)));
+  gl.VertexAttribPointer(ao_slot, 1, GL_FLOAT, GL_FALSE, stride, at(offsetof(Vertex, weights)));
 
-  gl.GenTextures(kTextures, textures_);
+  gl.GenTextures(texture_count, textures_);
   gl.GenFramebuffers(2, framebuffers_);
   const struct {
     GLint internal_format;
@@ -113,7 +113,7 @@ Renderer::Renderer(const GladGLContext& gl, const CharacterFile& file, int width
   } formats[] = {{GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT},
                  {GL_RG8, GL_RG, GL_UNSIGNED_BYTE},
                  {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE}};
-  for (const int t : {kDepth, kLayer, kColour}) {
+  for (const int t : {depth_texture, layer_texture, colour_texture}) {
     gl.BindTexture(GL_TEXTURE_2D, textures_[t]);
     gl.TexImage2D(GL_TEXTURE_2D, 0, formats[t].internal_format, width, height, 0, formats[t].format,
                   formats[t].type, nullptr);
@@ -121,9 +121,9 @@ Renderer::Renderer(const GladGLContext& gl, const CharacterFile& file, int width
   }
   for (const int f : {0, 1}) {
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffers_[f]);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, textures_[kDepth], 0);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, textures_[depth_texture], 0);
     gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
-                            textures_[f == 0 ? kLayer : kColour], 0);
+                            textures_[f == 0 ? layer_texture : colour_texture], 0);
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
       throw std::runtime_error("gltf_viewer: this OpenGL cannot draw RG8 and RGBA8 with 24-bit depth");
   }
@@ -131,7 +131,7 @@ Renderer::Renderer(const GladGLContext& gl, const CharacterFile& file, int width
 
 Renderer::~Renderer() {
   gl_.DeleteFramebuffers(2, framebuffers_);
-  gl_.DeleteTextures(kTextures, textures_);
+  gl_.DeleteTextures(texture_count, textures_);
   gl_.DeleteBuffers(3, buffers_);
   gl_.DeleteVertexArrays(1, &array_);
 }
@@ -142,7 +142,7 @@ void Renderer::draw(const platform::Program& program) {
   gl_.Viewport(0, 0, width_, height_);
   program.use();
   gl_.ActiveTexture(GL_TEXTURE0);
-  gl_.BindTexture(GL_TEXTURE_BUFFER, textures_[kMatrices]);
+  gl_.BindTexture(GL_TEXTURE_BUFFER, textures_[matrix_texture]);
   gl_.Uniform1i(program.uniform("matrices"), 0);
   gl_.UniformMatrix4fv(program.uniform("view_from_world"), 1, GL_FALSE,
                        glm::value_ptr(view_.view_from_world));
@@ -162,7 +162,7 @@ void Renderer::draw_depth(const Pose& pose, const View& view, float ground_half_
   gl_.BufferData(GL_TEXTURE_BUFFER, GLsizeiptr(pose.matrices.size() * sizeof(glm::mat4)),
                  pose.matrices.data(), GL_STREAM_DRAW);
   gl_.ActiveTexture(GL_TEXTURE0);
-  gl_.BindTexture(GL_TEXTURE_BUFFER, textures_[kMatrices]);
+  gl_.BindTexture(GL_TEXTURE_BUFFER, textures_[matrix_texture]);
   gl_.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffers_[2]);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffers_[0]);
   gl_.ClearColor(1, 0, 0, 0);
@@ -180,7 +180,8 @@ void Renderer::draw_colour(const VertexAo& character_ao, GLuint screen_ao) {
   gl_.Uniform1i(colour_program_.uniform("screen_ao"), 1);
   gl_.BindVertexArray(array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, character_ao.buffer);
-  gl_.VertexAttribPointer(kAo, 1, GL_FLOAT, GL_FALSE, GLsizei(character_ao.stride), at(character_ao.offset));
+  gl_.VertexAttribPointer(ao_slot, 1, GL_FLOAT, GL_FALSE, GLsizei(character_ao.stride),
+                          at(character_ao.offset));
   draw(colour_program_);
 }
 

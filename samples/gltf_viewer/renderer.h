@@ -29,8 +29,8 @@ class Renderer {
   // First: depth, and the layer for the AO of the screen, which is (1, 1) on the character and (1, 0)
   // elsewhere.
   void draw_depth(const Pose& pose, const View& view, float ground_half_size_m);
-  GLuint depth() const { return textures_[kDepth]; }
-  GLuint layer() const { return textures_[kLayer]; }
+  GLuint depth() const { return textures_[depth_texture]; }
+  GLuint layer() const { return textures_[layer_texture]; }
   // Second: the colours, with both kinds of AO.
   void draw_colour(const VertexAo& character_ao, GLuint screen_ao);
   // Leaves the colours bound for reading.
@@ -38,14 +38,14 @@ class Renderer {
   void show(GLuint framebuffer, int width, int height) const;
 
  private:
-  enum { kDepth, kLayer, kColour, kMatrices, kTextures };
+  enum { depth_texture, layer_texture, colour_texture, matrix_texture, texture_count };
   void draw(const platform::Program& program);
 
   const GladGLContext& gl_;
   platform::Program depth_program_, colour_program_;
   int width_, height_;
   GLsizei index_count_;
-  GLuint array_ = 0, buffers_[3] = {}, textures_[kTextures] = {}, framebuffers_[2] = {};
+  GLuint array_ = 0, buffers_[3] = {}, textures_[texture_count] = {}, framebuffers_[2] = {};
   View view_;
   float ground_half_size_m_ = 1;
 };

@@ -27,7 +27,7 @@ void GLAD_API_PTR on_message(GLenum, GLenum type, GLuint, GLenum, GLsizei, const
 
 }  // namespace
 
-const char* const kLightGlsl = R"(
+const char* const light_glsl = R"(
 vec3 lit(vec3 albedo, vec3 n, float ao) {
   vec3 ambient = mix(vec3(0.62, 0.60, 0.57), vec3(0.82, 0.86, 0.92), 0.5 + 0.5 * n.y);
   float lamp = 0.35 * max(dot(n, normalize(vec3(0.5, 0.8, 0.6))), 0.0);

@@ -53,7 +53,7 @@ void start_counting_gl_errors();
 void finish(const char* name, const Options& options, const unsigned char* rgb);
 
 // The colours of all hosts, which take the AO of a vertex and of a pixel: GLSL without #version.
-extern const char* const kLightGlsl;
+extern const char* const light_glsl;
 
 // Runs the body and prints what it throws. Returns the exit code.
 int run(const char* name, int argc, char** argv, void (*body)(const Options&));

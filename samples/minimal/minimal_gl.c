@@ -26,10 +26,10 @@ nook_result minimal_gl_frame(nook_gl gl, nook_scene scene) {
 nook_result minimal_gl_bind(nook_gl gl, nook_scene scene, nook_instance_id instance,
                             const minimal_gl_calls* call, unsigned slot) {
   enum { ARRAY_BUFFER = 0x8892, FLOAT = 0x1406 };
-  nook_gl_ao_view view = {0};
+  nook_gl_view view = {0};
   nook_result r;
   view.struct_size = sizeof view;
-  r = nook_gl_scene_ao_buffer(gl, scene, instance, &view);
+  r = nook_gl_scene_view(gl, scene, instance, NOOK_CHANNEL_AO, &view);
   if (r) return r;
   call->bind_buffer(ARRAY_BUFFER, view.buffer);
   call->enable_vertex_attrib_array(slot);

@@ -38,7 +38,7 @@ static VkResult start_pass(Pass* p, const engine* e, const Settings* s) {
   nook_result r = nook_context_desc_init(&context_desc);
   if (!r) r = nook_context_create(&context_desc, &p->context);
   if (!r) r = nook_nnao_desc_init(&p->desc);
-  if (!r) r = nook_nnao_desc_set_preset(&p->desc, s->preset);
+  p->desc.preset = s->preset;
   p->desc.max_history_frames = s->mean ? frames_of_mean : 0;
   p->desc.max_width = e->width;
   p->desc.max_height = e->height;
@@ -82,6 +82,7 @@ static nook_result record_frame(const Pass* p, const engine* e, float radius_m, 
                                 void** bytes, size_t* size) {
   nook_nnao_recording_desc desc;
   nook_nnao_recording recording = NULL;
+  nook_nnao_stages_info info = {.struct_size = sizeof info};
   nook_result r = nook_nnao_recording_desc_init(&desc);
   desc.width = e->width;
   desc.height = e->height;
@@ -92,9 +93,10 @@ static nook_result record_frame(const Pass* p, const engine* e, float radius_m, 
   desc.clip = NOOK_CLIP_SPACE_ZERO_TO_ONE;
   memcpy(desc.projection, e->projection, sizeof desc.projection);
   desc.radius = radius_m;
-  desc.taps = p->desc.taps;
-  desc.half_resolution = p->desc.half_resolution;
-  desc.blur = p->desc.blur;
+  if (!r) r = nook_nnao_stages_describe(p->vulkan.stages, &info);
+  desc.taps = info.taps;
+  desc.half_resolution = info.half_resolution;
+  desc.blur = info.blur;
   desc.renderer = e->device_name;
   desc.note = "the room of samples/vulkan";
   if (!r) r = nook_nnao_recording_create(p->context, &desc, &recording);
@@ -183,7 +185,7 @@ static int save_all(Pass* p, engine* e, const Settings* s) {
 
 /* Returns 0 if an argument is none. */
 static int read_arguments(int argc, char** argv, Settings* s) {
-  static const char* const presets[3] = {"fast", "default", "best"};
+  static const char* const presets[3] = {"default", "fast", "best"};
   if (argc > 1) s->folder = argv[1];
   for (int i = 2; i < argc; ++i) {
     char* end = NULL;

@@ -22,7 +22,7 @@ cmake --build "$build" -j "$jobs" --target nook_tool mannequin web_data
 models=$folder/models
 mkdir -p "$models"
 nook=$build/bakers/tool/nook
-"$build/samples/mannequin/mannequin" "$models/mannequin.new.glb"
+"$build/bakers/mannequin/mannequin" "$models/mannequin.new.glb"
 if ! cmp -s "$models/mannequin.new.glb" "$models/mannequin.glb" || [ ! -f "$models/mannequin.nook" ]; then
   mv "$models/mannequin.new.glb" "$models/mannequin.glb"
   "$nook" bake character "$models/mannequin.glb" --preset draft --quiet -o "$models/mannequin.nook"

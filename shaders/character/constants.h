@@ -1,4 +1,4 @@
-// Constants of the formulas that sdk/src/character (kernel.h, directional.h, directional_bands.h) and these
+// Constants of the formulas that sdk/src/character (kernel.h, directional_occlusion.h) and these
 // shaders share; the headers describe them. C++ and GLSL both include this file.
 #ifndef NOOK_CHARACTER_CONSTANTS_H
 #define NOOK_CHARACTER_CONSTANTS_H

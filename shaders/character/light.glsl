@@ -1,4 +1,4 @@
-// The light of an instance and what stands in it; derived in sdk/src/character/directional.h and directional_bands.h.
+// The light of an instance and what stands in it; derived in sdk/src/character/directional_occlusion.h.
 #include "shaders/core/constants.h"
 #include "shaders/character/instance.glsl"
 #include "shaders/character/light_layout.h"

@@ -9,7 +9,7 @@ float nook_form(float shadow, float added, float bias) {
 }
 
 // The same for the light of an instance. shadow.xyz is the sum of alpha * coloured shadow, shadow.w that of alpha *
-// shadow; sdk/src/character/directional_bands.h has the ratio.
+// shadow; sdk/src/character/directional_occlusion.h has the ratio.
 vec3 nook_combine_light(vec4 shadow, vec3 added, float bias) {
   vec3 ratio = (shadow.xyz + NOOK_SMALLEST_SHARE) / (max(shadow.w, 0.0) + NOOK_SMALLEST_SHARE);
   vec3 self = clamp(1.0 - max(shadow.w + bias, 0.0) * ratio, 0.0, 1.0);

@@ -1,7 +1,7 @@
 // Decoding of a clustered BTF, also on a relief.
 #if NOOK_RELIEF
 // Returns the point of the tile over which the view's ray through uv first meets the relief.
-// sdk/src/material/relief.cpp has the same function.
+// sdk/src/material/relief_tables.cpp has the same function.
 vec2 nook_material_relief(vec2 uv, vec3 view, float level) {
   float across = length(view.xy);
   vec2 slope = view.xy * (view.z * nook_relief_max_slope > across ? 1.0 / max(view.z, 1e-6)

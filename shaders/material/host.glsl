@@ -1,7 +1,7 @@
-// The functions of a host's shader. sdk/src/gl/material/source.cpp writes before this text, for the sizes of a material: the
+// The functions of a host's shader. sdk/src/gl/material/material_glsl.cpp writes before this text, for the sizes of a material: the
 // constants, the samplers, base/host.glsl, and for the BTF and the VOTF the function
 //   vec4 nook_btf_mode(int cluster, int mode, vec2 uv, float level)
-// and tensor/host.glsl. sdk/src/material/tables.h defines the layout of layers and numbers, and sdk/src/material/evaluate.cpp
+// and tensor/host.glsl. sdk/src/material/tables.h defines the layout of layers and numbers, and sdk/src/material/reflectance.cpp
 // has the same functions.
 #include "shaders/material/btf.glsl"
 

@@ -2,8 +2,8 @@
 // row. The later stages read it many times, and the host's depth costs a division each time.
 #include "shaders/nnao/host_depth.glsl"
 
-// NOOK_APART: the weight of the layer above which there is no surface.
-#ifdef NOOK_APART
+// NOOK_NO_SURFACE_ABOVE: the weight of the layer above which there is no surface.
+#ifdef NOOK_NO_SURFACE_ABOVE
 uniform NOOK_HOST_IMAGE nook_layer;
 #endif
 
@@ -24,8 +24,8 @@ void main() {
 #else
   float depth = nook_screen_depth(texel);
 #endif
-#ifdef NOOK_APART
-  if (nook_host_texel(nook_layer, texel).g > NOOK_APART) depth = nook_no_surface;
+#ifdef NOOK_NO_SURFACE_ABOVE
+  if (nook_host_texel(nook_layer, texel).g > NOOK_NO_SURFACE_ABOVE) depth = nook_no_surface;
 #endif
 #ifdef NOOK_NORMAL_SAMPLES
   nook_out = uvec2(floatBitsToUint(depth), chosen.number);

@@ -1,4 +1,4 @@
-// The values that are equal for all pixels of a frame; frame_constants.h fills them. Pixels are those of the
+// The values that are equal for all pixels of a frame; nnao_frame.h fills them. Pixels are those of the
 // viewport, with (0, 0) at its lower left corner. The surface is the viewport at the resolution at which AO is
 // computed: itself, or every second pixel of every second row.
 #include "shaders/nnao/layout.h"

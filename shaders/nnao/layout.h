@@ -44,6 +44,14 @@
 #define NOOK_SAMPLE_FIRST 1
 #define NOOK_SAMPLE_NEAREST 2
 
+// The values of nook_gbuffer_ao that the shaders tell apart. From REPLACE on the layer has a weight.
+#define NOOK_LAYER_MIN 1
+#define NOOK_LAYER_REPLACE 3
+// Weights above which depth has no surface: of what the screen-space pass excludes, and of what the layer
+// replaces, of which no more than a step of 8 bits is left.
+#define NOOK_EXCLUDED_ABOVE 0.5
+#define NOOK_REPLACED_ABOVE 0.998
+
 // The noise of the taps repeats after so many pixels along each axis. The filter averages as many.
 #define NOOK_NOISE_SIZE 3
 #define NOOK_NOISE_COUNT 9

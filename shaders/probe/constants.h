@@ -1,4 +1,4 @@
-// Constants of the formulas that sdk/src/probe (harmonics.h, zonal_harmonics.cpp, ggx_reflection.cpp) and
+// Constants of the formulas that sdk/src/probe (harmonics.h, harmonics.cpp, ggx_reflection.cpp) and
 // these shaders share. C++ and GLSL both include this file.
 #ifndef NOOK_PROBE_CONSTANTS_H
 #define NOOK_PROBE_CONSTANTS_H

@@ -1,4 +1,4 @@
-// A probe, or a grid of probes, in a table of RGBA32F texels as sdk/src/gl/probe/probe_texels.cpp lays it
+// A probe, or a grid of probes, in a table of RGBA32F texels as sdk/src/gl/probe/probe_texture.cpp lays it
 // out: counts and number of lobes; origin; 1 / spacing; axis and sharpness of each lobe; then the amplitudes
 // of each probe, x fastest, then y, z.
 #include "shaders/core/texels.glsl"

@@ -1,4 +1,4 @@
-// The coordinate texture of a plane in a host's shader. sdk/src/gl/synthesis/coordinate_texture.cpp writes the sizes
+// The coordinate texture of a plane in a host's shader. sdk/src/gl/material/material_textures.cpp writes the sizes
 // before this text, and sdk/src/synthesis/coordinates.cpp has the same function.
 uniform highp usampler2DArray nook_synthesis_texels;
 

@@ -71,9 +71,6 @@
 #define NOOK_VIEW_FAR_CASTERS 4
 #define NOOK_VIEW_FAR_TESTS 5
 
-// The weight of a layer from which on no more than a step of 8 bits is left of what it replaces.
-#define NOOK_REPLACED 0.998
-
 // The equal parts of a cone of light.
 #define NOOK_CONE_PARTS 16
 // Uniforms of light.glsl, which describes them.

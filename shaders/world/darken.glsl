@@ -87,7 +87,7 @@ float nook_world_depth(ivec2 pixel) {
   return nook_depth_at(pixel / 2);
 #else
 #ifdef NOOK_LAYERED
-  if (nook_layer_mode >= 3 && texelFetch(nook_layer, pixel + nook_origin, 0).g > NOOK_REPLACED) return nook_no_surface;
+  if (nook_layer_mode >= NOOK_LAYER_REPLACE && texelFetch(nook_layer, pixel + nook_origin, 0).g > NOOK_REPLACED_ABOVE) return nook_no_surface;
 #endif
   return nook_screen_depth(pixel);
 #endif

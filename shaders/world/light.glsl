@@ -1,5 +1,5 @@
 // The open share of light by colour channel, and of one cone of light, at a point; formulas and names of
-// sdk/src/world/directional.h and cone.h.
+// sdk/src/world/light_terms.h and cone.h.
 #include "shaders/core/texels.glsl"
 #include "shaders/world/constants.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/model_file.h"
 #include "tests/abi/host.h"
 #include "tests/catch.h"

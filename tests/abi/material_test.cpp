@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
-#include "sdk/src/material/evaluate.h"
 #include "sdk/src/material/material_file.h"
+#include "sdk/src/material/reflectance.h"
 #include "tests/abi/growing_struct.h"
 #include "tests/abi/host.h"
 #include "tests/catch.h"

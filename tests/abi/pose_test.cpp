@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "tests/abi/host.h"
 #include "tests/catch.h"
 

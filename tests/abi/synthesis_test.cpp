@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sdk/src/material/material_file.h"
-#include "sdk/src/synthesis/coordinates_file.h"
+#include "sdk/src/synthesis/coordinates.h"
 #include "tests/abi/host.h"
 #include "tests/catch.h"
 #include "tests/material/material_sample.h"

@@ -70,6 +70,7 @@ room(platform platform)
 room(bakers/import bakers/import sdk/src/core)
 room(bakers/raytrace bakers/raytrace bakers/import sdk/src/core)
 room(bakers/algebra bakers/algebra)
+room(bakers/mannequin bakers/mannequin platform/output_file.h)
 room(bakers/tensor bakers/tensor bakers/algebra sdk/src/core)
 set(ground bakers/algebra bakers/import bakers/raytrace sdk/src/core)
 set(stopwatch platform/stopwatch.h)
@@ -99,12 +100,8 @@ room(bakers/measure/nnao bakers/measure/nnao bakers/nnao platform ${ground} sdk/
 room(bakers/measure/composite bakers/measure/composite bakers/measure/nnao bakers/measure/world bakers/nnao bakers/world
      platform ${ground} sdk/src/character sdk/src/world sdk/src/nnao)
 room(bakers/measure/probe bakers/measure/probe bakers/probe ${ground} sdk/src/probe)
-room(bakers/measure/material bakers/measure/material bakers/images bakers/material bakers/tensor ${process}
+room(bakers/measure/material bakers/measure/material bakers/images bakers/material bakers/tensor
      ${ground} sdk/src/material)
-room(bakers/measure/gpu_cost bakers/measure/gpu_cost bakers/measure/nnao/baselines.h shaders sdk/src/gl/material/source.h
-     sdk/src/gl/embedded_shaders.h)
-room(bakers/measure/gpu_time bakers/measure/gpu_time bakers/measure/nnao bakers/nnao bakers/raytrace platform sdk/src/core)
-room(bakers/measure/crowd bakers/measure/crowd bakers/measure/truth platform)
 # Pages show what the other measures have, and draw nothing.
 room(bakers/measure/report bakers/measure bakers/images platform ${makers})
 room(bakers/job bakers/job ${process} ${makers})
@@ -112,11 +109,16 @@ room(bakers/api bakers/api bakers/job ${makers})
 room(bakers/tool bakers/tool bakers/import/gltf.h bakers/import/linked_files.h bakers/job bakers/measure bakers/images platform
      ${systems} sdk/src/core)
 
+# The lab compares Nook with other methods. It takes from every room and, to measure it, from the
+# crowd of the samples, but not from tests. No room takes from it.
+room(bakers/lab bakers/lab samples/crowd bakers/measure bakers/tool bakers/images bakers/job platform shaders sdk/src/gl/material/material_glsl.h
+     sdk/src/gl/embedded_shaders.h ${makers})
+
 forbid(sdk/src "tbb/|embree|Eigen|tiny_gltf|OpenImageIO|nlohmann|LBFGS|CLI/" "the runtime depends on nothing")
 foreach(folder core character nnao probe material synthesis transfer world isa)
   forbid(sdk/src/${folder} "nook_gl|glad" "only gl and api/gl know OpenGL")
 endforeach()
-foreach(folder import raytrace tensor character world nnao probe material synthesis transfer job api images)
+foreach(folder import raytrace tensor mannequin character world nnao probe material synthesis transfer job api images)
   forbid(bakers/${folder} "nook_gl|nook_nnao|glad" "only measurements draw")
 endforeach()
 foreach(folder import raytrace tensor character world nnao probe material synthesis transfer job api measure tool)
@@ -127,20 +129,21 @@ forbid(bakers "embree|[a-z]mmintrin|arm_neon|<intrin" "only sources of raytrace 
 foreach(folder platform samples tests)
   forbid(${folder} "embree[0-9]*/" "only sources of bakers/raytrace know Embree")
 endforeach()
-forbid(bakers/tool "CLI/" "CLI11 costs every file seconds: take bakers/tool/command_line.h" "/(command_line|main)[.]cpp$")
-forbid(bakers/measure/crowd "nook_gl|glad" "the sample draws what is measured")
+forbid(bakers/tool "CLI/" "CLI11 costs every file seconds: take bakers/tool/command_line.h" "/(command_line|main|program)[.]cpp$")
+forbid(bakers/lab/tool "CLI/" "CLI11 costs every file seconds: take bakers/tool/command_line.h" "/main[.]cpp$")
+forbid(bakers/lab/crowd "nook_gl|glad" "the program draws what is measured"
+       "/(debug_overlay|debug_shapes|frames|main|map_light|options|panels|plain_look)[.](h|cpp)$")
 foreach(sample offscreen minimal)
   room(samples/${sample} samples/${sample})
 endforeach()
 foreach(sample nnao probe clips)
   room(samples/${sample} samples/${sample} samples/offscreen)
 endforeach()
-room(samples/mannequin samples/mannequin platform)
 room(samples/material samples/material platform)
 room(samples/transfer samples/transfer samples/offscreen)
 room(samples/gltf_viewer samples/gltf_viewer platform)
 room(samples/hosts samples/hosts samples/gltf_viewer platform)
-room(samples/crowd samples/crowd samples/mannequin bakers/measure/crowd platform)
+room(samples/crowd samples/crowd bakers/mannequin/mannequin.h platform)
 
 # Sources are listed in their own room.
 file(GLOB_RECURSE lists ${ROOT}/sdk/CMakeLists.txt ${ROOT}/bakers/CMakeLists.txt ${ROOT}/platform/CMakeLists.txt

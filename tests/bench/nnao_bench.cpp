@@ -4,7 +4,6 @@
 // all frames.
 #include <benchmark/benchmark.h>
 #include <glad/gl.h>
-#include <nook/nook_nnao.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,11 +14,9 @@
 #include <vector>
 
 #include "platform/platform.h"
+#include "tests/gl/chained_descs.h"
 
 namespace {
-
-// Both descriptors of a frame of the screen-space pass.
-struct ScreenFrame : nook_gl_frame_desc, nook_nnao_frame_desc {};
 
 constexpr int width = 640, height = 360;
 
@@ -70,13 +67,12 @@ float depth_at(int x, int y) {
 class Pass {
  public:
   Pass(nook_nnao_path path, int taps, int half) : gl_(shared_gl().context->gl()) {
-    nook_nnao_desc desc;
-    require(nook_nnao_desc_init(&desc));
+    nook::test::PassDesc desc;
     desc.max_width = width;
     desc.max_height = height;
     desc.taps = taps;
     desc.half_resolution = half;
-    desc.path = path;
+    desc.debug.path = path;
     require(nook_nnao_create(shared_gl().handle, &desc, &pass_));
     std::vector<float> depth;
     for (int y = 0; y < height; ++y)
@@ -84,8 +80,6 @@ class Pass {
     gl_.GenTextures(1, &depth_);
     gl_.BindTexture(GL_TEXTURE_2D, depth_);
     gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, width, height, 0, GL_RED, GL_FLOAT, depth.data());
-    require(nook_gl_frame_desc_init(&frame_));
-    require(nook_nnao_frame_desc_init(&frame_));
     frame_.width = width;
     frame_.height = height;
     frame_.depth_texture = depth_;
@@ -111,7 +105,7 @@ class Pass {
   const GladGLContext& gl_;
   nook_nnao pass_ = nullptr;
   GLuint depth_ = 0;
-  ScreenFrame frame_;
+  nook::test::ScreenFrame frame_;
 };
 
 double process_ms() {

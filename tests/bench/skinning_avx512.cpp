@@ -2,7 +2,7 @@
 // overlap: four floats of which the next store overwrites the last.
 #include <immintrin.h>
 
-#include "sdk/src/core/processor.h"
+#include "sdk/src/core/isa.h"
 #include "tests/bench/skinning.h"
 
 namespace nook::bench {

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/transfer/lit_rows.h"
 #include "sdk/src/transfer/vectors.h"
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "sdk/src/character/clip_set.h"
-#include "sdk/src/character/clip_set_check.h"
 #include "tests/character/model_sample.h"
 
 namespace nook::test {

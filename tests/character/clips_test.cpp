@@ -3,10 +3,10 @@
 #include <cmath>
 #include <string>
 
-#include "sdk/src/character/clip_file.h"
-#include "sdk/src/character/light.h"
+#include "sdk/src/character/clip_set.h"
+#include "sdk/src/character/host_vertices.h"
+#include "sdk/src/character/instance_light.h"
 #include "sdk/src/character/loaded_clips.h"
-#include "sdk/src/character/vertex_match.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"
 #include "tests/character/clip_sample.h"

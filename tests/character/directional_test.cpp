@@ -1,6 +1,6 @@
 // Directional occlusion: its means against quadrature, its ratio against ray tracing of one sphere over a
 // surface, and every instruction set against the formulas in double precision.
-#include "sdk/src/character/directional.h"
+#include "sdk/src/character/directional_occlusion.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,6 @@
 #include <numbers>
 #include <vector>
 
-#include "sdk/src/character/directional_bands.h"
 #include "sdk/src/character/kernel.h"
 #include "sdk/src/core/spherical_gaussian.h"
 #include "tests/catch.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sdk/src/character/key_point_order.h"
+#include "sdk/src/character/loaded_model.h"
 #include "sdk/src/core/failure.h"
 #include "shaders/character/constants.h"
 #include "tests/catch.h"

@@ -6,7 +6,7 @@
 #include <new>
 #include <string>
 
-#include "sdk/src/character/model_check.h"
+#include "sdk/src/character/model.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"
 #include "tests/character/model_sample.h"

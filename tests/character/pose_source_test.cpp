@@ -5,11 +5,10 @@
 #include <cstring>
 #include <vector>
 
-#include "sdk/src/character/bone_names.h"
-#include "sdk/src/character/model_check.h"
+#include "sdk/src/character/host_vertices.h"
+#include "sdk/src/character/model.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/character/pose_check.h"
-#include "sdk/src/character/vertex_match.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"
 #include "tests/character/model_sample.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "sdk/src/character/levels.h"
-#include "sdk/src/character/posed_shapes.h"
+#include "sdk/src/character/scene_readings.h"
 #include "tests/catch.h"
 #include "tests/character/scene_sample.h"
 

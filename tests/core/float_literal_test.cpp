@@ -1,11 +1,10 @@
-#include "sdk/src/core/float_literal.h"
+#include "sdk/src/core/floats.h"
 
 #include <charconv>
 #include <cstdint>
 #include <limits>
 #include <string>
 
-#include "sdk/src/core/bit_cast.h"
 #include "tests/catch.h"
 
 using namespace nook;

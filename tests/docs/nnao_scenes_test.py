@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""docs/nnao_scenes.py on a repository of its own: a clone and a mirror give the same scene, and wrong bytes are refused.
+"""bakers/lab/tables/nnao_scenes.py on a repository of its own: a clone and a mirror give the same scene, and wrong bytes are refused.
 
-The second check reads docs/nnao_views.json itself: every number that the script and `nook evaluate nnao` read is there.
+The second check reads docs/nnao_views.json itself: every number that the script and `nook-lab evaluate nnao` read is there.
 """
 import base64
 import hashlib
@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCRIPT = ROOT / "docs/nnao_scenes.py"
+SCRIPT = ROOT / "bakers/lab/tables/nnao_scenes.py"
 
 
 def require(holds, what):

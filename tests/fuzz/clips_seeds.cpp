@@ -1,4 +1,4 @@
-#include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/clip_set.h"
 #include "tests/character/clip_sample.h"
 #include "tests/fuzz/clips_model.h"
 #include "tests/fuzz/seeds.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/evaluate.h"
 #include "sdk/src/material/material_file.h"
+#include "sdk/src/material/reflectance.h"
 #include "tests/fuzz/container_input.h"
 #include "tests/fuzz/library.h"
 

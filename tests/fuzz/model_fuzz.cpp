@@ -254,14 +254,14 @@ void update_on_gl(Crowd& crowd, Script& script) {
   const std::uint32_t count = crowd.info.file_vertex_count;
   std::vector<float> values(3 * std::size_t(count));
   for (const nook_instance_id id : crowd.instances) {
-    nook_gl_ao_view ao{};
+    nook_gl_view ao{};
     ao.struct_size = sizeof ao;
-    require(ok(nook_gl_scene_ao_buffer(gl, crowd.scene, id, &ao)) && ao.count == count);
-    nook_gl_light_view light{};
+    require(ok(nook_gl_scene_view(gl, crowd.scene, id, NOOK_CHANNEL_AO, &ao)) && ao.count == count);
+    nook_gl_view light{};
     light.struct_size = sizeof light;
-    ok(nook_gl_scene_light(gl, crowd.scene, id, &light));
-    ok(nook_gl_scene_read_ao(gl, crowd.scene, id, values.data(), count));
-    ok(nook_gl_scene_read_directional_ao(gl, crowd.scene, id, values.data(), count));
+    ok(nook_gl_scene_view(gl, crowd.scene, id, NOOK_CHANNEL_DIRECTIONAL_AO, &light));
+    ok(nook_gl_scene_read(gl, crowd.scene, id, NOOK_CHANNEL_AO, values.data(), count));
+    ok(nook_gl_scene_read(gl, crowd.scene, id, NOOK_CHANNEL_DIRECTIONAL_AO, values.data(), count));
   }
 }
 

@@ -3,18 +3,15 @@
 // clang; elsewhere network_fuzz_replay.cpp drives it.
 #include <nook/experimental/nook_recording.h>
 #include <nook/experimental/nook_stages.h>
-#include <nook/nook_nnao.h>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_evaluate.h"
 #include "sdk/src/nnao/network_file.h"
 #include "tests/fuzz/container_input.h"
 #include "tests/fuzz/library.h"
+#include "tests/gl/chained_descs.h"
 
 namespace {
-
-// Both descriptors of a frame of the screen-space pass.
-struct ScreenFrame : nook_gl_frame_desc, nook_nnao_frame_desc {};
 
 using namespace nook::test;
 
@@ -52,23 +49,22 @@ void evaluate(const std::vector<std::byte>& file, Script& script) {
   }
 }
 
-nook_nnao_desc pass_of(const std::vector<std::byte>& file, Script& script) {
-  nook_nnao_desc desc;
-  ok(nook_nnao_desc_init(&desc));
+PassDesc pass_of(const std::vector<std::byte>& file, Script& script) {
+  PassDesc desc;
   desc.max_width = desc.max_height = 16;
   desc.network = file.data();
   desc.network_size = file.size();
   const std::uint32_t settings = script.byte();
   desc.half_resolution = settings & 1;
   desc.blur = !(settings & 2);
-  desc.timers = settings >> 2 & 1;
-  desc.path = nook_nnao_path(settings >> 3 & 3);
+  desc.debug.timers = settings >> 2 & 1;
+  desc.debug.path = nook_nnao_path(settings >> 3 & 3);
   if (settings & 32) desc.taps = 1 << script.below(10);
   if (settings & 64) desc.blur_sharpness = script.number();
   if (settings & 128) {
     desc.views = std::int32_t(script.below(10)) - 1;
     desc.depth_samples = std::int32_t(script.below(20)) - 2;
-    desc.depth_sample = nook_nnao_sample(script.below(4));
+    desc.debug.depth_sample = nook_nnao_sample(script.below(4));
     desc.normal_samples = script.below(4) ? desc.depth_samples : std::int32_t(script.below(20)) - 2;
   }
   return desc;
@@ -77,8 +73,6 @@ nook_nnao_desc pass_of(const std::vector<std::byte>& file, Script& script) {
 // A frame that is sound unless the script says otherwise.
 ScreenFrame frame_of(Script& script) {
   ScreenFrame frame;
-  ok(nook_gl_frame_desc_init(&frame));
-  ok(nook_nnao_frame_desc_init(&frame));
   frame.width = silent_gl().width;
   frame.height = silent_gl().height;
   frame.depth_texture = 1000;
@@ -96,7 +90,7 @@ ScreenFrame frame_of(Script& script) {
     frame.target_name = 999 + script.below(6);
     frame.blend = nook_blend(script.below(3));
   }
-  if (settings & 8) frame.show = nook_nnao_view(script.below(5));
+  if (settings & 8) frame.debug.show = nook_nnao_view(script.below(5));
   if (settings & 16) {
     frame.depth_kind = nook_depth_kind(script.below(4));
     frame.radius_kind = nook_nnao_radius_kind(script.below(4));
@@ -118,7 +112,7 @@ ScreenFrame frame_of(Script& script) {
 
 void render(const std::vector<std::byte>& file, Script& script) {
   const nook_gl gl = gl_of_tier(script.below(2) ? 43 : 33);
-  const nook_nnao_desc desc = pass_of(file, script);
+  const PassDesc desc = pass_of(file, script);
   std::uint64_t bytes = 0;
   ok(nook_nnao_memory(&desc, &bytes));
   nook_nnao pass = nullptr;

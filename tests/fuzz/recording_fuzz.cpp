@@ -2,7 +2,6 @@
 // input's choice, and replays it as the tool does: nothing may crash, and a file that was written loads again
 // with the same bytes, whatever the bytes. Built for libFuzzer with clang; elsewhere replay.cpp drives it.
 #include <nook/experimental/nook_recording.h>
-#include <nook/nook_nnao.h>
 
 #include <cmath>
 
@@ -10,11 +9,9 @@
 #include "sdk/src/nnao/recording_file.h"
 #include "tests/fuzz/container_input.h"
 #include "tests/fuzz/library.h"
+#include "tests/gl/chained_descs.h"
 
 namespace {
-
-// Both descriptors of a frame of the screen-space pass.
-struct ScreenFrame : nook_gl_frame_desc, nook_nnao_frame_desc {};
 
 using namespace nook::test;
 
@@ -76,8 +73,6 @@ void replay(nook_gl gl, const nook_nnao_recording_desc& recorded) {
     require(ok(nook_nnao_create(gl, &desc, &pass)));
   }
   ScreenFrame frame;
-  ok(nook_gl_frame_desc_init(&frame));
-  ok(nook_nnao_frame_desc_init(&frame));
   frame.width = recorded.width;
   frame.height = recorded.height;
   frame.depth_texture = first_texture;
@@ -96,7 +91,7 @@ void replay(nook_gl gl, const nook_nnao_recording_desc& recorded) {
   frame.power = recorded.power;
   frame.gbuffer_ao = recorded.layer;
   frame.gbuffer_ao_texture = recorded.layer ? first_texture + 2 : 0;
-  frame.show = recorded.view;
+  frame.debug.show = recorded.view;
   // A recording is a frame that the pass takes.
   require(ok(nook_nnao_render(pass, &frame, &frame)));
   nook_nnao_destroy(&pass);

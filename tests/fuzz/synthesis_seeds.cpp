@@ -1,4 +1,4 @@
-#include "sdk/src/synthesis/coordinates_file.h"
+#include "sdk/src/synthesis/coordinates.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/synthesis/coordinates_sample.h"
 

@@ -28,13 +28,15 @@ TEST_CASE("answers about OpenGL are cut to the caller's struct") {
   nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
   NOOK_OK_OR_FAIL(nook_gl_scene_prepare(gl, crowd.scene));
   check_info<nook_gl_info>([&](nook_gl_info* info) { return nook_gl_describe(gl, info); });
-  check_info<nook_gl_ao_view>(
-      [&](nook_gl_ao_view* view) { return nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[0], view); });
+  check_info<nook_gl_view>([&](nook_gl_view* view) {
+    return nook_gl_scene_view(gl, crowd.scene, crowd.ids[0], NOOK_CHANNEL_AO, view);
+  });
   const nook_lobe lobe{{0, 1, 0}, 6, {1, 1, 1}, 0};
   NOOK_OK_OR_FAIL(nook_scene_set_light(crowd.scene, crowd.ids[0], &lobe, 1));
   NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
-  check_info<nook_gl_light_view>(
-      [&](nook_gl_light_view* view) { return nook_gl_scene_light(gl, crowd.scene, crowd.ids[0], view); });
+  check_info<nook_gl_view>([&](nook_gl_view* view) {
+    return nook_gl_scene_view(gl, crowd.scene, crowd.ids[0], NOOK_CHANNEL_DIRECTIONAL_AO, view);
+  });
   nook_gl_destroy(&gl);
   nook_model_destroy(&model);
 }

@@ -167,9 +167,9 @@ TEST_CASE("instances come and go without disturbing the others") {
     Crowd on_gpu(cast.context.handle, cast.models, cast.bone_counts, options);
     nook_gl gl = create_gl(cast.context.handle, platform::Context::loader, &context, tier);
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, on_gpu.scene));
-    nook_gl_ao_view before{}, after{};
+    nook_gl_view before{}, after{};
     before.struct_size = after.struct_size = sizeof before;
-    NOOK_OK_OR_FAIL(nook_gl_scene_ao_buffer(gl, on_gpu.scene, on_gpu.ids[3], &before));
+    NOOK_OK_OR_FAIL(nook_gl_scene_view(gl, on_gpu.scene, on_gpu.ids[3], NOOK_CHANNEL_AO, &before));
 
     for (Crowd* crowd : {&on_cpu, &on_gpu}) {
       // The first model's instances are 0, 2 and 4; the last one to go takes its chunk along.
@@ -181,7 +181,7 @@ TEST_CASE("instances come and go without disturbing the others") {
     }
     NOOK_OK_OR_FAIL(nook_scene_update(on_cpu.scene));
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, on_gpu.scene));
-    NOOK_OK_OR_FAIL(nook_gl_scene_ao_buffer(gl, on_gpu.scene, on_gpu.ids[1], &after));
+    NOOK_OK_OR_FAIL(nook_gl_scene_view(gl, on_gpu.scene, on_gpu.ids[1], NOOK_CHANNEL_AO, &after));
     CHECK(after.buffer == before.buffer);
     CHECK(after.offset == before.offset);
     for (std::size_t i = 0; i < on_cpu.ids.size(); ++i) {
@@ -223,10 +223,10 @@ TEST_CASE("crowds beyond one chunk of AO and one page of shadows agree too") {
         largest =
             std::max(largest, largest_difference(gpu_ao(gl, on_gpu, model, i), cpu_ao(on_cpu, model, i)));
       CHECK(largest < promised_difference);
-      nook_gl_ao_view first{}, last{};
+      nook_gl_view first{}, last{};
       first.struct_size = last.struct_size = sizeof first;
-      NOOK_OK_OR_FAIL(nook_gl_scene_ao_buffer(gl, on_gpu.scene, on_gpu.ids.front(), &first));
-      NOOK_OK_OR_FAIL(nook_gl_scene_ao_buffer(gl, on_gpu.scene, on_gpu.ids.back(), &last));
+      NOOK_OK_OR_FAIL(nook_gl_scene_view(gl, on_gpu.scene, on_gpu.ids.front(), NOOK_CHANNEL_AO, &first));
+      NOOK_OK_OR_FAIL(nook_gl_scene_view(gl, on_gpu.scene, on_gpu.ids.back(), NOOK_CHANNEL_AO, &last));
       const bool expect_chunks = computes(tier) && shape.size.vertices == wide.size.vertices;
       CHECK((first.buffer != last.buffer) == expect_chunks);
       nook_gl_destroy(&gl);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "platform/program.h"
-#include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/model_file.h"
 #include "tests/character/clip_sample.h"
 #include "tests/gl/crowd.h"
@@ -143,7 +143,7 @@ TEST_CASE("an update on OpenGL leaves the whole AO of bones, and of clips what t
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, scene));
     std::vector<std::vector<float>> drawn(ids.size(), std::vector<float>(count));
     for (std::size_t i = 0; i < ids.size(); ++i)
-      NOOK_OK_OR_FAIL(nook_gl_scene_read_ao(gl, scene, ids[i], drawn[i].data(), count));
+      NOOK_OK_OR_FAIL(nook_gl_scene_read(gl, scene, ids[i], NOOK_CHANNEL_AO, drawn[i].data(), count));
     nook_gl_destroy(&gl);
     for (std::size_t i = 0; i < ids.size(); ++i) {
       NOOK_OK_OR_FAIL(

@@ -171,8 +171,8 @@ std::vector<float> cpu_ao(const Crowd& crowd, nook_model model, std::size_t inde
 
 std::vector<float> gpu_ao(nook_gl gl, const Crowd& crowd, nook_model model, std::size_t index) {
   std::vector<float> ao(file_vertices(model), -1.0f);
-  NOOK_OK_OR_FAIL(nook_gl_scene_read_ao(gl, crowd.scene, crowd.ids[index], ao.data(),
-                                        static_cast<std::uint32_t>(ao.size())));
+  NOOK_OK_OR_FAIL(nook_gl_scene_read(gl, crowd.scene, crowd.ids[index], NOOK_CHANNEL_AO, ao.data(),
+                                     static_cast<std::uint32_t>(ao.size())));
   return ao;
 }
 

@@ -23,7 +23,7 @@ static void read_ao(nook_gl gl, nook_scene scene, nook_instance_id instance, uin
   float* ao = (float*)malloc(count * sizeof(float));
   uint32_t i;
   for (i = 0; i < count; ++i) ao[i] = -1;
-  EXPECT_OK(nook_gl_scene_read_ao(gl, scene, instance, ao, count));
+  EXPECT_OK(nook_gl_scene_read(gl, scene, instance, NOOK_CHANNEL_AO, ao, count));
   for (i = 0; i < count; ++i) EXPECT(ao[i] >= 0 && ao[i] <= 1);
   free(ao);
 }
@@ -31,19 +31,21 @@ static void read_ao(nook_gl gl, nook_scene scene, nook_instance_id instance, uin
 static void light_instance(nook_gl gl, nook_scene scene, nook_instance_id instance, uint32_t count) {
   const nook_lobe lobe = {{0, 1, 0}, 6, {1, 2, 3}, 0};
   float* rgb = (float*)malloc(3 * count * sizeof(float));
-  nook_gl_light_view view;
+  nook_gl_view view;
   uint32_t i;
   memset(&view, 0, sizeof view);
   view.struct_size = sizeof view;
-  EXPECT(nook_gl_scene_light(gl, scene, instance, &view) == NOOK_ERROR_INVALID_HANDLE);
-  EXPECT(nook_gl_scene_read_directional_ao(gl, scene, instance, rgb, count) == NOOK_ERROR_INVALID_HANDLE);
+  EXPECT(nook_gl_scene_view(gl, scene, instance, NOOK_CHANNEL_DIRECTIONAL_AO, &view) ==
+         NOOK_ERROR_INVALID_HANDLE);
+  EXPECT(nook_gl_scene_read(gl, scene, instance, NOOK_CHANNEL_DIRECTIONAL_AO, rgb, count) ==
+         NOOK_ERROR_INVALID_HANDLE);
   EXPECT_OK(nook_scene_set_light(scene, instance, &lobe, 1));
   EXPECT_OK(nook_gl_scene_update(gl, scene));
-  EXPECT_OK(nook_gl_scene_light(gl, scene, instance, &view));
+  EXPECT_OK(nook_gl_scene_view(gl, scene, instance, NOOK_CHANNEL_DIRECTIONAL_AO, &view));
   EXPECT(view.buffer != 0 && view.texture != 0 && view.stride == 3 * sizeof(float) && view.count == count);
   EXPECT(view.light >= 0 && strstr(view.glsl, "nook_scene_irradiance"));
   for (i = 0; i < 3 * count; ++i) rgb[i] = -1;
-  EXPECT_OK(nook_gl_scene_read_directional_ao(gl, scene, instance, rgb, count));
+  EXPECT_OK(nook_gl_scene_read(gl, scene, instance, NOOK_CHANNEL_DIRECTIONAL_AO, rgb, count));
   for (i = 0; i < 3 * count; ++i) EXPECT(rgb[i] >= 0 && rgb[i] <= 1);
   free(rgb);
 }
@@ -122,7 +124,7 @@ int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_
   nook_gl_desc desc;
   nook_gl_info info;
   nook_gl_memory memory;
-  nook_gl_ao_view view;
+  nook_gl_view view;
   nook_context context = NULL;
   nook_model model = NULL;
   nook_scene scene = NULL;
@@ -143,9 +145,9 @@ int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_
   EXPECT_OK(nook_gl_create(context, &desc, &gl));
   memset(&view, 0, sizeof view);
   view.struct_size = sizeof view;
-  EXPECT(nook_gl_scene_ao_buffer(gl, scene, instance, &view) == NOOK_ERROR_INVALID_HANDLE);
+  EXPECT(nook_gl_scene_view(gl, scene, instance, NOOK_CHANNEL_AO, &view) == NOOK_ERROR_INVALID_HANDLE);
   EXPECT_OK(nook_gl_scene_prepare(gl, scene));
-  EXPECT_OK(nook_gl_scene_ao_buffer(gl, scene, instance, &view));
+  EXPECT_OK(nook_gl_scene_view(gl, scene, instance, NOOK_CHANNEL_AO, &view));
   EXPECT(view.buffer != 0 && view.stride == sizeof(float) && view.count > 0);
   EXPECT_OK(nook_gl_scene_update(gl, scene));
   read_ao(gl, scene, instance, view.count);
@@ -162,7 +164,7 @@ int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_
   light_instance(gl, scene, instance, view.count);
   upload_probe(context, gl);
   EXPECT_OK(nook_gl_scene_release(gl, scene));
-  EXPECT(nook_gl_scene_ao_buffer(gl, scene, instance, &view) == NOOK_ERROR_INVALID_HANDLE);
+  EXPECT(nook_gl_scene_view(gl, scene, instance, NOOK_CHANNEL_AO, &view) == NOOK_ERROR_INVALID_HANDLE);
   EXPECT_OK(nook_gl_describe(gl, &info));
   EXPECT(info.ao_bytes == 0);
   /* Everything is released, so that saying that the context is gone leaves nothing in OpenGL but programs. */

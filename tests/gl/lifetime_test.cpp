@@ -1,5 +1,6 @@
 // Any order of destruction is defined, and nothing is left behind in OpenGL.
 #include <cstring>
+#include <string_view>
 
 #include "tests/gl/crowd.h"
 #include "tests/gl/host_textures.h"
@@ -109,20 +110,26 @@ TEST_CASE("views are refused where there is none, and hold 1 before the first up
   nook_model model = load_model(host.handle, sample_model(8));
   Crowd crowd(host.handle, {model}, {5}, {});
   nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
-  nook_gl_ao_view view{};
+  nook_gl_view view{};
   view.struct_size = sizeof view;
-  CHECK(nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[0], &view) == NOOK_ERROR_INVALID_HANDLE);
-  CHECK(nook_gl_scene_ao_buffer(gl, crowd.scene, 12345, &view) == NOOK_ERROR_INVALID_HANDLE);
+  CHECK(nook_gl_scene_view(gl, crowd.scene, crowd.ids[0], NOOK_CHANNEL_AO, &view) ==
+        NOOK_ERROR_INVALID_HANDLE);
+  CHECK(nook_gl_scene_view(gl, crowd.scene, 12345, NOOK_CHANNEL_AO, &view) == NOOK_ERROR_INVALID_HANDLE);
   NOOK_OK_OR_FAIL(nook_gl_scene_prepare(gl, crowd.scene));
-  NOOK_OK_OR_FAIL(nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[0], &view));
+  NOOK_OK_OR_FAIL(nook_gl_scene_view(gl, crowd.scene, crowd.ids[0], NOOK_CHANNEL_AO, &view));
   CHECK(view.count == file_vertices(model));
   CHECK(view.stride == 4);
   CHECK(context.gl().IsBuffer(view.buffer));
   for (const float ao : gpu_ao(gl, crowd, model, 0)) CHECK(ao == 1.0f);
   float one = 0;
-  CHECK(nook_gl_scene_read_ao(gl, crowd.scene, crowd.ids[0], &one, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_scene_read(gl, crowd.scene, crowd.ids[0], NOOK_CHANNEL_AO, &one, 1) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_scene_view(gl, crowd.scene, crowd.ids[0], NOOK_CHANNEL_BENT_NORMAL, &view) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(std::string_view(nook_last_message()).find("channel is not on the GPU") != std::string_view::npos);
   view.struct_size = 8;
-  CHECK(nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[0], &view) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_scene_view(gl, crowd.scene, crowd.ids[0], NOOK_CHANNEL_AO, &view) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
   nook_gl_destroy(&gl);
   nook_model_destroy(&model);
 }
@@ -139,14 +146,14 @@ TEST_CASE("a view stays as it is while other instances come and go") {
   const std::string version = info.version;
   NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
   const auto view_of = [&](std::size_t i) {
-    nook_gl_ao_view view{};
+    nook_gl_view view{};
     view.struct_size = sizeof view;
-    NOOK_OK_OR_FAIL(nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[i], &view));
+    NOOK_OK_OR_FAIL(nook_gl_scene_view(gl, crowd.scene, crowd.ids[i], NOOK_CHANNEL_AO, &view));
     return view;
   };
-  const nook_gl_ao_view first = view_of(0);
+  const nook_gl_view first = view_of(0);
   const auto check_first = [&] {
-    const nook_gl_ao_view now = view_of(0);
+    const nook_gl_view now = view_of(0);
     CHECK(now.buffer == first.buffer);
     CHECK(now.offset == first.offset);
     // The buffer that the host bound once holds the values of the last update.

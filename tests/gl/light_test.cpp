@@ -56,21 +56,22 @@ std::vector<float> cpu_colours(const Crowd& crowd, nook_model model, std::size_t
 std::vector<float> gpu_colours(nook_gl gl, const Crowd& crowd, nook_model model, std::size_t index) {
   const std::uint32_t count = file_vertices(model);
   std::vector<float> rgb(3 * std::size_t(count), -1.0f);
-  NOOK_OK_OR_FAIL(nook_gl_scene_read_directional_ao(gl, crowd.scene, crowd.ids[index], rgb.data(), count));
+  NOOK_OK_OR_FAIL(
+      nook_gl_scene_read(gl, crowd.scene, crowd.ids[index], NOOK_CHANNEL_DIRECTIONAL_AO, rgb.data(), count));
   return rgb;
 }
 
-nook_gl_light_view view_of(nook_gl gl, const Crowd& crowd, std::size_t index) {
-  nook_gl_light_view view{};
+nook_gl_view view_of(nook_gl gl, const Crowd& crowd, std::size_t index) {
+  nook_gl_view view{};
   view.struct_size = sizeof view;
-  NOOK_OK_OR_FAIL(nook_gl_scene_light(gl, crowd.scene, crowd.ids[index], &view));
+  NOOK_OK_OR_FAIL(nook_gl_scene_view(gl, crowd.scene, crowd.ids[index], NOOK_CHANNEL_DIRECTIONAL_AO, &view));
   return view;
 }
 
 nook_result ask_view(nook_gl gl, const Crowd& crowd, std::size_t index) {
-  nook_gl_light_view view{};
+  nook_gl_view view{};
   view.struct_size = sizeof view;
-  return nook_gl_scene_light(gl, crowd.scene, crowd.ids[index], &view);
+  return nook_gl_scene_view(gl, crowd.scene, crowd.ids[index], NOOK_CHANNEL_DIRECTIONAL_AO, &view);
 }
 
 // Two instances in three have a light, each its own; three frames.
@@ -126,8 +127,8 @@ const char* const fragment_text =
     "}\n";
 
 // Occluded irradiance of each normal in a host's shader, made of `texts`, four floats each.
-std::vector<float> ask(const GladGLContext& gl, const nook_gl_light_view& view,
-                       const std::vector<float>& texels, std::initializer_list<const char*> texts) {
+std::vector<float> ask(const GladGLContext& gl, const nook_gl_view& view, const std::vector<float>& texels,
+                       std::initializer_list<const char*> texts) {
   const int width = int(texels.size() / 4);
   Textures textures(gl);
   const GLuint normals = textures.floats(GL_RGBA32F, 4, width, 1, texels),
@@ -264,7 +265,7 @@ TEST_CASE("the GLSL for hosts gives the irradiance of an instance's lobes") {
       NOOK_OK_OR_FAIL(nook_sg_irradiance(lobes.data(), std::uint32_t(lobes.size()),
                                          NOOK_PROBE_IRRADIANCE_BANDS, normals.data(), want.data(), 64));
       const float largest = *std::ranges::max_element(want);
-      const nook_gl_light_view view = view_of(gl, crowd, i);
+      const nook_gl_view view = view_of(gl, crowd, i);
       const char* const version = glsl_header(context.gl());
       // Beside the text for probes, in either order.
       for (const std::vector<float>& found :
@@ -298,7 +299,7 @@ TEST_CASE("the GLSL for hosts gives the bent normal of occluded directions and i
   nook_gl gl = create_gl(cast.context.handle, platform::Context::loader, &context, tiers_of(context).front());
   light(crowd, 1, lobes_of(3));
   NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
-  const nook_gl_light_view view = view_of(gl, crowd, 1);
+  const nook_gl_view view = view_of(gl, crowd, 1);
   const std::vector<float> found =
       ask(context.gl(), view, texels, {glsl_header(context.gl()), view.glsl, bent_text});
   nook_gl_destroy(&gl);
@@ -327,15 +328,15 @@ TEST_CASE("lights come, move and go") {
     Crowd crowd(cast.context.handle, cast.models, cast.bone_counts, options);
     nook_gl gl = create_gl(cast.context.handle, platform::Context::loader, &context, tier);
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
-    nook_gl_ao_view before{}, after{};
+    nook_gl_view before{}, after{};
     before.struct_size = after.struct_size = sizeof before;
-    NOOK_OK_OR_FAIL(nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[8], &before));
+    NOOK_OK_OR_FAIL(nook_gl_scene_view(gl, crowd.scene, crowd.ids[8], NOOK_CHANNEL_AO, &before));
     CHECK(ask_view(gl, crowd, 8) == NOOK_ERROR_INVALID_HANDLE);
     light(crowd, 8, lobes_of(1));
     CHECK(ask_view(gl, crowd, 8) == NOOK_ERROR_INVALID_HANDLE);
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
-    const nook_gl_light_view first = view_of(gl, crowd, 8);
-    NOOK_OK_OR_FAIL(nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[8], &after));
+    const nook_gl_view first = view_of(gl, crowd, 8);
+    NOOK_OK_OR_FAIL(nook_gl_scene_view(gl, crowd.scene, crowd.ids[8], NOOK_CHANNEL_AO, &after));
     CHECK(after.buffer == before.buffer);
     CHECK(after.offset == before.offset);
     const std::vector<float> lit = gpu_colours(gl, crowd, cast.model_of(8), 8);
@@ -348,7 +349,7 @@ TEST_CASE("lights come, move and go") {
     // An instance before it: its light moves in the texture, its values stay.
     light(crowd, 2, lobes_of(2));
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
-    const nook_gl_light_view second = view_of(gl, crowd, 8);
+    const nook_gl_view second = view_of(gl, crowd, 8);
     CHECK(second.light > first.light);
     CHECK(second.buffer == first.buffer);
     CHECK(second.offset == first.offset);

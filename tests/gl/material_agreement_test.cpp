@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "sdk/src/material/evaluate.h"
 #include "sdk/src/material/parabolic.h"
+#include "sdk/src/material/reflectance.h"
 #include "tests/gl/filter_weights.h"
 #include "tests/gl/material_decoder.h"
 #include "tests/gl/test_context.h"

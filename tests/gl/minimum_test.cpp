@@ -96,9 +96,9 @@ TEST_CASE("every program of every tier and form links within the minimum limits 
       for (const int half : {0, 1})
         for (const nook_nnao_path path : {NOOK_NNAO_PATH_FRAGMENT, NOOK_NNAO_PATH_COMPUTE}) {
           if (path == NOOK_NNAO_PATH_COMPUTE && !computes(tier)) continue;
-          nook_nnao_desc desc = pass_desc(64, 64);
+          PassDesc desc = pass_desc(64, 64);
           desc.half_resolution = half;
-          desc.path = path;
+          desc.debug.path = path;
           passes.push_back(create_pass(gl, desc, mild_network(form)));
         }
     const Uses uses = uses_of_programs(context);

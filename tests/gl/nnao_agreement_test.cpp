@@ -52,7 +52,7 @@ struct Fixture : NnaoFixture {
                              : textures.floats(GL_DEPTH_COMPONENT32F, 1, w, h, stored_depth(camera, picture));
     const GLuint normal = textures.floats(GL_RGB32F, 3, w, h, flat(picture.normal));
     ScreenFrame frame = frame_desc(camera, w, h, depth, normal, setting.radius);
-    frame.show = NOOK_NNAO_VIEW_RAW;
+    frame.debug.show = NOOK_NNAO_VIEW_RAW;
     frame.max_radius_px = setting.max_radius_px;
     frame.depth_kind = linear_depth ? NOOK_DEPTH_LINEAR : NOOK_DEPTH_HARDWARE;
     NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
@@ -144,7 +144,7 @@ TEST_CASE("nnao: half resolution is the reference on every second pixel") {
           fixture.textures.floats(GL_DEPTH_COMPONENT32F, 1, width, height, stored_depth(camera, picture));
       const GLuint normal = fixture.textures.floats(GL_RGB32F, 3, width, height, flat(picture.normal));
       ScreenFrame frame = frame_desc(camera, width, height, depth, normal, 0.6f);
-      frame.show = NOOK_NNAO_VIEW_RAW;
+      frame.debug.show = NOOK_NNAO_VIEW_RAW;
       frame.max_radius_px = 20;
       NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
       const std::vector<float> ao = own_ao(context.gl(), pass, width, height);

@@ -23,10 +23,10 @@ struct Bent : NnaoFixture {
 
   nook_nnao bent_pass(int width, int height, int taps, int half, nook_nnao_path path,
                       const nnao::Network* network) {
-    nook_nnao_desc desc = pass_desc(width, height);
+    PassDesc desc = pass_desc(width, height);
     desc.taps = taps;
     desc.half_resolution = half;
-    desc.path = path;
+    desc.debug.path = path;
     desc.bent_normals = 1;
     made.push_back(network ? create_pass(gl, desc, *network) : create_pass(gl, desc));
     return made.back();
@@ -52,7 +52,7 @@ std::vector<Texel> draw(Bent& fixture, nook_nnao pass, const Camera& camera, con
   const int w = int(picture.width), h = int(picture.height);
   ScreenFrame frame =
       frame_desc(camera, w, h, fixture.depth_of(camera, picture), fixture.normals_of(picture), radius);
-  frame.show = view;
+  frame.debug.show = view;
   NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   return texels(read_texture(fixture.context.gl(), info_of(pass).texture, w, h, 4));
 }
@@ -210,7 +210,7 @@ TEST_CASE("nnao: bent normals at half resolution are near those at full resoluti
 TEST_CASE("nnao: bent normals need a network of the horizon form, and their memory is known before") {
   NOOK_NEED_CONTEXT(context);
   NnaoFixture fixture(context);
-  nook_nnao_desc desc = pass_desc(3840, 2160);
+  PassDesc desc = pass_desc(3840, 2160);
   desc.bent_normals = 1;
   std::uint64_t bytes = 0;
   NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));

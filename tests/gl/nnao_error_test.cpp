@@ -159,8 +159,8 @@ TEST_CASE("nnao: a bad frame is refused with its field, and nothing is drawn") {
       {[&](Frame& f) { f.gbuffer_ao = NOOK_GBUFFER_AO_MIN, f.gbuffer_ao_texture = own; },
        "frame.gbuffer_ao_texture is the pass's own texture as well"},
       {[&](Frame& f) { f.blend = NOOK_BLEND_MULTIPLY; }, "frame.blend 1 needs a target of the host"},
-      {[&](Frame& f) { f.show = NOOK_NNAO_VIEW_NORMALS; }, "desc.show 3 needs a target of the host"},
-      {[&](Frame& f) { f.show = 9; }, "desc.show is unknown"},
+      {[&](Frame& f) { f.debug.show = NOOK_NNAO_VIEW_NORMALS; }, "debug.show 3 needs a target of the host"},
+      {[&](Frame& f) { f.debug.show = 9; }, "debug.show is unknown"},
       {[&](Frame& f) { to(f, 3, colour); }, "frame.target is unknown"},
       {[&](Frame& f) { to(f, NOOK_TARGET_TEXTURE, 0); }, "frame.target_name is 0"},
       {[&](Frame& f) { to(f, NOOK_TARGET_TEXTURE, own); }, "use NOOK_TARGET_OWN"},
@@ -221,7 +221,7 @@ TEST_CASE("nnao: a bad description of a pass is refused with its field") {
   NOOK_NEED_CONTEXT(context);
   NnaoFixture fixture(context);
   const std::vector<std::byte> network = nnao::write_network(mild_network(nnao::NetworkForm::paper));
-  using Desc = nook_nnao_desc;
+  using Desc = PassDesc;
   const struct {
     std::function<void(Desc&)> spoil;
     const char* message;
@@ -229,13 +229,17 @@ TEST_CASE("nnao: a bad description of a pass is refused with its field") {
   } cases[] = {
       {[](Desc& d) { d.max_width = 0; }, "desc.max_width and desc.max_height are out of range (got 0 x 12"},
       {[](Desc& d) { d.max_height = 20000; }, "desc.max_width and desc.max_height are out of range"},
-      {[](Desc& d) { d.taps = 48; }, "desc.taps is unknown (got 48, need 9, 16, 32, 64, 128 or 256)"},
+      {[](Desc& d) { d.taps = 48; }, "desc.taps is unknown (got 48, need 9, 16, 32, 64, 128 or 256, or -1"},
       {[](Desc& d) { d.taps = -16; }, "desc.taps is unknown"},
-      {[](Desc& d) { d.half_resolution = 2; }, "desc.half_resolution is neither on nor off (got 2"},
-      {[](Desc& d) { d.blur = -1; }, "desc.blur"},
-      {[](Desc& d) { d.timers = 5; }, "desc.timers"},
-      {[](Desc& d) { d.path = 3; }, "desc.path is unknown (got 3, need 0 to 2)"},
-      {[](Desc& d) { d.path = -1; }, "desc.path is unknown"},
+      {[](Desc& d) { d.half_resolution = 2; },
+       "desc.half_resolution is out of range (got 2, need 0 or 1, or -1"},
+      {[](Desc& d) { d.blur = 3; }, "desc.blur is out of range (got 3, need 0 to 2, or -1"},
+      {[](Desc& d) { d.blur = -2; }, "desc.blur is out of range"},
+      {[](Desc& d) { d.preset = 3; }, "desc.preset is unknown (got 3, need 0 to 2)"},
+      {[](Desc& d) { d.preset = -1; }, "desc.preset is unknown"},
+      {[](Desc& d) { d.debug.timers = 5; }, "debug.timers"},
+      {[](Desc& d) { d.debug.path = 3; }, "debug.path is unknown (got 3, need 0 to 2)"},
+      {[](Desc& d) { d.debug.path = -1; }, "debug.path is unknown"},
       {[](Desc& d) { d.blur_sharpness = 0; }, "desc.blur_sharpness is out of range (got 0"},
       {[](Desc& d) { d.blur_sharpness = not_a_number; }, "desc.blur_sharpness"},
       {[](Desc& d) { d.network_size = 10; }, "desc.network is NULL with desc.network_size 10"},
@@ -245,7 +249,7 @@ TEST_CASE("nnao: a bad description of a pass is refused with its field") {
        "nook_nnao_create: ", NOOK_ERROR_BAD_FILE},
   };
   for (const auto& bad : cases) {
-    nook_nnao_desc desc = pass_desc(width, height);
+    PassDesc desc = pass_desc(width, height);
     bad.spoil(desc);
     nook_nnao pass = reinterpret_cast<nook_nnao>(&desc);
     INFO(bad.message);
@@ -258,7 +262,7 @@ TEST_CASE("nnao: a bad description of a pass is refused with its field") {
       CHECK(bytes == 7);
     }
   }
-  nook_nnao_desc desc = pass_desc(width, height);
+  PassDesc desc = pass_desc(width, height);
   nook_nnao pass = nullptr;
   CHECK(nook_nnao_create(nullptr, &desc, &pass) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_nnao_create(fixture.gl, nullptr, &pass) == NOOK_ERROR_INVALID_ARGUMENT);

@@ -207,7 +207,7 @@ GLuint NnaoFixture::normals_of(const Picture& picture) {
 nook_nnao NnaoFixture::pass_of(int taps, int half, int blur, const nnao::Network* network) {
   nook_nnao& pass = passes[{taps, half, blur, network ? 1 + int(network->form) : 0}];
   if (pass) return pass;
-  nook_nnao_desc desc = pass_desc(192, 128);
+  PassDesc desc = pass_desc(192, 128);
   desc.taps = taps;
   desc.half_resolution = half;
   desc.blur = blur;
@@ -232,22 +232,21 @@ std::vector<nook_nnao_path> paths_of(const platform::Context& context) {
   return {NOOK_NNAO_PATH_FRAGMENT, NOOK_NNAO_PATH_COMPUTE};
 }
 
-nook_nnao_desc pass_desc(int width, int height) {
-  nook_nnao_desc desc;
-  NOOK_OK_OR_FAIL(nook_nnao_desc_init(&desc));
+PassDesc pass_desc(int width, int height) {
+  PassDesc desc;
   desc.max_width = width;
   desc.max_height = height;
   return desc;
 }
 
-nook_nnao create_pass(nook_gl gl, nook_nnao_desc desc, const nnao::Network& network) {
+nook_nnao create_pass(nook_gl gl, PassDesc desc, const nnao::Network& network) {
   const std::vector<std::byte> bytes = nnao::write_network(network);
   desc.network = bytes.data();
   desc.network_size = bytes.size();
   return create_pass(gl, desc);
 }
 
-nook_nnao create_pass(nook_gl gl, const nook_nnao_desc& desc) {
+nook_nnao create_pass(nook_gl gl, const PassDesc& desc) {
   nook_nnao pass = nullptr;
   NOOK_OK_OR_FAIL(nook_nnao_create(gl, &desc, &pass));
   return pass;
@@ -256,8 +255,6 @@ nook_nnao create_pass(nook_gl gl, const nook_nnao_desc& desc) {
 ScreenFrame frame_desc(const Camera& camera, int width, int height, GLuint depth, GLuint normal,
                        float radius) {
   ScreenFrame frame;
-  NOOK_OK_OR_FAIL(nook_gl_frame_desc_init(&frame));
-  NOOK_OK_OR_FAIL(nook_nnao_frame_desc_init(&frame));
   frame.width = width;
   frame.height = height;
   frame.depth_texture = depth;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <glad/gl.h>
-#include <nook/nook_nnao.h>
 
 #include <array>
 #include <map>
@@ -11,8 +10,9 @@
 #include <vector>
 
 #include "platform/platform.h"
-#include "sdk/src/nnao/evaluate.h"
 #include "sdk/src/nnao/network.h"
+#include "sdk/src/nnao/network_evaluate.h"
+#include "tests/gl/chained_descs.h"
 #include "tests/gl/crowd.h"
 #include "tests/gl/host_textures.h"
 
@@ -88,12 +88,9 @@ nnao::Network mild_network(nnao::NetworkForm form, std::uint32_t seed = 1);
 // The ways in which a pass can run on this context.
 std::vector<nook_nnao_path> paths_of(const platform::Context& context);
 
-// Both descriptors of a frame of the screen-space pass.
-struct ScreenFrame : nook_gl_frame_desc, nook_nnao_frame_desc {};
-
-nook_nnao_desc pass_desc(int width, int height);
-nook_nnao create_pass(nook_gl gl, nook_nnao_desc desc, const nnao::Network& network);
-nook_nnao create_pass(nook_gl gl, const nook_nnao_desc& desc);
+PassDesc pass_desc(int width, int height);
+nook_nnao create_pass(nook_gl gl, PassDesc desc, const nnao::Network& network);
+nook_nnao create_pass(nook_gl gl, const PassDesc& desc);
 ScreenFrame frame_desc(const Camera& camera, int width, int height, GLuint depth, GLuint normal,
                        float radius);
 nook_nnao_info info_of(nook_nnao pass);

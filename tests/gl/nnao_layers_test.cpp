@@ -48,8 +48,8 @@ struct Settings {
   int half = 0, blur = 1, temporal = 0, bent = 0;
 };
 
-nook_nnao_desc desc_of(const Settings& settings, int layers) {
-  nook_nnao_desc desc = pass_desc(width, height);
+PassDesc desc_of(const Settings& settings, int layers) {
+  PassDesc desc = pass_desc(width, height);
   desc.half_resolution = settings.half;
   desc.blur = settings.blur;
   desc.max_history_frames = settings.temporal;
@@ -78,7 +78,7 @@ TEST_CASE("nnao: two eyes in one call have the AO of two calls") {
     for (int eye = 0; eye < eyes; ++eye) single.push_back(create_pass(fixture.gl, desc_of(settings, 0)));
     // A layer is a texture of the pass; another eye has others with means over frames alone.
     std::uint64_t one = 0, two = 0;
-    const nook_nnao_desc plain_desc = desc_of(settings, 0), array_desc = desc_of(settings, eyes);
+    const PassDesc plain_desc = desc_of(settings, 0), array_desc = desc_of(settings, eyes);
     NOOK_OK_OR_FAIL(nook_nnao_memory(&plain_desc, &one));
     NOOK_OK_OR_FAIL(nook_nnao_memory(&array_desc, &two));
     CHECK(two > one);
@@ -209,12 +209,12 @@ TEST_CASE("nnao: texture arrays are refused where they do not fit, and nothing i
                {0, 4, 0, -4, "desc.normal_samples differs"},
                {0, 17, 0, 0, "desc.depth_samples is out of range (got 17, need 0 to 16)"},
                {0, -2, 0, 0, "desc.depth_samples is out of range"},
-               {0, 4, 3, 0, "desc.depth_sample is unknown (got 3, need 0 to 2)"}};
+               {0, 4, 3, 0, "debug.depth_sample is unknown (got 3, need 0 to 2)"}};
   for (const auto& bad_desc : cases) {
-    nook_nnao_desc desc = pass_desc(width, height);
+    PassDesc desc = pass_desc(width, height);
     desc.views = bad_desc.layers;
     desc.depth_samples = bad_desc.samples;
-    desc.depth_sample = bad_desc.sample;
+    desc.debug.depth_sample = bad_desc.sample;
     desc.normal_samples = bad_desc.normal_samples;
     CHECK(nook_nnao_create(fixture.gl, &desc, &pass) == NOOK_ERROR_INVALID_ARGUMENT);
     CHECK(pass == nullptr);
@@ -246,7 +246,7 @@ TEST_CASE(
     check(gl::screen | gl::screen_layers | uploads, [&] {
       pass = create_pass(fixture.gl, desc_of({0, 1, 4}, eyes));
     });
-    const unsigned compute = info_of(pass).path == NOOK_NNAO_PATH_COMPUTE ? unsigned{gl::screen_compute} : 0u;
+    const unsigned compute = info_of(pass).compute ? unsigned{gl::screen_compute} : 0u;
     for (int i = 0; i < 2; ++i)
       check(gl::screen | gl::screen_layers | compute,
             [&] { NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame)); });

@@ -26,7 +26,7 @@ int living_objects(const GladGLContext& gl) {
 }  // namespace
 
 TEST_CASE("nnao: memory is known before, and small enough at 3840 x 2160") {
-  nook_nnao_desc desc = pass_desc(3840, 2160);
+  PassDesc desc = pass_desc(3840, 2160);
   std::uint64_t bytes = 0;
   NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));
   CHECK(bytes == std::uint64_t{3840} * 2160 * 7);
@@ -56,7 +56,7 @@ TEST_CASE("nnao: a pass takes the memory that was promised, and opens with AO 1"
   NOOK_NEED_CONTEXT(context);
   NnaoFixture fixture(context);
   for (const int half : {0, 1}) {
-    nook_nnao_desc desc = pass_desc(37, 23);
+    PassDesc desc = pass_desc(37, 23);
     desc.half_resolution = half;
     std::uint64_t bytes = 0;
     NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));
@@ -82,8 +82,8 @@ TEST_CASE("nnao: a pass, its nook_gl and its context may go in any order") {
     INFO(order);
     CountedContext host;
     nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
-    nook_nnao_desc desc = pass_desc(32, 32);
-    desc.timers = 1;
+    PassDesc desc = pass_desc(32, 32);
+    desc.debug.timers = 1;
     nook_nnao pass = create_pass(gl, desc, mild_network(nnao::NetworkForm::paper));
     CHECK(living_objects(context.gl()) > before);
     for (const char* step = order; *step; ++step) {
@@ -105,7 +105,7 @@ TEST_CASE("nnao: a failed creation leaves nothing behind") {
     nook_gl gl = create_gl(host.handle, Trace::loader, &trace, 0);
     const int with_gl = living_objects(context.gl());
     const long long bytes = host.bytes;
-    nook_nnao_desc desc = pass_desc(32, 32);
+    PassDesc desc = pass_desc(32, 32);
     nook_nnao pass = nullptr;
     int refusals = 0;
     for (long n = 0; pass == nullptr; ++n) {
@@ -139,8 +139,8 @@ TEST_CASE("nnao: after the OpenGL context is lost nothing calls OpenGL, and dest
   NOOK_NEED_CONTEXT(context);
   CountedContext host;
   nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, 0);
-  nook_nnao_desc desc = pass_desc(16, 16);
-  desc.timers = 1;
+  PassDesc desc = pass_desc(16, 16);
+  desc.debug.timers = 1;
   nook_nnao pass = create_pass(gl, desc);
   // Without a current context any OpenGL call would crash or be caught by the next check.
   context.clear_current();
@@ -158,21 +158,35 @@ TEST_CASE("nnao: after the OpenGL context is lost nothing calls OpenGL, and dest
   CHECK(context.gl().GetError() == GL_NO_ERROR);
 }
 
-TEST_CASE("nnao: presets set taps, resolution and filter, and refuse what they do not know") {
-  nook_nnao_desc desc = pass_desc(640, 360);
-  CHECK((desc.taps == 9 && desc.half_resolution == 0 && desc.blur == 1));
-  const nook_nnao_desc untouched = desc;
-  desc.blur = 0;
-  NOOK_OK_OR_FAIL(nook_nnao_desc_set_preset(&desc, NOOK_NNAO_PRESET_BEST));
-  CHECK((desc.taps == 32 && desc.half_resolution == 0 && desc.blur == 1));
-  NOOK_OK_OR_FAIL(nook_nnao_desc_set_preset(&desc, NOOK_NNAO_PRESET_FAST));
-  CHECK((desc.taps == 9 && desc.half_resolution == 1 && desc.blur == 1));
-  NOOK_OK_OR_FAIL(nook_nnao_desc_set_preset(&desc, NOOK_NNAO_PRESET_DEFAULT));
-  CHECK(std::memcmp(&desc, &untouched, sizeof desc) == 0);
-  CHECK(nook_nnao_desc_set_preset(&desc, 3) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_nnao_desc_set_preset(&desc, -1) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_nnao_desc_set_preset(nullptr, 0) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(std::memcmp(&desc, &untouched, sizeof desc) == 0);
-  desc.struct_size = 3;
-  CHECK(nook_nnao_desc_set_preset(&desc, 0) != NOOK_OK);
+TEST_CASE("nnao: a preset gives taps, resolution and filter where they are -1") {
+  NOOK_NEED_CONTEXT(context);
+  NnaoFixture fixture(context);
+  const int width = 48, height = 32;
+  const Camera camera = plain_camera(float(width) / height);
+  const Picture picture = look(camera, still_life(), width, height);
+  const ScreenFrame frame =
+      frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 0.5f);
+  const auto drawn = [&](nook_nnao_preset preset, int taps, int half, int blur) {
+    PassDesc desc = pass_desc(width, height);
+    desc.preset = preset;
+    desc.taps = taps;
+    desc.half_resolution = half;
+    desc.blur = blur;
+    nook_nnao pass = create_pass(fixture.gl, desc);
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
+    std::vector<float> ao = own_ao(context.gl(), pass, width, height);
+    nook_nnao_destroy(&pass);
+    return ao;
+  };
+  const int given = -1;
+  const std::vector<float> fast = drawn(NOOK_NNAO_PRESET_FAST, given, given, given);
+  const std::vector<float> plain = drawn(NOOK_NNAO_PRESET_DEFAULT, given, given, given);
+  const std::vector<float> best = drawn(NOOK_NNAO_PRESET_BEST, given, given, given);
+  CHECK(fast == drawn(NOOK_NNAO_PRESET_BEST, 9, 1, 1));
+  CHECK(plain == drawn(NOOK_NNAO_PRESET_BEST, 9, given, given));
+  CHECK(best == drawn(NOOK_NNAO_PRESET_FAST, 32, 0, given));
+  CHECK(plain == drawn(NOOK_NNAO_PRESET_FAST, given, 0, 1));
+  CHECK(plain != fast);
+  CHECK(plain != best);
+  CHECK(plain != drawn(NOOK_NNAO_PRESET_DEFAULT, given, given, 0));
 }

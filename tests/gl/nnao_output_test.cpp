@@ -16,7 +16,7 @@ struct Output : NnaoFixture {
       : NnaoFixture(made_in),
         picture(look(camera, still_life(), width, height)),
         depth(depth_of(camera, picture)) {
-    nook_nnao_desc desc = pass_desc(width, height);
+    PassDesc desc = pass_desc(width, height);
     desc.taps = 16;
     pass = create_pass(gl, desc, mild_network(nnao::NetworkForm::horizon));
     plain = draw(frame());
@@ -204,7 +204,7 @@ TEST_CASE("nnao: sizes change from frame to frame as if the pass were made for e
   NOOK_NEED_CONTEXT(context);
   NnaoFixture fixture(context);
   for (const int half : {0, 1}) {
-    nook_nnao_desc desc = pass_desc(64, 64);
+    PassDesc desc = pass_desc(64, 64);
     desc.half_resolution = half;
     desc.taps = 16;
     const nnao::Network network = mild_network(nnao::NetworkForm::horizon);
@@ -215,7 +215,7 @@ TEST_CASE("nnao: sizes change from frame to frame as if the pass were made for e
       const ScreenFrame frame = frame_desc(camera, w, h, fixture.depth_of(camera, picture), 0, 0.6f);
       NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
       if (w != 31 && w != 63) continue;
-      nook_nnao_desc fitting = pass_desc(w, h);
+      PassDesc fitting = pass_desc(w, h);
       fitting.half_resolution = half;
       fitting.taps = 16;
       nook_nnao fresh = create_pass(fixture.gl, fitting, network);

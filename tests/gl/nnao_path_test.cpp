@@ -44,15 +44,15 @@ struct BothPaths : NnaoFixture {
 
   void make(const Setting& setting) {
     const nnao::Network network = mild_network(setting.form);
-    nook_nnao_desc desc = pass_desc(width, height);
+    PassDesc desc = pass_desc(width, height);
     desc.taps = setting.taps;
     desc.half_resolution = setting.half;
     for (const nook_nnao_path path : {NOOK_NNAO_PATH_FRAGMENT, NOOK_NNAO_PATH_COMPUTE}) {
       nook_nnao& pass = on_path[path == NOOK_NNAO_PATH_COMPUTE];
       nook_nnao_destroy(&pass);
-      desc.path = path;
+      desc.debug.path = path;
       pass = create_pass(gl, desc, network);
-      REQUIRE(info_of(pass).path == path);
+      REQUIRE(info_of(pass).compute == int(path == NOOK_NNAO_PATH_COMPUTE));
     }
   }
 
@@ -92,7 +92,7 @@ struct BothPaths : NnaoFixture {
         const Camera camera = plain_camera(float(w) / float(h));
         const Picture picture = look(camera, still_life(), std::uint32_t(w), std::uint32_t(h));
         ScreenFrame frame = frame_desc(camera, w, h, depth_of(camera, picture), 0, 0.8f);
-        frame.show = view;
+        frame.debug.show = view;
         check_frame(frame);
       }
   }
@@ -162,10 +162,10 @@ TEST_CASE("nnao: the own texture changes in the viewport alone") {
   for (const nook_nnao_path path : paths_of(context))
     for (const int half : {0, 1}) {
       NnaoFixture fixture(context);
-      nook_nnao_desc desc = pass_desc(64, 50);
+      PassDesc desc = pass_desc(64, 50);
       desc.taps = 16;
       desc.half_resolution = half;
-      desc.path = path;
+      desc.debug.path = path;
       nook_nnao pass = create_pass(fixture.gl, desc, network);
       const auto draw = [&](const Place& at) {
         const GLuint depth =
@@ -199,16 +199,16 @@ TEST_CASE("nnao: compute is taken where OpenGL has it, and refused with a reason
   const auto run = [&](Trace& trace, int max_tier, nook_nnao_path asked, nook_nnao_path got,
                        const char* message) {
     nook_gl gl = create_gl(host.handle, Trace::loader, &trace, max_tier);
-    nook_nnao_desc desc = pass_desc(16, 16);
-    desc.path = asked;
+    PassDesc desc = pass_desc(16, 16);
+    desc.debug.path = asked;
     nook_nnao pass = nullptr;
     if (message) {
       CHECK(nook_nnao_create(gl, &desc, &pass) == NOOK_ERROR_UNSUPPORTED);
       CHECK(pass == nullptr);
-      CHECK(message_has(std::string("nook_nnao_create: desc.path needs compute shaders (") + message));
+      CHECK(message_has(std::string("nook_nnao_create: debug.path needs compute shaders (") + message));
     } else {
       NOOK_OK_OR_FAIL(nook_nnao_create(gl, &desc, &pass));
-      CHECK(info_of(pass).path == got);
+      CHECK(info_of(pass).compute == int(got == NOOK_NNAO_PATH_COMPUTE));
       // Hosts of the first release end before the path.
       check_info<nook_nnao_info>([&](nook_nnao_info* info) { return nook_nnao_describe(pass, info); });
     }

@@ -28,7 +28,7 @@ std::vector<float> draw(NnaoFixture& fixture, const Camera& camera, const Pictur
   nook_nnao pass = fixture.pass_of(drawing.taps, drawing.half, drawing.blur, network);
   ScreenFrame frame = frame_desc(camera, w, h, fixture.depth_of(camera, picture),
                                  drawing.normals ? fixture.normals_of(picture) : 0, drawing.radius);
-  frame.show = drawing.view;
+  frame.debug.show = drawing.view;
   NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   return own_ao(fixture.context.gl(), pass, w, h);
 }
@@ -40,7 +40,7 @@ std::vector<float> rebuilt_normals(NnaoFixture& fixture, const Camera& camera, c
   frame.target = NOOK_TARGET_TEXTURE;
   frame.target_name =
       fixture.textures.floats(GL_RGBA32F, 4, w, h, std::vector<float>(std::size_t(w) * h * 4));
-  frame.show = NOOK_NNAO_VIEW_NORMALS;
+  frame.debug.show = NOOK_NNAO_VIEW_NORMALS;
   NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   return read_texture(fixture.context.gl(), frame.target_name, w, h, 4);
 }

@@ -132,7 +132,7 @@ TEST_CASE("nnao: the error of each stage in medium precision is printed, and the
                 {"half resolution, two filters", 1, 2}};
   for (const auto& pass : passes) {
     NnaoFixture fixture(context);
-    nook_nnao_desc desc = pass_desc(width, height);
+    PassDesc desc = pass_desc(width, height);
     desc.half_resolution = pass.half;
     desc.blur = pass.blur;
     nook_nnao_stages stages = nullptr;

@@ -47,7 +47,7 @@ TEST_CASE("nnao: a radius as a share of the screen is the reference's at each de
         ScreenFrame frame = frame_desc(camera, width, height, fixture.depth_of(camera, picture),
                                        fixture.normals_of(picture), share);
         frame.radius_kind = NOOK_NNAO_RADIUS_SCREEN;
-        frame.show = NOOK_NNAO_VIEW_RAW;
+        frame.debug.show = NOOK_NNAO_VIEW_RAW;
         const std::vector<float> found = fixture.draw(fixture.pass_of(16, 0, 1, &network), frame);
         std::vector<float> wanted(picture.depth.size());
         nnao::evaluate(network, picture.view(), {nnao::endless_radius, share * height, 16}, wanted);

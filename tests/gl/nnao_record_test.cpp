@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "sdk/src/core/bit_cast.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/gl/touched_state.h"
 #include "sdk/src/nnao/network_file.h"
 #include "tests/gl/nnao_images.h"
@@ -54,18 +54,16 @@ std::vector<float> replayed(NnaoFixture& fixture, const nook_nnao_recording_desc
     return fixture.textures.floats(format, channels, w, h,
                                    std::vector<float>(values, values + std::size_t(channels) * pixels));
   };
-  nook_nnao_desc pass_settings = pass_desc(w, h);
+  PassDesc pass_settings = pass_desc(w, h);
   pass_settings.taps = desc.taps;
   pass_settings.half_resolution = desc.half_resolution;
   pass_settings.blur = desc.blur;
   pass_settings.blur_sharpness = desc.blur_sharpness;
-  pass_settings.path = desc.path;
+  pass_settings.debug.path = desc.path;
   pass_settings.network = desc.network;
   pass_settings.network_size = desc.network_size;
   nook_nnao pass = create_pass(fixture.gl, pass_settings);
   ScreenFrame frame;
-  NOOK_OK_OR_FAIL(nook_gl_frame_desc_init(&frame));
-  NOOK_OK_OR_FAIL(nook_nnao_frame_desc_init(&frame));
   frame.width = w;
   frame.height = h;
   frame.depth_texture = upload(GL_R32F, 1, desc.depth);
@@ -83,7 +81,7 @@ std::vector<float> replayed(NnaoFixture& fixture, const nook_nnao_recording_desc
   frame.power = desc.power;
   frame.gbuffer_ao = desc.layer;
   if (desc.layer) frame.gbuffer_ao_texture = upload(GL_RG32F, 2, desc.layer_texels);
-  frame.show = desc.view;
+  frame.debug.show = desc.view;
   NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   std::vector<float> ao = own_ao(fixture.context.gl(), pass, w, h);
   nook_nnao_destroy(&pass);
@@ -153,7 +151,7 @@ TEST_CASE("nnao: a recorded frame has the host's depth and normals bit for bit, 
     CHECK(recorded.desc.clip == camera.clip);
     CHECK(recorded.desc.radius == 0.7f);
     CHECK(recorded.desc.taps == 16);
-    CHECK(recorded.desc.path == info_of(pass).path);
+    CHECK(recorded.desc.path == (info_of(pass).compute ? NOOK_NNAO_PATH_COMPUTE : NOOK_NNAO_PATH_FRAGMENT));
     CHECK(recorded.desc.library_version == nook_version());
     CHECK(recorded.desc.note == std::string("a remark"));
     CHECK(recorded.desc.renderer == context.renderer());
@@ -201,7 +199,8 @@ TEST_CASE("nnao: frames of every setting replay to the same AO") {
          f.gbuffer_ao = NOOK_GBUFFER_AO_REPLACE;
          f.gbuffer_ao_texture = layer;
        })},
-      {"raw", fixture.pass_of(16, 0, 1, nullptr), frame_with([](auto& f) { f.show = NOOK_NNAO_VIEW_RAW; })},
+      {"raw", fixture.pass_of(16, 0, 1, nullptr),
+       frame_with([](auto& f) { f.debug.show = NOOK_NNAO_VIEW_RAW; })},
       {"linear depth", fixture.pass_of(16, 0, 1, nullptr), frame_with([&](auto& f) {
          f.depth_texture = linear;
          f.depth_kind = NOOK_DEPTH_LINEAR;
@@ -278,8 +277,8 @@ TEST_CASE("nnao: recording writes no target of the host and keeps the OpenGL sta
       const GLuint depth = fixture.depth_of(camera, picture), normal = fixture.normals_of(picture);
       const GLuint target = fixture.textures.floats(GL_R32F, 1, width, height,
                                                     std::vector<float>(std::size_t(width) * height, 0.7f));
-      nook_nnao_desc desc = pass_desc(width, height);
-      desc.path = path;
+      PassDesc desc = pass_desc(width, height);
+      desc.debug.path = path;
       nook_nnao pass = create_pass(fixture.gl, desc);
       ScreenFrame frame = frame_desc(camera, width, height, depth, normal, 0.5f);
       frame.target = NOOK_TARGET_TEXTURE;

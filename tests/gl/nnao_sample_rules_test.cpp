@@ -135,9 +135,8 @@ TEST_CASE("nnao: the default rule has the smallest error against the mean over a
   NOOK_NEED_SAMPLES(context);
   NnaoFixture fixture(context);
   const std::vector<Camera> all = cameras(float(width) / height);
-  nook_nnao_desc desc;
-  NOOK_OK_OR_FAIL(nook_nnao_desc_init(&desc));
-  REQUIRE(desc.depth_sample == sample_rules[0]);
+  PassDesc desc;
+  REQUIRE(desc.debug.depth_sample == sample_rules[0]);
   const auto first_is_least = [](const RuleErrors& errors) {
     for (std::size_t r = 1; r < ways; ++r) CHECK(errors.everywhere[0] < errors.everywhere[r]);
   };

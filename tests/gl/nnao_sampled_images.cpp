@@ -71,17 +71,16 @@ Resolved resolved(nook_nnao_sample rule, const Samples& samples) {
   return result;
 }
 
-nook_nnao_desc sampled_desc(int samples, nook_nnao_sample rule, Normals normals,
-                            const SampledSettings& settings) {
-  nook_nnao_desc desc = pass_desc(sampled_width, sampled_height);
+PassDesc sampled_desc(int samples, nook_nnao_sample rule, Normals normals, const SampledSettings& settings) {
+  PassDesc desc = pass_desc(sampled_width, sampled_height);
   desc.depth_samples = samples;
-  desc.depth_sample = rule;
+  desc.debug.depth_sample = rule;
   desc.normal_samples = normals == Normals::sampled ? samples : 0;
   desc.half_resolution = settings.half;
   desc.max_history_frames = settings.temporal;
   desc.bent_normals = settings.bent;
   desc.taps = settings.taps;
-  desc.path = settings.path;
+  desc.debug.path = settings.path;
   return desc;
 }
 

@@ -56,8 +56,8 @@ struct SampledSettings {
   int half = 0, temporal = 0, bent = 0, taps = 9;
   nook_nnao_path path = NOOK_NNAO_PATH_AUTOMATIC;
 };
-nook_nnao_desc sampled_desc(int samples, nook_nnao_sample rule, Normals normals,
-                            const SampledSettings& settings = {});
+PassDesc sampled_desc(int samples, nook_nnao_sample rule, Normals normals,
+                      const SampledSettings& settings = {});
 nook_nnao make_sampled_pass(NnaoFixture& fixture, int samples, nook_nnao_sample rule,
                             Normals normals = Normals::rebuilt, const SampledSettings& settings = {});
 

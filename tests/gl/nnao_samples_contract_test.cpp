@@ -30,7 +30,7 @@ TEST_CASE("nnao: multisampled images are refused where they do not fit, and by t
   const Camera camera = plain_camera(float(width) / height);
   nook_nnao pass = nullptr;
   const auto unsupported = [&](int layers, const char* message) {
-    nook_nnao_desc desc = sampled_desc(4, NOOK_NNAO_SAMPLE_MEDIAN, Normals::sampled);
+    PassDesc desc = sampled_desc(4, NOOK_NNAO_SAMPLE_MEDIAN, Normals::sampled);
     desc.views = layers;
     CHECK(nook_nnao_create(fixture.gl, &desc, &pass) == NOOK_ERROR_UNSUPPORTED);
     CHECK(pass == nullptr);
@@ -89,7 +89,7 @@ TEST_CASE("nnao: multisampled images are refused where they do not fit, and by t
   NOOK_OK_OR_FAIL(nook_nnao_render(both, &frame, &frame));
   for (nook_nnao* made : {&plain, &eight}) nook_nnao_destroy(made);
   if (has_sample_arrays(context)) {
-    nook_nnao_desc desc = sampled_desc(4, NOOK_NNAO_SAMPLE_MEDIAN, Normals::sampled);
+    PassDesc desc = sampled_desc(4, NOOK_NNAO_SAMPLE_MEDIAN, Normals::sampled);
     desc.views = 2;
     nook_nnao eyes = create_pass(fixture.gl, desc);
     const GLuint array = textures.sample_array(SampledImage::depth, width, height, {four, four}),
@@ -104,7 +104,7 @@ TEST_CASE("nnao: multisampled images are refused where they do not fit, and by t
 }
 
 TEST_CASE("nnao: the number of a normal's sample takes four bytes of each pixel of the surface") {
-  nook_nnao_desc desc = sampled_desc(4, NOOK_NNAO_SAMPLE_MEDIAN, Normals::rebuilt);
+  PassDesc desc = sampled_desc(4, NOOK_NNAO_SAMPLE_MEDIAN, Normals::rebuilt);
   for (const int half : {0, 1})
     for (const int temporal : {0, 4}) {
       desc.half_resolution = half;
@@ -138,11 +138,10 @@ TEST_CASE("nnao: passes of multisampled images keep the state contract") {
                                         : single_normals(fixture, colours);
         const ScreenFrame frame =
             sampled_frame(plain_camera(float(width) / height), sampled(SampledImage::depth, four), normals);
-        nook_nnao_desc desc = sampled_desc(4, NOOK_NNAO_SAMPLE_MEDIAN, kind, {.half = 1});
+        PassDesc desc = sampled_desc(4, NOOK_NNAO_SAMPLE_MEDIAN, kind, {.half = 1});
         desc.views = layers;
         nook_nnao pass = create_pass(fixture.gl, desc);
-        const unsigned compute =
-            info_of(pass).path == NOOK_NNAO_PATH_COMPUTE ? unsigned{gl::screen_compute} : 0u;
+        const unsigned compute = info_of(pass).compute ? unsigned{gl::screen_compute} : 0u;
         const unsigned images = layers ? gl::screen_layers | gl::screen_sample_layers : gl::screen_samples;
         Poison poison(context, gl::screen | images | compute);
         if (mode == NOOK_GL_STATE_DEFAULTS) poison.reset_touched();

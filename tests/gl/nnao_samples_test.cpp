@@ -104,7 +104,7 @@ TEST_CASE("nnao: of multisampled normals the one of the sample that the depth ru
     for (const int half : {0, 1}) {
       nook_nnao pass = make_sampled_pass(fixture, 4, rule, Normals::sampled, {.half = half});
       ScreenFrame frame = sampled_frame(camera, depth, normal);
-      frame.show = NOOK_NNAO_VIEW_NORMALS;
+      frame.debug.show = NOOK_NNAO_VIEW_NORMALS;
       frame.target = NOOK_TARGET_TEXTURE;
       frame.target_name = target;
       NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
@@ -156,7 +156,7 @@ TEST_CASE("nnao: two eyes of samples in one call have the AO of two calls") {
                {{.half = 1, .temporal = 4, .path = best}, Normals::sampled},
                {{.bent = 1, .path = best}, Normals::rebuilt}};
   for (const auto& [settings, kind] : cases) {
-    nook_nnao_desc desc = sampled_desc(4, NOOK_NNAO_SAMPLE_MEDIAN, kind, settings);
+    PassDesc desc = sampled_desc(4, NOOK_NNAO_SAMPLE_MEDIAN, kind, settings);
     nook_nnao alone[] = {create_pass(fixture.gl, desc), create_pass(fixture.gl, desc)};
     desc.views = 2;
     nook_nnao both = create_pass(fixture.gl, desc);

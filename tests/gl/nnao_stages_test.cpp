@@ -37,35 +37,35 @@ bool message_has(const char* part) {
 
 struct Settings {
   const char* name;
-  std::function<void(nook_nnao_desc&)> change;
+  std::function<void(PassDesc&)> change;
 };
 const Settings all_settings[] = {
-    {"default", [](nook_nnao_desc&) {}},
-    {"fast", [](nook_nnao_desc& d) { d.half_resolution = 1; }},
-    {"best", [](nook_nnao_desc& d) { d.taps = 32; }},
-    {"no filter", [](nook_nnao_desc& d) { d.blur = 0; }},
-    {"two filters", [](nook_nnao_desc& d) { d.blur = 2; }},
-    {"two filters at half resolution", [](nook_nnao_desc& d) { d.blur = 2, d.half_resolution = 1; }},
-    {"bent normals", [](nook_nnao_desc& d) { d.bent_normals = 1; }},
-    {"bent normals at half resolution", [](nook_nnao_desc& d) { d.bent_normals = d.half_resolution = 1; }},
-    {"means over frames", [](nook_nnao_desc& d) { d.max_history_frames = 4; }},
+    {"default", [](PassDesc&) {}},
+    {"fast", [](PassDesc& d) { d.half_resolution = 1; }},
+    {"best", [](PassDesc& d) { d.taps = 32; }},
+    {"no filter", [](PassDesc& d) { d.blur = 0; }},
+    {"two filters", [](PassDesc& d) { d.blur = 2; }},
+    {"two filters at half resolution", [](PassDesc& d) { d.blur = 2, d.half_resolution = 1; }},
+    {"bent normals", [](PassDesc& d) { d.bent_normals = 1; }},
+    {"bent normals at half resolution", [](PassDesc& d) { d.bent_normals = d.half_resolution = 1; }},
+    {"means over frames", [](PassDesc& d) { d.max_history_frames = 4; }},
     {"means over frames at half resolution",
-     [](nook_nnao_desc& d) { d.max_history_frames = 8, d.half_resolution = 1; }},
-    {"two eyes", [](nook_nnao_desc& d) { d.views = 2; }},
+     [](PassDesc& d) { d.max_history_frames = 8, d.half_resolution = 1; }},
+    {"two eyes", [](PassDesc& d) { d.views = 2; }},
     {"two eyes at half resolution, means over frames",
-     [](nook_nnao_desc& d) { d.views = 2, d.max_history_frames = 4, d.half_resolution = 1; }},
-    {"samples", [](nook_nnao_desc& d) { d.depth_samples = 4; }},
+     [](PassDesc& d) { d.views = 2, d.max_history_frames = 4, d.half_resolution = 1; }},
+    {"samples", [](PassDesc& d) { d.depth_samples = 4; }},
     {"nearest sample at half resolution",
-     [](nook_nnao_desc& d) {
-       d.depth_samples = 8, d.depth_sample = NOOK_NNAO_SAMPLE_NEAREST, d.half_resolution = 1;
+     [](PassDesc& d) {
+       d.depth_samples = 8, d.debug.depth_sample = NOOK_NNAO_SAMPLE_NEAREST, d.half_resolution = 1;
      }},
     {"samples of normals, means over frames",
-     [](nook_nnao_desc& d) { d.depth_samples = d.normal_samples = d.max_history_frames = 4; }},
+     [](PassDesc& d) { d.depth_samples = d.normal_samples = d.max_history_frames = 4; }},
     {"two eyes of samples at half resolution",
-     [](nook_nnao_desc& d) { d.views = 2, d.depth_samples = d.normal_samples = 4, d.half_resolution = 1; }},
+     [](PassDesc& d) { d.views = 2, d.depth_samples = d.normal_samples = 4, d.half_resolution = 1; }},
 };
 
-nook_nnao_stages make_stages(nook_context context, const nook_nnao_desc& desc) {
+nook_nnao_stages make_stages(nook_context context, const PassDesc& desc) {
   nook_nnao_stages stages = nullptr;
   NOOK_OK_OR_FAIL(nook_nnao_stages_create(context, &desc, &stages));
   return stages;
@@ -75,7 +75,7 @@ void compare(platform::Context& context, const Settings& settings) {
   NnaoFixture fixture(context);
   const GladGLContext& gl = context.gl();
   Textures& textures = fixture.textures;
-  nook_nnao_desc desc = pass_desc(width, height);
+  PassDesc desc = pass_desc(width, height);
   settings.change(desc);
   GLint most = 0;
   gl.GetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &most);
@@ -194,7 +194,7 @@ TEST_CASE("nnao: every stage compiles as GLSL for Vulkan", "[one-context]") {
   };
   for (const Settings& settings : all_settings)
     for (const int taps : {9, 64}) {
-      nook_nnao_desc desc = pass_desc(width, height);
+      PassDesc desc = pass_desc(width, height);
       desc.taps = taps;
       settings.change(desc);
       nook_nnao_stages stages = make_stages(host.handle, desc);
@@ -215,7 +215,7 @@ TEST_CASE("nnao: every stage compiles as GLSL for Vulkan", "[one-context]") {
 
 TEST_CASE("nnao: values of stages follow from the arguments alone, without memory") {
   CountedContext host;
-  const nook_nnao_desc desc = pass_desc(width, height);
+  const PassDesc desc = pass_desc(width, height);
   nook_nnao_stages stages = make_stages(host.handle, desc);
   const ScreenFrame frame = frame_desc(plain_camera(1.4f), width, height, 0, 0, 0.5f);
   auto first = sized<nook_nnao_frame_values>(), second = first;
@@ -244,7 +244,7 @@ TEST_CASE("nnao: values of stages follow from the arguments alone, without memor
 
 TEST_CASE("nnao: bad arguments of stages are refused with their name") {
   CountedContext host;
-  nook_nnao_desc desc = pass_desc(width, height);
+  PassDesc desc = pass_desc(width, height);
   desc.max_history_frames = 4;
   nook_nnao_stages stages = make_stages(host.handle, desc);
   auto stage = sized<nook_nnao_stage_info>();
@@ -269,10 +269,10 @@ TEST_CASE("nnao: bad arguments of stages are refused with their name") {
   refused(good, nullptr, 1, "view is out of range (got 1, need less than 1)");
   bad = good, bad.width = width + 1;
   refused(bad, nullptr, 0, "frame.width");
-  bad = good, bad.show = NOOK_NNAO_VIEW_NORMALS;
-  refused(bad, nullptr, 0, "desc.show 3");
-  bad = good, bad.show = NOOK_NNAO_VIEW_RAW;
-  refused(bad, nullptr, 0, "desc.show 1 does not go with the pass's max_history_frames 4");
+  bad = good, bad.debug.show = NOOK_NNAO_VIEW_NORMALS;
+  refused(bad, nullptr, 0, "debug.show 3");
+  bad = good, bad.debug.show = NOOK_NNAO_VIEW_RAW;
+  refused(bad, nullptr, 0, "debug.show 1 does not go with the pass's max_history_frames 4");
   CHECK(nook_nnao_stages_frame(nullptr, &good, &good, nullptr, 0, 0, &values) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_nnao_stages_frame(stages, nullptr, &good, nullptr, 0, 0, &values) ==
         NOOK_ERROR_INVALID_ARGUMENT);

@@ -63,11 +63,11 @@ void walk_path(platform::Context& context, nook_gl_state_mode mode, nook_nnao_pa
       if (path == NOOK_NNAO_PATH_COMPUTE && form == nnao::NetworkForm::paper) continue;
       Stage stage(context, mode);
       const nnao::Network network = mild_network(form);
-      nook_nnao_desc desc = pass_desc(width, height);
+      PassDesc desc = pass_desc(width, height);
       desc.taps = 16;
       desc.half_resolution = half;
-      desc.timers = 1;
-      desc.path = path;
+      desc.debug.timers = 1;
+      desc.debug.path = path;
       nook_nnao calm = create_pass(stage.fixture.gl, desc, network);
       const ScreenFrame frame = stage.frame();
       NOOK_OK_OR_FAIL(nook_nnao_render(calm, &frame, &frame));
@@ -195,8 +195,8 @@ TEST_CASE("nnao: a target is discarded only where a frame writes all of it") {
   Stage stage(context, NOOK_GL_STATE_HOST);
   Trace trace(context);
   nook_gl gl = create_gl(stage.fixture.host.handle, Trace::loader, &trace, 0, NOOK_GL_STATE_HOST);
-  nook_nnao_desc desc = pass_desc(width, height);
-  desc.path = NOOK_NNAO_PATH_FRAGMENT;
+  PassDesc desc = pass_desc(width, height);
+  desc.debug.path = NOOK_NNAO_PATH_FRAGMENT;
   nook_nnao pass = create_pass(gl, desc);
   const auto discards = [&](const ScreenFrame& frame) {
     NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
@@ -239,10 +239,10 @@ TEST_CASE("nnao: a frame allocates nothing, reads nothing back and queries OpenG
     Stage stage(context, mode);
     Trace trace(context);
     nook_gl gl = create_gl(stage.fixture.host.handle, Trace::loader, &trace, 0, mode);
-    nook_nnao_desc desc = pass_desc(width, height);
+    PassDesc desc = pass_desc(width, height);
     desc.half_resolution = half;
-    desc.timers = 1;
-    desc.path = path;
+    desc.debug.timers = 1;
+    desc.debug.path = path;
     nook_nnao pass = create_pass(gl, desc);
     const int dispatches = path == NOOK_NNAO_PATH_COMPUTE;
     ScreenFrame frame = stage.frame();

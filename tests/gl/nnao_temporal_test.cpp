@@ -19,7 +19,7 @@ constexpr float radius = 0.8f, sharpness = 16;
 
 struct Sequence : NnaoFixture {
   explicit Sequence(platform::Context& made_in, int half = 0) : NnaoFixture(made_in) {
-    nook_nnao_desc desc = pass_desc(width, height);
+    PassDesc desc = pass_desc(width, height);
     desc.taps = 9;
     desc.blur = 0;
     desc.blur_sharpness = sharpness;
@@ -240,7 +240,7 @@ TEST_CASE("nnao: motion vectors carry the mean with a surface") {
 TEST_CASE("nnao: bad descriptions of means over frames are refused with their field") {
   NOOK_NEED_CONTEXT(context);
   Sequence sequence(context);
-  nook_nnao_desc desc = pass_desc(3840, 2160);
+  PassDesc desc = pass_desc(3840, 2160);
   std::uint64_t bytes = 0;
   desc.max_history_frames = 8;
   NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));

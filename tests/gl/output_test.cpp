@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/gl/touched_state.h"
 #include "tests/gl/crowd.h"
 #include "tests/gl/host_textures.h"

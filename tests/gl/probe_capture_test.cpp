@@ -5,11 +5,10 @@
 #include <string>
 
 #include "platform/program.h"
-#include "sdk/src/core/map_suns.h"
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/core/light_map.h"
 #include "sdk/src/probe/fit.h"
 #include "sdk/src/probe/harmonics.h"
-#include "sdk/src/probe/zonal_harmonics.h"
+#include "sdk/src/probe/probe_light.h"
 #include "tests/gl/host_textures.h"
 #include "tests/gl/probe_capture_scene.h"
 

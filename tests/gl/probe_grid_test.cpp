@@ -10,11 +10,10 @@
 #include <string>
 
 #include "platform/program.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/gl/touched_state.h"
 #include "sdk/src/probe/harmonics.h"
 #include "sdk/src/probe/probe_file.h"
-#include "sdk/src/probe/zonal_harmonics.h"
 #include "tests/gl/crowd.h"
 #include "tests/gl/host_textures.h"
 #include "tests/gl/poison.h"

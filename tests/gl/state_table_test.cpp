@@ -50,7 +50,7 @@ std::string table() {
   out << "\n33 and 43 are the tiers of nook_gl_create and the nook_gl_scene functions; ES30 touches what 33 "
          "does, ES31 what 43 does. Tables on OpenGL ES are the uploads of 33, 43, probe and "
          "nook_nnao_create. nnao is nook_nnao_create and nook_nnao_render; its compute path is that of "
-         "nook_nnao_render if nook_nnao_info.path is NOOK_NNAO_PATH_COMPUTE. nook_world_create and "
+         "nook_nnao_render if nook_nnao_info.compute is 1. nook_world_create and "
          "nook_world_render touch what nnao does, and at half resolution what its compute path does where "
          "there are compute shaders. material is nook_gl_upload_material, clips is nook_gl_upload_clips. "
          "probe and grid are "

@@ -24,7 +24,7 @@ void walk(platform::Context& context, int tier, nook_gl_state_mode mode,
   nook_model other = load_model(host.handle, sample_model(22, {3, 5, 9, 30, 5, 7}));
   Crowd crowd(host.handle, {model, other}, {5, 3}, {});
   nook_gl gl = nullptr;
-  nook_gl_ao_view view{};
+  nook_gl_view view{};
   view.struct_size = sizeof view;
   const Step steps[] = {
       {"create", [&] { gl = create_gl(host.handle, platform::Context::loader, &context, tier, mode); }},
@@ -35,7 +35,8 @@ void walk(platform::Context& context, int tier, nook_gl_state_mode mode,
          crowd.add(crowd.ids.size());
          NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
        }},
-      {"view", [&] { NOOK_OK_OR_FAIL(nook_gl_scene_ao_buffer(gl, crowd.scene, crowd.ids[0], &view)); }},
+      {"view",
+       [&] { NOOK_OK_OR_FAIL(nook_gl_scene_view(gl, crowd.scene, crowd.ids[0], NOOK_CHANNEL_AO, &view)); }},
       {"read", [&] { gpu_ao(gl, crowd, model, 0); }},
       {"first light",
        [&] {
@@ -46,8 +47,8 @@ void walk(platform::Context& context, int tier, nook_gl_state_mode mode,
       {"read directional AO",
        [&] {
          std::vector<float> rgb(3 * std::size_t(file_vertices(model)));
-         NOOK_OK_OR_FAIL(nook_gl_scene_read_directional_ao(gl, crowd.scene, crowd.ids[0], rgb.data(),
-                                                           file_vertices(model)));
+         NOOK_OK_OR_FAIL(nook_gl_scene_read(gl, crowd.scene, crowd.ids[0], NOOK_CHANNEL_DIRECTIONAL_AO,
+                                            rgb.data(), file_vertices(model)));
        }},
       {"later update",
        [&] {

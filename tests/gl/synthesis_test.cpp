@@ -5,7 +5,7 @@
 
 #include "platform/program.h"
 #include "sdk/src/gl/touched_state.h"
-#include "sdk/src/synthesis/coordinates_file.h"
+#include "sdk/src/synthesis/coordinates.h"
 #include "tests/gl/material_decoder.h"
 #include "tests/gl/poison.h"
 #include "tests/gl/test_context.h"

@@ -27,7 +27,7 @@ static void call_screen_pass(nook_gl gl) {
   nook_nnao pass = NULL;
   uint64_t bytes = 0;
   EXPECT(nook_nnao_desc_init(&desc) == NOOK_OK);
-  EXPECT(nook_nnao_desc_set_preset(&desc, NOOK_NNAO_PRESET_FAST) == NOOK_OK && desc.half_resolution == 1);
+  desc.preset = NOOK_NNAO_PRESET_FAST;
   desc.max_width = desc.max_height = 16;
   EXPECT(nook_nnao_memory(&desc, &bytes) == NOOK_OK && bytes > 0);
   EXPECT(nook_nnao_create(gl, &desc, &pass) == NOOK_OK);

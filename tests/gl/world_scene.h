@@ -10,7 +10,7 @@
 #include <cstring>
 #include <vector>
 
-#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_evaluate.h"
 #include "tests/gl/nnao_images.h"
 #include "tests/gl/test_context.h"
 
@@ -81,12 +81,8 @@ struct WorldFixture : NnaoFixture {
   nook_world pass = nullptr;
 };
 
-// Both descriptors of a frame of the world pass.
-struct DarkenedFrame : nook_gl_frame_desc, nook_world_frame_desc {};
-
 inline DarkenedFrame world_frame(const ScreenFrame& screen, const View& view) {
-  DarkenedFrame frame{screen, {}};
-  NOOK_OK_OR_FAIL(nook_world_frame_desc_init(&frame));
+  DarkenedFrame frame(screen);
   frame.intensity = screen.intensity;
   frame.power = screen.power;
   std::memcpy(frame.view, view.matrix, sizeof frame.view);

@@ -157,7 +157,7 @@ TEST_CASE("world: bad input is refused at once, and draws nothing") {
   refused("desc.cutoff_error", [](auto& f) { f.cutoff_error = -1; });
   refused("desc.level_error", [](auto& f) { f.level_error = NAN; });
   refused("desc.combine", [](auto& f) { f.combine = 2; });
-  refused("desc.show", [](auto& f) { f.show = -1; });
+  refused("debug.show", [](auto& f) { f.debug.show = -1; });
   refused("desc.ao_texture", [](auto& f) { f.ao_texture = 12345; });
   nook_capsule bad = casters[0];
   bad.radius_a = 0;

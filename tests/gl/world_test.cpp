@@ -257,9 +257,9 @@ TEST_CASE("world: levels stay within their error, with fewer casters at a pixel"
   DarkenedFrame frame = fixture.frame(screen);
   const std::vector<float> all = fixture.drawn(frame);
   const auto mean_casters = [&] {
-    frame.show = NOOK_WORLD_VIEW_CASTERS;
+    frame.debug.show = NOOK_WORLD_VIEW_CASTERS;
     const std::vector<float> counts = fixture.drawn(frame);
-    frame.show = NOOK_WORLD_VIEW_AO;
+    frame.debug.show = NOOK_WORLD_VIEW_AO;
     double sum = 0;
     for (std::size_t i = 0; i < counts.size(); ++i)
       if (std::isfinite(fixture.picture.depth[i])) sum += 255 * double(counts[i]);
@@ -359,7 +359,7 @@ GroupPictures drawn_by(CrowdFixture& fixture, nook_gl gl, const nook_world_desc&
   for (const float away : {0.0f, 1.2f}) {
     frame.view[14] = -away;
     const auto add = [&](nook_world_view view, std::vector<float>& all) {
-      frame.show = view;
+      frame.debug.show = view;
       const std::vector<float> one = fixture.drawn(frame);
       all.insert(all.end(), one.begin(), one.end());
     };

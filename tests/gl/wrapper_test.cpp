@@ -42,11 +42,11 @@ TEST_CASE("the C++ wrapper evaluates on the GPU what it evaluates on the CPU") {
   nook::Gl gl = std::move(made);
   CHECK_FALSE(made);
   gl.prepare(scene);
-  const nook_gl_ao_view view = gl.ao_buffer(scene, id);
+  const nook_gl_view view = gl.view(scene, id);
   CHECK(view.count == count);
   CHECK(context.gl().IsBuffer(view.buffer));
   gl.update(scene);
-  gl.read_ao(scene, id, gpu.data(), count);
+  gl.read(scene, id, NOOK_CHANNEL_AO, gpu.data(), count);
   scene.update();
   scene.read_ao(id, cpu.data(), count);
   // The header's promise.
@@ -117,12 +117,16 @@ TEST_CASE("the C++ wrapper draws the screen-space pass") {
   nook_nnao_desc desc = nook::nnao_desc();
   desc.max_width = width;
   desc.max_height = height;
-  desc.timers = 1;
+  nook_nnao_debug_desc debug;
+  REQUIRE(nook_nnao_debug_desc_init(&debug) == NOOK_OK);
+  debug.path = NOOK_NNAO_PATH_FRAGMENT;
+  debug.timers = 1;
+  desc.next = &debug;
   nook::Nnao made(gl, desc);
   nook::Nnao pass = std::move(made);
   CHECK_FALSE(made);
   CHECK(pass.info().texture_bytes == nook::nnao_memory(desc));
-  CHECK(pass.info().path != NOOK_NNAO_PATH_AUTOMATIC);
+  CHECK(pass.info().compute == 0);
   CHECK(pass.timings().valid == 0);
 
   nook_gl_frame_desc frame = nook::gl_frame_desc();

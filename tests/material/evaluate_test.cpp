@@ -1,4 +1,4 @@
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 
 #include <algorithm>
 #include <array>

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/check.h"
 #include "sdk/src/material/map_rows.h"
+#include "sdk/src/material/material_check.h"
 #include "tests/catch.h"
 #include "tests/material/material_sample.h"
 

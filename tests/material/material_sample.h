@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/material/material.h"
 
 namespace nook::material::test {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/half.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/material/material_file.h"
+#include "sdk/src/material/reflectance.h"
 #include "tests/catch.h"
 #include "tests/material/material_sample.h"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "sdk/src/material/evaluate.h"
 #include "tests/catch.h"
 #include "tests/material/material_sample.h"
 

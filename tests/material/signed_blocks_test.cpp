@@ -7,9 +7,9 @@
 #include <string>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/check.h"
-#include "sdk/src/material/evaluate.h"
 #include "sdk/src/material/layered_image.h"
+#include "sdk/src/material/material_check.h"
+#include "sdk/src/material/reflectance.h"
 #include "sdk/src/material/tables.h"
 #include "tests/catch.h"
 #include "tests/material/material_sample.h"

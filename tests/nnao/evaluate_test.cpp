@@ -1,4 +1,4 @@
-#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_evaluate.h"
 
 #include <limits>
 #include <vector>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "tests/catch.h"
 #include "tests/nnao/network_sample.h"
 

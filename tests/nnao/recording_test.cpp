@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/nnao/exact_packing.h"
 #include "sdk/src/nnao/recording_file.h"
 #include "tests/catch.h"

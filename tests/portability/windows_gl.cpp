@@ -93,7 +93,7 @@ float difference(nook_context context, nook_gl gl, nook_model model) {
   for (const nook_instance_id instance : instances) {
     check(nook_scene_read(scene, instance, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, cpu.data(),
                           info.file_vertex_count, 0));
-    check(nook_gl_scene_read_ao(gl, scene, instance, gpu.data(), info.file_vertex_count));
+    check(nook_gl_scene_read(gl, scene, instance, NOOK_CHANNEL_AO, gpu.data(), info.file_vertex_count));
     for (std::size_t v = 0; v < cpu.size(); ++v) largest = std::max(largest, std::abs(cpu[v] - gpu[v]));
   }
   check(nook_gl_scene_release(gl, scene));

@@ -1,8 +1,7 @@
 // Radiance and irradiance of probes against quadrature, interpolation, and conversion to harmonics.
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_light.h"
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/probe/convert.h"
 #include "sdk/src/probe/harmonics.h"
 #include "sdk/src/probe/probe.h"
 #include "tests/catch.h"

@@ -3,7 +3,7 @@
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/probe/axes.h"
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_light.h"
 #include "tests/catch.h"
 #include "tests/probe/samples.h"
 

@@ -12,7 +12,7 @@
 
 #include "bakers/measure/probe/visible_reflections.h"
 #include "sdk/src/probe/axes.h"
-#include "sdk/src/probe/specular.h"
+#include "sdk/src/probe/probe_light.h"
 #include "shaders/probe/constants.h"
 
 using namespace nook;

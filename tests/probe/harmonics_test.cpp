@@ -2,9 +2,8 @@
 #include <cmath>
 #include <vector>
 
-#include "sdk/src/probe/evaluate.h"
 #include "sdk/src/probe/harmonics.h"
-#include "sdk/src/probe/zonal_harmonics.h"
+#include "sdk/src/probe/probe_light.h"
 #include "tests/catch.h"
 #include "tests/probe/samples.h"
 #include "tests/probe/sphere_quadrature.h"

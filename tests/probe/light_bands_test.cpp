@@ -1,12 +1,11 @@
 // Lobes that agree with a light's bands 0 to 2: what they agree in, what it is worth, and what is left to
 // least squares.
-#include "sdk/src/probe/light_bands.h"
+#include "sdk/src/probe/fit_bands.h"
 
-#include "sdk/src/probe/convert.h"
-#include "sdk/src/probe/evaluate.h"
 #include "sdk/src/probe/fit.h"
 #include "sdk/src/probe/harmonics.h"
 #include "sdk/src/probe/probe.h"
+#include "sdk/src/probe/probe_light.h"
 #include "tests/catch.h"
 #include "tests/probe/samples.h"
 #include "tests/probe/sphere_quadrature.h"

@@ -1,4 +1,4 @@
-#include "sdk/src/probe/packing.h"
+#include "sdk/src/probe/probe_file.h"
 
 #include <cmath>
 

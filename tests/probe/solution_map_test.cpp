@@ -1,5 +1,5 @@
 // The matrix of a fit's solution against the fit itself.
-#include "sdk/src/probe/solution_map.h"
+#include "sdk/src/probe/fit.h"
 
 #include <cmath>
 #include <numbers>

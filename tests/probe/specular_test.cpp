@@ -1,5 +1,5 @@
 // Glossy reflection against the GGX reflection integral that it stands for.
-#include "sdk/src/probe/specular.h"
+#include "sdk/src/probe/probe_light.h"
 
 #include "bakers/measure/probe/visible_reflections.h"
 #include "sdk/src/probe/axes.h"

@@ -1,5 +1,5 @@
 // Walls of a grid: sides, masks and interpolation against closed forms, and their section in files.
-#include "sdk/src/probe/walls.h"
+#include "sdk/src/probe/probe.h"
 
 #include <cmath>
 #include <limits>

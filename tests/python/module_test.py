@@ -172,6 +172,25 @@ class Probes(unittest.TestCase):
             again.radiance(directions[:8], np.zeros((7, 3)))
         self.assertEqual(again.counts, (1, 1, 1))
         self.assertLess(len(probe.save("half")), len(probe.save("float")))
+        # 13 functions, of which the ambient term is the constant light.
+        np.testing.assert_allclose(probe.coefficients()[12], 2, rtol=1e-3)
+        with self.assertRaisesRegex(nook.NookError, "index"):
+            probe.coefficients(1)
+
+    def test_fits_of_two_threads_merge_into_the_fit_of_all_samples(self):
+        rng = np.random.default_rng(3)
+        directions = rng.normal(size=(2048, 3))
+        directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+        light = 1 + directions @ rng.random((3, 3))
+        with nook.ProbeFit() as whole, nook.ProbeFit() as first, nook.ProbeFit() as second:
+            whole.add_samples(directions, light)
+            first.add_samples(directions[:700], light[:700])
+            second.add_samples(directions[700:], light[700:])
+            alone = first.solve().coefficients()
+            first.merge(second)
+            # The sums are the same but for the order of their additions.
+            np.testing.assert_allclose(first.solve().coefficients(), whole.solve().coefficients(), rtol=1e-4, atol=1e-5)
+            self.assertGreater(np.abs(alone - whole.solve().coefficients()).max(), 1e-3)
 
 
     def test_methods_and_the_papers_form(self):

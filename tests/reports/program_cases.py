@@ -17,15 +17,15 @@ def crowd(run, glb, model, sky, probe):
     """The crowd with everything that it compares, draws and records, at both tiers."""
     for tier in (33, 43):
         name = f"sample_crowd_{tier}"
-        run.program(name, "crowd", glb, model, "--context", "egl", "--tier", tier, "--characters", 4, "--frames", 2,
+        run.program(name, "nook-lab-crowd", glb, model, "--context", "egl", "--tier", tier, "--characters", 4, "--frames", 2,
                     "--size", "160x120", "--out", name, "--quiet", folder=name, report=True)
     name = "sample_crowd_debug"
-    run.program(name, "crowd", glb, model, "--context", "egl", "--tier", 33, "--characters", 4, "--frames", 1, "--size",
+    run.program(name, "nook-lab-crowd", glb, model, "--context", "egl", "--tier", 33, "--characters", 4, "--frames", 1, "--size",
                 "160x120", "--no-sheets", "--light", sky, "--light", probe, "--record", f"{name}/recorded",
                 "--measure-world", "--lod-error", 0.1, "--debug", "spheres,key-points,links,levels,error",
                 "--debug-bodies", 1, "--out", name, "--quiet", folder=name, report=True)
     name = "sample_crowd_plain"
-    run.program(name, "crowd", glb, model, "--context", "egl", "--tier", 43, "--characters", 4, "--frames", 1, "--size",
+    run.program(name, "nook-lab-crowd", glb, model, "--context", "egl", "--tier", 43, "--characters", 4, "--frames", 1, "--size",
                 "160x120", "--no-sheets", "--no-light", "--screen-space", "off", "--neighbours", 2, "--out", name,
                 "--quiet", folder=name, report=True)
 

@@ -116,12 +116,15 @@ class Runner:
     def due(self, name):
         return self.only.search(name) and not (self.out / f"{name}.json").exists()
 
-    def report(self, name, *arguments):
-        """Runs a command of the tool; its report becomes NAME.json."""
+    def report(self, name, *arguments, tool=None):
+        """Runs a command, of the first tool that has it where none is named; its report becomes NAME.json."""
         if not self.due(name):
             return
+        if tool and not self.program_path(tool):
+            print(f"   left out  {name}: there is no {tool}", flush=True)
+            return
         unfinished = self.out / f"{name}.unfinished"
-        command = [self.tool_of(arguments), *arguments, *common, "--report", unfinished]
+        command = [self.program_path(tool) if tool else self.tool_of(arguments), *arguments, *common, "--report", unfinished]
         self.run(name, command, lambda stdout: unfinished.rename(self.out / f"{name}.json"))
 
     def bake(self, name, kind, *arguments):

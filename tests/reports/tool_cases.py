@@ -27,7 +27,7 @@ def mannequin(run, glb, sky):
     model = character(run, "mannequin", glb)
     evaluate = ["evaluate", "character", glb, model, "--rays", 16]
     run.report("evaluate_mannequin_training", *evaluate, "--poses", "training", "--max-poses", 8)
-    run.report("evaluate_mannequin_baselines", *evaluate, "--samples-per-clip", 3, "--peers")
+    run.report("evaluate_mannequin_baselines", *evaluate, "--samples-per-clip", 3, tool="nook-lab")
     run.report("evaluate_mannequin_pictures", *evaluate, "--clips", "Walk", "--max-poses", 2, "--images",
                "mannequin_error", "--image-count", 1)
     casters = ["evaluate", "casters", glb, model, "--rays", 16]
@@ -89,9 +89,12 @@ def maps(run, name, sky):
              "harmonics": ["--basis", "harmonics", "--order", 3, "--method", "least-squares"],
              "dice": ["--basis", "dice", "--method", "least-squares"]}
     models = [run.bake(f"{name}_{form}", "bake probe", sky, *options) for form, options in forms.items()]
-    run.report(f"evaluate_{name}", "evaluate", "probe", sky, *models, "--seeds", 2, "--images", f"{name}_lobes")
-    run.report(f"evaluate_{name}_lobes_5", "evaluate", "probe", sky, "--seeds", 1, "--lobes", 5, "--rotations", 2)
-    run.report(f"evaluate_{name}_glossy", "evaluate", "probe", sky, models[0], "--glossy", "--surfaces", 8)
+    run.report(f"evaluate_{name}", "evaluate", "probe", sky, *models, "--seeds", 2, "--images", f"{name}_lobes",
+               tool="nook-lab")
+    run.report(f"evaluate_{name}_lobes_5", "evaluate", "probe", sky, "--seeds", 1, "--lobes", 5, "--rotations", 2,
+               tool="nook-lab")
+    run.report(f"evaluate_{name}_glossy", "evaluate", "probe", sky, models[0], "--glossy", "--surfaces", 8,
+               tool="nook-lab")
 
 
 def grid(run, name, scene, sky, *options):
@@ -133,15 +136,15 @@ def material(run, name):
     models = {form: run.bake(f"{name}_{form}", "bake material", "--raw", raw, *options)
               for form, options in forms.items()}
     evaluate = ["evaluate", "material", raw]
-    run.report(f"evaluate_{name}", *evaluate, model, "--peers", "--compare-seeding", "--sweep", "8,16", "--unseen",
-               unseen, "--images", f"{name}_plots")
+    run.report(f"evaluate_{name}", *evaluate, model, "--compare-seeding", "--sweep", "8,16", "--unseen", unseen,
+               "--images", f"{name}_plots", tool="nook-lab")
     run.report(f"evaluate_{name}_drawn", *evaluate, model, "--jumps", "--mipmaps", "--grazing", "--images",
                f"{name}_drawn")
     for form in ("rgtc", "eac"):
         run.report(f"evaluate_{name}_{form}", *evaluate, model, "--modes", form, "--whole-light-modes", 4)
     run.report(f"evaluate_{name}_relief", *evaluate, models["relief"], "--unseen", unseen)
     run.report(f"evaluate_{name}_neural", *evaluate, models["neural"], "--unseen", unseen, "--methods", "pca,pbr",
-               "--mipmaps", "--grazing")
+               "--mipmaps", "--grazing", tool="nook-lab")
     return model
 
 
@@ -191,20 +194,22 @@ def screen_space(run, glb, recording, scenes):
     horizon, paper = networks(run)
     small = ["--size", "96x64", "--rays", 16, "--cameras", 1]
     tiny = ["--size", "64x48", "--rays", 8, "--cameras", 1]
-    evaluate = ["evaluate", "nnao"]
-    run.report("evaluate_nnao_thin", *evaluate, "--thin", *small, "--network", paper, "--markdown", "nnao.md",
-               "--images", "nnao_sheets")
-    run.report("evaluate_nnao_network", *evaluate, "--thin", *scenes, *small, "--network", horizon,
-               "--methods", "nnao,nnao_file,gtao", "--max-radius-px", 20)
-    run.report("evaluate_nnao_oracle", *evaluate, "--thin", *tiny, "--methods", "nnao:16,oracle,oracle_bitmask",
-               "--no-raw", "--radius", "thin:0.3", "--intensity", 1.5)
-    run.report("evaluate_nnao_views", *evaluate, "--views", "views.json", "--references", "references")
-    run.report("evaluate_nnao_bent", *evaluate, "--thin", *small, "--bent-normals")
-    run.report("evaluate_nnao_sequence", *evaluate, "--thin", *tiny, "--temporal", "--markdown", "sequence.md")
-    run.report("evaluate_nnao_mover", *evaluate, "--temporal", "--mover", glb, "--size", "40x30", "--rays", 4,
-               "--cameras", 1, "--images", "nnao_mover", "--markdown", "mover.md")
-    run.report("evaluate_nnao_frame", *evaluate, "--frame", recording, "--images", "nnao_frame")
-    run.report("evaluate_nnao_tune", *evaluate, "--tune", "ssao")
+
+    def lab(name, *arguments):
+        run.report(name, "evaluate", "nnao", *arguments, tool="nook-lab")
+
+    lab("evaluate_nnao_thin", "--thin", *small, "--network", paper, "--markdown", "nnao.md", "--images", "nnao_sheets")
+    lab("evaluate_nnao_network", "--thin", *scenes, *small, "--network", horizon, "--methods",
+        "nnao,nnao_file,gtao", "--max-radius-px", 20)
+    lab("evaluate_nnao_oracle", "--thin", *tiny, "--methods", "nnao:16,oracle,oracle_bitmask", "--no-raw",
+        "--radius", "thin:0.3", "--intensity", 1.5)
+    lab("evaluate_nnao_views", "--views", "views.json", "--references", "references")
+    lab("evaluate_nnao_bent", "--thin", *small, "--bent-normals")
+    lab("evaluate_nnao_sequence", "--thin", *tiny, "--temporal", "--markdown", "sequence.md")
+    lab("evaluate_nnao_mover", "--temporal", "--mover", glb, "--size", "40x30", "--rays", 4, "--cameras", 1,
+        "--images", "nnao_mover", "--markdown", "mover.md")
+    run.report("evaluate_nnao_frame", "evaluate", "nnao", "--frame", recording, "--images", "nnao_frame")
+    lab("evaluate_nnao_tune", "--tune", "ssao")
     run.report("inspect_recording", "inspect", recording)
 
 

@@ -1,6 +1,6 @@
 // Coordinate textures: the point that they show, files, and bytes that a bake would not write.
+#include "sdk/src/synthesis/coordinates.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/synthesis/coordinates_file.h"
 #include "tests/catch.h"
 #include "tests/synthesis/coordinates_sample.h"
 

@@ -6,10 +6,9 @@
 #include <thread>
 #include <vector>
 
-#include "sdk/src/core/map_suns.h"
+#include "sdk/src/core/light_map.h"
 #include "sdk/src/core/spherical_gaussian.h"
-#include "sdk/src/material/evaluate.h"
-#include "sdk/src/transfer/fit_cache.h"
+#include "sdk/src/material/reflectance.h"
 #include "sdk/src/transfer/lobe_fit.h"
 #include "sdk/src/transfer/vectors.h"
 #include "tests/catch.h"

@@ -4,12 +4,12 @@
 #include <glm/geometric.hpp>
 #include <map>
 
-#include "samples/mannequin/body_mesh.h"
+#include "bakers/mannequin/body_mesh.h"
 
 namespace nook::transfer::test {
 namespace {
 
-using nook_samples::mannequin::TriangleMesh;
+using nook::mannequin::TriangleMesh;
 
 constexpr float tiles_per_metre = 6;
 
@@ -41,7 +41,7 @@ Vec3 single(glm::dvec3 v) {
 }  // namespace
 
 Shape mannequin_over_plane() {
-  const TriangleMesh body = nook_samples::mannequin::make_body_mesh();
+  const TriangleMesh body = nook::mannequin::make_body_mesh();
   const std::vector<glm::dvec3> normal = area_weighted_normals(body);
   Shape shape;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> made;  // by vertex and side

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/half.h"
-#include "sdk/src/transfer/check.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/transfer/lit_rows.h"
+#include "sdk/src/transfer/transfer_check.h"
 #include "sdk/src/transfer/transfer_file.h"
 #include "sdk/src/transfer/vectors.h"
 #include "tests/catch.h"

@@ -1,7 +1,7 @@
 // Files of radiance transfer: a round trip, and bytes that a bake would not write.
 #include "sdk/src/transfer/transfer_file.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/transfer/check.h"
+#include "sdk/src/transfer/transfer_check.h"
 #include "tests/catch.h"
 #include "tests/transfer/transfer_sample.h"
 

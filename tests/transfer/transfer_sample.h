@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/transfer/transfer.h"
 
 namespace nook::transfer::test {

@@ -133,7 +133,7 @@ class Bodies {
   Bodies& operator=(const Bodies&) = delete;
 
   // ao: the views of both instances, or null for depth alone.
-  void draw(const nook_gl_ao_view* ao) const {
+  void draw(const nook_gl_view* ao) const {
     gl_.BindVertexArray(array_);
     const auto body_indices = static_cast<GLsizei>(geometry_.triangles.size() - 6);
     for (std::uint32_t body = 0; body < 2; ++body) {
@@ -195,7 +195,7 @@ struct Target {
 // Clears the target and draws the bodies into it. With AO of vertices and of the screen it is the picture,
 // without them depth alone.
 void draw_target(const GladGLContext& gl, const Target& target, const Bodies& bodies, const Matrix& clip,
-                 const platform::Program& program, const nook_gl_ao_view* ao, GLuint screen_ao) {
+                 const platform::Program& program, const nook_gl_view* ao, GLuint screen_ao) {
   gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   gl.Viewport(0, 0, width_px, height_px);
   gl.Enable(GL_DEPTH_TEST);
@@ -264,8 +264,8 @@ std::vector<unsigned char> draw(const Geometry& geometry, Occlusion& occlusion, 
   std::copy(projection.begin(), projection.end(), frame.projection);
   occlusion.pass.render(frame, desc);
   occlusion.gl.update(occlusion.scene);
-  const nook_gl_ao_view ao[] = {occlusion.gl.ao_buffer(occlusion.scene, occlusion.ids[0]),
-                                occlusion.gl.ao_buffer(occlusion.scene, occlusion.ids[1])};
+  const nook_gl_view ao[] = {occlusion.gl.view(occlusion.scene, occlusion.ids[0]),
+                             occlusion.gl.view(occlusion.scene, occlusion.ids[1])};
   draw_target(gl, picture, bodies, clip, lit, ao, occlusion.pass.info().texture);
   std::vector<unsigned char> pixels(std::size_t{4} * width_px * height_px);
   gl.ReadPixels(0, 0, width_px, height_px, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_evaluate.h"
 #include "sdk/src/nnao/network_file.h"
 
 using namespace nook;

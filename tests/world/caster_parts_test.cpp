@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sdk/src/character/world_casters.h"
+#include "sdk/src/character/scene.h"
 #include "sdk/src/world/coverage.h"
 #include "tests/catch.h"
 #include "tests/character/model_sample.h"

@@ -1,4 +1,4 @@
-#include "sdk/src/world/directional.h"
+#include "sdk/src/world/light_terms.h"
 
 #include <cmath>
 #include <vector>

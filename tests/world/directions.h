@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sdk/src/core/capsule.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/world/coverage.h"
 
 namespace nook::test {

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <span>
 
-#include "bakers/measure/character/bent_body.h"
-#include "bakers/measure/character/specular_numbers.h"
+#include "bakers/import/skinned_mesh.h"
+#include "bakers/measure/character/character_error.h"
 #include "bakers/nnao/specular_fit.h"
 #include "bakers/raytrace/environment.h"
 #include "bakers/raytrace/random.h"
@@ -17,11 +19,32 @@
 #include "bakers/raytrace/specular_visibility.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/nnao/lighting.h"
+#include "shaders/character/specular_numbers.h"
 
 namespace nook::measure {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+Vec3 skinned(const bake::SkinWeights& weights, const bake::Pose& pose, Vec3 v) {
+  Vec3 sum;
+  for (int b = 0; b < bake::SkinWeights::max_bones; ++b)
+    if (weights.weight[b] > 0) sum += weights.weight[b] * transform_vector(pose[weights.bone[b]], v);
+  return sum;
+}
+
+constexpr std::size_t units = nook::nnao::SpecularNumbers::units,
+                      inputs = nook::nnao::SpecularNumbers::inputs;
+
+// Each row has two lines of four numbers.
+void append_row(std::string& text, int& line, std::span<const float, units> row) {
+  char part[160];
+  for (std::size_t first = 0; first < units; first += 4) {
+    std::snprintf(part, sizeof part, "#define NOOK_SCENE_SPECULAR_%d %.5f, %.5f, %.5f, %.5f\n", line++,
+                  double(row[first]), double(row[first + 1]), double(row[first + 2]), double(row[first + 3]));
+    text += part;
+  }
+}
 
 constexpr std::array<float, 5> roughness{0.1f, 0.3f, 0.5f, 0.7f, 0.9f};
 // Angles count where the reference's AO is below this: elsewhere the normal serves as well.
@@ -185,6 +208,53 @@ Json row_of(Method method, const std::string& map, std::size_t poses, std::size_
 }
 
 }  // namespace
+
+BentBody bent_body(const bake::SkinnedMesh& mesh, const CharacterModel& model, const bake::Pose& pose) {
+  if (model.occluded.empty())
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the model was baked without bent normals; add them with `nook bake bent`");
+  BentBody body;
+  bake::skin_positions(mesh, pose, body.position);
+  bake::vertex_normals(mesh.triangle, body.position, body.normal);
+  body.ao = bake::predict_ao(model, pose);
+  for (std::size_t v = 0; v < body.position.size(); ++v)
+    body.bent.push_back(
+        bent_normal(body.normal[v], skinned(mesh.weights[v], pose, model.occluded[v].at(body.ao[v]))));
+  return body;
+}
+
+nook::nnao::SpecularNumbers character_specular_numbers() {
+  constexpr float rows[7][8] = {
+      {NOOK_SCENE_SPECULAR_0, NOOK_SCENE_SPECULAR_1},   {NOOK_SCENE_SPECULAR_2, NOOK_SCENE_SPECULAR_3},
+      {NOOK_SCENE_SPECULAR_4, NOOK_SCENE_SPECULAR_5},   {NOOK_SCENE_SPECULAR_6, NOOK_SCENE_SPECULAR_7},
+      {NOOK_SCENE_SPECULAR_8, NOOK_SCENE_SPECULAR_9},   {NOOK_SCENE_SPECULAR_10, NOOK_SCENE_SPECULAR_11},
+      {NOOK_SCENE_SPECULAR_12, NOOK_SCENE_SPECULAR_13},
+  };
+  nook::nnao::SpecularNumbers numbers;
+  for (std::size_t u = 0; u < units; ++u) {
+    for (std::size_t i = 0; i < inputs; ++i) numbers.weights[i][u] = rows[i][u];
+    numbers.bias[u] = rows[5][u];
+    numbers.out[u] = rows[6][u];
+  }
+  numbers.out_bias = NOOK_SCENE_SPECULAR_BIAS;
+  return numbers;
+}
+
+std::string character_specular_header(const nook::nnao::SpecularNumbers& numbers) {
+  std::string text =
+      "// The numbers of the specular occlusion of characters; sdk/src/nnao/lighting.h defines them. C++ "
+      "and\n"
+      "// GLSL both include this file, which `nook train bent` writes from the built-in character.\n"
+      "#ifndef NOOK_CHARACTER_SPECULAR_NUMBERS_H\n#define NOOK_CHARACTER_SPECULAR_NUMBERS_H\n\n";
+  int line = 0;
+  for (const auto& row : numbers.weights) append_row(text, line, row);
+  append_row(text, line, numbers.bias);
+  append_row(text, line, numbers.out);
+  char bias[80];
+  std::snprintf(bias, sizeof bias, "#define NOOK_SCENE_SPECULAR_BIAS %.5f\n\n#endif\n",
+                double(numbers.out_bias));
+  return text + bias;
+}
 
 Json bent_rows(const bake::SkinnedMesh& mesh, const CharacterModel& model, std::span<const bake::Pose> poses,
                std::span<const GlossyMap> maps, const BentStudy& study, const bake::Progress& progress) {

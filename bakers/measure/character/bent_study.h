@@ -1,5 +1,5 @@
-// nook evaluate bent: bent normals and specular occlusion of a character against ray tracing, beside the
-// plain normal and S. Lagarde's form of the same AO.
+// Bent normals and specular occlusion of a character against ray tracing, beside the plain normal and
+// S. Lagarde's form of the same AO.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,26 @@
 #include "bakers/raytrace/environment.h"
 #include "bakers/raytrace/specular_visibility.h"
 #include "sdk/src/character/model.h"
+#include "sdk/src/nnao/lighting.h"
 
 namespace nook::measure {
+
+// A posed character with AO and bent normals as its model gives them to a host: one entry for each welded
+// vertex, in world space and metres; normals have unit length.
+struct BentBody {
+  std::vector<Vec3> position, normal, bent;
+  std::vector<float> ao;
+};
+
+// An occluded direction turns with its vertex, as the vertex shader of a host skins it. Throws Failure:
+// UNSUPPORTED (the model was baked without bent normals).
+BentBody bent_body(const bake::SkinnedMesh& mesh, const CharacterModel& model, const bake::Pose& pose);
+
+// The numbers of nook_scene_specular_occlusion on the CPU.
+nook::nnao::SpecularNumbers character_specular_numbers();
+
+// Returns the text of shaders/character/specular_numbers.h, which holds the numbers.
+std::string character_specular_header(const nook::nnao::SpecularNumbers& numbers);
 
 // A map that the character is glossy under.
 struct GlossyMap {

@@ -11,7 +11,10 @@ ShippedPass::ShippedPass(const GladGLContext& functions, const NookGl& gl, std::
   screen.max_width = width;
   screen.max_height = height;
   screen.taps = taps;
-  screen.path = NOOK_NNAO_PATH_FRAGMENT;
+  nook_nnao_debug_desc debug;
+  succeed(nook_nnao_debug_desc_init(&debug));
+  debug.path = NOOK_NNAO_PATH_FRAGMENT;
+  screen.next = &debug;
   succeed(nook_nnao_create(gl.get(), &screen, &screen_));
   nook_world_desc world;
   succeed(nook_world_desc_init(&world));

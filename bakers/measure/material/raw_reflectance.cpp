@@ -5,7 +5,7 @@
 
 #include "bakers/material/raw_material.h"
 #include "bakers/material/view_spline.h"
-#include "sdk/src/material/low_light.h"
+#include "sdk/src/material/direction_mesh.h"
 #include "sdk/src/material/tables.h"
 
 namespace nook::measure {

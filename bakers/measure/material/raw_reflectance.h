@@ -9,7 +9,7 @@
 #include "bakers/material/raw_material.h"
 #include "bakers/tensor/tensor.h"
 #include "sdk/src/material/direction_mesh.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 
 namespace nook::measure {
 

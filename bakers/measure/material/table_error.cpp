@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <span>
 
-#include "bakers/measure/material/decoded_radiances.h"
 #include "bakers/tensor/blocks.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 
 namespace nook::bake::material {
 namespace {

@@ -2,29 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "bakers/measure/nnao/image_error.h"
-#include "bakers/measure/nnao/mean.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/nnao/taps.h"
 
 namespace nook::measure {
 namespace {
 
+using Json = nlohmann::ordered_json;
 using nook::nnao::RecordedPass;
 using nook::nnao::Recording;
 
+// The presets of nook_nnao_preset.
 struct Preset {
   const char* name;
-  nook_nnao_preset preset;
+  int taps;
+  int half_resolution;
 };
-constexpr Preset presets[] = {
-    {"fast", NOOK_NNAO_PRESET_FAST}, {"default", NOOK_NNAO_PRESET_DEFAULT}, {"best", NOOK_NNAO_PRESET_BEST}};
+constexpr Preset presets[] = {{"fast", nook::nnao::default_taps, 1},
+                              {"default", nook::nnao::default_taps, 0},
+                              {"best", nook::nnao::best_taps, 0}};
 
-RecordedPass settings_of(nook_nnao_preset preset, float blur_sharpness) {
-  nook_nnao_desc desc;
-  if (nook_nnao_desc_init(&desc) != NOOK_OK || nook_nnao_desc_set_preset(&desc, preset) != NOOK_OK)
-    throw Failure(NOOK_ERROR_INTERNAL, "%s", nook_last_message());
-  return {desc.taps, desc.half_resolution, desc.blur, blur_sharpness, 0};
+RecordedPass settings_of(const Preset& preset, float blur_sharpness) {
+  return {preset.taps, preset.half_resolution, 1, blur_sharpness, 0};
 }
 
 bool is_wanted(const MethodFilter& methods, const std::string& name, int taps) {
@@ -50,9 +52,9 @@ struct Job {
 
 void set_errors(FrameRow& row, const std::vector<float>& plain, const std::vector<float>& oracle,
                 const bake::nnao::TracedView& view) {
-  bake::nnao::ImageError error;
+  ImageError error;
   error.add(plain, oracle, view.depth, view.camera.width);
-  bake::nnao::Mean bias;
+  Mean bias;
   for (std::size_t i = 0; i < plain.size(); ++i)
     if (std::isfinite(view.depth[i])) bias.add(double(plain[i]) - double(oracle[i]));
   row.oracle_mse = error.mse();
@@ -82,7 +84,8 @@ std::vector<std::string> frame_method_names() {
 
 std::vector<FrameRow> compare_frame(FrameReplay& replay, const Recording& recording,
                                     const MethodFilter& methods, std::span<const std::byte> other_network,
-                                    const std::function<bool(std::size_t, std::size_t)>& progress) {
+                                    const std::function<bool(std::size_t, std::size_t)>& progress,
+                                    std::span<const FrameMethod> further) {
   const nook::nnao::RecordedNetwork network = nook::nnao::recorded_network(recording);
   const bool own_network = network.readable && !network.embedded;
   const auto shown = nook_nnao_view(recording.frame.view);
@@ -105,15 +108,15 @@ std::vector<FrameRow> compare_frame(FrameReplay& replay, const Recording& record
     add_library(replayed_name, recording.pass, {}, "embedded");
   if (!other_network.empty()) add_library(file_name, recording.pass, other_network, "file");
   for (const Preset& preset : presets)
-    add_library(preset.name, settings_of(preset.preset, recording.pass.blur_sharpness), {}, "embedded");
+    add_library(preset.name, settings_of(preset, recording.pass.blur_sharpness), {}, "embedded");
   std::vector<std::pair<Oracle, FrameRow>> oracles;
-  if (replay.has_baselines()) {
-    for (const BaselineMethod& method : baseline_methods())
-      if (is_wanted(methods, baseline_row(method), method.taps)) {
+  if (replay.has_oracle()) {
+    for (const FrameMethod& method : further)
+      if (is_wanted(methods, method.name, method.taps)) {
         FrameRow row;
-        row.method = baseline_row(method);
+        row.method = method.name;
         row.pass.taps = method.taps;
-        jobs.push_back({std::move(row), [method, &replay] { return replay.draw(method); }, nullptr});
+        jobs.push_back({std::move(row), [&method, &replay] { return method.draw(replay); }, nullptr});
       }
     for (const Oracle oracle : all_oracles)
       if (methods.empty() ? oracle == Oracle::solid : is_wanted(methods, oracle_name(oracle), oracle_taps)) {
@@ -162,6 +165,76 @@ std::vector<FrameRow> compare_frame(FrameReplay& replay, const Recording& record
       if (row.method != recorded_name && (row.is_library || is_plain(recording)))
         row.from_recorded = difference_of(row.ao, recording.ao);
   return rows;
+}
+
+namespace {
+
+template <class Number>
+Json or_null(const std::optional<Number>& number) {
+  return number ? Json(*number) : Json();
+}
+
+double mean_of(std::span<const float> values) {
+  double sum = 0;
+  for (const float value : values) sum += value;
+  return values.empty() ? 0 : sum / double(values.size());
+}
+
+bool same_method(const Json& a, const Json& b) {
+  return a["method"] == b["method"] && a["taps"] == b["taps"] && a["half"] == b["half"] &&
+         a["blur"] == b["blur"] && a["network"] == b["network"];
+}
+
+}  // namespace
+
+Json frame_rows(const std::string& frame, const nook::nnao::Recording& recording,
+                std::span<const FrameRow> rows) {
+  Json out = Json::array();
+  for (const FrameRow& row : rows) {
+    const bool has_difference = row.from_recorded.has_value();
+    const AoDifference difference = row.from_recorded.value_or(AoDifference{});
+    const auto of_difference = [&](double value) { return has_difference ? Json(value) : Json(); };
+    out.push_back({{"frame", frame},
+                   {"method", row.method},
+                   {"taps", row.pass.taps},
+                   {"half", row.is_library ? Json(row.pass.half_resolution != 0) : Json()},
+                   {"blur", row.is_library ? Json(row.pass.blur) : Json()},
+                   {"network", row.is_library ? Json(row.network) : Json()},
+                   {"resolution", std::to_string(recording.width) + "x" + std::to_string(recording.height)},
+                   {"mean_ao", mean_of(row.ao)},
+                   {"mean_difference", of_difference(difference.mean)},
+                   {"largest_difference", of_difference(difference.largest)},
+                   {"share_beyond_step", of_difference(difference.share_beyond)},
+                   {"oracle_mse", or_null(row.oracle_mse)},
+                   {"oracle_bias", or_null(row.oracle_bias)}});
+  }
+  return out;
+}
+
+Json frame_mean_rows(const Json& rows) {
+  Json means = Json::array();
+  std::set<std::string> frames;
+  for (const Json& row : rows) frames.insert(row["frame"].get<std::string>());
+  if (frames.size() < 2) return means;
+  for (const Json& row : rows) {
+    if (std::ranges::any_of(means, [&](const Json& mean) { return same_method(mean, row); })) continue;
+    Json mean = row;
+    mean["frame"] = "mean";
+    mean["resolution"] = nullptr;
+    for (const char* key : {"mean_ao", "mean_difference", "largest_difference", "share_beyond_step",
+                            "oracle_mse", "oracle_bias"}) {
+      double sum = 0, largest = 0, count = 0;
+      for (const Json& other : rows) {
+        if (!same_method(other, row) || other[key].is_null()) continue;
+        sum += other[key].get<double>();
+        largest = std::max(largest, other[key].get<double>());
+        count += 1;
+      }
+      if (count > 0) mean[key] = std::string(key) == "largest_difference" ? largest : sum / count;
+    }
+    means.push_back(mean);
+  }
+  return means;
 }
 
 }  // namespace nook::measure

@@ -78,7 +78,10 @@ std::vector<float> FrameReplay::draw(const nook::nnao::RecordedPass& settings,
   desc.half_resolution = settings.half_resolution;
   desc.blur = settings.blur;
   desc.blur_sharpness = settings.blur_sharpness;
-  desc.path = NOOK_NNAO_PATH_FRAGMENT;  // both paths give the same bits
+  nook_nnao_debug_desc debug;
+  succeed(nook_nnao_debug_desc_init(&debug));
+  debug.path = NOOK_NNAO_PATH_FRAGMENT;  // both paths give the same bits
+  desc.next = &debug;
   desc.network = network.empty() ? nullptr : network.data();
   desc.network_size = network.size();
   const Pass pass(nook_.get(), desc);
@@ -86,7 +89,10 @@ std::vector<float> FrameReplay::draw(const nook::nnao::RecordedPass& settings,
   frame.depth_texture = depth_.texture();
   if (normals_) frame.normal_texture = normals_->texture();
   if (frame.gbuffer_ao != NOOK_GBUFFER_AO_NONE) frame.gbuffer_ao_texture = layer_->texture();
-  frame.show = shown;
+  nook_nnao_frame_debug_desc view;
+  succeed(nook_nnao_frame_debug_desc_init(&view));
+  view.show = shown;
+  static_cast<nook_nnao_frame_desc&>(frame).next = &view;
   succeed(nook_nnao_render(pass.handle, &frame, &frame));
   nook_nnao_info info{};
   info.struct_size = sizeof info;
@@ -94,14 +100,13 @@ std::vector<float> FrameReplay::draw(const nook::nnao::RecordedPass& settings,
   return read(info.texture);
 }
 
-std::vector<float> FrameReplay::draw(const BaselineMethod& method) {
-  if (!baselines_) baselines_ = std::make_unique<BaselinePass>(gl_, width(), height());
+AoRequest FrameReplay::request() const {
   AoRequest request;
   request.radius = recording_.frame.radius;
   request.max_radius_px =
       recording_.frame.max_radius_px > 0 ? recording_.frame.max_radius_px : 0.25f * float(height());
   request.blur_sharpness = recording_.pass.blur_sharpness;
-  return read(baselines_->draw(method, gpu_view_, request, true));
+  return request;
 }
 
 std::vector<float> FrameReplay::draw(Oracle oracle) {

@@ -1,12 +1,11 @@
-// A recorded frame drawn anew: by the library's pass with the recorded settings or others, by the baselines,
-// and by the oracle on the same depth.
+// A recorded frame drawn anew: by the library's pass with the recorded settings or others, and by the oracle
+// on the same depth.
 #pragma once
 
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "bakers/measure/nnao/baseline_pass.h"
 #include "bakers/measure/nnao/network_pass.h"
 #include "bakers/measure/nnao/oracle_pass.h"
 #include "sdk/src/nnao/recording.h"
@@ -21,20 +20,24 @@ class FrameReplay {
   // The recording must outlive this object.
   FrameReplay(const GladGLContext& gl, const NookGl& nook, const nook::nnao::Recording& recording);
 
-  // The baselines and the oracle know perspectives and radii in metres alone.
-  bool has_baselines() const { return !view_.camera.rays.orthographic && recording_.frame.radius_kind == 0; }
+  // The oracle knows perspectives and radii in metres alone.
+  bool has_oracle() const { return !view_.camera.rays.orthographic && recording_.frame.radius_kind == 0; }
   const bake::nnao::TracedView& view() const { return view_; }
 
   // Returns the AO of the library's pass in the pixels of the recording. network empty: the embedded one.
   std::vector<float> draw(const nook::nnao::RecordedPass& settings, std::span<const std::byte> network,
                           nook_nnao_view shown) const;
-  std::vector<float> draw(const BaselineMethod& method);
   std::vector<float> draw(Oracle oracle);
+
+  // What other methods need to draw the frame where it has an oracle: its depth and normals, the recorded
+  // request, and the AO of a texture of the frame's size.
+  const GpuView& gpu_view() const { return gpu_view_; }
+  AoRequest request() const;
+  std::vector<float> read(GLuint texture) const { return read_red(gl_, texture, width(), height()); }
 
  private:
   int width() const { return int(recording_.width); }
   int height() const { return int(recording_.height); }
-  std::vector<float> read(GLuint texture) const { return read_red(gl_, texture, width(), height()); }
 
   const GladGLContext& gl_;
   const NookGl& nook_;
@@ -42,8 +45,7 @@ class FrameReplay {
   bake::nnao::TracedView view_;
   GpuImage depth_;
   std::unique_ptr<GpuImage> normals_, layer_;  // null: the frame has none
-  GpuView gpu_view_;                           // of the baselines and the oracle
-  std::unique_ptr<BaselinePass> baselines_;
+  GpuView gpu_view_;
   std::unique_ptr<OraclePass> oracle_;
 };
 

@@ -1,23 +1,24 @@
 #include "bakers/measure/nnao/gpu_image.h"
 
-#include "bakers/measure/nnao/baseline_shaders.h"
 #include "platform/program.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::measure {
 namespace {
 
-const char* shader_text(const std::string& path) {
-  for (const EmbeddedShader* s = embedded_shaders_begin(); s != embedded_shaders_end(); ++s)
-    if (path == s->path) return s->text;
+const char* shader_text(ShaderTable shaders, const std::string& path) {
+  for (const EmbeddedShader& shader : shaders)
+    if (path == shader.path) return shader.text;
   throw Failure(NOOK_ERROR_INTERNAL, "no shader %s in this build", path.c_str());
 }
 
-GLuint linked(const GladGLContext& gl, const std::string& path, const std::string& defines) {
-  const std::string text = shader_text(path);
+GLuint linked(const GladGLContext& gl, ShaderTable shaders, const std::string& path,
+              const std::string& defines) {
+  const std::string text = shader_text(shaders, path);
   const std::size_t second_line = text.find('\n') + 1;  // behind #version
   const std::string head = text.substr(0, second_line) + defines;
-  return platform::link_program(gl, {shader_text("screen.vert")}, {head.c_str(), text.c_str() + second_line});
+  return platform::link_program(gl, {shader_text(embedded_shaders(), "screen.vert")},
+                                {head.c_str(), text.c_str() + second_line});
 }
 
 const float* numbers(const std::vector<Vec3>& vectors) {
@@ -63,8 +64,9 @@ std::vector<float> read_rgba(const GladGLContext& gl, GLuint texture, int width,
   return values;
 }
 
-GpuProgram::GpuProgram(const GladGLContext& gl, const std::string& path, const std::string& defines)
-    : gl_(gl), name_(linked(gl, path, defines)) {}
+GpuProgram::GpuProgram(const GladGLContext& gl, ShaderTable shaders, const std::string& path,
+                       const std::string& defines)
+    : gl_(gl), name_(linked(gl, shaders, path, defines)) {}
 
 GpuProgram::~GpuProgram() {
   gl_.DeleteProgram(name_);

@@ -1,8 +1,10 @@
-// OpenGL objects of the comparison: images that are drawn into and read back, programs over the whole image.
+// OpenGL objects of methods that draw: images that are drawn into and read back, programs over the whole
+// image.
 #pragma once
 
 #include <glad/gl.h>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,11 +35,26 @@ std::vector<float> read_red(const GladGLContext& gl, GLuint texture, int width, 
 // All four channels of level 0.
 std::vector<float> read_rgba(const GladGLContext& gl, GLuint texture, int width, int height);
 
+// A shader of a folder, with its includes expanded; made at build time.
+struct EmbeddedShader {
+  const char* path;  // relative to the folder
+  const char* text;
+};
+using ShaderTable = std::span<const EmbeddedShader>;
+
+// The shaders of bakers/measure/nnao/shaders.
+const EmbeddedShader* embedded_shaders_begin();
+const EmbeddedShader* embedded_shaders_end();
+inline ShaderTable embedded_shaders() {
+  return {embedded_shaders_begin(), embedded_shaders_end()};
+}
+
 class GpuProgram {
  public:
-  // path: of an embedded fragment shader. defines: lines in front of its text. Throws std::runtime_error with
-  // the compiler's words.
-  GpuProgram(const GladGLContext& gl, const std::string& path, const std::string& defines = "");
+  // path: of a fragment shader of the table. defines: lines in front of its text. Throws std::runtime_error
+  // with the compiler's words.
+  GpuProgram(const GladGLContext& gl, ShaderTable shaders, const std::string& path,
+             const std::string& defines = "");
   ~GpuProgram();
   GpuProgram(const GpuProgram&) = delete;
   GpuProgram& operator=(const GpuProgram&) = delete;

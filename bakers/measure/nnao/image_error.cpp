@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace nook::bake::nnao {
+namespace nook::measure {
 namespace {
 
 constexpr int reach = 5;
@@ -93,4 +93,4 @@ double ImageError::correlation() const {
   return (count_ * ab_ - a_ * b_) / std::sqrt(va * vb);
 }
 
-}  // namespace nook::bake::nnao
+}  // namespace nook::measure

@@ -1,10 +1,26 @@
-// The error of an AO image.
+// The error of an AO image, and means.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
-namespace nook::bake::nnao {
+namespace nook::measure {
+
+// A mean that grows value by value.
+struct Mean {
+  double sum = 0, count = 0;
+
+  void add(double value) {
+    sum += value;
+    count += 1;
+  }
+  void add(const Mean& other) {
+    sum += other.sum;
+    count += other.count;
+  }
+  // Returns 0 before the first value.
+  double value() const { return count > 0 ? sum / count : 0; }
+};
 
 // Sums over pixels with a surface of any number of images.
 class ImageError {
@@ -26,4 +42,4 @@ class ImageError {
   double a_ = 0, b_ = 0, aa_ = 0, bb_ = 0, ab_ = 0;
 };
 
-}  // namespace nook::bake::nnao
+}  // namespace nook::measure

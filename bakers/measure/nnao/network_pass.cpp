@@ -82,7 +82,10 @@ NetworkPass::NetworkPass(const NookGl& gl, int width, int height, const NetworkF
   desc.blur_sharpness = blur_sharpness;
   desc.bent_normals = form.bent;
   desc.max_history_frames = form.temporal_frames;
-  desc.path = form.path;
+  nook_nnao_debug_desc debug;
+  succeed(nook_nnao_debug_desc_init(&debug));
+  debug.path = form.path;
+  desc.next = &debug;
   desc.network = network.empty() ? nullptr : network.data();
   desc.network_size = network.size();
   succeed(nook_nnao_create(gl.get(), &desc, &pass_));
@@ -99,9 +102,12 @@ GLuint NetworkPass::draw(const GpuView& view, const AoRequest& request, bool blu
   ScreenFrame frame = frame_of(view);
   frame.radius = request.radius;
   frame.max_radius_px = request.max_radius_px;
-  frame.show = blurred ? NOOK_NNAO_VIEW_BLURRED : NOOK_NNAO_VIEW_RAW;
+  nook_nnao_frame_debug_desc debug;
+  succeed(nook_nnao_frame_debug_desc_init(&debug));
+  debug.show = blurred ? NOOK_NNAO_VIEW_BLURRED : NOOK_NNAO_VIEW_RAW;
+  static_cast<nook_nnao_frame_desc&>(frame).next = &debug;
   if (blurred && request.intensity != 1) {
-    frame.show = NOOK_NNAO_VIEW_AO;
+    debug.show = NOOK_NNAO_VIEW_AO;
     frame.intensity = request.intensity;
   }
   frame.reset = cut;

@@ -1,16 +1,25 @@
 // The library's own pass, through its public interface.
 #pragma once
 
+#include <nook/experimental/nook_debug.h>
 #include <nook/nook_nnao.h>
 
 #include <cstddef>
 #include <optional>
 #include <span>
 
-#include "bakers/measure/nnao/baseline_pass.h"
+#include "bakers/measure/nnao/gpu_image.h"
 #include "platform/platform.h"
 
 namespace nook::measure {
+
+// The request that every method gets.
+struct AoRequest {
+  float radius = 0.5f;        // metres
+  float max_radius_px = 90;   // where the radius covers more pixels, it shrinks
+  float blur_sharpness = 16;  // as nook_nnao_desc's
+  float intensity = 1;        // of the library's pass after its filter, as nook_nnao_frame_desc's
+};
 
 // Throws Failure with the text of nook_last_message.
 void succeed(nook_result result);
@@ -47,7 +56,7 @@ struct NetworkForm {
   int blur = 1;       // how often the filter runs
   bool bent = false;  // with bent normals
   int temporal_frames = 0;
-  nook_nnao_path path = NOOK_NNAO_PATH_FRAGMENT;  // as the baselines, so that times compare
+  nook_nnao_path path = NOOK_NNAO_PATH_FRAGMENT;  // as other methods, so that times compare
 };
 
 class NetworkPass {

@@ -7,7 +7,9 @@ const char* oracle_name(Oracle oracle) {
 }
 
 OraclePass::OraclePass(const GladGLContext& gl, int width, int height)
-    : gl_(gl), program_(gl, "oracle.frag"), image_(gl, GL_R8, GL_RED, width, height, nullptr) {
+    : gl_(gl),
+      program_(gl, embedded_shaders(), "oracle.frag"),
+      image_(gl, GL_R8, GL_RED, width, height, nullptr) {
   gl.GenVertexArrays(1, &vertex_array_);
 }
 

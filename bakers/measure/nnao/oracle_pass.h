@@ -1,7 +1,7 @@
 // The oracle: the AO that a thousand taps on one screen's depth give, integrated without any tuned number.
 #pragma once
 
-#include "bakers/measure/nnao/baseline_pass.h"
+#include "bakers/measure/nnao/gpu_image.h"
 
 namespace nook::measure {
 

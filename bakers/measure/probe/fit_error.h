@@ -7,7 +7,7 @@
 
 #include "bakers/probe/map_light.h"
 #include "sdk/src/core/containers.h"
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_light.h"
 
 namespace nook::bake::probe {
 

@@ -9,7 +9,7 @@
 #include "bakers/probe/inside_probes.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/spherical_gaussian.h"
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_light.h"
 
 namespace nook::bake::probe {
 namespace {

@@ -1,4 +1,4 @@
-#include "bakers/measure/report/body_page.h"
+#include "bakers/measure/report/pages.h"
 
 #include <tbb/parallel_for.h>
 
@@ -6,12 +6,11 @@
 #include <cmath>
 
 #include "bakers/character/pose_sets.h"
-#include "bakers/measure/character/evaluate.h"
+#include "bakers/measure/character/character_error.h"
 #include "bakers/measure/report/advice.h"
 #include "bakers/measure/report/body_findings.h"
-#include "bakers/measure/report/body_pictures.h"
-#include "bakers/measure/report/template.h"
-#include "bakers/measure/report/turnable.h"
+#include "bakers/measure/report/html.h"
+#include "bakers/measure/report/report_pictures.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::report {

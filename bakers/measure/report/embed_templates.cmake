@@ -4,7 +4,7 @@ cmake_minimum_required(VERSION 3.25)
 
 file(GLOB paths RELATIVE "${TEMPLATES}" "${TEMPLATES}/*")
 list(SORT paths)
-set(source "// Made from templates at build; do not edit.\n#include \"bakers/measure/report/template.h\"\n\nnamespace nook::report {\nnamespace {\n")
+set(source "// Made from templates at build; do not edit.\n#include \"bakers/measure/report/html.h\"\n\nnamespace nook::report {\nnamespace {\n")
 set(table "")
 set(number 0)
 foreach(path IN LISTS paths)

@@ -1,4 +1,4 @@
-#include "bakers/measure/report/frame_page.h"
+#include "bakers/measure/report/pages.h"
 
 #include <algorithm>
 #include <cmath>

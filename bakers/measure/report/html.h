@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bakers/images/picture.h"
@@ -65,5 +66,17 @@ Html table(const std::vector<std::vector<Html>>& rows);
 
 // A picture within the page. alternative says in words what the picture shows.
 Html figure(const bake::Picture& picture, const std::string& alternative, const Html& caption);
+
+// The templates of this folder's templates/, which are embedded at build.
+struct Template {
+  const char* name;  // the file's
+  const char* text;
+};
+const Template* templates_begin();
+const Template* templates_end();
+
+// Replaces each {{name}} of a template by its value. Values are not looked at, so that a value with braces
+// stays what it is. Throws Failure(INTERNAL) for a template or a name that is not there.
+Html fill(std::string_view template_name, const std::vector<std::pair<std::string_view, Html>>& values);
 
 }  // namespace nook::report

@@ -1,4 +1,4 @@
-#include "bakers/measure/report/material_page.h"
+#include "bakers/measure/report/pages.h"
 
 #include <tbb/parallel_for.h>
 
@@ -8,11 +8,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "bakers/measure/material/baselines.h"
-#include "bakers/measure/material/pictures.h"
+#include "bakers/measure/material/material_pictures.h"
+#include "bakers/measure/material/material_report.h"
 #include "bakers/measure/report/advice.h"
-#include "bakers/measure/report/light_picture.h"
-#include "sdk/src/material/evaluate.h"
+#include "bakers/measure/report/report_pictures.h"
+#include "sdk/src/material/reflectance.h"
 
 namespace nook::report {
 namespace {

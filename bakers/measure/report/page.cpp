@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "bakers/measure/report/template.h"
+#include "bakers/measure/report/html.h"
 #include "sdk/src/core/version.h"
 
 namespace nook::report {

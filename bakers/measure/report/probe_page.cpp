@@ -1,4 +1,4 @@
-#include "bakers/measure/report/probe_page.h"
+#include "bakers/measure/report/pages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,11 @@
 #include <span>
 
 #include "bakers/images/picture.h"
-#include "bakers/measure/probe/report.h"
+#include "bakers/measure/probe/probe_report.h"
 #include "bakers/measure/report/advice.h"
-#include "bakers/measure/report/light_picture.h"
+#include "bakers/measure/report/report_pictures.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_light.h"
 
 namespace nook::report {
 namespace {

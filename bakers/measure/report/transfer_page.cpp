@@ -1,4 +1,4 @@
-#include "bakers/measure/report/transfer_page.h"
+#include "bakers/measure/report/pages.h"
 
 #include <tbb/parallel_for.h>
 
@@ -12,7 +12,7 @@
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/ray_scene.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/transfer/lobes.h"
+#include "sdk/src/transfer/distant_light.h"
 
 namespace nook::report {
 namespace {

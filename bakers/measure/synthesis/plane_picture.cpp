@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/reflectance.h"
 
 namespace nook::measure {
 namespace {

@@ -12,7 +12,7 @@
 #include "bakers/transfer/surface_holes.h"
 #include "sdk/src/core/vec.h"
 #include "sdk/src/material/tables.h"
-#include "sdk/src/transfer/light_cube.h"
+#include "sdk/src/transfer/distant_light.h"
 #include "sdk/src/transfer/lobe_fit.h"
 #include "sdk/src/transfer/response.h"
 #include "sdk/src/transfer/transfer.h"
@@ -76,5 +76,8 @@ VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const nook::transfe
                               const nook::material::MaterialTables& tables,
                               std::span<const MeasuredLight> lights, const TruthSettings& settings,
                               const VectorProgress& progress);
+
+// The response of a material to light from the directions of the lobes.
+nook::transfer::Response response_of(const nook::material::MaterialTables& tables, std::uint32_t lobes);
 
 }  // namespace nook::measure

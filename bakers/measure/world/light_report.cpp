@@ -1,4 +1,4 @@
-#include "bakers/measure/world/light_report.h"
+#include "bakers/measure/world/world_report.h"
 
 #include <algorithm>
 #include <array>

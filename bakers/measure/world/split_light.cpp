@@ -6,7 +6,7 @@
 
 #include "bakers/probe/map_bake.h"
 #include "bakers/world/posed_casters.h"
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_light.h"
 #include "sdk/src/world/sample.h"
 
 namespace nook::measure {

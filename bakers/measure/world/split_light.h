@@ -11,7 +11,7 @@
 #include "bakers/raytrace/environment.h"
 #include "bakers/world/surroundings.h"
 #include "sdk/src/character/model.h"
-#include "sdk/src/core/capsule.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/world/light_terms.h"
 
 namespace nook::measure {

@@ -1,13 +1,13 @@
 #include "bakers/tool/inspect/describe.h"
 
 #include "bakers/job/material_bake.h"
-#include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/material/material_file.h"
 #include "sdk/src/nnao/network_file.h"
 #include "sdk/src/nnao/recording_file.h"
 #include "sdk/src/probe/probe_file.h"
-#include "sdk/src/synthesis/coordinates_file.h"
+#include "sdk/src/synthesis/coordinates.h"
 #include "sdk/src/transfer/transfer_file.h"
 
 namespace nook::tool {

@@ -1,10 +1,10 @@
-#include "bakers/tool/inspect/describe.h"
-
 #include <string>
 
 #include "bakers/job/material_bake.h"
+#include "bakers/tool/inspect/describe.h"
 #include "sdk/src/material/material_file.h"
 #include "sdk/src/material/view_cells.h"
+#include "sdk/src/synthesis/coordinates.h"
 
 namespace nook::tool {
 namespace {
@@ -62,6 +62,19 @@ Row describe_raw_material(std::span<const std::byte> bytes) {
   return {{"kind", "raw material"},      {"name", raw.name},          {"bytes", bytes.size()},
           {"lights", raw.lights.size()}, {"views", raw.views.size()}, {"width", raw.width},
           {"height", raw.height},        {"votf", !raw.mask.empty()}};
+}
+
+Row describe_synthesis(std::span<const std::byte> bytes) {
+  const synthesis::Coordinates coordinates = synthesis::read_coordinates(bytes);
+  Row row;
+  row["kind"] = "synthesis";
+  row["format_version"] = Container(bytes, synthesis::synthesis_kind).version();
+  row["bytes"] = bytes.size();
+  row["side"] = coordinates.side;
+  row["material_width"] = coordinates.width;
+  row["material_height"] = coordinates.height;
+  add_recipe(row, coordinates.recipe);
+  return row;
 }
 
 }  // namespace nook::tool

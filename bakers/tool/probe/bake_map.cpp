@@ -4,7 +4,7 @@
 
 #include "bakers/images/picture.h"
 #include "bakers/job/probe_bake.h"
-#include "bakers/measure/probe/report.h"
+#include "bakers/measure/probe/probe_report.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/probe/bake.h"
 #include "bakers/tool/probe/scene.h"

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "bakers/tool/tool_error.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::tool {
 

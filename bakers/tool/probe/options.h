@@ -6,7 +6,7 @@
 #include <string>
 
 #include "sdk/src/probe/fit.h"
-#include "sdk/src/probe/packing.h"
+#include "sdk/src/probe/probe_file.h"
 
 namespace nook::tool {
 

@@ -50,6 +50,12 @@ class Probe(Handle):
         call(function, self.handle, pointer(at), pointer(d), pointer(rgb), len(d))
         return rgb
 
+    def coefficients(self, index: int = 0) -> FloatArray:
+        """The coefficients of one probe of the grid: function_count x 3, for tools that edit or plot them."""
+        rgb = np.empty((self.function_count, 3), dtype=np.float32)
+        call("nook_probe_read_coefficients", self.handle, index, pointer(rgb), self.function_count)
+        return rgb
+
     def save(self, packing: str = "half") -> bytes:
         """The bytes of its .nook file; packing is float, half or rgb9e5."""
         kind, size = choice("NOOK_PROBE_PACKING_", packing, "packing"), ctypes.c_size_t()
@@ -85,6 +91,10 @@ class ProbeFit(Handle):
         rgb = floats(radiance, (len(d), 3), "radiance")
         w = None if weights is None else floats(weights, (len(d),), "weights")
         call("nook_probe_fit_add_samples", self.handle, pointer(d), pointer(rgb), pointer(w), len(d))
+
+    def merge(self, other: "ProbeFit") -> None:
+        """Adds the samples of another fit with the same settings, such as one that another thread filled."""
+        call("nook_probe_fit_merge", self.handle, other.handle)
 
     def solve(self) -> Probe:
         """A probe of the samples so far; more may follow."""

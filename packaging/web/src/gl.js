@@ -47,17 +47,16 @@ export class Gl extends OnSurface {
     this.#current(() => this.library.check(this.library.module._nook_gl_scene_release(this.handle, scene.handle)));
   }
 
-  // The place of an instance's AO: { buffer, offset, stride, count } for vertexAttribPointer.
-  aoBuffer(scene, instance) {
-    const view = this.library.info("nook_gl_ao_view", (at) =>
-      this.library.module._nook_gl_scene_ao_buffer(this.handle, scene.handle, instance, at));
-    return { ...view, buffer: this.surface.object("buffers", view.buffer) };
-  }
-  // The place of an instance's directional occlusion and of the lights: { buffer, offset, stride, count, texture, light, glsl }.
-  light(scene, instance) {
-    const view = this.library.info("nook_gl_light_view", (at) =>
-      this.library.module._nook_gl_scene_light(this.handle, scene.handle, instance, at));
+  // The place of an instance's values, for vertexAttribPointer: { buffer, offset, stride, count, texture, light, glsl }. channel: "ao",
+  // or "directional-ao" of an instance with a light; texture and light are for the latter.
+  view(scene, instance, channel = "ao") {
+    const view = this.library.info("nook_gl_view", (at) =>
+      this.library.module._nook_gl_scene_view(this.handle, scene.handle, instance, this.#channel(channel), at));
     return { ...view, buffer: this.surface.object("buffers", view.buffer), texture: this.surface.object("textures", view.texture) };
+  }
+  #channel(name) {
+    const { layouts } = this.library;
+    return layouts.number(layouts.constants.get("nook_channel").numbers, name, "the channel");
   }
 
   // Copies the AO of the last update to a buffer or texture of the host: { buffer or texture, format, offset, instanceStride,
@@ -69,19 +68,14 @@ export class Gl extends OnSurface {
         library.struct("nook_gl_ao_target", { ...target, buffer: bufferName, texture: textureName })))));
   }
 
-  // For tests: waits for the GPU.
-  readAo(scene, instance, out) {
-    const count = scene.vertexCount(instance);
-    return this.#current(() => this.library.readFloats(count, out, (address) =>
-      this.library.module._nook_gl_scene_read_ao(this.handle, scene.handle, instance, address, count)));
-  }
-  readDirectionalAo(scene, instance, out) {
-    const count = scene.vertexCount(instance);
-    return this.#current(() => this.library.readFloats(3 * count, out, (address) =>
-      this.library.module._nook_gl_scene_read_directional_ao(this.handle, scene.handle, instance, address, count)));
+  // For tests: waits for the GPU. One number for each vertex, three for "directional-ao".
+  read(scene, instance, channel = "ao", out) {
+    const count = scene.vertexCount(instance), numbers = channel === "ao" ? 1 : 3;
+    return this.#current(() => this.library.readFloats(numbers * count, out, (address) =>
+      this.library.module._nook_gl_scene_read(this.handle, scene.handle, instance, this.#channel(channel), address, count)));
   }
 
-  // { maxWidth, maxHeight, taps, halfResolution, blur, blurSharpness, network }.
+  // { maxWidth, maxHeight, preset, taps, halfResolution, blur, blurSharpness, network }.
   createNnao({ network, ...options }) {
     const { library } = this;
     return makeOnSurface(Nnao, library, this.surface, (out) => {

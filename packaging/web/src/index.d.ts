@@ -189,16 +189,15 @@ export interface GlInfo {
   bufferBytes: number;
   aoBytes: number;
 }
-export interface AoView {
+export type GlChannel = "ao" | "directional-ao";
+export interface GlView {
   buffer: WebGLBuffer;
   offset: number;
   stride: number;
   count: number;
-}
-export interface LightView extends AoView {
-  /** A TEXTURE_2D for the sampler nook_scene_lights of the GLSL. */
-  texture: WebGLTexture;
-  /** The first argument of the GLSL's functions. */
+  /** Of "directional-ao": a TEXTURE_2D for the sampler nook_scene_lights of the GLSL. */
+  texture: WebGLTexture | null;
+  /** Of "directional-ao": the first argument of the GLSL's functions. */
   light: number;
   glsl: string;
 }
@@ -222,12 +221,10 @@ export class Gl extends Owned {
   /** Evaluates the AO of all instances. */
   update(scene: Scene): void;
   release(scene: Scene): void;
-  aoBuffer(scene: Scene, instance: Instance): AoView;
-  light(scene: Scene, instance: Instance): LightView;
+  view(scene: Scene, instance: Instance, channel?: GlChannel): GlView;
   writeAo(scene: Scene, instances: Numbers, target: AoTarget): void;
   /** For tests: waits for the GPU. */
-  readAo(scene: Scene, instance: Instance, out?: Float32Array): Float32Array;
-  readDirectionalAo(scene: Scene, instance: Instance, out?: Float32Array): Float32Array;
+  read(scene: Scene, instance: Instance, channel?: GlChannel, out?: Float32Array): Float32Array;
   createNnao(options: NnaoOptions): Nnao;
   uploadProbe(probe: Probe, form?: "lobes" | "sh" | "zh3"): Upload;
   uploadMaterial(material: Material): Upload;
@@ -236,9 +233,12 @@ export class Gl extends Owned {
 export interface NnaoOptions {
   maxWidth: number;
   maxHeight: number;
+  /** Gives taps, halfResolution and blur that are not set. Default "default". */
+  preset?: "default" | "fast" | "best";
   taps?: 9 | 16 | 32 | 64 | 128 | 256;
   halfResolution?: boolean | number;
-  blur?: boolean | number;
+  /** How often the filter runs: 0, 1 or 2. */
+  blur?: number;
   blurSharpness?: number;
   /** The texture is then RGBA8: the bent normal in view space as (n + 1) / 2, and AO in alpha. */
   bentNormals?: boolean | number;
@@ -283,6 +283,7 @@ export interface NnaoFrame {
   /** Where the result goes: nothing for the pass's own texture, null for the canvas. */
   target?: WebGLTexture | WebGLFramebuffer | null;
   blend?: "write" | "multiply";
+  /** A debug view. */
   show?: "ao" | "raw" | "blurred" | "normals";
   /** Set it after a texture of yours has been given another size or format. */
   texturesChanged?: boolean | number;
@@ -291,8 +292,10 @@ export interface NnaoInfo {
   texture: WebGLTexture;
   textureBytes: number;
   taps: number;
+  halfResolution: number;
+  blur: number;
   horizonForm: number;
-  path: string;
+  compute: number;
 }
 export class Nnao extends Owned {
   private constructor();
@@ -355,6 +358,8 @@ export class ProbeFit extends Owned {
   readonly info: ProbeFitInfo;
   /** Three floats for each direction and radiance. */
   addSamples(directions: Numbers, radiance: Numbers, weights?: Numbers): void;
+  /** Adds the samples of another fit with the same options. */
+  merge(other: ProbeFit): void;
   reset(): void;
   solve(): Probe;
 }
@@ -362,6 +367,8 @@ export class Probe extends Owned {
   private constructor();
   readonly info: ProbeInfo;
   lobes(position?: Numbers): Lobe[];
+  /** Three floats for each function of a probe of the grid. */
+  coefficients(index?: number): Float32Array;
   /** The position is three floats for all directions, or three for each. */
   radiance(directions: Numbers, position?: Numbers): Float32Array;
   /** As radiance. Only probes on the surface's side of a wall count. */

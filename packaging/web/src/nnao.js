@@ -29,7 +29,8 @@ export class Nnao extends OnSurface {
         this.handle, library.descriptor("nook_gl_frame_desc", {
           ...frame, depthTexture: depth, normalTexture: normal, gbufferAoTexture: layer, target: kind, targetName: name,
         }), library.descriptor("nook_nnao_frame_desc", {
-          radius, radiusKind, sceneSize, maxRadiusPx, intensity, power, motionVectors: motion, motionVectorScale, reset, show,
+          radius, radiusKind, sceneSize, maxRadiusPx, intensity, power, motionVectors: motion, motionVectorScale, reset,
+          next: show ? library.descriptor("nook_nnao_frame_debug_desc", { show }) : undefined,
         }))))));
   }
 }

@@ -37,6 +37,14 @@ export class Probe extends Owned {
     });
   }
 
+  // Three floats for each function of a probe of the grid.
+  coefficients(index = 0) {
+    const { library } = this;
+    const count = this.info.functionCount;
+    return library.call(() => library.readFloats(3 * count, undefined, (address) =>
+      library.module._nook_probe_read_coefficients(this.handle, index, address, count)));
+  }
+
   // Three floats for each direction or normal. The position is one for all, or one for each.
   radiance(directions, position) {
     const { library } = this;
@@ -59,6 +67,10 @@ export class ProbeFit extends Owned {
     const { library } = this;
     library.call(() => library.check(library.module._nook_probe_fit_add_samples(this.handle, library.floats(directions),
       library.floats(radiance), library.floats(weights), directions.length / 3)));
+  }
+  // Adds the samples of another fit with the same options.
+  merge(other) {
+    this.library.check(this.library.module._nook_probe_fit_merge(this.handle, other.handle));
   }
   reset() {
     this.library.check(this.library.module._nook_probe_fit_reset(this.handle));

@@ -11,7 +11,7 @@
 
 namespace {
 
-const char* const kVertexGlsl = R"(#version 330 core
+const char* const vertex_glsl = R"(#version 330 core
 in vec4 vertex;
 in vec3 normal;
 in vec4 colour;
@@ -28,13 +28,13 @@ void main() {
 }
 )";
 
-const char* const kDepthGlsl = R"(#version 330 core
+const char* const depth_glsl = R"(#version 330 core
 in float surface_depth;
 out vec4 depth;
 void main() { depth = vec4(surface_depth); }
 )";
 
-const char* const kColourGlsl = R"(
+const char* const colour_glsl = R"(
 in vec3 surface_normal_ws, surface_albedo;
 in float surface_ao;
 uniform sampler2D screen_ao;
@@ -222,10 +222,10 @@ void draw(const hosts::Options& o) {
       root.createRenderWindow("nook_host_ogre", unsigned(o.width_px), unsigned(o.height_px), false);
   hosts::start_counting_gl_errors();
 
-  make_program("vertex", Ogre::GPT_VERTEX_PROGRAM, kVertexGlsl);
-  make_program("depth", Ogre::GPT_FRAGMENT_PROGRAM, kDepthGlsl);
+  make_program("vertex", Ogre::GPT_VERTEX_PROGRAM, vertex_glsl);
+  make_program("depth", Ogre::GPT_FRAGMENT_PROGRAM, depth_glsl);
   make_program("colour", Ogre::GPT_FRAGMENT_PROGRAM,
-               std::string("#version 330 core\n") + hosts::kLightGlsl + kColourGlsl);
+               std::string("#version 330 core\n") + hosts::light_glsl + colour_glsl);
   const Ogre::TexturePtr depth = make_target("depth", o, Ogre::PF_FLOAT32_R);
   const Ogre::TexturePtr screen_ao = make_target("screen_ao", o, Ogre::PF_BYTE_RGBA);
   Ogre::SceneManager* const manager = root.createSceneManager();

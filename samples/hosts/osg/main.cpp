@@ -15,7 +15,7 @@
 
 namespace {
 
-const char* const kVertexGlsl = R"(#version 330 compatibility
+const char* const vertex_glsl = R"(#version 330 compatibility
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 albedo;
@@ -38,7 +38,7 @@ void main() {
 }
 )";
 
-const char* const kColourGlsl = R"(
+const char* const colour_glsl = R"(
 in vec3 surface_normal_ws, surface_albedo;
 in float surface_ao;
 uniform sampler2D screen_ao;
@@ -121,7 +121,7 @@ struct CountErrors : osg::GraphicsOperation {
 };
 
 osg::ref_ptr<osg::Program> make_program(const std::string& fragment, std::size_t joints) {
-  std::string vertex = kVertexGlsl;
+  std::string vertex = vertex_glsl;
   vertex.replace(vertex.find("JOINTS"), 6, std::to_string(joints));
   osg::ref_ptr<osg::Program> program = new osg::Program;
   program->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
@@ -172,7 +172,7 @@ void draw(const hosts::Options& o) {
   lit->addChild(world);
   osg::StateSet* const look = lit->getOrCreateStateSet();
   look->setAttribute(
-      make_program(std::string("#version 330 compatibility\n") + hosts::kLightGlsl + kColourGlsl, joints));
+      make_program(std::string("#version 330 compatibility\n") + hosts::light_glsl + colour_glsl, joints));
   look->setTextureAttribute(0, screen_ao);
   look->addUniform(new osg::Uniform("screen_ao", 0));
   look->addUniform(new osg::Uniform("show", o.show == "ao" ? 2.0f : o.show == "lit" ? 1.0f : 0.0f));

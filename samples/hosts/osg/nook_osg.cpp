@@ -9,15 +9,15 @@ struct NookOsg::Binder : osg::Drawable::DrawCallback {
 
   void drawImplementation(osg::RenderInfo& info, const osg::Drawable* drawable) const override {
     const auto* const gl = info.getState()->get<osg::GLExtensions>();
-    const nook_gl_ao_view view = nook.gl_->ao_buffer(nook.scene_, nook.character_);
+    const nook_gl_view view = nook.gl_->view(nook.scene_, nook.character_);
     info.getState()->unbindVertexBufferObject();  // so that OSG binds its own buffers again
     gl->glBindBuffer(GL_ARRAY_BUFFER, view.buffer);
-    gl->glVertexAttribPointer(kAoSlot, 1, GL_FLOAT, GL_FALSE, GLsizei(view.stride),
+    gl->glVertexAttribPointer(ao_slot, 1, GL_FLOAT, GL_FALSE, GLsizei(view.stride),
                               reinterpret_cast<const void*>(std::uintptr_t(view.offset)));
-    gl->glEnableVertexAttribArray(kAoSlot);
+    gl->glEnableVertexAttribArray(ao_slot);
     gl->glBindBuffer(GL_ARRAY_BUFFER, 0);
     drawable->drawImplementation(info);
-    gl->glDisableVertexAttribArray(kAoSlot);
+    gl->glDisableVertexAttribArray(ao_slot);
   }
 };
 
@@ -44,7 +44,7 @@ NookOsg::NookOsg(osg::Geometry* geometry, const void* model, std::size_t size, c
     return;
   }
   ao_ = new osg::FloatArray(model_.info().file_vertex_count);
-  geometry->setVertexAttribArray(kAoSlot, ao_, osg::Array::BIND_PER_VERTEX);
+  geometry->setVertexAttribArray(ao_slot, ao_, osg::Array::BIND_PER_VERTEX);
 }
 
 void NookOsg::listen(osg::Camera* camera, osg::Texture2D* depth, osg::Texture2D* result, float radius_m) {

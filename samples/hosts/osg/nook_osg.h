@@ -12,7 +12,7 @@
 class NookOsg : public osg::Camera::DrawCallback {
  public:
   // The AO of the vertices reaches the shaders in this attribute.
-  static constexpr unsigned kAoSlot = 5;
+  static constexpr unsigned ao_slot = 5;
 
   // The vertices of the geometry are in the order of the file. gl names the loader and the state contract.
   NookOsg(osg::Geometry* geometry, const void* model, std::size_t size, const nook_gl_desc& gl, bool on_gpu);

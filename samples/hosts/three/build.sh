@@ -16,7 +16,7 @@ cp "$here"/index.html "$here"/*.js "$here/package.json" "$folder/site/"
 (cd "$folder/site" && npm install --silent --no-audit --no-fund --no-package-lock && npm install --silent --no-audit --no-fund \
   --no-package-lock --no-save "$web"/nook-web-*.tgz)
 if [ ! -f "$folder/site/data/character.nook" ]; then
-  "$build/samples/mannequin/mannequin" "$folder/site/data/character.glb"
+  "$build/bakers/mannequin/mannequin" "$folder/site/data/character.glb"
   "$build/bakers/tool/nook" bake character "$folder/site/data/character.glb" --preset draft --quiet -o "$folder/character.nook"
   mv "$folder/character.nook" "$folder/site/data/character.nook"
 fi

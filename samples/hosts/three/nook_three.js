@@ -84,7 +84,7 @@ export class NookThree {
     for (const character of this.characters) this.scene.setPose(character.instance, this.pose(character));
     gl.update(this.scene);
     for (const { instance, parts } of this.characters) {
-      const view = gl.aoBuffer(this.scene, instance);
+      const view = gl.view(this.scene, instance);
       webgl.bindBuffer(webgl.COPY_READ_BUFFER, view.buffer);
       for (const { attribute, offset } of parts) {
         webgl.bindBuffer(webgl.COPY_WRITE_BUFFER, attribute.buffer);

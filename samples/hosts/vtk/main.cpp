@@ -29,7 +29,7 @@
 
 namespace {
 
-constexpr double kRadiusShare = 0.1;
+constexpr double radius_share = 0.1;
 
 struct Surface {
   std::vector<glm::vec3> positions, normals;
@@ -145,7 +145,7 @@ void draw(const hosts::Options& o) {
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(0.66, 0.70, 0.76);
   std::vector<Surface> surfaces{posed_body(scene), floor_of(scene)};
-  if (o.path == "traced") trace_ao(surfaces, float(kRadiusShare) * scene.size_m);
+  if (o.path == "traced") trace_ao(surfaces, float(radius_share) * scene.size_m);
   for (const Surface& surface : surfaces) renderer->AddActor(actor_of(surface, o));
   if (o.show != "ao") renderer->AddActor(glass_ball(scene));
   vtkCamera* const camera = renderer->GetActiveCamera();
@@ -167,8 +167,8 @@ void draw(const hosts::Options& o) {
   vtkNew<vtkNookAoPass> nook;
   vtkNew<vtkSSAOPass> own;
   if (o.path == "vtk") {
-    own->SetRadius(kRadiusShare * double(scene.size_m));
-    own->SetBias(0.01 * kRadiusShare * double(scene.size_m));
+    own->SetRadius(radius_share * double(scene.size_m));
+    own->SetBias(0.01 * radius_share * double(scene.size_m));
     own->BlurOn();
     own->SetDelegatePass(steps);
     renderer->SetPass(own);
@@ -177,7 +177,7 @@ void draw(const hosts::Options& o) {
     gl.get_proc = hosts::gl_proc;
     gl.state_mode = o.state_mode();
     nook->SetGl(gl);
-    nook->SetRadius(kRadiusShare * double(scene.size_m));
+    nook->SetRadius(radius_share * double(scene.size_m));
     nook->SetDelegatePass(steps->GetOpaquePass());
     steps->SetOpaquePass(nook);
     renderer->SetPass(steps);

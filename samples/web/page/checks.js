@@ -44,7 +44,7 @@ export function makeChecks(page) {
       scene.update();
       const cpu = ids.map((id) => scene.readAo(id));
       ao.update(scene);
-      const gpu = ids.map((id) => readBuffer(ao.aoBuffer(scene, id)));
+      const gpu = ids.map((id) => readBuffer(ao.view(scene, id)));
       const native = [0, 1].map((i) => character.arrays.expected_ao.subarray(i * character.vertices, (i + 1) * character.vertices));
       const differences = {
         cpuNative: Math.max(...[0, 1].map((i) => largest(cpu[i], native[i]))),
@@ -56,7 +56,7 @@ export function makeChecks(page) {
       for (const id of ids) scene.setLight(id, page.lobes);
       scene.update();
       ao.update(scene);
-      differences.directional = Math.max(...ids.map((id) => largest(ao.readDirectionalAo(scene, id), scene.readDirectionalAo(id))));
+      differences.directional = Math.max(...ids.map((id) => largest(ao.read(scene, id, "directional-ao"), scene.readDirectionalAo(id))));
       ao.release(scene);
       scene.destroy();
       return differences;
@@ -160,7 +160,7 @@ export function makeChecks(page) {
       pass.render({ depthTexture: depth.depth, width, height, projection: description.projection, radius: description.radius });
       ao.update(scene);
       draw(picture, new Program(gl, description.vertex, description.fragment), { screen_ao: pass.texture },
-        ids.map((id) => ao.aoBuffer(scene, id)));
+        ids.map((id) => ao.view(scene, id)));
       const pixels = new Uint8Array(4 * width * height);
       gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
       gl.bindFramebuffer(gl.FRAMEBUFFER, null);

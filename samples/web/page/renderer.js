@@ -182,12 +182,12 @@ export class Renderer {
   // The places of an instance's occlusion as attributes 4 and 5, and of its reference as 6.
   #bindAo(crowd, body, options) {
     const { gl } = this;
-    const view = this.ao.aoBuffer(crowd.scene, body.instance);
+    const view = this.ao.view(crowd.scene, body.instance);
     gl.bindBuffer(gl.ARRAY_BUFFER, view.buffer);
     gl.enableVertexAttribArray(4);
     gl.vertexAttribPointer(4, 1, gl.FLOAT, false, view.stride, view.offset);
     if (options.light === "lobes") {
-      const light = this.ao.light(crowd.scene, body.instance);
+      const light = this.ao.view(crowd.scene, body.instance, "directional-ao");
       gl.bindBuffer(gl.ARRAY_BUFFER, light.buffer);
       gl.enableVertexAttribArray(5);
       gl.vertexAttribPointer(5, 3, gl.FLOAT, false, light.stride, light.offset);
@@ -200,10 +200,10 @@ export class Renderer {
     gl.vertexAttribPointer(6, 1, gl.UNSIGNED_BYTE, true, 0, body.clip * this.character.vertices);
   }
 
-  // The program of the bodies holds the text of the lights, which the first update with a light gives.
+  // The program of the bodies holds the text of the lights.
   #bodyProgramOf(crowd, form) {
     if (!this.bodyPrograms.has(form)) {
-      const { glsl } = this.ao.light(crowd.scene, crowd.bodies[0].instance);
+      const { glsl } = this.ao.view(crowd.scene, crowd.bodies[0].instance);
       this.bodyPrograms.set(form, new Program(this.gl, bodyVertex, bodyFragment(this.probe.info.glsl + glsl, form)));
     }
     return this.bodyPrograms.get(form);

@@ -246,7 +246,10 @@ enum {
   NOOK_DESC_TRANSFER_MESH = 30,
   NOOK_DESC_TRANSFER_VECTORS = 31,
   NOOK_DESC_PROBE_FIT_STUDY = 32,
-  NOOK_DESC_GL_FRAME = 33
+  NOOK_DESC_GL_FRAME = 33,
+  NOOK_DESC_NNAO_DEBUG = 34,
+  NOOK_DESC_NNAO_FRAME_DEBUG = 35,
+  NOOK_DESC_WORLD_FRAME_DEBUG = 36
 };
 
 /* Fills the descriptor of a type with defaults. Call the typed functions instead, which pass size and

@@ -99,7 +99,7 @@ NOOK_API nook_result nook_model_read(nook_model model, nook_model_array array, v
  * model has two vectors for each vertex, NOOK_MODEL_OCCLUDED_DIRECTIONS: the cosine-weighted mean of the
  * directions that the body occludes when AO is 0, and when it is 1. Rotate both as you rotate the normal n,
  * and compute normalize(2/3 n - mix(dark, open, AO)) in the vertex shader; nook_scene_bent_normal of
- * nook_gl_scene_light's text does so. AO may come from any call of this library. A bent normal needs no
+ * nook_gl_view's text does so. AO may come from any call of this library. A bent normal needs no
  * update and is the same on all tiers. Occlusion by others and the ground counts as the body's own. */
 
 /* ---- Scenes ---- */
@@ -162,7 +162,7 @@ NOOK_API nook_result nook_scene_remove_instance(nook_scene scene, nook_instance_
 
 /* Gives an instance another model with the same number of bones: a new bake of the same character while it
  * runs, or the model of a coarser mesh. Pose, links, ground and light stay; AO is 1 until the next update,
- * and a host calls nook_gl_scene_ao_buffer again for its view on the GPU. The call allocates; on failure
+ * and a host calls nook_gl_scene_view again for its view on the GPU. The call allocates; on failure
  * nothing has changed. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_set_model(nook_scene scene, nook_instance_id instance, nook_model model);
 
@@ -225,7 +225,7 @@ NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_
  * receiver's hemisphere. The spheres of a linked instance share one rho, and the rho of the ground is that of
  * the half-space below its plane. The result is a colour for each vertex that takes the place of AO in
  * albedo / pi * E * AO, where E is the irradiance of the same lobes. Under constant light it is equal to AO.
- * nook_scene_update and nook_gl_scene_update both evaluate it; nook_gl_scene_light describes the use in a
+ * nook_scene_update and nook_gl_scene_update both evaluate it; nook_gl.h describes the use in a
  * shader. */
 
 /* Sets the light of an instance for the updates that follow. lobes are the light at its place, such as the

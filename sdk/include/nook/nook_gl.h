@@ -12,7 +12,7 @@
  *
  * An engine creates one nook_gl for each OpenGL context that shares nothing with another. Once a frame, after
  * it has set the poses, it calls nook_gl_scene_update. For each character it binds the view of
- * nook_gl_scene_ao_buffer as a vertex attribute, and its shader multiplies the ambient term (not the direct
+ * nook_gl_scene_view as a vertex attribute, and its shader multiplies the ambient term (not the direct
  * light) of the material by it:
  *     glBindBuffer(GL_ARRAY_BUFFER, view.buffer);
  *     glVertexAttribPointer(slot, 1, GL_FLOAT, GL_FALSE, view.stride, (const void*)(uintptr_t)view.offset);
@@ -139,28 +139,45 @@ NOOK_API nook_result nook_gl_scene_prepare(nook_gl gl, nook_scene scene);
  * texels, and every OpenGL has 65,536), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_scene_update(nook_gl gl, nook_scene scene);
 
-/* The place of an instance's AO in an OpenGL buffer: count floats in [0, 1]. */
-typedef struct nook_gl_ao_view {
-  /* sizeof(nook_gl_ao_view); the caller sets it. */
+/* The place of an instance's values in an OpenGL buffer: one float in [0, 1] for each vertex for
+ * NOOK_CHANNEL_AO, and three (red, green, blue) for NOOK_CHANNEL_DIRECTIONAL_AO. */
+typedef struct nook_gl_view {
+  /* sizeof(nook_gl_view); set it before the call. */
   uint32_t struct_size;
-  /* The OpenGL name of a buffer that Nook owns: the host reads it, and never writes or deletes it. */
+  /* The OpenGL name of a buffer that Nook owns. Read it, but never write or delete it. */
   uint32_t buffer;
-  /* Bytes from the start of the buffer to the first value. */
+  /* Bytes from the start of the buffer to the first vertex. */
   uint64_t offset;
-  /* Bytes between the starts of two values. */
+  /* Bytes between the starts of two vertices. */
   uint32_t stride;
   /* The model's file_vertex_count. */
   uint32_t count;
-} nook_gl_ao_view;
+  /* The lights of the scene, for NOOK_CHANNEL_DIRECTIONAL_AO; 0 for NOOK_CHANNEL_AO. The OpenGL name of a
+   * texture buffer that Nook owns, the same for all instances of the scene. */
+  uint32_t texture;
+  /* The instance's light, the first argument of the GLSL functions; it is valid until the next update. 0 for
+   * NOOK_CHANNEL_AO. */
+  int32_t light;
+  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, with the functions nook_scene_*. The text
+   * is the same for every scene and channel, and valid while the library is loaded. */
+  const char* glsl;
+} nook_gl_view;
 
-/* Gives the view of an instance, which stays the same until the instance, the scene or gl is destroyed,
- * nook_gl_scene_release is called, or nook_scene_set_model gives the instance another model. The values are 1
- * before the first update. After an update they may be read as vertex attributes, texture buffers, shader
- * storage and by buffer reads without a barrier of the host. The call makes no OpenGL call.
- * Context thread. Errors: INVALID_ARGUMENT, INVALID_HANDLE (the id is unknown, or the instance is not
- * prepared yet), GL. */
-NOOK_API nook_result nook_gl_scene_ao_buffer(nook_gl gl, nook_scene scene, nook_instance_id instance,
-                                             nook_gl_ao_view* view);
+/* Gives the view of an instance for NOOK_CHANNEL_AO, or for NOOK_CHANNEL_DIRECTIONAL_AO if the instance had a
+ * light in the last nook_gl_scene_update. Buffer, offset and texture stay the same until the instance, the
+ * scene or gl is destroyed, you call nook_gl_scene_release, or nook_scene_set_model gives the instance
+ * another model. AO is 1 before the first update. After an update you may read the values as vertex
+ * attributes, texture buffers, shader storage and by buffer reads without a barrier. The call makes no OpenGL
+ * call. Context thread. Errors: INVALID_ARGUMENT (also: NOOK_CHANNEL_BENT_NORMAL, which your vertex shader
+ * computes), INVALID_HANDLE (the id is unknown, the instance is not prepared yet, or it had no light), GL. */
+NOOK_API nook_result nook_gl_scene_view(nook_gl gl, nook_scene scene, nook_instance_id instance,
+                                        nook_channel channel, nook_gl_view* view);
+
+/* Copies the values of a view to host memory, in the order of nook_scene_read; count is the number of
+ * vertices. The call WAITS FOR THE GPU: use it in tests and tools. Context thread. Errors: those of
+ * nook_gl_scene_view. */
+NOOK_API nook_result nook_gl_scene_read(nook_gl gl, nook_scene scene, nook_instance_id instance,
+                                        nook_channel channel, float* out, uint32_t count);
 
 /* Where nook_gl_scene_write puts AO: a buffer or a texture of the host. */
 typedef struct nook_gl_ao_target {
@@ -197,67 +214,19 @@ typedef struct nook_gl_ao_target {
 NOOK_API nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
                                          uint32_t count, const nook_gl_ao_target* target);
 
-/* Copies the AO of the last update to host memory in the order of nook_scene_read. The call WAITS FOR THE
- * GPU and is meant for tests and tools.
- * Context thread. Errors: INVALID_ARGUMENT, INVALID_HANDLE (the id is unknown, or the instance is not
- * prepared yet), GL. */
-NOOK_API nook_result nook_gl_scene_read_ao(nook_gl gl, nook_scene scene, nook_instance_id instance,
-                                           float* out, uint32_t count);
-
 /* ---- Directional occlusion: nook_scene_set_light, evaluated for each vertex on the GPU ----
  *
- * For each instance with a light, nook_gl_scene_update leaves its directional occlusion beside its AO: a
- * colour for each vertex that takes the place of AO. The lobes of all lights lie in a texture buffer that
- * Nook owns, so that the host uploads nothing. The host puts the view's glsl after the #version line of a
- * vertex or fragment shader, sets the uniform nook_scene_lights to a texture unit, and binds the texture to
- * GL_TEXTURE_BUFFER of that unit, on OpenGL ES to GL_TEXTURE_2D. For each draw it sets the values as an
- * attribute and view.light as a uniform:
- *     glBindBuffer(GL_ARRAY_BUFFER, view.buffer);
- *     glVertexAttribPointer(slot, 3, GL_FLOAT, GL_FALSE, view.stride, (const void*)(uintptr_t)view.offset);
- * In the shader, n is the unit normal in world space:
+ * For each instance with a light, nook_gl_scene_update leaves a colour for each vertex that takes the place
+ * of AO, and puts the lobes of all lights into a texture buffer. Put the glsl of nook_gl_view after the
+ * #version line of your vertex or fragment shader, bind view.texture to a texture unit (GL_TEXTURE_BUFFER; on
+ * OpenGL ES GL_TEXTURE_2D), and set the sampler nook_scene_lights to this unit. For each draw, set the values
+ * as an attribute of three floats, and view.light as a uniform. In the shader, n is the unit normal in world
+ * space:
  *     vec3 e = nook_scene_irradiance(light, n, directional_ao);
  *     colour = albedo / 3.14159265 * e;
  * nook_scene_open_irradiance(light, n) is the irradiance without occlusion. A shader may hold this text and
- * that of an upload of a probe, in either order. Every name in it begins with nook_ or Nook. */
-typedef struct nook_gl_light_view {
-  /* sizeof(nook_gl_light_view); the caller sets it. */
-  uint32_t struct_size;
-  /* The OpenGL name of a buffer that Nook owns: the host reads it, and never writes or deletes it. */
-  uint32_t buffer;
-  /* Bytes from the start of the buffer to the first value, which is three floats (red, green, blue) in
-   * [0, 1]. */
-  uint64_t offset;
-  /* Bytes between the starts of two values. */
-  uint32_t stride;
-  /* The model's file_vertex_count. */
-  uint32_t count;
-  /* The OpenGL name of a GL_TEXTURE_BUFFER (OpenGL ES: GL_TEXTURE_2D) that Nook owns, the same for all
-   * instances of the scene. */
-  uint32_t texture;
-  /* The first argument of the GLSL functions; it is valid until the next update. */
-  int32_t light;
-  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions: the uniform samplerBuffer (OpenGL ES:
-   * sampler2D) nook_scene_lights and the functions above. The text is the same for every scene and valid as
-   * long as the library is loaded. */
-  const char* glsl;
-} nook_gl_light_view;
-
-/* Gives the view of an instance that had a light in the last nook_gl_scene_update. buffer, offset and texture
- * stay the same as long as the view of nook_gl_scene_ao_buffer. The values agree with
- * nook_scene_read within 4e-3, because each term takes two estimates of a square root. They
- * are ordered as AO is, and need no barrier of the host. The call makes no OpenGL call.
- * Context thread. Errors: INVALID_ARGUMENT, INVALID_HANDLE (the id is unknown, or the instance had no light
- * in the last update), GL. */
-NOOK_API nook_result nook_gl_scene_light(nook_gl gl, nook_scene scene, nook_instance_id instance,
-                                         nook_gl_light_view* view);
-
-/* Copies the directional occlusion of the last update to host memory, three floats for each vertex; count is
- * in vertices. The call WAITS FOR THE GPU and is meant for tests and tools.
- * Context thread. Errors: INVALID_ARGUMENT, INVALID_HANDLE (the id is unknown, or the instance had no light
- * in the last update), GL. */
-NOOK_API nook_result nook_gl_scene_read_directional_ao(nook_gl gl, nook_scene scene,
-                                                       nook_instance_id instance, float* out_rgb,
-                                                       uint32_t count);
+ * the text of an upload of a probe, in either order. The values agree with nook_scene_read within 4e-3,
+ * because each term takes two estimates of a square root. */
 
 /* Deletes the OpenGL objects that gl holds for a scene, which ends the views of its instances; the scene
  * itself lives on. Without this call the next update, or nook_gl_destroy, deletes the objects of a destroyed

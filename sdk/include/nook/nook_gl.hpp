@@ -52,10 +52,10 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
   void prepare(const Scene& scene) { check(nook_gl_scene_prepare(get(), scene.get())); }
   // Replaces scene.update().
   void update(Scene& scene) { check(nook_gl_scene_update(get(), scene.get())); }
-  nook_gl_ao_view ao_buffer(const Scene& scene, nook_instance_id id) const {
-    nook_gl_ao_view view{};
+  nook_gl_view view(const Scene& scene, nook_instance_id id, nook_channel channel = NOOK_CHANNEL_AO) const {
+    nook_gl_view view{};
     view.struct_size = sizeof view;
-    check(nook_gl_scene_ao_buffer(get(), scene.get(), id, &view));
+    check(nook_gl_scene_view(get(), scene.get(), id, channel, &view));
     return view;
   }
   // Copies AO to a buffer or texture of the host on the GPU; struct_size of the target is set here.
@@ -66,19 +66,9 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
         nook_gl_scene_write(get(), scene.get(), ids.data(), static_cast<std::uint32_t>(ids.size()), &target));
   }
   // Waits for the GPU.
-  void read_ao(const Scene& scene, nook_instance_id id, float* out, std::uint32_t count) const {
-    check(nook_gl_scene_read_ao(get(), scene.get(), id, out, count));
-  }
-  nook_gl_light_view light(const Scene& scene, nook_instance_id id) const {
-    nook_gl_light_view view{};
-    view.struct_size = sizeof view;
-    check(nook_gl_scene_light(get(), scene.get(), id, &view));
-    return view;
-  }
-  // Writes three floats for each vertex; waits for the GPU.
-  void read_directional_ao(const Scene& scene, nook_instance_id id, float* out_rgb,
-                           std::uint32_t count) const {
-    check(nook_gl_scene_read_directional_ao(get(), scene.get(), id, out_rgb, count));
+  void read(const Scene& scene, nook_instance_id id, nook_channel channel, float* out,
+            std::uint32_t count) const {
+    check(nook_gl_scene_read(get(), scene.get(), id, channel, out, count));
   }
   void release(const Scene& scene) { check(nook_gl_scene_release(get(), scene.get())); }
 

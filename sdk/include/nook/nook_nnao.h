@@ -37,64 +37,51 @@
 extern "C" {
 #endif
 
-/* The stage that evaluates the network; the other stages are draws in any case. Both paths give the same AO,
- * on Mesa's llvmpipe the same bits. */
+/* Presets by cost. The cycles are those of all stages for a pixel, as compiled for one GPU family
+ * (docs/gpu_cost.md). */
 enum {
-  /* Compute if OpenGL has it, else fragments; fragments on OpenGL ES. */
-  NOOK_NNAO_PATH_AUTOMATIC = 0,
-  /* A draw, on OpenGL 3.3, OpenGL ES 3.0 and WebGL 2. */
-  NOOK_NNAO_PATH_FRAGMENT = 1,
-  /* A dispatch. It needs OpenGL 4.3 or OpenGL ES 3.1, glBindImageTexture, and a max_tier in nook_gl_desc
-   * that allows it. OpenGL ES writes no images of one byte: AO takes four there. */
-  NOOK_NNAO_PATH_COMPUTE = 2
+  /* 9 taps, one filter. */
+  NOOK_NNAO_PRESET_DEFAULT = 0,
+  /* 9 taps at half resolution, one filter. 0.44 of the cycles of DEFAULT. */
+  NOOK_NNAO_PRESET_FAST = 1,
+  /* 32 taps, one filter. 2.3 times the cycles of DEFAULT. */
+  NOOK_NNAO_PRESET_BEST = 2
 };
-typedef int32_t nook_nnao_path;
-
-/* The sample of a multisampled depth texture whose depth, and with nook_nnao_desc.normal_samples whose
- * normal, is that of the pixel. */
-enum {
-  /* The median of the depths, of two the nearer one: a surface that covers most of the pixel. */
-  NOOK_NNAO_SAMPLE_MEDIAN = 0,
-  /* Sample 0. */
-  NOOK_NNAO_SAMPLE_FIRST = 1,
-  /* The nearest one. */
-  NOOK_NNAO_SAMPLE_NEAREST = 2
-};
-typedef int32_t nook_nnao_sample;
+typedef int32_t nook_nnao_preset;
 
 typedef struct nook_nnao_desc {
   /* nook_nnao_desc_init sets these two. */
   uint32_t struct_size;
   uint32_t type;
-  /* Must be NULL. */
+  /* NULL, or a nook_nnao_debug_desc of experimental/nook_debug.h. */
   const void* next;
   /* Pixels, 1 to 16384; required. Frames of any size up to this maximum allocate nothing. */
   int32_t max_width;
   int32_t max_height;
-  /* The number of pixels that the network reads around each pixel: 9 (default), 16, 32, 64, 128 or 256. */
+  /* Gives taps, half_resolution and blur where these are -1. Default NOOK_NNAO_PRESET_DEFAULT. */
+  nook_nnao_preset preset;
+  /* The number of pixels that the network reads around each pixel: 9, 16, 32, 64, 128 or 256. Default -1: the
+   * preset's. */
   int32_t taps;
-  /* 1: AO is computed at half width and half height, and upsampled by a joint-bilateral filter. Default 0. */
+  /* 1: AO is computed at half width and half height, and upsampled by a joint-bilateral filter. 0: at full
+   * size. Default -1: the preset's. */
   int32_t half_resolution;
-  /* The number of times that a bilateral filter over 3 x 3 pixels follows: 0, 1 (default) or 2. It averages
-   * the noise of the taps, and keeps edges of depth and lines in AO. The second time takes noise away that is
-   * left at edges, and fine lines with it. */
+  /* How often a bilateral filter over 3 x 3 pixels follows: 0, 1 or 2. It averages the noise of the taps, and
+   * keeps edges of depth and lines in AO. The second time takes noise away that is left at edges, and fine
+   * lines with it. Default -1: the preset's. */
   int32_t blur;
   /* > 0, default 16. Depths that depart from a surface by more than 1 / blur_sharpness radii are an edge of
    * it, which the filter does not cross. */
   float blur_sharpness;
-  /* 1: every stage is timed for nook_nnao_read_timings of experimental/nook_stages.h. Default 0. */
-  int32_t timers;
-  /* Default NOOK_NNAO_PATH_AUTOMATIC. */
-  nook_nnao_path path;
-  /* The bytes of a .nook file of `nook train nnao`, of either form. NULL (default): the embedded network. */
-  const void* network;
-  /* The size of network in bytes. */
-  size_t network_size;
   /* 1: the pass computes bent normals as well: the mean of the open directions, weighted by their cosine.
    * nook_nnao_info.glsl has functions that light with them. The pass's own texture is GL_RGBA8 then, and
    * NOOK_BLEND_WRITE writes (n + 1) / 2 of the bent normal n into red, green and blue, in view space and of
    * unit length, and AO into alpha. Not with a network of the paper's form. Default 0. */
   int32_t bent_normals;
+  /* The bytes of a .nook file of `nook train nnao`, of either form. NULL (default): the embedded network. */
+  const void* network;
+  /* The size of network in bytes. */
+  size_t network_size;
   /* 2 to 64: the pass keeps a mean of AO over at most so many frames, which flickers less. Start with 4 to 8;
    * more frames follow changes later. The pass follows surfaces by nook_gl_frame_desc.view and
    * nook_nnao_frame_desc.motion_vectors, and begins anew where a surface was not seen before. 0 (default):
@@ -103,10 +90,9 @@ typedef struct nook_nnao_desc {
   /* 1 to 16: the depth textures are of GL_TEXTURE_2D_MULTISAMPLE with so many samples, which needs OpenGL 3.3
    * or OpenGL ES 3.1, or with views of GL_TEXTURE_2D_MULTISAMPLE_ARRAY, which needs OpenGL 3.3 or OpenGL ES
    * 3.2. Motion vectors, G-buffer AO and target stay single-sampled, and normals unless normal_samples says
-   * otherwise. 0 (default): 2D textures, or arrays of them. */
+   * otherwise. A pixel takes the median of its depths, of two the nearer one. 0 (default): 2D textures, or
+   * arrays of them. */
   int32_t depth_samples;
-  /* Default NOOK_NNAO_SAMPLE_MEDIAN, whose error was measured to be the smallest (docs/nnao.md). */
-  nook_nnao_sample depth_sample;
   /* 1 to 8: the pass draws so many views in one call, such as two eyes. Depth, normals, motion vectors,
    * G-buffer AO and target are then GL_TEXTURE_2D_ARRAY with at least so many layers, and so is the pass's
    * own texture. The views share the other textures of the pass. 0 (default): 2D textures. */
@@ -121,23 +107,6 @@ typedef struct nook_nnao_desc {
 static inline nook_result nook_nnao_desc_init(nook_nnao_desc* desc) {
   return nook_desc_init(NOOK_DESC_NNAO, desc, sizeof *desc, NOOK_VERSION);
 }
-
-/* Presets by cost. The cycles are those of all its stages for a pixel, as compiled for one GPU family
- * (docs/gpu_cost.md). */
-enum {
-  /* 9 taps at half resolution. */
-  NOOK_NNAO_PRESET_FAST = 0,
-  /* 9 taps; the numbers of nook_nnao_desc_init. 2.3 times the cycles of fast. */
-  NOOK_NNAO_PRESET_DEFAULT = 1,
-  /* 32 taps. 2.3 times the cycles of default. */
-  NOOK_NNAO_PRESET_BEST = 2
-};
-typedef int32_t nook_nnao_preset;
-
-/* Sets taps, half_resolution and blur of a descriptor that nook_nnao_desc_init has filled. The call makes no
- * OpenGL call.
- * Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_nnao_desc_set_preset(nook_nnao_desc* desc, nook_nnao_preset preset);
 
 /* Creates textures and shaders; the caller may free the network's bytes afterwards. On failure *out is NULL
  * and no OpenGL object is left.
@@ -165,26 +134,12 @@ enum {
 };
 typedef int32_t nook_nnao_radius_kind;
 
-/* The quantity that the pass shows, for debug views. */
-enum {
-  /* The result. */
-  NOOK_NNAO_VIEW_AO = 0,
-  /* The AO of the network for this frame, without filter, intensity, power and G-buffer AO. */
-  NOOK_NNAO_VIEW_RAW = 1,
-  /* The AO after the filter, without intensity, power and G-buffer AO. */
-  NOOK_NNAO_VIEW_BLURRED = 2,
-  /* The normals that the network used, as (n + 1) / 2 in red, green and blue. Not with
-   * NOOK_TARGET_OWN. */
-  NOOK_NNAO_VIEW_NORMALS = 3
-};
-typedef int32_t nook_nnao_view;
-
 /* The settings of the screen pass for one frame. The images and the camera are in nook_gl_frame_desc. */
 typedef struct nook_nnao_frame_desc {
   /* nook_nnao_frame_desc_init sets these two. */
   uint32_t struct_size;
   uint32_t type;
-  /* Must be NULL. */
+  /* NULL, or a nook_nnao_frame_debug_desc of experimental/nook_debug.h. */
   const void* next;
   /* > 0, in metres or as radius_kind says; required. Geometry beyond this distance does not occlude. */
   float radius;
@@ -209,8 +164,6 @@ typedef struct nook_nnao_frame_desc {
   /* Set 1 at a cut: nothing of earlier frames is used. The pass cuts by itself when the size of the viewport
    * or the kind of projection changes. Default 0. */
   int32_t reset;
-  /* Default NOOK_NNAO_VIEW_AO. */
-  nook_nnao_view show;
 } nook_nnao_frame_desc;
 
 /* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
@@ -238,11 +191,12 @@ typedef struct nook_nnao_info {
   uint32_t texture;
   /* The memory of all textures of the pass. */
   uint64_t texture_bytes;
-  int32_t taps;
+  /* The preset's numbers, where the descriptor had -1. */
+  int32_t taps, half_resolution, blur;
   /* 1: the network has the horizon form; 0: it has the paper's. */
   int32_t horizon_form;
-  /* The path in use: NOOK_NNAO_PATH_FRAGMENT or NOOK_NNAO_PATH_COMPUTE. */
-  nook_nnao_path path;
+  /* 1: a compute shader evaluates the network; 0: a draw does. */
+  int32_t compute;
   /* 1: the texture has bent normals. */
   int32_t bent_normals;
   /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, for the host's shader that lights.

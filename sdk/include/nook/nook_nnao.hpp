@@ -16,7 +16,7 @@ inline namespace wrapper {
 inline nook_nnao_desc nnao_desc(nook_nnao_preset preset = NOOK_NNAO_PRESET_DEFAULT) {
   nook_nnao_desc desc;
   check(nook_nnao_desc_init(&desc));
-  check(nook_nnao_desc_set_preset(&desc, preset));
+  desc.preset = preset;
   return desc;
 }
 

@@ -93,31 +93,11 @@ enum {
 };
 typedef int32_t nook_world_combine;
 
-/* The quantity that the pass shows, for debug views. */
-enum {
-  /* The result. */
-  NOOK_WORLD_VIEW_AO = 0,
-  /* The number of casters that a pixel evaluates, over 255; those of far bodies at half resolution count by
-   * the share of their pixels. */
-  NOOK_WORLD_VIEW_CASTERS = 1,
-  /* The number of those casters that are capsules of the model or of nook_world_frame_desc, in place of the
-   * capsule of a limb or a body; over 255. */
-  NOOK_WORLD_VIEW_EXACT_CASTERS = 2,
-  /* The number of bodies whose reach a pixel tests, over 255. */
-  NOOK_WORLD_VIEW_TESTS = 3,
-  /* The number of far bodies that are evaluated at the pixels which have them at half resolution, spread over
-   * the others; over 255. At full resolution 0. */
-  NOOK_WORLD_VIEW_FAR_CASTERS = 4,
-  /* The same of the far bodies whose reach is tested. */
-  NOOK_WORLD_VIEW_FAR_TESTS = 5
-};
-typedef int32_t nook_world_view;
-
 typedef struct nook_world_frame_desc {
   /* nook_world_frame_desc_init sets these two. */
   uint32_t struct_size;
   uint32_t type;
-  /* Must be NULL. */
+  /* NULL, or a nook_world_frame_debug_desc of experimental/nook_debug.h. */
   const void* next;
   /* Its instances and occluders cast, as in nook_world_sample; NULL (default): only `capsules` cast. The
    * poses are those of the last nook_scene_set_pose. */
@@ -142,8 +122,6 @@ typedef struct nook_world_frame_desc {
   uint32_t ao_texture;
   /* Default NOOK_WORLD_COMBINE_MULTIPLY. */
   nook_world_combine combine;
-  /* Default NOOK_WORLD_VIEW_AO. */
-  nook_world_view show;
   /* The light whose open share a coloured pass computes by channel, as nook_world_sample does: at most
    * NOOK_PROBE_MAX_FUNCTIONS lobes in world space. Strength, G-buffer AO and combine act on each channel as
    * on AO. Default none: all three channels are AO. */

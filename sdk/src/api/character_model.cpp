@@ -3,9 +3,9 @@
 
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
-#include "sdk/src/character/memory_use.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/character/occluded_directions.h"
+#include "sdk/src/character/scene_readings.h"
 #include "sdk/src/core/descriptors.h"
 
 using namespace nook;

@@ -8,10 +8,10 @@
 #include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
-#include "sdk/src/character/bone_names.h"
+#include "sdk/src/character/host_vertices.h"
 #include "sdk/src/character/pose_check.h"
-#include "sdk/src/character/vertex_match.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/character/pose_source.h"
+#include "sdk/src/core/geometry.h"
 
 using namespace nook;
 

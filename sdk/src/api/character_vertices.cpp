@@ -6,8 +6,7 @@
 #include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
-#include "sdk/src/character/vertex_match.h"
-#include "sdk/src/character/vertex_resample.h"
+#include "sdk/src/character/host_vertices.h"
 
 using namespace nook;
 

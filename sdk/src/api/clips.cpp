@@ -10,13 +10,13 @@
 
 #include "sdk/src/api/clips_handle.h"
 #include "sdk/src/api/entry.h"
-#include "sdk/src/character/clip_file.h"
-#include "sdk/src/character/clip_texels.h"
+#include "sdk/src/character/clip_set.h"
+#include "sdk/src/character/loaded_clips.h"
 #include "sdk/src/character/pose_source.h"
-#include "sdk/src/character/world_casters.h"
+#include "sdk/src/character/scene.h"
 #include "sdk/src/core/descriptors.h"
-#include "sdk/src/core/half.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/floats.h"
+#include "sdk/src/core/geometry.h"
 
 using namespace nook;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nook/experimental/nook_capture.h>
+#include <nook/experimental/nook_debug.h>
 #include <nook/experimental/nook_recording.h>
 #include <nook/experimental/nook_sg.h>
 #include <nook/experimental/nook_transfer.h>
@@ -38,7 +39,10 @@
   X(TRANSFER_MESH, nook_transfer_mesh_desc)         \
   X(TRANSFER_VECTORS, nook_transfer_vectors_desc)   \
   X(TRANSFER_RESPONSE, nook_transfer_response_desc) \
-  X(PROBE_FIT_STUDY, nook_probe_fit_study_desc)
+  X(PROBE_FIT_STUDY, nook_probe_fit_study_desc)     \
+  X(NNAO_DEBUG, nook_nnao_debug_desc)               \
+  X(NNAO_FRAME_DEBUG, nook_nnao_frame_debug_desc)   \
+  X(WORLD_FRAME_DEBUG, nook_world_frame_debug_desc)
 
 namespace nook {
 

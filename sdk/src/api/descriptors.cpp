@@ -7,7 +7,6 @@
 #include "sdk/src/character/scene.h"
 #include "sdk/src/material/tables.h"
 #include "sdk/src/nnao/recording.h"
-#include "sdk/src/nnao/taps.h"
 
 namespace nook {
 
@@ -70,8 +69,7 @@ nook_gl_desc default_desc() {
 template <>
 nook_nnao_desc default_desc() {
   nook_nnao_desc desc{};
-  desc.taps = nnao::default_taps;
-  desc.blur = 1;
+  desc.taps = desc.half_resolution = desc.blur = -1;
   desc.blur_sharpness = 16;
   return desc;
 }
@@ -198,6 +196,24 @@ nook_transfer_response_desc default_desc() {
 template <>
 nook_probe_fit_study_desc default_desc() {
   nook_probe_fit_study_desc desc{};
+  return desc;
+}
+
+template <>
+nook_nnao_debug_desc default_desc() {
+  nook_nnao_debug_desc desc{};
+  return desc;
+}
+
+template <>
+nook_nnao_frame_debug_desc default_desc() {
+  nook_nnao_frame_debug_desc desc{};
+  return desc;
+}
+
+template <>
+nook_world_frame_debug_desc default_desc() {
+  nook_world_frame_debug_desc desc{};
   return desc;
 }
 

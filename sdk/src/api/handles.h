@@ -8,7 +8,7 @@
 #include "sdk/src/character/loaded_model.h"
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/context.h"
-#include "sdk/src/transfer/fit_cache.h"
+#include "sdk/src/transfer/lobe_fit.h"
 
 struct nook_context_s final : nook::Context {
   using Context::Context;

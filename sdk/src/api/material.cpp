@@ -3,10 +3,10 @@
 #include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/material_handle.h"
-#include "sdk/src/material/check.h"
 #include "sdk/src/material/cost.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/material_check.h"
 #include "sdk/src/material/material_file.h"
+#include "sdk/src/material/reflectance.h"
 
 using namespace nook;
 using namespace nook::material;

@@ -10,8 +10,8 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/probe_handles.h"
 #include "sdk/src/api/probe_lobes.h"
-#include "sdk/src/probe/evaluate.h"
 #include "sdk/src/probe/probe_file.h"
+#include "sdk/src/probe/probe_light.h"
 
 using namespace nook;
 using namespace nook::probe;

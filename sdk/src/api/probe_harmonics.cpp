@@ -8,9 +8,8 @@
 
 #include "sdk/src/api/entry.h"
 #include "sdk/src/core/descriptors.h"
-#include "sdk/src/probe/evaluate.h"
 #include "sdk/src/probe/harmonics.h"
-#include "sdk/src/probe/zonal_harmonics.h"
+#include "sdk/src/probe/probe_light.h"
 
 using namespace nook;
 using namespace nook::probe;

@@ -7,11 +7,9 @@
 
 #include "sdk/src/api/entry.h"
 #include "sdk/src/probe/basis.h"
-#include "sdk/src/probe/convert.h"
-#include "sdk/src/probe/evaluate.h"
 #include "sdk/src/probe/harmonics.h"
 #include "sdk/src/probe/probe.h"
-#include "sdk/src/probe/specular.h"
+#include "sdk/src/probe/probe_light.h"
 
 using namespace nook;
 using namespace nook::probe;

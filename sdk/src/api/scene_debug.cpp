@@ -3,7 +3,7 @@
 
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
-#include "sdk/src/character/posed_shapes.h"
+#include "sdk/src/character/scene_readings.h"
 #include "sdk/src/core/descriptors.h"
 
 using namespace nook;

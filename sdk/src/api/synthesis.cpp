@@ -3,7 +3,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/synthesis_handle.h"
 #include "sdk/src/core/descriptors.h"
-#include "sdk/src/synthesis/coordinates_file.h"
+#include "sdk/src/synthesis/coordinates.h"
 
 using namespace nook;
 

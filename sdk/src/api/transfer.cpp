@@ -7,10 +7,9 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/material_handle.h"
 #include "sdk/src/api/transfer_handles.h"
-#include "sdk/src/material/check.h"
-#include "sdk/src/material/evaluate.h"
+#include "sdk/src/material/material_check.h"
 #include "sdk/src/material/reflectance.h"
-#include "sdk/src/transfer/check.h"
+#include "sdk/src/transfer/transfer_check.h"
 #include "sdk/src/transfer/transfer_file.h"
 #include "sdk/src/transfer/vectors.h"
 

@@ -7,8 +7,8 @@
 
 #include "sdk/src/api/handles.h"
 #include "sdk/src/core/isa.h"
-#include "sdk/src/core/map_suns.h"
-#include "sdk/src/transfer/light_cube.h"
+#include "sdk/src/core/light_map.h"
+#include "sdk/src/transfer/distant_light.h"
 #include "sdk/src/transfer/response.h"
 #include "sdk/src/transfer/transfer.h"
 

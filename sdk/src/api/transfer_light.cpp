@@ -8,9 +8,9 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/probe_handles.h"
 #include "sdk/src/api/transfer_handles.h"
-#include "sdk/src/probe/evaluate.h"
-#include "sdk/src/transfer/check.h"
+#include "sdk/src/probe/probe_light.h"
 #include "sdk/src/transfer/lobe_fit.h"
+#include "sdk/src/transfer/transfer_check.h"
 
 using namespace nook;
 using namespace nook::transfer;

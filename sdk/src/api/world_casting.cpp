@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sdk/src/character/light.h"
-#include "sdk/src/character/world_casters.h"
+#include "sdk/src/character/instance_light.h"
+#include "sdk/src/character/scene.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook::api {
 namespace {

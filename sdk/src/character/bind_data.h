@@ -1,7 +1,7 @@
 // The rest pose of a model's rigged file. Engines have joint matrices or skinning matrices and
 // no rest space of this library; this data converts between them (pose_source.h), lets a host compare its own
 // skinned vertices with the model's (pose_check.h), and finds the model's vertices in a host's mesh
-// (vertex_match.h).
+// (host_vertices.h).
 #pragma once
 
 #include <array>

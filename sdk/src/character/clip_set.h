@@ -2,9 +2,16 @@
 // are products of few modes, so that a frame is a short row of weights. Plain data, rest space and metres.
 #pragma once
 
-#include <cstdint>
-#include <utility>
+#include <nook/nook.h>
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "sdk/src/character/model.h"
+#include "sdk/src/core/container.h"
 #include "sdk/src/core/containers.h"
 #include "sdk/src/core/vec.h"
 
@@ -74,5 +81,36 @@ struct ClipSet {
   FrameTable<std::int16_t> pose;
   String recipe;  // JSON text of the bake's settings; the runtime does not read it
 };
+
+// Throws Failure with `code` and the first fault: a count or an index is out of range, an array has the wrong
+// length, or a number is not finite or is outside its range.
+void check_clip_set(const ClipSet& set, nook_result code);
+// The same for the counts alone, before an array is read.
+void check_clip_counts(const ClipSet& set, nook_result code);
+
+// The hash of what a set takes from the model: the order of welded vertices and bones. A new bake of the same
+// character keeps it, and so does a model in the order of a host's mesh.
+std::uint64_t clip_model_hash(const CharacterModel& model);
+
+// Throws Failure(INVALID_ARGUMENT) unless the set was baked from the character of the model.
+void check_clip_model(const ClipSet& set, const CharacterModel& model);
+
+// Baked clips as .nook files. Version 1 of the kind "CLIP" has the sections
+//   HEAD  u64 hash of the model's orders; u32 frames, welded vertices; u16 modes of AO, modes of the pose
+//   NAME  varint number of clips; for each: varint length and bytes of its name, f32 seconds, varint frames
+//   AO    f32 scale of each mode; frames x modes i16 weights; modes x vertices i8
+//   BONE  varint number of bones; for each: f32 centre x, y, z, radius
+//   POSE  f32 scale of each mode; frames x modes i16 weights; modes x 12 bones i16
+//   RECP  recipe
+// with the meaning that clip_set.h gives.
+
+inline constexpr ContainerKind clip_kind{four_letters("CLIP"), "clips", 1, 1};
+
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_clip_set finds a fault.
+std::vector<std::byte> write_clip_set(const ClipSet& set);
+
+// Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
+// NOOK_ERROR_FILE_VERSION), and allocates up to twice the file's size.
+ClipSet read_clip_set(std::span<const std::byte> bytes, Memory* memory = default_memory());
 
 }  // namespace nook

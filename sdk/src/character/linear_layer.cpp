@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "sdk/src/character/linear_layer_order.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook {

@@ -3,13 +3,27 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "sdk/src/character/model.h"
 #include "sdk/src/character/shadow_kernels.h"
 #include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/containers.h"
 #include "sdk/src/core/memory.h"
 
 namespace nook {
+
+// A multiple of all block sizes. Its AO lies in 4 KiB where the file has no other vertices between.
+inline constexpr std::uint32_t linear_window_vertices = 1024;
+
+// Returns all vertices in the order of their slots. Blocks are made of the vertices of one window of the
+// file's order: the first that is left, then always the one that needs the fewest further key points. The
+// model's influences must be valid.
+Vector<std::uint32_t> linear_layer_order(const CharacterModel& model, std::uint32_t block_vertices,
+                                         Memory* memory);
+
+// The linear layer of a character model in an order that is efficient on processors: blocks of 16 vertices
+// that share key points, each as a small dense matrix.
 
 class LinearLayer {
  public:

@@ -1,4 +1,4 @@
-#include "sdk/src/character/linear_layer_order.h"
+#include "sdk/src/character/linear_layer.h"
 
 #include <algorithm>
 #include <numeric>

@@ -7,6 +7,7 @@
 #include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/loaded_model.h"
 #include "sdk/src/core/ref.h"
+#include "shaders/core/texel_layout.h"
 
 namespace nook {
 
@@ -49,5 +50,24 @@ void decode_ao(const LoadedClips& clips, const float* weights, std::uint32_t fir
 // The matrix of a bone in a mix of frames, place * rest space to the clip's space: the nearest one of one
 // rotation and scale. Neither allocates nor throws.
 Mat3x4 decode_bone(const ClipSet& set, const FrameMix& mix, const Mat3x4& place, std::size_t bone) noexcept;
+
+// The tables of clips as texels of four numbers each, for the textures that shaders/clips/host.glsl reads.
+
+// A 2D texture whose rows follow one another.
+struct ClipTexels {
+  static constexpr std::uint32_t width = NOOK_TEXEL_ROW;
+  std::uint64_t texels = 0;
+  std::uint32_t texel_bytes = 0;
+
+  std::uint32_t height() const { return static_cast<std::uint32_t>((texels + width - 1) / width); }
+  std::uint64_t bytes() const { return std::uint64_t(height()) * width * texel_bytes; }
+};
+
+ClipTexels mode_texels(const LoadedClips& clips);
+ClipTexels weight_texels(const LoadedClips& clips);
+
+// Fill the bytes of the texture, with zeros behind the last texel.
+void write_mode_texels(const LoadedClips& clips, void* texels) noexcept;
+void write_weight_texels(const LoadedClips& clips, void* texels) noexcept;
 
 }  // namespace nook

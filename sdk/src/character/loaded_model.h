@@ -1,12 +1,16 @@
 // A model in the runtime: shared and immutable, with values that are derived once from its data.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <span>
+
 #include "sdk/src/character/linear_layer.h"
-#include "sdk/src/character/linear_layer_order.h"
 #include "sdk/src/character/model.h"
 #include "sdk/src/character/shadow_kernels_rest.h"
 #include "sdk/src/character/sphere_groups.h"
 #include "sdk/src/character/sphere_tree.h"
+#include "sdk/src/core/containers.h"
 #include "sdk/src/core/ref.h"
 
 namespace nook {
@@ -24,7 +28,7 @@ struct LoadedModel : RefCounted {
   // The model must have passed check_model.
   LoadedModel(CharacterModel loaded, Memory* memory);
 
-  const CharacterModel model;  // with its key points in the order of key_point_order.h
+  const CharacterModel model;  // with its key points in groups, see with_near_key_points_together
   const RestSpheres rest_spheres;
   const RestKeyPoints rest_key_points;
   const LinearLayer linear;
@@ -38,7 +42,7 @@ struct LoadedModel : RefCounted {
     std::uint32_t first_vertex = 0, vertices = 0, first_entry = 0;
   };
   // The runs of chunk c are file_run[run_begin[c]...run_begin[c + 1]], in ascending order. Chunks are the
-  // windows of linear_layer_order.h, whose vertices follow each other in most files.
+  // windows of linear_layer_order, whose vertices follow each other in most files.
   static constexpr std::uint32_t slot_chunk = linear_window_vertices;
   AlignedArray<std::uint32_t> run_begin;
   AlignedArray<FileRun> file_run;
@@ -58,5 +62,10 @@ struct LoadedModel : RefCounted {
                               // AO by a unit of shadow
   float caster_strength = 0;  // maximum over the levels of the sum of caster_weight * radius^2, square metres
 };
+
+// Renumbers the key points of a model that has passed check_model into groups of key_point_group that are near
+// each other, so that one decision about a far part of the body serves a whole group. What the model means
+// stays the same.
+CharacterModel with_near_key_points_together(CharacterModel model, Memory* memory);
 
 }  // namespace nook

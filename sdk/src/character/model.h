@@ -1,6 +1,8 @@
 // A character model: the baked regression of Le et al. 2019 as plain data, in rest space and metres.
 #pragma once
 
+#include <nook/nook.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -11,8 +13,8 @@
 #include "sdk/src/character/bent_normal.h"
 #include "sdk/src/character/bind_data.h"
 #include "sdk/src/character/kernel.h"
-#include "sdk/src/core/capsule.h"
 #include "sdk/src/core/containers.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook {
@@ -152,5 +154,16 @@ inline float max_saturation_of(const CharacterModel& model) {
   for (const KeyPoint& point : model.key_points) max = std::max(max, point.saturation);
   return max;
 }
+
+// The bound of alpha, bias and caster weight. It is far above fitted values, unless the spheres are far too
+// small.
+constexpr float max_coefficient = 1e4f;
+
+// With more, a key point is a switch: half of its shadow's range lies below a norm of 1/64.
+constexpr float max_saturation = 64;
+
+// Throws Failure with `code` and the first fault: a count or an index is out of range, a number is not finite
+// or is outside its range, or weights do not sum to one.
+void check_model(const CharacterModel& model, nook_result code);
 
 }  // namespace nook

@@ -1,9 +1,9 @@
-#include "sdk/src/character/model_check.h"
+#include "sdk/src/character/model.h"
 
 #include <cmath>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook {
 namespace {

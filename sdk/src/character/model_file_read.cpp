@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sdk/src/character/model_check.h"
+#include "sdk/src/character/model.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/character/model_file_packing.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "sdk/src/character/model_check.h"
+#include "sdk/src/character/model.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/character/model_file_packing.h"
 

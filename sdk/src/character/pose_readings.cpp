@@ -1,4 +1,4 @@
-#include "sdk/src/character/pose_readings.h"
+#include "sdk/src/character/pose_check.h"
 
 #include <iterator>
 #include <utility>

@@ -8,6 +8,7 @@
 
 #include "sdk/src/character/model.h"
 #include "sdk/src/core/affine.h"
+#include "sdk/src/core/memory.h"
 
 namespace nook {
 
@@ -89,5 +90,12 @@ struct ProjectedBone {
 // strict, for an uneven one. bones has the model's bone count and may hold a part of the answer after a
 // failure.
 ProjectedBone convert_pose(const CharacterModel& model, const PoseSource& source, std::span<Mat3x4> bones);
+
+// Finds a host's transforms by the names of bones.
+
+// Writes the index of the first of the host's names that matches each bone, or -1, and returns the number of
+// -1. Bones of one joint take the transform of its first bone where their own name has none.
+std::size_t map_bones(const CharacterModel& model, const nook_bone_map_desc& names,
+                      std::span<std::int32_t> transform_of_bone, Memory* memory);
 
 }  // namespace nook

@@ -12,14 +12,14 @@
 #include <span>
 #include <vector>
 
-#include "sdk/src/character/light.h"
+#include "sdk/src/character/instance_light.h"
 #include "sdk/src/character/loaded_clips.h"
 #include "sdk/src/character/loaded_model.h"
 #include "sdk/src/character/neighbours.h"
 #include "sdk/src/character/pose_source.h"
 #include "sdk/src/core/aligned_array.h"
-#include "sdk/src/core/capsule.h"
 #include "sdk/src/core/containers.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/core/parallel.h"
 
 namespace nook {
@@ -159,7 +159,7 @@ struct InstanceResult {
   bool has_added = false;                  // PointLanes::added of the last evaluation is not all zero
 };
 
-// The world casters of an instance in its pose (world_casters.h).
+// The world casters of an instance in its pose, see pose_world_casters.
 struct InstanceCasters {
   explicit InstanceCasters(Memory* memory) : posed(memory) {}
 
@@ -292,7 +292,7 @@ void group_spheres(const Scene& scene, Instance& instance) noexcept;
 // Computes the world-space key points of an instance that is due, at its level, and their box.
 void transform_key_points(const Scene& scene, Instance& instance) noexcept;
 // Computes shadow and added occlusion at the key points of an instance that is due, and their colours if it
-// has a light (light.h).
+// has a light (instance_light.h).
 void evaluate_shadows(const Scene& scene, Instance& instance) noexcept;
 // Runs all of the above for all instances, and computes the statistics.
 void update(Scene& scene) noexcept;
@@ -307,5 +307,17 @@ void read_ao_as(const Scene& scene, const Instance& instance, nook_format format
 // if the last update found no light.
 void read_directional_ao(const Scene& scene, const Instance& instance, float* out,
                          std::size_t stride_bytes) noexcept;
+
+// Poses the casters of an instance if its pose has changed since the last call. Neither allocates nor throws.
+void pose_world_casters(Instance& instance) noexcept;
+
+// An occluder as a caster.
+inline PosedCaster caster_of(const Sphere& sphere) {
+  return {{sphere.centre, sphere.centre, sphere.radius, sphere.radius}, 1};
+}
+
+// The largest AO that a caster takes at a distance d from it is at most this over d^2: the form factor of its
+// silhouette, which is at most that of a disc and a rectangle that face the point.
+float caster_strength(const PosedCaster& caster);
 
 }  // namespace nook

@@ -4,7 +4,7 @@
 
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/place.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook {
 namespace {

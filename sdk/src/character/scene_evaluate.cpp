@@ -6,7 +6,7 @@
 
 #include "sdk/src/character/instance_views.h"
 #include "sdk/src/character/scene.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 
 namespace nook {
 namespace {

@@ -9,8 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "sdk/src/character/directional.h"
-#include "sdk/src/character/directional_bands.h"
+#include "sdk/src/character/directional_occlusion.h"
 #include "sdk/src/character/kernel.h"
 #include "sdk/src/core/isa.h"
 #include "sdk/src/core/vec.h"
@@ -196,9 +195,9 @@ struct ShadowKernels {
   void (*pose_key_points)(const RestKeyPointView& rest, const Mat3x4* bones, Vec3 offset_ws,
                           const KeyPointTarget& out, const KeyPointTarget* surface);
 
-  // Directional occlusion (directional.h). rgb and inverse have one array of padded_count entries for each
+  // Directional occlusion (directional_occlusion.h). rgb and inverse have one array of padded_count entries for each
   // channel. rho is the light behind a sphere relative to its share of the hemisphere. rgb[k] += sum over
-  // spheres of y^gamma rho, by bands (directional_bands.h): the coloured form of self_norm_sum.
+  // spheres of y^gamma rho, by bands (directional_occlusion.h): the coloured form of self_norm_sum.
   void (*directional_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
                                const LightBands& light, float* const* rgb);
   // inverse[k] = inverse_hemisphere at the key point, which the next two functions need.
@@ -228,3 +227,11 @@ const ShadowKernels* shadow_kernels(Isa isa);
 const ShadowKernels& best_shadow_kernels();
 
 }  // namespace nook
+
+// The table of each instruction set's translation unit. A table may only be used on a processor that has the
+// instruction set.
+#define NOOK_ISA_ENTRY(name, value, built, runs) \
+  namespace nook::isa_##name {                   \
+    const ShadowKernels& kernels();              \
+  }
+#include "sdk/src/core/isa_list.inl"

@@ -3,10 +3,8 @@
 
 #include <cstdint>
 
-#include "sdk/src/character/directional.h"
-#include "sdk/src/character/directional_bands.h"
+#include "sdk/src/character/directional_occlusion.h"
 #include "sdk/src/character/kernel.h"
 #include "sdk/src/character/shadow_kernels.h"
-#include "sdk/src/character/shadow_kernels_tables.h"
 #include "sdk/src/core/compiler.h"
 #include "sdk/src/core/simd_pair.h"

@@ -59,7 +59,7 @@ struct Receiver {
   Vec3 min{INFINITY, INFINITY, INFINITY}, max{-INFINITY, -INFINITY, -INFINITY};
   float x[samples] = {}, y[samples] = {}, z[samples] = {};
 };
-// Samples are picked evenly from places that are in the order of key_point_order.h.
+// Samples are picked evenly from places that are in the order of with_near_key_points_together.
 Receiver receiver_of(const float* x, const float* y, const float* z, std::uint32_t count);
 
 // Merges `parts`, the spheres of a pose or the groups of the tier before, into the groups of a tier. A group

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sdk/src/core/bit_cast.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/core/floats.h"
 
 namespace nook {
 

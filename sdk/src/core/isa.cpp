@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/processor.h"
 
 namespace nook {
 namespace {

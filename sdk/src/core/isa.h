@@ -46,4 +46,11 @@ bool isa_available(Isa isa);
 // that is not available; the message then names those that are.
 Isa choose_isa(nook_isa asked);
 
+// The instruction sets that both processor and operating system can run. All answers are false on processors
+// of another family.
+
+bool processor_has_sse2();
+bool processor_has_avx2_and_fma();
+bool processor_has_avx512f();
+
 }  // namespace nook

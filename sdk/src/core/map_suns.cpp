@@ -1,4 +1,4 @@
-#include "sdk/src/core/map_suns.h"
+#include "sdk/src/core/light_map.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "sdk/src/core/processor.h"
+#include "sdk/src/core/isa.h"
 
 // clang-cl defines _MSC_VER too; the support library of __builtin_cpu_supports is not linked there.
 #if defined(_M_X64) && defined(_MSC_VER)

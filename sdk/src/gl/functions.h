@@ -201,4 +201,16 @@ const char* api_name(const Functions& gl);
 // low.
 Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier);
 
+// Reads and sets single pieces of OpenGL state for the guard.
+
+inline GLint integer(const Functions& gl, GLenum name) {
+  GLint value = 0;
+  gl.GetIntegerv(name, &value);
+  return value;
+}
+
+inline void set_enabled(const Functions& gl, GLenum capability, bool enabled) {
+  enabled ? gl.Enable(capability) : gl.Disable(capability);
+}
+
 }  // namespace nook::gl

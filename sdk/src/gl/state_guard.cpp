@@ -3,7 +3,7 @@
 #include <iterator>
 #include <utility>
 
-#include "sdk/src/gl/state_access.h"
+#include "sdk/src/gl/functions.h"
 
 namespace nook::gl {
 namespace {

@@ -1,7 +1,7 @@
 // Saves and restores the state of the screen-space pass's draws.
 #include "sdk/src/gl/state_guard.h"
 
-#include "sdk/src/gl/state_access.h"
+#include "sdk/src/gl/functions.h"
 
 namespace nook::gl {
 namespace {

@@ -3,6 +3,7 @@
 // too.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -49,5 +50,19 @@ class DirectionMesh {
   Vector<Edge> border_;  // outermost edges; a chain where there are no triangles
   Vector<Edge> cavity_;  // the edges of the hole of an insertion
 };
+
+// Returns the ratio of the cosine of a light beyond the outermost sampled lights to that of the nearest
+// direction between them, `mix`, so that light fades to 0 at the horizon. It is 1 between the samples.
+inline float low_light_share(std::span<const Vec3> lights, const DirectionMix& mix, float z) {
+  ParabolicPoint nearest{};
+  for (int i = 0; i < 3; ++i) {
+    const ParabolicPoint p = to_parabolic(lights[mix.index[i]]);
+    nearest.x += mix.weight[i] * p.x;
+    nearest.y += mix.weight[i] * p.y;
+  }
+  const float cosine = from_parabolic(nearest).z;
+  // Between the samples both cosines are equal up to rounding.
+  return z < cosine - 1e-5f ? std::max(z, 0.0f) / cosine : 1.0f;
+}
 
 }  // namespace nook::material

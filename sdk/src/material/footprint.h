@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "sdk/src/material/layered_image.h"
-#include "sdk/src/material/relief.h"
+#include "sdk/src/material/relief_tables.h"
 
 namespace nook::material {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/material/filtering.h"
 #include "sdk/src/material/signed_blocks.h"
 #include "sdk/src/material/spatial_modes.h"

@@ -21,7 +21,7 @@
 #include "sdk/src/core/containers.h"
 #include "sdk/src/core/vec.h"
 #include "sdk/src/material/neural.h"
-#include "sdk/src/material/shape.h"
+#include "sdk/src/material/tensor_shape.h"
 
 namespace nook::material {
 
@@ -78,7 +78,8 @@ constexpr VisibilityMapping paper_mapping(VisibilityForm form) {
 
 // The relief whose points the texels of the BTF are: texel (x, y) of a view is what it sees at the relief's
 // point over that texel. So relief does not move between views, and mixing them does not blur it. The point
-// that a view sees through the plane z = 0 is found by the march of relief.h. The VOTF stays on that plane.
+// that a view sees through the plane z = 0 is found by relief_place of relief_tables.h. The VOTF stays on
+// that plane.
 struct Relief {
   explicit Relief(Memory* memory = default_memory()) : levels(memory) {}
 

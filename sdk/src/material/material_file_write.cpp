@@ -1,6 +1,6 @@
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/check.h"
 #include "sdk/src/material/map_rows.h"
+#include "sdk/src/material/material_check.h"
 #include "sdk/src/material/material_file.h"
 #include "sdk/src/material/packed_numbers.h"
 

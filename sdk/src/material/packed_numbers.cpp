@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdk/src/core/half.h"
-#include "sdk/src/material/rice_code.h"
+#include "sdk/src/core/floats.h"
+#include "sdk/src/material/map_rows.h"
 
 namespace nook::material {
 namespace {

@@ -21,7 +21,7 @@ constexpr std::size_t packed_bytes(std::size_t count) {
 void read_packed(ByteReader& in, std::span<float> values);
 
 // Numbers rounded to multiples of a step: f32 step, then slabs of `slab` numbers each (the last may be
-// shorter), in packed bits: the k of rice_code.h, and each multiple in its code. So the code adapts to each
+// shorter), in packed bits: the k of map_rows.h, and each multiple in its code. So the code adapts to each
 // slab; the end is aligned to a byte. All values must be finite, and the step positive. No number is rounded
 // beyond the largest magnitude, which may be at a limit of the format.
 void write_multiples(ByteWriter& out, std::span<const float> values, std::size_t slab, float step);

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/core/hash.h"
-#include "sdk/src/material/check.h"
 #include "sdk/src/material/direction_mesh.h"
-#include "sdk/src/material/low_light.h"
+#include "sdk/src/material/material_check.h"
 #include "sdk/src/material/spatial_modes.h"
 #include "sdk/src/material/view_cells.h"
 

@@ -9,7 +9,7 @@
 #include "sdk/src/material/layered_image.h"
 #include "sdk/src/material/material.h"
 #include "sdk/src/material/neural_tables.h"
-#include "sdk/src/material/relief.h"
+#include "sdk/src/material/relief_tables.h"
 
 namespace nook::material {
 

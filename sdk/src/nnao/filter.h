@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_evaluate.h"
 
 namespace nook::nnao {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_evaluate.h"
 
 namespace nook::nnao {
 

@@ -2,7 +2,7 @@
 // must be. Matrices are column-major, as OpenGL takes them.
 #pragma once
 
-#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_evaluate.h"
 
 namespace nook::nnao {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 #include "sdk/src/nnao/layers.h"
 
 namespace nook::nnao {

@@ -7,7 +7,6 @@
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/spherical_gaussian.h"
 #include "sdk/src/probe/axes.h"
-#include "sdk/src/probe/dice.h"
 #include "sdk/src/probe/harmonics.h"
 
 namespace nook::probe {

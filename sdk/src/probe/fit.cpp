@@ -6,8 +6,19 @@
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/probe/dense.h"
+#include "sdk/src/probe/fit_kernels.h"
 
 namespace nook::probe {
+
+const FitKernels* fit_kernels(Isa isa) {
+  if (!isa_available(isa)) return nullptr;
+#define NOOK_ISA_ENTRY(name, value, built, runs) \
+  if constexpr (built)                           \
+    if (isa == Isa::name) return &isa_##name::fit_kernels();
+#include "sdk/src/core/isa_list.inl"
+  return nullptr;
+}
+
 namespace {
 
 constexpr float padding_sharpness = 1e4f;

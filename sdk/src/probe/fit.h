@@ -20,11 +20,12 @@
 #include <span>
 
 #include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/containers.h"
 #include "sdk/src/core/memory.h"
 #include "sdk/src/core/vec.h"
 #include "sdk/src/probe/basis.h"
+#include "sdk/src/probe/fit_bands.h"
 #include "sdk/src/probe/fit_kernels.h"
-#include "sdk/src/probe/light_bands.h"
 
 namespace nook::probe {
 
@@ -60,7 +61,7 @@ constexpr bool is_running(FitMethod method) {
 // running average knows, and what it makes of that would not be forgotten for thousands of samples.
 inline constexpr double first_weight = 256;
 
-// Returns true if coefficients are constrained to the light's bands 0 to 2 (light_bands.h): Gaussians, except
+// Returns true if coefficients are constrained to the light's bands 0 to 2 (fit_bands.h): Gaussians, except
 // for the two forms that exist for comparison.
 constexpr bool meets_bands(const Basis& basis, const FitSettings& settings) {
   return settings.constraint == Constraint::bands && basis.kind == BasisKind::gaussians &&
@@ -181,5 +182,13 @@ class Fit {
   AlignedArray<double> spare_;    // for reading, as large
   AlignedArray<double> scratch_;  // for solving
 };
+
+// A fit's solution as one matrix: where the Gram matrix is exact, coefficients are a linear function of what
+// a fit gathers, so that any machine that multiplies can solve it.
+
+// basis.count rows of basis.count + band_functions columns. Row i gives coefficient i of the method `moments`
+// from the integrals over the sphere of the light times each function, and then times each harmonic of bands
+// 0 to 2; without the constraint the last columns are 0. Gaussians over the sphere only.
+Vector<double> solution_map(const Basis& basis, Constraint constraint, Memory* memory = default_memory());
 
 }  // namespace nook::probe

@@ -117,3 +117,11 @@ struct FitKernels {
 const FitKernels* fit_kernels(Isa isa);
 
 }  // namespace nook::probe
+
+// The table of each instruction set's translation unit. A table may only be used on a processor that has the
+// instruction set.
+#define NOOK_ISA_ENTRY(name, value, built, runs) \
+  namespace nook::isa_##name {                   \
+    const probe::FitKernels& fit_kernels();      \
+  }
+#include "sdk/src/core/isa_list.inl"

@@ -11,5 +11,4 @@
 #include "sdk/src/core/compiler.h"
 #include "sdk/src/core/simd_polynomials.h"
 #include "sdk/src/probe/fit_kernels.h"
-#include "sdk/src/probe/fit_kernels_tables.h"
 #include "shaders/probe/constants.h"

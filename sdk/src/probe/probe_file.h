@@ -1,25 +1,42 @@
+// Coefficients in fewer bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sdk/src/core/container.h"
+#include "sdk/src/core/memory.h"
+#include "sdk/src/core/vec.h"
+#include "sdk/src/probe/probe.h"
+
+namespace nook::probe {
+
+enum class Packing : std::uint8_t { float32 = 0, half = 1, rgb9e5 = 2 };
+
+constexpr std::size_t packed_bytes(Packing packing) {
+  return packing == Packing::float32 ? 12 : packing == Packing::half ? 6 : 4;
+}
+
+inline constexpr float max_half = 65504.0f;
+inline constexpr float max_rgb9e5 = 65408.0f;  // 511 / 512 * 2^16
+
+// Three mantissas of 9 bits, red lowest, and one exponent of 5 above them: GL_RGB9_E5. Channels are clamped
+// to [0, max_rgb9e5], NaN to 0. The error of each channel is at most 2^-9 of the largest one, 2^-25 where
+// that is below 2^-15.
+std::uint32_t to_rgb9e5(Vec3 rgb);
+Vec3 from_rgb9e5(std::uint32_t bits);
+
 // Probes as .nook files. The kind "PROB" has the sections
 //   HEAD u8 kind, u8 domain, u8 ambient, u8 order, u8 functions, u8 packing;
 //        f32: up 3; u32: counts 3; f32: origin_ws 3, spacing_ws 3
 //   LOBE Gaussians only: for each function axis 3 f32 and sharpness f32
 //   COEF coefficients, probe by probe, packed as HEAD says: 3 f32, 3 half floats, or one RGB9E5 word
 //   RECP recipe, JSON; may be empty
-//   WALL version 2, only of grids with walls: f32 bias; for each cell, as walls.h has them, its planes, 4
-//   half
+//   WALL version 2, only of grids with walls: f32 bias; for each cell, as probe.h has them, its planes, 4 half
 //        floats each, and a byte for each side
 // A grid without walls is written as version 1, which older libraries read.
-#pragma once
-
-#include <cstddef>
-#include <span>
-#include <vector>
-
-#include "sdk/src/core/container.h"
-#include "sdk/src/core/memory.h"
-#include "sdk/src/probe/packing.h"
-#include "sdk/src/probe/probe.h"
-
-namespace nook::probe {
 
 inline constexpr ContainerKind probe_kind{four_letters("PROB"), "light probe", 1, 2};
 

@@ -2,11 +2,13 @@
 // its cluster and the reflected light have in common, times numbers of its own that no light changes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
 #include "sdk/src/core/containers.h"
 #include "sdk/src/core/parallel.h"
+#include "sdk/src/transfer/distant_light.h"
 #include "sdk/src/transfer/response.h"
 #include "sdk/src/transfer/transfer.h"
 
@@ -22,5 +24,14 @@ void write_lit_rows(const Response& response, std::span<const float> amplitudes,
 // zeros up to a multiple of four.
 std::size_t vertex_number_count(const Transfer& transfer);
 void write_vertex_numbers(const Transfer& transfer, std::size_t vertex, float* numbers);
+
+// The light that a baked shape reflects onto itself, as transfer.h has it.
+
+// For each reflection b and band k the radiance a^b L_k / pi; those beyond `bounces` are 0.
+using ReflectedBands = std::array<Vec3, max_bounces * band_count>;
+
+// amplitudes has lobes x RGB.
+ReflectedBands reflected_light(const Response& response, std::span<const float> amplitudes,
+                               std::uint32_t bounces, Memory* memory);
 
 }  // namespace nook::transfer

@@ -2,12 +2,13 @@
 // once; a fit in a new rotation sums moments and solves two triangular systems.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 
 #include "sdk/src/core/containers.h"
-#include "sdk/src/transfer/light_cube.h"
-#include "sdk/src/transfer/lobes.h"
+#include "sdk/src/core/memory.h"
+#include "sdk/src/transfer/distant_light.h"
 
 namespace nook::transfer {
 
@@ -42,5 +43,31 @@ struct FitQuality {
 };
 FitQuality fit_quality(const LobeFit& fit, std::span<const float> amplitudes, const CubeCells& cells,
                        std::span<const Vec3> radiance, const Mat3x4& light_from_shape);
+
+// The factored Gram matrices of a context, one for each number of lobes that it has projected light to.
+
+class LobeFit;
+
+// Any thread may ask at any time. Nothing is made until the first call, and nothing is freed before the
+// cache.
+class FitCache {
+ public:
+  explicit FitCache(Memory* memory) noexcept : memory_(memory) {}
+  ~FitCache();
+  FitCache(const FitCache&) = delete;
+  FitCache& operator=(const FitCache&) = delete;
+
+  // Makes the fit on the first call for a number of lobes. Two threads that both are the first both make it,
+  // and one of the two results is dropped: a lock would need threads, which some builds do not have.
+  const LobeFit& of(std::uint32_t lobes);
+
+ private:
+  struct Entry;
+  const LobeFit* find(const Entry* from, const Entry* end, std::uint32_t lobes) const;
+  void drop(Entry* entry) noexcept;
+
+  Memory* memory_;
+  std::atomic<Entry*> first_{nullptr};
+};
 
 }  // namespace nook::transfer

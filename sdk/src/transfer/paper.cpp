@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "sdk/src/core/bit_cast.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 
 namespace nook::transfer {
 namespace {

@@ -11,7 +11,7 @@
 #include "sdk/src/core/aligned_array.h"
 #include "sdk/src/core/containers.h"
 #include "sdk/src/core/vec.h"
-#include "sdk/src/transfer/lobes.h"
+#include "sdk/src/transfer/distant_light.h"
 #include "sdk/src/transfer/vector_kernels.h"
 
 namespace nook::transfer {

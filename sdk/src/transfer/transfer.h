@@ -23,10 +23,9 @@
 #include <vector>
 
 #include "sdk/src/core/containers.h"
-#include "sdk/src/transfer/frame.h"
-#include "sdk/src/transfer/light_bands.h"
-#include "sdk/src/transfer/lobes.h"
+#include "sdk/src/transfer/distant_light.h"
 #include "sdk/src/transfer/paper.h"
+#include "sdk/src/transfer/tangent_frame.h"
 
 namespace nook::transfer {
 
@@ -52,7 +51,7 @@ struct Transfer {
   Vector<PackedFrame> frames;   // one for each vertex
   PaperTransfer paper;          // in place of shares and frames, which are empty then
   std::uint32_t bounces = 0;    // reflections, up to max_bounces
-  // vertices x bounces x band_count half floats m_(b,k), in the order of light_bands.h.
+  // vertices x bounces x band_count half floats m_(b,k), in the order of distant_light.h.
   Vector<std::uint16_t> indirect;
   // The hash of the VOTF through whose holes light fell, see material/tables.h; 0: surfaces have no holes.
   std::uint64_t votf_hash = 0;

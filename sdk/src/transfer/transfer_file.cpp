@@ -1,7 +1,7 @@
 #include "sdk/src/transfer/transfer_file.h"
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/transfer/check.h"
+#include "sdk/src/transfer/transfer_check.h"
 
 namespace nook::transfer {
 namespace {

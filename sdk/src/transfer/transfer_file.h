@@ -4,7 +4,7 @@
 //   CODE  vertices x lobes, 2 bits each, low bits first, every vertex from a whole byte on: 0 is the share 0,
 //         1 is 255, 2 is a byte of SHAR; 3 is refused
 //   SHAR  the shares of code 2, u8
-//   FRAM  vertices x 3 u16, see frame.h
+//   FRAM  vertices x 3 u16, see tangent_frame.h
 // and in the paper's form, in place of CODE, SHAR and FRAM,
 //   PAPR  u16 light modes, clusters, lobe rank, vertex rank; u64 hash of the material's light; f32 scale
 //   LOBE, CORE, CLUS, COEF  the arrays of paper.h: half floats, and u8 for clusters

@@ -61,3 +61,11 @@ struct VectorKernels {
 const VectorKernels* vector_kernels(Isa isa);
 
 }  // namespace nook::transfer
+
+// The table of each instruction set's translation unit. A table may only be used on a processor that has the
+// instruction set.
+#define NOOK_ISA_ENTRY(name, value, built, runs)     \
+  namespace nook::isa_##name {                       \
+    const transfer::VectorKernels& vector_kernels(); \
+  }
+#include "sdk/src/core/isa_list.inl"

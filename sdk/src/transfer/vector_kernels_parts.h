@@ -7,4 +7,3 @@
 #include <cstring>
 
 #include "sdk/src/transfer/vector_kernels.h"
-#include "sdk/src/transfer/vector_kernels_tables.h"

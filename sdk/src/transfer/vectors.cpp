@@ -3,11 +3,21 @@
 #include <algorithm>
 
 #include "sdk/src/core/aligned_array.h"
-#include "sdk/src/core/half.h"
-#include "sdk/src/transfer/reflected_light.h"
+#include "sdk/src/core/floats.h"
+#include "sdk/src/transfer/lit_rows.h"
 #include "sdk/src/transfer/vector_kernels.h"
 
 namespace nook::transfer {
+
+const VectorKernels* vector_kernels(Isa isa) {
+  if (!isa_available(isa)) return nullptr;
+#define NOOK_ISA_ENTRY(name, value, built, runs) \
+  if constexpr (built)                           \
+    if (isa == Isa::name) return &isa_##name::vector_kernels();
+#include "sdk/src/core/isa_list.inl"
+  return nullptr;
+}
+
 namespace {
 
 // Vertices that one thread takes at a time, whole blocks.

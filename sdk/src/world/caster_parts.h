@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "sdk/src/core/capsule.h"
+#include "sdk/src/core/geometry.h"
 #include "shaders/world/constants.h"
 
 namespace nook::world {

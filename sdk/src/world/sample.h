@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "sdk/src/core/capsule.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/core/parallel.h"
 #include "sdk/src/world/world_kernels.h"
 

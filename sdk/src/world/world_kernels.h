@@ -5,10 +5,10 @@
 
 #include <cstdint>
 
-#include "sdk/src/core/capsule.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/core/isa.h"
 #include "sdk/src/world/cone.h"
-#include "sdk/src/world/directional.h"
+#include "sdk/src/world/light_terms.h"
 
 namespace nook::world {
 
@@ -47,3 +47,11 @@ struct WorldKernels {
 const WorldKernels* world_kernels(Isa isa);
 
 }  // namespace nook::world
+
+// The table of each instruction set's translation unit. A table may only be used on a processor that has the
+// instruction set.
+#define NOOK_ISA_ENTRY(name, value, built, runs) \
+  namespace nook::isa_##name {                   \
+    const world::WorldKernels& world_kernels();  \
+  }
+#include "sdk/src/core/isa_list.inl"

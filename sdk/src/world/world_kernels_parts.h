@@ -6,4 +6,3 @@
 #include "sdk/src/world/cone.h"
 #include "sdk/src/world/coverage.h"
 #include "sdk/src/world/world_kernels.h"
-#include "sdk/src/world/world_kernels_tables.h"

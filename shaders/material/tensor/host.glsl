@@ -1,4 +1,4 @@
-// The terms of a tensor for a view. sdk/src/gl/material/source.cpp writes this text for the BTF and for the VOTF, with "btf" or
+// The terms of a tensor for a view. sdk/src/gl/material/material_glsl.cpp writes this text for the BTF and for the VOTF, with "btf" or
 // "votf" in place of "tensor" and "BTF" or "VOTF" in place of "TENSOR". One function cannot serve both, because some materials
 // have no membership texture.
 

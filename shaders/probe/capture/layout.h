@@ -1,4 +1,4 @@
-// The layout that the shaders of captures and sdk/src/gl/probe/capture_table.h share: how sums over a cube
+// The layout that the shaders of captures and sdk/src/gl/probe/capture.h share: how sums over a cube
 // map lie in the table of texels. C++ and GLSL both include this file.
 #ifndef NOOK_PROBE_CAPTURE_LAYOUT_H
 #define NOOK_PROBE_CAPTURE_LAYOUT_H

@@ -28,7 +28,7 @@ vec3 nook_harmonic(int i) {
 }
 
 #if NOOK_CAPTURE_FORM == NOOK_CAPTURE_ZONAL
-// The part of band 2 that is symmetric about the direction of band 1's luminance, as zonal_harmonics.cpp.
+// The part of band 2 that is symmetric about the direction of band 1's luminance, as harmonics.cpp.
 vec3 nook_zonal() {
   vec3 weight = vec3(NOOK_LUMINANCE_RED, NOOK_LUMINANCE_GREEN, NOOK_LUMINANCE_BLUE);
   vec3 axis = vec3(dot(nook_harmonic(3), weight), dot(nook_harmonic(1), weight), dot(nook_harmonic(2), weight));

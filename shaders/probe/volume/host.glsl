@@ -1,4 +1,4 @@
-// A grid of probes in one 3D texture of half floats, as sdk/src/gl/probe/grid_texels.cpp lays it out: layers of texels
+// A grid of probes in one 3D texture of half floats, as sdk/src/gl/probe/grid_volume.cpp lays it out: layers of texels
 // one behind the other along z, each as large as the grid. The first NOOK_GRID_TEXELS layers hold a probe's coefficients
 // as a row of numbers; with walls the next three hold a cell's planes, and the last two the masks of its sides.
 #include "shaders/probe/harmonics.glsl"

@@ -27,3 +27,23 @@ NOOK_AT(nook_scene_key_point, normal_ws, 16);
 NOOK_AT(nook_scene_key_point, added, 28);
 NOOK_AT(nook_scene_key_point, surface_position_ws, 32);
 NOOK_AT(nook_scene_key_point, index, 44);
+
+NOOK_SIZE(nook_nnao_debug_desc, 32);
+NOOK_AT(nook_nnao_debug_desc, struct_size, 0);
+NOOK_AT(nook_nnao_debug_desc, type, 4);
+NOOK_AT(nook_nnao_debug_desc, next, 8);
+NOOK_AT(nook_nnao_debug_desc, path, 16);
+NOOK_AT(nook_nnao_debug_desc, depth_sample, 20);
+NOOK_AT(nook_nnao_debug_desc, timers, 24);
+
+NOOK_SIZE(nook_nnao_frame_debug_desc, 24);
+NOOK_AT(nook_nnao_frame_debug_desc, struct_size, 0);
+NOOK_AT(nook_nnao_frame_debug_desc, type, 4);
+NOOK_AT(nook_nnao_frame_debug_desc, next, 8);
+NOOK_AT(nook_nnao_frame_debug_desc, show, 16);
+
+NOOK_SIZE(nook_world_frame_debug_desc, 24);
+NOOK_AT(nook_world_frame_debug_desc, struct_size, 0);
+NOOK_AT(nook_world_frame_debug_desc, type, 4);
+NOOK_AT(nook_world_frame_debug_desc, next, 8);
+NOOK_AT(nook_world_frame_debug_desc, show, 16);

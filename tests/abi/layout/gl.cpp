@@ -30,22 +30,15 @@ NOOK_AT(nook_gl_ao_target, instance_stride, 24);
 NOOK_AT(nook_gl_ao_target, stride, 32);
 NOOK_AT(nook_gl_ao_target, texture_width, 36);
 
-NOOK_SIZE(nook_gl_ao_view, 24);
-NOOK_AT(nook_gl_ao_view, struct_size, 0);
-NOOK_AT(nook_gl_ao_view, buffer, 4);
-NOOK_AT(nook_gl_ao_view, offset, 8);
-NOOK_AT(nook_gl_ao_view, stride, 16);
-NOOK_AT(nook_gl_ao_view, count, 20);
-
-NOOK_SIZE(nook_gl_light_view, 40);
-NOOK_AT(nook_gl_light_view, struct_size, 0);
-NOOK_AT(nook_gl_light_view, buffer, 4);
-NOOK_AT(nook_gl_light_view, offset, 8);
-NOOK_AT(nook_gl_light_view, stride, 16);
-NOOK_AT(nook_gl_light_view, count, 20);
-NOOK_AT(nook_gl_light_view, texture, 24);
-NOOK_AT(nook_gl_light_view, light, 28);
-NOOK_AT(nook_gl_light_view, glsl, 32);
+NOOK_SIZE(nook_gl_view, 40);
+NOOK_AT(nook_gl_view, struct_size, 0);
+NOOK_AT(nook_gl_view, buffer, 4);
+NOOK_AT(nook_gl_view, offset, 8);
+NOOK_AT(nook_gl_view, stride, 16);
+NOOK_AT(nook_gl_view, count, 20);
+NOOK_AT(nook_gl_view, texture, 24);
+NOOK_AT(nook_gl_view, light, 28);
+NOOK_AT(nook_gl_view, glsl, 32);
 
 NOOK_SIZE(nook_gl_memory, 32);
 NOOK_AT(nook_gl_memory, struct_size, 0);

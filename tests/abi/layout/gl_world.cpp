@@ -25,7 +25,6 @@ NOOK_AT(nook_world_frame_desc, intensity, 44);
 NOOK_AT(nook_world_frame_desc, power, 48);
 NOOK_AT(nook_world_frame_desc, ao_texture, 52);
 NOOK_AT(nook_world_frame_desc, combine, 56);
-NOOK_AT(nook_world_frame_desc, show, 60);
 NOOK_AT(nook_world_frame_desc, lobes, 64);
 NOOK_AT(nook_world_frame_desc, lobe_count, 72);
 NOOK_AT(nook_world_frame_desc, light_axis, 76);

@@ -2,11 +2,14 @@
 
 #include "tests/abi/layout/layout.h"
 
-NOOK_SIZE(nook_nnao_stages_info, 32);
+NOOK_SIZE(nook_nnao_stages_info, 40);
 NOOK_AT(nook_nnao_stages_info, stage_count, 4);
 NOOK_AT(nook_nnao_stages_info, vertex_shader, 8);
 NOOK_AT(nook_nnao_stages_info, network, 16);
 NOOK_AT(nook_nnao_stages_info, network_bytes, 24);
+NOOK_AT(nook_nnao_stages_info, taps, 28);
+NOOK_AT(nook_nnao_stages_info, half_resolution, 32);
+NOOK_AT(nook_nnao_stages_info, blur, 36);
 
 NOOK_SIZE(nook_nnao_image_info, 16);
 NOOK_AT(nook_nnao_image_info, format, 4);

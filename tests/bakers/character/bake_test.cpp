@@ -8,7 +8,7 @@
 #include "bakers/character/caster_fit.h"
 #include "bakers/character/export_model.h"
 #include "bakers/character/mini_batch_fit.h"
-#include "bakers/measure/character/evaluate.h"
+#include "bakers/measure/character/character_error.h"
 #include "sdk/src/character/model_file.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/bakers/character/direct_objective.h"

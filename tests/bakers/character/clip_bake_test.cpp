@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "bakers/character/clip_tables.h"
-#include "sdk/src/character/clip_file.h"
+#include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/loaded_clips.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/catch.h"

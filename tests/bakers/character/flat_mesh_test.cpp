@@ -3,7 +3,7 @@
 
 #include "bakers/character/character_bake.h"
 #include "bakers/import/skinned_mesh.h"
-#include "bakers/measure/character/evaluate.h"
+#include "bakers/measure/character/character_error.h"
 #include "sdk/src/character/model_file.h"
 #include "tests/bakers/character/waving_flag.h"
 #include "tests/catch.h"

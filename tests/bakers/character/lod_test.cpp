@@ -5,8 +5,8 @@
 #include "bakers/character/export_model.h"
 #include "bakers/character/vertex_fits.h"
 #include "bakers/import/skinned_mesh.h"
-#include "bakers/measure/character/lods.h"
-#include "sdk/src/character/vertex_resample.h"
+#include "bakers/measure/character/lod_error.h"
+#include "sdk/src/character/host_vertices.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/catch.h"
 

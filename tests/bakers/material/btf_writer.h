@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sdk/src/core/bytes.h"
-#include "sdk/src/core/half.h"
+#include "sdk/src/core/floats.h"
 
 namespace nook::bake::material::test {
 

@@ -4,7 +4,7 @@
 
 #include "bakers/nnao/forms.h"
 #include "bakers/nnao/horizon_gradient.h"
-#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_evaluate.h"
 #include "tests/bakers/nnao/small_dataset.h"
 #include "tests/catch.h"
 

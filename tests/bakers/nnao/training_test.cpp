@@ -7,7 +7,7 @@
 
 #include "bakers/nnao/validation.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/nnao/evaluate.h"
+#include "sdk/src/nnao/network_evaluate.h"
 #include "sdk/src/nnao/network_file.h"
 #include "tests/bakers/nnao/small_dataset.h"
 #include "tests/catch.h"

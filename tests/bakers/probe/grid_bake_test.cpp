@@ -8,8 +8,8 @@
 
 #include "bakers/measure/probe/fit_error.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/probe/evaluate.h"
 #include "sdk/src/probe/probe_file.h"
+#include "sdk/src/probe/probe_light.h"
 #include "tests/bakers/probe/small_maps.h"
 #include "tests/bakers/raytrace/sphere_soup.h"
 #include "tests/catch.h"

@@ -7,7 +7,7 @@
 #include "bakers/measure/probe/fit_error.h"
 #include "sdk/src/core/spherical_gaussian.h"
 #include "sdk/src/probe/axes.h"
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_light.h"
 #include "tests/bakers/probe/small_maps.h"
 #include "tests/catch.h"
 

@@ -10,7 +10,7 @@
 #include "bakers/probe/inside_probes.h"
 #include "bakers/raytrace/random.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/probe/evaluate.h"
+#include "sdk/src/probe/probe_light.h"
 #include "tests/bakers/probe/small_maps.h"
 #include "tests/catch.h"
 

@@ -185,8 +185,7 @@ TEST_CASE("two outputs of one name are refused before any work") {
       small_probe(folder, both, {"--report", again}),
       small_probe(folder, both, {"--picture", again}),
       {"bake", "material", "--meso", "weave", "-o", both, "--keep-raw", again},
-      {"bake", "material", "--meso", "weave", "-o", folder.path("m"), "--keep-raw", both, "--report", again},
-      {"evaluate", "nnao", "--thin", "--markdown", both, "--report", again}};
+      {"bake", "material", "--meso", "weave", "-o", folder.path("m"), "--keep-raw", both, "--report", again}};
   for (const Names& command : commands) {
     const ToolRun run = folder.run(command);
     INFO(run.error);
@@ -205,8 +204,8 @@ TEST_CASE("evaluation refuses a report that is one of its files") {
                             {"evaluate", "material", a, b, "--unseen", c, "--report", c},
                             {"evaluate", "probe", a, "--report", a},
                             {"evaluate", "probe", "--scene", a, "--light", b, c, "--report", b},
-                            {"evaluate", "nnao", a, "--report", a},
-                            {"evaluate", "nnao", a, "--network", b, "--markdown", b},
+                            {"evaluate", "nnao", "--frame", a, "--report", a},
+                            {"evaluate", "nnao", "--frame", a, "--network", b, "--report", b},
                             {"bake", "material", "--raw", a, "-o", a},
                             {"bake", "probe", a, "--grid", "1x1x1", "--light", b, "-o", b}};
   for (const Names& command : commands) {
@@ -235,8 +234,8 @@ TEST_CASE("an output that a .gltf refers to, or that lies in a folder of images,
             .exit_code == 2);
   // Pictures of --images could replace the report.
   fs::create_directory(folder.path("images"));
-  const ToolRun pictures = folder.run({"evaluate", "nnao", "--thin", "--images", folder.path("images"),
-                                       "--report", folder.path("images/thin_0.png")});
+  const ToolRun pictures = folder.run({"evaluate", "nnao", "--frame", folder.path("a"), "--images",
+                                       folder.path("images"), "--report", folder.path("images/a.png")});
   CHECK(pictures.exit_code == 2);
   CHECK(has(pictures.error, "--images"));
 }

@@ -52,7 +52,7 @@ TEST_CASE("names of files and arguments are cleaned before they are printed") {
   check_clean(folder.run({"bake", "character", "x", "-o", "y", "--preset", hostile}));
   check_clean(
       folder.run({"bake", "material", "--meso", "weave", "-o", folder.path("w"), "--ranks", hostile}));
-  check_clean(folder.run({"evaluate", "nnao", "--thin", "--camera", hostile}));
+  check_clean(folder.run({"evaluate", "nnao", "--frame", missing}));
   write_text(folder.path(hostile + ".hdr"), rgbe_map(16, 8));
   const ToolRun probe =
       folder.run({"bake", "probe", folder.path(hostile + ".hdr"), "-o", folder.path("p.nook")});

@@ -46,6 +46,10 @@ ToolRun TestFolder::run(const std::vector<std::string>& arguments) const {
   return finish(start(arguments));
 }
 
+ToolRun TestFolder::run_program(const std::string& program, const std::vector<std::string>& arguments) const {
+  return finish(start_program(program, arguments));
+}
+
 ToolRun TestFolder::run_and_signal(const std::vector<std::string>& arguments, int signal,
                                    const std::string& text) const {
   const int child = start(arguments);
@@ -61,10 +65,14 @@ ToolRun TestFolder::run_and_signal(const std::vector<std::string>& arguments, in
 }
 
 int TestFolder::start(const std::vector<std::string>& arguments) const {
+  return start_program(NOOK_TOOL, arguments);
+}
+
+int TestFolder::start_program(const std::string& program, const std::vector<std::string>& arguments) const {
   // The output of an earlier run must not be taken for this one's.
   write_text(path("stdout"), "");
   write_text(path("stderr"), "");
-  std::vector<std::string> words{NOOK_TOOL};
+  std::vector<std::string> words{program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> raw;
   for (std::string& word : words) raw.push_back(word.data());

@@ -22,12 +22,15 @@ class TestFolder {
   std::vector<std::string> names() const;  // of everything in it, sorted, but for what run() keeps there
 
   ToolRun run(const std::vector<std::string>& arguments) const;
+  // The same of another program.
+  ToolRun run_program(const std::string& program, const std::vector<std::string>& arguments) const;
   // Sends the signal once the tool has said `text` on its error stream.
   ToolRun run_and_signal(const std::vector<std::string>& arguments, int signal,
                          const std::string& text) const;
 
   // In two steps: the process, and what it said when it has ended.
   int start(const std::vector<std::string>& arguments) const;
+  int start_program(const std::string& program, const std::vector<std::string>& arguments) const;
   ToolRun finish(int child) const;
 
  private:

@@ -7,7 +7,7 @@
 #include "bakers/transfer/separated_bake.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/spherical_gaussian.h"
-#include "sdk/src/transfer/light_cube.h"
+#include "sdk/src/transfer/distant_light.h"
 #include "sdk/src/transfer/transfer_file.h"
 #include "tests/catch.h"
 #include "tests/transfer/shapes.h"

@@ -6,8 +6,7 @@
 
 #include "bakers/character/pose_sets.h"
 #include "bakers/import/skinned_mesh.h"
-#include "bakers/measure/world/light_report.h"
-#include "bakers/measure/world/report.h"
+#include "bakers/measure/world/world_report.h"
 #include "bakers/world/dual.h"
 #include "bakers/world/initial_casters.h"
 #include "bakers/world/posed_casters.h"

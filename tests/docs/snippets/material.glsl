@@ -1,4 +1,4 @@
-// The sizes of a material, as sdk/src/gl/material/source.cpp writes them.
+// The sizes of a material, as sdk/src/gl/material/material_glsl.cpp writes them.
 #define NOOK_LIGHT_VEC4_COUNT 4
 #define NOOK_MATERIAL_MAX_FETCHES 8
 #define NOOK_BTF_TERMS 3

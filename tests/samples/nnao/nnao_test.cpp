@@ -96,8 +96,7 @@ TEST_CASE("sample nnao: its recorded frame replays to the same AO, and the tool 
   std::ofstream(path + "/cut.nook", std::ios::binary) << "NOOK";
   CHECK(tool_run("evaluate nnao --frame " + path + "/cut.nook") == 3);
   CHECK(tool_run("evaluate nnao --frame " + path + "/absent.nook") == 3);
-  CHECK(tool_run("evaluate nnao --thin --frame " + frame) == 2);
   CHECK(tool_run("evaluate nnao --frame " + frame + " --methods nnao:16") == 2);
-  CHECK(tool_run("evaluate nnao --thin --methods fast") == 2);
+  CHECK(tool_run("evaluate nnao") == 2);
 }
 #endif

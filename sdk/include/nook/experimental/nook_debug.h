@@ -1,4 +1,5 @@
-/* Shapes for debug drawing, the terms that updates evaluate, and the memory of a model on the GPU. The shapes
+/* Shapes for debug drawing, the terms that updates evaluate, the memory of a model on the GPU, and debug
+ * views and choices of the screen pass and the world pass. The shapes
  * show the parts that a scene evaluates: the proxy spheres and key points of an instance in its pose, its
  * links, and its level of detail. A host draws them over its own picture to see why a character is dark: a
  * sphere that sticks out of the body, a bone that does not follow, a neighbour that is not linked.
@@ -124,6 +125,119 @@ typedef struct nook_gl_memory {
 /* Computes the OpenGL memory of a model before any of it is used; buffers that grow have up to half as much
  * again. The call makes no OpenGL call. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_model_memory(nook_gl gl, nook_model model, nook_gl_memory* memory);
+
+/* ---- Debug descriptors of the screen pass and the world pass: set `next` of a descriptor to one ---- */
+
+/* The stage that evaluates the network; the other stages are draws in any case. Both paths give the same AO,
+ * on Mesa's llvmpipe the same bits. */
+enum {
+  /* Compute if OpenGL has it, else fragments; fragments on OpenGL ES. */
+  NOOK_NNAO_PATH_AUTOMATIC = 0,
+  /* A draw, on OpenGL 3.3, OpenGL ES 3.0 and WebGL 2. */
+  NOOK_NNAO_PATH_FRAGMENT = 1,
+  /* A dispatch. It needs OpenGL 4.3 or OpenGL ES 3.1, glBindImageTexture, and a max_tier in nook_gl_desc
+   * that allows it. OpenGL ES writes no images of one byte: AO takes four there. */
+  NOOK_NNAO_PATH_COMPUTE = 2
+};
+typedef int32_t nook_nnao_path;
+
+/* The sample of a multisampled depth texture whose depth, and with nook_nnao_desc.normal_samples whose
+ * normal, is that of the pixel. */
+enum {
+  /* The median of the depths, of two the nearer one: a surface that covers most of the pixel. */
+  NOOK_NNAO_SAMPLE_MEDIAN = 0,
+  /* Sample 0. */
+  NOOK_NNAO_SAMPLE_FIRST = 1,
+  /* The nearest one. */
+  NOOK_NNAO_SAMPLE_NEAREST = 2
+};
+typedef int32_t nook_nnao_sample;
+
+/* Choices of a screen pass for tests and measurements. Set nook_nnao_desc.next to it. */
+typedef struct nook_nnao_debug_desc {
+  /* nook_nnao_debug_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* Default NOOK_NNAO_PATH_AUTOMATIC. */
+  nook_nnao_path path;
+  /* Default NOOK_NNAO_SAMPLE_MEDIAN, whose error was measured to be the smallest (docs/nnao.md). */
+  nook_nnao_sample depth_sample;
+  /* 1: every stage is timed for nook_nnao_read_timings of experimental/nook_stages.h. Default 0. */
+  int32_t timers;
+} nook_nnao_debug_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_nnao_debug_desc_init(nook_nnao_debug_desc* desc) {
+  return nook_desc_init(NOOK_DESC_NNAO_DEBUG, desc, sizeof *desc, NOOK_VERSION);
+}
+
+/* The quantity that the screen pass shows. */
+enum {
+  /* The result. */
+  NOOK_NNAO_VIEW_AO = 0,
+  /* The AO of the network for this frame, without filter, intensity, power and G-buffer AO. */
+  NOOK_NNAO_VIEW_RAW = 1,
+  /* The AO after the filter, without intensity, power and G-buffer AO. */
+  NOOK_NNAO_VIEW_BLURRED = 2,
+  /* The normals that the network used, as (n + 1) / 2 in red, green and blue. Not with
+   * NOOK_TARGET_OWN. */
+  NOOK_NNAO_VIEW_NORMALS = 3
+};
+typedef int32_t nook_nnao_view;
+
+/* A debug view of the screen pass. Set nook_nnao_frame_desc.next to it. */
+typedef struct nook_nnao_frame_debug_desc {
+  /* nook_nnao_frame_debug_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* Default NOOK_NNAO_VIEW_AO. */
+  nook_nnao_view show;
+} nook_nnao_frame_debug_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_nnao_frame_debug_desc_init(nook_nnao_frame_debug_desc* desc) {
+  return nook_desc_init(NOOK_DESC_NNAO_FRAME_DEBUG, desc, sizeof *desc, NOOK_VERSION);
+}
+
+/* The quantity that the world pass shows. */
+enum {
+  /* The result. */
+  NOOK_WORLD_VIEW_AO = 0,
+  /* The number of casters that a pixel evaluates, over 255; those of far bodies at half resolution count by
+   * the share of their pixels. */
+  NOOK_WORLD_VIEW_CASTERS = 1,
+  /* The number of those casters that are capsules of the model or of nook_world_frame_desc, in place of the
+   * capsule of a limb or a body; over 255. */
+  NOOK_WORLD_VIEW_EXACT_CASTERS = 2,
+  /* The number of bodies whose reach a pixel tests, over 255. */
+  NOOK_WORLD_VIEW_TESTS = 3,
+  /* The number of far bodies that are evaluated at the pixels which have them at half resolution, spread over
+   * the others; over 255. At full resolution 0. */
+  NOOK_WORLD_VIEW_FAR_CASTERS = 4,
+  /* The same of the far bodies whose reach is tested. */
+  NOOK_WORLD_VIEW_FAR_TESTS = 5
+};
+typedef int32_t nook_world_view;
+
+/* A debug view of the world pass. Set nook_world_frame_desc.next to it. */
+typedef struct nook_world_frame_debug_desc {
+  /* nook_world_frame_debug_desc_init sets these two. */
+  uint32_t struct_size;
+  uint32_t type;
+  /* Must be NULL. */
+  const void* next;
+  /* Default NOOK_WORLD_VIEW_AO. */
+  nook_world_view show;
+} nook_world_frame_debug_desc;
+
+/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+static inline nook_result nook_world_frame_debug_desc_init(nook_world_frame_debug_desc* desc) {
+  return nook_desc_init(NOOK_DESC_WORLD_FRAME_DEBUG, desc, sizeof *desc, NOOK_VERSION);
+}
 
 #ifdef __cplusplus
 }

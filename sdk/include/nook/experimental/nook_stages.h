@@ -88,9 +88,9 @@ enum {
   NOOK_NNAO_STAGE_CONSTANTS = 76
 };
 
-/* Describes the stages of a pass. path and timers of the descriptor have no effect. Not with a network of the
- * paper's form. It allocates; on failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
+/* Describes the stages of a pass. path and timers of a nook_nnao_debug_desc have no effect. Not with a
+ * network of the paper's form. It allocates; on failure *out is NULL. Any thread. Errors: INVALID_ARGUMENT,
+ * BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_stages_create(nook_context context, const nook_nnao_desc* desc,
                                              nook_nnao_stages* out);
 
@@ -107,8 +107,8 @@ typedef struct nook_nnao_stages_info {
   /* The numbers of binding 1, which never change. Pointers are valid while the object lives. */
   const void* network;
   uint32_t network_bytes;
-  /* 0. */
-  uint32_t reserved;
+  /* The preset's numbers, where the descriptor had -1. */
+  int32_t taps, half_resolution, blur;
 } nook_nnao_stages_info;
 
 /* Any thread. Errors: INVALID_ARGUMENT. */

@@ -6,9 +6,9 @@
 #include "sdk/src/api/gl/handle.h"
 #include "sdk/src/api/gl/nnao_descriptors.h"
 #include "sdk/src/api/nnao_recording_handle.h"
-#include "sdk/src/gl/nnao/frame_check.h"
 #include "sdk/src/gl/nnao/frame_record.h"
 #include "sdk/src/gl/nnao/host_images.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/gl/nnao/pass.h"
 #include "sdk/src/nnao/network_file.h"
 #include "sdk/src/nnao/taps.h"
@@ -18,7 +18,7 @@ using namespace nook::api;
 
 // The OpenGL objects outlive the handle nook_gl, because this object holds a reference to its owner.
 struct nook_nnao_s : RefCounted {
-  nook_nnao_s(nook_gl_s* made_by, const nook_nnao_desc& known, const nnao::Network& network)
+  nook_nnao_s(nook_gl_s* made_by, const gl::NnaoSettings& known, const nnao::Network& network)
       : gl(made_by), desc(known), form(network.form), own_network(made_by->device.memory) {
     if (known.network) {
       const auto* const first = static_cast<const std::byte*>(known.network);
@@ -49,7 +49,7 @@ struct nook_nnao_s : RefCounted {
   }
 
   nook_gl_s* gl;
-  nook_nnao_desc desc;  // without network
+  gl::NnaoSettings desc;  // without network
   nnao::NetworkForm form;
   Vector<std::byte> own_network;  // for recordings; empty: the embedded one
   std::optional<gl::NnaoPass> pass;
@@ -67,23 +67,10 @@ nook_result with_pass(const char* function, nook_nnao pass, Body&& body) noexcep
 
 }  // namespace
 
-nook_result nook_nnao_desc_set_preset(nook_nnao_desc* desc, nook_nnao_preset preset) {
-  return api::enter("nook_nnao_desc_set_preset", [&] {
-    // A descriptor of an older or newer host is checked before it is written.
-    read_descriptor(desc);
-    if (preset < NOOK_NNAO_PRESET_FAST || preset > NOOK_NNAO_PRESET_BEST)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "preset is unknown (got %d, need 0 to %d)", preset,
-                    NOOK_NNAO_PRESET_BEST);
-    desc->taps = preset == NOOK_NNAO_PRESET_BEST ? nnao::best_taps : nnao::default_taps;
-    desc->half_resolution = preset == NOOK_NNAO_PRESET_FAST;
-    desc->blur = 1;
-  });
-}
-
 nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* bytes) {
   return api::enter("nook_nnao_memory", [&] {
     need(bytes, "bytes");
-    const nook_nnao_desc known = checked_nnao_desc(desc);
+    const gl::NnaoSettings known = checked_nnao_desc(desc);
     const nnao::NetworkForm form = nnao::network_form(network_bytes(known));
     check_form(known, form);
     *bytes = gl::texture_bytes(known, form);
@@ -96,7 +83,7 @@ nook_result nook_nnao_create(nook_gl gl, const nook_nnao_desc* desc, nook_nnao* 
     *out = nullptr;
     need(gl, "gl");
     gl->device.need_alive();
-    const nook_nnao_desc known = checked_nnao_desc(desc);
+    const gl::NnaoSettings known = checked_nnao_desc(desc);
     const nnao::Network network = nnao::read_network(network_bytes(known), gl->device.memory);
     check_form(known, network.form);
     *out =
@@ -113,7 +100,7 @@ void nook_nnao_destroy(nook_nnao* pass) {
 nook_result nook_nnao_render(nook_nnao pass, const nook_gl_frame_desc* frame,
                              const nook_nnao_frame_desc* desc) {
   return with_pass("nook_nnao_render", pass, [&] {
-    const gl::NnaoFrame known{read_descriptor(frame), read_descriptor(desc)};
+    const gl::NnaoFrame known = read_nnao_frame(frame, desc);
     gl::check_frame(known, pass->desc);
     pass->gl->guarded(pass->users(), [&] { pass->pass->render(known); });
   });
@@ -125,8 +112,10 @@ nook_result nook_nnao_describe(nook_nnao pass, nook_nnao_info* info) {
     known.texture = pass->pass->ao_texture();
     known.texture_bytes = gl::texture_bytes(pass->desc, pass->form);
     known.taps = pass->desc.taps;
+    known.half_resolution = pass->desc.half_resolution;
+    known.blur = pass->desc.blur;
     known.horizon_form = pass->form == nnao::NetworkForm::horizon;
-    known.path = pass->pass->path();
+    known.compute = pass->pass->path() == NOOK_NNAO_PATH_COMPUTE;
     known.bent_normals = pass->desc.bent_normals;
     known.glsl = gl::screen_ao_glsl();
     write_info(info, known);
@@ -156,7 +145,7 @@ nook_result nook_nnao_record(nook_nnao pass, const nook_gl_frame_desc* frame,
   return with_pass("nook_nnao_record", pass, [&] {
     need(out, "out");
     *out = nullptr;
-    const gl::NnaoFrame known{read_descriptor(frame), read_descriptor(desc)};
+    const gl::NnaoFrame known = read_nnao_frame(frame, desc);
     gl::check_frame(known, pass->desc);
     if (pass->desc.views != 0 || pass->desc.depth_samples != 0)
       throw Failure(

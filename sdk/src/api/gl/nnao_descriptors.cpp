@@ -4,7 +4,7 @@
 
 #include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/gl/nnao/frame_constants.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/nnao/network_file.h"
 #include "sdk/src/nnao/taps.h"
 
@@ -17,7 +17,43 @@ void check_switch(const char* field, std::int32_t value) {
                   value);
 }
 
+nook_nnao_debug_desc checked_debug(const void* next) {
+  const auto* const given = find_extension<nook_nnao_debug_desc>(next);
+  const nook_nnao_debug_desc debug = given ? read_descriptor(given) : default_desc<nook_nnao_debug_desc>();
+  if (debug.path < NOOK_NNAO_PATH_AUTOMATIC || debug.path > NOOK_NNAO_PATH_COMPUTE)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "debug.path is unknown (got %d, need 0 to %d)", debug.path,
+                  NOOK_NNAO_PATH_COMPUTE);
+  if (debug.depth_sample < NOOK_NNAO_SAMPLE_MEDIAN || debug.depth_sample > NOOK_NNAO_SAMPLE_NEAREST)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "debug.depth_sample is unknown (got %d, need 0 to %d)",
+                  debug.depth_sample, NOOK_NNAO_SAMPLE_NEAREST);
+  if (debug.timers != 0 && debug.timers != 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "debug.timers is neither on nor off (got %d, need 0 or 1)",
+                  debug.timers);
+  return debug;
+}
+
+gl::NnaoSettings settings_of(const nook_nnao_desc* given) {
+  nook_nnao_desc desc = read_descriptor<nook_nnao_desc, nook_nnao_debug_desc>(given);
+  const nook_nnao_debug_desc debug = checked_debug(desc.next);
+  if (desc.preset < NOOK_NNAO_PRESET_DEFAULT || desc.preset > NOOK_NNAO_PRESET_BEST)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.preset is unknown (got %d, need 0 to %d)", desc.preset,
+                  NOOK_NNAO_PRESET_BEST);
+  if (desc.taps == -1)
+    desc.taps = desc.preset == NOOK_NNAO_PRESET_BEST ? nnao::best_taps : nnao::default_taps;
+  if (desc.half_resolution == -1) desc.half_resolution = desc.preset == NOOK_NNAO_PRESET_FAST;
+  if (desc.blur == -1) desc.blur = 1;
+  desc.next = nullptr;
+  return {desc, debug.path, debug.depth_sample, debug.timers != 0};
+}
+
 }  // namespace
+
+gl::NnaoFrame read_nnao_frame(const nook_gl_frame_desc* frame, const nook_nnao_frame_desc* desc) {
+  auto settings = read_descriptor<nook_nnao_frame_desc, nook_nnao_frame_debug_desc>(desc);
+  const auto* const debug = find_extension<nook_nnao_frame_debug_desc>(settings.next);
+  settings.next = nullptr;
+  return {read_descriptor(frame), settings, debug ? read_descriptor(debug).show : NOOK_NNAO_VIEW_AO};
+}
 
 void check_max_size(std::int32_t max_width, std::int32_t max_height) {
   constexpr std::int32_t largest = 16384;
@@ -27,23 +63,24 @@ void check_max_size(std::int32_t max_width, std::int32_t max_height) {
                   max_width, max_height, largest, largest);
 }
 
-nook_nnao_desc checked_nnao_desc(const nook_nnao_desc* given) {
-  const nook_nnao_desc desc = read_descriptor(given);
+gl::NnaoSettings checked_nnao_desc(const nook_nnao_desc* given) {
+  const gl::NnaoSettings desc = settings_of(given);
   check_max_size(desc.max_width, desc.max_height);
   if (desc.taps < 0 || nnao::horizon_grid(static_cast<std::uint32_t>(desc.taps)).steps == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.taps is unknown (got %d, need 9, 16, 32, 64, 128 or 256)", desc.taps);
-  check_switch("half_resolution", desc.half_resolution);
+                  "desc.taps is unknown (got %d, need 9, 16, 32, 64, 128 or 256, or -1 for the preset's)",
+                  desc.taps);
+  if (desc.half_resolution < 0 || desc.half_resolution > 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.half_resolution is out of range (got %d, need 0 or 1, or -1 for the preset's)",
+                  desc.half_resolution);
   if (desc.blur < 0 || desc.blur > 2)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.blur is out of range (got %d, need 0 to 2)", desc.blur);
-  check_switch("timers", desc.timers);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.blur is out of range (got %d, need 0 to 2, or -1 for the preset's)", desc.blur);
   if (!(desc.blur_sharpness > 0) || !std::isfinite(desc.blur_sharpness))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.blur_sharpness is out of range (got %g, need more than 0)",
                   double(desc.blur_sharpness));
-  if (desc.path < NOOK_NNAO_PATH_AUTOMATIC || desc.path > NOOK_NNAO_PATH_COMPUTE)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.path is unknown (got %d, need 0 to %d)", desc.path,
-                  NOOK_NNAO_PATH_COMPUTE);
   check_switch("bent_normals", desc.bent_normals);
   if (desc.max_history_frames != 0 && (desc.max_history_frames < 2 || desc.max_history_frames > 64))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -57,9 +94,6 @@ nook_nnao_desc checked_nnao_desc(const nook_nnao_desc* given) {
   if (desc.depth_samples < 0 || desc.depth_samples > 16)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.depth_samples is out of range (got %d, need 0 to 16)",
                   desc.depth_samples);
-  if (desc.depth_sample < NOOK_NNAO_SAMPLE_MEDIAN || desc.depth_sample > NOOK_NNAO_SAMPLE_NEAREST)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.depth_sample is unknown (got %d, need 0 to %d)",
-                  desc.depth_sample, NOOK_NNAO_SAMPLE_NEAREST);
   if (desc.views < 0 || desc.views > gl::max_layers)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.views is out of range (got %d, need 0 to %d)",
                   desc.views, gl::max_layers);

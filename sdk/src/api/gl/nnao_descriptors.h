@@ -1,12 +1,11 @@
 // The descriptors of the screen-space pass: defaults and checks.
 #pragma once
 
-#include <nook/nook_nnao.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
+#include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/nnao/network.h"
 
 namespace nook::api {
@@ -15,9 +14,12 @@ namespace nook::api {
 // over the screen.
 void check_max_size(std::int32_t max_width, std::int32_t max_height);
 
-// Returns the caller's descriptor in this library's version. Throws
+// Returns the caller's descriptor in this library's version, with its debug descriptor. Throws
 // Failure(NOOK_ERROR_INVALID_ARGUMENT), naming the field, unless it is sound.
-nook_nnao_desc checked_nnao_desc(const nook_nnao_desc* given);
+gl::NnaoSettings checked_nnao_desc(const nook_nnao_desc* given);
+
+// Returns the caller's descriptors of a frame in this library's version, unchecked.
+gl::NnaoFrame read_nnao_frame(const nook_gl_frame_desc* frame, const nook_nnao_frame_desc* desc);
 
 // Returns the file of the network, which is the embedded one if the host gave none.
 std::span<const std::byte> network_bytes(const nook_nnao_desc& desc);

@@ -8,8 +8,7 @@
 #include "sdk/src/api/gl/nnao_descriptors.h"
 #include "sdk/src/api/handles.h"
 #include "sdk/src/core/ref.h"
-#include "sdk/src/gl/nnao/frame_check.h"
-#include "sdk/src/gl/nnao/frame_constants.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/gl/nnao/stages.h"
 #include "sdk/src/nnao/network_file.h"
 
@@ -17,12 +16,12 @@ using namespace nook;
 using namespace nook::api;
 
 struct nook_nnao_stages_s : RefCounted {
-  nook_nnao_stages_s(const nook_nnao_desc& known, const nnao::Network& network, Memory* memory)
+  nook_nnao_stages_s(const gl::NnaoSettings& known, const nnao::Network& network, Memory* memory)
       : desc(known), pass(gl::pass_stages(known, network, memory)) {
-    desc.network = desc.next = nullptr;
+    desc.network = nullptr;
   }
 
-  nook_nnao_desc desc;  // without network
+  gl::NnaoSettings desc;  // without network
   const gl::PassStages pass;
 };
 
@@ -31,7 +30,7 @@ namespace {
 // The frame with what the host's graphics interface takes the place of: textures and target.
 gl::NnaoFrame checked_frame(const nook_gl_frame_desc* given, const nook_nnao_frame_desc* settings,
                             const nook_nnao_desc& desc) {
-  gl::NnaoFrame frame{read_descriptor(given), read_descriptor(settings)};
+  gl::NnaoFrame frame = read_nnao_frame(given, settings);
   const nook_blend blend = frame.blend;
   frame.depth_texture = 1;
   frame.gbuffer_ao_texture = 1;
@@ -43,7 +42,7 @@ gl::NnaoFrame checked_frame(const nook_gl_frame_desc* given, const nook_nnao_fra
   if (frame.show == NOOK_NNAO_VIEW_RAW && desc.max_history_frames)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
-        "desc.show %d does not go with the pass's max_history_frames %d here; read NOOK_NNAO_IMAGE_AO",
+        "debug.show %d does not go with the pass's max_history_frames %d here; read NOOK_NNAO_IMAGE_AO",
         frame.show, desc.max_history_frames);
   frame.blend = blend;
   return frame;
@@ -56,7 +55,7 @@ nook_result nook_nnao_stages_create(nook_context context, const nook_nnao_desc* 
     need(out, "out");
     *out = nullptr;
     need(context, "context");
-    const nook_nnao_desc known = checked_nnao_desc(desc);
+    const gl::NnaoSettings known = checked_nnao_desc(desc);
     const nnao::Network network = nnao::read_network(network_bytes(known), context->memory());
     if (network.form != nnao::NetworkForm::horizon)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -82,6 +81,9 @@ nook_result nook_nnao_stages_describe(nook_nnao_stages stages, nook_nnao_stages_
     known.vertex_shader = stages->pass.vertex.c_str();
     known.network = stages->pass.network.data();
     known.network_bytes = std::uint32_t(stages->pass.network.size() * sizeof(float));
+    known.taps = stages->desc.taps;
+    known.half_resolution = stages->desc.half_resolution;
+    known.blur = stages->desc.blur;
     write_info(info, known);
   });
 }

@@ -7,7 +7,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/upload.h"
 #include "sdk/src/api/probe_handles.h"
-#include "sdk/src/gl/probe/probe_capture.h"
+#include "sdk/src/gl/probe/capture.h"
 
 using namespace nook;
 

@@ -7,12 +7,18 @@ using namespace nook;
 
 namespace {
 
-// `count` is the host's. Waits for the GPU.
-void read_values(nook_gl_s& gl, const gl::VertexValues& values, std::uint32_t count, float* out) {
-  if (count != values.vertices)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "count is not the model's file_vertex_count (got %u, need %u)",
-                  count, values.vertices);
-  gl.guarded([&] { gl.characters->read(values, out); });
+gl::VertexValues place_of(nook_gl_s& gl, nook_scene_s& scene, nook_instance_id instance,
+                          nook_channel channel) {
+  switch (channel) {
+    case NOOK_CHANNEL_AO:
+      return gl.characters->place(scene.scene, instance);
+    case NOOK_CHANNEL_DIRECTIONAL_AO:
+      return gl.characters->light_place(scene.scene, instance).directional_ao;
+    default:
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "channel is not on the GPU (got %d, need %d or %d); nook_scene_read has the others",
+                    channel, NOOK_CHANNEL_AO, NOOK_CHANNEL_DIRECTIONAL_AO);
+  }
 }
 
 // Runs body if both handles are valid and the OpenGL context is not lost.
@@ -92,16 +98,34 @@ nook_result nook_gl_scene_update(nook_gl gl, nook_scene scene) {
                     [&] { gl->guarded([&] { gl->characters->update(handle_of(scene)); }); });
 }
 
-nook_result nook_gl_scene_ao_buffer(nook_gl gl, nook_scene scene, nook_instance_id instance,
-                                    nook_gl_ao_view* view) {
-  return with_scene("nook_gl_scene_ao_buffer", gl, scene, [&] {
-    const gl::VertexValues ao = gl->characters->place(scene->scene, instance);
-    nook_gl_ao_view known{};
-    known.buffer = ao.buffer;
-    known.offset = ao.offset;
-    known.stride = sizeof(float);
-    known.count = ao.vertices;
+nook_result nook_gl_scene_view(nook_gl gl, nook_scene scene, nook_instance_id instance, nook_channel channel,
+                               nook_gl_view* view) {
+  return with_scene("nook_gl_scene_view", gl, scene, [&] {
+    nook_gl_view known{};
+    const gl::VertexValues values = place_of(*gl, *scene, instance, channel);
+    known.buffer = values.buffer;
+    known.offset = values.offset;
+    known.stride = values.channels * sizeof(float);
+    known.count = values.vertices;
+    known.glsl = gl::scene_light_glsl();
+    if (channel == NOOK_CHANNEL_DIRECTIONAL_AO) {
+      const gl::LightPlace place = gl->characters->light_place(scene->scene, instance);
+      known.texture = place.texture;
+      known.light = static_cast<std::int32_t>(place.first_texel);
+    }
     write_info(view, known);
+  });
+}
+
+nook_result nook_gl_scene_read(nook_gl gl, nook_scene scene, nook_instance_id instance, nook_channel channel,
+                               float* out, uint32_t count) {
+  return with_scene("nook_gl_scene_read", gl, scene, [&] {
+    need(out, "out");
+    const gl::VertexValues values = place_of(*gl, *scene, instance, channel);
+    if (count != values.vertices)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "count is not the model's file_vertex_count (got %u, need %u)", count, values.vertices);
+    gl->guarded([&] { gl->characters->read(values, out); });
   });
 }
 
@@ -125,38 +149,6 @@ nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const nook_instanc
               values, gl::TextureTarget{target->texture, offset, target->texture_width, target->format});
       }
     });
-  });
-}
-
-nook_result nook_gl_scene_read_ao(nook_gl gl, nook_scene scene, nook_instance_id instance, float* out,
-                                  uint32_t count) {
-  return with_scene("nook_gl_scene_read_ao", gl, scene, [&] {
-    need(out, "out");
-    read_values(*gl, gl->characters->place(scene->scene, instance), count, out);
-  });
-}
-
-nook_result nook_gl_scene_light(nook_gl gl, nook_scene scene, nook_instance_id instance,
-                                nook_gl_light_view* view) {
-  return with_scene("nook_gl_scene_light", gl, scene, [&] {
-    const gl::LightPlace place = gl->characters->light_place(scene->scene, instance);
-    nook_gl_light_view known{};
-    known.buffer = place.directional_ao.buffer;
-    known.offset = place.directional_ao.offset;
-    known.stride = 3 * sizeof(float);
-    known.count = place.directional_ao.vertices;
-    known.texture = place.texture;
-    known.light = static_cast<std::int32_t>(place.first_texel);
-    known.glsl = gl::scene_light_glsl();
-    write_info(view, known);
-  });
-}
-
-nook_result nook_gl_scene_read_directional_ao(nook_gl gl, nook_scene scene, nook_instance_id instance,
-                                              float* out_rgb, uint32_t count) {
-  return with_scene("nook_gl_scene_read_directional_ao", gl, scene, [&] {
-    need(out_rgb, "out_rgb");
-    read_values(*gl, gl->characters->light_place(scene->scene, instance).directional_ao, count, out_rgb);
   });
 }
 

@@ -6,10 +6,9 @@
 #include "sdk/src/api/gl/handle.h"
 #include "sdk/src/api/transfer_handles.h"
 #include "sdk/src/core/descriptors.h"
-#include "sdk/src/gl/transfer/paper_texture.h"
-#include "sdk/src/gl/transfer/transfer_texture.h"
-#include "sdk/src/transfer/check.h"
+#include "sdk/src/gl/transfer/transfer_textures.h"
 #include "sdk/src/transfer/lit_rows.h"
+#include "sdk/src/transfer/transfer_check.h"
 
 using namespace nook;
 

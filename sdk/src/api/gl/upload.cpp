@@ -9,7 +9,7 @@
 #include "sdk/src/api/material_handle.h"
 #include "sdk/src/api/probe_handles.h"
 #include "sdk/src/core/descriptors.h"
-#include "sdk/src/gl/state_access.h"
+#include "sdk/src/gl/functions.h"
 #include "sdk/src/gl/texel_table.h"
 
 using namespace nook;

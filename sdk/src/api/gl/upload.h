@@ -12,7 +12,6 @@
 #include "sdk/src/gl/material/material_textures.h"
 #include "sdk/src/gl/probe/grid_volume.h"
 #include "sdk/src/gl/probe/probe_texture.h"
-#include "sdk/src/gl/synthesis/coordinate_texture.h"
 
 struct nook_gl_upload_s : nook::RefCounted {
   // Makes the content of a type from its arguments under a guard for these users of the OpenGL state.

@@ -7,9 +7,9 @@
 #include "sdk/src/api/gl/handle.h"
 #include "sdk/src/api/gl/nnao_descriptors.h"
 #include "sdk/src/api/world_casting.h"
-#include "sdk/src/core/place.h"
-#include "sdk/src/gl/nnao/frame_check.h"
-#include "sdk/src/gl/program.h"
+#include "sdk/src/core/geometry.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
+#include "sdk/src/gl/shader_program.h"
 #include "sdk/src/gl/world/world_pass.h"
 
 using namespace nook;
@@ -84,7 +84,15 @@ void check_numbers(const nook_world_frame_desc& desc) {
                     last);
   };
   check_kind("combine", desc.combine, NOOK_WORLD_COMBINE_MIN);
-  check_kind("show", desc.show, NOOK_WORLD_VIEW_FAR_TESTS);
+}
+
+nook_world_view shown(const void* next) {
+  const auto* const given = find_extension<nook_world_frame_debug_desc>(next);
+  const nook_world_view show = given ? read_descriptor(given).show : NOOK_WORLD_VIEW_AO;
+  if (show < NOOK_WORLD_VIEW_AO || show > NOOK_WORLD_VIEW_FAR_TESTS)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "debug.show is unknown (got %d, need 0 to %d)", show,
+                  NOOK_WORLD_VIEW_FAR_TESTS);
+  return show;
 }
 
 // The light of a coloured pass: lobes in view space, the cone in world space. The view has passed its check.
@@ -145,7 +153,7 @@ nook_result nook_world_render(nook_world pass, const nook_gl_frame_desc* frame,
                               const nook_world_frame_desc* desc) {
   return api::enter("nook_world_render", [&] {
     need(pass, "pass");
-    const nook_world_frame_desc known = read_descriptor(desc);
+    const auto known = read_descriptor<nook_world_frame_desc, nook_world_frame_debug_desc>(desc);
     const gl::NnaoFrame screen = screen_of(frame, known, pass->desc);
     api::check_props("desc", known.capsules, known.capsule_count);
     check_numbers(known);
@@ -153,8 +161,8 @@ nook_result nook_world_render(nook_world pass, const nook_gl_frame_desc* frame,
                                known.capsule_count);
     const Reaching reaching{&casting, known.cutoff_error};
     const gl::ReachingGroups groups{casting.group_count(), &reaching, reaching_group};
-    gl::WorldFrame drawn{screen, screen.view, known.ao_texture, known.combine, known.level_error, known.show,
-                         {},     {}};
+    gl::WorldFrame drawn{
+        screen, screen.view, known.ao_texture, known.combine, known.level_error, shown(known.next), {}, {}};
     put_light(drawn, known, pass->desc.coloured != 0);
     pass->gl->guarded(world_users(pass->gl->device.gl, pass->pass->computes()),
                       [&] { pass->pass->render(drawn, groups); });

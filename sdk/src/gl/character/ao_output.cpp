@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/gl/program.h"
+#include "sdk/src/gl/shader_program.h"
 #include "sdk/src/gl/state_guard.h"
 
 namespace nook::gl {

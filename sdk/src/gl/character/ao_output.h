@@ -7,7 +7,6 @@
 #include <array>
 
 #include "sdk/src/gl/character/tier.h"
-#include "sdk/src/gl/feedback_target.h"
 #include "sdk/src/gl/object.h"
 
 namespace nook::gl {

@@ -1,8 +1,8 @@
 #include "sdk/src/gl/character/clip_textures.h"
 
-#include "sdk/src/character/clip_texels.h"
+#include "sdk/src/character/loaded_clips.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/gl/program.h"
+#include "sdk/src/gl/shader_program.h"
 #include "sdk/src/gl/state_guard.h"
 
 namespace nook::gl {

@@ -1,11 +1,11 @@
-#include "sdk/src/gl/character/compute_frame.h"
+#include "sdk/src/gl/character/compute_scene.h"
 
 #include <cstring>
 
 #include "sdk/src/character/instance_views.h"
-#include "sdk/src/core/bit_cast.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/gl/character/light_texels.h"
+#include "sdk/src/core/floats.h"
+#include "sdk/src/gl/character/light_texture.h"
 
 namespace nook::gl {
 namespace {

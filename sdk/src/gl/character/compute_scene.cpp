@@ -1,6 +1,137 @@
 #include "sdk/src/gl/character/compute_scene.h"
 
+#include <cstring>
+
+#include "sdk/src/core/floats.h"
+#include "shaders/character/layout.h"
+
 namespace nook::gl {
+namespace {
+
+using Words = Vector<std::uint32_t>;
+using Floats = Vector<float>;
+
+void append(Floats& out, Vec3 v, float w) {
+  out.insert(out.end(), {v.x, v.y, v.z, w});
+}
+
+void append_spheres(Floats& out, const Vector<ProxySphere>& spheres) {
+  for (const ProxySphere& sphere : spheres) {
+    append(out, sphere.centre, sphere.radius);
+    append(out, {static_cast<float>(sphere.bone), sphere.caster_weight, 0}, 0);
+  }
+}
+
+// The levels in a row, as spheres.comp reads them.
+Floats pack_spheres(const CharacterModel& model, Memory* memory) {
+  Floats out(memory);
+  append_spheres(out, model.spheres);
+  for (const CharacterLevel& level : model.levels) append_spheres(out, level.spheres);
+  return out;
+}
+
+void append_key_point(Floats& out, const KeyPoint& point) {
+  append(out, point.position, point.saturation);
+  for (const Vec3 v : {point.normal, point.surface_position, point.surface_normal}) append(out, v, 0);
+  for (const std::uint16_t bone : point.bone) out.push_back(bone);
+  for (const float weight : point.weight) out.push_back(weight);
+}
+
+// The levels in a row, as shadows.comp reads them.
+Floats pack_key_points(const CharacterModel& model, Memory* memory) {
+  Floats out(memory);
+  for (const KeyPoint& point : model.key_points) append_key_point(out, point);
+  for (const CharacterLevel& level : model.levels)
+    for (const std::uint16_t k : level.evaluated) append_key_point(out, model.key_points[k]);
+  return out;
+}
+
+// The coarser levels in a row, as spread.comp reads them.
+Words pack_spread(const CharacterModel& model, Memory* memory) {
+  Words out(memory);
+  for (const CharacterLevel& level : model.levels)
+    for (std::size_t k = 0; k < model.key_points.size(); ++k)
+      out.insert(out.end(), {level.source[k], bit_cast<std::uint32_t>(level.scale[k]),
+                             bit_cast<std::uint32_t>(level.offset[k])});
+  return out;
+}
+
+std::array<LevelRange, CharacterModel::max_levels + 1> ranges_of(const CharacterModel& model) {
+  std::array<LevelRange, CharacterModel::max_levels + 1> ranges{};
+  ranges[0] = {0, static_cast<std::uint32_t>(model.spheres.size()), 0,
+               static_cast<std::uint32_t>(model.key_points.size())};
+  for (std::size_t l = 0; l < model.levels.size(); ++l)
+    ranges[l + 1] = {ranges[l].first_sphere + ranges[l].spheres,
+                     static_cast<std::uint32_t>(model.levels[l].spheres.size()),
+                     ranges[l].first_key_point + ranges[l].key_points,
+                     static_cast<std::uint32_t>(model.levels[l].evaluated.size())};
+  return ranges;
+}
+
+// Packs the linear layer in the layout of vertices.comp.
+Words pack_linear(const ComputeModel& sizes, Memory* memory) {
+  const CharacterModel& model = sizes.model->model;
+  const std::size_t vertices = sizes.vertices(), pairs = sizes.influence_pairs();
+  Words out(sizes.file_vertices() + vertices * (1 + 5 * pairs), 0, memory);
+  std::memcpy(out.data(), model.file_to_welded.data(), sizes.file_vertices() * sizeof(std::uint32_t));
+  std::uint32_t* const per_vertex = out.data() + sizes.file_vertices();
+  for (std::size_t v = 0; v < vertices; ++v) {
+    per_vertex[v] = bit_cast<std::uint32_t>(model.bias[v]);
+    for (std::size_t e = 0; e < model.influences; ++e) {
+      const std::size_t entry = v * model.influences + e;
+      per_vertex[(1 + e / 2) * vertices + v] |= std::uint32_t{model.influence[entry]} << (16 * (e % 2));
+      per_vertex[(1 + pairs + e) * vertices + v] = bit_cast<std::uint32_t>(model.alpha[entry]);
+      per_vertex[(1 + 3 * pairs + e) * vertices + v] = bit_cast<std::uint32_t>(model.blend[entry]);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::uint32_t ComputeModel::shadows() const {
+  std::uint32_t max = 0;
+  for (std::uint32_t l = 1; l < level_count(); ++l) max = std::max(max, levels[l].key_points);
+  return key_points() + max;
+}
+
+std::uint64_t ComputeModel::largest_share() const {
+  return std::max({std::uint64_t{file_vertices()} * 3 * sizeof(float),
+                   std::uint64_t{shadows()} * NOOK_COLOUR_VEC4S * 4 * sizeof(float),
+                   std::uint64_t{bones()} * sizeof(Mat3x4) + NOOK_RECORD_UVEC4S * 4 * sizeof(std::uint32_t)});
+}
+
+ComputeModel::ComputeModel(Device& device, Ref<const LoadedModel> loaded)
+    : ModelData(std::move(loaded)), levels(ranges_of(model->model)) {
+  Memory* const memory = device.memory;
+  const CharacterModel& m = model->model;
+  spheres_rest = static_buffer(device, "nook: rest spheres", pack_spheres(m, memory));
+  key_points_rest = static_buffer(device, "nook: rest key points", pack_key_points(m, memory));
+  linear = static_buffer(device, "nook: linear layer", pack_linear(*this, memory));
+  if (level_count() > 1) spread = static_buffer(device, "nook: levels", pack_spread(m, memory));
+}
+
+ModelMemory compute_memory(const LoadedModel& loaded) {
+  const CharacterModel& model = loaded.model;
+  const auto ranges = ranges_of(model);
+  std::uint64_t spheres = 0, key_points = 0, coarse = 0;
+  for (std::size_t l = 0; l <= model.levels.size(); ++l) {
+    spheres += ranges[l].spheres;
+    key_points += ranges[l].key_points;
+    if (l > 0) coarse = std::max<std::uint64_t>(coarse, ranges[l].key_points);
+  }
+  const std::uint64_t word = sizeof(std::uint32_t), vec4 = 4 * word, all_points = model.key_points.size();
+  const std::uint64_t shadows = all_points + coarse, file_vertices = model.file_to_welded.size();
+  ModelMemory memory;
+  memory.shared = spheres * NOOK_REST_SPHERE_VEC4S * vec4 + key_points * NOOK_KEY_POINT_VEC4S * vec4 +
+                  model.levels.size() * all_points * NOOK_SPREAD_WORDS * word +
+                  (file_vertices + model.vertex_count() * (1 + 5 * ((model.influences + 1) / 2))) * word;
+  memory.instance = file_vertices * sizeof(float) + shadows * 2 * sizeof(float) +
+                    spheres * NOOK_SPHERE_VEC4S * vec4 +
+                    (NOOK_RECORD_UVEC4S + NOOK_BONE_ROWS * model.bone_count()) * vec4;
+  memory.light = file_vertices * 3 * sizeof(float) + shadows * NOOK_COLOUR_VEC4S * vec4;
+  return memory;
+}
 
 ComputeChunk::ComputeChunk(Device& device, ComputeModel& for_model, std::uint32_t instance_capacity)
     : ChunkData(device, for_model, instance_capacity),

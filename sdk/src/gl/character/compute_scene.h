@@ -1,14 +1,55 @@
-// A scene as the compute tier keeps it: spheres, shadows and AO of its instances, and what the CPU sends for
-// one update.
+// Characters as the compute tier keeps them: models, which do not change while they live, scenes, and the
+// data of one update.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 
-#include "sdk/src/gl/character/compute_model.h"
 #include "sdk/src/gl/character/placed_scene.h"
+#include "sdk/src/gl/character/tier.h"
 #include "shaders/character/layout.h"
 
 namespace nook::gl {
+
+// Where one level of detail lies in the arrays of its model; level 0 is full detail.
+struct LevelRange {
+  std::uint32_t first_sphere = 0, spheres = 0;
+  std::uint32_t first_key_point = 0, key_points = 0;  // those that are evaluated
+};
+
+struct ComputeModel : ModelData {
+  // Throws Failure: UNSUPPORTED if the model is beyond this OpenGL.
+  ComputeModel(Device& device, Ref<const LoadedModel> loaded);
+
+  std::uint32_t level_count() const { return static_cast<std::uint32_t>(model->model.levels.size()) + 1; }
+  // Returns the level, or the coarsest one if the model has fewer levels.
+  const LevelRange& level(std::uint32_t index) const { return levels[std::min(index, level_count() - 1)]; }
+  // Returns the number of spheres of all levels.
+  std::uint32_t spheres() const {
+    return levels[level_count() - 1].first_sphere + levels[level_count() - 1].spheres;
+  }
+  // Places for shadows that an instance has: one for each key point, and behind them one for each key point
+  // that a coarser level evaluates.
+  std::uint32_t shadows() const;
+  std::uint32_t influence_pairs() const { return (model->model.influences + 1) / 2; }
+  // Bytes of one instance, with a light, in any buffer that is bound as one piece: the largest.
+  std::uint64_t largest_share() const;
+
+  std::array<LevelRange, CharacterModel::max_levels + 1> levels;
+
+  // Shader storage, laid out as the shaders say.
+  Buffer spheres_rest;
+  Buffer key_points_rest;
+  Buffer linear;
+  Buffer spread;  // from the evaluated key points of coarser levels to all; none without such levels
+};
+
+// The sizes of the buffers of a model and of its instances.
+ModelMemory compute_memory(const LoadedModel& model);
+
+// A scene as the compute tier keeps it: spheres, shadows and AO of its instances, and what the CPU sends for
+// one update.
 
 struct ComputeChunk : ChunkData {
   using Model = ComputeModel;
@@ -58,5 +99,23 @@ struct ComputeScene : PlacedScene<ComputeChunk> {
 inline ComputeChunk::Pose pose_of(const Instance& instance) {
   return {instance.id, instance.input.pose_revision};
 }
+
+// The data of one update of the compute tier: the records, poses, casters and lights of each chunk's
+// instances as one piece of a buffer that is filled from the start each time.
+
+// Two uvec4, as instance.glsl reads them.
+struct InstanceRecord {
+  std::uint32_t first_bone;                  // element of the chunk's piece of the stream
+  std::uint32_t first_sphere;                // in the scene's spheres
+  std::uint32_t place;                       // in the chunk, with NOOK_RECORD_SELF
+  std::uint32_t light;                       // element of the piece; 0: none
+  std::uint32_t first_caster, caster_count;  // element of the piece
+  std::uint32_t first_exact, exact_count;
+};
+static_assert(sizeof(InstanceRecord) == NOOK_RECORD_UVEC4S * 4 * sizeof(std::uint32_t));
+
+// Lays out and writes what is due or has moved; false if that is nothing. Throws Failure if OpenGL gives no
+// memory.
+bool upload_frame(const Device& device, ComputeScene& placed);
 
 }  // namespace nook::gl

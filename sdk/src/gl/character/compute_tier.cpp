@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "sdk/src/character/instance_views.h"
-#include "sdk/src/gl/character/compute_frame.h"
-#include "sdk/src/gl/program.h"
+#include "sdk/src/gl/character/compute_scene.h"
+#include "sdk/src/gl/shader_program.h"
 #include "shaders/character/layout.h"
 
 namespace nook::gl {

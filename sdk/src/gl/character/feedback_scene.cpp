@@ -1,8 +1,86 @@
 #include "sdk/src/gl/character/feedback_scene.h"
 
+#include <cstring>
+
 #include "shaders/character/layout.h"
 
 namespace nook::gl {
+namespace {
+
+// A vertex's attributes lie together: bias, then for each four influences the key points as 16-bit numbers,
+// the alphas and the blend weights.
+constexpr std::size_t alpha_offset = 4 * sizeof(std::uint16_t);
+constexpr std::size_t blend_offset = alpha_offset + 4 * sizeof(float);
+constexpr std::size_t quad_bytes = blend_offset + 4 * sizeof(float);
+
+// Of each welded vertex, or of each file vertex where draws cannot have indices.
+Vector<std::byte> pack_attributes(const FeedbackModel& sizes, bool welded, Memory* memory) {
+  const CharacterModel& model = sizes.model->model;
+  const std::size_t stride = sizeof(float) + sizes.influence_quads() * quad_bytes;
+  const std::size_t count = welded ? sizes.vertices() : sizes.file_vertices();
+  Vector<std::byte> out(count * stride, std::byte{0}, memory);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t v = welded ? i : model.file_to_welded[i];
+    std::byte* const vertex = out.data() + i * stride;
+    std::memcpy(vertex, &model.bias[v], sizeof(float));
+    for (std::size_t e = 0; e < model.influences; ++e) {
+      const std::size_t entry = v * model.influences + e;
+      std::byte* const quad = vertex + sizeof(float) + e / 4 * quad_bytes;
+      std::memcpy(quad + e % 4 * sizeof(std::uint16_t), &model.influence[entry], sizeof(std::uint16_t));
+      std::memcpy(quad + alpha_offset + e % 4 * sizeof(float), &model.alpha[entry], sizeof(float));
+      std::memcpy(quad + blend_offset + e % 4 * sizeof(float), &model.blend[entry], sizeof(float));
+    }
+  }
+  return out;
+}
+
+void point_attributes(const Device& device, std::uint32_t quads) {
+  const Functions& gl = device.gl;
+  const auto stride = static_cast<GLsizei>(sizeof(float) + quads * quad_bytes);
+  const auto at = [](std::size_t offset) { return reinterpret_cast<const void*>(offset); };
+  gl.EnableVertexAttribArray(NOOK_ATTRIBUTE_BIAS);
+  gl.VertexAttribPointer(NOOK_ATTRIBUTE_BIAS, 1, GL_FLOAT, GL_FALSE, stride, at(0));
+  constexpr struct {
+    GLuint key_points, alpha, blend;
+  } of_quads[] = {{NOOK_ATTRIBUTE_KEY_POINTS_0, NOOK_ATTRIBUTE_ALPHA_0, NOOK_ATTRIBUTE_BLEND_0},
+                  {NOOK_ATTRIBUTE_KEY_POINTS_1, NOOK_ATTRIBUTE_ALPHA_1, NOOK_ATTRIBUTE_BLEND_1}};
+  for (std::uint32_t q = 0; q < quads; ++q) {
+    const auto [key_points, alpha, blend] = of_quads[q];
+    const std::size_t quad = sizeof(float) + q * quad_bytes;
+    for (const GLuint attribute : {key_points, alpha, blend}) gl.EnableVertexAttribArray(attribute);
+    gl.VertexAttribIPointer(key_points, 4, GL_UNSIGNED_SHORT, stride, at(quad));
+    gl.VertexAttribPointer(alpha, 4, GL_FLOAT, GL_FALSE, stride, at(quad + alpha_offset));
+    gl.VertexAttribPointer(blend, 4, GL_FLOAT, GL_FALSE, stride, at(quad + blend_offset));
+  }
+}
+
+}  // namespace
+
+FeedbackModel::FeedbackModel(Device& device, Ref<const LoadedModel> loaded) : ModelData(std::move(loaded)) {
+  vertex_array = Object::make(device, Object::Kind::vertex_array);
+  device.gl.BindVertexArray(vertex_array.name());
+  const bool indexed = device.gl.can.indexed_feedback;
+  attributes = static_buffer(device, "nook: linear layer", pack_attributes(*this, indexed, device.memory));
+  point_attributes(device, influence_quads());
+  if (indexed) {
+    indices = static_buffer(device, "nook: file order", model->model.file_to_welded);
+    device.gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.name());
+  }
+  device.check("describing a model's vertices");
+}
+
+ModelMemory feedback_memory(const LoadedModel& loaded, bool indexed) {
+  const CharacterModel& model = loaded.model;
+  const std::uint64_t file_vertices = model.file_to_welded.size(), key_points = model.key_points.size();
+  const std::uint64_t stride = sizeof(float) + (model.influences + 3) / 4 * quad_bytes;
+  ModelMemory memory;
+  memory.shared = indexed ? model.vertex_count() * stride + file_vertices * sizeof(std::uint32_t)
+                          : file_vertices * stride;
+  // With the share of the page, which stops to grow at a million key points.
+  memory.instance = file_vertices * sizeof(float) + key_points * 2 * sizeof(float);
+  memory.light = file_vertices * 3 * sizeof(float) + key_points * NOOK_COLOUR_VEC4S * 4 * sizeof(float);
+  return memory;
+}
 
 void FeedbackScene::make_buffers(Device& device) {
   make_shadow_page(device);

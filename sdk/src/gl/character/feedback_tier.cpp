@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "sdk/src/character/instance_views.h"
-#include "sdk/src/gl/program.h"
+#include "sdk/src/gl/shader_program.h"
 #include "sdk/src/gl/state_guard.h"
 #include "shaders/character/layout.h"
 

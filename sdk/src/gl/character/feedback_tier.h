@@ -3,7 +3,7 @@
 
 #include "sdk/src/gl/character/feedback_scene.h"
 #include "sdk/src/gl/character/tier.h"
-#include "sdk/src/gl/feedback_target.h"
+#include "sdk/src/gl/object.h"
 
 namespace nook::gl {
 

@@ -1,6 +1,8 @@
-// The lights of a scene's instances in one table of texels, for the host's shaders.
+// The lights of a scene's instances as the texels that shaders/character/light_layout.h describes, and in one
+// table of them for the host's shaders.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "sdk/src/character/scene.h"
@@ -8,6 +10,17 @@
 #include "sdk/src/gl/texel_table.h"
 
 namespace nook::gl {
+
+struct LightTexel {
+  float x, y, z, w;
+};
+
+// 0 for an instance without light.
+std::uint32_t light_texels(const InstanceLight& light);
+// Writes as many.
+void write_light(const Instance& instance, LightTexel* out);
+
+// The lights of a scene's instances in one table of texels, for the host's shaders.
 
 class LightTexture {
  public:

@@ -4,9 +4,10 @@
 #include <cstdio>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/gl/material/source.h"
+#include "sdk/src/gl/functions.h"
+#include "sdk/src/gl/material/material_glsl.h"
 #include "sdk/src/gl/material/texture_array.h"
-#include "sdk/src/gl/state_access.h"
+#include "sdk/src/gl/shader_program.h"
 
 namespace nook::gl {
 namespace {
@@ -149,6 +150,25 @@ void MaterialTextures::add_tensor(Device& device, const TensorTables& t, const c
     add({t.block_form == material::BlockForm::rgtc ? ArrayUse::rgtc : ArrayUse::eac, GLsizei(t.width),
          GLsizei(t.height), first, std::min(block_layers - first, most), block_layers, GLsizei(t.levels)},
         t.blocks.data(), "blocks", number++);
+}
+
+CoordinateTexture::CoordinateTexture(Device& device, const synthesis::Coordinates& coordinates)
+    : source_(device.memory), bytes_(sizeof(synthesis::Cell) * coordinates.cells.size()) {
+  const auto most = std::uint32_t(integer(device.gl, GL_MAX_TEXTURE_SIZE));
+  if (coordinates.side > most)
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the plane is larger than a texture of this OpenGL (got %u texels, need at most %u)",
+                  coordinates.side, most);
+  char definitions[200];
+  std::snprintf(definitions, sizeof definitions,
+                "#define NOOK_SYNTHESIS_SIDE %u.0\n#define NOOK_SYNTHESIS_MATERIAL_TEXELS vec2(%u.0, %u.0)\n",
+                coordinates.side, coordinates.width, coordinates.height);
+  source_ = definitions;
+  source_ += embedded_text("synthesis/host.glsl");
+  set_plain_unpacking(device.gl);
+  const auto side = GLsizei(coordinates.side);
+  texture_ = make_texture_array(device, {ArrayUse::coordinates, side, side, 0, 1, 1, 1},
+                                coordinates.cells.data(), "nook: synthesis");
 }
 
 }  // namespace nook::gl

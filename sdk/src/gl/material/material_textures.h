@@ -1,4 +1,4 @@
-// A material in texture arrays, and the GLSL that decodes it.
+// A material in texture arrays, the coordinates that spread it over a plane, and the GLSL that reads both.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include "sdk/src/core/containers.h"
 #include "sdk/src/gl/object.h"
 #include "sdk/src/material/tables.h"
+#include "sdk/src/synthesis/coordinates.h"
 
 namespace nook::gl {
 
@@ -37,6 +38,22 @@ class MaterialTextures {
                   std::uint32_t max_layers);
 
   Vector<Texture> textures_;
+  String source_;
+  std::uint64_t bytes_ = 0;
+};
+
+class CoordinateTexture {
+ public:
+  // Changes the state of the user `materials` in touched_state.h; the caller holds a StateGuard. Throws
+  // Failure.
+  CoordinateTexture(Device& device, const synthesis::Coordinates& coordinates);
+
+  GLuint name() const { return texture_.name(); }
+  std::uint64_t bytes() const { return bytes_; }
+  const String& source() const { return source_; }
+
+ private:
+  Object texture_;
   String source_;
   std::uint64_t bytes_ = 0;
 };

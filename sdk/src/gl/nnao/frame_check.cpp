@@ -1,10 +1,9 @@
-#include "sdk/src/gl/nnao/frame_check.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
 
 #include <cmath>
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/vec.h"
-#include "sdk/src/gl/nnao/frame_constants.h"
 #include "sdk/src/nnao/host_depth.h"
 
 namespace nook::gl {
@@ -76,7 +75,7 @@ void check_kinds(const NnaoFrame& frame) {
   check_kind("frame.gbuffer_ao", frame.gbuffer_ao, NOOK_GBUFFER_AO_EXCLUDE);
   check_kind("frame.target", frame.target, NOOK_TARGET_FRAMEBUFFER);
   check_kind("frame.blend", frame.blend, NOOK_BLEND_MULTIPLY);
-  check_kind("desc.show", frame.show, NOOK_NNAO_VIEW_NORMALS);
+  check_kind("debug.show", frame.show, NOOK_NNAO_VIEW_NORMALS);
   if (frame.depth_texture == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.depth_texture is 0; give the name of a texture with depth");
@@ -91,7 +90,7 @@ void check_kinds(const NnaoFrame& frame) {
       (frame.blend != NOOK_BLEND_WRITE || frame.show == NOOK_NNAO_VIEW_NORMALS))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "%s %d needs a target of the host; set frame.target and frame.target_name",
-                  frame.blend != NOOK_BLEND_WRITE ? "frame.blend" : "desc.show",
+                  frame.blend != NOOK_BLEND_WRITE ? "frame.blend" : "debug.show",
                   frame.blend != NOOK_BLEND_WRITE ? frame.blend : frame.show);
 }
 

@@ -13,11 +13,8 @@
 #include <array>
 #include <optional>
 
-#include "sdk/src/gl/nnao/frame_constants.h"
-#include "sdk/src/gl/nnao/history_constants.h"
-#include "sdk/src/gl/nnao/host_images.h"
-#include "sdk/src/gl/nnao/nnao_frame.h"
-#include "sdk/src/gl/nnao/render_texture.h"
+#include "sdk/src/gl/functions.h"
+#include "sdk/src/gl/nnao/screen_pass.h"
 #include "sdk/src/gl/nnao/stage_timer.h"
 #include "sdk/src/gl/texel_table.h"
 #include "sdk/src/nnao/network.h"
@@ -35,46 +32,34 @@ constexpr int drawn_filters(const nook_nnao_desc& desc) {
   return desc.half_resolution || desc.blur == 0 ? desc.blur : desc.blur - 1;
 }
 
-// Returns whether the frame writes every texel of a target that is no framebuffer of the host: its old
-// contents are not needed then.
-bool replaces_target(const NnaoFrame& frame, const nook_nnao_desc& pass);
-
 // Every call may change any of the touched state; the caller holds a StateGuard.
-class NnaoPass {
+class NnaoPass : public ScreenPass {
  public:
   // Throws Failure.
-  NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Network& network);
+  NnaoPass(Device& device, const NnaoSettings& desc, const nnao::Network& network);
 
   // Draws a frame that passed check_frame. Throws Failure before anything is drawn.
   void render(const NnaoFrame& frame);
 
   // Returns the path of the network's stage: FRAGMENT or COMPUTE.
   nook_nnao_path path() const { return path_; }
-  GLuint ao_texture() const { return own_.texture(); }
   const std::optional<StageTimer>& timer() const { return timer_; }
 
  private:
-  struct Stage {
-    Object program;
-    GLint frame = -1;
-  };
-  Stage make_stage(Object program) const;
+  ScreenStage make_stage(Object program) const;
   void make_programs(const nnao::Network& network);
   void make_textures(nnao::NetworkForm form);
   void upload_filters(const nnao::Network& network);
 
-  void check(const NnaoFrame& frame);
   bool temporal() const { return desc_.max_history_frames != 0; }
   bool half() const { return desc_.half_resolution != 0; }
-  void bind_texture(GLuint unit, GLuint texture) const;
   // Binds a texture of the host; 0: nothing is bound. samples: it is multisampled.
   void bind_host(GLuint unit, GLuint texture, bool samples = false) const;
   void bind_depth(GLuint texture) const;
   void bind_normals(GLuint texture) const;
-  void set_frame(const Stage& stage, const FrameConstants& constants) const;
-  // discards: nothing outside the viewport is needed afterwards.
-  void draw(const Stage& stage, const FrameConstants& constants, GLuint framebuffer, const Viewport& viewport,
-            bool discards = true) const;
+  // Draws a stage into a texture of the pass, of which nothing is needed afterwards but what it draws.
+  void draw_stage(const ScreenStage& stage, const FrameConstants& constants, const RenderTexture& target,
+                  const Viewport& viewport) const;
   void run_network(const FrameConstants& constants, const Viewport& surface) const;
   // The textures that passes with max_history_frames keep for each layer; all layers of others share one.
   struct LayerTextures {
@@ -91,26 +76,26 @@ class NnaoPass {
   // Blends the frame with those before it, and returns the texture of the mean.
   GLuint accumulate(const NnaoFrame& frame, const FrameConstants& constants, const Viewport& surface,
                     LayerTextures& kept);
-  void draw_output(const Stage& stage, const NnaoFrame& frame, const FrameConstants& constants, int layer);
   void end_stage() {
     if (timer_) timer_->end_stage();
   }
 
-  Device& device_;
-  nook_nnao_desc desc_;  // without network and next
   nook_nnao_path path_;
   // The stage of normals belongs to the paper's form, that of the filter where it is a draw.
-  Stage depth_stage_, apart_depth_stage_, normals_stage_, occlusion_stage_, accumulate_stage_, filter_stage_,
-      resolve_stage_, layered_stage_, show_normals_stage_;
+  ScreenStage depth_stage_, apart_depth_stage_, normals_stage_, occlusion_stage_, accumulate_stage_,
+      filter_stage_, resolve_stage_, layered_stage_, show_normals_stage_;
   GLint earlier_location_ = -1;  // of accumulate_stage_
   std::array<LayerTextures, max_layers> layers_;
   RenderTexture normals_;  // of the surface
   RenderTexture ao_[2];    // of the surface; the second where the filter is a draw
-  RenderTexture own_;
-  Object sampler_, vertex_array_, target_framebuffer_;
-  TexelTable filters_;  // of the paper's form
+  TexelTable filters_;     // of the paper's form
   std::optional<StageTimer> timer_;
-  std::optional<HostImages> checked_;
 };
+
+// The choice between a draw and a dispatch for the network.
+
+// Returns NOOK_NNAO_PATH_FRAGMENT or NOOK_NNAO_PATH_COMPUTE for the path of a descriptor. Throws
+// Failure(NOOK_ERROR_UNSUPPORTED) if the path is compute and compute is not available.
+nook_nnao_path chosen_path(const Functions& gl, nook_nnao_path asked);
 
 }  // namespace nook::gl

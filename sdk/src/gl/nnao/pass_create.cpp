@@ -1,16 +1,45 @@
 #include <cstdio>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/gl/nnao/network_constants.h"
+#include "sdk/src/gl/nnao/network_shader.h"
 #include "sdk/src/gl/nnao/pass.h"
-#include "sdk/src/gl/nnao/pass_defines.h"
-#include "sdk/src/gl/nnao/path.h"
-#include "sdk/src/gl/program.h"
+#include "sdk/src/gl/shader_program.h"
 #include "sdk/src/gl/state_guard.h"
 #include "sdk/src/nnao/taps.h"
 #include "shaders/nnao/layout.h"
 
 namespace nook::gl {
+namespace {
+
+[[noreturn]] void refuse_compute(const Functions& gl) {
+  const int major = gl.version / 10, minor = gl.version % 10;
+  if (gl.limited_by_host)
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "debug.path needs compute shaders (got tier %d on %s %d.%d, need tier %d); leave "
+                  "nook_gl_desc.max_tier 0, or use NOOK_NNAO_PATH_AUTOMATIC",
+                  tier_of(gl), api_name(gl), major, minor,
+                  gl.profile == Profile::desktop ? NOOK_GL_TIER_43 : NOOK_GL_TIER_ES31);
+  if (!gl.can.compute)
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "debug.path needs compute shaders (got %s %d.%d, need %s or newer); use "
+                  "NOOK_NNAO_PATH_AUTOMATIC",
+                  api_name(gl), major, minor, gl.profile == Profile::desktop ? "4.3" : "3.1");
+  throw Failure(NOOK_ERROR_UNSUPPORTED,
+                "debug.path needs compute shaders (got no \"glBindImageTexture\" from get_proc on %s "
+                "%d.%d, need it); pass the context's own loader, or use NOOK_NNAO_PATH_AUTOMATIC",
+                api_name(gl), major, minor);
+}
+
+}  // namespace
+
+nook_nnao_path chosen_path(const Functions& gl, nook_nnao_path asked) {
+  const bool can_compute = gl.can.compute_images;
+  if (asked == NOOK_NNAO_PATH_COMPUTE && !can_compute) refuse_compute(gl);
+  if (asked != NOOK_NNAO_PATH_AUTOMATIC) return asked;
+  // Where AO needs four bytes in place of one to be written by a compute shader, the draw is the better way.
+  return can_compute && gl.can.r8_images ? NOOK_NNAO_PATH_COMPUTE : NOOK_NNAO_PATH_FRAGMENT;
+}
+
 namespace {
 
 struct TexturePlan {
@@ -84,59 +113,39 @@ std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form) 
          bytes(plan.ao[1]) + std::uint64_t(plan.own_layers) * bytes(plan.own);
 }
 
-NnaoPass::NnaoPass(Device& device, const nook_nnao_desc& desc, const nnao::Network& network)
-    : device_(device),
-      desc_(desc),
+NnaoPass::NnaoPass(Device& device, const NnaoSettings& desc, const nnao::Network& network)
+    : ScreenPass(device, desc),
       path_(chosen_path(device.gl, desc.path)),
       filters_(device.memory, filter_unit) {
-  desc_.network = desc_.next = nullptr;
-  GLint largest = 0;
-  device.gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-  if (desc.max_width > largest || desc.max_height > largest)
-    throw Failure(
-        NOOK_ERROR_UNSUPPORTED,
-        "desc.max_width x desc.max_height is larger than this OpenGL's textures (got %d x %d, need at "
-        "most %d x %d)",
-        desc.max_width, desc.max_height, largest, largest);
+  check_size();
   make_programs(network);
   make_textures(network.form);
   if (network.form == nnao::NetworkForm::paper) upload_filters(network);
-  sampler_ = Object::make(device, Object::Kind::sampler);
-  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-    device.gl.SamplerParameteri(sampler_.name(), filter, GL_NEAREST);
-  vertex_array_ = Object::make(device, Object::Kind::vertex_array);
-  target_framebuffer_ = Object::make(device, Object::Kind::framebuffer);
+  // AO in red, or the direction to the viewer and AO in alpha.
+  const GLfloat aside = desc.bent_normals ? 0.5f : 1;
+  make_objects({aside, aside, 1, 1});
   if (desc.timers && !device.gl.can.timestamps)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "desc.timers needs time stamps, which this %s has not (need OpenGL 3.3 or "
-                  "GL_EXT_disjoint_timer_query); leave desc.timers 0",
+                  "debug.timers needs time stamps, which this %s has not (need OpenGL 3.3 or "
+                  "GL_EXT_disjoint_timer_query); leave debug.timers 0",
                   api_name(device.gl));
   if (desc.timers) timer_.emplace(device);
   device.check("making the screen-space pass");
 }
 
-NnaoPass::Stage NnaoPass::make_stage(Object program) const {
-  const Functions& gl = device_.gl;
-  Stage stage;
-  stage.program = std::move(program);
-  stage.frame = uniform_location(device_, stage.program, "nook_frame");
-  gl.UseProgram(stage.program.name());
-  const struct {
-    const char* name;
-    GLint unit;
-  } samplers[] = {{"nook_depth", NOOK_UNIT_DEPTH},
-                  {"nook_host_depth", NOOK_UNIT_HOST_DEPTH},
-                  {"nook_host_normal", NOOK_UNIT_NORMAL},
-                  {"nook_normal", NOOK_UNIT_NORMAL},
-                  {"nook_ao", NOOK_UNIT_AO},
-                  {"nook_filters", NOOK_UNIT_FILTERS},
-                  {"nook_layer", NOOK_UNIT_LAYER},
-                  {"nook_history", NOOK_UNIT_HISTORY},
-                  {"nook_history_depth", NOOK_UNIT_HISTORY_DEPTH},
-                  {"nook_motion", NOOK_UNIT_MOTION}};
-  // Where a stage has no such sampler the location is -1, which OpenGL ignores.
-  for (const auto& sampler : samplers)
-    gl.Uniform1i(uniform_location(device_, stage.program, sampler.name), sampler.unit);
+ScreenStage NnaoPass::make_stage(Object program) const {
+  constexpr SamplerUnit samplers[] = {{"nook_depth", NOOK_UNIT_DEPTH},
+                                      {"nook_host_depth", NOOK_UNIT_HOST_DEPTH},
+                                      {"nook_host_normal", NOOK_UNIT_NORMAL},
+                                      {"nook_normal", NOOK_UNIT_NORMAL},
+                                      {"nook_ao", NOOK_UNIT_AO},
+                                      {"nook_filters", NOOK_UNIT_FILTERS},
+                                      {"nook_layer", NOOK_UNIT_LAYER},
+                                      {"nook_history", NOOK_UNIT_HISTORY},
+                                      {"nook_history_depth", NOOK_UNIT_HISTORY_DEPTH},
+                                      {"nook_motion", NOOK_UNIT_MOTION}};
+  ScreenStage stage;
+  ScreenPass::make_stage(stage, std::move(program), samplers);
   return stage;
 }
 
@@ -145,9 +154,9 @@ void NnaoPass::make_programs(const nnao::Network& network) {
   const nnao::TapGrid grid = nnao::horizon_grid(static_cast<std::uint32_t>(desc_.taps));
   const PassDefines given = pass_defines(desc_, horizon, grid);
   const char* const defines = given.text;
-  char layered[sizeof given.text + 32], apart[sizeof given.text + 32];
+  char layered[sizeof given.text + 32], apart[sizeof given.text + 64];
   std::snprintf(layered, sizeof layered, "%s#define NOOK_LAYERED 1\n", defines);
-  std::snprintf(apart, sizeof apart, "%s#define NOOK_APART 0.5\n", defines);
+  std::snprintf(apart, sizeof apart, "%s#define NOOK_NO_SURFACE_ABOVE NOOK_EXCLUDED_ABOVE\n", defines);
   const bool samples = desc_.depth_samples > 0, sample_arrays = samples && desc_.views > 0;
   const auto drawn = [&](const char* path, const char* text, bool medium_precision = false) {
     return make_stage(
@@ -199,14 +208,6 @@ void NnaoPass::make_textures(nnao::NetworkForm form) {
                          plan.own.label);
   else
     make(own_, plan.own);
-  set_plain_drawing(device_.gl);
-  // AO in red, or the direction to the viewer and AO in alpha.
-  const GLfloat aside = desc_.bent_normals ? 0.5f : 1, open[4] = {aside, aside, 1, 1};
-  device_.gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, own_.framebuffer());
-  for (int layer = 0; layer < plan.own_layers; ++layer) {
-    if (desc_.views > 0) attach_layer(device_.gl, own_.texture(), layer);
-    device_.gl.ClearBufferfv(GL_COLOR, 0, open);
-  }
 }
 
 void NnaoPass::upload_filters(const nnao::Network& network) {

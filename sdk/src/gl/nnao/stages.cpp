@@ -7,13 +7,11 @@
 #include <span>
 #include <string_view>
 
-#include "sdk/src/core/bit_cast.h"
-#include "sdk/src/gl/nnao/frame_constants.h"
-#include "sdk/src/gl/nnao/history_constants.h"
-#include "sdk/src/gl/nnao/network_constants.h"
+#include "sdk/src/core/floats.h"
+#include "sdk/src/gl/nnao/network_shader.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/gl/nnao/pass.h"
-#include "sdk/src/gl/nnao/pass_defines.h"
-#include "sdk/src/gl/program.h"
+#include "sdk/src/gl/shader_program.h"
 #include "sdk/src/nnao/taps.h"
 
 namespace nook::gl {
@@ -111,7 +109,7 @@ String vertex_text(Memory* memory) {
 
 class StageList {
  public:
-  StageList(const nook_nnao_desc& desc, const nnao::TapGrid& grid, PassStages& out, Memory* memory)
+  StageList(const NnaoSettings& desc, const nnao::TapGrid& grid, PassStages& out, Memory* memory)
       : defines_(pass_defines(desc, true, grid)), out_(out), memory_(memory) {}
 
   // ao: the image that nook_ao is.
@@ -175,7 +173,7 @@ nook_nnao_format format_of(const nook_nnao_desc& desc, nook_nnao_image image) {
 
 }  // namespace
 
-PassStages pass_stages(const nook_nnao_desc& desc, const nnao::Network& network, Memory* memory) {
+PassStages pass_stages(const NnaoSettings& desc, const nnao::Network& network, Memory* memory) {
   const nnao::TapGrid grid = nnao::horizon_grid(std::uint32_t(desc.taps));
   PassStages out(memory);
   out.vertex = vertex_text(memory);
@@ -186,7 +184,7 @@ PassStages pass_stages(const nook_nnao_desc& desc, const nnao::Network& network,
   StageList list(desc, grid, out, memory);
   list.add("depth", "nnao/depth.frag", NOOK_NNAO_IMAGE_DEPTH, {"nook_host_depth"});
   list.add("depth_apart", "nnao/depth.frag", NOOK_NNAO_IMAGE_DEPTH, {"nook_host_depth", "nook_layer"},
-           NOOK_NNAO_IMAGE_AO, "#define NOOK_APART 0.5\n");
+           NOOK_NNAO_IMAGE_AO, "#define NOOK_NO_SURFACE_ABOVE NOOK_EXCLUDED_ABOVE\n");
   list.add("occlusion", "nnao/occlusion.frag", NOOK_NNAO_IMAGE_AO, {"nook_depth", "nook_host_normal"});
   nook_nnao_image ao = NOOK_NNAO_IMAGE_AO;
   if (desc.max_history_frames) {

@@ -29,7 +29,7 @@ struct PassStages {
 };
 
 // The descriptor must be checked, and the network have the horizon form.
-PassStages pass_stages(const nook_nnao_desc& desc, const nnao::Network& network, Memory* memory);
+PassStages pass_stages(const NnaoSettings& desc, const nnao::Network& network, Memory* memory);
 
 nook_nnao_image_info stage_image(const nook_nnao_desc& desc, nook_nnao_image image);
 

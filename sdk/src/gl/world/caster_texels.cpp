@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "sdk/src/character/world_casters.h"
+#include "sdk/src/character/scene.h"
 #include "shaders/world/constants.h"
 
 namespace nook::gl {

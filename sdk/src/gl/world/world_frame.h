@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "sdk/src/core/capsule.h"
+#include "sdk/src/core/geometry.h"
 #include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/world/caster_parts.h"
 #include "sdk/src/world/light_terms.h"

@@ -5,11 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sdk/src/core/failure.h"
-#include "sdk/src/core/float_literal.h"
-#include "sdk/src/gl/nnao/pass.h"
-#include "sdk/src/gl/program.h"
-#include "sdk/src/gl/state_guard.h"
+#include "sdk/src/gl/shader_program.h"
+#include "sdk/src/gl/touched_state.h"
 #include "sdk/src/gl/world/caster_texels.h"
 #include "sdk/src/world/cone.h"
 #include "shaders/nnao/layout.h"
@@ -18,9 +15,6 @@
 namespace nook::gl {
 namespace {
 
-// Multiplies the target by AO; alpha stays.
-constexpr BlendState multiplying{GL_TRUE, GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE, GL_FUNC_ADD, GL_FUNC_ADD};
-
 // Textures that only this pass has. Those that are not read by the same stage share a unit. The upsample
 // reads the depth of every fourth pixel beside a layer, the stages of AO beside normals.
 constexpr GLuint caster_unit = filter_unit, half_ao_unit = filter_unit;
@@ -28,11 +22,13 @@ constexpr GLuint upsample_depth_unit = NOOK_UNIT_NORMAL, darkening_depth_unit = 
 constexpr GLuint other_ao_unit = NOOK_UNIT_MOTION, far_unit = NOOK_UNIT_MOTION;
 
 // The frame's constants of the screen pass that this pass does not use have the values of such a pass.
-nook_nnao_desc plain_pass(bool half) {
-  nook_nnao_desc desc{};
+NnaoSettings plain_pass(const nook_world_desc& world) {
+  NnaoSettings desc{};
+  desc.max_width = world.max_width;
+  desc.max_height = world.max_height;
   desc.taps = 32;
   desc.blur_sharpness = 16;
-  desc.half_resolution = half;
+  desc.half_resolution = world.half_resolution != 0;
   return desc;
 }
 
@@ -64,23 +60,13 @@ constexpr int far_length(int length, int step) {
 }  // namespace
 
 WorldPass::WorldPass(Device& device, const nook_world_desc& desc)
-    : device_(device),
-      max_width_(desc.max_width),
-      max_height_(desc.max_height),
+    : ScreenPass(device, plain_pass(desc)),
       half_(desc.half_resolution != 0),
       coloured_(desc.coloured != 0),
       computes_(half_ && device.gl.can.compute_images),
       far_step_(far_step(desc.max_height)),
       casters_(device.memory, caster_unit, {tile_px(computes_, far_step_), half_}) {
-  const Functions& gl = device.gl;
-  GLint largest = 0;
-  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-  if (desc.max_width > largest || desc.max_height > largest)
-    throw Failure(
-        NOOK_ERROR_UNSUPPORTED,
-        "desc.max_width x desc.max_height is larger than this OpenGL's textures (got %d x %d, need at "
-        "most %d x %d)",
-        desc.max_width, desc.max_height, largest, largest);
+  check_size();
   const auto output = [&](const char* defines) {
     return half_ ? make_upsample(defines) : make_draw("world/darken.frag", defines);
   };
@@ -90,15 +76,7 @@ WorldPass::WorldPass(Device& device, const nook_world_desc& desc)
   own_ = RenderTexture(device, result_format(coloured_), desc.max_width, desc.max_height,
                        "nook: AO of the world");
   casters_.reserve(device, desc.capsules);
-  sampler_ = Object::make(device, Object::Kind::sampler);
-  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
-    gl.SamplerParameteri(sampler_.name(), filter, GL_NEAREST);
-  vertex_array_ = Object::make(device, Object::Kind::vertex_array);
-  target_framebuffer_ = Object::make(device, Object::Kind::framebuffer);
-  set_plain_drawing(gl);
-  const GLfloat open[4] = {1, 1, 1, 1};
-  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, own_.framebuffer());
-  gl.ClearBufferfv(GL_COLOR, 0, open);
+  make_objects({1, 1, 1, 1});
   device.check("making the world pass");
 }
 
@@ -120,8 +98,8 @@ WorldPass::Stage WorldPass::make_upsample(const char* defines) const {
   Stage stage = make_draw("world/resolve.frag", all, computes_);
   device_.gl.UseProgram(stage.program.name());
   device_.gl.Uniform2f(uniform_location(device_, stage.program, "nook_texel_size"),
-                       1 / float(surface_length(max_width_, true)),
-                       1 / float(surface_length(max_height_, true)));
+                       1 / float(surface_length(desc_.max_width, true)),
+                       1 / float(surface_length(desc_.max_height, true)));
   return stage;
 }
 
@@ -135,10 +113,14 @@ WorldPass::Stage WorldPass::make_darkening(const char* defines) const {
 }
 
 WorldPass::Stage WorldPass::make_stage(Object program) const {
+  constexpr SamplerUnit samplers[] = {
+      {"nook_host_depth", NOOK_UNIT_DEPTH}, {"nook_host_normal", NOOK_UNIT_NORMAL},
+      {"nook_world_casters", caster_unit},  {"nook_layer", NOOK_UNIT_LAYER},
+      {"nook_other_ao", other_ao_unit},     {"nook_far_open", far_unit},
+      {"nook_depth", upsample_depth_unit},  {"nook_ao", half_ao_unit}};
   Stage stage;
-  stage.program = std::move(program);
+  ScreenPass::make_stage(stage, std::move(program), samplers);
   const auto at = [&](const char* name) { return uniform_location(device_, stage.program, name); };
-  stage.frame = at("nook_frame");
   stage.groups = at("nook_world_groups");
   stage.columns = at("nook_world_tile_columns");
   stage.tile_size = at("nook_world_tile_size");
@@ -152,16 +134,6 @@ WorldPass::Stage WorldPass::make_stage(Object program) const {
   stage.light_columns = at("nook_world_light_columns");
   stage.first_light_tile = at("nook_world_first_light_tile");
   stage.first_shade = at("nook_world_first_shade");
-  device_.gl.UseProgram(stage.program.name());
-  const struct {
-    const char* name;
-    GLint unit;
-  } samplers[] = {{"nook_host_depth", NOOK_UNIT_DEPTH}, {"nook_host_normal", NOOK_UNIT_NORMAL},
-                  {"nook_world_casters", caster_unit},  {"nook_layer", NOOK_UNIT_LAYER},
-                  {"nook_other_ao", other_ao_unit},     {"nook_far_open", far_unit},
-                  {"nook_depth", upsample_depth_unit},  {"nook_ao", half_ao_unit}};
-  // Where a stage has no such sampler the location is -1, which OpenGL ignores.
-  for (const auto& sampler : samplers) device_.gl.Uniform1i(at(sampler.name), sampler.unit);
   return stage;
 }
 
@@ -172,10 +144,8 @@ TextureFormat WorldPass::half_format() const {
 }
 
 void WorldPass::make_half(const nook_world_desc& desc) {
-  char masked[80];
-  std::snprintf(masked, sizeof masked, "#define NOOK_APART %s\n", float_literal(float(NOOK_REPLACED)).text);
   half_depth_ = make_draw("nnao/depth.frag", "");
-  masked_half_depth_ = make_draw("nnao/depth.frag", masked);
+  masked_half_depth_ = make_draw("nnao/depth.frag", "#define NOOK_NO_SURFACE_ABOVE NOOK_REPLACED_ABOVE\n");
   half_ao_ = make_darkening("#define NOOK_BODIES NOOK_NEAR_BODIES\n");
   far_ao_ = make_darkening("#define NOOK_BODIES NOOK_FAR_BODIES\n");
   counts_ = make_upsample("#define NOOK_COUNTS\n");
@@ -188,29 +158,19 @@ void WorldPass::make_half(const nook_world_desc& desc) {
 
 std::uint64_t WorldPass::bytes() const {
   const auto texels = [](std::uint64_t width, std::uint64_t height) { return width * height; };
-  std::uint64_t sum = texels(max_width_, max_height_) * bytes_per_texel(result_format(coloured_));
+  std::uint64_t sum = texels(desc_.max_width, desc_.max_height) * bytes_per_texel(result_format(coloured_));
   if (half_)
-    sum += texels(surface_length(max_width_, true), surface_length(max_height_, true)) *
+    sum += texels(surface_length(desc_.max_width, true), surface_length(desc_.max_height, true)) *
                (bytes_per_texel(half_format()) + bytes_per_texel(TextureFormat::depth)) +
-           texels(far_length(max_width_, far_step_), far_length(max_height_, far_step_)) *
+           texels(far_length(desc_.max_width, far_step_), far_length(desc_.max_height, far_step_)) *
                bytes_per_texel(half_format());
   return sum + casters_.table().bytes();
-}
-
-void WorldPass::check(const WorldFrame& frame) {
-  HostImages images = images_of(frame.screen, plain_pass(half_));
-  images.ao = frame.ao_texture;
-  if (checked_ == images && !frame.screen.textures_changed) return;
-  checked_.reset();
-  check_images(device_, images, own_.texture(), target_framebuffer_.name());
-  checked_ = images;
 }
 
 void WorldPass::set_frame(const Stage& stage, const WorldFrame& frame,
                           const FrameConstants& constants) const {
   const Functions& gl = device_.gl;
-  gl.UseProgram(stage.program.name());
-  gl.Uniform4fv(stage.frame, static_cast<GLsizei>(constants.values.size() / 4), constants.values.data());
+  ScreenPass::set_frame(stage, constants);
   gl.Uniform1i(stage.groups, static_cast<GLint>(casters_.group_count()));
   gl.Uniform1i(stage.columns, static_cast<GLint>(casters_.columns()));
   gl.Uniform1i(stage.tile_size, static_cast<GLint>(casters_.tile_px()));
@@ -254,37 +214,20 @@ void WorldPass::set_light(const Stage& stage, const WorldFrame& frame) const {
   gl.Uniform4fv(stage.cone, NOOK_CONE_VEC4S, cone.data());
 }
 
-void WorldPass::draw(GLuint framebuffer, const Viewport& viewport) const {
-  const Functions& gl = device_.gl;
-  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-  set_viewport(gl, {float(viewport.x), float(viewport.y), float(viewport.width), float(viewport.height)});
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
-}
-
 void WorldPass::draw_depth(const WorldFrame& frame, const FrameConstants& constants) const {
   const Viewport viewport = viewport_of(frame.screen);
   set_frame(frame.screen.gbuffer_ao >= NOOK_GBUFFER_AO_REPLACE ? masked_half_depth_ : half_depth_, frame,
             constants);
   draw(depth_.framebuffer(),
-       {0, 0, surface_length(viewport.width, true), surface_length(viewport.height, true)});
+       {0, 0, surface_length(viewport.width, true), surface_length(viewport.height, true)}, false);
 }
 
 void WorldPass::darken(const RenderTexture& target, int width, int height) const {
-  if (!computes_) {
-    draw(target.framebuffer(), {0, 0, width, height});
-    return;
-  }
-  const Functions& gl = device_.gl;
-  const auto groups = [](int length) {
-    return GLuint(length + NOOK_WORLD_GROUP_SIZE - 1) / NOOK_WORLD_GROUP_SIZE;
-  };
-  gl.BindImageTexture(image_unit_index, target.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY,
-                      half_format() == TextureFormat::ao ? GL_R8 : GL_RGBA8);
-  // Earlier reads and draws end before the texture is written.
-  gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  gl.DispatchCompute(groups(width), groups(height), 1);
-  // The next stage reads the texture.
-  gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  if (computes_)
+    dispatch(target, half_format() == TextureFormat::ao ? GL_R8 : GL_RGBA8, width, height,
+             NOOK_WORLD_GROUP_SIZE);
+  else
+    draw(target.framebuffer(), {0, 0, width, height}, false);
 }
 
 void WorldPass::darken_half(const WorldFrame& frame, const FrameConstants& constants) const {
@@ -293,8 +236,7 @@ void WorldPass::darken_half(const WorldFrame& frame, const FrameConstants& const
     set_frame(far_ao_, frame, constants);
     darken(far_texture_, far_length(viewport.width, far_step_), far_length(viewport.height, far_step_));
   }
-  device_.gl.ActiveTexture(GL_TEXTURE0 + far_unit);
-  device_.gl.BindTexture(GL_TEXTURE_2D, far_texture_.texture());
+  bind_texture(far_unit, far_texture_.texture());
   set_frame(half_ao_, frame, constants);
   darken(ao_, surface_length(viewport.width, true), surface_length(viewport.height, true));
 }
@@ -304,60 +246,32 @@ const WorldPass::Stage& WorldPass::output_of(const WorldFrame& frame) const {
   return frame.screen.gbuffer_ao != NOOK_GBUFFER_AO_NONE ? layered_output_ : output_;
 }
 
-void WorldPass::draw_output(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants) {
-  const Functions& gl = device_.gl;
-  const NnaoFrame& screen = frame.screen;
-  const bool to_texture = screen.target == NOOK_TARGET_TEXTURE;
-  set_frame(stage, frame, constants);
-  GLuint framebuffer = own_.framebuffer();
-  if (screen.target != NOOK_TARGET_OWN) {
-    framebuffer = to_texture ? target_framebuffer_.name() : screen.target_name;
-    if (gl.can.desktop_raster) gl.Enable(GL_FRAMEBUFFER_SRGB);  // OpenGL ES has no switch: it is on
-    if (screen.blend == NOOK_BLEND_MULTIPLY) set_blend(gl, multiplying);
-  }
-  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-  if (to_texture)
-    gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, screen.target_name, 0);
-  nook_nnao_desc sizes{};
-  sizes.max_width = max_width_;
-  sizes.max_height = max_height_;
-  if (replaces_target(screen, sizes)) discard_colours(gl);
-  draw(framebuffer, viewport_of(screen));
-  // If it stayed attached, a texture that the host deletes would live on.
-  if (to_texture) gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
-}
-
 void WorldPass::render(const WorldFrame& frame, const ReachingGroups& groups) {
-  check(frame);
-  casters_.write(device_, frame, groups);
-  const Functions& gl = device_.gl;
   const NnaoFrame& screen = frame.screen;
-  const bool layered = screen.gbuffer_ao != NOOK_GBUFFER_AO_NONE;
-  set_plain_drawing(gl);
-  gl.BindVertexArray(vertex_array_.name());
-  for (GLuint unit = 0; unit < texture_unit_count; ++unit) gl.BindSampler(unit, sampler_.name());
-  const auto bind = [&](GLuint unit, GLuint texture) {
-    gl.ActiveTexture(GL_TEXTURE0 + unit);
-    gl.BindTexture(GL_TEXTURE_2D, texture);
-  };
-  bind(NOOK_UNIT_DEPTH, screen.depth_texture);
-  bind(NOOK_UNIT_NORMAL, screen.normal_texture);
-  bind(other_ao_unit, frame.ao_texture);
-  bind(NOOK_UNIT_LAYER, 0);
-  bind(caster_unit, 0);
+  HostImages images = images_of(screen, desc_);
+  images.ao = frame.ao_texture;
+  check(images, screen.textures_changed);
+  casters_.write(device_, frame, groups);
+  const GLuint layer = screen.gbuffer_ao != NOOK_GBUFFER_AO_NONE ? screen.gbuffer_ao_texture : 0;
+  begin_frame();
+  bind_texture(NOOK_UNIT_DEPTH, screen.depth_texture);
+  bind_texture(NOOK_UNIT_NORMAL, screen.normal_texture);
+  bind_texture(other_ao_unit, frame.ao_texture);
+  bind_texture(caster_unit, 0);
   casters_.bind(device_);
-  if (layered) bind(NOOK_UNIT_LAYER, screen.gbuffer_ao_texture);
-  const FrameConstants constants = frame_constants(screen, plain_pass(half_), 0);
+  bind_texture(NOOK_UNIT_LAYER, layer);
+  const FrameConstants constants = frame_constants(screen, desc_, 0);
   if (half_) {
     draw_depth(frame, constants);
-    bind(darkening_depth_unit, depth_.texture());
+    bind_texture(darkening_depth_unit, depth_.texture());
     darken_half(frame, constants);
-    bind(NOOK_UNIT_LAYER, layered ? screen.gbuffer_ao_texture : 0);
-    bind(other_ao_unit, frame.ao_texture);
-    bind(upsample_depth_unit, depth_.texture());
-    bind(half_ao_unit, ao_.texture());
+    bind_texture(NOOK_UNIT_LAYER, layer);
+    bind_texture(other_ao_unit, frame.ao_texture);
+    bind_texture(upsample_depth_unit, depth_.texture());
+    bind_texture(half_ao_unit, ao_.texture());
   }
-  draw_output(output_of(frame), frame, constants);
+  set_frame(output_of(frame), frame, constants);
+  draw_output(screen, 0);
 }
 
 }  // namespace nook::gl

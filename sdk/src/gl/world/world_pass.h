@@ -11,9 +11,7 @@
 #include <array>
 #include <optional>
 
-#include "sdk/src/gl/nnao/frame_constants.h"
-#include "sdk/src/gl/nnao/host_images.h"
-#include "sdk/src/gl/nnao/render_texture.h"
+#include "sdk/src/gl/nnao/screen_pass.h"
 #include "sdk/src/gl/world/frame_casters.h"
 #include "sdk/src/gl/world/world_frame.h"
 
@@ -21,7 +19,7 @@ namespace nook::gl {
 
 // Every call may change any of the touched state of the user `screen`, and of uploads; the caller holds a
 // StateGuard.
-class WorldPass {
+class WorldPass : public ScreenPass {
  public:
   // Throws Failure.
   WorldPass(Device& device, const nook_world_desc& desc);
@@ -31,16 +29,13 @@ class WorldPass {
 
   // Returns true if the pass has stages that are compute shaders.
   bool computes() const { return computes_; }
-  GLuint ao_texture() const { return own_.texture(); }
   // Those of the last frame.
   const FrameCasters& casters() const { return casters_; }
   std::uint64_t bytes() const;
 
  private:
-  struct Stage {
-    Object program;
-    GLint frame = -1, groups = -1, columns = -1, first_tile = -1, tile_size = -1, composition = -1,
-          counts = -1;
+  struct Stage : ScreenStage {
+    GLint groups = -1, columns = -1, first_tile = -1, tile_size = -1, composition = -1, counts = -1;
     // Only coloured passes have these.
     GLint far = -1, first_far_tile = -1;  // of half resolution
     GLint light_terms = -1, cone = -1, light_columns = -1, first_light_tile = -1, first_shade = -1;
@@ -53,28 +48,21 @@ class WorldPass {
   std::array<char, 160> defines_of(const char* own) const;
   TextureFormat half_format() const;
   void make_half(const nook_world_desc& desc);
-  void check(const WorldFrame& frame);
   void set_light(const Stage& stage, const WorldFrame& frame) const;
   void set_frame(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants) const;
-  void draw(GLuint framebuffer, const Viewport& viewport) const;
   void draw_depth(const WorldFrame& frame, const FrameConstants& constants) const;
   // Runs the stage of AO at half resolution whose program is in use.
   void darken(const RenderTexture& target, int width, int height) const;
   void darken_half(const WorldFrame& frame, const FrameConstants& constants) const;
   const Stage& output_of(const WorldFrame& frame) const;
-  void draw_output(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants);
 
-  Device& device_;
-  int max_width_, max_height_;
   bool half_, coloured_, computes_;
   int far_step_;                                             // pixels
   Stage output_, layered_output_, counts_;                   // at half resolution the upsample
   Stage half_depth_, masked_half_depth_, half_ao_, far_ao_;  // masked: without replaced pixels
   RenderTexture far_texture_;
-  RenderTexture own_, depth_, ao_;  // depth and AO of every fourth pixel
-  Object sampler_, vertex_array_, target_framebuffer_;
+  RenderTexture depth_, ao_;  // depth and AO of every fourth pixel
   FrameCasters casters_;
-  std::optional<HostImages> checked_;
 };
 
 }  // namespace nook::gl

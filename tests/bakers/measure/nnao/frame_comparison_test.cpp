@@ -3,9 +3,9 @@
 
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 
 #include "bakers/measure/nnao/frame_pictures.h"
-#include "bakers/measure/nnao/frame_report.h"
 #include "sdk/src/nnao/network_file.h"
 #include "sdk/src/nnao/recording_file.h"
 #include "tests/bakers/measure/nnao/small_scenes.h"
@@ -98,7 +98,7 @@ TEST_CASE("a frame replays to its recorded AO, and its errors are those against 
   }
   const nook::nnao::Recording read = nook::nnao::read_recording(nook::nnao::write_recording(recording));
   FrameReplay replay(context->gl(), nook, read);
-  REQUIRE(replay.has_baselines());
+  REQUIRE(replay.has_oracle());
   const std::vector<FrameRow> rows = compare_frame(replay, read, {}, {}, go_on);
   std::vector<std::string> names;
   for (const FrameRow& row : rows) names.push_back(row.method);
@@ -114,8 +114,7 @@ TEST_CASE("a frame replays to its recorded AO, and its errors are those against 
   // The corner is in view whole, so that the oracle is near the truth there, and the pass near the oracle.
   CHECK(replayed.oracle_mse.value() < 5e-3);
   CHECK(std::abs(replayed.oracle_bias.value()) < 0.05);
-  const std::vector<float> truth =
-      bake::nnao::trace_truth(bake::RayScene(corner()), traced(corner(), camera()), 0.6f, 64, 1);
+  const std::vector<float> truth = traced_ao(corner(), traced(corner(), camera()), 0.6f, 64);
   double squared = 0;
   int count = 0;
   for (int y = height / 4; y < 3 * height / 4; ++y)
@@ -158,9 +157,14 @@ TEST_CASE("a frame with intensity is compared with the oracle without it") {
   nook::nnao::Recording plain = host_frame(), strong = host_frame();
   strong.frame.intensity = 2;
   FrameReplay plain_replay(context->gl(), nook, plain), strong_replay(context->gl(), nook, strong);
-  const auto of_plain = compare_frame(plain_replay, plain, {"replayed", "oracle", "hbao:16"}, {}, go_on);
-  const auto of_strong = compare_frame(strong_replay, strong, {"replayed", "oracle", "hbao:16"}, {}, go_on);
+  const auto half = [](const FrameReplay&) { return std::vector<float>(std::size_t(width) * height, 0.5f); };
+  const std::vector<FrameMethod> grey{{"grey", 1, half}, {"grey", 2, half}};
+  const auto of_plain = compare_frame(plain_replay, plain, {"replayed", "oracle", "grey:1"}, {}, go_on, grey);
+  const auto of_strong =
+      compare_frame(strong_replay, strong, {"replayed", "oracle", "grey:1"}, {}, go_on, grey);
+  // Further methods stand between the library's rows and the oracles.
   REQUIRE(of_plain.size() == 3);
+  CHECK((of_plain[1].method == "grey" && of_plain[1].pass.taps == 1 && of_plain[2].method == "oracle"));
   for (std::size_t i = 0; i < 3; ++i)
     CHECK(std::abs(of_plain[i].oracle_mse.value() - of_strong[i].oracle_mse.value()) < 1e-9);
   CHECK(difference_of(of_plain[0].ao, of_strong[0].ao).largest > 0.1);
@@ -174,8 +178,10 @@ TEST_CASE("a frame without a perspective has no oracle, and a run can be stopped
   const float parallel[16] = {0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, -0.04f, 0, 0, 0, -1, 1};
   std::ranges::copy(parallel, recording.frame.projection);
   FrameReplay replay(context->gl(), nook, recording);
-  CHECK(!replay.has_baselines());
-  const auto rows = compare_frame(replay, recording, {"all"}, {}, go_on);
+  CHECK(!replay.has_oracle());
+  const std::vector<FrameMethod> further{
+      {"none", 1, [](const FrameReplay&) -> std::vector<float> { throw std::logic_error("is not drawn"); }}};
+  const auto rows = compare_frame(replay, recording, {"all"}, {}, go_on, further);
   REQUIRE(rows.size() == 4);
   CHECK(!rows[0].oracle_mse.has_value());
   CHECK_THROWS_AS(compare_frame(replay, recording, {}, {}, [](std::size_t, std::size_t) { return false; }),

@@ -7,7 +7,7 @@
 #include "bakers/raytrace/random.h"
 #include "tests/catch.h"
 
-using namespace nook::bake::nnao;
+using namespace nook::measure;
 
 namespace {
 

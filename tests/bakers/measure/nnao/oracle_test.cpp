@@ -36,7 +36,7 @@ TEST_CASE("the oracle leaves a plane open, but where the border's depth continue
 
 TEST_CASE("the oracle agrees with rays in a corner that the screen shows whole") {
   const bake::nnao::TracedView view = traced(corner(), camera());
-  const std::vector<float> truth = bake::nnao::trace_truth(bake::RayScene(corner()), view, 0.6f, 256, 1);
+  const std::vector<float> truth = traced_ao(corner(), view, 0.6f, 256);
   for (const Oracle oracle : all_oracles) {
     const std::vector<float> ao = oracle_ao(oracle, view, 0.6f);
     double squared = 0, bias = 0;

@@ -1,6 +1,5 @@
 #include "bakers/measure/report/html.h"
 
-#include "bakers/measure/report/template.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"
 

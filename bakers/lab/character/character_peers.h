@@ -1,0 +1,34 @@
+// The published object-space alternatives, fitted on the same poses and measured on the same targets.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "bakers/measure/character/character_error.h"
+
+namespace nook::lab {
+
+// Ambient occlusion linear in the joint rotations (Kontkanen & Aila 2006, "Ambient Occlusion for Animated
+// Characters"). AO of a vertex = dot(its coefficients, the pose's parameters) + constant, by least squares
+// over the poses. Tuned by cross-validation over runs of poses: how rotations become parameters (logarithms
+// or matrix entries, scaled or not), a ridge on the coefficients, and the rank to which the matrix of all
+// vertices' coefficients is reduced: the best for the left-out poses, or a smaller one that costs them at
+// most 0.5 %. Deterministic on any number of threads.
+std::unique_ptr<bake::PoseRegression> fit_linear_pose(const bake::SkinnedMesh& mesh,
+                                                      std::span<const bake::Pose> poses,
+                                                      const bake::AoTargets& targets);
+
+// Ambient occlusion by clusters of poses, each with a linear model of its own (Kirk & Arikan 2007, "Real-Time
+// Ambient Occlusion for Dynamic Character Skins"). Poses are grouped by k-means in joint parameters; in each
+// cluster a principal-component basis reduces the pose, AO is linear in the reduced pose, and the clusters'
+// answers are blended by the distance of the pose to their centres (moving least squares: the same weights
+// hold in the fits). Tuned by cross-validation over runs of poses: how rotations become parameters, the
+// metric of poses, the number of clusters, the rank of the basis, a ridge and the width of the blend; of all
+// within 0.5 % of the best, the smallest. Deterministic for a seed on any number of threads.
+std::unique_ptr<bake::PoseRegression> fit_pose_clusters(const bake::SkinnedMesh& mesh,
+                                                        std::span<const bake::Pose> poses,
+                                                        const bake::AoTargets& targets,
+                                                        std::uint64_t seed = 1);
+
+}  // namespace nook::lab

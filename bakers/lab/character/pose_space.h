@@ -1,0 +1,81 @@
+// Poses as points of a space in which distances mean something, and clusters of them. A pose's features are
+// the rotations of the joints against their parents, relative to rest.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bakers/import/skinned_mesh.h"
+
+namespace nook::lab {
+
+enum class FeatureKind : std::uint8_t {
+  axis_angle,  // 3 a joint: the logarithm of the rotation, radians
+  matrix,      // 9 a joint: its entries minus the identity's
+};
+
+// Rows are poses. Row-major, so that a pose is contiguous.
+using BaselineMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+class PoseFeatures {
+ public:
+  PoseFeatures(const bake::SkinnedMesh& mesh, FeatureKind kind);
+
+  Eigen::Index count() const { return Eigen::Index(joints_.size()) * per_joint(); }
+  Eigen::RowVectorXf of(const bake::Pose& pose) const;
+  BaselineMatrix of(std::span<const bake::Pose> poses) const;
+
+  // For each feature, the root of the share of vertices that its joint moves: a metric in which a turned
+  // finger is a smaller change of pose than a turned hip.
+  Eigen::RowVectorXf moved_share(const bake::SkinnedMesh& mesh) const;
+
+ private:
+  struct JointPair {
+    std::uint32_t bone;
+    std::int32_t parent;  // -1: world
+  };
+  Eigen::Index per_joint() const { return kind_ == FeatureKind::axis_angle ? 3 : 9; }
+
+  FeatureKind kind_;
+  std::vector<JointPair>
+      joints_;  // those that move some but not all vertices: turning the others changes no AO
+};
+
+// Scaled features in their own principal components.
+class PoseSpace {
+ public:
+  // by_moved_share scales each feature by the root of the share of vertices that its joint moves. At most
+  // `dimensions` components are kept.
+  PoseSpace(const bake::SkinnedMesh& mesh, FeatureKind kind, bool by_moved_share,
+            std::span<const bake::Pose> poses, Eigen::Index dimensions);
+
+  Eigen::Index dimensions() const { return basis_.cols(); }
+  BaselineMatrix of(std::span<const bake::Pose> poses) const;  // poses x dimensions
+  BaselineMatrix of(const bake::Pose& pose) const;             // one row
+  std::size_t stored_numbers() const { return std::size_t(basis_.size() + mean_.size()); }
+
+ private:
+  BaselineMatrix scaled(const BaselineMatrix& x) const {
+    return (x.array().rowwise() * scale_.array()).matrix();
+  }
+
+  PoseFeatures features_;
+  Eigen::RowVectorXf scale_, mean_;
+  BaselineMatrix basis_;  // features x dimensions
+};
+
+struct PoseGroups {
+  BaselineMatrix centre;         // clusters x features
+  double mean_squared_distance;  // of the poses to their nearest centre
+};
+
+// Lloyd's iterations from a k-means++ start, the best of a few starts. The same seed gives the same groups.
+PoseGroups k_means(const BaselineMatrix& features, Eigen::Index clusters, std::uint64_t seed);
+
+// Squared distances: poses x clusters.
+BaselineMatrix squared_distances(const BaselineMatrix& features, const BaselineMatrix& centres);
+
+}  // namespace nook::lab

@@ -1,0 +1,39 @@
+// The debug view of a scene over its picture, and the ray tracing that the view of errors needs.
+#pragma once
+
+#include "bakers/lab/crowd/debug_shapes.h"
+
+namespace crowd::lab {
+
+// The content of a picture: the instances of a scene after an update, and the camera.
+struct PictureOfCrowd {
+  CrowdScene& scene;
+  const Hero& hero;
+  const std::vector<Bones>& poses;
+  std::span<const DrawnInstance> drawn;
+  const Camera& camera;
+};
+
+class DebugOverlay {
+ public:
+  // It must outlive this object.
+  explicit DebugOverlay(const GladGLContext& gl);
+  ~DebugOverlay();
+  DebugOverlay(const DebugOverlay&) = delete;
+  DebugOverlay& operator=(const DebugOverlay&) = delete;
+
+  // Draws over the picture in the framebuffer that is bound.
+  void draw(Renderer& renderer, const PictureOfCrowd& picture, const DebugView& view);
+
+ private:
+  void draw_errors(Renderer& renderer, const PictureOfCrowd& picture, std::uint32_t count);
+
+  const GladGLContext& gl_;
+  DebugRenderer shapes_;
+  GLuint error_buffer_ = 0;
+};
+
+// Gives the instances the colours of their levels of detail.
+void colour_by_level(const CrowdScene& scene, std::span<DrawnInstance> drawn);
+
+}  // namespace crowd::lab

@@ -1,0 +1,106 @@
+#include "bakers/lab/crowd/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+#include "platform/platform.h"
+
+namespace crowd::lab {
+namespace {
+
+std::string parse_size(const std::string& text, Options& o) {
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &o.width_px, &o.height_px, &rest) == 2 && o.width_px >= 16 &&
+      o.height_px >= 16 && o.width_px <= 8192 && o.height_px <= 8192)
+    return "";
+  return "got '" + text + "', need WIDTHxHEIGHT from 16x16 to 8192x8192";
+}
+
+std::string parse_tier(const std::string& text, Options& o) {
+  o.crowd.tier = text == "33" ? 33 : text == "43" ? 43 : 0;
+  return "";
+}
+
+DebugView debug_view(const std::vector<std::string>& names, std::uint32_t bodies) {
+  const auto has = [&](const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  return {has("spheres"), has("key-points"), has("links"), has("levels"), has("error"), bodies};
+}
+
+}  // namespace
+
+bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
+  CLI::App app("Measures the crowd of samples/crowd: draws it, and compares it with ray tracing.");
+  std::string size = "1280x720", tier = "best", screen_space = "on";
+  std::vector<std::string> debug;
+  std::uint32_t bodies = 1;
+  o.cache = CROWD_CACHE;
+  // The last of several values wins, so that the caller of a script can override its values.
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  app.add_option("hero", o.hero_glb, "a rigged .glb or .gltf; without it, the built-in character")
+      ->check(CLI::ExistingFile);
+  app.add_option("model", o.hero_nook, "its baked .nook; without it, one is baked (draft preset) and cached")
+      ->check(CLI::ExistingFile);
+  app.add_option("--context", o.context, std::string("OpenGL context: ") + platform::context_kinds())
+      ->check(CLI::IsMember({"egl", "osmesa"}));
+  app.add_option("--characters", o.crowd.characters, "number of characters")->check(CLI::Range(1, 10000));
+  app.add_option("--neighbours", o.crowd.neighbours, "nearest neighbours that darken each character")
+      ->check(CLI::Range(0, 16));
+  app.add_option("--frames", o.frames, "pictures to draw")->check(CLI::Range(1, 100000));
+  app.add_option("--size", size, "pixels of a picture, WIDTHxHEIGHT");
+  app.add_option("--out", o.out, "folder of the pictures");
+  app.add_option("--report", o.report, "JSON with times and errors (default: report.json in --out)");
+  app.add_option("--tier", tier, "highest OpenGL tier: 33, 43 or best")
+      ->check(CLI::IsMember({"33", "43", "best"}));
+  app.add_option(
+         "--screen-space", screen_space,
+         "on or off: AO on the floor by the screen and by the characters, beside the AO of the characters")
+      ->check(CLI::IsMember({"on", "off"}));
+  app.add_option("--light", o.lights,
+                 "probe (.nook) or environment (.hdr, .exr). The first one lights the frames, and each is "
+                 "compared with path tracing. The option may repeat. Without it a built-in sky lights the "
+                 "frames")
+      ->check(CLI::ExistingFile)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_flag("!--no-light", o.probe_light,
+               "light the frames by plain ambient light times AO and a key light");
+  app.add_option("--record", o.record,
+                 "folder for recorded frames of the screen-space pass, frame_0000.nook and so on");
+  app.add_flag(
+      "--measure-world", o.measure_world,
+      "compare the world pass of the last frame with every caster at every pixel; slow without a GPU");
+  app.add_option(
+         "--debug", debug,
+         "debug views over the picture, with commas between: spheres, key-points, links, levels, error")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"spheres", "key-points", "links", "levels", "error"}))
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--debug-bodies", bodies,
+                 "bodies that spheres, key points and errors are shown for, the nearest to the camera first")
+      ->check(CLI::Range(1, 10000));
+  app.add_option("--lod-error", o.lod_error,
+                 "error of a level of detail that is allowed at 10 m, root mean square of AO; 0: full detail")
+      ->check(CLI::Range(0.0f, 1.0f));
+  app.add_option("--seed", o.seed, "seed of the places, the clips and the rays");
+  app.add_option("--cache", o.cache, "folder where baked characters are kept");
+  app.add_flag("!--no-sheets", o.sheets, "no comparison sheets, and no ray tracing except for --light");
+  app.add_flag("--quiet", o.quiet, "show no progress");
+  try {
+    app.parse(argc, argv);
+    for (const std::string& fault : {parse_size(size, o), parse_tier(tier, o)})
+      if (!fault.empty()) throw CLI::ValidationError("--size", fault);
+    o.screen_space = screen_space == "on";
+    o.debug = debug_view(debug, bodies);
+    if (!o.record.empty() && !o.screen_space)
+      throw CLI::ValidationError("--record", "needs --screen-space on");
+    if (o.report.empty()) o.report = o.out / "report.json";
+    return true;
+  } catch (const CLI::ParseError& e) {
+    exit_code = app.exit(e) == 0 ? 0 : 2;
+    return false;
+  }
+}
+
+}  // namespace crowd::lab

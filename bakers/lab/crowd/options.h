@@ -1,0 +1,35 @@
+// The command line of nook-lab-crowd.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bakers/lab/crowd/debug_shapes.h"
+#include "samples/crowd/crowd_scene.h"
+
+namespace crowd::lab {
+
+struct Options {
+  // Without a .glb this is the built-in character, and without a .nook its model is baked here.
+  std::filesystem::path hero_glb, hero_nook;
+  std::string context = "egl";
+  CrowdSize crowd;
+  std::uint32_t frames = 4, seed = 1;
+  int width_px = 1280, height_px = 720;
+  std::filesystem::path out = "out/crowd", report;
+  std::filesystem::path cache;
+  std::filesystem::path record;
+  std::vector<std::filesystem::path> lights;  // probes (.nook) or maps of the environment (.hdr, .exr)
+  bool probe_light = true;                    // the frames have the first of the lights, or the built-in sky
+  bool screen_space = true, sheets = true, quiet = false;
+  bool measure_world = false;
+  float lod_error = 0;  // AO, rms at 10 m from the camera; 0 keeps full detail
+  DebugView debug;      // over the frames
+};
+
+// Fills options. Returns false with exit_code set if the program should end at once.
+bool parse_options(int argc, char** argv, Options& options, int& exit_code);
+
+}  // namespace crowd::lab

@@ -1,0 +1,57 @@
+// A GPU that is not there: RADV, Mesa's Vulkan driver for AMD, compiles for it and hands out the result.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "bakers/lab/gpu_cost/vulkan_glsl.h"
+
+namespace nook::lab {
+
+struct CompiledShader {
+  std::string disassembly;
+  unsigned vector_registers = 0;
+  unsigned scalar_registers = 0;
+  unsigned waves = 0;  // that a SIMD holds at once
+  unsigned code_bytes = 0;
+};
+
+// There is no RADV on this machine.
+struct NoRadv : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class NullDevice {
+ public:
+  // family is a name that RADV knows, such as navi21. Throws NoRadv.
+  explicit NullDevice(const std::string& family);
+  ~NullDevice();
+  NullDevice(const NullDevice&) = delete;
+  NullDevice& operator=(const NullDevice&) = delete;
+
+  // The driver with its version.
+  std::string driver() const;
+
+  // samplers: the types of set sampler_set, by binding.
+  CompiledShader compute(const std::vector<std::uint32_t>& spirv, const std::vector<std::string>& samplers);
+
+  // A draw; counted is the stage whose result is returned. attributes and targets are the types of the vertex
+  // shader's inputs and of the fragment shader's outputs, by location.
+  struct Draw {
+    std::vector<std::uint32_t> vertex, fragment;
+    bool counts_vertex = false;
+    bool points = false;
+    std::vector<StageVariable> attributes, targets;
+    std::vector<std::string> samplers;
+  };
+  CompiledShader draw(const Draw& draw);
+
+ private:
+  struct Vulkan;
+  std::unique_ptr<Vulkan> vulkan_;
+};
+
+}  // namespace nook::lab

@@ -1,0 +1,83 @@
+// Every shader that Nook ships and every baseline, each with its defines and the loops that its compiled form
+// has.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bakers/lab/gpu_cost/instruction_count.h"
+#include "bakers/lab/gpu_cost/source_text.h"
+#include "bakers/lab/nnao/screen_baselines.h"
+#include "sdk/src/gl/material/material_glsl.h"
+
+namespace nook::lab {
+
+struct FamilyLoops {
+  std::string family;
+  std::vector<Loop> loops;
+};
+
+struct ShaderCase {
+  std::string name;
+  Stage stage = Stage::fragment;
+  std::string path;  // from the repository's root; empty for the shader of a host
+  std::string host;  // text of a host's shader, which includes what it calls
+  std::string defines;
+  std::vector<Loop> loops;
+  std::vector<FamilyLoops> other_families;  // where a compiler unrolls otherwise
+
+  const std::vector<Loop>& loops_of(const std::string& family) const {
+    for (const FamilyLoops& other : other_families)
+      if (other.family == family) return other.loops;
+    return loops;
+  }
+};
+
+// A shader of the tree.
+ShaderCase tree_shader(Stage stage, const std::string& path, const std::string& name,
+                       const std::string& defines = "", const std::vector<Loop>& loops = {});
+
+// A host's fragment shader.
+ShaderCase host_shader(const std::string& text, const std::string& name, const std::vector<Loop>& loops = {});
+
+// The library's text of a material up to `host`, a file of shaders/ that ends it, such as material/host.glsl:
+// a counted shader includes that file from the counted tree.
+std::string material_declarations(const material::MaterialTables& tables, std::string_view host);
+// Before the text of a material's pixel: it fetches each mode at two places along the pixel.
+inline constexpr char two_fetches[] = "#define TWO_FETCHES\n";
+
+// Shaders that run one after the other, each for a share of the threads.
+struct PassCase {
+  std::string name;
+  std::vector<std::pair<std::string, double>> shaders;
+};
+
+// Names of what baselines share. The denoiser makes two pixels a thread, the levels four.
+// Behind the names of what has bent normals as a second output.
+inline constexpr char bent_normals[] = ", bent normals";
+inline constexpr char baseline_blur[] = "blur of the baselines";
+inline constexpr char box_mean[] = "mean of 4 x 4 pixels";
+inline constexpr char n8ao_disc[] = "N8AO's disc";
+inline constexpr char filament_gaussian[] = "Filament's Gaussian";
+inline constexpr char edge_denoiser[] = "edge-aware denoiser, two pixels a thread";
+inline constexpr char denoiser_edges[] = "edges for the denoiser";
+inline constexpr char xegtao_levels[] = "XeGTAO depth levels, four pixels a thread";
+
+// The baselines of the table, with their tuning.
+std::vector<BaselineMethod> counted_baselines();
+std::string counted_name(const BaselineMethod& method);
+
+std::vector<ShaderCase> character_shaders();
+std::vector<ShaderCase> nnao_shaders();
+std::vector<ShaderCase> baseline_shaders();
+std::vector<ShaderCase> probe_shaders();
+std::vector<ShaderCase> material_shaders();
+std::vector<ShaderCase> neural_shaders();
+std::vector<ShaderCase> world_shaders();
+
+std::vector<ShaderCase> all_shaders();
+std::vector<PassCase> all_passes();
+
+}  // namespace nook::lab

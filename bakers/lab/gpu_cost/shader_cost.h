@@ -1,0 +1,50 @@
+// The cost of shaders on a GPU that is not there.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bakers/lab/gpu_cost/instruction_count.h"
+#include "bakers/lab/gpu_cost/null_device.h"
+#include "bakers/lab/gpu_cost/shader_cases.h"
+
+namespace nook::lab {
+
+// The model: cycles that a compute unit of 64 lanes a cycle takes for a wave of 64 threads.
+inline constexpr double quarter_rate_cycles = 4, fetch_cycles = 16;
+
+struct Cycles {
+  double alu = 0, texture = 0;
+  double all() const { return alu + texture; }
+};
+
+struct ShaderCost {
+  std::string shader;
+  InstructionCounts counts;
+  unsigned vector_registers = 0, scalar_registers = 0, waves = 0, code_bytes = 0;
+  std::string error;  // why there are no numbers; empty if there are
+
+  Cycles cycles() const {
+    return {counts[InstructionClass::vector] + quarter_rate_cycles * counts[InstructionClass::quarter_rate],
+            fetch_cycles * counts[InstructionClass::fetch]};
+  }
+};
+
+struct SourceTree {
+  std::filesystem::path root;
+  std::string first_lines;  // in front of the defines of each shader
+};
+
+// A shader as Vulkan GLSL.
+VulkanGlsl vulkan_glsl(const SourceTree& tree, const ShaderCase& shader);
+
+// Compiles and disassembles one.
+CompiledShader compile_shader(NullDevice& device, const SourceTree& tree, const ShaderCase& shader);
+
+// Never throws for a shader that cannot be counted; the result has the error.
+ShaderCost shader_cost(NullDevice& device, const std::string& family, const SourceTree& tree,
+                       const ShaderCase& shader);
+
+}  // namespace nook::lab

@@ -1,0 +1,20 @@
+// The text of a shader as the library compiles it: includes expanded, version line and defines in front.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace nook::lab {
+
+enum class Stage { vertex, fragment, compute };
+
+std::string file_text(const std::filesystem::path& path);
+
+// Replaces each line `#include "path"`, relative to the root, by that file's text, once per shader, as
+// sdk/src/gl/embed_shaders.cmake does.
+std::string expand_includes(const std::filesystem::path& root, const std::string& text);
+
+// Puts the version line of sdk/src/gl/shader_program.cpp and the defines in front of an expanded text.
+std::string with_version(Stage stage, const std::string& defines, const std::string& text);
+
+}  // namespace nook::lab

@@ -1,0 +1,46 @@
+// Trip counts of the loops of the shaders, for the frames of the cost table.
+#pragma once
+
+namespace nook::lab::trips {
+
+// A character of a crowd: the bench's body in the midst of others.
+inline constexpr int group_size = 64;  // threads of a group, and spheres that it stages at a time
+inline constexpr double spheres = 130;
+inline constexpr double tiles = 3;  // of group_size spheres, the last one partly filled
+inline constexpr double spheres_in_tile = spheres / tiles;
+inline constexpr double casters = 4;        // neighbours
+inline constexpr double exact_spheres = 1;  // the ground
+inline constexpr double influence_pairs = 4;
+inline constexpr double light_lobes = 12;  // of an instance's light
+
+// The screen-space pass.
+inline constexpr double sides = 2;
+
+// The world pass at a texel of the crowd sample with 100 characters at 1920 x 1080, as its report counts
+// them. Lists hold all bodies whose reach covers a tile.
+inline constexpr double bodies_of_tile = 100;
+inline constexpr double parts_of_body = 0.08;
+inline constexpr double casters_of_part = 0.2;
+// At half resolution by draws the lists of near bodies have fewer, more of which a pixel evaluates.
+inline constexpr double near_bodies_of_tile = 9;
+inline constexpr double parts_of_near_body = 0.6;
+// By groups of threads, which read bodies_read of a list at a time, those that the group keeps. The numbers
+// are world_counts of the report: tests, capsules of limbs and casters by the tests, far_tests.
+inline constexpr int bodies_read = 32;
+inline constexpr double near_bodies_of_group = 1.01;
+inline constexpr double parts_of_group_body = 5.56;
+inline constexpr double casters_of_group_part = 0.195;
+inline constexpr double far_bodies_of_group = 26.8;
+// Shares of threads: parts that count as one capsule; far bodies in reach; surfaces without a normal.
+inline constexpr double merged_parts = 0.96;
+inline constexpr double far_bodies_in_reach = 0.91;
+inline constexpr double no_normal = 0;
+// The share of pixels that lie between characters so that no texel of far bodies is on their surface.
+inline constexpr double alone = 0.004;
+
+// A capture: a cube map of faces of 64 texels becomes 12 lobes, which are one group of sums.
+inline constexpr int capture_face_size = 64;  // texels
+inline constexpr int capture_rows = 6 * capture_face_size;
+inline constexpr int capture_factors = 12 / 4;
+
+}  // namespace nook::lab::trips

@@ -1,0 +1,31 @@
+// OpenGL GLSL as Vulkan GLSL. Default uniforms become the members of one std140 block, as OpenGL drivers hold
+// them; samplers and images get a set and a binding, stage inputs and outputs a location.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace nook::lab {
+
+// Descriptor sets: storage blocks keep the bindings of their text in set 0.
+inline constexpr unsigned storage_block_set = 0, sampler_set = 1, uniform_set = 2, image_set = 3;
+
+struct StageVariable {
+  std::string type, name;
+  bool flat = false;
+  int elements = 0;  // of an array; 0 for a single value
+
+  int locations() const { return elements > 0 ? elements : 1; }
+};
+
+struct VulkanGlsl {
+  std::string text;
+  std::vector<StageVariable> inputs, outputs;  // locations follow one another in this order
+  std::vector<std::string> samplers;           // types; the index is the binding
+  std::vector<std::string> uniforms;           // names of the block's members, in order
+};
+
+// The text must be preprocessed: no conditions, no macros, no comments.
+VulkanGlsl to_vulkan_glsl(const std::string& preprocessed);
+
+}  // namespace nook::lab

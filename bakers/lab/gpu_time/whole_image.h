@@ -1,0 +1,34 @@
+// A fragment shader over the whole image, for what hosts call in shaders of their own.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <string>
+
+#include "bakers/measure/nnao/gpu_image.h"
+
+namespace nook::lab {
+
+class WholeImage {
+ public:
+  // functions: GLSL of the library. body: that of main(), which sets vec3 colour; vec2 at is the place in the
+  // image, 0 to 1.
+  WholeImage(const GladGLContext& gl, int width, int height, const std::string& functions,
+             const std::string& body);
+  ~WholeImage();
+  WholeImage(const WholeImage&) = delete;
+  WholeImage& operator=(const WholeImage&) = delete;
+
+  // Binds a texture to a unit of its own; the target is GL_TEXTURE_BUFFER or another.
+  void bind(GLenum target, GLuint texture, const char* uniform);
+  void draw() const;
+
+ private:
+  const GladGLContext& gl_;
+  int width_, height_;
+  measure::GpuImage target_;
+  GLuint program_ = 0, vertex_array_ = 0;
+  GLint units_ = 0;
+};
+
+}  // namespace nook::lab

@@ -1,0 +1,120 @@
+// Draws the baselines, and denoises them.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "bakers/lab/nnao/screen_baselines.h"
+#include "bakers/measure/nnao/frame_comparison.h"
+#include "bakers/measure/nnao/gpu_image.h"
+#include "bakers/measure/nnao/network_pass.h"
+
+namespace nook::lab {
+
+using measure::EmbeddedShader;
+
+// The shaders of bakers/lab/nnao/shaders.
+const EmbeddedShader* embedded_shaders_begin();
+const EmbeddedShader* embedded_shaders_end();
+inline measure::ShaderTable baseline_shaders() {
+  return {embedded_shaders_begin(), embedded_shaders_end()};
+}
+
+// The depth levels that XeGTAO reads.
+class DepthLevels {
+ public:
+  static constexpr int count = 5;
+
+  DepthLevels(const GladGLContext& gl, int width, int height);
+  ~DepthLevels();
+  DepthLevels(const DepthLevels&) = delete;
+  DepthLevels& operator=(const DepthLevels&) = delete;
+
+  // radius_m and falloff: XeGTAO's tuned radius and its falloff range, a share of the radius. Needs a vertex
+  // array.
+  void draw(const measure::GpuView& view, float radius_m, float falloff);
+  GLuint texture() const { return texture_; }
+
+ private:
+  const GladGLContext& gl_;
+  int width_, height_;
+  measure::GpuProgram program_;
+  GLuint texture_ = 0, framebuffers_[count] = {};
+};
+
+// The noise that XeGTAO reads: places on a Hilbert curve over 64 x 64 pixels, 0 to 4095, one texel each
+// (R32F).
+measure::GpuImage hilbert_image(const GladGLContext& gl);
+
+// XeGTAO's edge-aware denoiser, for any AO.
+class EdgeDenoiser {
+ public:
+  EdgeDenoiser(const GladGLContext& gl, int width, int height);
+
+  // Draws the edges of a view into edge_image().
+  void find_edges(const measure::GpuView& view);
+  const measure::GpuImage& edge_image() const { return edges_; }
+
+  // Returns the texture (R8) with the AO after some passes, times scale. Needs the edges, and a vertex array.
+  GLuint denoise(GLuint ao, int passes, float scale);
+
+ private:
+  void start(const measure::GpuProgram& program, const measure::GpuImage& target) const;
+
+  const GladGLContext& gl_;
+  int width_, height_;
+  measure::GpuProgram find_, denoise_;
+  measure::GpuImage edges_, images_[2];
+};
+
+class BaselinePass {
+ public:
+  BaselinePass(const GladGLContext& gl, int width, int height);
+  ~BaselinePass();
+
+  // Returns the texture (R8) that holds the AO until the next call. denoised: by the tuning's denoiser.
+  GLuint draw(const BaselineMethod& method, const measure::GpuView& view, const measure::AoRequest& request,
+              bool denoised);
+  // The bent normals of XeGTAO before its denoiser, in view space, and the packed edges, both row by row.
+  struct BentImage {
+    std::vector<Vec3> bent_normal;  // zero where there is no surface
+    std::vector<float> edges;
+  };
+  BentImage draw_bent(const BaselineMethod& xegtao, const measure::GpuView& view,
+                      const measure::AoRequest& request);
+  // Smooths AO that lies in a texture of the same size.
+  GLuint denoise(GLuint ao, const measure::GpuView& view, const measure::AoRequest& request,
+                 Denoiser denoiser);
+
+ private:
+  const measure::GpuProgram& program(const BaselineMethod& method, const std::string& more_defines = "");
+  void set_surface(const measure::GpuProgram& program, const measure::GpuView& view,
+                   const measure::AoRequest& request) const;
+  void draw_raw(const BaselineMethod& method, const measure::GpuView& view,
+                const measure::AoRequest& request);
+  // XeGTAO writes the edges too, and AO above 1 for its own denoiser.
+  void draw_xegtao(const measure::GpuProgram& shader, const BaselineMethod& method,
+                   const measure::GpuView& view, const measure::AoRequest& request, float scale,
+                   GLuint framebuffer);
+  GLuint blur(GLuint ao, const measure::GpuView& view, const measure::AoRequest& request);
+  // Runs one of the own denoisers of what is shipped.
+  GLuint draw_own(Denoiser denoiser, GLuint ao, const measure::GpuView& view,
+                  const measure::AoRequest& request);
+
+  const GladGLContext& gl_;
+  int width_, height_;
+  GLuint vertex_array_ = 0, with_edges_ = 0;
+  std::map<std::string, std::unique_ptr<measure::GpuProgram>>
+      programs_;  // by path and defines, made at first use
+  measure::GpuProgram blur_, box_, disc_, gaussian_;
+  measure::GpuImage images_[2];
+  EdgeDenoiser edge_denoiser_;
+  DepthLevels depth_levels_;
+  measure::GpuImage hilbert_;
+};
+
+// The baselines as rows of a replayed frame, each denoised. gl must outlive the result.
+std::vector<measure::FrameMethod> frame_baselines(const GladGLContext& gl);
+
+}  // namespace nook::lab

@@ -1,0 +1,21 @@
+#version 330 core
+// A form of the pass of QGIS' 3D view, from its description (QGIS pull requests 49144 and 49702, 2022): points near the pixel, which
+// darken as far as the closed ones are more than a share of all. The description names J. Chapman's tutorial of SSAO (2013) and
+// no shape; that the points fill a ball, without normals, follows from the default share of a half, which lies behind a plane.
+#include "bakers/lab/nnao/shaders/baseline.glsl"
+#include "bakers/lab/nnao/shaders/ball.glsl"
+
+uniform float threshold;  // share of the points
+uniform float strength;
+
+float baseline_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noise) {
+  float closed = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    vec3 point = position + radius.x * ball_point(i, steps, noise);
+    if (point.z > -1.0e-3) continue;
+    ivec2 at = pixel_of(point);
+    float depth = tap_depth(at);
+    if (depth < -point.z) closed += smoothstep(0.0, 1.0, radius.x / max(abs(-position.z - depth), 1.0e-6));
+  }
+  return 1.0 - strength * max(closed / float(steps) - threshold, 0.0) / (1.0 - threshold);
+}

@@ -1,0 +1,21 @@
+#version 330 core
+// A form of the pass of VTK 9, from its description (Kitware, Screen-space ambient occlusion in VTK 9.0, 2020, and vtkSSAOPass.h): points
+// of a hemisphere, each of which is closed where the depth buffer is in front of it by more than a bias. That surfaces at
+// another depth than the pixel's count less is taken from J. Chapman's tutorial of SSAO (2013), as are the points.
+#include "bakers/lab/nnao/shaders/baseline.glsl"
+#include "bakers/lab/nnao/shaders/hemisphere.glsl"
+
+uniform float bias;  // in radii
+
+float baseline_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noise) {
+  float closed = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    vec3 point = position + radius.x * hemisphere_point(i, steps, noise, normal);
+    if (point.z > -1.0e-3) continue;
+    ivec2 at = pixel_of(point);
+    float depth = tap_depth(at);
+    if (-point.z - depth < bias * radius.x) continue;
+    closed += smoothstep(0.0, 1.0, radius.x / max(abs(-position.z - depth), 1.0e-6));
+  }
+  return 1.0 - closed / float(steps);
+}

@@ -1,0 +1,148 @@
+#include "bakers/lab/probe/rooms.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "bakers/raytrace/ambient_occlusion.h"
+
+namespace nook::lab {
+namespace {
+
+using bake::LitTriangles;
+using bake::Surface;
+
+constexpr float height = 2.8f, thickness = 0.1f, shell = 0.2f, door_height = 2.1f;
+constexpr float into = 0.02f;  // metres by which walls reach into one another, so that no ray passes a seam
+constexpr float width = 12, depth = 9.5f;
+
+class Builder {
+ public:
+  Builder(LitTriangles& scene, std::vector<AxisBox>& solids) : scene_(scene), solids_(solids) {}
+
+  std::uint32_t surface(Vec3 base_colour, Vec3 emission = {}) {
+    Surface made;
+    made.base_colour = base_colour;
+    made.emission = emission;
+    scene_.surface.push_back(made);
+    return std::uint32_t(scene_.surface.size() - 1);
+  }
+
+  // A solid whose faces look outwards.
+  void box(Vec3 low, Vec3 high, std::uint32_t surface) {
+    solids_.push_back({low, high});
+    const auto first = std::uint32_t(scene_.soup.position.size());
+    for (int i = 0; i < 8; ++i)
+      scene_.soup.position.push_back(
+          {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+    constexpr std::uint32_t corner[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                             {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                             {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    for (const auto& c : corner) {
+      scene_.soup.triangle.push_back({first + c[0], first + c[1], first + c[2]});
+      scene_.triangle_surface.push_back(surface);
+    }
+  }
+
+  // Walls from floor to ceiling, along x or along z, with their lower side at z or x.
+  void along_x(float x0, float x1, float z, std::uint32_t surface, float from = 0) {
+    box({x0 - into, from - (from > 0 ? 0 : into), z}, {x1 + into, height + into, z + thickness}, surface);
+  }
+  void along_z(float x, float z0, float z1, std::uint32_t surface) {
+    box({x, -into, z0 - into}, {x + thickness, height + into, z1 + into}, surface);
+  }
+  void lamp(float x, float z, float size, Vec3 emission) {
+    const std::uint32_t made = surface({0.5f, 0.5f, 0.5f}, emission);
+    box({x - size / 2, height - 0.01f, z - size / 2}, {x + size / 2, height + into, z + size / 2}, made);
+  }
+
+ private:
+  LitTriangles& scene_;
+  std::vector<AxisBox>& solids_;
+};
+
+void build_shell(Builder& b) {
+  const std::uint32_t floor = b.surface({0.5f, 0.45f, 0.4f}), ceiling = b.surface({0.8f, 0.8f, 0.8f}),
+                      wall = b.surface({0.7f, 0.7f, 0.68f});
+  b.box({-shell, -shell, -shell}, {width + shell, 0, depth + shell}, floor);
+  b.box({-shell, height, -shell}, {width + shell, height + shell, depth + shell}, ceiling);
+  b.box({-shell, -into, -shell}, {0, height + into, depth + shell}, wall);
+  b.box({width, -into, -shell}, {width + shell, height + into, depth + shell}, wall);
+  b.box({-into, -into, -shell}, {width + into, height + into, 0}, wall);
+  b.box({-into, -into, depth}, {width + into, height + into, depth + shell}, wall);
+}
+
+void build_partitions(Builder& b) {
+  const std::uint32_t wall = b.surface({0.7f, 0.68f, 0.65f});
+  b.along_x(0, 10.2f, 3.9f, wall);
+  b.along_x(10.2f, 11.1f, 3.9f, wall, door_height);
+  b.along_x(11.1f, width, 3.9f, wall);
+  b.along_z(3.9f, 0, 3.9f, wall);
+  b.along_z(8.0f, 0, 3.9f, wall);
+  b.along_x(0, 1.0f, 5.5f, wall);
+  b.along_x(1.0f, 1.9f, 5.5f, wall, door_height);
+  b.along_x(1.9f, width, 5.5f, wall);
+  b.along_z(4.95f, 5.6f, depth, wall);
+  b.along_z(8.5f, 5.6f, depth, wall);
+}
+
+void build_furniture(Builder& b) {
+  const std::uint32_t wood = b.surface({0.5f, 0.35f, 0.2f}), cloth = b.surface({0.2f, 0.3f, 0.5f}),
+                      white = b.surface({0.75f, 0.75f, 0.75f});
+  b.box({1.0f, 0.7f, 1.0f}, {2.4f, 0.75f, 1.9f}, wood);  // a table on a foot
+  b.box({1.6f, 0, 1.35f}, {1.8f, 0.7f, 1.55f}, wood);
+  b.box({3.3f, 0, 0.2f}, {3.88f, 1.9f, 1.4f}, white);  // a cabinet at the wall of the sealed room
+  b.box({4.5f, 0, 0.3f}, {5.6f, 0.9f, 0.9f}, wood);
+  b.box({9.0f, 0, 0.2f}, {10.8f, 0.45f, 1.1f}, cloth);
+  b.box({9.0f, 0.45f, 0.2f}, {10.8f, 0.9f, 0.4f}, cloth);
+  b.box({0.02f, 0, 6.6f}, {0.42f, 2.1f, 8.6f}, wood);  // shelves
+  b.box({3.0f, 0, 7.4f}, {4.9f, 0.5f, 9.3f}, cloth);   // a bed
+  b.box({6.6f, 0, 8.2f}, {7.4f, 1.0f, 8.9f}, white);   // a block with a probe in it
+  b.box({9.4f, 0.7f, 6.8f}, {10.8f, 0.75f, 7.8f}, wood);
+  b.box({10.0f, 0, 7.2f}, {10.2f, 0.7f, 7.4f}, wood);
+}
+
+void build_lamps(Builder& b) {
+  b.lamp(1.9f, 1.9f, 1.2f, {12, 11, 10});
+  b.lamp(10.0f, 2.0f, 1.0f, {2, 3, 6});
+  b.lamp(2.4f, 7.5f, 1.2f, {1.6f, 1.4f, 1});
+  b.lamp(6.8f, 7.4f, 1.2f, {8, 2, 1});
+  b.lamp(10.3f, 7.5f, 1.2f, {0.4f, 0.5f, 0.8f});
+  b.lamp(3.0f, 4.75f, 0.7f, {3, 3, 3});
+  b.lamp(9.0f, 4.75f, 0.7f, {3, 3, 3});
+}
+
+}  // namespace
+
+bool Rooms::in_solid(Vec3 position_ws) const {
+  return std::ranges::any_of(solid, [&](const AxisBox& box) { return box.holds(position_ws); });
+}
+
+Rooms make_rooms() {
+  LitTriangles triangles;
+  Rooms rooms;
+  Builder builder(triangles, rooms.solid);
+  build_shell(builder);
+  build_partitions(builder);
+  build_furniture(builder);
+  build_lamps(builder);
+  rooms.soup = triangles.soup;
+  rooms.origin_offset = bake::ray_origin_offset(triangles.soup.position);
+  // A little beyond the inner faces of the shell, which belong to the box.
+  rooms.low_ws = {-0.01f, -0.01f, -0.01f};
+  rooms.high_ws = {width + 0.01f, height + 0.01f, depth + 0.01f};
+  rooms.room = {{"bright", {{0, 0, 0}, {3.9f, height, 3.9f}}},
+                {"sealed", {{4.0f, 0, 0}, {8.0f, height, 3.9f}}},
+                {"blue", {{8.1f, 0, 0}, {width, height, 3.9f}}},
+                {"corridor", {{0, 0, 4.0f}, {width, height, 5.5f}}},
+                {"dim", {{0, 0, 5.6f}, {4.95f, height, depth}}},
+                {"red", {{5.05f, 0, 5.6f}, {8.5f, height, depth}}},
+                {"dimmest", {{8.6f, 0, 5.6f}, {width, height, depth}}}};
+  rooms.sealed = 1;
+  rooms.neighbour = 0;
+  // White light outside shows any leak of the shell.
+  rooms.lit = std::make_unique<bake::LitScene>(std::move(triangles),
+                                               bake::Environment(8, 4, std::vector<float>(8 * 4 * 3, 1)));
+  return rooms;
+}
+
+}  // namespace nook::lab

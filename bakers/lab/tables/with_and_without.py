@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""Writes docs/with_and_without.png, the picture of README.md, from three panels of docs/comparison.png.
+
+samples/crowd makes the sheet (out/crowd/sheet.png): four panels in a row, two rows, with lines of two pixels between them.
+Without an argument the panels are those without AO, with Nook's AO, and ray traced.
+"""
+import pathlib
+import struct
+import sys
+import zlib
+
+DOCS = pathlib.Path(__file__).resolve().parents[3] / "docs"
+# Row and column of each panel in the sheet.
+PANELS = [(0, 0), (1, 1), (1, 2)]
+GAP_PX = 2
+# The line of text above each panel, which the caption in the README replaces.
+TITLE_PX = 16
+
+
+def unfilter(kind, line, above, step):
+    """A line of pixels from its filtered bytes, in place (section 9 of the PNG specification)."""
+    for i in range(len(line)):
+        a = line[i - step] if i >= step else 0
+        b = above[i]
+        c = above[i - step] if i >= step else 0
+        if kind == 1:
+            line[i] = (line[i] + a) & 255
+        elif kind == 2:
+            line[i] = (line[i] + b) & 255
+        elif kind == 3:
+            line[i] = (line[i] + (a + b) // 2) & 255
+        elif kind == 4:
+            p = a + b - c
+            nearest = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
+            line[i] = (line[i] + nearest) & 255
+    return line
+
+
+def read(path):
+    """Lines of an RGB picture with 8 bits a channel."""
+    data = path.read_bytes()
+    at, packed, width = 8, b"", 0
+    while at < len(data):
+        size, kind = struct.unpack_from(">I4s", data, at)
+        body = data[at + 8:at + 8 + size]
+        if kind == b"IHDR":
+            width, _, bits, colour, _, _, interlaced = struct.unpack(">IIBBBBB", body)
+            if (bits, colour, interlaced) != (8, 2, 0):
+                sys.exit(f"{path} is no plain RGB picture")
+        elif kind == b"IDAT":
+            packed += body
+        at += 12 + size
+    raw, pitch = zlib.decompress(packed), 3 * width + 1
+    lines = [bytearray(3 * width)]
+    for start in range(0, len(raw), pitch):
+        lines.append(unfilter(raw[start], bytearray(raw[start + 1:start + pitch]), lines[-1], 3))
+    return width, lines[1:]
+
+
+def write(path, width, lines):
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+    # Each line is stored as its difference to the line above.
+    above, rows = bytes(3 * width), []
+    for line in lines:
+        rows.append(b"\2" + bytes((x - y) & 255 for x, y in zip(line, above)))
+        above = line
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, len(lines), 8, 2, 0, 0, 0))
+                     + chunk(b"IDAT", zlib.compress(b"".join(rows), 9)) + chunk(b"IEND", b""))
+
+
+def main():
+    width, lines = read(pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else DOCS / "comparison.png")
+    panel_width, panel_height = (width - 3 * GAP_PX) // 4, (len(lines) - GAP_PX) // 2
+    joined = []
+    for y in range(TITLE_PX, panel_height):
+        row = bytearray()
+        for down, across in PANELS:
+            first = 3 * across * (panel_width + GAP_PX)
+            line = lines[down * (panel_height + GAP_PX) + y]
+            row += (b"\xff" * (3 * GAP_PX) if row else b"") + line[first:first + 3 * panel_width]
+        joined.append(bytes(row))
+    write(DOCS / "with_and_without.png", len(joined[0]) // 3, joined)
+
+
+if __name__ == "__main__":
+    main()

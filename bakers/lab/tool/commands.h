@@ -1,0 +1,15 @@
+// The subcommands of nook-lab, as in bakers/tool/commands.h.
+#pragma once
+
+namespace nook::tool {
+class Command;
+}
+
+namespace nook::lab {
+
+void add_evaluate_grid(tool::Command evaluate);
+void add_evaluate_material(tool::Command evaluate);
+void add_evaluate_nnao(tool::Command evaluate);
+void add_evaluate_probe(tool::Command evaluate);
+
+}  // namespace nook::lab

@@ -1,0 +1,157 @@
+// nook-lab evaluate grid: ways to look up a grid of probes, in a building of closed rooms or in a scene.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "bakers/images/picture.h"
+#include "bakers/job/probe_bake.h"
+#include "bakers/lab/probe/lookup_report.h"
+#include "bakers/lab/tool/commands.h"
+#include "bakers/tool/command_line.h"
+#include "bakers/tool/evaluation.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/probe/grid_arguments.h"
+#include "bakers/tool/probe/scene.h"
+#include "bakers/tool/tool_error.h"
+#include "platform/output_file.h"
+#include "platform/progress_bar.h"
+
+namespace nook::lab {
+namespace {
+
+using namespace tool;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  CommonOptions common;
+  std::filesystem::path scene, light;
+  std::array<std::uint32_t, 3> counts{};  // 0: eight probes a room
+  BoxArgument box;
+  LookupSettings settings;
+  std::string direct = "all";
+  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bool no_textures = false;
+  std::filesystem::path picture;
+};
+
+constexpr std::array<std::uint32_t, 3> eight_a_room{6, 2, 5};
+
+// Traced, trilinear and with walls, one below the other; a logarithm of the light, so that dim rooms show.
+bake::Picture picture_of(const FloorPlan& plan) {
+  constexpr int enlarged = 4;
+  constexpr float darkest = 0.01f, brightest = 10;  // irradiance
+  bake::Picture picture;
+  picture.width = enlarged * plan.width;
+  picture.height = 3 * enlarged * plan.height;
+  for (const std::vector<Vec3>* panel : {&plan.traced, &plan.trilinear, &plan.walls})
+    for (int row = 0; row < enlarged * plan.height; ++row)
+      for (int column = 0; column < picture.width; ++column) {
+        const Vec3 e = (*panel)[std::size_t(row / enlarged * plan.width + column / enlarged)];
+        for (const float channel : {e.x, e.y, e.z}) {
+          const float value = std::log(std::max(channel, darkest) / darkest) / std::log(brightest / darkest);
+          picture.rgb.push_back(std::uint8_t(255 * std::clamp(value, 0.0f, 1.0f)));
+        }
+      }
+  return picture;
+}
+
+Json rows_of(const Options& options, const LookupScene& scene, float origin_offset, Vec3 low_ws, Vec3 high_ws,
+             FloorPlan* plan = nullptr) {
+  LookupSettings settings = options.settings;
+  settings.seed = options.common.seed;
+  settings.path.origin_offset = origin_offset;
+  settings.path.direct = bake::direct_of(options.direct);
+  const auto counts = options.counts[0] > 0 ? options.counts : eight_a_room;
+  platform::ProgressBar bar(options.common.quiet);
+  return lookup_rows(
+      scene,
+      bake::probe::grid_in_box(counts, options.box.given ? options.box.low_ws : low_ws,
+                               options.box.given ? options.box.high_ws : high_ws),
+      settings,
+      [&bar](const char* step) {
+        return [&bar, step = std::string(step)](std::size_t done, std::size_t total) {
+          bar.show(step, "done", done, total);
+          return !interrupted();
+        };
+      },
+      plan);
+}
+
+Json evaluate(const Options& options) {
+  if (options.scene.empty() != options.light.empty())
+    throw ToolError(exit_bad_arguments,
+                    "evaluate grid: a scene needs both --scene and --light, the built-in rooms neither");
+  Json report;
+  if (options.scene.empty()) {
+    const Rooms rooms = make_rooms();
+    FloorPlan plan;
+    report["rows"] = rows_of(options, {"rooms", *rooms.lit, rooms.soup, &rooms}, rooms.origin_offset,
+                             rooms.low_ws, rooms.high_ws, options.picture.empty() ? nullptr : &plan);
+    if (!options.picture.empty())
+      platform::OutputFile(options.picture).commit(bake::png_bytes(picture_of(plan)));
+  } else {
+    const bake::ProbeScene scene =
+        read_probe_scene(options.scene, options.light, !options.no_textures, options.linked);
+    report["rows"] = rows_of(options, {options.scene.stem().string(), *scene.lit, scene.soup},
+                             scene.origin_offset, scene.low_ws, scene.high_ws);
+  }
+  report["seed"] = options.common.seed;
+  return report;
+}
+
+}  // namespace
+
+void add_evaluate_grid(Command evaluate_command) {
+  const Command command = evaluate_command.add_subcommand(
+      "grid", "ways to look up a grid of light probes near walls, in built-in closed rooms or in a scene");
+  const auto options = std::make_shared<Options>();
+  Options& o = *options;
+  command.add_option("--scene", o.scene, "a scene in place of the rooms, .glb or .gltf");
+  command.add_option("--light", o.light, "of a scene: the map round it");
+  command
+      .add_option_function(
+          "--grid", [&o](const std::string& text) { o.counts = parse_grid_counts(text); },
+          "probes along x, y and z, AxBxC; default 6x2x5, eight a room")
+      .type_name("AxBxC");
+  command
+      .add_option_function(
+          "--box", [&o](const std::string& text) { o.box = parse_grid_box(text); },
+          "what the grid fills, x0,y0,z0,x1,y1,z1 in metres; default all of the scene")
+      .type_name("BOX");
+  command.add_option("--points", o.settings.points, "random points on surfaces, and as many in the open")
+      .check(in_range(1u, 1u << 24))
+      .capture_default_str();
+  command.add_option("--paths", o.settings.paths, "for each point")
+      .check(in_range(2u, 1u << 24))
+      .capture_default_str();
+  command.add_option("--samples", o.settings.samples, "for each probe")
+      .check(in_range(64u, 1u << 30))
+      .capture_default_str();
+  command
+      .add_option("--training-paths", o.settings.training_paths,
+                  "for each place that walls and coefficients are fitted to")
+      .check(in_range(1u, 1u << 24))
+      .capture_default_str();
+  command
+      .add_option("--direct", o.direct,
+                  "what both sides hold of the map's light that comes straight: none, the sky without suns, "
+                  "or all")
+      .check(one_of(bake::direct_names()))
+      .capture_default_str();
+  command.add_option(
+      "--picture", o.picture,
+      "of the rooms: write the light on their floor as one .png, path traced, trilinear and with walls");
+  add_linked_files_option(command, o.linked);
+  command.add_flag("--no-textures", o.no_textures, "colour factors stand for textures");
+  add_common_options(command, o.common);
+  command.callback([options] {
+    const CommandFiles files{
+        {{"--scene", options->scene}, {"--light", options->light}}, {{"--picture", options->picture}}, {}};
+    run_evaluation(options->common, files, [&] { return evaluate(*options); });
+  });
+}
+
+}  // namespace nook::lab

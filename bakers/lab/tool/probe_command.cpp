@@ -1,0 +1,54 @@
+// nook-lab evaluate probe: nook's command, with every way to fit a probe, and with prefiltered cube maps
+// beside its glossy light.
+#include "bakers/lab/probe/glossy_error.h"
+#include "bakers/lab/probe/probe_methods.h"
+#include "bakers/lab/tool/commands.h"
+#include "bakers/tool/command_line.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/peers.h"
+
+namespace nook::lab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class Peers : public tool::ProbePeers {
+ public:
+  void add_options(tool::Command command) override {
+    command.add_flag("--glossy", glossy_,
+                     "of maps: what random glossy surfaces reflect of the lobes and of the map, beside "
+                     "prefiltered cube maps, in place of all forms of fitting");
+    command.add_option("--surfaces", surfaces_.surfaces, "with --glossy: random ones of each kind")
+        .check(tool::in_range(1u, 1u << 20))
+        .capture_default_str();
+  }
+
+  std::vector<bake::probe::ProbeMethod> methods(std::uint32_t lobes,
+                                                const bake::probe::Region& region) const override {
+    return probe_methods(lobes, region);
+  }
+
+  Json rows_of_map(const bake::Environment& map, const std::string& name, std::uint32_t lobes,
+                   std::uint64_t seed, platform::ProgressBar& bar) const override {
+    if (!glossy_) return {};
+    GlossySettings settings = surfaces_;
+    settings.lobes = lobes;
+    settings.seed = seed;
+    return glossy_rows(map, name, settings, [&](std::size_t done, std::size_t total) {
+      bar.show(name + ", glossy", "kinds of surface", done, total);
+      return !tool::interrupted();
+    });
+  }
+
+ private:
+  bool glossy_ = false;
+  GlossySettings surfaces_;
+};
+
+}  // namespace
+
+void add_evaluate_probe(tool::Command evaluate) {
+  tool::add_evaluate_probe(evaluate, std::make_shared<Peers>());
+}
+
+}  // namespace nook::lab

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "bakers/mannequin/shape_primitives.h"
+
+namespace nook::mannequin {
+
+/// One mass of the figure and how it joins those before it.
+struct Mass {
+  std::variant<RoundCone, Ellipsoid, Loft> shape;
+  double blend_m;
+  bool carved = false;  ///< Whether the mass is taken away instead of added.
+  Vec3 bound_centre_m{0.0};
+  double bound_radius_m = 0.0;
+};
+
+/// Masses that are joined to each other first and to the rest of the figure afterwards.
+class Part {
+ public:
+  explicit Part(double blend_m) : blend_m_(blend_m) {}
+
+  void add(const RoundCone& cone, double blend_m);
+  void add(const Ellipsoid& ellipsoid, double blend_m);
+  void add(Loft loft, double blend_m);
+  void carve(const RoundCone& cone, double blend_m);
+  void carve(const Ellipsoid& ellipsoid, double blend_m);
+
+  /// Joins this part to a distance that is known already. A part that is too far to matter costs one
+  /// comparison.
+  double join(double known_m, const Vec3& point_m) const;
+  void close();  ///< Computes the bound. This is called once, after the last mass.
+
+ private:
+  double distance(const Vec3& point_m) const;
+
+  double blend_m_;
+  std::vector<Mass> masses_;
+  Vec3 bound_centre_m_{0.0};
+  double bound_radius_m_ = 0.0;
+};
+
+/// The signed distance to the skin in metres, negative inside. It is approximate away from the surface and
+/// mirrored in x.
+class BodySdf {
+ public:
+  BodySdf();
+
+  double distance(const Vec3& point_m) const;
+  Vec3 gradient(const Vec3& point_m) const;
+  /// Moves a point that is near the skin onto it.
+  Vec3 project(const Vec3& point_m) const;
+
+ private:
+  std::vector<Part> parts_;
+};
+
+Part make_torso();
+Part make_head();
+Part make_leg();
+Part make_foot();
+Part make_arm();
+Part make_hand();
+
+}  // namespace nook::mannequin

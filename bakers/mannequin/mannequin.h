@@ -1,0 +1,20 @@
+// A character made by code: a human figure with a skeleton, skin weights and eight looping clips (Idle, Walk,
+// Run, Crouch, Sit, Wave, Punch, Dance). Samples and tests use it where a character is needed and no file is
+// given, so that the repository needs no asset.
+//
+// Begin with make_mannequin_glb at the end of mannequin.cpp, which has the four steps:
+//   skeleton, pose, clips   the bones in the bind pose, poses as rotations away from it, and motions
+//   body_sdf                the body as a signed distance field of lofts and muscles (shape_primitives)
+//   body_mesh, remesher     a closed mesh on that field, with edges of the right length
+//   skin_weights            the weights of bones, spread over the skin
+#pragma once
+
+#include <vector>
+
+namespace nook::mannequin {
+
+/// Makes the built-in character: a skinned, animated human figure of about 6,000 vertices, as the bytes of a
+/// .glb file. Every call makes the same bytes and takes a few seconds.
+std::vector<unsigned char> make_mannequin_glb();
+
+}  // namespace nook::mannequin

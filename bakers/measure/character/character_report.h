@@ -1,0 +1,62 @@
+// Rows of the report on a baked character, as `nook evaluate character` and `nook evaluate casters` print
+// them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "bakers/measure/character/caster_error.h"
+#include "bakers/measure/character/character_error.h"
+#include "bakers/measure/character/evaluated_character.h"
+
+namespace nook::measure {
+
+// The recipe in the model's file; none where the model holds none. Throws Failure (BAD_FILE).
+std::optional<bake::Recipe> recipe_of(const BakedCharacter& baked);
+
+// Another method to measure beside the model: it is fitted to the model's own training poses. Its name ends
+// its keys in the row: mse_NAME, mse_NAME_visible, mse_area_NAME, bytes_NAME and tuned_NAME.
+struct CharacterPeer {
+  const char* name;
+  std::unique_ptr<bake::PoseRegression> (*fit)(const bake::SkinnedMesh& mesh,
+                                               std::span<const bake::Pose> training,
+                                               const bake::AoTargets& targets, std::uint64_t seed);
+};
+
+struct CharacterReportSettings {
+  std::string name;  // in the row
+  std::uint32_t rays = 256;
+  std::uint64_t seed = 1;
+  std::span<const CharacterPeer> peers;
+};
+
+// Shows a stage. The function that it returns is called at every step; false stops with Failure (CANCELLED).
+using StageProgress = std::function<bake::Progress(const char* stage)>;
+
+struct CharacterReport {
+  nlohmann::ordered_json row;
+  bake::CharacterEvaluation evaluation;
+};
+
+// Throws Failure (INVALID_ARGUMENT) for other methods where the model's training poses cannot be made again.
+CharacterReport measure_character(const BakedCharacter& baked, const bake::Recipe* recipe,
+                                  const EvaluatedPoses& measured, const CharacterReportSettings& settings,
+                                  const StageProgress& progress);
+
+// The seed of the evaluation's rays, which differs from the fit's.
+std::uint64_t evaluation_ray_seed(std::uint64_t seed);
+
+// Poses spread over the motion clips; the rest pose where there are none.
+std::vector<bake::Pose> caster_poses(const bake::ImportedCharacter& character, std::size_t count);
+// Two bodies in the middles of two clips, the caster moved from the receiver's middle by `offset` metres and
+// turned about the vertical axis. Throws Failure (INVALID_ARGUMENT) for an unknown clip.
+bake::BodyPair contact_pair(const BakedCharacter& baked, const std::string& receiver_clip,
+                            const std::string& caster_clip, Vec3 offset, float turn_degrees);
+nlohmann::ordered_json caster_rows(const std::vector<bake::CasterRow>& rows);
+
+}  // namespace nook::measure

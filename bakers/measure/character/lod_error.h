@@ -1,0 +1,35 @@
+// The AO of meshes of less detail from the bake of the full mesh, against ray tracing of those meshes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bakers/character/vertex_fits.h"
+#include "bakers/measure/character/character_error.h"
+
+namespace nook::bake {
+
+// The mesh with about `share` of its triangles, by edge collapses of meshoptimizer, which keep vertices where
+// they are; collapses that would change the topology end it earlier. welded_vertex gives for each vertex that
+// of the full mesh.
+struct LodMesh {
+  SkinnedMesh mesh;
+  std::vector<std::uint32_t> welded_vertex;
+};
+LodMesh simplified(const SkinnedMesh& mesh, double share);
+
+struct LodRow {
+  std::size_t triangles = 0, vertices = 0;
+  CharacterEvaluation nearest;    // each vertex takes the AO of the baked vertex at its place
+  CharacterEvaluation resampled;  // nook_model_resample
+  CharacterEvaluation refitted;   // `nook bake lod`
+};
+
+// Truth is traced on the mesh of less detail, with its own normals. The refitted form is fitted to the
+// training poses. Throws Failure: BAD_FILE (a model without rest positions), CANCELLED.
+LodRow measure_lod(const LodMesh& lod, const CharacterModel& model, std::span<const Pose> training,
+                   const RefitSettings& refit, std::span<const Pose> measured, std::uint32_t rays,
+                   std::uint64_t seed, const Progress& progress = {});
+
+}  // namespace nook::bake

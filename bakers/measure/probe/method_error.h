@@ -1,0 +1,65 @@
+// Ways to fit a probe, measured on one map.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bakers/measure/probe/fit_error.h"
+#include "bakers/raytrace/environment.h"
+#include "sdk/src/probe/fit.h"
+
+namespace nook::bake::probe {
+
+// A basis and how it is fitted; seeded: from a short run with a 64th of the samples.
+struct ProbeMethod {
+  std::string name;
+  Basis basis;
+  nook::probe::FitSettings fit;
+  bool seeded = false;
+
+  std::size_t floats() const { return 3 * std::size_t(basis.count); }
+};
+
+// The fit that a bake makes by default, and the same without the constraint of bands: "least_squares", to
+// which rows have ratios.
+std::vector<ProbeMethod> own_probe_methods(std::uint32_t lobes, const Region& region);
+
+struct ComparisonSettings {
+  std::uint32_t seeds = 20;
+  std::uint32_t baked_samples = 1u << 20;  // by luminance, of the whole map's bake, for running averages
+  std::uint32_t rotations =
+      0;  // random ones, uniform over all, of the lobes' axes; solving forms on the sphere
+  std::uint64_t seed = 1;
+};
+
+// After n independent samples, over all seeds: uniform directions, and by luminance.
+struct SampledError {
+  double excess_mse = 0;          // mean of ExactFit::excess
+  double distance = 0;            // mean of ExactFit::distance
+  double mean_ratio = 0;          // mean of ExactFit::mean_ratio
+  double mean_worst = 0;          // the mean_ratio farthest from 1
+  double irradiance_minimum = 0;  // the lowest of IrradianceTruth::Error::minimum
+};
+
+struct MethodError {
+  ProbeMethod method;
+  // Of a bake of the whole map. Irradiance by bands, by Hill's fit and by the inner product, which differ for
+  // lobes alone.
+  double radiance_rms = 0, irradiance_rms = 0, irradiance_rms_fitted = 0, irradiance_rms_inner_product = 0;
+  double mean_ratio = 0, irradiance_minimum = 0;
+  double irradiance_mean = 0;  // of the map, luminance
+  // irradiance_rms over irradiance_mean, of the same lobes with their axes rotated; empty for other functions
+  // and where no rotation was requested.
+  std::vector<double> rotated;
+  SampledError uniform_1024, uniform_20000, luminance_20000;
+};
+
+// progress counts methods; throws Failure(NOOK_ERROR_CANCELLED) when it returns false.
+std::vector<MethodError> compare_methods(
+    const Environment& map, const std::vector<ProbeMethod>& methods, const Region& region,
+    const ComparisonSettings& settings,
+    const std::function<bool(std::size_t done, std::size_t total)>& progress = {});
+
+}  // namespace nook::bake::probe

@@ -1,0 +1,142 @@
+#include "bakers/tool/compression_options.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "bakers/tool/command_line.h"
+#include "bakers/tool/interrupt.h"
+#include "bakers/tool/tool_error.h"
+
+namespace nook::tool {
+namespace {
+
+using namespace bake::material;
+using nook::material::VisibilityForm;
+
+std::vector<std::uint32_t> read_numbers(const std::string& text, std::size_t count, const char* option) {
+  std::vector<std::uint32_t> numbers;
+  std::size_t at = 0;
+  while (at <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const std::string part = text.substr(at, comma - at);
+    if (part.empty() || part.size() > 6 || part.find_first_not_of("0123456789") != std::string::npos) break;
+    numbers.push_back(std::uint32_t(std::stoul(part)));
+    at = comma + 1;
+  }
+  if (numbers.size() != count || at != text.size() + 1)
+    throw ToolError(exit_bad_arguments, std::string(option) + ": got " + text + ", need " +
+                                            std::to_string(count) +
+                                            " whole numbers with commas between them");
+  return numbers;
+}
+
+}  // namespace
+
+void add_compression_options(Command command, CompressionOptions& o) {
+  CompressionSettings& s = o.settings;
+  s.bits = default_bits;
+  command
+      .add_option(
+          "--ranks", o.ranks,
+          "L,V,X,Y: ranks of the BTF's modes, V in total over the clusters; auto: by --threshold. Built-in "
+          "materials have ranks of their own, others auto")
+      .type_name("L,V,X,Y|auto");
+  command.add_option("--votf-ranks", o.votf_ranks, "X,Y: ranks of the VOTF").type_name("X,Y");
+  command
+      .add_option("--threshold", o.threshold,
+                  "squared error that --ranks auto allows in each mode, a share of the square norm")
+      .check(in_range(1e-6, 0.5))
+      .capture_default_str();
+  command.add_option("--cluster-rank", s.cluster_rank_view, "view rank of one cluster")
+      .check(in_range(1, 64))
+      .capture_default_str();
+  command.add_option("--clusters", s.clusters, "clusters of views; default V / cluster rank")
+      .check(in_range(1, 1024));
+  command.add_option("--mixture", s.mixture, "clusters K that a view is mixed from")
+      .check(in_range(1, 8))
+      .capture_default_str();
+  command
+      .add_option("--votf-refits", s.votf_refits,
+                  "further fits of the VOTF, which count on which side of the threshold values lie")
+      .check(in_range(0, 16))
+      .capture_default_str();
+  command
+      .add_option("--bits", s.bits,
+                  "of a number: 8, integers in the file and in textures, or 16, half floats, for twice the "
+                  "room and 0.1 dB")
+      .check(one_of_numbers({8, 16}))
+      .capture_default_str();
+  command
+      .add_option_function(
+          "--seeding",
+          [&s](const std::string& v) { s.seeding = v == "values" ? Seeding::values : Seeding::directions; },
+          "first clusters by view directions (default) or by k-means of values")
+      .check(one_of({"directions", "values"}))
+      .type_name("NAME");
+}
+
+namespace {
+
+// Sets the ranks of the BTF as given, or those of a built-in material. Returns false where the threshold
+// decides.
+bool set_known_ranks(const CompressionOptions& options, const RawMaterial& raw, CompressionSettings& s) {
+  if (options.ranks.empty()) return set_builtin_ranks(raw, s);
+  if (options.ranks == "auto") return false;
+  const auto r = read_numbers(options.ranks, 4, "--ranks");
+  s.rank_light = r[0];
+  s.rank_view = r[1];
+  s.rank_x = r[2];
+  s.rank_y = r[3];
+  s.votf_rank_x = std::min(s.votf_rank_x, raw.width);
+  s.votf_rank_y = std::min(s.votf_rank_y, raw.height);
+  return true;
+}
+
+void set_rest(const CompressionOptions& options, CompressionSettings& s) {
+  if (!options.votf_ranks.empty()) {
+    const auto r = read_numbers(options.votf_ranks, 2, "--votf-ranks");
+    s.votf_rank_x = r[0];
+    s.votf_rank_y = r[1];
+  }
+  if (votf_settings(s).method == Method::k_cta && options.settings.clusters == 0)
+    s.mixture = std::min(s.mixture, s.cluster_count());
+}
+
+}  // namespace
+
+CompressionSettings compression_settings(const CompressionOptions& options, const RawMaterial& raw) {
+  CompressionSettings s = options.settings;
+  const bool has_ranks = s.method != Method::neural || has_votf(raw, s);
+  if (has_ranks && !set_known_ranks(options, raw, s)) s = ranks_by_threshold(raw, options.threshold, s);
+  set_rest(options, s);
+  check_settings(s, raw);
+  return s;
+}
+
+void check_compression(const CompressionOptions& options, const RawMaterial& sizes, bool has_mask) {
+  CompressionSettings s = options.settings;
+  if (s.method == Method::neural) check_neural(s);
+  if (!set_known_ranks(options, sizes, s)) set_lowest_ranks(sizes, s);
+  set_rest(options, s);
+  if (!sizes.views.empty()) check_settings(s, sizes, has_mask);
+}
+
+nook::material::VisibilityMapping visibility_mapping(const std::string& text, VisibilityForm form) {
+  if (text == "paper") return nook::material::paper_mapping(form);
+  nook::material::VisibilityMapping mapping;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%f,%f%c", &mapping.threshold, &mapping.weight, &rest) != 2)
+    throw ToolError(exit_bad_arguments,
+                    "--visibility-mapping: got " + text + ", need T,W, such as 0.05,12, or paper");
+  return mapping;
+}
+
+StageProgress stage_progress(platform::ProgressBar& bar, std::string prefix) {
+  return [&bar, prefix = std::move(prefix)](const char* stage, std::size_t done, std::size_t total) {
+    bar.show(prefix + stage, "steps", done, total);
+    return !interrupted();
+  };
+}
+
+}  // namespace nook::tool

@@ -1,0 +1,45 @@
+// The replay of recorded frames, which `nook evaluate nnao` runs, and nook-lab with its own methods beside.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bakers/measure/nnao/frame_comparison.h"
+#include "platform/platform.h"
+#include "sdk/src/nnao/network_file.h"
+
+namespace nook::tool {
+
+// The embedded network, and that of --network.
+struct Networks {
+  nook::nnao::Network embedded;
+  std::vector<std::byte> file;  // empty: none
+  nook::nnao::Network other;
+};
+
+// file: that of --network; empty: none. Throws ToolError that names it.
+Networks read_networks(const std::filesystem::path& file);
+
+// OpenGL 3.3 without a display.
+std::unique_ptr<platform::Context> make_context();
+
+struct FrameWords {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> methods;  // NAME or NAME:TAPS; empty: the library's rows and the oracle
+  std::vector<std::byte> network;    // a file of `nook train nnao`, measured as well; empty: none
+  std::filesystem::path images;      // empty: no pictures
+  bool quiet = false;
+};
+
+// Makes the further methods of one frame.
+using FrameMethods = std::function<std::vector<measure::FrameMethod>(const GladGLContext&)>;
+
+// Returns a report with rows for each frame, then their means. further may be null. Throws ToolError that
+// names the file.
+nlohmann::ordered_json evaluate_frames(platform::Context& context, const FrameWords& words,
+                                       const FrameMethods& further);
+
+}  // namespace nook::tool

@@ -1,0 +1,67 @@
+// Evaluations that measure other methods beside Nook's. `nook` adds none; `nook-lab` adds the methods of
+// bakers/lab.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bakers/measure/character/character_report.h"
+#include "bakers/measure/material/material_report.h"
+#include "bakers/measure/probe/method_error.h"
+#include "platform/progress_bar.h"
+
+namespace nook::tool {
+
+class Command;
+
+void add_evaluate_character(Command evaluate, std::span<const measure::CharacterPeer> peers = {});
+
+// `evaluate material` has read and measured this when other methods take their turn.
+struct MaterialEvaluation {
+  const bake::material::RawMaterial& raw;
+  measure::MaterialFile file;
+  const bake::material::RawMaterial* unseen;  // null: none
+  bool jumps;
+  std::uint64_t seed;
+  bake::material::CompressionSettings settings;  // of the file
+  std::filesystem::path images;                  // empty: none
+  measure::MethodProgress progress;
+  // Draws a material among those of --images.
+  std::function<void(const std::string& name, const nook::material::Material& material,
+                     const bake::material::MethodRow& row)>
+      draw;
+};
+
+class MaterialPeers {
+ public:
+  virtual ~MaterialPeers() = default;
+  virtual void add_options(Command command) = 0;
+  // Throws Failure for a file that the methods cannot be fitted to, before anything is measured.
+  virtual void check(const nook::material::Material& material) const = 0;
+  // Adds rows, and keys of its own, to the report.
+  virtual void measure(const MaterialEvaluation& evaluation, nlohmann::ordered_json& report) const = 0;
+};
+
+void add_evaluate_material(Command evaluate, std::shared_ptr<MaterialPeers> peers = nullptr);
+
+class ProbePeers {
+ public:
+  virtual ~ProbePeers() = default;
+  virtual void add_options(Command command) = 0;
+  // The ways to fit a probe that take the place of Nook's own.
+  virtual std::vector<bake::probe::ProbeMethod> methods(std::uint32_t lobes,
+                                                        const bake::probe::Region& region) const = 0;
+  // Rows of a map in place of those of the methods; null where the options request none.
+  virtual nlohmann::ordered_json rows_of_map(const bake::Environment& map, const std::string& name,
+                                             std::uint32_t lobes, std::uint64_t seed,
+                                             platform::ProgressBar& bar) const = 0;
+};
+
+void add_evaluate_probe(Command evaluate, std::shared_ptr<ProbePeers> peers = nullptr);
+
+}  // namespace nook::tool

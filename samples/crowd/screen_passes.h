@@ -1,0 +1,63 @@
+// The part of an engine that calls Nook for its floor: depth and normals are drawn before the lighting. The
+// screen-space pass reads them, and then the world pass, by which the characters darken the floor.
+#pragma once
+
+#include <nook/nook.hpp>
+#include <span>
+#include <string>
+
+#include "platform/platform.h"
+#include "samples/crowd/light.h"
+#include "samples/crowd/renderer.h"
+
+namespace crowd {
+
+struct ScreenQuality {
+  int taps = 32;
+  bool half_resolution = false;
+};
+
+class ScreenPasses {
+ public:
+  static constexpr float radius_m = 0.5f;
+
+  // gl must belong to the same OpenGL context.
+  ScreenPasses(const platform::Context& context, const nook::Gl& gl, int width, int height);
+  ~ScreenPasses();
+  ScreenPasses(const ScreenPasses&) = delete;
+  ScreenPasses& operator=(const ScreenPasses&) = delete;
+
+  const int width_px, height_px;
+  const ScreenQuality quality;
+
+  // The texture has 1 on characters: the lighting multiplies it with the AO of their vertices, which already
+  // has what the passes would count again. The instances are those of the scene, by whose casters they darken
+  // the floor once: the screen-space pass leaves them out. Leaves another framebuffer bound.
+  // With a light, which must outlive the next draw, red, green and blue are the open shares of its soft part,
+  // and alpha is that of its sun.
+  ScreenAo draw(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
+                nook_scene scene, const Light* light);
+  // The screen-space pass alone. With NOOK_GBUFFER_AO_NONE the texture has its AO on characters too.
+  ScreenAo draw_screen(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
+                       nook_gbuffer_ao layer);
+
+  // The passes, and what they got in the last draw: a report evaluates it again, or records it.
+  nook::Nnao screen;
+  nook::WorldPass world;
+  nook_gl_frame_desc frame{};
+  nook_nnao_frame_desc screen_frame{};
+  nook_world_frame_desc world_frame{};
+
+ private:
+  enum Texture { depth, normals, layers, texture_count };
+
+  const GladGLContext& gl_;
+  GLuint textures_[texture_count] = {};
+  GLuint framebuffer_ = 0;
+};
+
+// Software renderers get 16 taps at half resolution, and others 32 taps.
+ScreenQuality quality_for(const std::string& gl_renderer);
+nook_world_desc world_settings(int width, int height, const ScreenQuality& quality);
+
+}  // namespace crowd

@@ -1,0 +1,24 @@
+// The crowd in a window with controls. The model's file is loaded again whenever it changes, so that an
+// artist sees what a bake has made.
+#pragma once
+
+#include <filesystem>
+
+#include "samples/crowd/crowd_scene.h"
+#include "samples/crowd/layout.h"
+
+namespace crowd {
+
+struct WindowRequest {
+  std::filesystem::path model;    // need not be there yet
+  std::filesystem::path picture;  // empty, or where the window writes a picture of itself before it closes
+  int link_count = 4;
+  bool spheres = false, links = false;  // what it shows first
+  int bodies = 1;
+};
+
+// Returns when the window is closed.
+void run_window(platform::Context& context, const Hero& hero, const std::vector<Placement>& places,
+                CrowdScene& scene, const Light& light, const WindowRequest& request);
+
+}  // namespace crowd

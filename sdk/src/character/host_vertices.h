@@ -1,0 +1,86 @@
+// A host's vertices and the vertices of a model: which is which, a model in the host's order, and a model for
+// another mesh of the same body.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "sdk/src/character/model.h"
+#include "sdk/src/core/memory.h"
+
+namespace nook {
+
+// Three floats for each vertex, `stride` bytes apart.
+struct StridedPoints {
+  const float* first = nullptr;
+  std::size_t stride = 12;
+
+  Vec3 operator[](std::size_t index) const;
+};
+
+struct HostVertices {
+  std::uint32_t count = 0;
+  StridedPoints position;
+  StridedPoints normal;  // first null: none
+  bool in_rest_space = false;
+  std::int32_t primitive = -1;  // of the file; -1: all
+  float tolerance = 1e-4f;      // share of the diagonal of the model's box
+};
+
+// The space of the mesh that a vertex of the file belongs to, an index into BindData::rest_from_mesh. The
+// model has bind data.
+std::uint16_t space_of(const CharacterModel& model, std::uint32_t file_vertex);
+
+// A vertex of the model that a host's vertex can be, in the host's space.
+struct Candidate {
+  Vec3 position;
+  Vec3 normal;
+  std::uint32_t file_vertex = 0;
+};
+using Candidates = Vector<Candidate>;
+
+// The file vertices of the primitives that the host names, in file order. The model has a rest surface and
+// bind data.
+Candidates candidates_of(const CharacterModel& model, const HostVertices& host, Memory* memory);
+
+// HostVertices::tolerance as a length in the host's unit.
+float tolerance_of(const CharacterModel& model, const HostVertices& host);
+
+// Sets the primitives of `out` and their spaces, where vertex i of `out` belongs to the mesh of
+// file_vertices[i] of `model`: runs of vertices of the same space.
+void set_primitives(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,
+                    CharacterModel& out);
+
+// A host's vertices and those of a model: which is which, and a model in the host's order.
+
+inline constexpr std::uint32_t no_vertex = UINT32_MAX;
+
+// Writes the file vertex of each host vertex, or no_vertex, and returns the number of no_vertex. The model
+// has a rest surface and bind data, and the primitive is one of its own.
+std::uint32_t match_vertices(const CharacterModel& model, const HostVertices& host,
+                             std::span<std::uint32_t> file_vertices, Memory* memory);
+
+// The model with file_vertices[i] as its vertex i. Every index is in range.
+CharacterModel remapped(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,
+                        Memory* memory);
+
+// A model for another mesh of the same body, such as a level of detail: its vertices take their weights from
+// the baked vertices round them.
+
+struct FarVertex {
+  std::uint32_t vertex = 0;  // of the host
+  float distance = 0;        // to the nearest vertex of the model that faces the same way, host's unit
+};
+
+// The host's vertex that is farthest from the model's. The model has a rest surface and bind data, and the
+// host has vertices.
+FarVertex farthest_vertex(const CharacterModel& model, const HostVertices& host, Memory* memory);
+
+// A model with one welded vertex for each vertex of the host. The linear layer is linear in its weights, so
+// that the mean of the weights of baked vertices gives the mean of their AO in every pose: a vertex takes
+// that of the three baked vertices nearest to it that face the same way. The largest
+// CharacterModel::max_influences weights are kept, and their sum stays.
+CharacterModel resampled(const CharacterModel& model, const HostVertices& host, Memory* memory);
+
+}  // namespace nook

@@ -1,0 +1,35 @@
+// What a host may ask about the instances of a scene: their memory, and for debug drawing the shapes that
+// stand for them.
+#pragma once
+
+#include <nook/experimental/nook_debug.h>
+
+#include <cstdint>
+
+#include "sdk/src/character/loaded_model.h"
+#include "sdk/src/character/scene.h"
+
+namespace nook {
+
+// Bytes of an instance without light and without links.
+std::uint64_t instance_bytes(const LoadedModel& model);
+// The bytes that a light adds.
+std::uint64_t light_bytes(const LoadedModel& model);
+
+// The shapes that a scene evaluates, one by one in world space, for debug drawing. The kernels of an update
+// pose the same shapes in lanes (shadow_kernels.h).
+
+nook_scene_instance_info describe_instance(const Scene& scene, const Instance& instance) noexcept;
+
+// The numbers of shapes at the instance's level.
+std::uint32_t sphere_count(const Instance& instance) noexcept;
+std::uint32_t key_point_count(const Instance& instance) noexcept;
+// The casters of the instance's last update that still are in the scene.
+std::uint32_t link_count(const Scene& scene, const Instance& instance) noexcept;
+
+// `out` has room for as many as the counts above.
+void read_spheres(const Instance& instance, nook_scene_sphere* out) noexcept;
+void read_key_points(const Instance& instance, nook_scene_key_point* out) noexcept;
+void read_links(const Scene& scene, const Instance& instance, nook_instance_id* out) noexcept;
+
+}  // namespace nook

@@ -1,0 +1,148 @@
+#include "sdk/src/core/floats.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace nook {
+namespace {
+
+// A whole number of 192 bits, words from the lowest. The largest here has 155 bits: ten times 2^151, the
+// scale of subnormal floats.
+class Whole {
+ public:
+  explicit Whole(std::uint32_t value) : words_{value} {}
+
+  void multiply(std::uint32_t factor) {
+    std::uint64_t carry = 0;
+    for (std::uint32_t& word : words_) {
+      carry += std::uint64_t(word) * factor;
+      word = std::uint32_t(carry);
+      carry >>= 32;
+    }
+  }
+
+  void double_times(int count) {
+    for (; count > 0; --count) multiply(2);
+  }
+
+  void add(const Whole& other) {
+    std::uint64_t carry = 0;
+    for (std::size_t i = 0; i < words_.size(); ++i, carry >>= 32) {
+      carry += std::uint64_t(words_[i]) + other.words_[i];
+      words_[i] = std::uint32_t(carry);
+    }
+  }
+
+  // The other number must not be larger.
+  void subtract(const Whole& other) {
+    std::uint64_t borrow = 0;
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      const std::uint64_t difference = std::uint64_t(words_[i]) - other.words_[i] - borrow;
+      words_[i] = std::uint32_t(difference);
+      borrow = difference >> 63;
+    }
+  }
+
+  // Negative, 0 or positive, as this number is less than, equal to or greater than the other.
+  int compare(const Whole& other) const {
+    for (std::size_t i = words_.size(); i-- > 0;)
+      if (words_[i] != other.words_[i]) return words_[i] < other.words_[i] ? -1 : 1;
+    return 0;
+  }
+
+ private:
+  std::array<std::uint32_t, 6> words_;
+};
+
+Whole sum(Whole a, const Whole& b) {
+  a.add(b);
+  return a;
+}
+
+// A positive float as the fraction value / scale, and the halves of the gaps to its neighbours, below and
+// above. Every decimal between value - below and value + above is read as this float.
+struct Interval {
+  Whole value, below, above, scale;
+  bool closed;  // the ends are read as this float as well, because a tie goes to the even mantissa
+};
+
+Interval interval_of(std::uint32_t bits) {
+  const std::uint32_t field = bits >> 23, fraction = bits & 0x7fffff;
+  const std::uint32_t mantissa = field > 0 ? fraction | 0x800000 : fraction;
+  const int exponent = int(field > 0 ? field : 1) - 150;
+  // Below a power of two, floats lie twice as close.
+  const bool is_uneven = fraction == 0 && field > 1;
+  Interval interval{Whole(4 * mantissa), Whole(is_uneven ? 1 : 2), Whole(2), Whole(4), mantissa % 2 == 0};
+  for (Whole* number : {&interval.value, &interval.below, &interval.above}) number->double_times(exponent);
+  interval.scale.double_times(-exponent);
+  return interval;
+}
+
+// True if value + above has this relation to the scale: beyond it, or at it where the ends count.
+bool reaches(const Interval& interval) {
+  const int order = sum(interval.value, interval.above).compare(interval.scale);
+  return order > 0 || (order == 0 && interval.closed);
+}
+
+void shift(Interval& interval) {
+  for (Whole* number : {&interval.value, &interval.below, &interval.above}) number->multiply(10);
+}
+
+// Scales the interval so that its upper end lies in [1/10, 1), and returns the power of ten that was divided
+// by.
+int normalise(Interval& interval) {
+  int power = 0;
+  for (; reaches(interval); ++power) interval.scale.multiply(10);
+  for (;; --power) {
+    Interval larger = interval;
+    shift(larger);
+    if (reaches(larger)) return power;
+    interval = larger;
+  }
+}
+
+// Takes the next digit out of a normalised interval and returns it. Sets `last` where the digits until now
+// lie in the interval, rounded to the nearer side of those that do.
+int next_digit(Interval& interval, bool& last) {
+  shift(interval);
+  int digit = 0;
+  for (; interval.value.compare(interval.scale) >= 0; ++digit) interval.value.subtract(interval.scale);
+  const int down = interval.value.compare(interval.below);
+  const bool down_fits = down < 0 || (down == 0 && interval.closed), up_fits = reaches(interval);
+  last = down_fits || up_fits;
+  const int half = sum(interval.value, interval.value).compare(interval.scale);
+  const bool is_nearer_up = half > 0 || (half == 0 && digit % 2 == 1);
+  return digit + (up_fits && (is_nearer_up || !down_fits));
+}
+
+}  // namespace
+
+// R. G. Burger, R. K. Dybvig, Printing Floating-Point Numbers Quickly and Accurately, PLDI 1996, in exact
+// whole numbers: a pass writes few literals, so that speed does not matter.
+FloatLiteral float_literal(float value) {
+  FloatLiteral literal{};
+  char* out = literal.text;
+  const auto bits = bit_cast<std::uint32_t>(value);
+  if (bits >> 31) *out++ = '-';
+  int power = 1;
+  if (bits << 1 == 0) {
+    *out++ = '0';
+  } else {
+    Interval interval = interval_of(bits & 0x7fffffff);
+    power = normalise(interval);
+    bool last = false;
+    for (int count = 0; !last; ++count) {
+      if (count == 1) *out++ = '.';
+      *out++ = char('0' + next_digit(interval, last));
+    }
+  }
+  const int exponent = power - 1, size = exponent < 0 ? -exponent : exponent;
+  *out++ = 'e';
+  *out++ = exponent < 0 ? '-' : '+';
+  *out++ = char('0' + size / 10);
+  *out++ = char('0' + size % 10);
+  return literal;
+}
+
+}  // namespace nook

@@ -1,0 +1,74 @@
+// What the passes over the screen have in common: the screen-space pass and the world pass draw triangles
+// over a host's images, and write AO to the host's target or to a texture of their own.
+#pragma once
+
+#include <nook/nook_nnao.h>
+
+#include <optional>
+#include <span>
+
+#include "sdk/src/gl/nnao/host_images.h"
+#include "sdk/src/gl/nnao/nnao_frame.h"
+#include "sdk/src/gl/nnao/render_texture.h"
+
+namespace nook::gl {
+
+// Returns whether the frame writes every texel of a target that is no framebuffer of the host: its old
+// contents are not needed then.
+bool replaces_target(const NnaoFrame& frame, const nook_nnao_desc& pass);
+
+// A program that reads the constants of a frame.
+struct ScreenStage {
+  Object program;
+  GLint frame = -1;
+};
+
+struct SamplerUnit {
+  const char* name;
+  GLint unit;
+};
+
+// Every call may change any of the state that the users of screen_creation_users touch; the caller holds a
+// StateGuard.
+class ScreenPass {
+ public:
+  GLuint ao_texture() const { return own_.texture(); }
+
+ protected:
+  // desc: of the screen-space pass, or with the values that another pass gives to the frame's constants.
+  // Network and next of it are not kept. Makes no OpenGL call.
+  ScreenPass(Device& device, const NnaoSettings& desc);
+
+  // Throws Failure if the pass is larger than this OpenGL's textures.
+  void check_size() const;
+  // Makes the objects of all draws. own_ must have been made: it begins with this colour.
+  void make_objects(const GLfloat (&open)[4]);
+  // Finds the frame's constants of a program and sets its samplers, of which it may lack some.
+  void make_stage(ScreenStage& stage, Object program, std::span<const SamplerUnit> samplers) const;
+
+  // Throws Failure unless the images of a frame are sound, before anything is drawn.
+  void check(const HostImages& images, bool changed);
+  // Sets the state that all draws of a frame share.
+  void begin_frame() const;
+  void bind_texture(GLuint unit, GLuint texture) const;
+  // Takes the program into use.
+  void set_frame(const ScreenStage& stage, const FrameConstants& constants) const;
+  // Draws the program in use. discards: nothing outside the viewport is needed afterwards.
+  void draw(GLuint framebuffer, const Viewport& viewport, bool discards) const;
+  // Runs the compute shader in use, which writes texels of the target as an image of `format`, in groups of
+  // group_size x group_size.
+  void dispatch(const RenderTexture& target, GLenum format, int width, int height, int group_size) const;
+  // Draws the program in use into the frame's target; layer: of the target's texture array, of passes with
+  // views.
+  void draw_output(const NnaoFrame& frame, int layer) const;
+
+  Device& device_;
+  NnaoSettings desc_;
+  RenderTexture own_;
+  Object sampler_, vertex_array_, target_framebuffer_;
+
+ private:
+  std::optional<HostImages> checked_;
+};
+
+}  // namespace nook::gl
