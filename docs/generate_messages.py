@@ -19,6 +19,8 @@ ROOMS = [("sdk/src/api", "The C interface"), ("sdk/src/core", "Files and memory"
 CALL = re.compile(r"\b(Failure|ToolError|std::runtime_error|refuse|fault|warn|log|require|need|say|warnings\.push_back)\s*\(")
 # Texts that are put together first.
 ASSIGNED = re.compile(r"\b(?:text|fault_?|warning)\s*\+?=(?!=)")
+# The functions of sdk/src/core/checks.h, whose messages have the name of the value in front.
+CHECK = re.compile(r"\b(check_fits|check_range|check_index|check_known|check_at_most|check_switch)\s*\(")
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 FORMAT = re.compile(r"%[-+ #0]*(?:\d+|\*)?(?:\.(?:\d+|\*))?(?:hh|h|ll|l|z|j|t)?[diuoxXeEfgGcsp]|%%")
 
@@ -62,6 +64,42 @@ def message(argument):
     return text.replace('\\"', '"').replace("\\n", " ").replace("\\t", " ").replace("\\\\", "\\").strip()
 
 
+def split_arguments(argument):
+    """The arguments of a call, which commas part outside of brackets and literals."""
+    parts, depth, last, i = [], 0, 0, 0
+    while i < len(argument):
+        if argument[i] == '"':
+            i = LITERAL.match(argument, i).end()
+            continue
+        depth += {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}.get(argument[i], 0)
+        if argument[i] == "," and depth == 0:
+            parts.append(argument[last:i].strip())
+            last = i + 1
+        i += 1
+    return [*parts, argument[last:].strip()]
+
+
+def check_messages(function, argument):
+    """The messages of a check, with the numbers that the call has in its text; none if the name is no literal."""
+    arguments = split_arguments(argument)
+    if len(arguments) < 2 or not LITERAL.fullmatch(arguments[0]):
+        return []
+    name = message(arguments[0])
+    numbers = [re.fullmatch(r"(-?[\d.]+)f?", a) for a in arguments[2:4]]
+    first, second = ([m.group(1) if m else "…" for m in numbers] + ["…", "…"])[:2]
+    if function == "check_known":
+        return [f"{name} is unknown (got …, need 0 to {first})"]
+    if function == "check_switch":
+        return [f"{name} is neither on nor off (got …, need 0 or 1)"]
+    if function == "check_fits":
+        # A need may depend on a condition.
+        alternatives = arguments[3].split("?", 1)[-1].split(" : ")
+        needs = [message(text) for text in alternatives]
+    else:
+        needs = [{"check_range": f"{first} to {second}", "check_index": "less than …", "check_at_most": f"at most {first}"}[function]]
+    return [f"{name} is out of range (got …, need {need})" for need in needs]
+
+
 def messages_of(path):
     text = strip_comments(path.read_text(encoding="utf-8"))
     arguments = [argument_text(text, call.end()) for call in CALL.finditer(text)]
@@ -71,6 +109,8 @@ def messages_of(path):
     arguments += [text[found.end():text.index(";", found.end())] for found in ASSIGNED.finditer(text)]
     # Importers return the end of a message.
     arguments += [text[found.end():text.index(";", found.end())] for found in re.finditer(r"\breturn\s+(?=\"[^\"]* [^\"]* )", text)]
+    for call in CHECK.finditer(text):
+        yield from check_messages(call.group(1), argument_text(text, call.end()))
     for argument in arguments:
         found = message(argument)
         # Names of arguments, source code, tables and pieces that are no words are no messages.

@@ -34,4 +34,4 @@ echo "look at out/first.png: one character, by a model that was baked before; th
 ninja -C build crowd
 # The arguments of the caller come last and override others. Tier 33: without a GPU, Mesa is several times faster at it.
 build/samples/crowd/crowd --context egl --tier 33 --characters 100 --frames 4 --out out/crowd "$@"
-echo "look at out/crowd/sheet.png first; out/crowd/report.json has the numbers"
+echo "look at out/crowd/frame_0000.png, and at out/crowd/without_ao.png beside it"

@@ -13,6 +13,7 @@
 #include "bakers/character/pose_sets.h"
 #include "bakers/import/skinned_mesh.h"
 #include "bakers/job/caller_arrays.h"
+#include "sdk/src/core/checks.h"
 
 using namespace nook;
 using namespace nook::bake;
@@ -270,11 +271,8 @@ nook_result nook_bake_character_single_joint_poses(nook_bake_character character
     const SkinnedMesh& mesh = get(character).mesh;
     need(pose_count, "pose_count");
     need_count("bone_count", bone_count, mesh.bones.size());
-    if (steps < 1 || steps > 64)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "steps is out of range (got %u, need 1 to 64)", steps);
-    if (!(range_degrees >= 0 && range_degrees <= 180))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "range_degrees is out of range (got %g, need 0 to 180)",
-                    double(range_degrees));
+    check_range("steps", steps, 1, 64);
+    check_range("range_degrees", range_degrees, 0, 180);
     const std::vector<Pose> poses = single_joint_poses(mesh, int(steps), range_degrees * 0.0174532925f);
     if (bones_3x4) {
       need_count("*pose_count", *pose_count, poses.size());

@@ -5,6 +5,7 @@
 
 #include "bakers/import/weld.h"
 #include "bakers/job/worker_arena.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/geometry.h"
 #include "sdk/src/core/hash.h"
@@ -72,9 +73,7 @@ ImportedCharacter character_of_arrays(const nook_bake_source_desc& desc) {
   need(desc.weights, "desc.weights");
   need(desc.bone_parents, "desc.bone_parents");
   need(desc.bone_frames_3x4, "desc.bone_frames_3x4");
-  if (desc.influences < 1 || desc.influences > 64)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.influences is out of range (got %u, need 1 to 64)",
-                  desc.influences);
+  check_range("desc.influences", desc.influences, 1, 64);
   if (desc.primitive_count > 0) need(desc.primitives, "desc.primitives");
   const std::vector<Vec3> position = points(desc.positions, desc.vertex_count);
   const std::size_t pairs = std::size_t(desc.influences) * desc.vertex_count;
@@ -154,13 +153,10 @@ std::vector<Vec3> read_normals(const char* name, const float* xyz, std::uint32_t
 }
 
 void need_trace_settings(std::uint32_t rays, std::uint32_t threads, float origin_offset) {
-  if (rays < 1 || rays > most_rays)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.rays is out of range (got %u, need 1 to %u)", rays,
-                  most_rays);
+  check_range("desc.rays", rays, 1, most_rays);
   need_threads(threads);
-  if (!(origin_offset >= 0 && origin_offset <= max_metres))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.origin_offset is out of range (got %g, need 0 to 1e6 metres)", double(origin_offset));
+  check_fits("desc.origin_offset", origin_offset, origin_offset >= 0 && origin_offset <= max_metres,
+             "0 to 1e6 metres");
 }
 
 }  // namespace nook::bake

@@ -12,6 +12,7 @@
 #include "platform/peak_memory.h"
 #include "sdk/src/character/model.h"
 #include "sdk/src/character/model_file.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -24,12 +25,6 @@ constexpr std::uint32_t max_spheres = 1024, max_key_points = 4096, max_rays = 65
 [[noreturn]] void unknown(const char* name, int value) {
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                 "%s has an unknown value (got %d); use a constant of nook_bake.h", name, value);
-}
-
-void at_most(const char* name, std::uint32_t value, std::uint32_t most) {
-  if (value > most)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is out of range (got %u, need at most %u)", name, value,
-                  most);
 }
 
 Preset preset_of(nook_bake_preset preset) {
@@ -110,10 +105,10 @@ std::vector<std::size_t> chosen_clips(const nook_bake_character_desc& desc, nook
 
 void choose_settings(const nook_bake_character_desc& desc, const nook_bake_character_study_desc& study,
                      BakeSettings& settings) {
-  at_most("desc.spheres", desc.spheres, max_spheres);
-  at_most("desc.key_points", desc.key_points, max_key_points);
-  at_most("desc.rays", desc.rays, max_rays);
-  at_most("desc.steps", desc.steps, max_steps);
+  check_at_most("desc.spheres", desc.spheres, max_spheres);
+  check_at_most("desc.key_points", desc.key_points, max_key_points);
+  check_at_most("desc.rays", desc.rays, max_rays);
+  check_at_most("desc.steps", desc.steps, max_steps);
   need_threads(desc.threads);
   if (desc.spheres) settings.spheres = desc.spheres;
   if (desc.key_points) settings.key_points = desc.key_points;
@@ -137,19 +132,13 @@ void choose_settings(const nook_bake_character_desc& desc, const nook_bake_chara
   }
   settings.learn_gamma = desc.gamma == NOOK_BAKE_GAMMA_LEARNED;
   if (desc.gamma != 0 && !settings.learn_gamma) {
-    if (!(desc.gamma >= 1 && desc.gamma <= 8))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "desc.gamma is out of range (got %g, need 1 to 8, NOOK_BAKE_GAMMA_LEARNED, or 0 for the "
-                    "default)",
-                    double(desc.gamma));
+    check_fits("desc.gamma", desc.gamma, desc.gamma >= 1 && desc.gamma <= 8,
+               "1 to 8, NOOK_BAKE_GAMMA_LEARNED, or 0 for the default");
     settings.kernel.gamma = desc.gamma;
   } else if (!settings.learn_gamma && desc.form == NOOK_FORM_PAPER) {
     settings.kernel.gamma = 2;
   }
-  if (!(desc.time_limit_s >= 0) || !std::isfinite(desc.time_limit_s))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.time_limit_s is out of range (got %g, need seconds, or 0 for none)",
-                  desc.time_limit_s);
+  check_fits("desc.time_limit_s", desc.time_limit_s, desc.time_limit_s >= 0, "seconds, or 0 for none");
   settings.time_limit_s = desc.time_limit_s;
 }
 
@@ -168,9 +157,9 @@ Recipe recipe_of(const nook_bake_character_desc& desc, const nook_bake_character
   recipe.source_hash = character.source_hash;
   recipe.extra_poses = desc.extra_pose_count;
   if (desc.extra_pose_count) need(desc.extra_poses_3x4, "desc.extra_poses_3x4");
-  at_most("desc.auto_pose_count", desc.auto_pose_count, max_poses);
-  at_most("desc.samples_per_clip", desc.samples_per_clip, max_poses);
-  at_most("desc.extra_pose_count", desc.extra_pose_count, max_poses);
+  check_at_most("desc.auto_pose_count", desc.auto_pose_count, max_poses);
+  check_at_most("desc.samples_per_clip", desc.samples_per_clip, max_poses);
+  check_at_most("desc.extra_pose_count", desc.extra_pose_count, max_poses);
 
   const bool clips = recipe.poses == PoseMode::clips || recipe.poses == PoseMode::all;
   if (!clips && desc.clip_count > 0)

@@ -7,6 +7,7 @@
 #include "platform/peak_memory.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/character/clip_set.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -17,8 +18,7 @@ using Json = nlohmann::ordered_json;
 // A NaN is out of every range; the lower bounds have room for the rounding of 0.1f and 1e-4f.
 void require_between(const char* name, double value, double low, double high) {
   if (!(value >= low * (1 - 1e-6) && value <= high))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is out of range (got %g, need %g to %g)", name, value, low,
-                  high);
+    fail_range(NOOK_ERROR_INVALID_ARGUMENT, name, NumberText(value), NumberText(low), NumberText(high));
 }
 
 std::string recipe_of(const ImportedCharacter& character, const ClipTask& task) {

@@ -8,6 +8,7 @@
 #include "bakers/material/baked_figures.h"
 #include "bakers/material/raw_relief.h"
 #include "platform/stopwatch.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/material/material_check.h"
 #include "sdk/src/material/material_file.h"
@@ -31,12 +32,6 @@ using nook::material::VisibilityForm;
 
 constexpr std::uint64_t most_raw_bytes = std::uint64_t{6} << 30;
 
-void in_range(const char* name, std::uint32_t got, std::uint32_t low, std::uint32_t high) {
-  if (got < low || got > high)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is out of range (got %u, need %u to %u)", name, got, low,
-                  high);
-}
-
 Method method_of(nook_bake_method method) {
   switch (method) {
     case NOOK_BAKE_METHOD_K_CTA:
@@ -55,7 +50,7 @@ Method method_of(nook_bake_method method) {
 
 // The heights of a structure are known, and those of measured data where the caller gives them.
 ReliefSource relief_source_of(const nook_bake_material_desc& desc) {
-  in_range("desc.relief", desc.relief, 0, 1);
+  check_range("desc.relief", desc.relief, 0, 1);
   if (desc.heights && desc.relief == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.heights are given, but desc.relief is 0; set it to 1, or heights to NULL");
@@ -141,9 +136,9 @@ void read_meso(const nook_bake_material_desc& desc, MaterialTask& task) {
   if (desc.btf || desc.coverage || desc.heights)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.meso and desc.btf, desc.coverage or desc.heights are given; give one or the other");
-  in_range("desc.samples", desc.samples, 1, 16);
-  in_range("desc.bounces", desc.bounces, 0, 16);
-  in_range("desc.bounce_rays", desc.bounce_rays, 1, 4096);
+  check_range("desc.samples", desc.samples, 1, 16);
+  check_range("desc.bounces", desc.bounces, 0, 16);
+  check_range("desc.bounce_rays", desc.bounce_rays, 1, 4096);
   for (const auto& set : {task.raw.lights, task.raw.views})
     for (const Vec3 d : set)
       if (!(d.z >= lowest_traced_z))
@@ -176,19 +171,18 @@ void set_paper_form(CompressionSettings& s) {
 CompressionSettings settings_of(const nook_bake_material_desc& desc) {
   CompressionSettings s;
   s.method = method_of(desc.method);
-  in_range("desc.visibility", std::uint32_t(desc.visibility), 0, 2);
+  check_range("desc.visibility", std::uint32_t(desc.visibility), 0, 2);
   s.visibility = VisibilityForm(desc.visibility);
   if (desc.visibility_threshold != 0 || desc.visibility_weight != 0)
     s.mapping = nook::material::VisibilityMapping{desc.visibility_threshold, desc.visibility_weight};
-  in_range("desc.cluster_rank_view", desc.cluster_rank_view, 1, 64);
-  in_range("desc.mixture", desc.mixture, 1, nook::material::max_mixture);
-  in_range("desc.view_map_side", desc.view_map_side, 0, nook::material::max_map_side);
+  check_range("desc.cluster_rank_view", desc.cluster_rank_view, 1, 64);
+  check_range("desc.mixture", desc.mixture, 1, nook::material::max_mixture);
+  check_range("desc.view_map_side", desc.view_map_side, 0, nook::material::max_map_side);
   s.cluster_rank_view = desc.cluster_rank_view;
   s.clusters = desc.clusters;
   s.mixture = desc.mixture;
   s.map_side = desc.view_map_side;
-  if (desc.bits != 8 && desc.bits != 16)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.bits is out of range (got %u, need 8 or 16)", desc.bits);
+  check_fits("desc.bits", desc.bits, desc.bits == 8 || desc.bits == 16, "8 or 16");
   s.bits = desc.bits;
   s.relief = relief_source_of(desc);
   s.neural_channels = desc.neural_channels;
@@ -228,14 +222,13 @@ CompressionSettings known_settings(const MaterialTask& task) {
 }  // namespace
 
 MaterialTask material_task_of(const nook_bake_material_desc& desc) {
-  in_range("desc.light_count", desc.light_count, 1, nook::material::max_directions);
-  in_range("desc.view_count", desc.view_count, 1, nook::material::max_directions);
-  in_range("desc.width", desc.width, 1, nook::material::max_texels);
-  in_range("desc.height", desc.height, 1, nook::material::max_texels);
+  check_range("desc.light_count", desc.light_count, 1, nook::material::max_directions);
+  check_range("desc.view_count", desc.view_count, 1, nook::material::max_directions);
+  check_range("desc.width", desc.width, 1, nook::material::max_texels);
+  check_range("desc.height", desc.height, 1, nook::material::max_texels);
   need_threads(desc.threads);
-  if (!(desc.rank_threshold > 0 && desc.rank_threshold < 1))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.rank_threshold is out of range (got %g, need 0 to 1)",
-                  double(desc.rank_threshold));
+  check_fits("desc.rank_threshold", desc.rank_threshold, desc.rank_threshold > 0 && desc.rank_threshold < 1,
+             "0 to 1");
   const std::uint64_t bytes =
       std::uint64_t{12} * desc.light_count * desc.view_count * desc.width * desc.height;
   if (bytes > most_raw_bytes)

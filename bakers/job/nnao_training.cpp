@@ -23,15 +23,6 @@ std::string network_recipe(const nnao::DatasetSettings& data, const nnao::Traini
   return recipe.dump();
 }
 
-SpecularTraining train_specular(const nnao::SpecularFitSettings& settings,
-                                const nnao::DatasetProgress& progress) {
-  const nook::nnao::Network network = nook::nnao::read_network(nook::nnao::default_network_file());
-  const nnao::SpecularSamples samples = trace_specular_samples(network, settings, progress);
-  const nook::nnao::SpecularNumbers numbers = fit_specular(samples.training, settings);
-  return {specular_header(numbers, settings), specular_error(samples.validation, numbers),
-          samples.training.size(), samples.validation.size()};
-}
-
 Json validation_rows(const nook::nnao::Network& network, const nnao::Dataset& data) {
   // Enough for two digits of the error.
   const std::size_t stride = data.validation.size() / 20000 + 1;
@@ -54,6 +45,15 @@ Json validation_rows(const nook::nnao::Network& network, const nnao::Dataset& da
                     {"normal_angle", row.normal_angle}});
   }
   return rows;
+}
+
+SpecularTraining train_specular(const nnao::SpecularFitSettings& settings,
+                                const nnao::DatasetProgress& progress) {
+  const nook::nnao::Network network = nook::nnao::read_network(nook::nnao::default_network_file());
+  const nnao::SpecularSamples samples = trace_specular_samples(network, settings, progress);
+  const nook::nnao::SpecularNumbers numbers = fit_specular(samples.training, settings);
+  return {specular_header(numbers, settings), specular_error(samples.validation, numbers),
+          samples.training.size(), samples.validation.size()};
 }
 
 }  // namespace nook::bake

@@ -11,6 +11,7 @@
 #include "bakers/character/vertex_fits.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/character/model_file.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -41,12 +42,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void require_between(const char* name, std::uint32_t value, std::uint32_t low, std::uint32_t high) {
-  if (value < low || value > high)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is out of range (got %u, need %u to %u)", name, value, low,
-                  high);
-}
-
 std::vector<Pose> poses_of(const ImportedCharacter& character, const CharacterModel& model,
                            const BentTask& task) {
   Recipe recipe;
@@ -62,9 +57,9 @@ std::vector<Pose> poses_of(const ImportedCharacter& character, const CharacterMo
 }  // namespace
 
 BentTask bent_task_of(const nook_bake_bent_desc& desc) {
-  require_between("desc.rays", desc.rays, 1, 65536);
-  require_between("desc.auto_pose_count", desc.auto_pose_count, 8, 100'000);
-  require_between("desc.samples_per_clip", desc.samples_per_clip, 1, 100'000);
+  check_range("desc.rays", desc.rays, 1, 65536);
+  check_range("desc.auto_pose_count", desc.auto_pose_count, 8, 100'000);
+  check_range("desc.samples_per_clip", desc.samples_per_clip, 1, 100'000);
   return {desc.auto_pose_count, desc.samples_per_clip, desc.rays, desc.seed};
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -15,9 +16,7 @@ constexpr std::uint32_t max_threads = 1024;
 
 // Refuses the field `threads` of a descriptor when it is out of range.
 inline void need_threads(std::uint32_t threads) {
-  if (threads > max_threads)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.threads is out of range (got %u, need at most %u)",
-                  threads, max_threads);
+  check_at_most("desc.threads", threads, max_threads);
 }
 
 // 0 threads means all cores. The calling thread is one of them.

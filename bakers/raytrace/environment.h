@@ -74,7 +74,7 @@ class LightSampler {
   std::vector<std::uint32_t> other_;
 };
 
-// The suns of an environment, by the rule of the runtime: sdk/src/core/map_suns.h.
+// The suns of an environment, by the rule of the runtime: sdk/src/core/light_map.h.
 
 using Sun = MapSun;
 

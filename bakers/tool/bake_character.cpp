@@ -25,7 +25,7 @@ struct Options {
   std::filesystem::path input, output;
   bake::LinkedFiles linked = bake::LinkedFiles::folder;
   std::int32_t preset = NOOK_BAKE_PRESET_STANDARD, poses = NOOK_BAKE_POSES_ALL, split = NOOK_BAKE_SPLIT_ALL;
-  std::int32_t kernel = NOOK_FORM_DEFAULT, fit = NOOK_FORM_DEFAULT;
+  std::int32_t form = NOOK_FORM_DEFAULT, kernel = NOOK_FORM_DEFAULT, fit = NOOK_FORM_DEFAULT;
   std::vector<std::string> clips;
   std::uint32_t spheres = 0, key_points = 0, rays = 0, steps = 0, auto_poses = 0, samples_per_clip = 0;
   float gamma = 0;
@@ -42,6 +42,7 @@ float gamma_of(const std::string& text) {
 nook_bake_character_desc desc_of(const Options& options, const std::vector<const char*>& clips) {
   nook_bake_character_desc desc;
   nook_bake_character_desc_init(&desc);
+  desc.form = options.form;
   desc.preset = options.preset;
   desc.spheres = options.spheres;
   desc.key_points = options.key_points;
@@ -113,20 +114,24 @@ void add_choice(Command command, const char* name, std::int32_t& value, const Na
 
 // The form of the model and how it is fitted.
 void add_form_options(Command command, Options& o) {
+  add_choice(command, "--form", o.form, {{"default", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
+             "default, or paper: kernel, fit and gamma 2 of Le et al. 2019");
   add_choice(command, "--kernel", o.kernel, {{"nook", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
-             "shadow of a sphere: nook (default) or paper (Le et al. 2019)");
+             "for comparisons: paper takes the kernel of the paper's form with any fit");
   add_choice(command, "--fit", o.fit, {{"nook", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
-             "nook (mini-batches, default) or paper (block coordinate descent with L-BFGS)");
+             "for comparisons: paper takes its fit (block coordinate descent with L-BFGS) with any kernel");
   command
       .add_option_function(
           "--gamma", [&o](const std::string& text) { o.gamma = gamma_of(text); },
-          "exponent of the shadow norm, 1 to 8 (default 1), or learned: the best of several short fits")
+          "exponent of the shadow norm, 1 to 8 (default 1, and 2 with --form paper), or learned: the best of "
+          "several short fits")
       .type_name("G|learned")
       .check(in_range(1.0, 8.0) | one_of({"learned"}));
   command
-      .add_option("--saturation", o.saturation,
-                  "saturation of the key points before the fit (default 0.5, and none with --fit paper or "
-                  "another --gamma than 1), which the fit changes; 0: none")
+      .add_option(
+          "--saturation", o.saturation,
+          "saturation of the key points before the fit (default 0.5, and none with --form paper, --fit "
+          "paper or another --gamma than 1), which the fit changes; 0: none")
       .check(in_range(0.0, 64.0));
 }
 

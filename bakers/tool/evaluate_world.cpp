@@ -7,8 +7,6 @@
 #include "bakers/measure/character/character_report.h"
 #include "bakers/measure/character/evaluated_character.h"
 #include "bakers/measure/composite/composite.h"
-#include "bakers/measure/composite/lit_room.h"
-#include "bakers/measure/composite/own_room.h"
 #include "bakers/measure/world/world_pictures.h"
 #include "bakers/measure/world/world_report.h"
 #include "bakers/tool/character_file.h"

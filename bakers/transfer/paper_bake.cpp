@@ -12,8 +12,8 @@
 #include "bakers/transfer/inter_reflections.h"
 #include "sdk/src/core/floats.h"
 #include "sdk/src/core/spherical_gaussian.h"
-#include "sdk/src/material/reflectance.h"
 #include "sdk/src/material/material_check.h"
+#include "sdk/src/material/reflectance.h"
 
 namespace nook::bake::transfer {
 

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "sdk/src/core/failure.h"
-#include "sdk/src/material/reflectance.h"
 #include "sdk/src/material/parabolic.h"
+#include "sdk/src/material/reflectance.h"
 #include "sdk/src/material/spatial_modes.h"
 
 namespace nook::bake::transfer {

@@ -36,7 +36,7 @@ class CrowdScene {
   void set_camera(const glm::vec3& eye_ws);
   // Evaluates the AO and leaves it on the GPU. The terms (NOOK_TERM_*) are what darkens a character.
   void update(std::uint32_t terms = NOOK_TERM_ALL);
-  // What the last update left of each character, in the poses that it had.
+  // All characters with the results of the last update, in the poses that it had.
   std::vector<DrawnInstance> drawn(const std::vector<Bones>& poses) const;
   // The light of all characters in the last update.
   nook_gl_view light() const { return gl_.view(scene_, instances_[0], NOOK_CHANNEL_DIRECTIONAL_AO); }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "bakers/mannequin/mannequin.h"
@@ -22,13 +23,6 @@ bool is_unfit(std::string name) {
   for (char& c : name) c = char(std::tolower(static_cast<unsigned char>(c)));
   return name.find("tpose") != std::string::npos || name.find("apose") != std::string::npos ||
          name.starts_with("sit");
-}
-
-// FNV-1a of 64 bits.
-unsigned long long hash_of(const std::vector<unsigned char>& bytes) {
-  unsigned long long hash = 14695981039346656037ULL;
-  for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ULL;
-  return hash;
 }
 
 }  // namespace
@@ -82,13 +76,16 @@ nook::bake::Job start_bake(const Hero& hero, nook_bake_preset preset, float gamm
 
 std::vector<unsigned char> cached_model(const Hero& hero, const std::filesystem::path& glb,
                                         const std::filesystem::path& cache, bool quiet, float gamma) {
-  // The name has the time of the program, so that a model which another build baked is never taken.
+  // The name has the content of the file, and the time of the program, so that a model which another build
+  // baked is never taken.
+  const std::vector<unsigned char> bytes = platform::read_file(glb);
+  const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::error_code unknown;
   const auto built = std::filesystem::last_write_time("/proc/self/exe", unknown).time_since_epoch().count();
   char name[112];
   std::snprintf(name, sizeof name, "draft_%016llx_gamma%g_%08x_%016llx.nook",
-                hash_of(platform::read_file(glb)), double(gamma), NOOK_VERSION,
-                static_cast<unsigned long long>(built));
+                static_cast<unsigned long long>(std::hash<std::string_view>{}(content)), double(gamma),
+                NOOK_VERSION, static_cast<unsigned long long>(built));
   const std::filesystem::path path = cache / name;
   if (std::filesystem::exists(path)) return platform::read_file(path);
   if (!quiet) std::fprintf(stderr, "baking %s\n", path.string().c_str());

@@ -11,7 +11,7 @@
 namespace crowd {
 namespace {
 
-// What nook::ProbeFit finds for a sky that is blue above, white at the horizon, and brown below it.
+// nook::ProbeFit gives these lobes for a sky that is blue above, white at the horizon, and brown below it.
 const std::vector<nook_lobe> fitted_sky = {
     {{0.39965263f, 0, 0.916666687f}, 6, {0.373414665f, 0.363219291f, 0.345577747f}, 0},
     {{-0.487723678f, 0.446794838f, 0.75f}, 6, {0.291322649f, 0.477503419f, 0.884204924f}, 0},

@@ -1,7 +1,6 @@
 #include "samples/crowd/renderer.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <glm/gtc/type_ptr.hpp>
 
 namespace crowd {
@@ -51,28 +50,6 @@ void main() {
   colour = vec4(mix(seen, background, fog), 1.0);
 }
 )";
-
-struct Vertex {
-  float position_m[3];
-  float normal[3];
-  std::uint16_t joints[4];
-  float weights[4];
-};
-
-std::vector<Vertex> interleave(const Hero& hero) {
-  std::vector<Vertex> vertices(hero.vertex_count());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    std::copy_n(&hero.positions_m[3 * i], 3, vertices[i].position_m);
-    std::copy_n(&hero.normals[3 * i], 3, vertices[i].normal);
-    std::copy_n(&hero.joints[4 * i], 4, vertices[i].joints);
-    std::copy_n(&hero.weights[4 * i], 4, vertices[i].weights);
-  }
-  return vertices;
-}
-
-const void* at(std::uint64_t offset) {
-  return reinterpret_cast<const void*>(static_cast<std::uintptr_t>(offset));
-}
 
 }  // namespace
 
@@ -157,7 +134,7 @@ Renderer::Renderer(const GladGLContext& gl, const Hero& hero)
       index_count_(GLsizei(hero.triangles.size())),
       bone_texels_(3 * std::size_t(hero.bone_count())) {
   gl.GenVertexArrays(2, arrays_);
-  gl.GenBuffers(3, buffers_);
+  gl.GenBuffers(buffer_count, buffers_);
   gl.GenTextures(1, &bone_texture_);
   GLint texels = 65536;
   gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
@@ -167,24 +144,26 @@ Renderer::Renderer(const GladGLContext& gl, const Hero& hero)
 
 Renderer::~Renderer() {
   gl_.DeleteVertexArrays(2, arrays_);
-  gl_.DeleteBuffers(3, buffers_);
+  gl_.DeleteBuffers(buffer_count, buffers_);
   gl_.DeleteTextures(1, &bone_texture_);
 }
 
 void Renderer::make_character(const Hero& hero) {
-  const std::vector<Vertex> vertices = interleave(hero);
   gl_.BindVertexArray(arrays_[0]);
-  gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[0]);
-  gl_.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(vertices.size() * sizeof(Vertex)), vertices.data(),
-                 GL_STATIC_DRAW);
-  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[1]);
-  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(4 * hero.triangles.size()), hero.triangles.data(),
-                 GL_STATIC_DRAW);
+  const auto upload = [&](GLenum target, GLuint buffer, const auto& values) {
+    gl_.BindBuffer(target, buffer);
+    gl_.BufferData(target, GLsizeiptr(values.size() * sizeof values[0]), values.data(), GL_STATIC_DRAW);
+  };
   for (GLuint slot = 0; slot < ao_slot; ++slot) gl_.EnableVertexAttribArray(slot);
-  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, position_m)));
-  gl_.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, normal)));
-  gl_.VertexAttribIPointer(2, 4, GL_UNSIGNED_SHORT, sizeof(Vertex), at(offsetof(Vertex, joints)));
-  gl_.VertexAttribPointer(3, 4, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, weights)));
+  upload(GL_ARRAY_BUFFER, buffers_[positions], hero.positions_m);
+  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+  upload(GL_ARRAY_BUFFER, buffers_[normals], hero.normals);
+  gl_.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+  upload(GL_ARRAY_BUFFER, buffers_[joints], hero.joints);
+  gl_.VertexAttribIPointer(2, 4, GL_UNSIGNED_SHORT, 0, nullptr);
+  upload(GL_ARRAY_BUFFER, buffers_[weights], hero.weights);
+  gl_.VertexAttribPointer(3, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
+  upload(GL_ELEMENT_ARRAY_BUFFER, buffers_[triangles], hero.triangles);
 }
 
 void Renderer::upload_bones(std::span<const DrawnInstance> instances) {
@@ -192,11 +171,11 @@ void Renderer::upload_bones(std::span<const DrawnInstance> instances) {
   bones.reserve(instances.size() * 4 * bone_texels_);
   for (const DrawnInstance& instance : instances)
     bones.insert(bones.end(), instance.bones->begin(), instance.bones->end());
-  gl_.BindBuffer(GL_TEXTURE_BUFFER, buffers_[2]);
+  gl_.BindBuffer(GL_TEXTURE_BUFFER, buffers_[bone_matrices]);
   gl_.BufferData(GL_TEXTURE_BUFFER, GLsizeiptr(bones.size() * sizeof(float)), bones.data(), GL_STREAM_DRAW);
   gl_.ActiveTexture(GL_TEXTURE0);
   gl_.BindTexture(GL_TEXTURE_BUFFER, bone_texture_);
-  gl_.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffers_[2]);
+  gl_.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffers_[bone_matrices]);
 }
 
 // This is all that an engine does with Nook's buffers.
@@ -208,7 +187,8 @@ void Renderer::bind_values(GLuint slot, GLint components, const VertexSource& va
   }
   gl_.BindBuffer(GL_ARRAY_BUFFER, values.buffer);
   gl_.EnableVertexAttribArray(slot);
-  gl_.VertexAttribPointer(slot, components, GL_FLOAT, GL_FALSE, GLsizei(values.stride), at(values.offset));
+  gl_.VertexAttribPointer(slot, components, GL_FLOAT, GL_FALSE, GLsizei(values.stride),
+                          reinterpret_cast<const void*>(std::uintptr_t(values.offset)));
 }
 
 void Renderer::draw_characters(const platform::Program& program, std::span<const DrawnInstance> instances,

@@ -67,6 +67,8 @@ class Renderer {
   void draw_ground(const platform::Program& program, const glm::vec3& albedo, const glm::mat4& clip_from_ws);
 
  private:
+  enum Buffer { positions, normals, joints, weights, triangles, bone_matrices, buffer_count };
+
   void make_character(const Hero& hero);
   void bind_values(GLuint slot, GLint components, const VertexSource& values);
   void upload_bones(std::span<const DrawnInstance> instances);
@@ -78,8 +80,8 @@ class Renderer {
   std::optional<platform::Program> character_, ground_;  // made for the first picture, which has the GLSL
   GLsizei index_count_;
   std::size_t bone_texels_;
-  GLuint arrays_[2] = {};   // character, ground
-  GLuint buffers_[3] = {};  // vertices, indices, bones
+  GLuint arrays_[2] = {};  // character, ground
+  GLuint buffers_[buffer_count] = {};
   GLuint bone_texture_ = 0;
   std::size_t chunk_ = 1;  // instances whose bones fit into one texture buffer
 };

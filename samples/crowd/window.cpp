@@ -74,33 +74,15 @@ void show(Controls& c, const nook_scene_info& info) {
   c.distance_m = std::clamp(c.distance_m * std::pow(0.9f, io.MouseWheel), 1.5f, 200.0f);
 }
 
-// Loads the model again if somebody has written its file. A file that does not fit leaves the model from
-// before.
-class ModelFile {
- public:
-  explicit ModelFile(std::filesystem::path path) : path_(std::move(path)), seen_(time()) {}
-
-  void follow(CrowdScene& scene, std::string& text) {
-    const std::filesystem::file_time_type now = time();
-    if (now == seen_) return;
-    seen_ = now;
-    try {
-      scene.set_model(platform::read_file(path_));
-      text = "loaded " + path_.filename().string() + " again";
-    } catch (const std::exception& failure) {
-      text = std::string("kept the model from before: ") + failure.what();
-    }
+// Loads the model again. A file that does not fit leaves the model from before.
+std::string load_again(CrowdScene& scene, const std::filesystem::path& model) {
+  try {
+    scene.set_model(platform::read_file(model));
+    return "loaded " + model.filename().string() + " again";
+  } catch (const std::exception& failure) {
+    return std::string("kept the model from before: ") + failure.what();
   }
-
- private:
-  std::filesystem::file_time_type time() const {
-    std::error_code absent;
-    return std::filesystem::last_write_time(path_, absent);
-  }
-
-  std::filesystem::path path_;
-  std::filesystem::file_time_type seen_;
-};
+}
 
 class Window {
  public:
@@ -172,7 +154,8 @@ class Window {
 void run_window(platform::Context& context, const Hero& hero, const std::vector<Placement>& places,
                 CrowdScene& scene, const Light& light, const WindowRequest& request) {
   Window window(context, hero, scene, light);
-  ModelFile file(request.model);
+  std::error_code absent;
+  auto written = std::filesystem::last_write_time(request.model, absent);
   const float radius_m = crowd_radius_m(places);
   Controls c;
   c.link_count = request.link_count;
@@ -182,7 +165,9 @@ void run_window(platform::Context& context, const Hero& hero, const std::vector<
   float time_s = 0;
   platform::Stopwatch watch;
   for (int frame = 1; !context.should_close(); ++frame) {
-    file.follow(scene, c.model_text);
+    const auto now_written = std::filesystem::last_write_time(request.model, absent);
+    if (now_written != written) c.model_text = load_again(scene, request.model);
+    written = now_written;
     if (c.link_count != links) scene.link_nearest(std::uint32_t(links = c.link_count));
     const float passed_s = float(watch.lap_seconds());
     if (c.playing) time_s += passed_s;

@@ -54,7 +54,7 @@ typedef struct App {
   nook_transfer transfer;
   nook_transfer_light light;
   nook_transfer_response response;
-  nook_gl_transfer uploaded;
+  nook_gl_upload uploaded;
   uint32_t vector_floats;
   float* amplitudes; /* lobes x RGB */
   float* vectors;    /* vertices x vector_floats */
@@ -109,7 +109,7 @@ static int start(App* a, const void* material, size_t material_size, const void*
   if (!r) r = nook_transfer_response_create(a->context, &response_desc, &a->response);
   if (!r) r = nook_transfer_response_describe(a->response, &info);
   a->vector_floats = info.vector_floats;
-  if (!r) r = nook_gl_transfer_create(a->gl, a->response, shape.vertex_count, &a->uploaded);
+  if (!r) r = nook_gl_upload_transfer(a->gl, NULL, a->response, shape.vertex_count, &a->uploaded);
   a->amplitudes = malloc(3 * lobes * sizeof *a->amplitudes);
   a->vectors = malloc((size_t)shape.vertex_count * info.vector_floats * sizeof *a->vectors);
   a->normals = malloc(3 * (size_t)shape.vertex_count * sizeof *a->normals);
@@ -134,13 +134,13 @@ static int relight(App* a, uint32_t vertex_count, int with_shadows) {
     desc.tangents = a->tangents;
   }
   if (!r) r = nook_transfer_read_vectors(a->response, &desc, a->vectors, vertex_count, 0);
-  if (!r) r = nook_gl_transfer_update(a->uploaded, a->vectors, floats);
+  if (!r) r = nook_gl_update_transfer(a->uploaded, a->vectors, floats);
   return ok(r, nook_last_message());
 }
 
 /* ---- At the end, in any order ---- */
 static void stop(App* a) {
-  nook_gl_transfer_destroy(&a->uploaded);
+  nook_gl_upload_destroy(&a->uploaded);
   nook_transfer_response_destroy(&a->response);
   nook_transfer_light_destroy(&a->light);
   nook_transfer_destroy(&a->transfer);
@@ -215,13 +215,12 @@ static char* joined(const char* a, const char* b, const char* c, const char* d) 
 static GLuint make_program(const App* a) {
   static const float eye[3] = {0.85F, 1.35F, 1.75F}, centre[3] = {0, 0.04F, 0};
   const float tall = 1 / tanf(0.5F * 0.75F);
-  nook_gl_upload_info material = {0};
-  nook_gl_transfer_info transfer = {sizeof transfer, 0, 0, NULL, 0, 0};
+  nook_gl_upload_info material = {0}, transfer = {0};
   char *vertex, *fragment;
   GLuint program;
   float forward[3], right[3], up[3], size = 0, flat;
-  material.struct_size = sizeof material;
-  if (nook_gl_upload_describe(a->textures, &material) || nook_gl_transfer_describe(a->uploaded, &transfer))
+  material.struct_size = transfer.struct_size = sizeof material;
+  if (nook_gl_upload_describe(a->textures, &material) || nook_gl_upload_describe(a->uploaded, &transfer))
     return 0;
   vertex = joined(version_text, transfer.glsl, vertex_text, "");
   fragment = joined(version_text, material.glsl, transfer.glsl, fragment_text);
@@ -229,10 +228,9 @@ static GLuint make_program(const App* a) {
   free(vertex);
   free(fragment);
   if (!program) return 0;
-  if (nook_gl_upload_bind(a->textures, program, 0)) return 0;
-  glActiveTexture(GL_TEXTURE0 + material.texture_count);
-  glBindTexture(GL_TEXTURE_BUFFER, transfer.texture);
-  glUniform1i(glGetUniformLocation(program, "nook_transfer_texels"), (GLint)material.texture_count);
+  if (nook_gl_upload_bind(a->textures, program, 0) ||
+      nook_gl_upload_bind(a->uploaded, program, material.texture_count))
+    return 0;
   for (int i = 0; i < 3; ++i) {
     forward[i] = centre[i] - eye[i];
     size += forward[i] * forward[i];

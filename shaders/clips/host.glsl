@@ -1,5 +1,5 @@
 // The function of a host's vertex shader for the AO of baked clips. The texels of a vertex, and those of a frame, follow each
-// other in the rows of textures that nook_clips_read_texture writes: nook_clip_vec4s of each.
+// other in the rows of textures that nook_clips_read_table writes: nook_clip_vec4s of each.
 #include "shaders/core/texel_layout.h"
 
 uniform highp sampler2D nook_clip_modes, nook_clip_weights;

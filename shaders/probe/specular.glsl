@@ -1,5 +1,5 @@
 // Glossy reflection of a lobe by a GGX surface: the directions that it reflects to the eye, as one lobe or as four
-// side by side; the same as sdk/src/probe/specular.cpp.
+// side by side; the same as sdk/src/probe/probe_light.cpp.
 #include "shaders/probe/ggx_reflection.glsl"
 #include "shaders/probe/lobe.glsl"
 

@@ -24,14 +24,15 @@ static void read_tables(nook_clips clips) {
   nook_clips_table table;
   for (table = NOOK_CLIPS_MODES; table <= NOOK_CLIPS_WEIGHTS; ++table) {
     uint32_t width = 0, height = 0;
-    uint64_t bytes = 0;
+    size_t size = 0;
     void* texels;
-    EXPECT_OK(nook_clips_texture_size(clips, table, &width, &height, &bytes));
-    EXPECT(width > 0 && height > 0 &&
-           bytes == (uint64_t)width * height * (table == NOOK_CLIPS_MODES ? 4 : 8));
-    texels = malloc((size_t)bytes);
-    EXPECT_OK(nook_clips_read_texture(clips, table, texels, bytes));
-    EXPECT(nook_clips_read_texture(clips, table, texels, bytes - 1) == NOOK_ERROR_INVALID_ARGUMENT);
+    EXPECT_OK(nook_clips_read_table(clips, table, NULL, &size, &width, &height));
+    EXPECT(width > 0 && height > 0 && size == (size_t)width * height * (table == NOOK_CLIPS_MODES ? 4 : 8));
+    texels = malloc(size);
+    EXPECT_OK(nook_clips_read_table(clips, table, texels, &size, &width, &height));
+    --size;
+    EXPECT(nook_clips_read_table(clips, table, texels, &size, &width, &height) ==
+           NOOK_ERROR_INVALID_ARGUMENT);
     free(texels);
   }
 }

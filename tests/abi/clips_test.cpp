@@ -238,14 +238,14 @@ TEST_CASE("clips: frames in a scene do not allocate after the first") {
 TEST_CASE("clips: the textures hold modes and weights whose sum is the AO") {
   ClipStage stage;
   std::uint32_t width = 0, height = 0;
-  std::uint64_t mode_bytes = 0, weight_bytes = 0;
-  REQUIRE(nook_clips_texture_size(stage.clips, NOOK_CLIPS_MODES, &width, &height, &mode_bytes) == NOOK_OK);
+  std::size_t size = 0;
+  REQUIRE(nook_clips_read_table(stage.clips, NOOK_CLIPS_MODES, nullptr, &size, &width, &height) == NOOK_OK);
   CHECK(width == 2048);
-  std::vector<std::int8_t> modes(mode_bytes);
-  REQUIRE(nook_clips_read_texture(stage.clips, NOOK_CLIPS_MODES, modes.data(), mode_bytes) == NOOK_OK);
-  REQUIRE(nook_clips_texture_size(stage.clips, NOOK_CLIPS_WEIGHTS, &width, &height, &weight_bytes) ==
+  std::vector<std::int8_t> modes(size);
+  REQUIRE(nook_clips_read_table(stage.clips, NOOK_CLIPS_MODES, modes.data(), &size, &width, &height) ==
           NOOK_OK);
-  CHECK(weight_bytes == 8ull * width * height);
+  REQUIRE(nook_clips_read_table(stage.clips, NOOK_CLIPS_WEIGHTS, nullptr, &size, &width, &height) == NOOK_OK);
+  CHECK(size == std::size_t(8) * width * height);
   const std::size_t modes_of_vertex = stage.sample.set.ao.modes;
   for (std::size_t i = 0; i < stage.plain.file_to_welded.size(); ++i)
     for (std::size_t k = 0; k < modes_of_vertex; ++k)

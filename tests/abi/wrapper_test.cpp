@@ -219,6 +219,6 @@ TEST_CASE("the C++ wrapper of clips loads, finds and reads") {
   const nook_clip_time time{1, NOOK_CLIP_LOOP, 0.6};
   CHECK(clips.ao(time).size() == model.info().file_vertex_count);
   std::uint32_t width = 0, height = 0;
-  const std::vector<std::uint8_t> texels = nook::clips_texture(clips, NOOK_CLIPS_MODES, width, height);
+  const std::vector<std::uint8_t> texels = nook::clips_table(clips, NOOK_CLIPS_MODES, width, height);
   CHECK(texels.size() == std::size_t(4) * width * height);
 }

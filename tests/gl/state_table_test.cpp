@@ -26,7 +26,7 @@ std::string names_of(unsigned users) {
                                                   {nook::gl::outputs_compute, "output with a stride"},
                                                   {nook::gl::texel_uploads, "tables on OpenGL ES"},
                                                   {nook::gl::screen_reads, "nook_nnao_record"},
-                                                  {nook::gl::screen_layers, "nnao with layers"},
+                                                  {nook::gl::screen_layers, "nnao with views"},
                                                   {nook::gl::screen_samples, "nnao with depth_samples"},
                                                   {nook::gl::screen_sample_layers, "nnao with both"}};
   std::string names;

@@ -96,11 +96,9 @@ struct Drawn {
   std::vector<float> value, mixed;  // RGBA of each vertex
 };
 
-Drawn draw(const GladGLContext& gl, nook_gl_upload material, nook_gl_transfer transfer,
+Drawn draw(const GladGLContext& gl, nook_gl_upload material, nook_gl_upload transfer,
            const std::vector<nook_material_pixel>& samples) {
-  nook_gl_transfer_info info{};
-  info.struct_size = sizeof info;
-  NOOK_OK_OR_FAIL(nook_gl_transfer_describe(transfer, &info));
+  const nook_gl_upload_info info = info_of(transfer);
   const nook_gl_upload_info decoder = info_of(material);
   const GLuint program = platform::link_program(gl, {glsl_header(gl), info.glsl, vertex_text},
                                                 {glsl_header(gl), decoder.glsl, info.glsl, fragment_text});
@@ -113,20 +111,10 @@ Drawn draw(const GladGLContext& gl, nook_gl_upload material, nook_gl_transfer tr
                mixed = images.floats(GL_RGBA32F, 4, count, 1, {});
   gl.UseProgram(program);
   GLint unit = 0;
-  for (std::uint32_t i = 0; i < decoder.texture_count; ++i) {
-    const nook_gl_upload_texture& texture = decoder.textures[i];
-    gl.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
-    gl.BindTexture(texture.target, texture.texture);
-    gl.Uniform1i(gl.GetUniformLocation(program, texture.uniform), unit++);
+  for (nook_gl_upload upload : {material, transfer}) {
+    NOOK_OK_OR_FAIL(nook_gl_upload_bind(upload, program, std::uint32_t(unit)));
+    unit += GLint(info_of(upload).texture_count);
   }
-  const GLenum target = is_es(gl) ? GL_TEXTURE_2D : GL_TEXTURE_BUFFER;
-  const auto bind_texels = [&](GLuint texture, const char* uniform) {
-    gl.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
-    gl.BindTexture(target, texture);
-    gl.Uniform1i(gl.GetUniformLocation(program, uniform), unit++);
-  };
-  bind_texels(info.texture, "nook_transfer_texels");
-  if (info.vertex_texture != 0) bind_texels(info.vertex_texture, "nook_transfer_vertices");
   gl.ActiveTexture(GL_TEXTURE0 + GLenum(unit));
   gl.BindTexture(GL_TEXTURE_2D, given);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -157,17 +145,17 @@ Drawn draw(const GladGLContext& gl, nook_gl_upload material, nook_gl_transfer tr
   return {read_texture(gl, value, count, 1, 4), read_texture(gl, mixed, count, 1, 4)};
 }
 
-nook_gl_transfer upload(MaterialFixture& fixture, nook_transfer_response response,
-                        const std::vector<float>& vectors) {
-  nook_gl_transfer transfer = nullptr;
-  NOOK_OK_OR_FAIL(nook_gl_transfer_create(fixture.gl, response, count, &transfer));
-  NOOK_OK_OR_FAIL(nook_gl_transfer_update(transfer, vectors.data(), vectors.size()));
+nook_gl_upload upload(MaterialFixture& fixture, nook_transfer_response response,
+                      const std::vector<float>& vectors) {
+  nook_gl_upload transfer = nullptr;
+  NOOK_OK_OR_FAIL(nook_gl_upload_transfer(fixture.gl, nullptr, response, count, &transfer));
+  NOOK_OK_OR_FAIL(nook_gl_update_transfer(transfer, vectors.data(), vectors.size()));
   return transfer;
 }
 
 // Draws what was uploaded and compares it with what nook_transfer_shade makes of the vectors.
 void check_agreement(platform::Context& context, MaterialFixture& fixture, nook_material material,
-                     nook_transfer_response response, nook_gl_transfer transfer,
+                     nook_transfer_response response, nook_gl_upload transfer,
                      const std::vector<float>& vectors) {
   nook_transfer_response_info info{};
   info.struct_size = sizeof info;
@@ -196,7 +184,7 @@ void check_agreement(platform::Context& context, MaterialFixture& fixture, nook_
       brightest = std::max(brightest, std::abs(wanted[3 * v + c]));
     }
   CHECK(brightest > 100);
-  nook_gl_transfer_destroy(&transfer);
+  nook_gl_upload_destroy(&transfer);
 }
 
 }  // namespace
@@ -252,32 +240,43 @@ TEST_CASE(
     desc.lobe_count = 42;
     NOOK_OK_OR_FAIL(nook_transfer_read_vectors(response, &desc, vectors.data(), count, 0));
     check_agreement(context, fixture, material, response, upload(fixture, response, vectors), vectors);
-    nook_gl_transfer clusters = nullptr;
-    NOOK_OK_OR_FAIL(nook_gl_transfer_create_paper(fixture.gl, transfer, response, &clusters));
-    NOOK_OK_OR_FAIL(nook_gl_transfer_update_light(clusters, amplitudes.data(), 42));
+    nook_gl_upload clusters = nullptr;
+    NOOK_OK_OR_FAIL(nook_gl_upload_transfer(fixture.gl, transfer, response, 0, &clusters));
+    NOOK_OK_OR_FAIL(nook_gl_update_transfer(clusters, amplitudes.data(), amplitudes.size()));
     check_agreement(context, fixture, material, response, clusters, vectors);
     nook_transfer_destroy(&transfer);
   }
   nook_transfer_response_destroy(&response);
 }
 
-TEST_CASE("transfer: what is not the paper's form of the response is refused") {
+TEST_CASE("transfer: the file's form decides what its upload holds") {
   NOOK_NEED_CONTEXT(context);
   MaterialFixture fixture(context);
   const nook_material material = fixture.load(material::test::sample_material(4));
   nook_transfer_response response = make_response(fixture.host.handle, material);
-  const auto refused = [&](const transfer::Transfer& made) {
+  const auto create = [&](const transfer::Transfer& made, nook_gl_upload& created) {
     const std::vector<std::byte> bytes = transfer::write_transfer(made);
     nook_transfer transfer = nullptr;
     NOOK_OK_OR_FAIL(nook_transfer_load(fixture.host.handle, bytes.data(), bytes.size(), &transfer));
-    nook_gl_transfer created = nullptr;
-    CHECK(nook_gl_transfer_create_paper(fixture.gl, transfer, response, &created) ==
-          NOOK_ERROR_INVALID_ARGUMENT);
-    CHECK(created == nullptr);
+    const nook_result result = nook_gl_upload_transfer(fixture.gl, transfer, response, 0, &created);
     nook_transfer_destroy(&transfer);
+    return result;
   };
-  refused(transfer::test::sample_transfer(5, 42));      // the separated form
-  refused(transfer::test::sample_paper(5, 42, 4, 77));  // other light modes
+  nook_gl_upload created = nullptr;
+  // Other light modes.
+  CHECK(create(transfer::test::sample_paper(5, 42, 4, 77), created) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(created == nullptr);
+  // The separated form gets room for the vectors of its vertices.
+  NOOK_OK_OR_FAIL(create(transfer::test::sample_transfer(5, 42), created));
+  nook_transfer_response_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_transfer_response_describe(response, &info));
+  const std::vector<float> vectors(std::size_t(5) * info.vector_floats);
+  CHECK(nook_gl_update_transfer(created, vectors.data(), vectors.size() - 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  NOOK_OK_OR_FAIL(nook_gl_update_transfer(created, vectors.data(), vectors.size()));
+  nook_gl_upload_destroy(&created);
+  CHECK(nook_gl_update_transfer(fixture.upload(material), vectors.data(), vectors.size()) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
   nook_transfer_response_destroy(&response);
 }
 
@@ -286,10 +285,10 @@ TEST_CASE("transfer: vectors that do not fit are refused") {
   MaterialFixture fixture(context);
   const nook_material material = fixture.load(material::test::sample_material(4));
   nook_transfer_response response = make_response(fixture.host.handle, material);
-  nook_gl_transfer transfer = nullptr;
-  CHECK(nook_gl_transfer_create(fixture.gl, response, 0, &transfer) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_transfer_create(nullptr, response, 4, &transfer) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(nook_gl_transfer_create(fixture.gl, nullptr, 4, &transfer) == NOOK_ERROR_INVALID_ARGUMENT);
+  nook_gl_upload transfer = nullptr;
+  CHECK(nook_gl_upload_transfer(fixture.gl, nullptr, response, 0, &transfer) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_upload_transfer(nullptr, nullptr, response, 4, &transfer) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(nook_gl_upload_transfer(fixture.gl, nullptr, nullptr, 4, &transfer) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(transfer == nullptr);
   nook_transfer_response_destroy(&response);
 }
@@ -312,20 +311,20 @@ TEST_CASE("transfer: uploads of vectors and of clusters keep the promises on Ope
     NOOK_OK_OR_FAIL(nook_transfer_response_describe(response, &info));
     const std::vector<float> vectors(std::size_t(3) * info.vector_floats, 0.5f);
     const std::vector<float> amplitudes(3 * 42, 0.5f);
-    nook_gl_transfer transfer = nullptr, clusters = nullptr;
+    nook_gl_upload transfer = nullptr, clusters = nullptr;
     {
       Poison poison(context, is_es(context.gl()) ? gl::probes | gl::texel_uploads : unsigned{gl::probes});
       const StateValues touched = poison.touched(), untouched = poison.untouched();
-      NOOK_OK_OR_FAIL(nook_gl_transfer_create(fixture.gl, response, 3, &transfer));
-      NOOK_OK_OR_FAIL(nook_gl_transfer_update(transfer, vectors.data(), vectors.size()));
-      NOOK_OK_OR_FAIL(nook_gl_transfer_create_paper(fixture.gl, baked, response, &clusters));
-      NOOK_OK_OR_FAIL(nook_gl_transfer_update_light(clusters, amplitudes.data(), 42));
+      NOOK_OK_OR_FAIL(nook_gl_upload_transfer(fixture.gl, nullptr, response, 3, &transfer));
+      NOOK_OK_OR_FAIL(nook_gl_update_transfer(transfer, vectors.data(), vectors.size()));
+      NOOK_OK_OR_FAIL(nook_gl_upload_transfer(fixture.gl, baked, response, 0, &clusters));
+      NOOK_OK_OR_FAIL(nook_gl_update_transfer(clusters, amplitudes.data(), amplitudes.size()));
       CHECK(poison.untouched() == untouched);
       if (mode == NOOK_GL_STATE_PRESERVE) CHECK(poison.touched() == touched);
       if (mode == NOOK_GL_STATE_DEFAULTS) CHECK(poison.touched() == poison.defaults());
     }
-    nook_gl_transfer_destroy(&transfer);
-    nook_gl_transfer_destroy(&clusters);
+    nook_gl_upload_destroy(&transfer);
+    nook_gl_upload_destroy(&clusters);
     nook_transfer_destroy(&baked);
     nook_transfer_response_destroy(&response);
   }

@@ -16,7 +16,7 @@ namespace nook::test {
 
 // An argument of a shell's command: names of folders may have spaces.
 inline std::string quoted(const std::filesystem::path& path) {
-  return "'" + path.string() + "'";
+  return std::string("'").append(path.string()).append("'");
 }
 
 // The exit code of a shell's command; -1 where a signal ended it.

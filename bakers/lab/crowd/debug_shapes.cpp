@@ -197,7 +197,8 @@ std::vector<std::uint32_t> nearest_characters(const CrowdScene& scene, const glm
 
 std::vector<float> read_ao(const CrowdScene& scene, std::size_t character) {
   std::vector<float> ao(scene.model().info().file_vertex_count);
-  scene.gl().read(scene.scene(), scene.instances()[character], NOOK_CHANNEL_AO, ao.data(), std::uint32_t(ao.size()));
+  scene.gl().read(scene.scene(), scene.instances()[character], NOOK_CHANNEL_AO, ao.data(),
+                  std::uint32_t(ao.size()));
   return ao;
 }
 

@@ -120,10 +120,10 @@ int compare_two(const Options& options) {
   if (of_a_report) print_names("in one of both only", comparison.unmatched);
   if (comparison.above_limit.empty() && (!of_a_report || comparison.unmatched.empty())) return exit_done;
   if (of_a_report)
-    std::fprintf(
-        stderr,
-        "\nif that is meant, write new numbers: bakers/lab/tables/gpu_cost.py --write, or nook_gpu_cost --report %s\n",
-        options.before.c_str());
+    std::fprintf(stderr,
+                 "\nif that is meant, write new numbers: bakers/lab/tables/gpu_cost.py --write, or "
+                 "nook_gpu_cost --report %s\n",
+                 options.before.c_str());
   return exit_failed;
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bakers/lab/gpu_cost/instruction_count.h"
-#include "bakers/lab/gpu_cost/source_text.h"
+#include "bakers/lab/gpu_cost/shader_source.h"
 #include "bakers/lab/nnao/screen_baselines.h"
 #include "sdk/src/gl/material/material_glsl.h"
 

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "bakers/lab/gpu_cost/spirv.h"
+#include "bakers/lab/gpu_cost/shader_source.h"
 
 namespace nook::lab {
 namespace {

@@ -10,9 +10,9 @@
 
 namespace nook::lab {
 
-// What methods make of one view, beside the truth. Three columns; row by row from the upper left: the scene
-// lit from the camera, the ray-traced AO, then each image. Images have as many pixels as the view, rows from
-// the bottom.
+// The results of methods for one view, beside the truth. Three columns; row by row from the upper left: the
+// scene lit from the camera, the ray-traced AO, then each image. Images have as many pixels as the view, rows
+// from the bottom.
 platform::Image make_sheet(const MeasuredView& measured, std::span<const std::vector<float>> images);
 
 // The first layer, white where it adds to a unit and black where it takes away. The paper's form: one row of

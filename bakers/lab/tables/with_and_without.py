@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes docs/with_and_without.png, the picture of README.md, from three panels of docs/comparison.png.
 
-samples/crowd makes the sheet (out/crowd/sheet.png): four panels in a row, two rows, with lines of two pixels between them.
+nook-lab-crowd makes the sheet (out/crowd/sheet.png): four panels in a row, two rows, with lines of two pixels between them.
 Without an argument the panels are those without AO, with Nook's AO, and ray traced.
 """
 import pathlib

@@ -9,7 +9,7 @@
 #include "bakers/images/picture.h"
 #include "bakers/job/probe_bake.h"
 #include "bakers/lab/probe/lookup_report.h"
-#include "bakers/lab/tool/commands.h"
+#include "bakers/lab/tool/lab_commands.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/interrupt.h"

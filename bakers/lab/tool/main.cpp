@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "bakers/lab/character/character_peers.h"
-#include "bakers/lab/tool/commands.h"
+#include "bakers/lab/tool/lab_commands.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/peers.h"
 #include "bakers/tool/program.h"

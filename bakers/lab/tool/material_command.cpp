@@ -3,7 +3,7 @@
 
 #include "bakers/lab/material/material_peers.h"
 #include "bakers/lab/material/rank_sweep.h"
-#include "bakers/lab/tool/commands.h"
+#include "bakers/lab/tool/lab_commands.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/image_folder.h"
 #include "bakers/tool/peers.h"

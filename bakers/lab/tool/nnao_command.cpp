@@ -5,7 +5,7 @@
 
 #include "bakers/lab/nnao/baseline_pass.h"
 #include "bakers/lab/nnao/tuning.h"
-#include "bakers/lab/tool/commands.h"
+#include "bakers/lab/tool/lab_commands.h"
 #include "bakers/lab/tool/nnao_options.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/evaluate_nnao.h"

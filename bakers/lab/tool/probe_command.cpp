@@ -2,7 +2,7 @@
 // beside its glossy light.
 #include "bakers/lab/probe/glossy_error.h"
 #include "bakers/lab/probe/probe_methods.h"
-#include "bakers/lab/tool/commands.h"
+#include "bakers/lab/tool/lab_commands.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/peers.h"

@@ -7,7 +7,6 @@
 #include <limits>
 #include <optional>
 
-#include "bakers/measure/composite/room_picture.h"
 #include "bakers/measure/composite/shipped_pass.h"
 #include "bakers/measure/nnao/network_pass.h"
 #include "bakers/raytrace/random.h"

@@ -2,6 +2,7 @@
 // tracing of a room with characters in it.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 
 #include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/composite/room_view.h"
+#include "bakers/measure/world/split_light.h"
 #include "platform/platform.h"
 #include "sdk/src/character/model.h"
 
@@ -39,5 +41,23 @@ nlohmann::ordered_json composite_rows(platform::Context& context, std::span<cons
                                       std::span<const std::byte> model_bytes,
                                       std::span<const bake::Pose> poses, const CompositeStudy& study,
                                       const CompositeProgress& progress);
+
+// A picture of a room with characters in the light of a map.
+struct LitRoomSettings {
+  std::uint32_t width = 480, height = 270;  // pixels of each panel
+  std::size_t figures = 5;
+  std::uint32_t rays = 64;  // paths of a pixel
+  std::uint64_t seed = 1;
+};
+
+// Four panels from left to right: ray tracing; Nook's share by channel with the sun as a cone; AO times the
+// probe with the same cone; one capsule for each bone, its AO times the probe and its cone, with the scale of
+// radii that suits the picture best. The room does not hide the map: what the figures take of its light is
+// the only darkness. Throws Failure (INVALID_ARGUMENT: a model without casters, a room without a place to
+// stand in) and std::runtime_error.
+void write_lit_room(const std::filesystem::path& file, const MeasuredRoom& measured,
+                    const bake::SkinnedMesh& mesh, const CharacterModel& model,
+                    std::span<const bake::Pose> poses, const SplitLight& light,
+                    const LitRoomSettings& settings);
 
 }  // namespace nook::measure

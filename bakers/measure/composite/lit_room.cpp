@@ -1,4 +1,4 @@
-#include "bakers/measure/composite/lit_room.h"
+#include "bakers/measure/composite/composite.h"
 
 #include <tbb/parallel_for.h>
 

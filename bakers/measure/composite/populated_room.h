@@ -1,7 +1,8 @@
-// Characters that stand in a room, and cameras that look at them.
+// Rooms, characters that stand in them, and cameras that look at them.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,12 @@
 #include "bakers/raytrace/ray_scene.h"
 
 namespace nook::measure {
+
+// Walls, steps, a table with chairs, a shelf. World space, metres, the floor at y = 0.
+bake::TriangleSoup own_room();
+
+// The triangles of a glTF file with +y up, whose unit has so many metres. Throws Failure (BAD_FILE).
+bake::TriangleSoup room_of(const std::filesystem::path& file, float metres_per_unit);
 
 // A character in its place. World space, metres, +y up.
 struct Figure {

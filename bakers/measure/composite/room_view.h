@@ -1,7 +1,9 @@
-// A view of a room with figures: its G-buffer and the truth at some of its pixels.
+// A view of a room with figures: its G-buffer, the truth at some of its pixels, and a picture.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <span>
 #include <vector>
 
 #include "bakers/measure/composite/populated_room.h"
@@ -31,5 +33,11 @@ struct RoomView {
 
 RoomView trace_room_view(const PopulatedRoom& room, const bake::RayScene& all,
                          const bake::nnao::Camera& camera, const RoomTruth& truth);
+
+// A picture of the view: ray tracing, Nook and the screen pass alone, side by side.
+// panels: AO of every pixel of the view, one image each; characters are blue. Half the view's size. Throws
+// std::runtime_error.
+void write_room_picture(const std::filesystem::path& file, const RoomView& view,
+                        std::span<const std::vector<float>> panels);
 
 }  // namespace nook::measure

@@ -82,17 +82,17 @@ std::vector<std::string> frame_method_names() {
   return names;
 }
 
-std::vector<FrameRow> compare_frame(FrameReplay& replay, const Recording& recording,
-                                    const MethodFilter& methods, std::span<const std::byte> other_network,
-                                    const std::function<bool(std::size_t, std::size_t)>& progress,
-                                    std::span<const FrameMethod> further) {
+namespace {
+
+// The recorded settings, also with another network, and the presets.
+std::vector<Job> library_jobs(FrameReplay& replay, const Recording& recording, const MethodFilter& methods,
+                              std::span<const std::byte> other_network) {
   const nook::nnao::RecordedNetwork network = nook::nnao::recorded_network(recording);
-  const bool own_network = network.readable && !network.embedded;
   const auto shown = nook_nnao_view(recording.frame.view);
   std::vector<Job> jobs;
   // file: of the network; empty: the embedded one.
-  const auto add_library = [&](const std::string& name, const RecordedPass& settings,
-                               std::span<const std::byte> file, const char* named) {
+  const auto add = [&](const std::string& name, const RecordedPass& settings, std::span<const std::byte> file,
+                       const char* named) {
     if (!methods.empty() && !is_wanted(methods, name, settings.taps)) return;
     FrameRow row;
     row.method = name;
@@ -102,53 +102,72 @@ std::vector<FrameRow> compare_frame(FrameReplay& replay, const Recording& record
     jobs.push_back({std::move(row), [=, &replay] { return replay.draw(settings, file, shown); },
                     [=, &replay] { return replay.draw(settings, file, NOOK_NNAO_VIEW_BLURRED); }});
   };
-  if (own_network)
-    add_library(replayed_name, recording.pass, recording.network, "recorded");
+  if (network.readable && !network.embedded)
+    add(replayed_name, recording.pass, recording.network, "recorded");
   else
-    add_library(replayed_name, recording.pass, {}, "embedded");
-  if (!other_network.empty()) add_library(file_name, recording.pass, other_network, "file");
+    add(replayed_name, recording.pass, {}, "embedded");
+  if (!other_network.empty()) add(file_name, recording.pass, other_network, "file");
   for (const Preset& preset : presets)
-    add_library(preset.name, settings_of(preset, recording.pass.blur_sharpness), {}, "embedded");
-  std::vector<std::pair<Oracle, FrameRow>> oracles;
-  if (replay.has_oracle()) {
-    for (const FrameMethod& method : further)
-      if (is_wanted(methods, method.name, method.taps)) {
-        FrameRow row;
-        row.method = method.name;
-        row.pass.taps = method.taps;
-        jobs.push_back({std::move(row), [&method, &replay] { return method.draw(replay); }, nullptr});
-      }
-    for (const Oracle oracle : all_oracles)
-      if (methods.empty() ? oracle == Oracle::solid : is_wanted(methods, oracle_name(oracle), oracle_taps)) {
-        FrameRow row;
-        row.method = oracle_name(oracle);
-        row.pass.taps = oracle_taps;
-        oracles.push_back({oracle, std::move(row)});
-      }
-  }
+    add(preset.name, settings_of(preset, recording.pass.blur_sharpness), {}, "embedded");
+  return jobs;
+}
 
-  const std::size_t total = jobs.size() + oracles.size();
+FrameRow row_of(const std::string& method, int taps) {
+  FrameRow row;
+  row.method = method;
+  row.pass.taps = taps;
+  return row;
+}
+
+std::vector<Oracle> wanted_oracles(const MethodFilter& methods) {
+  if (methods.empty()) return {Oracle::solid};
+  std::vector<Oracle> wanted;
+  for (const Oracle oracle : all_oracles)
+    if (is_wanted(methods, oracle_name(oracle), oracle_taps)) wanted.push_back(oracle);
+  return wanted;
+}
+
+// truth: of the first oracle; empty: none.
+FrameRow recorded_row(const FrameReplay& replay, const Recording& recording,
+                      const std::vector<float>& truth) {
+  FrameRow row;
+  row.method = recorded_name;
+  row.pass = recording.pass;
+  row.is_library = true;
+  row.network = nook::nnao::recorded_network(recording).embedded ? "embedded" : "recorded";
+  row.ao.assign(recording.ao.begin(), recording.ao.end());
+  if (!truth.empty() && is_plain(recording)) set_errors(row, row.ao, truth, replay.view());
+  return row;
+}
+
+}  // namespace
+
+std::vector<FrameRow> compare_frame(FrameReplay& replay, const Recording& recording,
+                                    const MethodFilter& methods, std::span<const std::byte> other_network,
+                                    const std::function<bool(std::size_t, std::size_t)>& progress,
+                                    std::span<const FrameMethod> further) {
+  std::vector<Job> jobs = library_jobs(replay, recording, methods, other_network);
+  std::vector<FrameRow> oracles;
+  if (replay.has_oracle())
+    for (const FrameMethod& method : further)
+      if (is_wanted(methods, method.name, method.taps))
+        jobs.push_back(
+            {row_of(method.name, method.taps), [&method, &replay] { return method.draw(replay); }, nullptr});
+  const std::vector<Oracle> wanted = replay.has_oracle() ? wanted_oracles(methods) : std::vector<Oracle>();
   std::size_t done = 0;
   const auto count = [&] {
-    if (!progress(++done, total)) throw Failure(NOOK_ERROR_CANCELLED, "cancelled while replaying");
+    if (!progress(++done, jobs.size() + wanted.size()))
+      throw Failure(NOOK_ERROR_CANCELLED, "cancelled while replaying");
   };
-  for (auto& [oracle, row] : oracles) {
-    row.ao = replay.draw(oracle);
+  for (const Oracle oracle : wanted) {
+    oracles.push_back(row_of(oracle_name(oracle), oracle_taps));
+    oracles.back().ao = replay.draw(oracle);
     count();
   }
   // Errors are those against the first oracle.
-  const std::vector<float> truth = oracles.empty() ? std::vector<float>() : oracles.front().second.ao;
+  const std::vector<float> truth = oracles.empty() ? std::vector<float>() : oracles.front().ao;
   std::vector<FrameRow> rows;
-  if (!recording.ao.empty()) {
-    FrameRow row;
-    row.method = recorded_name;
-    row.pass = recording.pass;
-    row.is_library = true;
-    row.network = network.embedded ? "embedded" : "recorded";
-    row.ao.assign(recording.ao.begin(), recording.ao.end());
-    if (!truth.empty() && is_plain(recording)) set_errors(row, row.ao, truth, replay.view());
-    rows.push_back(std::move(row));
-  }
+  if (!recording.ao.empty()) rows.push_back(recorded_row(replay, recording, truth));
   for (Job& job : jobs) {
     job.row.ao = job.draw();
     const bool has_plain = !job.draw_plain || is_plain(recording);
@@ -156,7 +175,7 @@ std::vector<FrameRow> compare_frame(FrameReplay& replay, const Recording& record
     rows.push_back(std::move(job.row));
     count();
   }
-  for (auto& [oracle, row] : oracles) {
+  for (FrameRow& row : oracles) {
     set_errors(row, row.ao, truth, replay.view());
     rows.push_back(std::move(row));
   }

@@ -60,7 +60,7 @@ std::vector<FrameRow> compare_frame(FrameReplay& replay, const nook::nnao::Recor
 
 // The rows of `nook evaluate nnao --frame`.
 // One object for each row. Differences are those from the recorded AO, null for a frame without; errors those
-// against the oracle, null without one. network is null for the baselines and the oracles.
+// against the oracle, null without one. network is null for other methods than the library's.
 nlohmann::ordered_json frame_rows(const std::string& frame, const nook::nnao::Recording& recording,
                                   std::span<const FrameRow> rows);
 

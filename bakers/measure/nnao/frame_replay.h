@@ -29,8 +29,8 @@ class FrameReplay {
                           nook_nnao_view shown) const;
   std::vector<float> draw(Oracle oracle);
 
-  // What other methods need to draw the frame where it has an oracle: its depth and normals, the recorded
-  // request, and the AO of a texture of the frame's size.
+  // Other methods draw the frame where it has an oracle: from its depth and normals and the recorded request.
+  // read returns the AO of a texture of the frame's size.
   const GpuView& gpu_view() const { return gpu_view_; }
   AoRequest request() const;
   std::vector<float> read(GLuint texture) const { return read_red(gl_, texture, width(), height()); }

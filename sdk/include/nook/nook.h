@@ -1,14 +1,9 @@
-/* Nook computes ambient occlusion (AO) for OpenGL engines. This base header holds the version handshake, the
- * results and the context.
- *
- * All headers share these conventions. Lengths are in metres and spaces are right-handed. Each function
- * states the layout of its matrices. AO lies in [0, 1], where 1 is open. Each function states one of three
- * thread contracts:
- *   any thread       The function may be called at any time from any thread.
- *   context thread   The function may be called only on the thread where the OpenGL context of the object is
- *                    current.
- *   one at a time    The function may be called from any thread, but never twice at once on the same object.
- *
+/* Nook computes ambient occlusion (AO) for OpenGL engines. This header holds the version, results, shared
+ * types and the context. Lengths are in metres and spaces are right-handed. AO lies in [0, 1], where 1 is
+ * open. Each function states one of three thread contracts:
+ *   any thread       Call it at any time from any thread.
+ *   context thread   Call it only on the thread where the OpenGL context of the object is current.
+ *   one at a time    Call it from any thread, but never twice at once on the same object.
  * A call that fails leaves its outputs and its objects as they were, unless its comment says otherwise. */
 #ifndef NOOK_NOOK_H
 #define NOOK_NOOK_H
@@ -25,12 +20,12 @@ extern "C" {
 #define NOOK_VERSION_PATCH 0
 /* The text behind the numbers: "-rc1" for the first candidate of a release, "" for the release. */
 #define NOOK_VERSION_SUFFIX "-rc1"
-/* The init functions pass this value to nook_desc_init, so that the library knows with which header you
- * compiled. The value is unsigned and has no cast, so that #if can compare it too. */
+/* The init functions pass this value, so that the library knows with which header you compiled. It is
+ * unsigned and has no cast, so that #if can compare it too. */
 #define NOOK_VERSION (((NOOK_VERSION_MAJOR + 0u) << 22) | (NOOK_VERSION_MINOR << 12) | NOOK_VERSION_PATCH)
 
-/* Hosts of the static library define NOOK_STATIC; the CMake target and the pkg-config file do it for them.
- * The functions then stay inside the program or plug-in that links the library. */
+/* If you link the static library, define NOOK_STATIC; the CMake target and the pkg-config file do it for you.
+ * The functions then stay inside your program or plug-in. */
 #if defined(NOOK_STATIC)
 #define NOOK_API
 #elif defined(_WIN32)
@@ -72,29 +67,22 @@ enum {
   NOOK_ERROR_INTERNAL = -10
 };
 
-/* Returns the message of this thread's latest failure in this library, in the form "function: what is wrong
- * (got X, need Y); what to do". The text is never NULL, is empty before the first failure, and stays valid
- * until this thread's next failure.
- * Any thread. */
+/* Returns the message of this thread's latest failure in this library: "function: what is wrong (got X, need
+ * Y); what to do". The text is never NULL, and valid until this thread's next failure. Any thread. */
 NOOK_API const char* nook_last_message(void);
 
-/* Returns the constant name of a result, such as "NOOK_ERROR_BAD_FILE", or "unknown result" for any other
- * number.
- * Any thread. */
+/* Returns the name of a result, such as "NOOK_ERROR_BAD_FILE", or "unknown result". Any thread. */
 NOOK_API const char* nook_result_name(nook_result result);
 
-/* Returns the version of the library, which compares with NOOK_VERSION.
- * Any thread. */
+/* Returns the version of the library, which compares with NOOK_VERSION. Any thread. */
 NOOK_API uint32_t nook_version(void);
 
-/* Returns the version of the library as text, such as "1.0.0-rc1": its numbers and NOOK_VERSION_SUFFIX. The
- * text is valid until the program ends.
- * Any thread. */
+/* Returns the version as text, such as "1.0.0-rc1", valid until the program ends. Any thread. */
 NOOK_API const char* nook_version_text(void);
 
-/* The host's memory functions. allocate returns size bytes, or NULL when it cannot; alignment is a power of
- * two up to 64 bytes. release receives the same size and alignment. Nook calls both from any thread that
- * calls Nook, and from the host's jobs. */
+/* The host's memory functions. allocate returns NULL when it cannot; alignment is a power of two up to 64
+ * bytes. release receives the same size and alignment. Nook calls both from any thread that calls Nook, and
+ * from the host's jobs. */
 typedef struct nook_allocator {
   void* user;
   void* (*allocate)(void* user, size_t size, size_t alignment);
@@ -112,10 +100,9 @@ typedef void (*nook_log_fn)(void* user, nook_log_severity severity, const char* 
 typedef void (*nook_job_fn)(void* body_user, uint32_t index);
 typedef void (*nook_parallel_for_fn)(void* user, uint32_t count, nook_job_fn body, void* body_user);
 
-/* The instruction sets of the CPU kernels. nook_context_create fails with UNSUPPORTED for a set that the
- * build or the processor lacks. */
+/* The instruction sets of the CPU kernels. */
 enum {
-  /* The best instruction set of this processor. */
+  /* The best of this processor. */
   NOOK_ISA_AUTO = 0,
   /* On every platform: one number at a time. */
   NOOK_ISA_SCALAR = 1,
@@ -182,8 +169,7 @@ typedef struct nook_bake_job_s* nook_bake_job;
 
 /* A run of entries, such as the vertices of a primitive. */
 typedef struct nook_range {
-  uint32_t first;
-  uint32_t count;
+  uint32_t first, count;
 } nook_range;
 
 /* The spherical Gaussian amplitude * exp(sharpness (dot(axis, s) - 1)). */
@@ -194,7 +180,6 @@ typedef struct nook_lobe {
   float sharpness;
   /* Linear RGB. */
   float amplitude[3];
-  /* Must be 0. */
   float reserved;
 } nook_lobe;
 
@@ -204,13 +189,14 @@ typedef struct nook_lobe {
 /* ---- Descriptors and infos ----
  *
  * A call whose inputs may grow takes a descriptor, a struct whose name ends in _desc. Fill it with its init
- * function, such as nook_scene_desc_init(&desc), then set the fields that you want to change. Programs that
- * were compiled with an older header of the same major version keep working.
+ * function, such as nook_scene_desc_init(&desc), on any thread, then set the fields that you want to change.
+ * The init function sets struct_size and type. Leave fields named `reserved` 0 and `next` NULL, or set it to
+ * an experimental descriptor that its comment names. Programs that were compiled with an older header of the
+ * same major version keep working.
  *
- * A call that describes an object fills an info, a struct whose name ends in _info. Set its struct_size
- * first:
- *     nook_model_info info = {sizeof info};
- * All other fields are outputs. */
+ * A call that describes an object fills an info, a struct whose name ends in
+ * _info. Set its struct_size first; all other fields are outputs:
+ *     nook_model_info info = {sizeof info}; */
 
 /* The value of `type` in a descriptor; the init functions set it. */
 enum {
@@ -252,18 +238,14 @@ enum {
   NOOK_DESC_WORLD_FRAME_DEBUG = 36
 };
 
-/* Fills the descriptor of a type with defaults. Call the typed functions instead, which pass size and
- * version: size is the caller's sizeof, and header_version its NOOK_VERSION. The library never writes beyond
- * size bytes.
+/* Fills the descriptor of a type with defaults. Call the typed functions instead, which pass their sizeof and
+ * NOOK_VERSION. The library never writes beyond size bytes.
  * Any thread. Errors: INVALID_ARGUMENT (desc is NULL, the type is unknown, or size is smaller than in the
  * first release), VERSION (the major version differs, or the minor version is newer than the library's). */
 NOOK_API nook_result nook_desc_init(uint32_t type, void* desc, size_t size, uint32_t header_version);
 
 typedef struct nook_context_desc {
-  /* nook_context_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* Both functions NULL: Nook uses the global operator new (default). Otherwise both are required. */
   nook_allocator allocator;
@@ -275,11 +257,8 @@ typedef struct nook_context_desc {
   void* parallel_for_user;
   /* The instruction set of all objects that you create from this context; default NOOK_ISA_AUTO. */
   nook_isa isa;
-  /* Must be 0. */
   uint32_t reserved;
 } nook_context_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_context_desc_init(nook_context_desc* desc) {
   return nook_desc_init(NOOK_DESC_CONTEXT, desc, sizeof *desc, NOOK_VERSION);
 }
@@ -289,10 +268,8 @@ static inline nook_result nook_context_desc_init(nook_context_desc* desc) {
  * names the sets that it has), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_context_create(const nook_context_desc* desc, nook_context* out);
 
-/* Releases the caller's reference and sets *context to NULL; context and *context may be NULL. Models, scenes
- * and GL objects that were created from it keep alive what they need, so that objects may be destroyed in any
- * order.
- * Any thread. */
+/* Releases your reference and sets *context to NULL; both may be NULL. Objects that were created from it keep
+ * alive what they need, so destroy objects in any order. Any thread. */
 NOOK_API void nook_context_destroy(nook_context* context);
 
 #ifdef __cplusplus

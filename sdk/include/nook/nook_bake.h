@@ -1,13 +1,9 @@
-/* The bakers as a library, nook_bake. You import a character and bake its model, its bent normals and its
- * clips, or you bake a material. Each bake is a job: fill a descriptor, call nook_bake_start, wait, and take
- * the bytes of a .nook file. experimental/nook_bake_materials.h has the bakes of synthesis and of radiance
- * transfer, and experimental/nook_trace.h ray-traced references.
- *
- * nook_bake is for offline use. It links Embree, oneTBB and other libraries, and the runtime library, nook,
- * never needs it. Its results are the bytes of .nook files, which nook_model_load, nook_clips_load and
- * nook_material_load take, and nook_synthesis_load and nook_transfer_load of nook/experimental. Thread
- * contracts, descriptors and results follow the rules of nook.h; the messages of this library are in
- * nook_bake_last_message(). */
+/* The bakers as a library, nook_bake, for offline use. Import a character and bake its model, its bent
+ * normals and its clips, or bake a material. Each bake is a job: fill a descriptor, start it, wait, and take
+ * the bytes of a .nook file, which the runtime loads. experimental/nook_bake_materials.h bakes synthesis and
+ * radiance transfer; experimental/nook_trace.h traces references.
+ * The library links Embree, oneTBB and others; the runtime never needs it. It follows the rules of nook.h,
+ * with nook_bake_last_message() for its messages. */
 #ifndef NOOK_BAKE_H
 #define NOOK_BAKE_H
 
@@ -17,17 +13,18 @@
 extern "C" {
 #endif
 
-/* Fills the descriptor of a type with defaults, as nook_desc_init does for the runtime. Call the typed
- * functions instead.
- * Any thread. Errors: INVALID_ARGUMENT, VERSION. */
+/* Fills a descriptor with defaults; call the typed functions instead. Any thread. Errors: INVALID_ARGUMENT,
+ * VERSION. */
 NOOK_API nook_result nook_bake_desc_init(uint32_t type, void* desc, size_t size, uint32_t header_version);
 
-/* Returns the message of this thread's latest failure in this library, as nook_last_message() does for the
- * runtime.
- * Any thread. */
+/* Returns the message of this thread's latest failure in this library, as nook_last_message(). Any thread. */
 NOOK_API const char* nook_bake_last_message(void);
 
-/* ---- Jobs: bakes on threads of their own; any number may run at once ---- */
+/* ---- Jobs: bakes on threads of their own; any number may run at once ----
+ *
+ * Every descriptor of a bake has four fields for its job. `seed` is 1 by default; the same seed gives the
+ * same bytes on any number of threads. `threads` is 0 by default, which means all cores; the maximum is 1024.
+ * `progress` is NULL by default: poll instead. progress_user is its first argument. */
 
 /* The state of a job. */
 enum {
@@ -39,36 +36,32 @@ enum {
 typedef int32_t nook_bake_state;
 
 typedef struct nook_bake_progress {
-  /* sizeof(nook_bake_progress); set it before you call nook_bake_job_poll. */
   uint32_t struct_size;
   nook_bake_state state;
-  /* The current stage as English text that you can show to a user, such as "ray tracing". It is never NULL,
-   * and stays valid while the library is loaded. */
+  /* The current stage as English text for users, such as "ray tracing"; never NULL, valid while the library
+   * is loaded. */
   const char* stage;
   /* Steps of this stage: poses, views, vertices, texels or steps of a fit. */
-  uint64_t done;
-  uint64_t total;
+  uint64_t done, total;
 } nook_bake_progress;
 
 /* Receives the progress of a job and returns 0 to cancel it. The job calls it on its own threads, one call at
- * a time, and never after nook_bake_job_wait or nook_bake_job_destroy has returned. It must not wait for or
- * destroy its own job. */
+ * a time, and never after nook_bake_job_wait or nook_bake_job_destroy has returned. Do not wait for the job
+ * in it. */
 typedef int32_t (*nook_bake_progress_fn)(void* user, const nook_bake_progress* progress);
 
-/* Starts a bake and returns at once. Pass the descriptor of any bake, filled by its init function; the call
- * tells the kind from the field `type`. Where you know the kind, call a typed function instead, such as
- * nook_bake_start_character. This function checks the descriptor and copies what it points to, so you may
- * free its arrays afterwards. On failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE, FILE_VERSION,
- * OUT_OF_MEMORY. */
+/* Starts a bake and returns at once. The call tells the kind by the descriptor's `type`; where you know the
+ * kind, call a typed function such as nook_bake_start_character instead. The call checks the descriptor and
+ * copies what it points to, so you may free its arrays and destroy its character afterwards. On failure *out
+ * is NULL.
+ * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (`model` is no model, or
+ * another character's), FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_start(const void* desc, nook_bake_job* out);
 
-/* Gives the state of a job and its progress.
- * Any thread. Errors: INVALID_ARGUMENT. */
+/* Gives the state of a job and its progress. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_bake_job_poll(nook_bake_job job, nook_bake_progress* progress);
 
-/* Requests that the job stop soon and returns at once; a finished job stays as it is.
- * Any thread. Errors: INVALID_ARGUMENT. */
+/* Requests that the job stop soon, and returns at once. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_bake_job_cancel(nook_bake_job job);
 
 /* Waits until the job ends and returns its result; it may be called any number of times.
@@ -79,37 +72,28 @@ NOOK_API nook_result nook_bake_job_wait(nook_bake_job job);
  * Any thread. Errors: INVALID_ARGUMENT (the job is not finished), or the result of a job that failed. */
 NOOK_API nook_result nook_bake_job_file(nook_bake_job job, const void** bytes, size_t* size);
 
-/* Gives the report, a JSON object with the settings, times, errors and the curve of the fit. The text is
- * valid until the job is destroyed.
+/* Gives the report, a JSON object with settings, sizes, times and errors, valid until the job is destroyed.
  * Any thread. Errors: those of nook_bake_job_file. */
 NOOK_API nook_result nook_bake_job_report(nook_bake_job job, const char** json);
 
-/* Destroys a job and sets *job to NULL. A job that still runs is cancelled, and the call waits for its end.
- * One at a time. */
+/* Destroys a job and sets *job to NULL. A running job is cancelled, and the call waits for its end. One at a
+ * time. */
 NOOK_API void nook_bake_job_destroy(nook_bake_job* job);
 
-/* ---- Characters ----
+/* ---- Characters: immutable; jobs that use one keep it alive ----
  *
- * Characters in the bakers' library: import from glTF or from memory, poses, and bakes as jobs.
- *
- * Matrices of poses are NOOK_POSE_REST_TO_WORLD: one 3x4 matrix for each bone, row-major, from rest
- * space to world space in metres. Vertices are in the imported file's order, the primitives one after
- * another, which is also the order of the runtime's AO. */
+ * Matrices of poses are NOOK_POSE_REST_TO_WORLD: one 3x4 matrix for each bone, row-major, from rest space to
+ * world space in metres. Vertices are in the imported file's order, the primitives one after another, which
+ * is also the order of the runtime's AO. */
 
-/* ---- Characters: immutable; jobs that use one keep it alive ---- */
-
-/* Where a rigged character comes from. Give exactly one of three: the path of a .glb or .gltf file, the bytes
- * of one, or arrays, from positions on, in the rest pose and in metres. nook_bake_character_create copies
- * what it needs. */
+/* Where a rigged character comes from: exactly one of the path of a .glb or .gltf file, the bytes of one, or
+ * arrays, from positions on, in the rest pose and in metres. The import copies what it needs. */
 typedef struct nook_bake_source_desc {
-  /* nook_bake_source_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* UTF-8. The file may name other files of its folder. */
   const char* path;
-  /* All buffers must be embedded, because the import reads no other file. */
+  /* All buffers must be embedded. */
   const void* bytes;
   size_t byte_count;
   /* Metres, 3 floats for each vertex. */
@@ -120,15 +104,14 @@ typedef struct nook_bake_source_desc {
   const uint16_t* joints;
   /* `influences` weights >= 0 for each vertex; the import normalises them. */
   const float* weights;
-  uint32_t vertex_count;
-  /* A multiple of 3. */
-  uint32_t index_count;
+  /* index_count is a multiple of 3. */
+  uint32_t vertex_count, index_count;
   /* Default 4. The import keeps the 8 largest weights of each vertex. */
   uint32_t influences;
   uint32_t bone_count;
   /* NULL: the names are bone_0, bone_1 and so on. */
   const char* const* bone_names;
-  /* The index of each bone's parent, which is smaller than the bone's own index; -1 for a root. */
+  /* The index of each bone's parent, which is smaller than the bone's own; -1 for a root. */
   const int32_t* bone_parents;
   /* Joint frames in rest space, 12 floats for each bone: orthonormal axes, with the origin at the joint. */
   const float* bone_frames_3x4;
@@ -136,43 +119,33 @@ typedef struct nook_bake_source_desc {
   const nook_range* primitives;
   uint32_t primitive_count;
 } nook_bake_source_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_bake_source_desc_init(nook_bake_source_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_SOURCE, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Creates a character from a file or from arrays. On failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (the message names the
- * file and the fault), OUT_OF_MEMORY. */
+/* Creates a character. On failure *out is NULL.
+ * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_character_create(const nook_bake_source_desc* desc, nook_bake_character* out);
 
-/* Releases the caller's reference and sets *character to NULL; *character may be NULL. Jobs that still run
- * keep the character alive.
- * Any thread. */
+/* Releases your reference and sets *character to NULL; *character may be NULL. Any thread. */
 NOOK_API void nook_bake_character_destroy(nook_bake_character* character);
 
 typedef struct nook_bake_character_info {
-  /* sizeof(nook_bake_character_info); the caller sets it. */
   uint32_t struct_size;
-  /* The number of vertices after welding: vertices that the file splits at seams count once. */
+  /* Vertices after welding: those that the file splits at seams count once. */
   uint32_t vertex_count;
-  /* The number of vertices in the file, over all primitives. */
+  /* Vertices in the file, over all primitives. */
   uint32_t file_vertex_count;
-  /* The number of triangles with an area; the import drops degenerate ones. */
+  /* Triangles with an area; the import drops degenerate ones. */
   uint32_t triangle_count;
-  uint32_t bone_count;
-  uint32_t clip_count;
-  uint32_t primitive_count;
+  uint32_t bone_count, clip_count, primitive_count;
   /* The number of things that the import left out or repaired. */
   uint32_t warning_count;
   /* Minimum and maximum of the rest pose, metres. */
-  float bounds_min[3];
-  float bounds_max[3];
+  float bounds_min[3], bounds_max[3];
 } nook_bake_character_info;
 
-/* Describes a character.
- * Any thread. Errors: INVALID_ARGUMENT. */
+/* Describes a character. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_bake_character_describe(nook_bake_character character,
                                                   nook_bake_character_info* info);
 
@@ -186,9 +159,8 @@ enum {
 };
 typedef int32_t nook_bake_name;
 
-/* Returns a name of the character, or NULL if the kind is unknown or the index is out of range;
- * nook_bake_character_info has the counts. The text is valid while the character lives.
- * Any thread. */
+/* Returns a name, valid while the character lives, or NULL if the kind is unknown or the index is out of
+ * range. Any thread. */
 NOOK_API const char* nook_bake_character_name(nook_bake_character character, nook_bake_name kind,
                                               uint32_t index);
 
@@ -204,9 +176,8 @@ enum {
   NOOK_BAKE_ARRAY_POSITIONS = 3,
   /* 3 floats for each vertex: its unit normal, area-weighted over the welded surface. */
   NOOK_BAKE_ARRAY_NORMALS = 4,
-  /* 3 uint32_t for each triangle, indices of vertices. Where the file splits vertices at a seam, all
-   * triangles around it use the first of them: right for AO and positions, but not for texture coordinates.
-   */
+  /* 3 uint32_t for each triangle, indices of vertices. At seams, all triangles use the first of the split
+   * vertices: right for AO and positions, but not for texture coordinates. */
   NOOK_BAKE_ARRAY_TRIANGLES = 5,
   /* 4 uint16_t for each vertex: the bones with the largest weights, in descending order. */
   NOOK_BAKE_ARRAY_JOINTS = 6,
@@ -215,33 +186,28 @@ enum {
 };
 typedef int32_t nook_bake_array;
 
-/* Writes an array of the character. count is the number of elements and must be the character's: of bones,
- * primitives, vertices or triangles. stride is the number of bytes from one element to the next; 0 means that
- * they follow each other without gaps.
- * Any thread. Errors: INVALID_ARGUMENT. */
+/* Writes an array. count must be the character's number of bones, primitives, vertices or triangles. stride
+ * is in bytes (0: tightly packed). Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_bake_character_read(nook_bake_character character, nook_bake_array array, void* out,
                                               uint32_t count, size_t stride);
 
-/* Gives the length of a clip in seconds.
- * Any thread. Errors: INVALID_ARGUMENT. */
+/* Gives the length of a clip in seconds. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_bake_character_clip_duration(nook_bake_character character, uint32_t clip,
                                                        float* seconds);
 
-/* Writes the pose of a clip at time_s, which is in seconds from the first key and is clamped to the clip's
- * length. bone_count must be the character's.
- * Any thread. Errors: INVALID_ARGUMENT. */
+/* Writes the pose of a clip at time_s, in seconds from the first key and clamped to the clip. bone_count must
+ * be the character's, here and below. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_bake_character_sample_clip(nook_bake_character character, uint32_t clip,
                                                      float time_s, float* bones_3x4, uint32_t bone_count);
 
-/* Writes pose_count generated whole-body poses, one after another; bones_3x4 holds pose_count * bone_count
- * matrices. The same seed gives the same poses.
+/* Writes pose_count generated whole-body poses, bone_count matrices each. The same seed gives the same poses.
  * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_character_auto_poses(nook_bake_character character, uint64_t seed,
                                                     uint32_t pose_count, float* bones_3x4,
                                                     uint32_t bone_count);
 
-/* Writes the world-space positions (metres) and area-weighted unit normals of a pose, 3 floats for each
- * vertex in file order; either array may be NULL. The call uses linear blend skinning with all weights.
+/* Skins the character by linear blend skinning with all weights. Writes positions in the world (metres) and
+ * area-weighted unit normals, 3 floats for each vertex in file order; either array may be NULL.
  * Any thread. Errors: INVALID_ARGUMENT (a count is wrong, or a matrix is not finite). */
 NOOK_API nook_result nook_bake_character_skin(nook_bake_character character, const float* bones_3x4,
                                               uint32_t bone_count, float* positions, float* normals,
@@ -249,14 +215,14 @@ NOOK_API nook_result nook_bake_character_skin(nook_bake_character character, con
 
 /* ---- The bake of a character's model ---- */
 
-/* Presets of the effort of a bake; the times are those of two cores. */
+/* The effort of a bake; the times are those of two cores. */
 enum {
   /* About 20 s. */
   NOOK_BAKE_PRESET_DRAFT = 0,
   /* Up to 5 minutes and 2 GB of memory. */
   NOOK_BAKE_PRESET_STANDARD = 1,
-  /* Up to half an hour of processor time: nearly four times the poses of STANDARD, twice its rays, and up to
-   * 800 key points in place of 500, with which an update takes a fifth longer. */
+  /* Up to half an hour: nearly four times the poses, twice the rays, and up to 800 key points in place of
+   * 500, with which an update takes a fifth longer. */
   NOOK_BAKE_PRESET_PRODUCTION = 2
 };
 typedef int32_t nook_bake_preset;
@@ -265,7 +231,7 @@ typedef int32_t nook_bake_preset;
 enum {
   /* Generated whole-body poses, which need no clip. */
   NOOK_BAKE_POSES_AUTO = 0,
-  /* One joint at a time, on a grid over +-45 degrees. Experimental: a set to measure by, not to ship. */
+  /* One joint at a time, on a grid over +-45 degrees: a set to measure by, not to ship. */
   NOOK_BAKE_POSES_SINGLE_JOINT = 1,
   /* The character's clips. */
   NOOK_BAKE_POSES_CLIPS = 2,
@@ -276,80 +242,65 @@ enum {
 };
 typedef int32_t nook_bake_pose_mode;
 
-/* A gamma that makes the bake try several exponents in short fits and keep the one with the lowest error on
- * held-out poses. The runtime has fast paths for 1, 1.5 and 2; other exponents take two to four times as
- * long. */
+/* A gamma that makes the bake try several exponents and keep the one with the lowest error on held-out poses.
+ * The runtime has fast paths for 1, 1.5 and 2; other exponents take two to four times as long. */
 #define NOOK_BAKE_GAMMA_LEARNED (-1.0f)
 
 /* A saturation that keeps all shadows unsaturated. */
 #define NOOK_BAKE_UNSATURATED (-1.0f)
 
 typedef struct nook_bake_character_desc {
-  /* nook_bake_character_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
+  uint32_t struct_size, type;
   /* NULL, or a nook_bake_character_study_desc of experimental/nook_trace.h. */
   const void* next;
-  /* The character to bake. You may destroy it before the job ends. */
+  /* The character to bake. */
   nook_bake_character character;
   /* Default STANDARD. It gives the numbers that are 0 below, from spheres to samples_per_clip. */
   nook_bake_preset preset;
-  /* The maximum number of proxy spheres, up to 1024. */
-  uint32_t spheres;
-  /* The maximum number of key points, up to 4096. */
-  uint32_t key_points;
+  /* The maximum numbers of proxy spheres and key points, up to 1024 and 4096. */
+  uint32_t spheres, key_points;
   /* Rays for each vertex and pose of the ray-traced targets, up to 65,536. */
   uint32_t rays;
   /* Steps of the fit, up to 10,000,000. */
   uint32_t steps;
   /* Default ALL, which is AUTO for a character without clips. */
   nook_bake_pose_mode pose_mode;
-  /* The number of generated poses of AUTO and ALL. The variants of ALL lower its default by their number, at
-   * most by half. */
+  /* Generated poses of AUTO and ALL. The variants of ALL lower its default by their number, at most by
+   * half. */
   uint32_t auto_pose_count;
   /* The number of poses of each clip. */
   uint32_t samples_per_clip;
-  /* The number of names in clip_names. 0: every clip with motion; clips whose name says T-pose or A-pose have
-   * none. */
+  /* The number of names in clip_names. 0: every clip with motion; a T-pose or A-pose has none. */
   uint32_t clip_count;
   /* The number of poses in extra_poses_3x4. */
   uint32_t extra_pose_count;
-  /* The names of the clips to use. An unknown name fails, and the message lists the clips of the
-   * character. */
+  /* An unknown name fails, and the message lists the clips of the character. */
   const char* const* clip_names;
   /* Poses in addition to those of pose_mode, bone_count matrices each. The call copies them. */
   const float* extra_poses_3x4;
-  /* Default 1. The same seed gives the same bytes on any number of threads. */
   uint64_t seed;
-  /* Default 0: all cores; up to 1024. */
   uint32_t threads;
-  /* Default NOOK_FORM_DEFAULT: a smooth horizon, a fall-off with the exact power of distance, and a fit by
-   * mini-batches over both layers at once. NOOK_FORM_PAPER: the kernel and the block coordinate descent of
-   * Le et al. 2019. */
+  /* Default NOOK_FORM_DEFAULT: a smooth horizon, a fall-off with the exact power of distance, a fit by
+   * mini-batches. NOOK_FORM_PAPER: the kernel and the block coordinate descent of Le et al. 2019. */
   nook_form form;
-  /* The exponent of the shadow norm, 1 to 8, or NOOK_BAKE_GAMMA_LEARNED. 0 (default) means 1, or 2 with
+  /* The exponent of the shadow norm, 1 to 8, or NOOK_BAKE_GAMMA_LEARNED. 0 (default): 1, or 2 with
    * NOOK_FORM_PAPER. */
   float gamma;
-  /* Where many spheres overlap, a plain sum is too dark. A key point's shadow is n / (1 + c n), n being the
-   * norm over its spheres. This is c before the fit, up to 64; the fit changes it. 0 (default) means 0.5 with
-   * the default form and a gamma of 1, and none otherwise. NOOK_BAKE_UNSATURATED turns it off. Any other
-   * number needs the default form and a gamma of 1. */
+  /* Where many spheres overlap, a plain sum is too dark: a key point's shadow is n / (1 + c n), n being the
+   * norm over its spheres. This is c before the fit, up to 64; the fit changes it. 0 (default): 0.5 with the
+   * default form and a gamma of 1, none otherwise. NOOK_BAKE_UNSATURATED turns it off; other numbers need the
+   * default form and a gamma of 1. */
   float saturation;
-  /* Seconds after which the fit ends. Default 0: no limit. A fit that the limit ends is not reproducible bit
-   * for bit. */
+  /* Seconds after which the fit ends, and then is not reproducible bit for bit. Default 0: no limit. */
   double time_limit_s;
-  /* NULL (default): you poll instead. */
   nook_bake_progress_fn progress;
   void* progress_user;
 } nook_bake_character_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_bake_character_desc_init(nook_bake_character_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_CHARACTER, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Starts to bake a character's model, as nook_bake_start does. nook_bake_job_file gives the bytes for
- * nook_model_load. Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+/* Starts to bake a character's model, for nook_model_load. As nook_bake_start. */
 static inline nook_result nook_bake_start_character(const nook_bake_character_desc* desc,
                                                     nook_bake_job* out) {
   return nook_bake_start(desc, out);
@@ -357,112 +308,84 @@ static inline nook_result nook_bake_start_character(const nook_bake_character_de
 
 /* ---- Bent normals ----
  *
- * Bent normals for a baked character: for each vertex two vectors of the directions that its body occludes,
- * by ray tracing in a few poses. */
+ * For each vertex, two vectors of the directions that its body occludes, ray traced in a few poses of the
+ * model (docs/character.md). */
 
-/* The model and the poses that its bent normals are fitted to. docs/character.md describes the method. */
 typedef struct nook_bake_bent_desc {
-  /* nook_bake_bent_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
-  /* The character of the model. You may destroy it before the job ends. */
+  /* The character of the model. */
   nook_bake_character character;
-  /* The bytes of the character's baked model, a .nook file. nook_bake_start reads it before it returns.
-   * Existing bent normals are replaced. */
+  /* The bytes of the character's baked model, whose bent normals are replaced. */
   const void* model;
   size_t model_size;
   /* Rays for each vertex and pose, 1 to 65,536; default 128. */
   uint32_t rays;
   /* Generated poses, 8 to 100,000; default 48. */
   uint32_t auto_pose_count;
-  /* Poses of each clip that the model was fitted to, 1 to 100,000; default 3. A model without a recipe takes
-   * every clip with motion. */
+  /* Poses of each clip that the model was fitted to, or of every clip with motion if the model has no recipe;
+   * 1 to 100,000; default 3. */
   uint32_t samples_per_clip;
-  /* Default 0: all cores; up to 1024. */
   uint32_t threads;
-  /* Default 1. The same seed gives the same bytes on any number of threads. */
   uint64_t seed;
-  /* NULL (default): you poll instead. */
   nook_bake_progress_fn progress;
   void* progress_user;
 } nook_bake_bent_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_bake_bent_desc_init(nook_bake_bent_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_BENT, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Starts to bake bent normals, as nook_bake_start does. nook_bake_job_file gives the bytes of the model with
- * bent normals, all else in it unchanged, for nook_model_load. The report holds the sizes and the time.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (no model, or that of
- * another character), FILE_VERSION, OUT_OF_MEMORY. */
+/* Starts to bake bent normals. The file is the model with them, all else unchanged, for nook_model_load. As
+ * nook_bake_start. */
 static inline nook_result nook_bake_start_bent(const nook_bake_bent_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }
 
 /* ---- Clips ----
  *
- * Bakes of a character's clips: ray-traced AO and poses as a small table over frames, for crowds that need no
- * bones on the CPU (nook_clips.h). */
+ * Ray-traced AO and poses of a character's clips as a small table over frames (nook_clips.h,
+ * docs/character.md), for crowds that need no bones on the CPU. */
 
-/* The clips to bake and the size of their table. docs/character.md describes the method. */
 typedef struct nook_bake_clips_desc {
-  /* nook_bake_clips_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
-  /* The character of the model. You may destroy it before the job ends. */
+  /* The character of the model. */
   nook_bake_character character;
-  /* The bytes of the character's baked model, a .nook file. nook_bake_start reads it before it
-   * returns. */
+  /* The bytes of the character's baked model. */
   const void* model;
   size_t model_size;
-  /* The names of the clips to bake; NULL (default): every clip with motion. Clips whose name says T-pose or
-   * A-pose have none. */
+  /* The clips to bake; NULL (default): every clip with motion. A T-pose or A-pose has none. */
   const char* const* clip_names;
   /* The number of names; default 0. */
   uint32_t clip_count;
   /* Rays for each vertex and frame, 1 to 65,536; default 128. */
   uint32_t rays;
-  /* Frames of each second of a clip, 0.1 to 1000; default 30. All clips together have at most 2^20 frames. */
+  /* Frames for each second, 0.1 to 1000; default 30. All clips together have at most 2^20 frames. */
   float frames_per_second;
-  /* The file takes as many modes as this error needs: AO, root mean square over vertices and frames, 1e-4 to
-   * 1; default 0.015. */
+  /* The file takes as many modes as this error of AO needs, root mean square over vertices and frames, 1e-4
+   * to 1; default 0.015. */
   float max_error;
   /* Bytes of the file for each frame and vertex, 1e-4 to 100; default 0.25. Modes beyond it are left out. */
   float max_bytes;
   /* Modes of AO, a multiple of 4 from 4 to 256; default 96. */
   uint32_t max_modes;
-  /* Default 1. The same seed gives the same bytes on any number of threads. */
   uint64_t seed;
-  /* Default 0: all cores; up to 1024. */
   uint32_t threads;
-  /* Must be 0. */
   uint32_t reserved;
-  /* NULL (default): you poll instead. */
   nook_bake_progress_fn progress;
   void* progress_user;
 } nook_bake_clips_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_bake_clips_desc_init(nook_bake_clips_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_CLIPS, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Starts to bake the clips of a character, as nook_bake_start does. nook_bake_job_file gives the bytes for
- * nook_clips_load. The report holds the sizes, the errors of the tables and the time.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault; an unknown clip's lists the clips
- * of the character), BAD_FILE (no model, or that of another character), FILE_VERSION, OUT_OF_MEMORY. */
+/* Starts to bake the clips of a character, for nook_clips_load. As nook_bake_start; an unknown clip's message
+ * lists the clips. */
 static inline nook_result nook_bake_start_clips(const nook_bake_clips_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }
 
-/* ---- Materials ----
- *
- * Bakes of compressed materials, from a built-in meso-structure or from measured data. */
+/* ---- Materials: compressed, from a built-in meso-structure or from measured data ---- */
 
 /* The compression of a material (Tsai and Shih, TOG 2012). */
 enum {
@@ -472,122 +395,92 @@ enum {
   NOOK_BAKE_METHOD_CTA = 1,
   /* N-mode singular value decomposition: one cluster. */
   NOOK_BAKE_METHOD_N_SVD = 2,
-  /* Experimental: a small network over features of the texels, which trains for minutes; its VOTF is that of
-   * K-CTA. It is the better one on flat and glossy materials, see docs/materials.md. Ranks are those of the
-   * VOTF. */
+  /* Experimental: a small network over features of the texels, which trains for minutes; better on flat and
+   * glossy materials (docs/materials.md). Ranks are those of the VOTF, which is that of K-CTA. */
   NOOK_BAKE_METHOD_NEURAL = 3
 };
 typedef int32_t nook_bake_method;
 
-/* A material and the settings of its compression. Directions are unit vectors in tangent space that point
- * away from the surface, z >= 0, and no two directions of a set may be equal. docs/materials.md describes
- * materials and what ranks cost. The limits are 1024 directions of a kind, 1024 texels along a side, and 6
- * GiB of floats. */
+/* A material and its compression. Directions are unit vectors in tangent space that point away from the
+ * surface, z >= 0, and no two of a set may be equal. nook_bake_start copies all arrays. The limits are 1024
+ * directions of a kind, 1024 texels along a side, and 6 GiB of floats. docs/materials.md describes what ranks
+ * cost. */
 typedef struct nook_bake_material_desc {
-  /* nook_bake_material_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
-  /* "fiber", "roughhole" or "weave", a built-in structure that is ray traced. NULL: btf holds measured
+  /* "fiber", "roughhole" or "weave": a built-in structure, which is ray traced. NULL: btf holds measured
    * data. */
   const char* meso;
-  /* light_count x view_count x height x width x RGB, of which RGB varies fastest; row 0 is at v = 0. The
-   * values are finite linear radiances of what the view meets, for an irradiance of 1 on a plane that faces
-   * the light. NULL with meso. nook_bake_start copies the array. */
+  /* light_count x view_count x height x width x RGB, of which RGB varies fastest; row 0 is at v = 0. Finite
+   * linear radiances towards the view, for an irradiance of 1 on a plane that faces the light. NULL with
+   * meso. */
   const float* btf;
-  /* view_count x height x width: the share of a texel that the view meets, in [0, 1]. Colours where it is 0
-   * are not read. The mask of the VOTF is 1 where the share is at least 0.5. NULL: the share is 1 everywhere,
-   * and there is no VOTF. NULL with meso. nook_bake_start copies the array. */
+  /* view_count x height x width: the share of a texel that the view meets, in [0, 1]; colours where it is 0
+   * are not read. The VOTF's mask is 1 where the share is at least 0.5. NULL: 1 everywhere, and no VOTF. NULL
+   * with meso. */
   const float* coverage;
-  /* 3 floats for each direction, at least 1e-3 apart; z >= 0, and with meso z >= 0.08 (85 degrees).
-   * nook_bake_start copies the array. NULL, which needs meso: a spiral down to max_tilt_degrees. */
+  /* 3 floats for each direction, at least 1e-3 apart; with meso z >= 0.08 (85 degrees). NULL, which needs
+   * meso: a spiral down to max_tilt_degrees. */
   const float* lights;
-  /* View directions, in the same form as lights. */
   const float* views;
   /* Default 100. */
-  uint32_t light_count;
-  /* Default 100. */
-  uint32_t view_count;
+  uint32_t light_count, view_count;
   /* Texels, default 96. */
-  uint32_t width;
-  /* Texels, default 96. */
-  uint32_t height;
-  /* The largest angle of the spirals from the normal, in degrees; default 75. */
+  uint32_t width, height;
+  /* The largest angle of the spirals from the normal; default 75. */
   float max_tilt_degrees;
-  /* For meso: view rays along the side of a texel; default 2. */
-  uint32_t samples;
-  /* For meso: diffuse interreflections; default 2. */
-  uint32_t bounces;
-  /* For meso: rays from each vertex for interreflections; default 64. */
-  uint32_t bounce_rays;
+  /* For meso: view rays along the side of a texel, default 2; diffuse interreflections, default 2; and rays
+   * from each vertex for them, default 64. */
+  uint32_t samples, bounces, bounce_rays;
   /* Default K_CTA. */
   nook_bake_method method;
-  /* Default NOOK_FORM_DEFAULT. NOOK_FORM_PAPER has what Tsai and Shih published: half floats, no view map, no
-   * relief, and their visibility mapping; `bits` and `view_map_side` are then not read, and `relief` must be
-   * 0. */
+  /* Default NOOK_FORM_DEFAULT. NOOK_FORM_PAPER: half floats, no view map, no relief, and the visibility
+   * mapping of Tsai and Shih; `bits` and `view_map_side` are not read, and `relief` must be 0. */
   nook_form form;
   /* A nook_material_visibility: 0 for no VOTF, 1 for masks, 2 (default) for signed distances. */
   int32_t visibility;
-  /* Ranks of the BTF's modes. If all four are 0 (default), a built-in structure has the ranks of
-   * docs/materials.md, and measured data have the ranks that rank_threshold gives. rank_view is the sum over
-   * the clusters. */
-  uint32_t rank_light;
-  uint32_t rank_view;
-  uint32_t rank_x;
-  uint32_t rank_y;
+  /* Ranks of the BTF's modes; rank_view is the sum over the clusters. All four 0 (default): a built-in
+   * structure has the ranks of docs/materials.md, and measured data have those of rank_threshold. */
+  uint32_t rank_light, rank_view, rank_x, rank_y;
   /* Ranks of the VOTF's spatial modes. Both 0 (default): those of the BTF. */
-  uint32_t votf_rank_x;
-  uint32_t votf_rank_y;
-  /* The view rank of one cluster; default 4. */
-  uint32_t cluster_rank_view;
-  /* Default 0: rank_view / cluster_rank_view. */
-  uint32_t clusters;
+  uint32_t votf_rank_x, votf_rank_y;
+  /* The view rank of one cluster, default 4; and clusters, default 0: rank_view / cluster_rank_view. */
+  uint32_t cluster_rank_view, clusters;
   /* K, the number of clusters that a view mixes; default 3. */
   uint32_t mixture;
-  /* The side in cells of the resampled view maps of K-CTA; default 64. 0: there is none, and decoding mixes
-   * the three nearest views, for up to three times the work. */
+  /* Cells along the side of the resampled view maps of K-CTA; default 64. 0: none, and decoding mixes the
+   * three nearest views, for up to three times the work. */
   uint32_t view_map_side;
   /* The squared error that the choice of ranks allows in each mode, relative to the squared norm; default
    * 0.01. */
   float rank_threshold;
   /* Threshold and weight of the visibility mapping, equation (26). Both 0 (default): 0.5 and 1 for masks;
    * for distances half a texel and its reciprocal, or 0.05 and 12 with NOOK_FORM_PAPER. */
-  float visibility_threshold;
-  float visibility_weight;
-  /* Default 0: all cores. */
+  float visibility_threshold, visibility_weight;
   uint32_t threads;
-  /* Default 1. The same seed gives the same bytes on any number of threads. */
   uint64_t seed;
-  /* NULL (default): you poll instead. */
   nook_bake_progress_fn progress;
   void* progress_user;
-  /* Of a number: 8 (default) for integers in the file and in textures, or 16 for half floats, which take
-   * twice the room for about 0.1 dB. */
+  /* 8 (default): integers in the file and in textures. 16: half floats, twice the room for about 0.1 dB. */
   uint32_t bits;
-  /* 1: views are aligned on a relief before the compression, so that the views between them are sharper;
-   * docs/materials.md has the errors with it and without. The relief is that of `heights`, or of meso; for
-   * measured data without heights it is searched for, as the one on which the views agree. Where it predicts
-   * no view better, the material has none. 0 (default): no relief. */
+  /* 1: views are aligned on a relief, so that views between them are sharper (docs/materials.md): that of
+   * `heights` or of meso, else the one on which the views agree. Where it predicts no view better, the
+   * material has none. 0 (default): no relief. */
   uint32_t relief;
-  /* The known heights of measured data, for a relief of 1: height x width, row 0 at v = 0, heights over the
-   * plane of the texels in tiles, -1 to 1. nook_bake_start copies the array. NULL (default): not known. */
+  /* Known heights of measured data, for a relief: height x width, row 0 at v = 0, over the plane of the
+   * texels in tiles, -1 to 1. NULL (default): not known. */
   const float* heights;
-  /* For NEURAL: channels of the features, a multiple of 4 up to 64; default 16. */
-  uint32_t neural_channels;
-  /* For NEURAL: steps of the training, 1 to 1000000; default 8000. */
-  uint32_t neural_steps;
+  /* For NEURAL: channels of the features, a multiple of 4 up to 64, default 16; and steps of the training, 1
+   * to 1000000, default 8000. */
+  uint32_t neural_channels, neural_steps;
 } nook_bake_material_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_bake_material_desc_init(nook_bake_material_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_MATERIAL, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Starts to bake a material, as nook_bake_start does. Faults that only the data show, such as ranks that
- * exceed the sizes, fail here as well. nook_bake_job_file gives the material's file. The report holds the
- * settings, sizes, times, the signal-to-error ratio in dB and the share of wrong texels.
- * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+/* Starts to bake a material, for nook_material_load. As nook_bake_start; faults that only the data show, such
+ * as ranks that exceed the sizes, fail here too. The report has the signal-to-error ratio in dB and the share
+ * of wrong texels. */
 static inline nook_result nook_bake_start_material(const nook_bake_material_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }

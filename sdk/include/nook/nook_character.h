@@ -1,9 +1,8 @@
 /* Dynamic ambient occlusion of skinned characters: baked models, scenes of instances, evaluation on the CPU.
- *
- * The model is that of B. H. Le et al., I3D 2019. Proxy spheres are rigid to bones and cast shadow on key
- * points, and each vertex blends the shadows of a few key points. A scene holds instances of models with
- * their poses. Links let one instance darken another; the ground and free occluders darken instances as well.
- * None of these needs a new bake. */
+ * The model is B. H. Le et al., I3D 2019. Proxy spheres are rigid to bones and cast shadow on key points, and
+ * each vertex blends the shadows of a few key points. A scene holds instances of models with their poses.
+ * Links let one instance darken another; the ground and free occluders darken instances as well. None of
+ * these needs a new bake. */
 #ifndef NOOK_CHARACTER_H
 #define NOOK_CHARACTER_H
 
@@ -13,29 +12,25 @@
 extern "C" {
 #endif
 
-/* Identify an instance and an occluder of a scene. 0 is never a valid id, and no id is used again while its
- * scene lives. */
+/* Identify an instance and an occluder. 0 is never a valid id, and no id is used again in a scene. */
 typedef uint32_t nook_instance_id;
 typedef uint32_t nook_occluder_id;
 
 /* ---- Models: immutable, shared by any number of scenes and threads ---- */
 
-/* Loads a character model from the bytes of a .nook file; the caller may free the bytes afterwards. The
- * library validates everything, so that hostile bytes are safe. On failure *out is NULL.
+/* Loads a model from the bytes of a .nook file, which you may free afterwards. The library validates
+ * everything, so that hostile bytes are safe. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_load(nook_context context, const void* bytes, size_t size, nook_model* out);
 
-/* Releases the caller's reference and sets *model to NULL; scenes that use the model keep it alive.
- * Any thread. */
+/* Releases your reference and sets *model to NULL; scenes that use the model keep it alive. Any thread. */
 NOOK_API void nook_model_destroy(nook_model* model);
 
 typedef struct nook_model_info {
-  /* sizeof(nook_model_info); the caller sets it. */
   uint32_t struct_size;
-  /* The number of bones, which the model's poses have a matrix for. */
+  /* Bones; a pose has a matrix for each. */
   uint32_t bone_count;
-  uint32_t sphere_count;
-  uint32_t key_point_count;
+  uint32_t sphere_count, key_point_count;
   /* The number of vertices after welding. */
   uint32_t vertex_count;
   /* The number of AO values: one for each vertex of the imported file, the primitives one after another. */
@@ -51,105 +46,91 @@ typedef struct nook_model_info {
   uint32_t skin_count;
   /* The number of vertices of nook_model_describe_check_vertex, at most 64; 0 without bind data. */
   uint32_t check_vertex_count;
-  /* Bytes of host memory of the model, which all its instances share. What the allocator adds to each piece
-   * is not counted, here and below. */
+  /* Bytes of host memory that all instances share. What the allocator adds to each piece is not counted. */
   uint64_t model_bytes;
-  /* Bytes of host memory of each instance in a scene, without links to others. */
-  uint64_t instance_bytes;
-  /* The same after nook_scene_set_light. */
-  uint64_t lit_instance_bytes;
+  /* Bytes of host memory of each instance, without links; and after nook_scene_set_light. */
+  uint64_t instance_bytes, lit_instance_bytes;
 } nook_model_info;
 
-/* Describes a model. nook_gl_model_memory of experimental/nook_debug.h gives the memory on the GPU.
- * Any thread. Errors: INVALID_ARGUMENT. */
+/* Describes a model. nook_gl_model_memory of experimental/nook_debug.h has the memory on the GPU. Any thread.
+ * Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_model_describe(nook_model model, nook_model_info* info);
 
-/* Returns the name of a bone, so that a host can map its skeleton to the model's order, or NULL for an index
- * out of range. The text is valid while the model lives.
- * Any thread. */
+/* Returns the name of a bone, valid while the model lives, or NULL for an index out of range. Any thread. */
 NOOK_API const char* nook_model_bone_name(nook_model model, uint32_t bone);
 
-/* Gives the AO values of one primitive of the imported file: the first one and their number. Primitives are
- * in the order of the file's nodes, and within a node in the order of its mesh. primitive is less than
- * nook_model_info.primitive_count.
+/* Gives the run of AO values of a primitive, less than nook_model_info.primitive_count. Primitives are in the
+ * order of the file's nodes, and within a node in the order of its mesh.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_model_describe_primitive(nook_model model, uint32_t primitive, nook_range* out);
 
-/* The arrays of nook_model_read; each has one entry for each vertex. */
+/* The arrays of nook_model_read, with one entry for each vertex. */
 enum {
   /* One float: the ray-traced AO of the rest pose, which is what a static bake gives. */
   NOOK_MODEL_STATIC_AO = 0,
-  /* Eight signed bytes of which 127 is 1: the mean occluded direction x, y, z at AO 0, a 0, x, y, z at AO 1,
-   * a 0. Pass them to your vertex shader as two normalised attributes of GL_BYTE. They are in the space of
-   * the file's NORMAL attribute if the model has bind data, otherwise in rest space. */
+  /* Eight signed bytes, 127 for 1: the mean occluded direction x, y, z at AO 0, a 0, x, y, z at AO 1, a 0.
+   * Pass them to your vertex shader as two normalised attributes of GL_BYTE. They are in the space of the
+   * file's NORMAL attribute if the model has bind data, otherwise in rest space. */
   NOOK_MODEL_OCCLUDED_DIRECTIONS = 1
 };
 typedef int32_t nook_model_array;
 
-/* Copies an array of the model in the file's vertex order. count must be nook_model_info.file_vertex_count;
- * stride is in bytes (0: tightly packed).
- * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model was baked without the array; the message
+/* Copies an array in the file's vertex order. count must be file_vertex_count; stride is in bytes (0: tightly
+ * packed). Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model was baked without it; the message
  * names the cure). */
 NOOK_API nook_result nook_model_read(nook_model model, nook_model_array array, void* out, uint32_t count,
                                      size_t stride);
 
 /* ---- Bent normals: the mean direction of the light that reaches a vertex ----
  *
- * A bent normal points to where a vertex is open. Use it for specular occlusion. After `nook bake bent` a
+ * A bent normal points to where a vertex is open; use it for specular occlusion. After `nook bake bent` a
  * model has two vectors for each vertex, NOOK_MODEL_OCCLUDED_DIRECTIONS: the cosine-weighted mean of the
  * directions that the body occludes when AO is 0, and when it is 1. Rotate both as you rotate the normal n,
- * and compute normalize(2/3 n - mix(dark, open, AO)) in the vertex shader; nook_scene_bent_normal of
- * nook_gl_view's text does so. AO may come from any call of this library. A bent normal needs no
- * update and is the same on all tiers. Occlusion by others and the ground counts as the body's own. */
+ * and compute normalize(2/3 n - mix(dark, open, AO)) in the vertex shader, as nook_scene_bent_normal of
+ * nook_gl_view's text. It needs no update and is the same on all tiers. Occlusion by others and the ground
+ * counts as the body's own. */
 
 /* ---- Scenes ---- */
 
 typedef struct nook_scene_desc {
-  /* nook_scene_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
-  /* The way in which casters that were not part of the bake join the self-shadow. NOOK_FORM_DEFAULT
-   * (default): they form a cosine-weighted term of their own, AO = self * (1 - added). NOOK_FORM_PAPER: their
-   * spheres join the norm of the self-shadow, as in Le et al. 2019. */
+  /* The way in which casters that were not baked join the self-shadow. NOOK_FORM_DEFAULT (default): by a term
+   * of their own, AO = self * (1 - added). NOOK_FORM_PAPER: in the norm of the self-shadow, as in Le et al.
+   * 2019. */
   nook_form form;
-  /* AO, in [0, 1], default 1/1024. An update skips each linked caster, occluder and ground whose largest
-   * possible darkening of an instance is below this bound. 0 skips nothing. */
+  /* AO, in [0, 1], default 1/1024. An update skips linked casters, occluders and grounds that cannot darken
+   * an instance by more than this. */
   float cutoff_error;
-  /* AO, root mean square, >= 0, default 0: full detail. An update uses the coarsest level whose baked error
-   * of self-shadow is below lod_error * (distance to the camera / lod_distance). */
+  /* AO, root mean square, >= 0. An update uses the coarsest level whose baked error of self-shadow is below
+   * lod_error * (distance to the camera / lod_distance). Default 0: full detail. */
   float lod_error;
   /* Metres, > 0, default 10. */
   float lod_distance;
-  /* Frames, >= 1, default 1: every frame. An update may skip a distant instance, but evaluates it at least
-   * once in this many frames. */
+  /* Frames, >= 1. An update may skip a distant instance, but evaluates it at least once in so many frames.
+   * Default 1. */
   uint32_t lod_max_interval;
   /* Metres, > 0, default 10,000: the radius of the sphere that stands for a ground plane. */
   float ground_radius;
-  /* 0 or 1, default 0: a bone that is sheared or scaled unevenly is projected to the nearest rotation with
-   * one scale, as the baker does, and the context logs it once for an instance. 1: such a pose fails. */
+  /* 0 (default): a bone that is sheared or scaled unevenly is projected to the nearest rotation with one
+   * scale, as the baker does, and logged once for an instance. 1: such a pose fails. */
   uint32_t strict_poses;
   /* The change of AO, root mean square over a body, that you allow when nook_scene_update replaces far
    * spheres by fewer, larger ones; 0 to 1, default 1/1024. Linked casters become 16, 6 or 2 groups. The
    * body's own spheres take part only with the default kernel, at most 256 spheres, full detail and no light.
-   * A single vertex can change 18 times as much. 0 turns it off; NOOK_FORM_PAPER and the tiers 43 and ES31 of
-   * OpenGL ignore it. */
+   * A single vertex can change 18 times as much. 0 turns it off; NOOK_FORM_PAPER and the tiers 43 and ES31
+   * ignore it. */
   float far_error;
 } nook_scene_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_scene_desc_init(nook_scene_desc* desc) {
   return nook_desc_init(NOOK_DESC_SCENE, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Creates an empty scene. On failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+/* Creates an empty scene. On failure *out is NULL. Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_create(nook_context context, const nook_scene_desc* desc, nook_scene* out);
 
-/* Destroys the scene and sets *scene to NULL. GL objects of the scene become invalid but may still be
- * destroyed.
- * One at a time. */
+/* Destroys the scene and sets *scene to NULL. You may destroy its GL objects before or afterwards. One at a
+ * time. */
 NOOK_API void nook_scene_destroy(nook_scene* scene);
 
 /* Adds an instance in the rest pose, without ground and links. The call allocates.
@@ -160,35 +141,31 @@ NOOK_API nook_result nook_scene_add_instance(nook_scene scene, nook_model model,
  * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_remove_instance(nook_scene scene, nook_instance_id instance);
 
-/* Gives an instance another model with the same number of bones: a new bake of the same character while it
- * runs, or the model of a coarser mesh. Pose, links, ground and light stay; AO is 1 until the next update,
- * and a host calls nook_gl_scene_view again for its view on the GPU. The call allocates; on failure
- * nothing has changed. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE, OUT_OF_MEMORY. */
+/* Gives an instance another model with the same number of bones: a new bake of the same character, or the
+ * model of a coarser mesh. Pose, links, ground and light stay; AO is 1 until the next update. Call
+ * nook_gl_scene_view again. The call allocates.
+ * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_set_model(nook_scene scene, nook_instance_id instance, nook_model model);
 
-/* Links two instances, so that caster darkens receiver until nook_scene_unlink; a second call for the same
- * pair changes nothing. The call allocates.
- * One at a time. Errors: INVALID_ARGUMENT (receiver and caster are the same), INVALID_HANDLE, OUT_OF_MEMORY.
- */
+/* Lets caster darken receiver until nook_scene_unlink; a second call for the same pair changes nothing. The
+ * call allocates. One at a time. Errors: INVALID_ARGUMENT (receiver and caster are the same), INVALID_HANDLE,
+ * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_link(nook_scene scene, nook_instance_id receiver, nook_instance_id caster);
 
 /* Removes a link of nook_scene_link.
- * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE (an id is unknown, or the instances are not
- * linked). */
+ * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE (an id is unknown, or there is no such link). */
 NOOK_API nook_result nook_scene_unlink(nook_scene scene, nook_instance_id receiver, nook_instance_id caster);
 
 /* Links each instance to its k nearest instances in addition to the links above, from the next update on. k
- * is 0 to 16; 0 turns the automatic links off. max_distance is in metres between the centres of bounding
- * spheres. Each update finds the nearest instances anew with a grid, whose cost grows linearly with the
- * number of instances where they are spread out. This call may allocate, so that the update does not.
- * One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+ * is 0 (off) to 16; max_distance is in metres between the centres of bounding spheres. Each update finds the
+ * nearest instances anew, in a time that grows linearly with their number where they are spread out. This
+ * call may allocate, so that the update does not. One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_link_nearest(nook_scene scene, uint32_t k, float max_distance);
 
-/* Sets the ground under an instance: the plane of the points p with dot(normal, p) = offset, in world space
- * and metres. plane_xyzd holds the normal, which points away from the ground and has unit length to 1e-3, and
- * the offset. The ground is evaluated as a sphere of ground_radius that touches the plane under the instance
- * and follows it. plane_xyzd NULL removes the ground.
- * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+/* Sets the ground under an instance: the points p with dot(normal, p) = offset, in world space and metres.
+ * plane_xyzd holds the normal, which points away from the ground and has unit length to 1e-3, and the offset;
+ * NULL removes the ground. It acts as a sphere of ground_radius that touches the plane under the instance and
+ * follows it. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_set_ground(nook_scene scene, nook_instance_id instance,
                                            const float* plane_xyzd);
 
@@ -202,19 +179,18 @@ typedef struct nook_occluder {
   nook_instance_id receiver;
 } nook_occluder;
 
-/* Adds an occluder. When you remove the instance that is its receiver, the occluder stays and darkens none.
- * The call allocates.
+/* Adds an occluder. If you remove the instance that is its receiver, it stays and darkens none. The call
+ * allocates.
  * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE (occluder->receiver is unknown), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_add_occluder(nook_scene scene, const nook_occluder* occluder,
                                              nook_occluder_id* out);
 
-/* Replaces an occluder: its place, radius and receiver. The call does not allocate.
+/* Replaces an occluder, without an allocation.
  * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE (id or occluder->receiver is unknown). */
 NOOK_API nook_result nook_scene_set_occluder(nook_scene scene, nook_occluder_id id,
                                              const nook_occluder* occluder);
 
-/* Removes an occluder.
- * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+/* Removes an occluder. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_id occluder);
 
 /* ---- Directional occlusion: the occlusion of a probe's light, by colour channel ----
@@ -223,57 +199,48 @@ NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_
  * sphere that covers the share f of its receiver's hemisphere takes f * rho of the light instead of f. For
  * each channel, rho is the mean radiance of the lobes behind the sphere over their mean radiance in the
  * receiver's hemisphere. The spheres of a linked instance share one rho, and the rho of the ground is that of
- * the half-space below its plane. The result is a colour for each vertex that takes the place of AO in
- * albedo / pi * E * AO, where E is the irradiance of the same lobes. Under constant light it is equal to AO.
- * nook_scene_update and nook_gl_scene_update both evaluate it; nook_gl.h describes the use in a
- * shader. */
+ * the half-space below its plane. The result is a colour for each vertex that takes the place of AO in albedo
+ * / pi * E * AO, where E is the irradiance of the same lobes. Under constant light it is equal to AO. Both
+ * updates evaluate it; nook_gl.h describes the use in a shader. */
 
-/* Sets the light of an instance for the updates that follow. lobes are the light at its place, such as the
- * result of nook_probe_read_lobes; there are at most NOOK_PROBE_MAX_FUNCTIONS, and the call copies them.
- * lobe_count 0 or lobes NULL removes the light. With 12 lobes an update of an instance takes 0.1 to 0.2 ms
- * longer on one core with AVX2, and as much again for each linked instance. The call allocates at the first
- * light of an instance.
+/* Sets the light of an instance for the updates that follow: at most NOOK_PROBE_MAX_FUNCTIONS lobes, such as
+ * nook_probe_read_lobes gives for its place, which the call copies. lobe_count 0 or lobes NULL removes the
+ * light. With 12 lobes an update of an instance takes 0.1 to 0.2 ms longer on one core with AVX2, and as much
+ * again for each linked instance. The call allocates at the first light of an instance.
  * One at a time. Errors: INVALID_ARGUMENT (the message names the lobe), INVALID_HANDLE, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, const nook_lobe* lobes,
                                           uint32_t lobe_count);
 
-/* Sets the position of the camera, in world space and metres, for the choice of levels of detail. Without a
- * position, and after a call with NULL, every instance has full detail in every update.
- * One at a time. Errors: INVALID_ARGUMENT. */
+/* Sets the position of the camera, in world space and metres, for levels of detail. Without it, and with
+ * NULL, every instance has full detail in every update. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_set_camera(nook_scene scene, const float position_ws[3]);
 
 /* Evaluates the shadows of all instances at their key points on the CPU, through the context's parallel_for
- * if there is one. The call neither allocates nor locks.
- * One at a time. Errors: INVALID_ARGUMENT. */
+ * if there is one, without an allocation or a lock. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_update(nook_scene scene);
 
-/* Reads a channel of an instance for each vertex, in the imported file's vertex order, the primitives one
- * after another. It takes these formats:
+/* Reads a channel of an instance for each vertex, in the imported file's vertex order. It takes these
+ * formats:
  *   NOOK_CHANNEL_AO              FLOAT, HALF, UNORM8
  *   NOOK_CHANNEL_DIRECTIONAL_AO  FLOAT
  *   NOOK_CHANNEL_BENT_NORMAL     SNORM8
  * Values are those of the last nook_scene_update. AO is 1 until an update has evaluated the instance, and
- * directional AO is AO three times if the update found no light on the instance. Bent normals follow the pose
- * that is set; each vertex turns with the key point that it takes most from. Use them where you have no
- * skinning shader. count must be nook_model_info.file_vertex_count; stride is in bytes (0: tightly packed),
- * and the call writes nothing between the values. The call does not allocate.
+ * directional AO is AO three times if the update found no light on it. Bent normals follow the pose that is
+ * set; each vertex turns with the key point that it takes most from. count must be
+ * nook_model_info.file_vertex_count; stride is in bytes (0: tightly packed), and nothing between the values
+ * is written. The call does not allocate.
  * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT (also for a format that the channel
- * does not take), INVALID_HANDLE, UNSUPPORTED (bent normals: the model was baked without them, or without
- * rest normals). */
+ * does not take), INVALID_HANDLE, UNSUPPORTED (the model was baked without bent normals or without rest
+ * normals). */
 NOOK_API nook_result nook_scene_read(nook_scene scene, nook_instance_id instance, nook_channel channel,
                                      nook_format format, void* out, uint32_t count, size_t stride);
 
 typedef struct nook_scene_info {
-  /* sizeof(nook_scene_info); the caller sets it. */
   uint32_t struct_size;
-  uint32_t instances;
-  /* Instances that the last update evaluated. If lod_max_interval is above 1, they can be fewer than
-   * `instances`. */
-  uint32_t instances_updated;
-  /* Pairs of receiver and caster that the last update evaluated. */
-  uint32_t links;
-  /* Linked casters, occluders and grounds that the last update skipped because of cutoff_error. */
-  uint32_t links_culled;
+  /* All instances, and those that the last update evaluated. */
+  uint32_t instances, instances_updated;
+  /* Pairs of receiver and caster that it evaluated; and casters, occluders and grounds that it skipped. */
+  uint32_t links, links_culled;
   uint32_t reserved;
   /* Pairs of sphere and key point that the last update evaluated. */
   uint64_t evaluations;
@@ -281,29 +248,28 @@ typedef struct nook_scene_info {
   uint64_t memory_bytes;
 } nook_scene_info;
 
-/* Describes a scene: the counts of its last update, and its memory.
- * One at a time. Errors: INVALID_ARGUMENT. */
+/* Describes a scene. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_describe(nook_scene scene, nook_scene_info* info);
 
 /* ---- Poses ----
  *
- * Pass the matrices that your engine already has: the matrices in your vertex shader (NOOK_POSE_SKINNING), or
- * the world matrices of the joints (NOOK_POSE_JOINT_TO_WORLD). Nook converts them to its own, one for each
- * bone from rest space to the world. Rest space is the bind pose in metres with the node transforms of the
- * file applied. Do not convert yourself: many files have a node above the skeleton that scales by 0.01 or
- * turns by 90 degrees, and a pose that leaves it out gives wrong AO and no error. If AO looks wrong, call
- * nook_model_check_pose; it names the fault. docs/poses.md has the formula. */
+ * Pass the matrices that your engine already has: those of your vertex shader (NOOK_POSE_SKINNING), or the
+ * world matrices of the joints (NOOK_POSE_JOINT_TO_WORLD). Nook converts them to its own, from rest space to
+ * the world. Rest space is the bind pose in metres with the node transforms of the file applied. Do not
+ * convert yourself: many files have a node above the skeleton that scales by 0.01 or turns by 90 degrees, and
+ * a pose that leaves it out gives wrong AO and no error. If AO looks wrong, call nook_model_check_pose.
+ * docs/poses.md has the formula. */
 
-/* Which matrices you pass. Each of them maps from the space that its comment names to the space of
- * place_3x4, which is the world if place_3x4 is NULL. */
+/* The matrices that you pass. Each maps to the space of place_3x4, which is the world if place_3x4 is
+ * NULL. */
 enum {
-  /* From rest space: Nook's own matrices, as nook_model_convert_pose gives them. One for each bone. This kind
-   * alone works for models without bind data. */
+  /* From rest space: Nook's own matrices, as nook_model_convert_pose gives them, one for each bone. Models
+   * without bind data take no other kind. */
   NOOK_POSE_REST_TO_WORLD = 0,
   /* From the joint's own space: the world matrices of joints, bones or nodes. One for each bone. */
   NOOK_POSE_JOINT_TO_WORLD = 1,
-  /* From the space of the mesh: joint matrix times inverse bind matrix, as your vertex shader takes them. One
-   * for each joint of the skin `skin`, in the order of the file. */
+  /* From the space of the mesh: joint matrix times inverse bind matrix, as your vertex shader takes them, one
+   * for each joint of the skin `skin` in the order of the file. */
   NOOK_POSE_SKINNING = 2
 };
 typedef int32_t nook_pose_kind;
@@ -314,8 +280,8 @@ enum {
   NOOK_TRANSFORM_ROWS_3X4 = 0,
   /* 16 floats: four rows, the last one 0 0 0 1, for column vectors: Ogre::Matrix4. */
   NOOK_TRANSFORM_ROWS_4X4 = 1,
-  /* 16 floats: four columns, the last one the translation and 1: glTF, glm, OpenGL. Libraries of row vectors
-   * that store rows (DirectXMath, osg::Matrixf) have the same bytes. */
+  /* 16 floats: four columns, the last one the translation and 1: glTF, glm, OpenGL, and the bytes of
+   * libraries of row vectors (DirectXMath, osg::Matrixf). */
   NOOK_TRANSFORM_COLUMNS_4X4 = 2,
   /* 12 floats: four columns of three numbers, the last one the translation. */
   NOOK_TRANSFORM_COLUMNS_4X3 = 3,
@@ -331,16 +297,13 @@ enum {
   /* Bones without a transform keep their matrices. Pose a character of several skins by one call for each
    * skin with this flag. */
   NOOK_POSE_FLAG_PARTIAL = 1,
-  /* A bone that is sheared or scaled unevenly by more than 1 % fails. Without this flag, Nook projects it to
-   * the nearest rotation with one scale, as the baker does. */
+  /* A bone that is sheared or scaled unevenly by more than 1 % fails, as with
+   * nook_scene_desc.strict_poses. */
   NOOK_POSE_FLAG_STRICT = 2
 };
 
 typedef struct nook_pose_desc {
-  /* nook_pose_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* Default NOOK_POSE_SKINNING. */
   nook_pose_kind kind;
@@ -349,44 +312,37 @@ typedef struct nook_pose_desc {
   /* The transforms, transform_count of them, `stride` bytes apart (0: tightly packed). Must not be NULL. */
   const float* transforms;
   size_t stride;
-  /* The number of bones of the model, or of joints of the skin; any number from 1 to 65536 with
-   * transform_of_bone. */
+  /* The number of bones, or of joints of the skin; with transform_of_bone any number from 1 to 65536. */
   uint32_t transform_count;
   /* For NOOK_POSE_SKINNING the skin's index in the file, default 0; nook_model_describe_skin lists them. */
   uint32_t skin;
   /* NULL (default): bone b takes transform b, and with NOOK_POSE_SKINNING the bone of joint j takes transform
-   * j. Otherwise the index of the transform of each bone, or -1 for none; nook_model_map_bones makes it from
-   * names. bone_count must then be the model's. */
+   * j. Otherwise the transform of each bone, or -1 for none, as nook_model_map_bones makes it; bone_count is
+   * then the model's. */
   const int32_t* transform_of_bone;
   uint32_t bone_count;
   /* A sum of NOOK_POSE_FLAG_ bits, default 0. */
   uint32_t flags;
   /* NULL (default), or a 3x4 row-major matrix that is applied after every transform: where the character
-   * stands. It may scale (a world in centimetres) and mirror. */
+   * stands. It may scale and mirror. */
   const float* place_3x4;
 } nook_pose_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_pose_desc_init(nook_pose_desc* desc) {
   return nook_desc_init(NOOK_DESC_POSE, desc, sizeof *desc, NOOK_VERSION);
 }
 
 /* Sets the pose of an instance. Call it once per frame for each instance that moves, before the update. A
- * matrix may have one scale for all axes, which scales the body, and may mirror. Nook projects a matrix that
- * is sheared or scaled unevenly, and logs the first such bone of an instance. The call does not allocate. On
- * failure the pose stays as it was.
- * One at a time. Errors: INVALID_ARGUMENT (a count is wrong, or a matrix is not finite; with strict_poses or
- * NOOK_POSE_FLAG_STRICT also a matrix that is sheared or scales unevenly; the message names the bone),
- * INVALID_HANDLE, UNSUPPORTED (the model has no bind data: bake it again from the glTF file, or pass
- * NOOK_POSE_REST_TO_WORLD). */
+ * matrix may have one scale for all axes, which scales the body, and may mirror. The call does not allocate.
+ * One at a time. Errors: INVALID_ARGUMENT (a count is wrong, or a matrix is not finite; if strict also a
+ * matrix that is sheared or scales unevenly; the message names the bone), INVALID_HANDLE, UNSUPPORTED (the
+ * model has no bind data: bake it again from the glTF file, or pass NOOK_POSE_REST_TO_WORLD). */
 NOOK_API nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id instance,
                                          const nook_pose_desc* desc);
 
-/* Converts a pose to rest-to-world matrices on any thread, such as your animation jobs. Pass the result to
- * nook_scene_set_pose with NOOK_POSE_REST_TO_WORLD and NOOK_TRANSFORM_ROWS_3X4. bones_3x4 takes 12 floats for
- * each bone, and bone_count must be the model's. With NOOK_POSE_FLAG_PARTIAL, bones without a transform keep
- * what bones_3x4 holds. The call does not allocate.
- * Any thread. Errors: as nook_scene_set_pose. */
+/* Converts a pose on any thread, such as your animation jobs. Pass the result to nook_scene_set_pose with
+ * NOOK_POSE_REST_TO_WORLD and NOOK_TRANSFORM_ROWS_3X4. bones_3x4 takes 12 floats for each of the model's
+ * bones. With NOOK_POSE_FLAG_PARTIAL, bones without a transform keep what it holds. The call does not
+ * allocate. Any thread. Errors: as nook_scene_set_pose. */
 NOOK_API nook_result nook_model_convert_pose(nook_model model, const nook_pose_desc* desc, float* bones_3x4,
                                              uint32_t bone_count);
 
@@ -396,40 +352,34 @@ NOOK_API nook_result nook_model_convert_pose(nook_model model, const nook_pose_d
 enum {
   /* Compares letters without their case, and skips the characters space . _ - : | */
   NOOK_BONE_MAP_LOOSE = 1,
-  /* Removes what all names of a side have in common at their beginning, up to one of the characters
-   * . _ - : | such as "mixamorig:" or "Armature|". */
+  /* Removes what all names of a side have in common at their beginning, up to one of . _ - : | such as
+   * "mixamorig:" or "Armature|". */
   NOOK_BONE_MAP_DROP_SHARED_PREFIX = 2
 };
 
 typedef struct nook_bone_map_desc {
-  /* nook_bone_map_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* The names of your transforms, name_count of them. A NULL entry matches nothing. */
   const char* const* names;
   uint32_t name_count;
   /* A sum of NOOK_BONE_MAP_ bits, default 0. */
   uint32_t flags;
-  /* NULL (default), or text that is removed from the beginning or the end of a name that has it, before names
-   * are compared. The first two are for your names, the last two for the model's. */
+  /* NULL (default), or text that is removed from the beginning or the end of a name before names are
+   * compared. The first two are for your names, the last two for the model's. */
   const char* host_prefix;
   const char* host_suffix;
   const char* model_prefix;
   const char* model_suffix;
 } nook_bone_map_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_bone_map_desc_init(nook_bone_map_desc* desc) {
   return nook_desc_init(NOOK_DESC_BONE_MAP, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Finds the transform of each bone by name, for nook_pose_desc.transform_of_bone. transform_of_bone takes an
- * index into names for each bone, or -1 where no name matches; bone_count must be the model's. If several
- * names are equal, the first one counts. Bones of one joint share its name. *unmatched, which may be NULL,
- * takes the number of bones with -1; nook_model_bone_name tells their names. The call allocates.
- * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+/* Finds the transform of each bone by name, for nook_pose_desc.transform_of_bone: an index into names, or -1
+ * where no name matches. bone_count must be the model's. If several names are equal, the first one counts.
+ * Bones of one joint share its name. *unmatched, which may be NULL, takes the number of bones with -1. The
+ * call allocates. Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_map_bones(nook_model model, const nook_bone_map_desc* desc,
                                           int32_t* transform_of_bone, uint32_t bone_count,
                                           uint32_t* unmatched);
@@ -437,35 +387,31 @@ NOOK_API nook_result nook_model_map_bones(nook_model model, const nook_bone_map_
 /* ---- Bind data ---- */
 
 typedef struct nook_skin_info {
-  /* sizeof(nook_skin_info); the caller sets it. */
   uint32_t struct_size;
   /* The index of the skin in the file. */
   uint32_t file_index;
-  /* The number of its joints: the transforms that NOOK_POSE_SKINNING takes. */
+  /* Its joints: the transforms that NOOK_POSE_SKINNING takes. */
   uint32_t joint_count;
   /* From the space of the skin's meshes to rest space, 3x4, row-major; S of docs/poses.md. */
   float rest_from_mesh_3x4[12];
 } nook_skin_info;
 
-/* Describes a skin of the model; skin is less than nook_model_info.skin_count. Skins that no mesh uses are
- * left out, so compare file_index with the index in your file.
- * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (no bind data). */
+/* Describes a skin, less than nook_model_info.skin_count. Skins that no mesh uses are left out: compare
+ * file_index. Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (no bind data). */
 NOOK_API nook_result nook_model_describe_skin(nook_model model, uint32_t skin, nook_skin_info* info);
 
 typedef struct nook_check_vertex_info {
-  /* sizeof(nook_check_vertex_info); the caller sets it. */
   uint32_t struct_size;
   /* The vertex, in the order of nook_scene_read. */
   uint32_t vertex;
   /* Its place in rest space, metres, and in the space of its mesh, which is the file's POSITION. */
-  float position[3];
-  float mesh_position[3];
+  float position[3], mesh_position[3];
   /* The bone with the largest weight. */
   uint32_t bone;
 } nook_check_vertex_info;
 
-/* Describes a check vertex; index is less than nook_model_info.check_vertex_count. Check vertices are
- * vertices of the file, spread over the bones, that nook_model_check_pose compares with yours.
+/* Describes a check vertex, less than nook_model_info.check_vertex_count: a vertex of the file for
+ * nook_model_check_pose. They are spread over the bones.
  * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (no bind data). */
 NOOK_API nook_result nook_model_describe_check_vertex(nook_model model, uint32_t index,
                                                       nook_check_vertex_info* info);
@@ -497,55 +443,46 @@ enum {
 typedef int32_t nook_pose_fault;
 
 typedef struct nook_pose_check_desc {
-  /* nook_pose_check_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* Where your own skinning puts the vertices: vertex_count times three floats, `stride` bytes apart (0: 12).
    * Must not be NULL. */
   const float* positions;
   size_t stride;
-  /* NULL (default): the positions are those of check vertex 0, 1, 2 and so on. Otherwise the index of the
-   * check vertex of each position. */
+  /* The check vertex of each position; NULL (default): 0, 1, 2 and so on. */
   const uint32_t* check_vertices;
   /* NULL (default): the positions are in the world. Otherwise the 3x4 row-major matrix that brings them
-   * there: the place that you mean. */
+   * there. */
   const float* place_3x4;
   /* At least 8, at most nook_model_info.check_vertex_count. */
   uint32_t vertex_count;
-  /* The largest distance that counts as equal, as a share of the model's bounding radius, above 0 and at most
-   * 1, default 0.005. */
+  /* Share of the model's bounding radius that counts as equal, above 0 and at most 1, default 0.005. */
   float tolerance;
 } nook_pose_check_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_pose_check_desc_init(nook_pose_check_desc* desc) {
   return nook_desc_init(NOOK_DESC_POSE_CHECK, desc, sizeof *desc, NOOK_VERSION);
 }
 
 typedef struct nook_pose_check_info {
-  /* sizeof(nook_pose_check_info); the caller sets it. */
   uint32_t struct_size;
   /* The likely fault. */
   nook_pose_fault fault;
   /* The largest and the root mean square distance between your vertices and the model's, as shares of the
    * model's bounding radius times the scale of the place. */
-  float max_error;
-  float rms_error;
-  /* The bone with the largest weight at the vertex that is farthest off. */
+  float max_error, rms_error;
+  /* The bone with the largest weight at the farthest vertex. */
   uint32_t worst_bone;
   /* For NOOK_POSE_FAULT_NO_BIND and NOOK_POSE_FAULT_SKIN the index of the skin that fits, otherwise 0. */
   uint32_t fitting_skin;
   /* For NOOK_POSE_FAULT_UNIT the factor from the pose's length unit to the vertices', otherwise 1. */
   float scale;
-  /* The same in words, with names. */
+  /* The same in words. */
   char text[512];
 } nook_pose_check_info;
 
-/* Compares the pose of desc with vertices that you skinned yourself, and names the likely fault. Use a frame
- * of a clip: in the bind pose all bones have the same matrix, so that their order cannot be seen. A wrong
- * pose is not an error of the call: it returns OK, and info->fault tells. The call allocates.
+/* Compares a pose with vertices that you skinned yourself, and names the likely fault in info->fault; the
+ * call itself returns OK. Use a frame of a clip: in the bind pose all bones have the same matrix, so that
+ * their order cannot be seen. The call allocates.
  * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model has no bind data), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_check_pose(nook_model model, const nook_pose_desc* desc,
                                            const nook_pose_check_desc* check, nook_pose_check_info* info);
@@ -553,72 +490,61 @@ NOOK_API nook_result nook_model_check_pose(nook_model model, const nook_pose_des
 /* ---- Vertices of your mesh ----
  *
  * AO comes in the order of the file's vertices. If your engine re-indexes, splits, strips or optimises
- * meshes, match your vertices once and remap the model: the new model gives AO in your order on the CPU and
- * on every tier of OpenGL. For a mesh with other vertices, such as a level of detail, see nook_model_resample
- * in experimental/nook_lod.h. */
+ * meshes, match your vertices once and remap the model: the new model gives AO in your order, on the CPU and
+ * on every tier. For a mesh with other vertices, such as a level of detail, see experimental/nook_lod.h. */
 
-enum {
-  /* Every primitive of the file. */
-  NOOK_ALL_PRIMITIVES = -1
-};
+/* Every primitive of the file. */
+enum { NOOK_ALL_PRIMITIVES = -1 };
 
-/* In the answer of nook_model_match_vertices: no vertex of the model is near enough. */
+/* No vertex of the model is near enough, in the answer of nook_model_match_vertices. */
 #define NOOK_NO_VERTEX 0xffffffffu
 
 typedef struct nook_vertex_match_desc {
-  /* nook_vertex_match_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
-  /* The rest positions of your vertices, three floats each, position_stride bytes apart (0: 12). Must not be
-   * NULL. */
+  /* The rest positions of your vertices, three floats each, position_stride bytes apart (0: 12). Not NULL. */
   const float* positions;
   size_t position_stride;
-  /* NULL (default), or the normals of your vertices, three floats each, normal_stride bytes apart (0: 12).
-   * They tell the two sides of a card apart, which lie at one place and have AO of their own. */
+  /* NULL (default), or normals, three floats each, normal_stride bytes apart (0: 12). They tell the two sides
+   * of a card apart, which lie at one place and have AO of their own. */
   const float* normals;
   size_t normal_stride;
   /* The number of your vertices. */
   uint32_t vertex_count;
   /* The primitive of the file that the vertices come from, default NOOK_ALL_PRIMITIVES. */
   int32_t primitive;
-  /* 0 (default): the positions are in the space of the file's POSITION attribute. 1: they are in the model's
-   * rest space, metres. */
+  /* 0 (default): the positions are in the space of the file's POSITION attribute. 1: in rest space,
+   * metres. */
   uint32_t in_rest_space;
-  /* The largest distance of a match, as a share of the diagonal of the model's box, in [0, 1]. 0 (default) is
-   * 1e-4 for nook_model_match_vertices, which allows for positions of 16 bits. */
+  /* The largest distance of a match, as a share of the diagonal of the model's box, in [0, 1]. 0 (default):
+   * 1e-4, which allows for positions of 16 bits. */
   float tolerance;
 } nook_vertex_match_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_vertex_match_desc_init(nook_vertex_match_desc* desc) {
   return nook_desc_init(NOOK_DESC_VERTEX_MATCH, desc, sizeof *desc, NOOK_VERSION);
 }
 
 /* Finds the model's vertex for each vertex of your mesh by rest position, and by normal among vertices at one
- * place. vertices takes vertex_count indices in the order of nook_scene_read, or NOOK_NO_VERTEX where none
- * is near enough. *unmatched, which may be NULL, takes the number of NOOK_NO_VERTEX. The call allocates.
+ * place. vertices takes vertex_count indices in the order of nook_scene_read, or NOOK_NO_VERTEX where none is
+ * near enough; *unmatched, which may be NULL, takes their number. The call allocates.
  * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model has no rest positions), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_match_vertices(nook_model model, const nook_vertex_match_desc* desc,
                                                uint32_t* vertices, uint32_t* unmatched);
 
-/* Makes a model whose vertices are those of your mesh: vertex i of the new model is vertex vertices[i] of the
- * given one. Everything else is copied. Its primitives are the runs of vertices whose
- * meshes have the same space, which is one primitive for most files. On failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT (also for NOOK_NO_VERTEX; the message names the vertex),
- * OUT_OF_MEMORY. */
+/* Makes a model whose vertex i is vertex vertices[i] of the given one; all else is copied. Its primitives are
+ * the runs of vertices whose meshes have the same space: one for most files. On failure *out is NULL.
+ * Any thread. Errors: INVALID_ARGUMENT (also for NOOK_NO_VERTEX; the message names it), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_remap(nook_model model, const uint32_t* vertices, uint32_t count,
                                       nook_model* out);
 
 /* ---- Capsules: what darkens the world ---- */
 
-/* The largest number of a model's capsules, and the parts of a light's cone that are darkened apart. */
+/* The most capsules of a model, and the parts of a light's cone that are darkened apart. */
 #define NOOK_WORLD_MAX_CASTERS 64
 #define NOOK_WORLD_CONE_PARTS 16
 
 /* A capsule: every point that is within the radius of the segment from a to b, which changes evenly from
- * radius_a to radius_b. A sphere has equal ends. Metres. */
+ * radius_a to radius_b. Metres. */
 typedef struct nook_capsule {
   float a[3];
   float radius_a;

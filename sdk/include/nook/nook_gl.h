@@ -1,28 +1,19 @@
-/* The OpenGL functions: characters on the GPU, the frame that the screen pass and the world pass take, and
- * uploads of probes, materials and clips for your shaders.
+/* The OpenGL functions: characters on the GPU, the frame of the screen pass and the world pass, and uploads
+ * of probes, materials and clips for your shaders. Nook needs OpenGL 3.3 core, OpenGL ES 3.0, WebGL 2 or
+ * newer, and includes no OpenGL header.
  *
- * Nook needs OpenGL 3.3 core, OpenGL ES 3.0 or WebGL 2, or newer, and includes no OpenGL header. There are
- * two ways. Tiers 43 and ES31: on OpenGL 4.3 and OpenGL ES 3.1, spheres, shadows and vertices are evaluated
- * in compute shaders. Tiers 33 and ES30: on OpenGL 3.3, OpenGL ES 3.0 and WebGL 2, shadows at key points are
- * evaluated on the CPU, through the context's parallel_for, and vertices by transform feedback. On software
- * renderers such as Mesa's llvmpipe this way is faster; max_tier selects it. "Texture buffer" below means a
- * GL_TEXTURE_BUFFER on OpenGL, and a GL_TEXTURE_2D on OpenGL ES and WebGL, where Nook's GLSL text declares
- * its sampler accordingly. WebGL has no glGetTexLevelParameteriv and stalls at reads: NOOK_GL_STATE_DEFAULTS
- * is the mode for it.
- *
- * An engine creates one nook_gl for each OpenGL context that shares nothing with another. Once a frame, after
- * it has set the poses, it calls nook_gl_scene_update. For each character it binds the view of
- * nook_gl_scene_view as a vertex attribute, and its shader multiplies the ambient term (not the direct
- * light) of the material by it:
+ * Create one nook_gl for each OpenGL context that shares nothing with
+ * another. Once per frame, after you set the poses, call nook_gl_scene_update. For each character, bind the
+ * view of nook_gl_scene_view as a vertex attribute, and multiply the ambient term (not the direct light) of
+ * the material by it:
  *     glBindBuffer(GL_ARRAY_BUFFER, view.buffer);
  *     glVertexAttribPointer(slot, 1, GL_FLOAT, GL_FALSE, view.stride, (const void*)(uintptr_t)view.offset);
- * The i-th value belongs to the i-th vertex of the imported file, the primitives one after another;
- * nook_model_describe_primitive gives the values of a primitive.
- *
- * At each call, no transform feedback may be active unless it is paused, and neither conditional rendering
- * nor a query that counts primitives or samples may be active. Calls that allocate report OpenGL errors that
- * the host left to the log; the other calls neither read nor clear them. Functions make OpenGL calls unless
- * their comment says otherwise. */
+ * The i-th value belongs to the i-th vertex of the imported file, the primitives one after another; see
+ * nook_model_describe_primitive. "Texture buffer" means a GL_TEXTURE_BUFFER, and on OpenGL ES and WebGL a
+ * GL_TEXTURE_2D, where Nook's GLSL declares its sampler accordingly. At each call, no transform feedback may
+ * be active unless it is paused, and neither conditional rendering nor a query that counts primitives or
+ * samples. Calls that allocate report OpenGL errors that you left to the log; other calls neither read nor
+ * clear them. Functions make OpenGL calls unless their comment says otherwise. */
 #ifndef NOOK_GL_H
 #define NOOK_GL_H
 
@@ -35,21 +26,20 @@
 extern "C" {
 #endif
 
-/* The host's loader: returns the address of the OpenGL function called name, or NULL. Nook calls it only
- * inside nook_gl_create. */
+/* Returns the address of an OpenGL function, or NULL. Nook calls it only inside nook_gl_create. */
 typedef void* (*nook_gl_proc_fn)(void* user, const char* name);
 
-/* The tiers, as max_tier and nook_gl_info have them. The other tier of the same kind counts as its like: 33
- * and ES30 forbid compute shaders, 43 and ES31 allow them. */
+/* The tiers of max_tier and nook_gl_info. 43 and ES31 evaluate spheres, shadows and vertices in compute
+ * shaders. 33 and ES30 evaluate shadows at key points on the CPU, through the context's parallel_for, and
+ * vertices by transform feedback; on software renderers such as Mesa's llvmpipe this is faster. As max_tier,
+ * the two of a kind are alike. */
 enum {
   NOOK_GL_TIER_BEST = 0,
-  /* OpenGL 3.3 core: transform feedback, texture buffers. */
   NOOK_GL_TIER_33 = 33,
-  /* OpenGL 4.3 core: compute shaders with shader storage. */
   NOOK_GL_TIER_43 = 43,
-  /* OpenGL ES 3.0 and WebGL 2: transform feedback, 2D textures in place of texture buffers. */
+  /* OpenGL ES 3.0 and WebGL 2. */
   NOOK_GL_TIER_ES30 = 300,
-  /* OpenGL ES 3.1 and 3.2: compute shaders with at most four storage blocks, as every such context has. */
+  /* OpenGL ES 3.1 and 3.2. */
   NOOK_GL_TIER_ES31 = 310
 };
 typedef int32_t nook_gl_tier;
@@ -58,105 +48,90 @@ typedef int32_t nook_gl_tier;
 enum {
   /* Each call queries the state and restores it. A query may stall a threaded driver. */
   NOOK_GL_STATE_PRESERVE = 0,
-  /* Nook reads no state, and leaves what it touched at OpenGL's defaults. */
+  /* Nook reads no state, and leaves what it touched at OpenGL's defaults. The mode for WebGL, where reads
+   * stall. */
   NOOK_GL_STATE_DEFAULTS = 1,
-  /* Nook reads no state, and leaves what it touched undefined, so that the host must set it again. Rasterizer
-   * discard and primitive restart are left disabled. */
+  /* Nook reads no state, and leaves what it touched undefined: set it again. Rasterizer discard and primitive
+   * restart are left disabled. */
   NOOK_GL_STATE_HOST = 2
 };
 typedef int32_t nook_gl_state_mode;
 
 typedef struct nook_gl_desc {
-  /* nook_gl_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
-  /* Required. */
+  /* Required; get_proc_user is its first argument. */
   nook_gl_proc_fn get_proc;
-  /* The first argument of get_proc. */
   void* get_proc_user;
-  /* The highest tier to use; default NOOK_GL_TIER_BEST, the best one of the OpenGL context. */
+  /* The highest tier to use; default NOOK_GL_TIER_BEST, the best of the OpenGL context. */
   nook_gl_tier max_tier;
   /* Default NOOK_GL_STATE_PRESERVE. */
   nook_gl_state_mode state_mode;
 } nook_gl_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_gl_desc_init(nook_gl_desc* desc) {
   return nook_desc_init(NOOK_DESC_GL, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Loads functions and compiles shaders for the OpenGL context that is current. Host memory comes from the
- * context's allocator, except for one small allocation of the function loader. On failure *out is NULL and no
- * OpenGL object is left.
- * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the message names the OpenGL version or the missing
- * function), GL, OUT_OF_MEMORY. */
+/* Loads functions and compiles shaders for the current OpenGL context. Host memory comes from the context's
+ * allocator, except for one small allocation of the function loader. On failure *out is NULL and no OpenGL
+ * object is left. Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the message names the OpenGL version
+ * or the missing function), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_create(nook_context context, const nook_gl_desc* desc, nook_gl* out);
 
-/* Deletes every OpenGL object that gl created and sets *gl to NULL; *gl may be NULL. The context and the
- * scenes may have been destroyed before. After nook_gl_context_lost the call needs no OpenGL context.
+/* Deletes every OpenGL object that gl created and sets *gl to NULL; *gl may be NULL. You may have destroyed
+ * the context and the scenes before. After nook_gl_context_lost the call needs no OpenGL context.
  * Context thread. */
 NOOK_API void nook_gl_destroy(nook_gl* gl);
 
 /* Tells Nook that the OpenGL context is gone: gl forgets all OpenGL names without an OpenGL call. Afterwards
- * nook_gl_describe and nook_gl_destroy still work, and functions that need the OpenGL context fail with
- * NOOK_ERROR_GL.
+ * only nook_gl_describe and the destroy calls work, and others fail with NOOK_ERROR_GL.
  * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_context_lost(nook_gl gl);
 
 typedef struct nook_gl_info {
-  /* sizeof(nook_gl_info); the caller sets it. */
   uint32_t struct_size;
   nook_gl_tier tier;
   /* GL_VERSION and GL_RENDERER of the OpenGL context; both are valid while gl lives. */
   const char* version;
   const char* renderer;
-  /* The OpenGL buffer memory that gl holds now: models, working space and AO. */
-  uint64_t buffer_bytes;
-  /* The part of buffer_bytes that holds AO. */
-  uint64_t ao_bytes;
+  /* The OpenGL buffer memory that gl holds now, and the part of it that holds AO. */
+  uint64_t buffer_bytes, ao_bytes;
 } nook_gl_info;
 
-/* Describes gl. The call makes no OpenGL call.
- * One at a time. Errors: INVALID_ARGUMENT. */
+/* Describes gl, without an OpenGL call. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_describe(nook_gl gl, nook_gl_info* info);
 
 /* Creates the OpenGL objects that the scene's instances need, so that the next nook_gl_scene_update allocates
- * nothing. The call is optional, because an update does the same when instances were added. Existing
- * instances keep their AO and their view.
- * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (a model or the scene exceeds a limit of this
- * OpenGL), GL, OUT_OF_MEMORY. */
+ * nothing. Optional: an update does the same when instances were added. Existing instances keep their AO and
+ * their view. Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (a model or the scene exceeds a limit of
+ * this OpenGL), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_scene_prepare(nook_gl gl, nook_scene scene);
 
-/* Evaluates the AO of all instances on the GPU. It evaluates everything that nook_scene_update evaluates and
- * replaces it: a host calls one of the two in a frame. The values agree with nook_scene_read within 2e-3,
- * beside what far_error of the scene changes there.
- * The call allocates host memory only if instances were added, received their first light or have more lobes
- * than the lights had room for since the last prepare or update, and it never waits for the GPU. No other
- * call may use the scene meanwhile. Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (as
- * nook_gl_scene_prepare; also, the lights exceed the texture buffer of this OpenGL: each takes 12 + 2 * lobes
- * texels, and every OpenGL has 65,536), GL, OUT_OF_MEMORY. */
+/* Evaluates the AO of all instances on the GPU. Call it in place of nook_scene_update; the values agree
+ * within 2e-3, beside what far_error of the scene changes there. It allocates host memory only if instances
+ * were added, received their first light or have more lobes than the lights had room for, and never waits for
+ * the GPU. No other call may use the scene meanwhile.
+ * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (as nook_gl_scene_prepare; also, the lights exceed
+ * the texture buffer of this OpenGL: each takes 12 + 2 * lobes texels, and every OpenGL has 65,536), GL,
+ * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_scene_update(nook_gl gl, nook_scene scene);
 
-/* The place of an instance's values in an OpenGL buffer: one float in [0, 1] for each vertex for
- * NOOK_CHANNEL_AO, and three (red, green, blue) for NOOK_CHANNEL_DIRECTIONAL_AO. */
+/* The place of an instance's values: one float in [0, 1] for each vertex for NOOK_CHANNEL_AO, three (red,
+ * green, blue) for NOOK_CHANNEL_DIRECTIONAL_AO. */
 typedef struct nook_gl_view {
-  /* sizeof(nook_gl_view); set it before the call. */
   uint32_t struct_size;
-  /* The OpenGL name of a buffer that Nook owns. Read it, but never write or delete it. */
+  /* A buffer that Nook owns. Read it, but never write or delete it. */
   uint32_t buffer;
-  /* Bytes from the start of the buffer to the first vertex. */
+  /* Bytes from the start of the buffer to the first vertex, and between the starts of two vertices. */
   uint64_t offset;
-  /* Bytes between the starts of two vertices. */
   uint32_t stride;
   /* The model's file_vertex_count. */
   uint32_t count;
-  /* The lights of the scene, for NOOK_CHANNEL_DIRECTIONAL_AO; 0 for NOOK_CHANNEL_AO. The OpenGL name of a
-   * texture buffer that Nook owns, the same for all instances of the scene. */
+  /* For NOOK_CHANNEL_DIRECTIONAL_AO, else 0: a texture buffer that Nook owns, with the lights of the
+   * scene. */
   uint32_t texture;
-  /* The instance's light, the first argument of the GLSL functions; it is valid until the next update. 0 for
-   * NOOK_CHANNEL_AO. */
+  /* For NOOK_CHANNEL_DIRECTIONAL_AO, else 0: the instance's light, the first argument of the GLSL functions;
+   * valid until the next update. */
   int32_t light;
   /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, with the functions nook_scene_*. The text
    * is the same for every scene and channel, and valid while the library is loaded. */
@@ -168,47 +143,45 @@ typedef struct nook_gl_view {
  * scene or gl is destroyed, you call nook_gl_scene_release, or nook_scene_set_model gives the instance
  * another model. AO is 1 before the first update. After an update you may read the values as vertex
  * attributes, texture buffers, shader storage and by buffer reads without a barrier. The call makes no OpenGL
- * call. Context thread. Errors: INVALID_ARGUMENT (also: NOOK_CHANNEL_BENT_NORMAL, which your vertex shader
+ * call.
+ * Context thread. Errors: INVALID_ARGUMENT (also: NOOK_CHANNEL_BENT_NORMAL, which your vertex shader
  * computes), INVALID_HANDLE (the id is unknown, the instance is not prepared yet, or it had no light), GL. */
 NOOK_API nook_result nook_gl_scene_view(nook_gl gl, nook_scene scene, nook_instance_id instance,
                                         nook_channel channel, nook_gl_view* view);
 
-/* Copies the values of a view to host memory, in the order of nook_scene_read; count is the number of
- * vertices. The call WAITS FOR THE GPU: use it in tests and tools. Context thread. Errors: those of
- * nook_gl_scene_view. */
+/* Copies the values of a view to host memory, for count vertices in the order of nook_scene_read. The call
+ * WAITS FOR THE GPU: use it in tests and tools. Context thread. Errors: those of nook_gl_scene_view. */
 NOOK_API nook_result nook_gl_scene_read(nook_gl gl, nook_scene scene, nook_instance_id instance,
                                         nook_channel channel, float* out, uint32_t count);
 
-/* Where nook_gl_scene_write puts AO: a buffer or a texture of the host. */
+/* Where nook_gl_scene_write puts AO: a buffer or a texture of yours. Set all fields to 0 first. */
 typedef struct nook_gl_ao_target {
-  /* sizeof(nook_gl_ao_target); the caller sets it, and the other fields to 0 first. */
+  /* sizeof(nook_gl_ao_target). */
   uint32_t struct_size;
   /* The numbers in a buffer. A texture's own format decides instead; but on OpenGL ES, where uploads do not
-   * convert, this must be the texture's: NOOK_FORMAT_FLOAT for GL_R32F, NOOK_FORMAT_HALF for GL_R16F,
-   * NOOK_FORMAT_UNORM8 for GL_R8. */
+   * convert, set its format here: NOOK_FORMAT_FLOAT for GL_R32F, _HALF for GL_R16F, _UNORM8 for GL_R8. */
   nook_format format;
-  /* The OpenGL name of a buffer of the host, or 0. It must not be mapped. */
+  /* The OpenGL name of a buffer that is not mapped, or 0. */
   uint32_t buffer;
-  /* The OpenGL name of a GL_TEXTURE_2D of the host with a format that has a red channel of floats or of
-   * normalised integers, such as GL_R8, or 0. The value of vertex i goes to texel i, row by row. */
+  /* The OpenGL name of a GL_TEXTURE_2D with a red channel of floats or normalised integers, or 0. The value
+   * of vertex i goes to texel i, row by row. */
   uint32_t texture;
   /* Of the first value: bytes, a multiple of 4, or texels. */
   uint64_t offset;
-  /* From the values of one instance to those of the next: bytes, a multiple of 4, or texels; so that one
-   * instanced or indirect draw reads all instances. Only with count > 1. */
+  /* From the values of one instance to those of the next: bytes, a multiple of 4, or texels. Only with count
+   * > 1. */
   uint64_t instance_stride;
   /* Bytes between the starts of two values in a buffer, a multiple of 4, for AO among other attributes of a
    * vertex; a value then owns a whole word. Needs compute shaders. 0: tightly packed; the bytes of an
-   * instance are rounded up to a multiple of 4, and the bytes of the padding are written. */
+   * instance are rounded up to a multiple of 4, and the padding is written. */
   uint32_t stride;
-  /* The width of the texture in texels. Needed on OpenGL ES 3.0 and WebGL 2, which do not tell it;
-   * elsewhere 0 has it looked up. */
+  /* Texels. Needed on OpenGL ES 3.0 and WebGL 2, which do not tell it; elsewhere 0 has it looked up. */
   uint32_t texture_width;
 } nook_gl_ao_target;
 
-/* Copies the AO of the last nook_gl_scene_update to a buffer or texture of the host on the GPU, for count
- * instances one after another. Vertices, texture fetches and buffer reads see the values without a barrier of
- * the host. The call does not wait for the GPU. The first call with a format makes a program.
+/* Copies the AO of the last nook_gl_scene_update to a buffer or texture of yours on the GPU, for count
+ * instances one after another. Vertices, texture fetches and buffer reads see the values without a barrier.
+ * The call does not wait for the GPU. The first call with a format makes a program.
  * Context thread. Errors: INVALID_ARGUMENT (also: the target is too small), INVALID_HANDLE (an id is unknown,
  * or an instance is not prepared yet), UNSUPPORTED (a stride without compute shaders), GL. */
 NOOK_API nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
@@ -229,8 +202,7 @@ NOOK_API nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const noo
  * because each term takes two estimates of a square root. */
 
 /* Deletes the OpenGL objects that gl holds for a scene, which ends the views of its instances; the scene
- * itself lives on. Without this call the next update, or nook_gl_destroy, deletes the objects of a destroyed
- * scene.
+ * lives on. Without this call the next update, or nook_gl_destroy, deletes the objects of a destroyed scene.
  * Context thread. Errors: INVALID_ARGUMENT, GL. */
 NOOK_API nook_result nook_gl_scene_release(nook_gl gl, nook_scene scene);
 
@@ -245,27 +217,21 @@ enum {
   NOOK_DEPTH_HARDWARE = 0,
   /* -z of view space in metres, in the red channel of a float texture. */
   NOOK_DEPTH_LINEAR = 1,
-  /* A shader of the host wrote log2(1 + C (w - n)) / log2(1 + C (f - n)) to gl_FragDepth, or to the red
-   * channel of a 32-bit float texture. w is -z of view space, which is clip w where projection[11] is -1. C,
-   * n and f are depth_log_scale, depth_log_near and depth_log_far; values of 1 and more are sky. Only with a
-   * perspective. The pass inverts it: w = n + (exp2(stored log2(1 + C (f - n))) - 1) / C. three.js has
-   * C = 1 and n = 0, Cesium has C = 1 and its near plane. */
+  /* Your shader wrote log2(1 + C (w - n)) / log2(1 + C (f - n)) to gl_FragDepth, or to the red channel of a
+   * 32-bit float texture. w is -z of view space; C, n and f are depth_log_scale, depth_log_near and
+   * depth_log_far; values of 1 and more are sky. Only with a perspective. three.js has C = 1 and n = 0,
+   * Cesium has C = 1 and its near plane. */
   NOOK_DEPTH_LOGARITHMIC = 2
 };
 typedef int32_t nook_depth_kind;
 
-/* The depth range of clip space. */
-enum {
-  /* OpenGL's default. */
-  NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE = 0,
-  /* glClipControl(..., GL_ZERO_TO_ONE). */
-  NOOK_CLIP_SPACE_ZERO_TO_ONE = 1
-};
+/* The depth range of clip space: OpenGL's default, or glClipControl(..., GL_ZERO_TO_ONE). */
+enum { NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE = 0, NOOK_CLIP_SPACE_ZERO_TO_ONE = 1 };
 typedef int32_t nook_clip_space;
 
 /* The combination of a pass's result s with AO that you draw yourself into a texture of the frame (G-buffer
- * AO). c is the texture's red channel: AO of another kind, such as the AO of nook_gl_scene_update, and 1
- * where there is none. w is its green channel, a weight. */
+ * AO). c is its red channel: AO of another kind, such as the AO of nook_gl_scene_update, and 1 where there is
+ * none. w is its green channel, a weight. */
 enum {
   /* s. */
   NOOK_GBUFFER_AO_NONE = 0,
@@ -293,7 +259,7 @@ enum {
 };
 typedef int32_t nook_target;
 
-/* The change that the result makes to its target. */
+/* The change of the target by the result. */
 enum {
   /* The target becomes (ao, ao, ao, 1), or the bent normal and ao; see nook_nnao_desc.bent_normals. */
   NOOK_BLEND_WRITE = 0,
@@ -303,41 +269,35 @@ enum {
 typedef int32_t nook_blend;
 
 /* One frame. Textures are 2D and single-sampled, unless the pass was made for views or samples; level 0 with
- * width x height texels is read. A pass reads them through its own samplers: it changes none of their
- * parameters, and their filter, wrap and compare modes do not matter. A pass queries the size and format of
- * textures and targets when a name, kind or size here differs from its last call. If you create a texture
- * anew under its old name, set textures_changed. */
+ * width x height texels is read, through the pass's own samplers. The pass queries the size and format of
+ * textures and targets when a name, kind or size here differs from its last call. */
 typedef struct nook_gl_frame_desc {
-  /* nook_gl_frame_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* Pixels; the size of every texture here, which may not exceed the maximum of the pass. Required. */
   int32_t width, height;
-  /* x, y, width and height in pixels of the part that `projection` fills; all 0 (default): everything. The
-   * pass reads and writes nothing outside it. */
+  /* x, y, width and height in pixels of the part that `projection` fills, outside of which nothing is read or
+   * written; all 0 (default): everything. */
   int32_t viewport[4];
   /* Required. */
   uint32_t depth_texture;
   /* Default NOOK_DEPTH_HARDWARE. */
   nook_depth_kind depth_kind;
-  /* Metres, for linear depth only: this depth and greater ones are sky. 0 (default): no depth is. Sky is also
-   * a depth that is not finite, or is not positive in a perspective, and the far plane of hardware depth. The
-   * AO of sky is exactly 1. */
+  /* Metres, for linear depth only: this depth and greater ones are sky, whose AO is exactly 1. 0 (default):
+   * no depth is. Sky is also a depth that is not finite, or is not positive in a perspective, and the far
+   * plane of hardware depth. */
   float sky_depth;
-  /* For logarithmic depth, see NOOK_DEPTH_LOGARITHMIC. C in 1 / metres, > 0, default 1; n in metres, 0 or
-   * more, default 0; f in metres, > n, required. */
+  /* For logarithmic depth: C in 1 / metres, > 0, default 1; n in metres, 0 or more, default 0; f in metres, >
+   * n, required. */
   float depth_log_scale, depth_log_near, depth_log_far;
   /* 0 (default): the pass reconstructs normals from depth. */
   uint32_t normal_texture;
-  /* The normal is normal_matrix * (texel * normal_scale + normal_bias), then normalised. The defaults are 1
-   * and 0; normals that are stored as (n + 1) / 2 need 2 and -1. */
+  /* The normal is normal_matrix * (texel * normal_scale + normal_bias), then normalised. Defaults 1 and 0;
+   * normals that are stored as (n + 1) / 2 need 2 and -1. */
   float normal_scale, normal_bias;
   /* Column-major; it maps to view space. The identity by default. */
   float normal_matrix[9];
-  /* Column-major, as OpenGL takes it; required. Perspective, off-centre, orthographic, reversed-depth and
-   * infinite projections are all supported. */
+  /* Column-major; required. Perspective, off-centre, orthographic, reversed-depth or infinite. */
   float projection[16];
   /* From world space to view space, column-major: a rotation and a translation. The identity by default. The
    * world pass needs it. The screen pass with max_history_frames remembers it, and follows surfaces into the
@@ -351,84 +311,75 @@ typedef struct nook_gl_frame_desc {
   uint32_t gbuffer_ao_texture;
   /* Default NOOK_TARGET_OWN. */
   nook_target target;
-  /* The OpenGL name of the host's texture or framebuffer. Pixel (x, y) of the frame is written to its pixel
-   * (x, y). sRGB formats are written and multiplied in linear light. */
+  /* The OpenGL name of your texture or framebuffer. Pixel (x, y) of the frame is written to its pixel (x, y).
+   * sRGB formats are written and multiplied in linear light. */
   uint32_t target_name;
   /* Default NOOK_BLEND_WRITE. */
   nook_blend blend;
-  /* Set 1 if you created a texture or target anew under its old name since the last call: the pass then
-   * queries all of them again. Default 0. */
+  /* Set 1 if you created a texture or target anew under its old name since the last call. Default 0. */
   int32_t textures_changed;
-  /* For passes with views; others do not read them. 16, 16 and 9 numbers for each view, in place of
-   * projection, view and normal_matrix. NULL (default): all views have the frame's own matrix. */
+  /* For passes with views: 16, 16 and 9 numbers for each view, in place of projection, view and
+   * normal_matrix. NULL (default): all views have the frame's own matrix. */
   const float* view_projections;
   const float* view_matrices;
   const float* view_normal_matrices;
 } nook_gl_frame_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_gl_frame_desc_init(nook_gl_frame_desc* desc) {
   return nook_desc_init(NOOK_DESC_GL_FRAME, desc, sizeof *desc, NOOK_VERSION);
 }
 
 /* ---- Uploads: probes, materials and clips in shaders ----
  *
- * An upload is a probe, a grid, a material or baked clips as textures, together with the GLSL that reads
- * them. Upload once with nook_gl_upload_probe, nook_gl_upload_material or nook_gl_upload_clips. Put the GLSL
- * of nook_gl_upload_describe after the #version line of your shader. Before a draw, call nook_gl_upload_bind
- * with your program. */
+ * An upload is a probe, a grid, a material or baked clips as textures, with the GLSL that reads them. Upload
+ * once. Put the GLSL of nook_gl_upload_describe after the #version line of your shader. Before a draw, call
+ * nook_gl_upload_bind with your program. */
 
 /* One texture of an upload. */
 typedef struct nook_gl_upload_texture {
   /* The target to bind it to: GL_TEXTURE_BUFFER, GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY or GL_TEXTURE_3D. */
   uint32_t target;
-  /* The OpenGL name of a texture that Nook owns. Bind it, but never change or delete it. */
+  /* A texture that Nook owns. Bind it, but never change or delete it. */
   uint32_t texture;
   /* The name of its sampler in the GLSL; it is valid while the upload lives. */
   const char* uniform;
 } nook_gl_upload_texture;
 
 typedef struct nook_gl_upload_info {
-  /* sizeof(nook_gl_upload_info); set it before the call. */
   uint32_t struct_size;
-  /* The number of textures, and so of the texture units that a draw needs; at most
-   * 16. */
+  /* The number of textures, and of the texture units that a draw needs; at most 16. */
   uint32_t texture_count;
   nook_gl_upload_texture textures[16];
   /* The memory of all textures. On OpenGL ES, tables of texels are textures with rows of 2048 texels. */
   uint64_t bytes;
-  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions. Every name in it begins with nook_, Nook
-   * or NOOK_. The text is valid until the next update of the upload, or its end. */
+  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, valid until the next update of the upload,
+   * or its end. Every name in it, here and in all GLSL of Nook, begins with nook_, Nook or NOOK_. */
   const char* glsl;
-  /* The name of a uniform of constants, or NULL if there is none. A grid has nook_grid_frame,
-   * clips have nook_clip_vec4s. */
+  /* A uniform of constants, or NULL. A grid has nook_grid_frame, clips have nook_clip_vec4s. */
   const char* constant;
-  /* The values of the uniform: constant_vec4s times four floats, for glUniform4fv. If constant_vec4s is 0,
-   * the uniform is one integer, the first value, for glUniform1i. */
+  /* Its values: constant_vec4s times four floats for glUniform4fv, or if that is 0 one integer, for
+   * glUniform1i. */
   float constant_values[16];
   uint32_t constant_vec4s;
   /* 1: walls choose among the probes of a grid. */
   int32_t walls;
 } nook_gl_upload_info;
 
-/* Describes an upload, for your shaders and for hosts that bind textures themselves. The call makes no OpenGL
- * call.
+/* Describes an upload, for your shaders and for hosts that bind textures themselves, without an OpenGL call.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_upload_describe(nook_gl_upload upload, nook_gl_upload_info* info);
 
 /* Prepares a draw with program. Binds the textures to the texture units from first_unit on, without sampler
- * objects, and sets the sampler uniforms and the constants of the program. It changes three things and leaves
- * them, in every nook_gl_state_mode: the program is in use, the textures are bound to their units, and no
- * sampler object is bound to these units. The active unit is treated as state_mode says.
- * A sampler that your shader does not use may be missing in the program. If all are missing, the call fails
- * and changes nothing; the message names what the program was compiled for.
+ * objects, and sets the sampler uniforms and the constants of the program. In every nook_gl_state_mode the
+ * program stays in use and the textures stay bound; the active unit is treated as state_mode says. A sampler
+ * that your shader does not use may be missing. If all are missing, the call fails and changes nothing; the
+ * message names what the program was compiled for.
  * Context thread. Errors: INVALID_ARGUMENT (program is not a linked program, was compiled with the GLSL of
  * another kind of upload, or first_unit + texture_count exceeds GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS), GL. */
 NOOK_API nook_result nook_gl_upload_bind(nook_gl_upload upload, uint32_t program, uint32_t first_unit);
 
 /* Deletes the OpenGL objects and sets *upload to NULL; *upload may be NULL. You may destroy the nook_gl
- * before, but the OpenGL context of nook_gl_create must be current. After nook_gl_context_lost none is
- * needed. Context thread. */
+ * before, but its OpenGL context must be current; after nook_gl_context_lost none is needed. Context
+ * thread. */
 NOOK_API void nook_gl_upload_destroy(nook_gl_upload* upload);
 
 /* ---- Probes in shaders ----
@@ -442,18 +393,14 @@ NOOK_API void nook_gl_upload_destroy(nook_gl_upload* upload);
  *     colour = nook_probe_ambient(albedo, e, vec3(ao));  // or directional occlusion instead of ao
  *     colour += nook_probe_specular_anisotropic(place, surface) *
  *               nook_probe_specular_occlusion(ao, n_dot_v, roughness);
- * The same functions exist for a single lobe, such as one in a uniform block: nook_sg_lobe_radiance,
- * nook_sg_lobe_irradiance and so on; shaders/probe documents them. NookLobe has the layout of nook_lobe in
- * std140 and std430. The GLSL agrees with nook_probe.h on the CPU within 1e-4 of the largest value. The text
- * is the same for every probe.
- *
- * Forms SH and ZH3 keep a grid of diffuse light in a 3D texture of GL_RGBA16F, which the hardware filters:
- * 7 fetches per pixel, 4 for ZH3, at most 40 where walls choose among the probes of ZH3. They are smaller and
+ * For a single lobe, such as one in a uniform block, call nook_sg_lobe_radiance, nook_sg_lobe_irradiance and
+ * so on; shaders/probe documents them. NookLobe has the layout of nook_lobe in std140 and std430. The GLSL
+ * agrees with nook_probe.h within 1e-4 of the largest value, and is the same for every probe.
+ * Forms SH and ZH3 keep a grid of diffuse light in a 3D texture of GL_RGBA16F, which the hardware filters: 7
+ * fetches per pixel, 4 for ZH3, at most 40 where walls choose among the probes of ZH3. They are smaller and
  * faster than lobes. The sampler is nook_grid_texels, the constant nook_grid_frame. Your shader:
  *     vec3 e = nook_grid_irradiance(position_ws, normal_ws);
- *
- * A capture turns cube maps that your engine renders into probes, while the game runs: see
- * experimental/nook_capture.h. */
+ * experimental/nook_capture.h fills them from cube maps that your engine renders, while the game runs. */
 
 /* The numbers that an upload holds for each probe. */
 enum {
@@ -478,56 +425,43 @@ typedef int32_t nook_gl_probe_form;
 NOOK_API nook_result nook_gl_upload_probe(nook_gl gl, nook_probe probe, nook_gl_probe_form form,
                                           nook_gl_upload* out);
 
-/* Uploads another probe or grid in place of the present one, in the form that the upload has, such as the
- * next preview of a bake. The textures keep their names. Draws that were issued before still read the old
- * values. The constant changes with the box of a grid, and the GLSL if one of both has walls and the other
- * has none. On failure the old probe stays. Context thread. Errors: those of nook_gl_upload_probe,
- * INVALID_ARGUMENT (the upload is not a probe). */
+/* Uploads another probe or grid in place of the present one, in the form that the upload has. The textures
+ * keep their names. Draws that were issued before still read the old values. The constant changes with the
+ * box of a grid, and the GLSL if only one of both has walls. On failure the old probe stays.
+ * Context thread. Errors: those of nook_gl_upload_probe, INVALID_ARGUMENT (the upload is not a probe). */
 NOOK_API nook_result nook_gl_update_probe(nook_gl_upload upload, nook_probe probe);
 
 /* ---- Materials in shaders ----
  *
- * Materials in the host's shaders: a material as textures, and the GLSL that decodes them per pixel.
- *
- * Load a material and call nook_gl_upload_material once. Put its GLSL after the #version line of your
- * fragment shader, and call nook_gl_upload_bind for each draw. Your shader:
+ * Put the GLSL after the #version line of your fragment shader. For each light, which includes the cosine:
  *     vec4 modes[NOOK_LIGHT_VEC4_COUNT];
  *     nook_material_decode(uv, dFdx(uv), dFdy(uv), view, modes);
  *     colour = nook_material_radiance(modes, light) * irradiance;
  *     alpha = nook_material_visibility(nook_material_occlusion(uv, dFdx(uv), dFdy(uv), view));
- * nook_material_radiance is called once for each light, and its result includes the cosine.
- *
  * Both filter a pixel by one fetch of each mode at the mipmap level of its longer side, which blurs grazing
  * views. With several fetches along that side, `fetches` being a constant of 1 to NOOK_MATERIAL_MAX_FETCHES,
+ * these stay sharp (see nook_material_evaluate):
  *     nook_material_decode_anisotropic(uv, dFdx(uv), dFdy(uv), view, fetches, modes);
  *     alpha = nook_material_visibility(
  *         nook_material_occlusion_anisotropic(uv, dFdx(uv), dFdy(uv), view, fetches));
- * stay sharp, see nook_material_evaluate. Each fetch beyond the first costs
- * further_decode_fetches of nook_material_info; the modelled cost of a program that calls neither is within
- * 0.2 % of what it is without them.
- *
- * The text of a neural material has the same functions. Its `modes` are no light modes but sums of the
- * network for the pixel: other shaders cannot add them up or mix them.
- *
- * Silhouettes of the meso-structure need two passes over the same triangles. The first pass draws pixels with
- * alpha = 1 and discards the others. The second pass blends those with 0 < alpha < 1 by alpha; it tests depth
- * but does not write it. */
+ * Each fetch beyond the first costs further_decode_fetches of nook_material_info. The `modes` of a neural
+ * material are sums of its network for the pixel: you cannot add them up or mix them.
+ * Silhouettes of the meso-structure need two passes over the same triangles. The first draws pixels with
+ * alpha = 1 and discards the others. The second blends those with 0 < alpha < 1 by alpha; it tests depth but
+ * does not write it. */
 
 /* Uploads a material, which you may destroy afterwards, as GL_TEXTURE_2D_ARRAYs. Materials of the same sizes
- * and mapping have the same GLSL and may share a program; that of a neural material has constants for its
- * weights, and no other material has it. The uniform vec2 nook_visibility_mapping, a constant on OpenGL ES,
- * holds threshold and weight and starts with those of the material; the paper uses 0.5 and 1 for masks, and
- * 0.05 and 12 for distances. On failure *out is NULL and no OpenGL object is left.
+ * and mapping have the same GLSL and may share a program; a neural material has its own. The uniform vec2
+ * nook_visibility_mapping, a constant on OpenGL ES, holds threshold and weight and starts with those of the
+ * material. On failure *out is NULL and no OpenGL object is left.
  * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the material needs more texture units or larger
  * textures than this OpenGL has, or blocks that it does not have), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_upload_material(nook_gl gl, nook_material material, nook_gl_upload* out);
 
 /* ---- Clips in shaders ----
  *
- * The AO of baked clips, decoded in your vertex shader: see nook_clips.h. Call nook_gl_upload_clips once, put
- * its GLSL after the #version line of your vertex shader, and call nook_gl_upload_bind for each draw.
- * nook_clips_frames gives the frames and their share for each character; pass both as uniforms or as
- * attributes of the instance. Your shader:
+ * The AO of baked clips (nook_clips.h), decoded in your vertex shader. nook_clips_frames gives the frames and
+ * their share for each character; pass both as uniforms or as attributes of the instance. Your shader:
  *     float ao = nook_clip_ao(gl_VertexID, frames, share);
  * The first argument is the number of a file vertex; where gl_VertexID counts other vertices, pass the number
  * as an attribute. The shader reads mode_count / 4 texels of the modes, and twice as many of the weights,

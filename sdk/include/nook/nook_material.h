@@ -1,25 +1,16 @@
 /* Compressed materials: bidirectional texture functions (BTF) and view-dependent occlusion texture functions
- * (VOTF). `nook bake material` bakes them; the host's shaders decode them per pixel, or the CPU does.
- *
- * The method is that of Y.-T. Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012. Equation (24)
- * gives the BTF from the material's cores, bases, memberships and coefficients:
- *     B(light, view, x, y) ~ sum_c Z_c x_light U_light x_view U_view,c x_x U_x,c x_y U_y,c,
- * where a view mixes K of the C clusters. N-SVD is the case C = K = 1, and CTA is K = 1. Equation (25) gives
- * the VOTF; it is the same without a light mode. Loading expands the x and y modes into images S_c[a, b], so
- * that a pixel needs
+ * (VOTF). `nook bake material` bakes them; your shaders decode them per pixel (nook_gl.h), or the CPU does.
+ * The method is Y.-T. Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012. Equation (24) gives
+ * the BTF from cores, bases, memberships and coefficients; a view mixes K of the C clusters. N-SVD is the
+ * case C = K = 1, and CTA is K = 1. Equation (25) gives the VOTF, without a light mode. Loading expands the x
+ * and y modes into images S_c[a, b], so that a pixel needs
  *     light mode a:  L_a = sum_k sum_b coefficient[view, k, b] S_c(k)[a, b](u, v)
  *     radiance:      sum_a light_basis[light, a] L_a, for red, green and blue, and again for each light.
- * Both are linear in the images, so that mipmaps give the mean over a pixel's footprint.
- *
- * A neural material (`--method neural`) has a small network over features of its texels in the place of the
- * BTF's tensor. It is loaded, evaluated, uploaded and drawn by the same calls. Its radiance is no sum of
- * light modes, so that radiance transfer refuses it, and its mipmaps are means of features, not of what the
- * network makes of them.
- *
- * Directions are unit vectors in tangent space that point away from the surface: x along u, y along v, z
- * along the normal.
- *
- * nook_gl.h uploads a material and has the GLSL that decodes it per pixel. */
+ * Both are linear in the images, so that mipmaps give the mean over a pixel's footprint. A neural material
+ * (`--method neural`) has a small network over features of its texels in place of the BTF's tensor; the same
+ * calls load, evaluate and draw it. Radiance transfer refuses it, because its radiance is no sum of light
+ * modes. Its mipmaps are means of features, not of radiance. Directions are unit vectors in tangent space
+ * that point away from the surface: x along u, y along v, z along the normal. */
 #ifndef NOOK_MATERIAL_H
 #define NOOK_MATERIAL_H
 
@@ -45,125 +36,100 @@ typedef int32_t nook_material_visibility;
 enum {
   /* As the file has its numbers: signed bytes, or half floats. Every context has these textures. */
   NOOK_MATERIAL_BLOCKS_NONE = 0,
-  /* Blocks of 4 x 4 texels, about half of the bytes of signed bytes: signed RGTC (BC5). OpenGL has it, and
-   * OpenGL ES with GL_EXT_texture_compression_rgtc. In WebGL both sides of the tile have to be multiples of 4
-   * texels. */
+  /* Blocks of 4 x 4 texels, half the bytes: signed RGTC (BC5). On OpenGL, and on OpenGL ES with
+   * GL_EXT_texture_compression_rgtc. In WebGL, both sides of the tile must be multiples of 4 texels. */
   NOOK_MATERIAL_BLOCKS_RGTC = 1,
-  /* The same, in signed EAC (RG11). OpenGL ES has it, and OpenGL 4.3 or GL_ARB_ES3_compatibility, where most
-   * drivers expand it. */
+  /* Signed EAC (RG11). On OpenGL ES, and on OpenGL 4.3 or GL_ARB_ES3_compatibility, where most drivers expand
+   * it. */
   NOOK_MATERIAL_BLOCKS_EAC = 2
 };
 typedef int32_t nook_material_blocks;
 
 typedef struct nook_material_desc {
-  /* nook_material_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
-  /* Default: NOOK_MATERIAL_BLOCKS_NONE. With blocks, four numbers take two fetches, because a block has two
-   * channels. The modes that stay whole and the light map become signed bytes, also for a file of half
-   * floats, and the light map has 32 x 32 cells for up to 128 lights. The VOTF is stored in blocks as well.
-   * Of a neural material, only the VOTF changes. */
+  /* Default NOOK_MATERIAL_BLOCKS_NONE. With blocks, four numbers take two fetches. Whole modes and the light
+   * map become signed bytes, also for a file of half floats, and the light map has 32 x 32 cells for up to
+   * 128 lights. The VOTF is in blocks as well. Of a neural material, only the VOTF changes. */
   nook_material_blocks blocks;
-  /* With blocks: the number of first light modes that stay whole, because blocks would lose most there.
-   * Nook rounds it up to a multiple of 4. 0 to 3,072; 0 stores all of them in blocks. Default: 4. */
+  /* With blocks: the number of first light modes that stay whole, because blocks would lose most there;
+   * rounded up to a multiple of 4. 0 to 3,072, default 4. */
   int32_t whole_light_modes;
 } nook_material_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_material_desc_init(nook_material_desc* desc) {
   return nook_desc_init(NOOK_DESC_MATERIAL, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Loads a material from the bytes of a .nook file; desc may be NULL, which means its defaults. You may free
- * the bytes afterwards. Nook expands the material here, through the context's parallel_for if you set one,
- * and validates every number, so that hostile bytes are safe. On failure *out is NULL.
- *
- * With blocks, textures take about half the memory. They are encoded here, so that nook_material_evaluate
- * returns what the shader will. Two warnings: some drivers (llvmpipe) interpolate RGTC with byte weights, and
- * decoded values can differ by 4/127; and transfer that was baked with a file of half floats does not fit
- * that file with blocks. Any thread. Errors: INVALID_ARGUMENT (also, the blocks of a tensor take more than 1
- * GiB, which a tile with few texels can), BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
+/* Loads a material from the bytes of a .nook file, which you may free afterwards; desc NULL means its
+ * defaults. The call expands the material, through the context's parallel_for if you set one, and validates
+ * every number, so that hostile bytes are safe. On failure *out is NULL.
+ * With blocks, textures take about half the memory, and nook_material_evaluate returns what the shader will.
+ * Some drivers (llvmpipe) interpolate RGTC with byte weights: decoded values can differ by 4/127. Transfer
+ * that was baked with a file of half floats does not fit that file with blocks.
+ * Any thread. Errors: INVALID_ARGUMENT (also, the blocks of a tensor take more than 1 GiB, which a tile with
+ * few texels can), BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_material_load(nook_context context, const void* bytes, size_t size,
                                         const nook_material_desc* desc, nook_material* out);
 
-/* Releases the caller's reference and sets *material to NULL.
- * Any thread. */
+/* Releases your reference and sets *material to NULL. Any thread. */
 NOOK_API void nook_material_destroy(nook_material* material);
 
 /* One clustered tensor; the symbols are those of the paper. */
 typedef struct nook_material_tensor {
-  /* R_l, the rank of the light mode; 1 for a VOTF. */
-  uint32_t rank_light;
-  /* R_v, the rank of the view mode in each cluster. */
-  uint32_t rank_view;
+  /* R_l and R_v, the ranks of the light mode (1 for a VOTF) and of the view mode in each cluster. */
+  uint32_t rank_light, rank_view;
   /* R_x and R_y, the ranks of the spatial modes. */
-  uint32_t rank_x;
-  uint32_t rank_y;
-  /* C, the number of clusters. */
-  uint32_t clusters;
-  /* K, the number of clusters that a view mixes. */
-  uint32_t mixture;
-  /* The side of the view map in cells. 0: the file has no view map, and decoding mixes the three nearest
-   * views linearly. */
+  uint32_t rank_x, rank_y;
+  /* C and K: the clusters, and those that a view mixes. */
+  uint32_t clusters, mixture;
+  /* Cells along the side of the view map. 0: the file has none, and decoding mixes the three nearest
+   * views. */
   uint32_t view_map_side;
-  /* The number of clusters that a pixel mixes: K with a view map, up to 3 K without one (3 for CTA, 1 for
-   * N-SVD). */
+  /* Clusters that a pixel mixes: K with a view map, up to 3 K without one (3 for CTA, 1 for N-SVD). */
   uint32_t terms;
 } nook_material_tensor;
 
 typedef struct nook_material_info {
-  /* sizeof(nook_material_info); the caller sets it. */
   uint32_t struct_size;
   nook_material_visibility visibility;
   /* Threshold and weight of the visibility mapping, equation (26), as baked. */
-  float visibility_threshold;
-  float visibility_weight;
+  float visibility_threshold, visibility_weight;
   /* I_l and I_v, the numbers of sampled light and view directions. */
-  uint32_t light_count;
-  uint32_t view_count;
+  uint32_t light_count, view_count;
   /* Texels of the BTF. */
   uint32_t width, height;
   nook_material_tensor btf;
   /* All members are 0 without a VOTF. */
   nook_material_tensor votf;
-  /* The texels that nook_material_decode fetches, where a filtered fetch counts as one, and its multiply-adds
-   * of single numbers, four to a vector. A mode in blocks counts two. A relief adds a fetch for each plane of
-   * its march, fewer where the march ends early. */
-  uint32_t decode_fetches;
-  uint32_t decode_multiply_adds;
+  /* The texels that nook_material_decode fetches, where a filtered fetch counts as one and a mode in blocks
+   * as two, and its multiply-adds of single numbers. A relief adds at most a fetch for each plane of its
+   * march. */
+  uint32_t decode_fetches, decode_multiply_adds;
   /* The same for nook_material_radiance. */
-  uint32_t light_fetches;
-  uint32_t light_multiply_adds;
+  uint32_t light_fetches, light_multiply_adds;
   /* The same for nook_material_occlusion. */
-  uint32_t occlusion_fetches;
-  uint32_t occlusion_multiply_adds;
-  /* The size of cores, bases, memberships and coefficients with half floats or 8-bit integers; the integers
-   * of a file take less room. */
+  uint32_t occlusion_fetches, occlusion_multiply_adds;
+  /* Bytes of cores, bases, memberships and coefficients as half floats or 8-bit integers; a file takes
+   * less. */
   uint64_t compressed_bytes;
-  /* The size of the view maps, which compressed_bytes does not include. */
+  /* Bytes of the view maps, which compressed_bytes does not include. */
   uint64_t view_map_bytes;
-  /* The size of the expanded images: host memory that is held now, and texture memory after an upload. */
+  /* Bytes of the expanded images: host memory that is held now, and texture memory after an upload. */
   uint64_t table_bytes;
-  /* Of a neural material the channels of its features and the units of a layer of its network, and all
-   * members of btf are 0; 0 for the others. */
-  uint32_t neural_channels;
-  uint32_t neural_units;
-  /* The fetches that each further place of nook_material_decode_anisotropic adds to decode_fetches, and each
-   * of nook_material_occlusion_anisotropic to occlusion_fetches: those of modes or features and of a relief,
-   * but not those of coefficients. */
-  uint32_t further_decode_fetches;
-  uint32_t further_occlusion_fetches;
+  /* Of a neural material the channels of its features and the units of a layer, and all of btf is 0; 0 for
+   * others. */
+  uint32_t neural_channels, neural_units;
+  /* The fetches that each further place of the functions ending in _anisotropic adds to decode_fetches and to
+   * occlusion_fetches. */
+  uint32_t further_decode_fetches, further_occlusion_fetches;
 } nook_material_info;
 
-/* Describes a material.
- * Any thread. Errors: INVALID_ARGUMENT. */
+/* Describes a material. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_material_describe(nook_material material, nook_material_info* info);
 
 typedef struct nook_material_value {
-  /* Linear red, green and blue towards the view, for an irradiance of 1 on a plane that faces the light.
-   * Compression may leave it slightly negative, but for a neural material. */
+  /* Linear RGB towards the view, for an irradiance of 1 on a plane that faces the light. Compression may
+   * leave it slightly negative, but not for a neural material. */
   float radiance[3];
   /* The VOTF: a filtered mask in [0, 1], or a distance in [-1, 1]; 1 without a VOTF. */
   float occlusion;
@@ -175,40 +141,31 @@ typedef struct nook_material_value {
 /* The largest number of fetches along the longer side of a pixel. */
 enum { NOOK_MATERIAL_MAX_FETCHES = 8 };
 
-/* A pixel of a picture, of any shape. A tilted view makes it longer along the tilt, and one mipmap level for
- * the longer side blurs it across.
- *
- * To ask for a mipmap level, pass a round pixel and 1 fetch:
- *     pixel.dx[0] = exp2f(level) / (float)info.width;
- *     pixel.dy[1] = exp2f(level) / (float)info.height;
- * and leave dx[1] and dy[0] at 0. */
+/* A pixel of a picture, of any shape. To ask for a mipmap level, pass a round pixel and 1 fetch, with dx[1] =
+ * dy[0] = 0:
+ *     pixel.dx[0] = exp2f(level) / (float)info.width;  pixel.dy[1] = exp2f(level) / (float)info.height; */
 typedef struct nook_material_pixel {
   /* Texture coordinates of its middle; 0 to 1 is one tile, and the tile repeats. */
   float uv[2];
-  /* The changes of uv from this pixel to its neighbours to the right and above, as dFdx(uv) and dFdy(uv). If
-   * both are 0, the pixel has no size and sees the finest level. */
-  float dx[2];
-  float dy[2];
+  /* The changes of uv to the next pixel to the right and above: dFdx(uv), dFdy(uv). Both 0: the finest
+   * level. */
+  float dx[2], dy[2];
   /* Unit vector; a view from below the horizon is moved onto it. */
   float view[3];
   /* Unit vector; light from below the horizon gives black. */
   float light[3];
 } nook_material_pixel;
 
-/* Decodes pixels on the CPU. Each value is the mean over `fetches` places along the longer side of the pixel,
- * 1 to NOOK_MATERIAL_MAX_FETCHES. Use it to check your shader: with 1 fetch and round pixels it is the
- * reference of nook_material_decode and nook_material_occlusion, with more fetches of the functions whose
- * names end in _anisotropic. The GLSL agrees within 1/255 for radiances up to 1 if the driver weighs texels
- * with floats; for RGTC see nook_material_load. GPUs weigh texels with about 8 bits, which has the effect of
- * moving the place by 1/512 of a texel.
- *
- * Two fetches leave at most a fifth of the squared error of one in views beyond 60 degrees, and two fifths
- * with neural materials (seven measured files). Each place has the mipmap level of the shorter side, or of
- * its share of the longer side if that is larger: pixels longer than `fetches` times their width are blurred
- * across, and none has gaps. With a relief or a neural material, the view's ray meets a point of its own
- * through each place; a neural material decodes the mean of the features, as its mipmaps do.
- * Any thread. Errors: INVALID_ARGUMENT (also, a number of a pixel is not finite, or fetches is out of range).
- */
+/* Decodes pixels on the CPU, to check your shader. Each value is the mean over `fetches` places along the
+ * longer side of the pixel, 1 to NOOK_MATERIAL_MAX_FETCHES. With 1 fetch and round pixels it is the reference
+ * of nook_material_decode and nook_material_occlusion, with more fetches of the functions ending in
+ * _anisotropic. The GLSL agrees within 1/255 for radiances up to 1 if the driver weighs texels with floats
+ * (for RGTC see nook_material_load). GPUs weigh texels with about 8 bits, as if the place moved by 1/512 of a
+ * texel. Two fetches leave at most a fifth of the squared error of one in views beyond 60 degrees, and two
+ * fifths with neural materials (seven measured files). A pixel longer than `fetches` times its width is
+ * blurred across.
+ * Any thread. Errors: INVALID_ARGUMENT (also, a number of a pixel is not finite, or fetches is out of
+ * range). */
 NOOK_API nook_result nook_material_evaluate(nook_material material, const nook_material_pixel* pixels,
                                             uint32_t count, uint32_t fetches, nook_material_value* values);
 

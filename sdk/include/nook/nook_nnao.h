@@ -1,15 +1,10 @@
-/* Screen-space ambient occlusion by a small neural network. The input is a depth buffer, and normals if the
- * host has them; the output is AO in a texture, or AO multiplied into an image of the host. The one required
- * parameter is the radius.
- *
- * The method is that of D. Holden, J. Saito and T. Komura, Neural Network Ambient Occlusion, 2016. With x the
- * features of the pixels around one pixel, AO = L3(L2(L1(L0(x)))), where Ln(x) = PReLU(Wn x + bn) and
- * PReLU(x) = b max(x, 0) + a min(x, 0). The embedded network reads x along directions on the screen (the
- * horizon form). A network of the paper's form, which reads x over a grid of 31 x 31 pixels, can be loaded
- * instead. Both are trained on the cosine-weighted visibility of the hemisphere around the normal, up to the
- * distance of the radius.
- *
- * Each frame, after the host has drawn depth and before it lights:
+/* Screen-space ambient occlusion by a small neural network. The input is a depth buffer, and normals if you
+ * have them; the output is AO in a texture, or AO multiplied into an image of yours. The one required setting
+ * is the radius. The method is D. Holden, J. Saito and T. Komura, Neural Network Ambient Occlusion, 2016. The
+ * embedded network reads pixels along directions on the screen (the horizon form); you can load a network of
+ * the paper's form, which reads a grid of 31 x 31 pixels. Both are trained on the cosine-weighted visibility
+ * of the hemisphere around the normal, up to the radius. Each frame, after you have drawn depth and before
+ * you light:
  *     nook_gl_frame_desc frame;
  *     nook_nnao_frame_desc desc;
  *     nook_gl_frame_desc_init(&frame);
@@ -18,16 +13,12 @@
  *     memcpy(frame.projection, projection, sizeof frame.projection);
  *     desc.radius = 0.5f;
  *     nook_nnao_render(pass, &frame, &desc);
- * The shader that lights multiplies the ambient term (not the direct light) by
+ * Your shader multiplies the ambient term (not the direct light) by
  *     float ao = texelFetch(nook_ao, ivec2(gl_FragCoord.xy), 0).r;
- *
- * If the host wrote an input with image stores, it must call glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT)
- * before nook_nnao_render. On every path the result is written by a draw, so that reading it needs no
- * barrier.
- *
- * View space is OpenGL's: x right, y up, the camera looks along -z, in metres. The origin of images is their
- * lower left corner. Functions make OpenGL calls unless their comment says otherwise; nook_gl.h describes the
- * OpenGL state that they touch and what may not be active. */
+ * If you wrote an input with image stores, call glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT) before
+ * nook_nnao_render. Reading the result needs no barrier. View space is OpenGL's: x right, y up, the camera
+ * looks along -z, in metres. The origin of images is their lower left corner. Functions make OpenGL calls
+ * unless their comment says otherwise; nook_gl.h describes the state that they touch. */
 #ifndef NOOK_NNAO_H
 #define NOOK_NNAO_H
 
@@ -50,84 +41,72 @@ enum {
 typedef int32_t nook_nnao_preset;
 
 typedef struct nook_nnao_desc {
-  /* nook_nnao_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
+  uint32_t struct_size, type;
   /* NULL, or a nook_nnao_debug_desc of experimental/nook_debug.h. */
   const void* next;
-  /* Pixels, 1 to 16384; required. Frames of any size up to this maximum allocate nothing. */
-  int32_t max_width;
-  int32_t max_height;
+  /* Pixels, 1 to 16384; required. Frames of any size up to this allocate nothing. */
+  int32_t max_width, max_height;
   /* Gives taps, half_resolution and blur where these are -1. Default NOOK_NNAO_PRESET_DEFAULT. */
   nook_nnao_preset preset;
-  /* The number of pixels that the network reads around each pixel: 9, 16, 32, 64, 128 or 256. Default -1: the
-   * preset's. */
+  /* Pixels that the network reads around each pixel: 9, 16, 32, 64, 128 or 256. Default -1: the preset's. */
   int32_t taps;
-  /* 1: AO is computed at half width and half height, and upsampled by a joint-bilateral filter. 0: at full
-   * size. Default -1: the preset's. */
+  /* 1: AO is computed at half width and height, and upsampled by a joint-bilateral filter. Default -1: the
+   * preset's. */
   int32_t half_resolution;
-  /* How often a bilateral filter over 3 x 3 pixels follows: 0, 1 or 2. It averages the noise of the taps, and
-   * keeps edges of depth and lines in AO. The second time takes noise away that is left at edges, and fine
-   * lines with it. Default -1: the preset's. */
+  /* The number of times that a bilateral filter over 3 x 3 pixels follows: 0, 1 or 2. It averages the noise
+   * of the taps, and keeps edges of depth and lines in AO. The second time takes noise at edges away, and
+   * fine lines with it. Default -1: the preset's. */
   int32_t blur;
-  /* > 0, default 16. Depths that depart from a surface by more than 1 / blur_sharpness radii are an edge of
-   * it, which the filter does not cross. */
+  /* > 0, default 16. The filter does not cross depths that depart from a surface by more than 1 /
+   * blur_sharpness radii. */
   float blur_sharpness;
   /* 1: the pass computes bent normals as well: the mean of the open directions, weighted by their cosine.
-   * nook_nnao_info.glsl has functions that light with them. The pass's own texture is GL_RGBA8 then, and
-   * NOOK_BLEND_WRITE writes (n + 1) / 2 of the bent normal n into red, green and blue, in view space and of
-   * unit length, and AO into alpha. Not with a network of the paper's form. Default 0. */
+   * nook_nnao_info.glsl lights with them. The pass's own texture is GL_RGBA8 then, and NOOK_BLEND_WRITE
+   * writes (n + 1) / 2 of the bent normal n, in view space and of unit length, into red, green and blue, and
+   * AO into alpha. Not with a network of the paper's form. Default 0. */
   int32_t bent_normals;
   /* The bytes of a .nook file of `nook train nnao`, of either form. NULL (default): the embedded network. */
   const void* network;
   /* The size of network in bytes. */
   size_t network_size;
   /* 2 to 64: the pass keeps a mean of AO over at most so many frames, which flickers less. Start with 4 to 8;
-   * more frames follow changes later. The pass follows surfaces by nook_gl_frame_desc.view and
-   * nook_nnao_frame_desc.motion_vectors, and begins anew where a surface was not seen before. 0 (default):
-   * each frame stands alone. Not with bent_normals. */
+   * more frames follow changes later. It follows surfaces by nook_gl_frame_desc.view and motion_vectors, and
+   * begins anew where a surface was not seen before. 0 (default): each frame stands alone. Not with
+   * bent_normals. */
   int32_t max_history_frames;
-  /* 1 to 16: the depth textures are of GL_TEXTURE_2D_MULTISAMPLE with so many samples, which needs OpenGL 3.3
-   * or OpenGL ES 3.1, or with views of GL_TEXTURE_2D_MULTISAMPLE_ARRAY, which needs OpenGL 3.3 or OpenGL ES
-   * 3.2. Motion vectors, G-buffer AO and target stay single-sampled, and normals unless normal_samples says
-   * otherwise. A pixel takes the median of its depths, of two the nearer one. 0 (default): 2D textures, or
-   * arrays of them. */
+  /* 1 to 16: depth is GL_TEXTURE_2D_MULTISAMPLE with so many samples, which needs OpenGL 3.3 or OpenGL ES
+   * 3.1, or with views GL_TEXTURE_2D_MULTISAMPLE_ARRAY, which needs OpenGL 3.3 or OpenGL ES 3.2. A pixel
+   * takes the median of its depths, of two the nearer one. Motion vectors, G-buffer AO and target stay
+   * single-sampled. 0 (default): 2D textures, or arrays of them. */
   int32_t depth_samples;
   /* 1 to 8: the pass draws so many views in one call, such as two eyes. Depth, normals, motion vectors,
    * G-buffer AO and target are then GL_TEXTURE_2D_ARRAY with at least so many layers, and so is the pass's
-   * own texture. The views share the other textures of the pass. 0 (default): 2D textures. */
+   * own texture. 0 (default): 2D textures. */
   int32_t views;
-  /* The same number as depth_samples: the normal textures are multisampled as the depth textures are, and a
-   * pixel has the normal of the sample whose depth it has. Any other number but 0 is refused. 0 (default):
-   * normals are single-sampled. */
+  /* 0 (default): normals are single-sampled. Otherwise the same number as depth_samples: they are
+   * multisampled, and a pixel has the normal of the sample whose depth it has. */
   int32_t normal_samples;
 } nook_nnao_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_nnao_desc_init(nook_nnao_desc* desc) {
   return nook_desc_init(NOOK_DESC_NNAO, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Creates textures and shaders; the caller may free the network's bytes afterwards. On failure *out is NULL
- * and no OpenGL object is left.
- * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the size exceeds the textures of this OpenGL, or
- * this OpenGL lacks the path, multisample textures or arrays of them), BAD_FILE, FILE_VERSION, GL,
- * OUT_OF_MEMORY. */
+/* Creates textures and shaders; you may free the network's bytes afterwards. On failure *out is NULL and no
+ * OpenGL object is left.
+ * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the size exceeds the textures of this OpenGL, or it
+ * lacks multisample textures or arrays of them), BAD_FILE, FILE_VERSION, GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_create(nook_gl gl, const nook_nnao_desc* desc, nook_nnao* out);
 
-/* Deletes every OpenGL object of the pass and sets *pass to NULL; *pass may be NULL. The nook_gl may have
- * been destroyed before, but the OpenGL context of nook_gl_create must be current; after nook_gl_context_lost
- * none is needed.
- * Context thread. */
+/* Deletes every OpenGL object of the pass and sets *pass to NULL; *pass may be NULL. You may destroy the
+ * nook_gl before, but its OpenGL context must be current; after nook_gl_context_lost none is needed. Context
+ * thread. */
 NOOK_API void nook_nnao_destroy(nook_nnao* pass);
 
 /* The measure of the radius. */
 enum {
-  /* Metres, or the unit of length that projection, linear depth and sky_depth have: AO depends on their
-   * ratios alone. */
+  /* Metres, or the unit of projection, linear depth and sky_depth: AO depends on their ratios alone. */
   NOOK_NNAO_RADIUS_METRES = 0,
-  /* A share of the viewport's height, up to 1: the radius covers the same number of pixels at each depth. The
-   * edges of the filter follow it. */
+  /* A share of the viewport's height, up to 1: the radius covers the same number of pixels at each depth. */
   NOOK_NNAO_RADIUS_SCREEN = 1,
   /* A share of nook_nnao_frame_desc.scene_size, up to 1. */
   NOOK_NNAO_RADIUS_SCENE = 2
@@ -136,28 +115,24 @@ typedef int32_t nook_nnao_radius_kind;
 
 /* The settings of the screen pass for one frame. The images and the camera are in nook_gl_frame_desc. */
 typedef struct nook_nnao_frame_desc {
-  /* nook_nnao_frame_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
+  uint32_t struct_size, type;
   /* NULL, or a nook_nnao_frame_debug_desc of experimental/nook_debug.h. */
   const void* next;
   /* > 0, in metres or as radius_kind says; required. Geometry beyond this distance does not occlude. */
   float radius;
   /* Default NOOK_NNAO_RADIUS_METRES. */
   nook_nnao_radius_kind radius_kind;
-  /* Metres, > 0: a length of the scene, such as the diagonal of its bounding box. You must set it with
-   * NOOK_NNAO_RADIUS_SCENE; nothing else reads it. */
+  /* Metres, > 0: a length of the scene, such as the diagonal of its box. Only NOOK_NNAO_RADIUS_SCENE reads
+   * it. */
   float scene_size;
-  /* Pixels: the maximum that the radius covers on the screen; near the camera the radius shrinks. 0
-   * (default): a quarter of the viewport's height, and no maximum with NOOK_NNAO_RADIUS_SCREEN. */
+  /* Pixels that the radius covers at most; near the camera it shrinks. 0 (default): a quarter of the
+   * viewport's height, and no maximum with NOOK_NNAO_RADIUS_SCREEN. */
   float max_radius_px;
-  /* AO becomes max(0, 1 - intensity * (1 - AO)) ^ power. intensity is in [0, 16] and power in (0, 16]; both
-   * default to 1. */
+  /* AO becomes max(0, 1 - intensity * (1 - AO)) ^ power; in [0, 16] and (0, 16], both default to 1. */
   float intensity, power;
-  /* Only passes with max_history_frames read the next three fields. motion_vectors is a 2D texture of width x
-   * height in floats or normalised integers. Red and green times motion_vector_scale are the pixels by which
-   * the surface moved since the last frame, to the right and up: its position in this frame minus its
-   * position in the last one, with the camera's motion. 0 (default): nothing but the camera moves. */
+  /* For passes with max_history_frames: a 2D texture of width x height in floats or normalised integers. Red
+   * and green times motion_vector_scale are the pixels by which the surface moved since the last frame, to
+   * the right and up, with the camera's motion. 0 (default): nothing but the camera moves. */
   uint32_t motion_vectors;
   /* 1, 1 by default: motion in pixels. For motion in texture coordinates, set width, height. */
   float motion_vector_scale[2];
@@ -165,29 +140,22 @@ typedef struct nook_nnao_frame_desc {
    * or the kind of projection changes. Default 0. */
   int32_t reset;
 } nook_nnao_frame_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_nnao_frame_desc_init(nook_nnao_frame_desc* desc) {
   return nook_desc_init(NOOK_DESC_NNAO_FRAME, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Draws the AO of a frame. With max_history_frames the pass keeps frame->view, and follows surfaces into the
- * next frame by it. The call allocates nothing, reads nothing back and never waits for the GPU. On failure it
- * leaves no OpenGL error, changes no state and draws nothing.
- * Context thread. Errors: INVALID_ARGUMENT (the message names the field, its value and what is needed: a size
- * exceeds the maximum or is not the size of a texture, a format is of another kind, an input is the target, a
- * matrix is not finite, is singular or is no projection, or the radius is not above 0), GL (the OpenGL
- * context was lost). */
+/* Draws the AO of a frame, without an allocation, a read or a wait for the GPU. On failure it leaves no
+ * OpenGL error, changes no state and draws nothing. Context thread. Errors: INVALID_ARGUMENT (the message
+ * names the field, its value and what is needed), GL (the OpenGL context was lost). */
 NOOK_API nook_result nook_nnao_render(nook_nnao pass, const nook_gl_frame_desc* frame,
                                       const nook_nnao_frame_desc* desc);
 
 typedef struct nook_nnao_info {
-  /* sizeof(nook_nnao_info); the caller sets it. */
   uint32_t struct_size;
-  /* The OpenGL name of the pass's own texture, an array for passes with views: GL_R8, or GL_RGBA8 with bent
-   * normals, max_width x max_height, the AO of pixel (x, y) in texel (x, y), in red or in alpha. Nook owns
-   * it: the host reads it, and never writes or deletes it. AO is 1 everywhere before the first frame. Later
-   * frames write only their viewport; frames with another target leave it undefined. */
+  /* The pass's own texture, which Nook owns, an array for passes with views: GL_R8, or GL_RGBA8 with bent
+   * normals, max_width x max_height, the AO of pixel (x, y) in texel (x, y), in red or in alpha. AO is 1
+   * everywhere before the first frame. Later frames write only their viewport; frames with another target
+   * leave it undefined. */
   uint32_t texture;
   /* The memory of all textures of the pass. */
   uint64_t texture_bytes;
@@ -199,21 +167,20 @@ typedef struct nook_nnao_info {
   int32_t compute;
   /* 1: the texture has bent normals. */
   int32_t bent_normals;
-  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, for the host's shader that lights.
-   * Directions are unit vectors in one space, roughness is perceptual (the GGX width is its square):
+  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, for your lighting. Directions are unit
+   * vectors in one space, roughness is perceptual (the GGX width is its square):
    *     vec3 nook_nnao_bent_normal(vec4 texel)               view space, of a texel with bent normals
    *     float nook_nnao_cone_cosine(float ao)                cosine of the open cone's half angle
    *     vec3 nook_nnao_multi_bounce(float ao, vec3 albedo)   AO with light that the surroundings reflect
    *     float nook_nnao_specular_occlusion(vec3 bent_normal, float ao, vec3 normal, vec3 to_viewer,
    *                                        float roughness)
-   * The irradiance of a probe is looked up along the bent normal and multiplied by AO; what a glossy surface
-   * reflects is multiplied by the specular occlusion. The text is the same for every pass and valid as long
-   * as the library is loaded. */
+   * Look up the irradiance of a probe along the bent normal and multiply it by AO; multiply what a glossy
+   * surface reflects by the specular occlusion. The text is the same for every pass and valid while the
+   * library is loaded. */
   const char* glsl;
 } nook_nnao_info;
 
-/* Describes a pass. The call makes no OpenGL call.
- * Context thread. Errors: INVALID_ARGUMENT. */
+/* Describes a pass, without an OpenGL call. Context thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_nnao_describe(nook_nnao pass, nook_nnao_info* info);
 
 #ifdef __cplusplus

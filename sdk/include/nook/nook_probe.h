@@ -1,23 +1,16 @@
 /* Light probes. A probe holds the radiance that arrives at a point, over all directions, as a few basis
- * functions. You fit a probe to samples of radiance, or load it from a file, and read radiance, irradiance
- * and lobes from it. AO attenuates a probe's light.
- *
- * In your integrator:
+ * functions. Fit a probe to samples of radiance, or load it from a file, and read radiance, irradiance and
+ * lobes from it. AO attenuates a probe's light. In your integrator:
  *     nook_probe_fit_add_samples(fit, directions, radiance, NULL, count);      as often as you have samples
  *     nook_probe_fit_solve(fit, &probe);                                       at any time
- *
- * Pass directions as unit vectors that point away from the probe. Radiance is linear RGB in any unit, and
- * irradiance is in your unit times steradians. A Lambertian surface reflects the radiance
- * albedo / pi * irradiance * AO. Arrays of directions and colours hold three floats for each entry, without
- * padding.
- *
- * A probe holds R(s) = sum_i b_i B_i(s), where b_i is an RGB coefficient for each function B_i. For spherical
+ * Directions are unit vectors that point away from the probe. Radiance is linear RGB in any unit, and
+ * irradiance is in your unit times steradians; a Lambertian surface reflects albedo / pi * irradiance * AO.
+ * Arrays of directions and colours hold three floats for each entry, without padding.
+ * A probe holds R(s) = sum_i b_i B_i(s), with an RGB coefficient b_i for each function B_i. For spherical
  * Gaussians, called lobes, B_i(s) = exp(sharpness_i (dot(axis_i, s) - 1)), and b_i is the amplitude. An
  * ambient term is a lobe of sharpness 0. A fit minimises the integral of (R - f)^2 over its domain, where f
- * is the radiance (T. Roughton, progressive least squares, 2018). docs/probes.md has the equations.
- *
- * nook/experimental/nook_sg.h has the arithmetic of lobes and of spherical harmonics, and methods for
- * comparison. */
+ * is the radiance (T. Roughton, progressive least squares, 2018). docs/probes.md has the equations, and
+ * experimental/nook_sg.h the arithmetic of lobes and spherical harmonics. */
 #ifndef NOOK_PROBE_H
 #define NOOK_PROBE_H
 
@@ -47,38 +40,34 @@ typedef int32_t nook_probe_domain;
 /* ---- Fits ---- */
 
 /* The method of a fit. NON_NEGATIVE methods keep all coefficients at 0 or above, for small strong sources,
- * whose unconstrained fit rings below 0. They need NOOK_PROBE_BASIS_LOBES. */
+ * whose unconstrained fit rings below 0; they need NOOK_PROBE_BASIS_LOBES. */
 enum {
   /* The most accurate method at any number of samples. Fits merge exactly. */
   NOOK_PROBE_FIT_LEAST_SQUARES = 0,
   /* Least squares without negative coefficients. Fits merge exactly. */
   NOOK_PROBE_FIT_LEAST_SQUARES_NON_NEGATIVE = 1,
-  /* Recursive least squares by blocks of 1,024 samples. It has a solution after every sample. Its error tends
-   * to the error of NOOK_PROBE_FIT_LEAST_SQUARES. */
+  /* Recursive least squares by blocks of 1,024 samples, with a solution after every sample. Its error tends
+   * to that of LEAST_SQUARES. */
   NOOK_PROBE_FIT_RUNNING_AVERAGE = 2,
-  /* A running average without negative coefficients. The result is the non-negative solution that is nearest
-   * to NOOK_PROBE_FIT_RUNNING_AVERAGE in the mean square. */
+  /* A running average without negative coefficients: the non-negative solution nearest to RUNNING_AVERAGE. */
   NOOK_PROBE_FIT_RUNNING_AVERAGE_NON_NEGATIVE = 3
 };
 typedef int32_t nook_probe_method;
 
 typedef struct nook_probe_fit_desc {
-  /* nook_probe_fit_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
+  uint32_t struct_size, type;
   /* NULL (default), or a nook_probe_fit_study_desc of nook/experimental/nook_sg.h. */
   const void* next;
   /* Default NOOK_PROBE_FIT_LEAST_SQUARES. */
   nook_probe_method method;
   /* Default NOOK_FORM_DEFAULT. NOOK_FORM_PAPER is the published method in its corrected form: a running
    * average with the step 1 / n after each sample and without match_sh. Leave method and match_sh at their
-   * defaults then; other values are an error. */
+   * defaults then. */
   nook_form form;
   /* 1 (default): the lobes agree with the light in its spherical harmonics of bands 0 to 2, which make up 99
-   * % of the irradiance of a light. The total light is exact, and the error of irradiance is about a third of
-   * the error without. If the lobes cannot agree (fewer than 9 lobes, non-negative methods, a hemisphere),
-   * they come close. 0: least squares alone. Choose 0 for lobes so sharp that there are gaps between them.
-   * Only lobes use it. */
+   * % of its irradiance: the total light is exact, and irradiance has about a third of the error. Lobes that
+   * cannot agree (fewer than 9, non-negative methods, a hemisphere) come close. 0: least squares alone, for
+   * lobes so sharp that there are gaps between them. Only lobes use it. */
   int32_t match_sh;
   /* Default NOOK_PROBE_BASIS_LOBES. */
   nook_probe_basis basis;
@@ -88,8 +77,8 @@ typedef struct nook_probe_fit_desc {
   float up[3];
   /* The number of lobes without the ambient term; 1 to 64, or 63 with the ambient term. Default 12. */
   uint32_t lobe_count;
-  /* The sharpness of all lobes if sharpnesses is NULL, 0 to 10000. 0 (default): a value that depends on
-   * lobe_count, so that neighbouring lobes always overlap alike; it is 6 for 12 lobes on the sphere. */
+  /* The sharpness of all lobes if sharpnesses is NULL, 0 to 10000. 0 (default): such that neighbouring lobes
+   * always overlap alike; 6 for 12 lobes on the sphere. */
   float sharpness;
   /* lobe_count directions of unit length to 1e-3, which the call copies. NULL (default): a Vogel spiral. */
   const float* axes;
@@ -100,79 +89,63 @@ typedef struct nook_probe_fit_desc {
   /* For harmonics: the highest band, 1 to 4; default 2. */
   uint32_t order;
   /* Samples, >= 0, default 0: every sample has its own weight. Above 0, the weight of sample k, counted from
-   * 1, is multiplied by 1 - exp(-k / growing_samples), for samples whose first radiances are noisy. */
+   * 1, is multiplied by 1 - exp(-k / growing_samples), for first samples that are noisy. */
   float growing_samples;
-  /* Must be 0. */
   uint32_t reserved;
 } nook_probe_fit_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_probe_fit_desc_init(nook_probe_fit_desc* desc) {
   return nook_desc_init(NOOK_DESC_PROBE_FIT, desc, sizeof *desc, NOOK_VERSION);
 }
 
 /* Creates a fit without samples. On failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT (also, form is NOOK_FORM_PAPER and method or match_sh is set; or two
- * functions are equal, or so nearly equal that no fit can separate them, and the message names both),
- * OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT (also, NOOK_FORM_PAPER with method or match_sh set; or two functions
+ * are so nearly equal that no fit can separate them, and the message names both), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_fit_create(nook_context context, const nook_probe_fit_desc* desc,
                                            nook_probe_fit* out);
 
-/* Destroys the fit and sets *fit to NULL.
- * One at a time. */
+/* Destroys the fit and sets *fit to NULL. One at a time. */
 NOOK_API void nook_probe_fit_destroy(nook_probe_fit* fit);
 
-/* Adds samples of radiance. Samples of uniformly distributed directions have the weight 1; weights NULL means
- * that. A direction that was drawn with the probability density p over a domain of area a has the weight
- * 1 / (a p), so that the mean of all weights is 1; with another mean, running averages converge more slowly.
- * The fit skips and counts samples whose direction has no unit length to 1e-3 or lies outside the hemisphere,
- * whose direction, radiance or weight is not finite, or whose weight is negative; radiance and weights above
- * 1e18 count as infinite. Running averages need directions in random order: if the rows of an image arrive
- * one after another, the last rows dominate. The call does not allocate.
+/* Adds samples of radiance. weights NULL: directions are distributed uniformly, and each has the weight 1. A
+ * direction that you drew with the probability density p over a domain of area a has the weight 1 / (a p), so
+ * that the mean of all weights is 1; with another mean, running averages converge more slowly. The fit skips
+ * and counts samples whose direction has no unit length to 1e-3 or lies outside the hemisphere, and those
+ * with a negative weight or with numbers that are not finite or, of radiance and weight, above 1e18. Running
+ * averages need directions in random order. The call does not allocate.
  * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_add_samples(nook_probe_fit fit, const float* directions,
                                                 const float* radiance, const float* weights, size_t count);
 
 /* Adds the samples of other, such as a fit on another thread, to fit; both must have equal descriptors.
- * Methods that solve end with the sums of one fit with all samples, up to rounding. Running
- * averages, which depend on the order of their samples, become the average weighted by the samples' weights.
- * other stays as it is. Neither fit may be in use elsewhere.
+ * Methods that solve end as one fit with all samples, up to rounding. Running averages become the average
+ * weighted by the samples' weights. other stays as it is. Neither fit may be in use elsewhere.
  * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_merge(nook_probe_fit fit, nook_probe_fit other);
 
-/* Removes all samples.
- * One at a time. Errors: INVALID_ARGUMENT. */
+/* Removes all samples. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_reset(nook_probe_fit fit);
 
-/* Creates a probe from the samples so far; its coefficients are 0 before the first sample. You may add more
- * samples afterwards, and solve again. For a grid, fit each probe and pass all fits to nook_probe_create. On
- * failure *out is NULL.
+/* Creates a probe from the samples so far, black before the first one. You may add more and solve again. For
+ * a grid, fit each probe and pass all fits to nook_probe_create. On failure *out is NULL.
  * One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_fit_solve(nook_probe_fit fit, nook_probe* out);
 
 typedef struct nook_probe_fit_info {
-  /* sizeof(nook_probe_fit_info); the caller sets it. */
   uint32_t struct_size;
   /* Lobes and ambient term, or harmonics, or 12 for ambient dice. */
   uint32_t function_count;
-  /* Samples that the fit used. */
-  uint64_t samples;
-  /* Samples that the fit skipped: the sum of the next three. */
-  uint64_t skipped;
-  /* The direction was not finite, zero, not of unit length, or below the hemisphere. */
-  uint64_t skipped_direction;
-  /* The radiance was not finite. */
-  uint64_t skipped_radiance;
-  /* The weight was not finite, or negative. */
-  uint64_t skipped_weight;
+  /* Samples that the fit used, and samples that it skipped: the sum of the next three. */
+  uint64_t samples, skipped;
+  /* Direction not finite, not of unit length, or below the hemisphere; radiance not finite; weight not finite
+   * or negative. */
+  uint64_t skipped_direction, skipped_radiance, skipped_weight;
   /* The sum of the weights of the used samples. */
   double weight;
   /* The weighted mean of the used samples, with which the mean of a good fit agrees. */
   double mean_radiance[3];
 } nook_probe_fit_info;
 
-/* Describes a fit and counts its samples.
- * One at a time. Errors: INVALID_ARGUMENT. */
+/* Describes a fit and counts its samples. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_describe(nook_probe_fit fit, nook_probe_fit_info* info);
 
 /* ---- Probes: immutable, one or a grid of them with common functions, shared by threads ---- */
@@ -181,10 +154,7 @@ NOOK_API nook_result nook_probe_fit_describe(nook_probe_fit fit, nook_probe_fit_
  * with coefficients. In arrays with an entry for each probe, x varies fastest, then y, then z. The call
  * copies all arrays, and you may destroy the fits after it. */
 typedef struct nook_probe_desc {
-  /* nook_probe_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* The numbers of probes along x, y and z; their product is at most 1,048,576. Default 1, 1, 1. */
   uint32_t counts[3];
@@ -194,40 +164,35 @@ typedef struct nook_probe_desc {
   float spacing_ws[3];
   /* The number of fits: one for each probe. Default 0. */
   uint32_t fit_count;
-  /* The fits, which must all have the same basis and domain, or NULL (default). Each probe is what
-   * nook_probe_fit_solve would create. */
+  /* The fits, all with the same basis and domain, or NULL (default). Each probe is as of
+   * nook_probe_fit_solve. */
   const nook_probe_fit* fits;
   /* lobe_count lobes for each probe, or NULL (default). All probes must have the same axes and sharpnesses.
    * Only the last lobe may have the sharpness 0; it is the ambient term. */
   const nook_lobe* lobes;
   /* Lobes of each probe, 1 to 64. Default 0. */
   uint32_t lobe_count;
-  /* Must be 0. */
   uint32_t reserved;
   /* A fit whose basis and domain the coefficients belong to, or NULL (default). Its samples do not matter. */
   nook_probe_fit functions;
   /* function_count x RGB for each probe, or NULL (default). */
   const float* coefficients;
 } nook_probe_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_probe_desc_init(nook_probe_desc* desc) {
   return nook_desc_init(NOOK_DESC_PROBE, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Creates a probe or a grid from fits, lobes or coefficients. On failure *out is NULL. No other thread may
- * use the fits during the call. Any thread. Errors: INVALID_ARGUMENT (also, not exactly one source is set,
- * the fits differ in their functions, or a coefficient is not finite or its magnitude is above 1e22),
- * OUT_OF_MEMORY. */
+/* Creates a probe or a grid. On failure *out is NULL. No other thread may use the fits during the call.
+ * Any thread. Errors: INVALID_ARGUMENT (also, not exactly one source is set, the fits differ in their
+ * functions, or a coefficient is not finite or its magnitude is above 1e22), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_create(nook_context context, const nook_probe_desc* desc, nook_probe* out);
 
-/* Loads a probe or a grid from the bytes of a .nook file; the caller may free the bytes afterwards. The
- * library validates everything, so that hostile bytes are safe. On failure *out is NULL.
+/* Loads a probe or a grid from the bytes of a .nook file, which you may free afterwards. The library
+ * validates everything, so that hostile bytes are safe. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_load(nook_context context, const void* bytes, size_t size, nook_probe* out);
 
-/* Releases the caller's reference and sets *probe to NULL.
- * Any thread. */
+/* Releases your reference and sets *probe to NULL. Any thread. */
 NOOK_API void nook_probe_destroy(nook_probe* probe);
 
 /* The storage of an RGB coefficient in a file. */
@@ -243,15 +208,13 @@ enum {
 };
 typedef int32_t nook_probe_packing;
 
-/* Writes the .nook file of a probe to bytes; the host stores it. *size is the buffer's size before the call
- * and the file's size afterwards. With bytes NULL the call gives only the size. It allocates from the C++
- * heap.
- * Any thread. Errors: INVALID_ARGUMENT (also, the buffer is too small; *size is then the required size),
- * OUT_OF_MEMORY. */
+/* Writes the .nook file of a probe to bytes. *size is the buffer's size before the call and the file's
+ * afterwards; with bytes NULL the call gives only the size. It allocates from the C++ heap. Any thread.
+ * Errors: INVALID_ARGUMENT (also, the buffer is too small; *size is then the required size), OUT_OF_MEMORY.
+ */
 NOOK_API nook_result nook_probe_save(nook_probe probe, nook_probe_packing packing, void* bytes, size_t* size);
 
 typedef struct nook_probe_info {
-  /* sizeof(nook_probe_info); the caller sets it. */
   uint32_t struct_size;
   nook_probe_basis basis;
   nook_probe_domain domain;
@@ -262,9 +225,8 @@ typedef struct nook_probe_info {
   int32_t ambient;
   /* The highest band of harmonics; 0 for other bases. */
   uint32_t order;
-  uint32_t probe_count;
-  /* The numbers of probes along x, y and z. */
-  uint32_t counts[3];
+  /* Probes, in all and along x, y and z. */
+  uint32_t probe_count, counts[3];
   /* Metres, the position of the first probe. */
   float origin_ws[3];
   /* Metres between neighbours along x, y and z. */
@@ -273,36 +235,32 @@ typedef struct nook_probe_info {
   uint32_t wall_cells;
 } nook_probe_info;
 
-/* Describes a probe.
- * Any thread. Errors: INVALID_ARGUMENT. */
+/* Describes a probe. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_describe(nook_probe probe, nook_probe_info* info);
 
-/* Writes the coefficients of one probe of the grid, function_count x RGB.
- * Any thread. Errors: INVALID_ARGUMENT. */
+/* Writes the coefficients of one probe of the grid, function_count x RGB. Any thread. Errors:
+ * INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_read_coefficients(nook_probe probe, uint32_t index, float* coefficients,
                                                   uint32_t function_count);
 
-/* Writes the lobes at a point (world space, metres), trilinearly interpolated between the probes of a grid.
- * Outside the grid they are those of its nearest point. With position_ws NULL they are those of the first
- * probe. The call does not allocate.
- * Any thread. Errors: INVALID_ARGUMENT (also, the basis is not NOOK_PROBE_BASIS_LOBES). */
+/* Writes the lobes at a point (world space, metres), trilinearly interpolated between the probes of a grid;
+ * outside it, those of its nearest point. position_ws NULL: those of the first probe. The call does not
+ * allocate. Any thread. Errors: INVALID_ARGUMENT (also, the basis is not NOOK_PROBE_BASIS_LOBES). */
 NOOK_API nook_result nook_probe_read_lobes(nook_probe probe, const float* position_ws, nook_lobe* lobes,
                                            uint32_t function_count);
 
 /* Evaluates the radiance from count unit directions. positions_ws has a position for each direction (world
  * space, metres), where the probes of a grid are interpolated; outside the grid you get the light of its
- * nearest point. NULL means the first probe for all directions. Walls do not count. The functions of a
- * hemisphere are defined below it, but no samples were fitted there. The call does not allocate.
- * Any thread. Errors: INVALID_ARGUMENT. */
+ * nearest point. NULL: the first probe for all. Walls do not count. A hemisphere was fitted to no samples
+ * below it. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_radiance(nook_probe probe, const float* positions_ws, const float* directions,
                                          float* radiance, size_t count);
 
-/* Evaluates the irradiance on count surfaces with the given unit normals. positions_ws has a position for
- * each surface, as in nook_probe_radiance, or is NULL for the first probe. In a grid that was baked with
- * walls, only the probes on the surface's side of a wall count. Lobes use the clamped cosine in spherical
- * harmonics up to band 4: the error is at most 0.2 % up to sharpness 6 and 1 % at 16, and 1.6 % above;
- * harmonics are exact. The result is not clamped at 0. The call does not allocate. Any thread. Errors:
- * INVALID_ARGUMENT. */
+/* Evaluates the irradiance on count surfaces with unit normals, at positions as in nook_probe_radiance. In a
+ * grid that was baked with walls, only the probes on the surface's side of a wall count. Lobes use the
+ * clamped cosine in spherical harmonics up to band 4: the error is at most 0.2 % up to sharpness 6 and 1 % at
+ * 16, and 1.6 % above; harmonics are exact. The result is not clamped at 0. The call does not allocate.
+ * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_irradiance(nook_probe probe, const float* positions_ws, const float* normals,
                                            float* irradiance, size_t count);
 

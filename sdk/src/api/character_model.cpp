@@ -6,6 +6,7 @@
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/character/occluded_directions.h"
 #include "sdk/src/character/scene_readings.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/descriptors.h"
 
 using namespace nook;
@@ -86,9 +87,7 @@ nook_result nook_model_describe_primitive(nook_model model, uint32_t primitive, 
     need(model, "model");
     need(out, "out");
     const auto& primitives = model->model.primitives;
-    if (primitive >= primitives.size())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "primitive is out of range (got %u, need less than %zu)",
-                    primitive, primitives.size());
+    check_index("primitive", primitive, primitives.size());
     *out = {primitives[primitive].first_vertex, primitives[primitive].vertex_count};
   });
 }
@@ -97,9 +96,7 @@ nook_result nook_model_read(nook_model model, nook_model_array array, void* out,
                             size_t stride) {
   return api::enter("nook_model_read", [&] {
     need(model, "model");
-    if (array < 0 || array > NOOK_MODEL_OCCLUDED_DIRECTIONS)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "array is unknown (got %d, need 0 to %d)", array,
-                    NOOK_MODEL_OCCLUDED_DIRECTIONS);
+    check_known("array", array, NOOK_MODEL_OCCLUDED_DIRECTIONS);
     need(out, "out");
     const CharacterModel& m = model->model;
     if (count != m.file_to_welded.size())

@@ -11,6 +11,7 @@
 #include "sdk/src/character/host_vertices.h"
 #include "sdk/src/character/pose_check.h"
 #include "sdk/src/character/pose_source.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/geometry.h"
 
 using namespace nook;
@@ -48,12 +49,6 @@ PoseSource source_of(const CharacterModel& model, const nook_pose_desc* given) {
   source.is_strict = desc.flags & NOOK_POSE_FLAG_STRICT;
   source.place = read_place(desc.place_3x4, "desc.place_3x4");
   return source;
-}
-
-void check_bone_count(const CharacterModel& model, uint32_t bone_count) {
-  if (bone_count != model.bone_count())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "bone_count is not the model's (got %u, need %zu)", bone_count,
-                  model.bone_count());
 }
 
 void log_projection(nook_scene scene, nook_instance_id instance, const ProjectedBone& projected) {
@@ -114,7 +109,7 @@ nook_result nook_model_convert_pose(nook_model model, const nook_pose_desc* desc
   return api::enter("nook_model_convert_pose", [&] {
     need(model, "model");
     need(bones_3x4, "bones_3x4");
-    check_bone_count(model->model, bone_count);
+    check_bone_count(bone_count, model->model.bone_count());
     PoseSource source = source_of(model->model, desc);
     check_pose_source(model->model, source);
     convert_pose(model->model, source, {reinterpret_cast<Mat3x4*>(bones_3x4), bone_count});
@@ -127,7 +122,7 @@ nook_result nook_model_map_bones(nook_model model, const nook_bone_map_desc* des
     need(model, "model");
     const nook_bone_map_desc rules = read_descriptor(desc);
     need(transform_of_bone, "transform_of_bone");
-    check_bone_count(model->model, bone_count);
+    check_bone_count(bone_count, model->model.bone_count());
     constexpr std::uint32_t known = NOOK_BONE_MAP_LOOSE | NOOK_BONE_MAP_DROP_SHARED_PREFIX;
     if (rules.flags & ~known)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.flags has unknown bits (got 0x%x, need a sum of 0x%x)",
@@ -144,9 +139,7 @@ nook_result nook_model_describe_skin(nook_model model, uint32_t skin, nook_skin_
     need(model, "model");
     const BindData& bind = model->model.bind;
     need_bind_data(model->model);
-    if (skin >= bind.skins.size())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "skin is out of range (got %u, need less than %zu)", skin,
-                    bind.skins.size());
+    check_index("skin", skin, bind.skins.size());
     nook_skin_info answer{};
     answer.file_index = bind.skins[skin].file_index;
     answer.joint_count = bind.skins[skin].joint_count;
@@ -160,9 +153,7 @@ nook_result nook_model_describe_check_vertex(nook_model model, uint32_t index, n
     need(model, "model");
     const CharacterModel& m = model->model;
     need_bind_data(m);
-    if (index >= m.bind.vertices.size())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "index is out of range (got %u, need less than %zu)", index,
-                    m.bind.vertices.size());
+    check_index("index", index, m.bind.vertices.size());
     const RestVertex& rest = m.bind.vertices[index];
     const Mat3x4& rest_from_mesh = m.bind.rest_from_mesh[space_of(m, rest.file_vertex)];
     const Vec3 in_mesh = transform(inverse(to_double(rest_from_mesh)), rest.position);
@@ -185,14 +176,10 @@ nook_result nook_model_check_pose(nook_model model, const nook_pose_desc* desc,
     need(model, "model");
     need(check, "check");
     const nook_pose_check_desc given = read_descriptor(check);
-    if (!(given.tolerance > 0 && given.tolerance <= 1))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "check.tolerance is out of range (got %g, need above 0, at most 1)",
-                    double(given.tolerance));
+    check_fits("check.tolerance", given.tolerance, given.tolerance > 0 && given.tolerance <= 1,
+               "above 0, at most 1");
     PoseSource source = source_of(model->model, desc);
-    check_pose_source(model->model, source);
-    // The other kinds have been checked for it.
-    if (source.kind == NOOK_POSE_REST_TO_WORLD) need_bind_data(model->model);
+    check_pose_source(model->model, source, true);
     nook::Memory* const memory = model->context->memory();
     const auto vertices = skinned_vertices(model->model, given, memory);
     const PoseFinding finding = find_pose_fault(model->model, source, vertices, given.tolerance, memory);

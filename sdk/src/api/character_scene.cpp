@@ -5,38 +5,24 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
 #include "sdk/src/character/occluded_directions.h"
+#include "sdk/src/core/checks.h"
 
 using namespace nook;
 
 namespace {
 
-// The bounds keep squares finite. The comparison fails for NaN.
-void check_range(const char* name, float value, float low, float high, const char* need) {
-  if (!(value >= low && value <= high))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is out of range (got %g, need %s)", name,
-                  double(value), need);
-}
-
-void check_value(const char* name, std::int32_t value, std::int32_t last) {
-  if (value < 0 || value > last)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is unknown (got %d, need 0 to %d)", name, value,
-                  last);
-}
-
 SceneSettings settings_of(const nook_scene_desc& desc, nook_isa isa) {
   constexpr float tiny = 1e-6f, huge = 1e9f;
-  check_value("form", desc.form, NOOK_FORM_PAPER);
-  check_range("cutoff_error", desc.cutoff_error, 0, 1, "0 to 1");
-  check_range("far_error", desc.far_error, 0, 1, "0 to 1");
-  check_range("lod_error", desc.lod_error, 0, huge, "0 or more");
-  check_range("lod_distance", desc.lod_distance, tiny, huge, "metres above 0");
-  check_range("ground_radius", desc.ground_radius, tiny, huge, "metres above 0");
-  if (desc.lod_max_interval < 1)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.lod_max_interval is out of range (got 0, need 1 or more)");
-  if (desc.strict_poses > 1)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.strict_poses is out of range (got %u, need 0 or 1)",
-                  desc.strict_poses);
+  check_known("desc.form", desc.form, NOOK_FORM_PAPER);
+  check_range("desc.cutoff_error", desc.cutoff_error, 0, 1);
+  check_range("desc.far_error", desc.far_error, 0, 1);
+  check_fits("desc.lod_error", desc.lod_error, desc.lod_error >= 0 && desc.lod_error <= huge, "0 or more");
+  check_fits("desc.lod_distance", desc.lod_distance, desc.lod_distance >= tiny && desc.lod_distance <= huge,
+             "metres above 0");
+  check_fits("desc.ground_radius", desc.ground_radius,
+             desc.ground_radius >= tiny && desc.ground_radius <= huge, "metres above 0");
+  check_fits("desc.lod_max_interval", desc.lod_max_interval, desc.lod_max_interval >= 1, "1 or more");
+  check_fits("desc.strict_poses", desc.strict_poses, desc.strict_poses <= 1, "0 or 1");
   return {desc.form,
           isa,
           desc.cutoff_error,
@@ -82,12 +68,8 @@ constexpr struct {
 
 // Returns the bytes of a vertex.
 std::size_t entry_bytes_of(nook_channel channel, nook_format format) {
-  if (channel < 0 || channel > NOOK_CHANNEL_BENT_NORMAL)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "channel is unknown (got %d, need 0 to %d)", channel,
-                  NOOK_CHANNEL_BENT_NORMAL);
-  if (format < 0 || format > NOOK_FORMAT_SNORM8)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "format is unknown (got %d, need 0 to %d)", format,
-                  NOOK_FORMAT_SNORM8);
+  check_known("channel", channel, NOOK_CHANNEL_BENT_NORMAL);
+  check_known("format", format, NOOK_FORMAT_SNORM8);
   const ChannelForm& form = channel_forms[channel];
   if (format < form.first_format || format > form.last_format)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

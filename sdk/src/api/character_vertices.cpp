@@ -7,6 +7,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
 #include "sdk/src/character/host_vertices.h"
+#include "sdk/src/core/checks.h"
 
 using namespace nook;
 
@@ -36,12 +37,8 @@ HostVertices host_vertices(const CharacterModel& model, const nook_vertex_match_
       (match.primitive >= 0 && static_cast<std::size_t>(match.primitive) >= model.primitives.size()))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.primitive is out of range (got %d, need -1 to %zu)",
                   match.primitive, model.primitives.size() - 1);
-  if (match.in_rest_space > 1)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.in_rest_space is out of range (got %u, need 0 or 1)",
-                  match.in_rest_space);
-  if (!(match.tolerance >= 0 && match.tolerance <= 1))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.tolerance is out of range (got %g, need 0 to 1)",
-                  double(match.tolerance));
+  check_fits("desc.in_rest_space", match.in_rest_space, match.in_rest_space <= 1, "0 or 1");
+  check_range("desc.tolerance", match.tolerance, 0, 1);
   HostVertices host;
   host.count = match.vertex_count;
   host.position = points_of(match.positions, match.position_stride, match.vertex_count, "positions");
@@ -73,8 +70,7 @@ nook_result nook_model_remap(nook_model model, const uint32_t* vertices, uint32_
     *out = nullptr;
     need(model, "model");
     need(vertices, "vertices");
-    if (count == 0)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "count is out of range (got 0, need at least 1)");
+    check_fits("count", count, count != 0, "at least 1");
     const std::size_t known = model->model.file_to_welded.size();
     for (uint32_t i = 0; i < count; ++i)
       if (vertices[i] >= known)
@@ -98,9 +94,7 @@ nook_result nook_model_resample(nook_model model, const nook_vertex_match_desc* 
     constexpr float default_tolerance = 0.05f;
     HostVertices host = host_vertices(model->model, mesh);
     if (mesh.tolerance == 0) host.tolerance = default_tolerance;
-    if (host.count == 0)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "desc.vertex_count is out of range (got 0, need at least 1)");
+    check_fits("desc.vertex_count", host.count, host.count != 0, "at least 1");
     Memory* const memory = model->context->memory();
     const FarVertex farthest = farthest_vertex(model->model, host, memory);
     const float tolerance = tolerance_of(model->model, host);

@@ -14,6 +14,7 @@
 #include "sdk/src/character/loaded_clips.h"
 #include "sdk/src/character/pose_source.h"
 #include "sdk/src/character/scene.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/core/floats.h"
 #include "sdk/src/core/geometry.h"
@@ -24,12 +25,8 @@ namespace {
 
 FrameMix mix_of(const ClipSet& set, const nook_clip_time* time) {
   need(time, "time");
-  if (time->clip >= set.clips.size())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "time.clip is out of range (got %u, need less than %zu)",
-                  time->clip, set.clips.size());
-  if (time->wrap != NOOK_CLIP_CLAMP && time->wrap != NOOK_CLIP_LOOP)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "time.wrap is unknown (got %d, need 0 to %d)", time->wrap,
-                  NOOK_CLIP_LOOP);
+  check_index("time.clip", time->clip, set.clips.size());
+  check_known("time.wrap", time->wrap, NOOK_CLIP_LOOP);
   if (!std::isfinite(time->seconds))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "time.seconds is not finite (got %g)", time->seconds);
   return frame_mix(set.clips[time->clip], time->seconds, time->wrap == NOOK_CLIP_LOOP);
@@ -84,9 +81,7 @@ void write_ao_as(const LoadedClips& clips, const FrameMix& mix, nook_format form
 }
 
 void check_ao_output(const LoadedClips& clips, nook_format format, std::uint32_t count, std::size_t stride) {
-  if (format < NOOK_FORMAT_FLOAT || format > NOOK_FORMAT_UNORM8)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "format is unknown (got %d, need 0 to %d)", format,
-                  NOOK_FORMAT_UNORM8);
+  check_known("format", format, NOOK_FORMAT_UNORM8);
   const std::size_t vertices = clips.model->model.file_to_welded.size();
   if (count != vertices)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -111,9 +106,7 @@ nook_capsule capsule_of(const WorldCaster& caster, const Mat3x4& bone) {
 }
 
 ClipTexels texels_of(const LoadedClips& clips, nook_clips_table table) {
-  if (table < NOOK_CLIPS_MODES || table > NOOK_CLIPS_WEIGHTS)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "table is unknown (got %d, need 0 to %d)", table,
-                  NOOK_CLIPS_WEIGHTS);
+  check_known("table", table, NOOK_CLIPS_WEIGHTS);
   return table == NOOK_CLIPS_MODES ? mode_texels(clips) : weight_texels(clips);
 }
 
@@ -165,9 +158,7 @@ nook_result nook_clips_describe_clip(nook_clips clips, uint32_t clip, nook_clip_
   return api::enter("nook_clips_describe_clip", [&] {
     need(clips, "clips");
     const auto& known = clips->set.clips;
-    if (clip >= known.size())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "clip is out of range (got %u, need less than %zu)", clip,
-                    known.size());
+    check_index("clip", clip, known.size());
     nook_clip_info answer{};
     answer.first_frame = known[clip].first_frame;
     answer.frame_count = known[clip].frame_count;
@@ -208,9 +199,7 @@ nook_result nook_clips_read_pose(nook_clips clips, const nook_clip_time* time, c
     const FrameMix mix = mix_of(clips->set, time);
     const Mat3x4 place = place_of(place_3x4);
     need(bones_3x4, "bones_3x4");
-    if (bone_count != clips->set.bones.size())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "bone_count is not the model's (got %u, need %zu)",
-                    bone_count, clips->set.bones.size());
+    check_bone_count(bone_count, clips->set.bones.size());
     for (std::size_t b = 0; b < bone_count; ++b)
       std::copy_n(checked_bone(*clips, mix, place, b).m, 12, bones_3x4 + 12 * b);
   });
@@ -248,30 +237,22 @@ nook_result nook_scene_set_clip(nook_scene scene, nook_instance_id instance, noo
   });
 }
 
-nook_result nook_clips_texture_size(nook_clips clips, nook_clips_table table, uint32_t* width,
-                                    uint32_t* height, uint64_t* bytes) {
-  return api::enter("nook_clips_texture_size", [&] {
+nook_result nook_clips_read_table(nook_clips clips, nook_clips_table table, void* texels, size_t* size,
+                                  uint32_t* width, uint32_t* height) {
+  return api::enter("nook_clips_read_table", [&] {
     need(clips, "clips");
+    need(size, "size");
     need(width, "width");
     need(height, "height");
-    need(bytes, "bytes");
-    const ClipTexels texels = texels_of(*clips, table);
+    const ClipTexels known = texels_of(*clips, table);
+    const std::size_t bytes = static_cast<std::size_t>(known.bytes());
+    if (texels && *size < bytes)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "there is too little room (got %zu bytes, need %zu)", *size,
+                    bytes);
+    *size = bytes;
     *width = ClipTexels::width;
-    *height = texels.height();
-    *bytes = texels.bytes();
-  });
-}
-
-nook_result nook_clips_read_texture(nook_clips clips, nook_clips_table table, void* texels,
-                                    uint64_t byte_count) {
-  return api::enter("nook_clips_read_texture", [&] {
-    need(clips, "clips");
-    need(texels, "texels");
-    const ClipTexels size = texels_of(*clips, table);
-    if (byte_count != size.bytes())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "byte_count is not that of the table (got %llu, need %llu)",
-                    static_cast<unsigned long long>(byte_count),
-                    static_cast<unsigned long long>(size.bytes()));
-    table == NOOK_CLIPS_MODES ? write_mode_texels(*clips, texels) : write_weight_texels(*clips, texels);
+    *height = known.height();
+    if (texels)
+      table == NOOK_CLIPS_MODES ? write_mode_texels(*clips, texels) : write_weight_texels(*clips, texels);
   });
 }

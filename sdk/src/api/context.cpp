@@ -3,6 +3,7 @@
 #include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/isa.h"
 #include "sdk/src/core/version.h"
 
@@ -67,9 +68,7 @@ nook_result nook_context_create(const nook_context_desc* desc, nook_context* out
           NOOK_ERROR_INVALID_ARGUMENT,
           "desc.allocator has only one function (got %s, need both or none); set allocate and release",
           settings.allocator.allocate ? "allocate" : "release");
-    if (settings.isa < 0 || settings.isa > last_isa())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.isa is unknown (got %d, need 0 to %d)", settings.isa,
-                    last_isa());
+    check_known("desc.isa", settings.isa, last_isa());
     if (settings.reserved != 0)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", settings.reserved);
     const Isa isa = choose_isa(settings.isa);

@@ -3,6 +3,7 @@
 #include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/material_handle.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/material/cost.h"
 #include "sdk/src/material/material_check.h"
 #include "sdk/src/material/material_file.h"
@@ -66,10 +67,7 @@ ModeForm checked(const nook_material_desc* given) {
   if (desc.blocks < NOOK_MATERIAL_BLOCKS_NONE || desc.blocks > NOOK_MATERIAL_BLOCKS_EAC)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.blocks is not a NOOK_MATERIAL_BLOCKS value (got %d, need 0 to 2)", desc.blocks);
-  if (desc.whole_light_modes < 0 || std::uint32_t(desc.whole_light_modes) > max_light_modes)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.whole_light_modes is out of range (got %d, need 0 to %u)", desc.whole_light_modes,
-                  max_light_modes);
+  check_range("desc.whole_light_modes", desc.whole_light_modes, 0, std::int32_t(max_light_modes));
   return {static_cast<BlockForm>(desc.blocks), std::uint32_t(desc.whole_light_modes)};
 }
 
@@ -142,9 +140,7 @@ nook_result nook_material_evaluate(nook_material material, const nook_material_p
                                    uint32_t fetches, nook_material_value* values) {
   return api::enter("nook_material_evaluate", [&] {
     need(material, "material");
-    if (fetches < 1 || fetches > max_fetches)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "fetches is out of range (got %u, need 1 to %u)", fetches,
-                    max_fetches);
+    check_range("fetches", fetches, 1, max_fetches);
     if (count == 0) return;
     need(pixels, "pixels");
     need(values, "values");

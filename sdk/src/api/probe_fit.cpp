@@ -8,6 +8,7 @@
 #include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/probe_handles.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/probe/axes.h"
 
 using namespace nook;
@@ -15,19 +16,13 @@ using namespace nook::probe;
 
 namespace {
 
-void check_choice(const char* field, std::int32_t value, std::int32_t last) {
-  if (value < 0 || value > last)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is unknown (got %d, need 0 to %d)", field, value,
-                  last);
-}
-
 void check_choices(const nook_probe_fit_desc& desc) {
-  check_choice("method", desc.method, NOOK_PROBE_FIT_RUNNING_AVERAGE_NON_NEGATIVE);
-  check_choice("form", desc.form, NOOK_FORM_PAPER);
-  check_choice("match_sh", desc.match_sh, 1);
-  check_choice("basis", desc.basis, NOOK_PROBE_BASIS_SH);
-  check_choice("domain", desc.domain, NOOK_PROBE_DOMAIN_HEMISPHERE);
-  check_choice("ambient", desc.ambient, 1);
+  check_known("desc.method", desc.method, NOOK_PROBE_FIT_RUNNING_AVERAGE_NON_NEGATIVE);
+  check_known("desc.form", desc.form, NOOK_FORM_PAPER);
+  check_known("desc.match_sh", desc.match_sh, 1);
+  check_known("desc.basis", desc.basis, NOOK_PROBE_BASIS_SH);
+  check_known("desc.domain", desc.domain, NOOK_PROBE_DOMAIN_HEMISPHERE);
+  check_known("desc.ambient", desc.ambient, 1);
   if (desc.reserved != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", desc.reserved);
   if (desc.form == NOOK_FORM_PAPER && (desc.method != NOOK_PROBE_FIT_LEAST_SQUARES || desc.match_sh != 1))
@@ -59,12 +54,8 @@ void check_study(const nook_probe_fit_desc& desc, const nook_probe_fit_study_des
 
 Basis lobes_of(const nook_probe_fit_desc& desc, Domain domain, Vec3 up) {
   const std::uint32_t most = max_functions - (desc.ambient ? 1 : 0);
-  if (desc.lobe_count < 1 || desc.lobe_count > most)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.lobe_count is out of range (got %u, need 1 to %u)",
-                  desc.lobe_count, most);
-  if (!(desc.sharpness >= 0 && desc.sharpness <= max_sharpness))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.sharpness is out of range (got %g, need 0 to %g)",
-                  double(desc.sharpness), double(max_sharpness));
+  check_range("desc.lobe_count", desc.lobe_count, 1, most);
+  check_range("desc.sharpness", desc.sharpness, 0, max_sharpness);
   std::array<Vec3, max_functions> storage;
   std::array<float, max_functions> sharpnesses;
   const std::span<Vec3> axes = std::span(storage).first(desc.lobe_count);

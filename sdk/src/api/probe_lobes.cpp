@@ -6,6 +6,7 @@
 #include <span>
 
 #include "sdk/src/api/entry.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/probe/basis.h"
 #include "sdk/src/probe/harmonics.h"
 #include "sdk/src/probe/probe.h"
@@ -43,9 +44,7 @@ SphericalGaussian from_public(const nook_lobe& lobe, std::size_t index) {
 class Lobes {
  public:
   Lobes(const nook_lobe* lobes, std::uint32_t count) : count_(count) {
-    if (count > max_functions)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "lobe_count is out of range (got %u, need 0 to %u)", count,
-                    max_functions);
+    check_range("lobe_count", count, 0, max_functions);
     if (count) need(lobes, "lobes");
     for (std::uint32_t i = 0; i < count; ++i) lobes_[i] = from_public(lobes[i], i);
   }
@@ -85,9 +84,7 @@ Surface surface_of(const nook_probe_surface& s, std::size_t index) {
 }
 
 IrradianceForm irradiance_form(nook_probe_irradiance_form form) {
-  if (form < NOOK_PROBE_IRRADIANCE_FITTED || form > NOOK_PROBE_IRRADIANCE_BANDS)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "form is unknown (got %d, need 0 to %d)", form,
-                  NOOK_PROBE_IRRADIANCE_BANDS);
+  check_known("form", form, NOOK_PROBE_IRRADIANCE_BANDS);
   return static_cast<IrradianceForm>(form);
 }
 
@@ -203,9 +200,7 @@ nook_result nook_sg_to_sh(const nook_lobe* lobes, uint32_t lobe_count, uint32_t 
   return api::enter("nook_sg_to_sh", [&] {
     const Lobes checked(lobes, lobe_count);
     need(coefficients, "coefficients");
-    if (order < 1 || order > max_order)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "order is out of range (got %u, need 1 to %u)", order,
-                    max_order);
+    check_range("order", order, 1, max_order);
     std::array<Vec3, harmonic_count(max_order)> projected;
     const std::span<Vec3> out = std::span(projected).first(harmonic_count(order));
     to_harmonics(checked.get(), order, out);

@@ -8,6 +8,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/probe_handles.h"
 #include "sdk/src/api/transfer_handles.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/probe/probe_light.h"
 #include "sdk/src/transfer/lobe_fit.h"
 #include "sdk/src/transfer/transfer_check.h"
@@ -83,10 +84,8 @@ void read_direction(const nook_transfer_light_desc& desc, nook_transfer_light_s&
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.direction has no unit length (got %g); normalise it",
                   double(length(d)));
   for (const float irradiance : desc.irradiance)
-    if (!(std::abs(irradiance) <= max_irradiance))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "desc.irradiance is out of range (got %g, need finite numbers up to 1e15)",
-                    double(irradiance));
+    check_fits("desc.irradiance", irradiance, std::abs(irradiance) <= max_irradiance,
+               "finite numbers up to 1e15");
   light.direction = normalised(d);
   light.irradiance = {desc.irradiance[0], desc.irradiance[1], desc.irradiance[2]};
 }

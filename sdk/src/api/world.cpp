@@ -7,6 +7,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
 #include "sdk/src/api/world_casting.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/world/sample.h"
 
 using namespace nook;
@@ -21,9 +22,9 @@ world::SampleRequest request_of(const nook_world_sample_desc& desc, float cutoff
     need(desc.positions, "desc.positions");
     need(desc.normals, "desc.normals");
   }
-  if (desc.stride % sizeof(float) != 0 || (desc.stride != 0 && desc.stride < 3 * sizeof(float)))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.stride is out of range (got %u, need 0 or a multiple of 4 from 12 on)", desc.stride);
+  check_fits("desc.stride", desc.stride,
+             desc.stride % sizeof(float) == 0 && (desc.stride == 0 || desc.stride >= 3 * sizeof(float)),
+             "0 or a multiple of 4 from 12 on");
   api::check_props("desc", desc.capsules, desc.capsule_count);
   world::SampleRequest request;
   request.positions = desc.positions;

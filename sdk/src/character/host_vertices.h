@@ -52,8 +52,6 @@ float tolerance_of(const CharacterModel& model, const HostVertices& host);
 void set_primitives(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,
                     CharacterModel& out);
 
-// A host's vertices and those of a model: which is which, and a model in the host's order.
-
 inline constexpr std::uint32_t no_vertex = UINT32_MAX;
 
 // Writes the file vertex of each host vertex, or no_vertex, and returns the number of no_vertex. The model

@@ -22,9 +22,6 @@ inline constexpr std::uint32_t linear_window_vertices = 1024;
 Vector<std::uint32_t> linear_layer_order(const CharacterModel& model, std::uint32_t block_vertices,
                                          Memory* memory);
 
-// The linear layer of a character model in an order that is efficient on processors: blocks of 16 vertices
-// that share key points, each as a small dense matrix.
-
 class LinearLayer {
  public:
   // Entries with alpha 0 are left out. Throws Failure if an influence is not a key point of the model, or if

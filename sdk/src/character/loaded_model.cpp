@@ -27,8 +27,8 @@ std::size_t longest_side(std::span<const std::uint32_t> indices, const Vector<Pl
 }
 
 // Orders `indices` of places, so that places near each other are side by side, in blocks of equal size: all
-// blocks are whole, except for the last. Every coordinate must be finite. The recursion depth is the logarithm
-// of the number of blocks.
+// blocks are whole, except for the last. Every coordinate must be finite. The recursion depth is the
+// logarithm of the number of blocks.
 void order_in_space(std::span<std::uint32_t> indices, std::size_t block, const Vector<Place>& places) {
   if (indices.size() <= block) return;
   const std::size_t blocks = (indices.size() + block - 1) / block;

@@ -63,9 +63,9 @@ struct LoadedModel : RefCounted {
   float caster_strength = 0;  // maximum over the levels of the sum of caster_weight * radius^2, square metres
 };
 
-// Renumbers the key points of a model that has passed check_model into groups of key_point_group that are near
-// each other, so that one decision about a far part of the body serves a whole group. What the model means
-// stays the same.
+// Renumbers the key points of a model that has passed check_model into groups of key_point_group that are
+// near each other, so that one decision about a far part of the body serves a whole group. What the model
+// means stays the same.
 CharacterModel with_near_key_points_together(CharacterModel model, Memory* memory);
 
 }  // namespace nook

@@ -4,6 +4,7 @@
 #include "sdk/src/character/model.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/character/model_file_packing.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/geometry.h"
 
 namespace nook {
@@ -111,10 +112,8 @@ void read_linear_layer(ByteReader in, CharacterModel& model) {
   const std::uint32_t influences = in.u8();
   const float max_alpha = in.f32();
   const Range bias = read_range(in, max_coefficient);
-  if (influences < 1 || influences > CharacterModel::max_influences)
-    throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the number of influences of a vertex is out of range (got %u, need 1 to %u)", influences,
-                  CharacterModel::max_influences);
+  check_range("the number of influences of a vertex", influences, 1, CharacterModel::max_influences,
+              NOOK_ERROR_BAD_FILE);
   if (!(max_alpha > 0 && max_alpha <= max_coefficient))
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "the largest alpha is out of range (got %g, need 0 to 1e4); bake the file again",

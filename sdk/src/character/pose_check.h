@@ -66,8 +66,6 @@ double scale_of_similarity(const Affine& map);
 // The turn of a similarity of a known scale, degrees.
 double turn_degrees(const Affine& map, double scale);
 
-// Compares a pose with vertices that the host skinned itself, and finds out what is likely wrong.
-
 // A vertex of BindData::vertices and where the host's skinning puts it, in the world.
 struct SkinnedVertex {
   std::uint32_t rest_vertex = 0;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/geometry.h"
 
@@ -106,13 +107,15 @@ std::size_t floats_of_layout(nook_transform_layout layout) {
   return floats[layout];
 }
 
-void check_pose_source(const CharacterModel& model, PoseSource& source) {
-  if (source.kind < NOOK_POSE_REST_TO_WORLD || source.kind > NOOK_POSE_SKINNING)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.kind is unknown (got %d, need 0 to %d)", source.kind,
-                  NOOK_POSE_SKINNING);
-  if (source.layout < NOOK_TRANSFORM_ROWS_3X4 || source.layout > NOOK_TRANSFORM_TRS)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.layout is unknown (got %d, need 0 to %d)", source.layout,
-                  NOOK_TRANSFORM_TRS);
+void check_bone_count(std::size_t got, std::size_t of_model) {
+  if (got != of_model)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "bone_count is not the model's (got %zu, need %zu)", got,
+                  of_model);
+}
+
+void check_pose_source(const CharacterModel& model, PoseSource& source, bool needs_bind_data) {
+  check_known("desc.kind", source.kind, NOOK_POSE_SKINNING);
+  check_known("desc.layout", source.layout, NOOK_TRANSFORM_TRS);
   need(source.transforms, "desc.transforms");
   const std::size_t bytes = floats_of_layout(source.layout) * sizeof(float);
   if (source.stride == 0) source.stride = bytes;
@@ -120,10 +123,8 @@ void check_pose_source(const CharacterModel& model, PoseSource& source) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.stride is out of range (got %zu bytes, need 0 or a multiple of 4 from %zu on)",
                   source.stride, bytes);
-  if (source.transform_count < 1 || source.transform_count > max_transforms)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.transform_count is out of range (got %u, need 1 to %u)",
-                  source.transform_count, max_transforms);
-  if (source.kind != NOOK_POSE_REST_TO_WORLD) need_bind_data(model);
+  check_range("desc.transform_count", source.transform_count, 1, max_transforms);
+  if (needs_bind_data || source.kind != NOOK_POSE_REST_TO_WORLD) need_bind_data(model);
   const bool is_skinning = source.kind == NOOK_POSE_SKINNING;
   if (is_skinning) source.skin = find_skin(model, source.file_skin);
   if (source.transform_of_bone.empty()) {

@@ -28,8 +28,12 @@ struct PoseSource {
 };
 
 // Throws Failure unless every number and index is in range and the model has the bind data that the kind
-// needs. Sets the stride where it is 0, and `skin`. A map of the bones must have the model's bone count.
-void check_pose_source(const CharacterModel& model, PoseSource& source);
+// needs, or has it for any kind. Sets the stride where it is 0, and `skin`. A map of the bones must have the
+// model's bone count.
+void check_pose_source(const CharacterModel& model, PoseSource& source, bool needs_bind_data = false);
+
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless the host's array has one entry for each bone.
+void check_bone_count(std::size_t got, std::size_t of_model);
 
 // Throws Failure(NOOK_ERROR_UNSUPPORTED).
 void need_bind_data(const CharacterModel& model);

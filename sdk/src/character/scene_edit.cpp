@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sdk/src/character/scene.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/geometry.h"
 
@@ -363,9 +364,7 @@ void unlink(Scene& scene, nook_instance_id receiver, nook_instance_id caster) {
 void link_nearest(Scene& scene, std::uint32_t k, float max_distance) {
   if (k > max_nearest)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "k is too large (got %u, need at most %u)", k, max_nearest);
-  if (k > 0 && !(max_distance > 0 && std::isfinite(max_distance)))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "max_distance is out of range (got %g, need finite metres above 0)", double(max_distance));
+  if (k > 0) check_fits("max_distance", max_distance, max_distance > 0, "finite metres above 0");
   for (Instance& instance : scene.instances) instance.plan.casters.reserve(instance.input.linked.size() + k);
   if (k > 0) reserve_tree(scene.neighbours, std::bit_ceil(scene.instances.size()));
   scene.nearest = k;
@@ -378,10 +377,8 @@ void set_ground(Scene& scene, nook_instance_id id, const Plane* plane) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the normal of the plane is not of unit length (got %g, need 1 to 0.001)",
                   double(length(plane->normal)));
-  if (plane && !(std::abs(plane->offset) <= 1e9f))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the offset of the plane is out of range (got %g, need finite metres)",
-                  double(plane->offset));
+  if (plane)
+    check_fits("the offset of the plane", plane->offset, std::abs(plane->offset) <= 1e9f, "finite metres");
   instance.input.has_ground = plane != nullptr;
   if (plane) instance.input.ground = *plane;
 }
@@ -394,9 +391,8 @@ void check_occluder(const Sphere& sphere) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the centre is out of range (got %g %g %g, need finite metres)", double(c.x), double(c.y),
                   double(c.z));
-  if (!(sphere.radius > 0 && sphere.radius <= 1e9f))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the radius is out of range (got %g, need finite metres above 0)", double(sphere.radius));
+  check_fits("the radius", sphere.radius, sphere.radius > 0 && sphere.radius <= 1e9f,
+             "finite metres above 0");
 }
 
 }  // namespace

@@ -195,9 +195,9 @@ struct ShadowKernels {
   void (*pose_key_points)(const RestKeyPointView& rest, const Mat3x4* bones, Vec3 offset_ws,
                           const KeyPointTarget& out, const KeyPointTarget* surface);
 
-  // Directional occlusion (directional_occlusion.h). rgb and inverse have one array of padded_count entries for each
-  // channel. rho is the light behind a sphere relative to its share of the hemisphere. rgb[k] += sum over
-  // spheres of y^gamma rho, by bands (directional_occlusion.h): the coloured form of self_norm_sum.
+  // Directional occlusion (directional_occlusion.h). rgb and inverse have one array of padded_count entries
+  // for each channel. rho is the light behind a sphere relative to its share of the hemisphere. rgb[k] += sum
+  // over spheres of y^gamma rho, by bands (directional_occlusion.h): the coloured form of self_norm_sum.
   void (*directional_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
                                const LightBands& light, float* const* rgb);
   // inverse[k] = inverse_hemisphere at the key point, which the next two functions need.

@@ -20,8 +20,6 @@ struct PosedCaster {
   float ao_scale = 1;
 };
 
-// The maximum distance of geometry from the origin.
-
 // Metres along each axis. A float's step is 6 cm at the bound, so that neither a character nor a scene makes
 // sense beyond it, and every later product of coordinates stays finite.
 constexpr float max_metres = 1e6f;

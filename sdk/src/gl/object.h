@@ -1,4 +1,5 @@
-// OpenGL names that are deleted with their owner, or forgotten if the OpenGL context is lost.
+// OpenGL names that are deleted with their owner, or forgotten if the OpenGL context is lost, buffers, and
+// the objects of transform feedback.
 #pragma once
 
 #include <cstdint>
@@ -106,8 +107,6 @@ class Object {
   Kind kind_ = Kind::texture;
   GLuint name_ = 0;
 };
-
-// The objects of draws whose results are captured by transform feedback alone.
 
 // A draw needs a complete framebuffer even if nothing is rasterised, and a surfaceless context has none.
 class FeedbackTarget {

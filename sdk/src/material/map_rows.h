@@ -1,6 +1,5 @@
-// Golomb's and Rice's code of whole numbers, for which small ones take few bits. A multiple m becomes n = 2
-// m, or -2 m - 1 below 0, and n becomes n >> k ones, a zero and its k low bits; after 24 ones without a zero
-// n follows in 26 bits.
+// Resampled view maps in few bytes: most cells mix the same clusters as a neighbour, with coefficients close
+// to those that their neighbours predict.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +10,10 @@
 #include "sdk/src/material/material.h"
 
 namespace nook::material {
+
+// Golomb's and Rice's code of whole numbers, for which small ones take few bits. A multiple m becomes n = 2
+// m, or -2 m - 1 below 0, and n becomes n >> k ones, a zero and its k low bits; after 24 ones without a zero
+// n follows in 26 bits.
 
 inline constexpr std::int32_t max_multiple = (1 << 24) - 1;
 inline constexpr int k_bits = 5;
@@ -23,9 +26,6 @@ void write_multiple(ByteWriter& out, std::int32_t multiple, std::uint32_t k);
 // Both throw Failure(NOOK_ERROR_BAD_FILE) at a number out of range.
 std::uint32_t read_k(ByteReader& in);
 std::int32_t read_multiple(ByteReader& in, std::uint32_t k);
-
-// Resampled view maps in few bytes: most cells mix the same clusters as a neighbour, with coefficients close
-// to those that their neighbours predict.
 
 // Returns rows whose terms are in the order of their clusters.
 ViewRows sorted_rows(const ViewRows& rows, const TensorShape& shape, Memory* memory = default_memory());

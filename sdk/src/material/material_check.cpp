@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::material {
@@ -92,9 +93,7 @@ void check_relief(const Relief& relief, const TensorShape& btf, nook_result code
   if (!(relief.low <= relief.high))
     throw Failure(code, "the relief's lowest height %g is above its highest %g", double(relief.low),
                   double(relief.high));
-  if (!(relief.max_slope >= 0 && relief.max_slope <= max_relief_slope))
-    throw Failure(code, "the slope of the relief's views is out of range (got %g, need 0 to %g)",
-                  double(relief.max_slope), double(max_relief_slope));
+  check_range("the slope of the relief's views", relief.max_slope, 0, max_relief_slope, code);
   const bool is_plane = relief.steps == 0;
   check.range("the number of steps", relief.steps, 0, max_relief_steps);
   check.sized("levels", relief.levels.size(), is_plane ? 0 : std::size_t(btf.width) * btf.height);
@@ -202,9 +201,8 @@ void check_shape(const TensorShape& shape, std::size_t lights, std::size_t views
 void check_material(const Material& material, nook_result code) {
   if (material.bits != 8 && material.bits != 16)
     throw Failure(code, "the form of numbers is unknown (got %u, need 8 or 16)", material.bits);
-  if (!(material.core_rounding > 0 && material.core_rounding < 1))
-    throw Failure(code, "the rounding of cores is out of range (got %g, need more than 0 and less than 1)",
-                  double(material.core_rounding));
+  check_fits("the rounding of cores", material.core_rounding,
+             material.core_rounding > 0 && material.core_rounding < 1, "more than 0 and less than 1", code);
   check_directions(material.lights, {code, "lights"});
   check_directions(material.views, {code, "views"});
   material.neural.is_used() ? check_neural(material, code) : check_btf(material, code);

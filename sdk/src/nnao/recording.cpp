@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/nnao/filter.h"
 #include "sdk/src/nnao/frame_radius.h"
@@ -11,33 +12,22 @@
 namespace nook::nnao {
 namespace {
 
-void check_choice(const char* field, std::int32_t value, std::int32_t last) {
-  if (value < 0 || value > last)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is unknown (got %d, need 0 to %d)", field, value, last);
-}
-
-void check_number(const char* field, float value, bool fits, const char* need) {
-  if (!std::isfinite(value) || !fits)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is out of range (got %g, need %s)", field, double(value),
-                  need);
-}
-
 void check_frame(const RecordedFrame& frame) {
-  check_choice("depth_kind", frame.depth_kind, std::int32_t(DepthKind::linear));
-  check_choice("clip", frame.clip, std::int32_t(ClipRange::zero_to_one));
-  check_choice("layer", frame.layer, last_recorded_layer);
-  check_choice("view", frame.view, last_recorded_view);
-  check_choice("radius_kind", frame.radius_kind, last_recorded_radius_kind);
+  check_known("depth_kind", frame.depth_kind, std::int32_t(DepthKind::linear));
+  check_known("clip", frame.clip, std::int32_t(ClipRange::zero_to_one));
+  check_known("layer", frame.layer, last_recorded_layer);
+  check_known("view", frame.view, last_recorded_view);
+  check_known("radius_kind", frame.radius_kind, last_recorded_radius_kind);
   const bool share = frame.radius_kind != 0;
-  check_number("radius", frame.radius, frame.radius > 0 && (!share || frame.radius <= 1),
-               share ? "a share of the screen, more than 0 up to 1" : "more than 0 metres");
-  check_number("max_radius_px", frame.max_radius_px, frame.max_radius_px == 0 || frame.max_radius_px >= 1,
-               "at least 1 pixel, or 0 for the default");
-  check_number("intensity", frame.intensity, frame.intensity >= 0 && frame.intensity <= 16, "0 to 16");
-  check_number("power", frame.power, frame.power > 0 && frame.power <= 16, "more than 0, up to 16");
-  check_number("sky_depth", frame.sky_depth, frame.sky_depth >= 0, "0 or more metres");
-  check_number("normal_scale", frame.normal_scale, frame.normal_scale != 0, "a number other than 0");
-  check_number("normal_bias", frame.normal_bias, true, "a number");
+  check_fits("radius", frame.radius, frame.radius > 0 && (!share || frame.radius <= 1),
+             share ? "a share of the screen, more than 0 up to 1" : "more than 0 metres");
+  check_fits("max_radius_px", frame.max_radius_px, frame.max_radius_px == 0 || frame.max_radius_px >= 1,
+             "at least 1 pixel, or 0 for the default");
+  check_fits("intensity", frame.intensity, frame.intensity >= 0 && frame.intensity <= 16, "0 to 16");
+  check_fits("power", frame.power, frame.power > 0 && frame.power <= 16, "more than 0, up to 16");
+  check_fits("sky_depth", frame.sky_depth, frame.sky_depth >= 0, "0 or more metres");
+  check_fits("normal_scale", frame.normal_scale, frame.normal_scale != 0, "a number other than 0");
+  check_fits("normal_bias", frame.normal_bias, true, "a number");
   check_normal_matrix(frame.normal_matrix);
   check_projection(frame.projection, DepthKind(frame.depth_kind));
 }
@@ -46,10 +36,10 @@ void check_pass(const RecordedPass& pass) {
   if (pass.taps < 0 || horizon_grid(std::uint32_t(pass.taps)).steps == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "taps is unknown (got %d, need 9, 16, 32, 64, 128 or 256)",
                   pass.taps);
-  check_choice("half_resolution", pass.half_resolution, 1);
-  check_choice("blur", pass.blur, 2);
-  check_number("blur_sharpness", pass.blur_sharpness, pass.blur_sharpness > 0, "more than 0");
-  check_choice("path", pass.path, last_recorded_path);
+  check_known("half_resolution", pass.half_resolution, 1);
+  check_known("blur", pass.blur, 2);
+  check_fits("blur_sharpness", pass.blur_sharpness, pass.blur_sharpness > 0, "more than 0");
+  check_known("path", pass.path, last_recorded_path);
 }
 
 void check_image(const char* field, const Vector<float>& image, std::size_t count) {

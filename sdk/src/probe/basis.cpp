@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/spherical_gaussian.h"
 #include "sdk/src/probe/axes.h"
@@ -155,9 +156,8 @@ Basis dice_basis(Domain domain, Vec3 up) {
 void check_basis(const Basis& basis, nook_result code) {
   check_up(basis.up, code);
   if (basis.kind == BasisKind::gaussians) check_gaussians(basis, code);
-  if (basis.kind == BasisKind::harmonics && (basis.order < 1 || basis.order > max_order))
-    throw Failure(code, "the order of the harmonics is out of range (got %u, need 1 to %u)", basis.order,
-                  max_order);
+  if (basis.kind == BasisKind::harmonics)
+    check_range("the order of the harmonics", basis.order, 1, max_order, code);
 }
 
 void evaluate_basis(const Basis& basis, Vec3 direction, float* values) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/probe/dense.h"
 #include "sdk/src/probe/fit_kernels.h"
@@ -28,9 +29,7 @@ constexpr double smallest_pivot = 1e-9;
 constexpr double least_plain_pivot = 0.01;
 
 void check_settings(const Basis& basis, const FitSettings& settings) {
-  if (!(settings.growing_samples >= 0) || !std::isfinite(settings.growing_samples))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "growing_samples is out of range (got %g, need 0 or more)",
-                  double(settings.growing_samples));
+  check_fits("growing_samples", settings.growing_samples, settings.growing_samples >= 0, "0 or more");
   const bool signed_only = settings.method == FitMethod::running_average_original ||
                            settings.method == FitMethod::running_average_non_negative ||
                            settings.method == FitMethod::non_negative_least_squares;

@@ -1,6 +1,4 @@
-// Walls inside the cells of a grid: which of a cell's eight probes count at a place, so that light of one
-// room does not reach the next. A cell lies between eight probes; the outermost ones reach beyond them
-// without end.
+// Probes as plain data: one, or a grid of them that share their functions, with walls between its rooms.
 #pragma once
 
 #include <array>
@@ -17,6 +15,10 @@
 #include "shaders/probe/constants.h"
 
 namespace nook::probe {
+
+// Walls inside the cells of a grid: which of a cell's eight probes count at a place, so that light of one
+// room does not reach the next. A cell lies between eight probes; the outermost ones reach beyond them
+// without end.
 
 inline constexpr std::size_t wall_planes = NOOK_GRID_PLANES, wall_sides = NOOK_GRID_SIDES;
 
@@ -57,8 +59,6 @@ struct GridWalls {
 
   bool any() const { return !cell.empty(); }
 };
-
-// Probes as plain data: one, or a grid of them that share their functions.
 
 inline constexpr std::uint32_t max_probes = 1u << 20;
 // No coefficient is larger, so that no sum of an evaluation overflows.

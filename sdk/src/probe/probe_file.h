@@ -1,4 +1,4 @@
-// Coefficients in fewer bits.
+// Probes as .nook files, and their coefficients in fewer bits.
 #pragma once
 
 #include <cstddef>

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::synthesis {
 namespace {
-
-void check_size(std::uint32_t got, std::uint32_t most, const char* what, nook_result code) {
-  if (got < 1 || got > most)
-    throw Failure(code, "%s is out of range (got %u, need 1 to %u)", what, got, most);
-}
 
 // Splits a place in texels into the texel of a row that repeats after `size` of them, and the fraction in it.
 // Beyond the precision of floats it is some texel of the row.
@@ -29,9 +25,9 @@ Place place_of(float texels, std::uint32_t size) {
 }  // namespace
 
 void check_sizes(const Coordinates& coordinates, nook_result code) {
-  check_size(coordinates.side, max_side, "the side of the plane in texels", code);
-  check_size(coordinates.width, max_tile_side, "the width of the material in texels", code);
-  check_size(coordinates.height, max_tile_side, "the height of the material in texels", code);
+  check_range("the side of the plane in texels", coordinates.side, 1, max_side, code);
+  check_range("the width of the material in texels", coordinates.width, 1, max_tile_side, code);
+  check_range("the height of the material in texels", coordinates.height, 1, max_tile_side, code);
 }
 
 void check_coordinates(const Coordinates& coordinates, nook_result code) {

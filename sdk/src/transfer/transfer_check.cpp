@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/floats.h"
 #include "sdk/src/core/hash.h"
@@ -18,12 +19,6 @@ void need_size(std::size_t got, std::uint64_t need, const char* what, nook_resul
                   static_cast<unsigned long long>(need));
 }
 
-void check_range(std::uint32_t got, std::uint32_t low, std::uint32_t high, const char* what,
-                 nook_result code) {
-  if (got < low || got > high)
-    throw Failure(code, "the number of %s is out of range (got %u, need %u to %u)", what, got, low, high);
-}
-
 void check_halves(std::span<const std::uint16_t> halves, float limit, const char* what, nook_result code) {
   for (std::size_t i = 0; i < halves.size(); ++i)
     if (!(std::abs(from_half(halves[i])) <= limit))
@@ -32,9 +27,7 @@ void check_halves(std::span<const std::uint16_t> halves, float limit, const char
 }
 
 void check_indirect(const Transfer& transfer, nook_result code) {
-  if (transfer.bounces > max_bounces)
-    throw Failure(code, "the number of reflections is out of range (got %u, need 0 to %u)", transfer.bounces,
-                  max_bounces);
+  check_range("the number of reflections", transfer.bounces, 0, max_bounces, code);
   const std::size_t need = std::size_t(transfer.vertex_count()) * transfer.bounces * band_count;
   need_size(transfer.indirect.size(), need, "reflected light", code);
   check_halves(transfer.indirect, max_indirect, "reflected light", code);
@@ -48,12 +41,12 @@ void check_arrays(const Transfer& transfer, nook_result code) {
 }  // namespace
 
 void check_paper_head(const PaperTransfer& paper, nook_result code) {
-  check_range(paper.light_modes, 4, max_light_modes, "light modes", code);
+  check_range("the number of light modes", paper.light_modes, 4, max_light_modes, code);
   if (paper.light_modes % 4 != 0)
     throw Failure(code, "the number of light modes is not a multiple of 4 (got %u)", paper.light_modes);
-  check_range(paper.clusters, 1, max_clusters, "clusters", code);
-  check_range(paper.lobe_rank, 1, max_lobe_rank, "lobe modes", code);
-  check_range(paper.vertex_rank, 1, max_vertex_rank, "vertex modes", code);
+  check_range("the number of clusters", paper.clusters, 1, max_clusters, code);
+  check_range("the number of lobe modes", paper.lobe_rank, 1, max_lobe_rank, code);
+  check_range("the number of vertex modes", paper.vertex_rank, 1, max_vertex_rank, code);
   if (!(paper.scale > 0) || !(paper.scale <= max_core_scale))
     throw Failure(code, "the scale of the cores is out of range (got %g, need more than 0, up to %g)",
                   double(paper.scale), double(max_core_scale));
@@ -83,14 +76,12 @@ void check_paper(const Transfer& transfer, nook_result code) {
 }  // namespace
 
 void check_lobes(std::uint32_t lobes, nook_result code) {
-  if (lobes < min_lobes || lobes > max_lobes)
-    throw Failure(code, "the number of lobes is out of range (got %u, need %u to %u)", lobes, min_lobes,
-                  max_lobes);
+  check_range("the number of lobes", lobes, min_lobes, max_lobes, code);
 }
 
 void check_transfer(const Transfer& transfer, nook_result code) {
   check_lobes(transfer.lobes, code);
-  check_range(transfer.vertex_count(), 1, max_vertices, "vertices", code);
+  check_range("the number of vertices", transfer.vertex_count(), 1, max_vertices, code);
   if (transfer.paper.is_used())
     check_paper(transfer, code);
   else

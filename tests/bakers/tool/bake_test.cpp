@@ -226,8 +226,8 @@ TEST_CASE("help names the options and exits with 0") {
   const ToolRun run = folder.run({"bake", "character", "--help"});
   CHECK(run.exit_code == 0);
   for (const char* option :
-       {"--preset", "--spheres", "--key-points", "--poses", "--clips", "--split", "--rays", "--kernel",
-        "--gamma", "--fit", "--time-limit", "--threads", "--seed", "--report", "--quiet"})
+       {"--preset", "--spheres", "--key-points", "--poses", "--clips", "--split", "--rays", "--form",
+        "--kernel", "--gamma", "--fit", "--time-limit", "--threads", "--seed", "--report", "--quiet"})
     CHECK(has(run.out, option));
   CHECK(folder.run({"--version"}).out == NOOK_VERSION_TEXT "\n");
 }

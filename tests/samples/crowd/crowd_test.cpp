@@ -12,7 +12,7 @@ using nook::test::Folder;
 using nook::test::quoted;
 
 int run(const std::string& arguments) {
-  return exit_code("'" CROWD "' --quiet " + arguments + " > /dev/null");
+  return exit_code(std::string("'" CROWD "' --quiet ").append(arguments).append(" > /dev/null"));
 }
 
 double mean(const std::filesystem::path& picture, int width, int height) {

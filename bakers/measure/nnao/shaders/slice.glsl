@@ -1,4 +1,4 @@
-// Slices of the hemisphere through the direction to the viewer, which GTAO and the visibility bitmask share. Angles are
+// Slices of the hemisphere through the direction to the viewer, which horizons and bitmasks share. Angles are
 // measured from that direction, radians, growing along the slice's direction on the screen.
 struct Slice {
   vec2 direction;   // on the screen

@@ -1,4 +1,4 @@
-// Depth, normals and the radius, as every baseline and the blur see them. View space is OpenGL's, metres; pixels count from the
+// Depth, normals and the radius, as every method sees them. View space is OpenGL's, metres; pixels count from the
 // lower left corner.
 uniform sampler2D depth_image;   // -z, metres; infinite: no surface
 uniform sampler2D normal_image;  // view space, unit length

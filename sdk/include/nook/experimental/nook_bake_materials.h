@@ -16,10 +16,7 @@ extern "C" {
 
 /* A material and the settings of its synthesis. docs/synthesis.md describes the method. */
 typedef struct nook_bake_synthesis_desc {
-  /* nook_bake_synthesis_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* The bytes of a .nook file: a material, or a raw material that `nook bake material --keep-raw` wrote. It
    * has 16 texels or more along each side. nook_bake_start reads it before it returns. */
@@ -42,14 +39,11 @@ typedef struct nook_bake_synthesis_desc {
   uint64_t seed;
   /* Default 0: all cores; up to 1024. */
   uint32_t threads;
-  /* Must be 0. */
   uint32_t reserved;
   /* NULL (default): you poll instead. */
   nook_bake_progress_fn progress;
   void* progress_user;
 } nook_bake_synthesis_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_bake_synthesis_desc_init(nook_bake_synthesis_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_SYNTHESIS, desc, sizeof *desc, NOOK_VERSION);
 }
@@ -68,10 +62,7 @@ static inline nook_result nook_bake_start_synthesis(const nook_bake_synthesis_de
 /* A shape in the space of its vertices, which light is later turned into, in metres.
  * nook_bake_start copies all arrays. docs/transfer.md describes what is baked. */
 typedef struct nook_bake_transfer_desc {
-  /* nook_bake_transfer_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* 3 floats for each vertex. */
   const float* positions;
@@ -97,7 +88,6 @@ typedef struct nook_bake_transfer_desc {
   uint32_t ray_side;
   /* Default 0: all cores; up to 1024. The bytes do not depend on it. */
   uint32_t threads;
-  /* Must be 0. */
   uint32_t reserved;
   /* NULL (default): you poll instead. */
   nook_bake_progress_fn progress;
@@ -120,8 +110,6 @@ typedef struct nook_bake_transfer_desc {
    * NOOK_FORM_PAPER: that of Tsai and Shih 2012, for the light modes of `material`. */
   nook_form form;
 } nook_bake_transfer_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_bake_transfer_desc_init(nook_bake_transfer_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_TRANSFER, desc, sizeof *desc, NOOK_VERSION);
 }

@@ -23,10 +23,7 @@ enum {
 typedef int32_t nook_gl_capture_light;
 
 typedef struct nook_gl_capture_desc {
-  /* nook_gl_capture_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* The upload of form NOOK_GL_PROBE_LOBES whose lobes the capture replaces, or NULL. The lobes are over the
    * sphere. The capture keeps it alive. */
@@ -49,11 +46,8 @@ typedef struct nook_gl_capture_desc {
   /* 1 (default): the lobes agree with the light in spherical harmonics of bands 0 to 2, as in
    * nook_probe_fit_desc. 0: moments alone. */
   int32_t match_sh;
-  /* Must be 0. */
   uint32_t reserved;
 } nook_gl_capture_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_gl_capture_desc_init(nook_gl_capture_desc* desc) {
   return nook_desc_init(NOOK_DESC_GL_CAPTURE, desc, sizeof *desc, NOOK_VERSION);
 }
@@ -81,7 +75,6 @@ NOOK_API nook_result nook_gl_capture_add(nook_gl_capture capture, uint32_t index
                                          int32_t restart);
 
 typedef struct nook_gl_capture_info {
-  /* sizeof(nook_gl_capture_info); the caller sets it. */
   uint32_t struct_size;
   /* The maps that the average is over, at most desc.history; 0: everything below is 0. */
   uint32_t maps;

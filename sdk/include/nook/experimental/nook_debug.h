@@ -17,7 +17,6 @@ extern "C" {
 #endif
 
 typedef struct nook_scene_instance_info {
-  /* sizeof(nook_scene_instance_info); the caller sets it. */
   uint32_t struct_size;
   /* The level of detail of the last update; 0 is full detail. */
   uint32_t level;
@@ -111,7 +110,6 @@ NOOK_API nook_result nook_scene_set_terms(nook_scene scene, uint32_t terms);
 
 /* The OpenGL memory of a model, in bytes, as nook_gl_info.buffer_bytes counts it. */
 typedef struct nook_gl_memory {
-  /* sizeof(nook_gl_memory); the caller sets it. */
   uint32_t struct_size;
   uint32_t reserved;
   /* The bytes that all instances of the model share. */
@@ -155,10 +153,7 @@ typedef int32_t nook_nnao_sample;
 
 /* Choices of a screen pass for tests and measurements. Set nook_nnao_desc.next to it. */
 typedef struct nook_nnao_debug_desc {
-  /* nook_nnao_debug_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* Default NOOK_NNAO_PATH_AUTOMATIC. */
   nook_nnao_path path;
@@ -167,8 +162,6 @@ typedef struct nook_nnao_debug_desc {
   /* 1: every stage is timed for nook_nnao_read_timings of experimental/nook_stages.h. Default 0. */
   int32_t timers;
 } nook_nnao_debug_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_nnao_debug_desc_init(nook_nnao_debug_desc* desc) {
   return nook_desc_init(NOOK_DESC_NNAO_DEBUG, desc, sizeof *desc, NOOK_VERSION);
 }
@@ -189,16 +182,11 @@ typedef int32_t nook_nnao_view;
 
 /* A debug view of the screen pass. Set nook_nnao_frame_desc.next to it. */
 typedef struct nook_nnao_frame_debug_desc {
-  /* nook_nnao_frame_debug_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* Default NOOK_NNAO_VIEW_AO. */
   nook_nnao_view show;
 } nook_nnao_frame_debug_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_nnao_frame_debug_desc_init(nook_nnao_frame_debug_desc* desc) {
   return nook_desc_init(NOOK_DESC_NNAO_FRAME_DEBUG, desc, sizeof *desc, NOOK_VERSION);
 }
@@ -225,16 +213,11 @@ typedef int32_t nook_world_view;
 
 /* A debug view of the world pass. Set nook_world_frame_desc.next to it. */
 typedef struct nook_world_frame_debug_desc {
-  /* nook_world_frame_debug_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* Default NOOK_WORLD_VIEW_AO. */
   nook_world_view show;
 } nook_world_frame_debug_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_world_frame_debug_desc_init(nook_world_frame_debug_desc* desc) {
   return nook_desc_init(NOOK_DESC_WORLD_FRAME_DEBUG, desc, sizeof *desc, NOOK_VERSION);
 }

@@ -31,10 +31,7 @@ typedef struct nook_nnao_recording_s* nook_nnao_recording;
  * the pass have the meaning, the ranges and the constants of nook_gl_frame_desc (nook_gl.h),
  * nook_nnao_frame_desc and nook_nnao_desc (nook_nnao.h). */
 typedef struct nook_nnao_recording_desc {
-  /* nook_nnao_recording_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* Pixels, 1 to 16384; required. */
   int32_t width, height;
@@ -84,8 +81,6 @@ typedef struct nook_nnao_recording_desc {
   /* 0 (default): radius is in metres; 1: it is a share of the height. */
   int32_t radius_kind;
 } nook_nnao_recording_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_nnao_recording_desc_init(nook_nnao_recording_desc* desc) {
   return nook_desc_init(NOOK_DESC_NNAO_RECORDING, desc, sizeof *desc, NOOK_VERSION);
 }

@@ -162,10 +162,7 @@ typedef int32_t nook_probe_denominator;
 
 /* Options of a fit for comparisons of papers. Set nook_probe_fit_desc.next to it. */
 typedef struct nook_probe_fit_study_desc {
-  /* nook_probe_fit_study_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* Default NOOK_PROBE_FIT_STUDY_DEFAULT. Another method replaces nook_probe_fit_desc.method, which must have
    * its default then, as form must. */
@@ -182,8 +179,6 @@ typedef struct nook_probe_fit_study_desc {
    * Default 0. */
   int32_t dice;
 } nook_probe_fit_study_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_probe_fit_study_desc_init(nook_probe_fit_study_desc* desc) {
   return nook_desc_init(NOOK_DESC_PROBE_FIT_STUDY, desc, sizeof *desc, NOOK_VERSION);
 }

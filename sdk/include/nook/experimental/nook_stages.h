@@ -99,7 +99,6 @@ NOOK_API nook_result nook_nnao_stages_create(nook_context context, const nook_nn
 NOOK_API void nook_nnao_stages_destroy(nook_nnao_stages* stages);
 
 typedef struct nook_nnao_stages_info {
-  /* sizeof(nook_nnao_stages_info); the caller sets it. */
   uint32_t struct_size;
   uint32_t stage_count;
   /* Of every stage: one triangle over the viewport. */
@@ -115,7 +114,6 @@ typedef struct nook_nnao_stages_info {
 NOOK_API nook_result nook_nnao_stages_describe(nook_nnao_stages stages, nook_nnao_stages_info* info);
 
 typedef struct nook_nnao_image_info {
-  /* sizeof(nook_nnao_image_info); the caller sets it. */
   uint32_t struct_size;
   /* NOOK_NNAO_FORMAT_NONE for images of the host, and for those that no stage uses. */
   nook_nnao_format format;
@@ -128,7 +126,6 @@ NOOK_API nook_result nook_nnao_stages_describe_image(nook_nnao_stages stages, no
                                                      nook_nnao_image_info* info);
 
 typedef struct nook_nnao_stage_info {
-  /* sizeof(nook_nnao_stage_info); the caller sets it. */
   uint32_t struct_size;
   nook_nnao_image output;
   /* "depth", "depth_apart", "occlusion", "accumulate", "filter", "resolve" or "resolve_layered", and the text
@@ -153,7 +150,6 @@ NOOK_API nook_result nook_nnao_stages_describe_stage(nook_nnao_stages stages, ui
                                                      nook_nnao_stage_info* info);
 
 typedef struct nook_nnao_frame_values {
-  /* sizeof(nook_nnao_frame_values); the caller sets it. */
   uint32_t struct_size;
   /* Pixels of the surface, which is the viewport at the resolution at which AO is computed. */
   int32_t surface_width, surface_height;
@@ -188,16 +184,13 @@ enum {
 };
 typedef int32_t nook_clips_table;
 
-/* Gives the size of a table as a 2D texture, in texels; the texels of the table are its rows one after
- * another, and the last row is filled up with zeros. Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_clips_texture_size(nook_clips clips, nook_clips_table table, uint32_t* width,
-                                             uint32_t* height, uint64_t* bytes);
-
-/* Writes the texels of a table, rows without gaps. byte_count must be the bytes of nook_clips_texture_size.
- * The AO of vertex v in frame f is clamp(0.5 + sum of weight * mode over the mode_count numbers of each, 0,
- * 1). Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_clips_read_texture(nook_clips clips, nook_clips_table table, void* texels,
-                                             uint64_t byte_count);
+/* Writes the texels of a table, for a 2D texture of *width x *height texels: rows one after another without
+ * gaps, the last one filled up with zeros. *size is the room in bytes, and becomes the size of the table;
+ * with texels NULL the call only sets *size, *width and *height. The AO of vertex v in frame f is clamp(0.5 +
+ * sum of weight * mode over the mode_count numbers of each, 0, 1). Any thread. Errors: INVALID_ARGUMENT
+ * (also, there is too little room). */
+NOOK_API nook_result nook_clips_read_table(nook_clips clips, nook_clips_table table, void* texels,
+                                           size_t* size, uint32_t* width, uint32_t* height);
 
 /* ---- Memory and time of a pass ---- */
 
@@ -209,7 +202,6 @@ NOOK_API nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* byte
 /* The time that the GPU took for each stage of the newest finished frame, in milliseconds; with
  * nook_nnao_desc.views, for the last view. */
 typedef struct nook_nnao_timings {
-  /* sizeof(nook_nnao_timings); the caller sets it. */
   uint32_t struct_size;
   /* 0: no frame is finished yet, or the pass has no timers; the other members are 0 then. */
   int32_t valid;

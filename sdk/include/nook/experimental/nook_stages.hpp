@@ -55,12 +55,12 @@ class NnaoStages : public Unique<nook_nnao_stages, nook_nnao_stages_destroy> {
 };
 
 // The texels of a table of clips, rows without gaps.
-inline std::vector<std::uint8_t> clips_texture(const Clips& clips, nook_clips_table table,
-                                               std::uint32_t& width, std::uint32_t& height) {
-  std::uint64_t bytes = 0;
-  check(nook_clips_texture_size(clips.get(), table, &width, &height, &bytes));
-  std::vector<std::uint8_t> texels(static_cast<std::size_t>(bytes));
-  check(nook_clips_read_texture(clips.get(), table, texels.data(), bytes));
+inline std::vector<std::uint8_t> clips_table(const Clips& clips, nook_clips_table table, std::uint32_t& width,
+                                             std::uint32_t& height) {
+  std::size_t size = 0;
+  check(nook_clips_read_table(clips.get(), table, nullptr, &size, &width, &height));
+  std::vector<std::uint8_t> texels(size);
+  check(nook_clips_read_table(clips.get(), table, texels.data(), &size, &width, &height));
   return texels;
 }
 

@@ -25,7 +25,6 @@ NOOK_API nook_result nook_synthesis_load(nook_context context, const void* bytes
 NOOK_API void nook_synthesis_destroy(nook_synthesis* synthesis);
 
 typedef struct nook_synthesis_info {
-  /* sizeof(nook_synthesis_info); the caller sets it. */
   uint32_t struct_size;
   /* Texels along a side of the plane, which repeats after them. */
   uint32_t side;

@@ -28,10 +28,7 @@ typedef int32_t nook_bake_clip_split;
 
 /* Choices that only comparisons need. Set the `next` of a nook_bake_character_desc to it. */
 typedef struct nook_bake_character_study_desc {
-  /* nook_bake_character_study_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* Default ALL. */
   nook_bake_clip_split clip_split;
@@ -41,11 +38,8 @@ typedef struct nook_bake_character_study_desc {
   /* NOOK_FORM_PAPER: the block coordinate descent of Le et al. 2019, whatever the kernel is. Default
    * NOOK_FORM_DEFAULT: the fit of the form of the bake. */
   nook_form fit;
-  /* Must be 0. */
   uint32_t reserved;
 } nook_bake_character_study_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_bake_character_study_desc_init(nook_bake_character_study_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_CHARACTER_STUDY, desc, sizeof *desc, NOOK_VERSION);
 }
@@ -71,10 +65,7 @@ typedef struct nook_bake_occluder_mesh {
 } nook_bake_occluder_mesh;
 
 typedef struct nook_bake_trace_desc {
-  /* nook_bake_trace_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* NULL only if mesh_count is 0; then everything is open. */
   const nook_bake_occluder_mesh* meshes;
@@ -95,8 +86,6 @@ typedef struct nook_bake_trace_desc {
   /* Metres along the normal, >= 0, default 1e-4: the distance of a ray's origin from its point. */
   float origin_offset;
 } nook_bake_trace_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_bake_trace_desc_init(nook_bake_trace_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_TRACE, desc, sizeof *desc, NOOK_VERSION);
 }
@@ -136,10 +125,7 @@ typedef struct nook_bake_lit_mesh {
 } nook_bake_lit_mesh;
 
 typedef struct nook_bake_irradiance_desc {
-  /* nook_bake_irradiance_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* NULL only if mesh_count is 0; then everything is open. */
   const nook_bake_lit_mesh* meshes;
@@ -164,8 +150,6 @@ typedef struct nook_bake_irradiance_desc {
    * leaves. */
   float origin_offset;
 } nook_bake_irradiance_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_bake_irradiance_desc_init(nook_bake_irradiance_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_IRRADIANCE, desc, sizeof *desc, NOOK_VERSION);
 }

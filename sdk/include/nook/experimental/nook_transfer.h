@@ -22,7 +22,7 @@
  * floats: the modes of red, then of green, then of blue. Least squares rings around bright sources, so that
  * light and vectors can be slightly negative; nook_transfer_projection_info gives the share.
  *
- * nook_gl_transfer_create keeps vectors in a buffer, and nook_gl_transfer_describe gives the GLSL. The method
+ * nook_gl_upload_transfer keeps vectors in a buffer, and nook_gl_upload_describe gives the GLSL. The method
  * follows section 6.3 of Y.-T. Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012, in a
  * separated form and in its own. */
 #ifndef NOOK_TRANSFER_H
@@ -52,7 +52,6 @@ NOOK_API nook_result nook_transfer_load(nook_context context, const void* bytes,
 NOOK_API void nook_transfer_destroy(nook_transfer* transfer);
 
 typedef struct nook_transfer_info {
-  /* sizeof(nook_transfer_info); the caller sets it. */
   uint32_t struct_size;
   /* Vertices of the baked file, over all primitives in its order. */
   uint32_t vertex_count;
@@ -92,10 +91,7 @@ NOOK_API nook_result nook_transfer_read_frames(nook_transfer transfer, float* no
 
 /* The arrays of a mesh in the form in which they were baked. */
 typedef struct nook_transfer_mesh_desc {
-  /* nook_transfer_mesh_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* Required. */
   uint32_t vertex_count;
@@ -106,8 +102,6 @@ typedef struct nook_transfer_mesh_desc {
   const float* tangents;
   const float* uvs;
 } nook_transfer_mesh_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_transfer_mesh_desc_init(nook_transfer_mesh_desc* desc) {
   return nook_desc_init(NOOK_DESC_TRANSFER_MESH, desc, sizeof *desc, NOOK_VERSION);
 }
@@ -138,10 +132,7 @@ typedef int32_t nook_transfer_map_layout;
 
 /* Exactly one source of light: a map (rgb), a probe, or a direction. */
 typedef struct nook_transfer_light_desc {
-  /* nook_transfer_light_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* A map of width * height linear RGB radiances, each 0 to 1e15. Default NULL. */
   const float* rgb;
@@ -165,8 +156,6 @@ typedef struct nook_transfer_light_desc {
   /* With a direction: RGB on a surface that faces the light, finite numbers up to 1e15. */
   float irradiance[3];
 } nook_transfer_light_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_transfer_light_desc_init(nook_transfer_light_desc* desc) {
   return nook_desc_init(NOOK_DESC_TRANSFER_LIGHT, desc, sizeof *desc, NOOK_VERSION);
 }
@@ -199,7 +188,6 @@ NOOK_API nook_result nook_transfer_light_read_suns(nook_transfer_light light, no
 
 /* The error of lobes that hold a light. */
 typedef struct nook_transfer_projection_info {
-  /* sizeof(nook_transfer_projection_info); the caller sets it. */
   uint32_t struct_size;
   /* The root of the integral of the squared difference, relative to the integral of the squared light. */
   float relative_error;
@@ -223,20 +211,14 @@ NOOK_API nook_result nook_transfer_light_project(nook_transfer_light light, uint
 /* ---- Materials under lobes: immutable, shared by threads ---- */
 
 typedef struct nook_transfer_response_desc {
-  /* nook_transfer_response_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* Required; it may be destroyed after the call. */
   nook_material material;
   /* 12 to 2562; default 642. */
   uint32_t lobe_count;
-  /* Must be 0. */
   uint32_t reserved;
 } nook_transfer_response_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_transfer_response_desc_init(nook_transfer_response_desc* desc) {
   return nook_desc_init(NOOK_DESC_TRANSFER_RESPONSE, desc, sizeof *desc, NOOK_VERSION);
 }
@@ -252,7 +234,6 @@ NOOK_API nook_result nook_transfer_response_create(nook_context context,
 NOOK_API void nook_transfer_response_destroy(nook_transfer_response* response);
 
 typedef struct nook_transfer_response_info {
-  /* sizeof(nook_transfer_response_info); the caller sets it. */
   uint32_t struct_size;
   uint32_t lobe_count;
   /* The modes of one channel, R_l of the material rounded up to a multiple of 4; NOOK_LIGHT_VEC4_COUNT of its
@@ -274,10 +255,7 @@ NOOK_API nook_result nook_transfer_response_describe(nook_transfer_response resp
                                                      nook_transfer_response_info* info);
 
 typedef struct nook_transfer_vectors_desc {
-  /* nook_transfer_vectors_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* The baked shape. NULL (default): vertices without baked visibility, which all light above their horizon
    * reaches. A prop under a probe needs no more than this. */
@@ -293,8 +271,6 @@ typedef struct nook_transfer_vectors_desc {
   const float* normals;
   const float* tangents;
 } nook_transfer_vectors_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_transfer_vectors_desc_init(nook_transfer_vectors_desc* desc) {
   return nook_desc_init(NOOK_DESC_TRANSFER_VECTORS, desc, sizeof *desc, NOOK_VERSION);
 }
@@ -312,7 +288,7 @@ NOOK_API nook_result nook_transfer_read_vectors(nook_transfer_response response,
 
 /* Computes the radiance, linear RGB, of material pixels from vectors of vector_floats floats each, one for
  * each pixel. The call does not read the light of a pixel, and decodes it with one fetch. Use it to check
- * your shader: it is the reference of the GLSL of nook_gl_transfer_describe. Any thread. Errors:
+ * your shader: it is the reference of the GLSL of nook_gl_upload_transfer. Any thread. Errors:
  * INVALID_ARGUMENT (also, vector_floats is not the material's, or a number is not finite). */
 NOOK_API nook_result nook_transfer_shade(nook_material material, const nook_material_pixel* pixels,
                                          const float* vectors, uint32_t vector_floats, uint32_t count,
@@ -320,14 +296,12 @@ NOOK_API nook_result nook_transfer_shade(nook_material material, const nook_mate
 
 /* ---- In shaders ----
  *
- * Radiance transfer in the host's shaders: the vectors of a shape's vertices in a texture, and the GLSL that
- * lights a material with them.
+ * Radiance transfer in your shaders: the vectors of a shape's vertices as an upload of nook_gl.h, and the
+ * GLSL that lights a material with them.
  *
- * An engine calls nook_gl_transfer_create once for a shape and nook_gl_transfer_update when the light or the
- * shape turns. It puts the GLSL of nook_gl_transfer_describe after the #version line of the vertex shader,
- * and after the material's GLSL in the fragment shader, and sets the uniform nook_transfer_texels to a
- * texture unit. For each draw it binds the texture to GL_TEXTURE_BUFFER of that unit, on OpenGL ES to
- * GL_TEXTURE_2D. The vertex shader:
+ * Call nook_gl_upload_transfer once for a shape, and nook_gl_update_transfer when the light or the shape
+ * turns. Put the GLSL of nook_gl_upload_describe after the #version line of the vertex shader, and after the
+ * material's GLSL in the fragment shader. For each draw, call nook_gl_upload_bind. The vertex shader:
  *     out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT];
  *     nook_transfer_vectors(gl_VertexID, vectors);
  * The fragment shader:
@@ -336,73 +310,30 @@ NOOK_API nook_result nook_transfer_shade(nook_material material, const nook_mate
  *     nook_material_decode(uv, dFdx(uv), dFdy(uv), view, modes);
  *     colour = max(nook_transfer_radiance(modes, vectors), 0.0);
  * 16 light modes are 12 varyings of the 15 that every OpenGL 3.3 has. A material with more uses
- * nook_transfer_mix in the fragment shader instead. A host may also upload the floats of
- * nook_transfer_read_vectors as vertex attributes of its own; nook_transfer_radiance is the same.
- *
- * A transfer in the paper's form can leave its vertices to the GPU: nook_gl_transfer_create_paper takes them
- * once, and nook_gl_transfer_update_light uploads no vectors but the matrices of the clusters under the
- * light. The host then binds vertex_texture too, to the uniform nook_transfer_vertices, and
- * nook_transfer_vectors in the vertex shader mixes the matrices, on every OpenGL. */
+ * nook_transfer_mix in the fragment shader instead. You may also upload the floats of
+ * nook_transfer_read_vectors as vertex attributes of your own; nook_transfer_radiance is the same. */
 
-typedef struct nook_gl_transfer_s* nook_gl_transfer;
+/* Makes room for a transfer under a response. With a transfer in the default form, or with transfer NULL and
+ * vertex_count vertices of your own, the upload holds vectors. With a transfer in the paper's form, the
+ * vertices stay on the GPU, and nook_transfer_vectors mixes the matrices of their clusters. vertex_count is
+ * read only if transfer is NULL. All light is 0 at first. You may destroy both afterwards. The GLSL is the
+ * same for all responses with as many light modes, in the paper's form for all transfers with as many
+ * clusters, ranks and reflections too. On failure *out is NULL and no OpenGL object is left.
+ * Context thread. Errors: INVALID_ARGUMENT (also, light modes or lobes of the paper's form are not those of
+ * the response), UNSUPPORTED (a table exceeds the texture buffer of this OpenGL: vectors take vertex_count *
+ * vector_floats / 4 texels, and every OpenGL has 65,536), GL, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_gl_upload_transfer(nook_gl gl, nook_transfer transfer,
+                                             nook_transfer_response response, uint32_t vertex_count,
+                                             nook_gl_upload* out);
 
-/* Makes room for the vectors of vertex_count vertices under a response, which may be destroyed afterwards.
- * All vectors are 0 at first. On failure *out is NULL and no OpenGL object is left. Context thread. Errors:
- * INVALID_ARGUMENT, UNSUPPORTED (the vectors exceed the texture buffer of this OpenGL: they take vertex_count
- * * vector_floats / 4 texels, and every OpenGL has 65,536), GL, OUT_OF_MEMORY. */
-NOOK_API nook_result nook_gl_transfer_create(nook_gl gl, nook_transfer_response response,
-                                             uint32_t vertex_count, nook_gl_transfer* out);
-
-/* Uploads the vectors of all vertices, vertex_count x vector_floats without gaps, as
- * nook_transfer_read_vectors writes them, of an object of nook_gl_transfer_create. Draws that were issued
- * before still read the old ones. The call does not wait for the GPU. Context thread. Errors:
- * INVALID_ARGUMENT (also, float_count is not vertex_count * vector_floats), GL, OUT_OF_MEMORY. */
-NOOK_API nook_result nook_gl_transfer_update(nook_gl_transfer gl_transfer, const float* vectors,
+/* Uploads the light of an upload of nook_gl_upload_transfer. Vectors: vertex_count x vector_floats without
+ * gaps, as nook_transfer_read_vectors writes them. The paper's form: the amplitudes of the lobes, lobe_count
+ * x RGB; the CPU makes the clusters' matrices of them, with the parallel-for of the context. Draws that were
+ * issued before still read the old light. The call does not wait for the GPU.
+ * Context thread. Errors: INVALID_ARGUMENT (also, float_count is not that of the upload), GL,
+ * OUT_OF_MEMORY. */
+NOOK_API nook_result nook_gl_update_transfer(nook_gl_upload upload, const float* values,
                                              uint64_t float_count);
-
-/* Makes room for a transfer in the paper's form under a response. The vertices of the transfer are uploaded
- * here, and all light is 0 at first. The object keeps what it needs of both, which may be destroyed
- * afterwards. On failure *out is NULL and no OpenGL object is left. Context thread. Errors: INVALID_ARGUMENT
- * (also, the transfer has the separated form, or light modes or lobes that are not those of the response),
- * UNSUPPORTED (a table exceeds the texture buffer of this OpenGL), GL, OUT_OF_MEMORY. */
-NOOK_API nook_result nook_gl_transfer_create_paper(nook_gl gl, nook_transfer transfer,
-                                                   nook_transfer_response response, nook_gl_transfer* out);
-
-/* Uploads the clusters' matrices under the light of lobes, lobe_count x RGB, of an object of
- * nook_gl_transfer_create_paper. The CPU makes them, with the parallel-for of the context. Draws that were
- * issued before still read the old ones. The call does not wait for the GPU. Context thread. Errors:
- * INVALID_ARGUMENT (also, lobe_count is not that of the response), GL, OUT_OF_MEMORY. */
-NOOK_API nook_result nook_gl_transfer_update_light(nook_gl_transfer gl_transfer, const float* amplitudes,
-                                                   uint32_t lobe_count);
-
-/* Deletes the OpenGL objects and sets *gl_transfer to NULL; *gl_transfer may be NULL. The nook_gl may have
- * been destroyed before, but the OpenGL context of nook_gl_create must be current; after nook_gl_context_lost
- * none is needed.
- * Context thread. */
-NOOK_API void nook_gl_transfer_destroy(nook_gl_transfer* gl_transfer);
-
-typedef struct nook_gl_transfer_info {
-  /* sizeof(nook_gl_transfer_info); the caller sets it. */
-  uint32_t struct_size;
-  /* The OpenGL name of a GL_TEXTURE_BUFFER (OpenGL ES: GL_TEXTURE_2D) that Nook owns: the host binds it, and
-   * never changes or deletes it. */
-  uint32_t texture;
-  /* The size of the textures' buffers; on OpenGL ES of the textures, in rows of 2048 texels. */
-  uint64_t bytes;
-  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions: the uniform samplerBuffer (OpenGL ES:
-   * sampler2D) nook_transfer_texels and the functions above. Every name in it begins with nook_ or NOOK_. The
-   * text is the same for all responses with as many light modes, in the paper's form for all transfers with
-   * as many clusters, ranks and reflections too, and is valid while the object lives. */
-  const char* glsl;
-  /* NOOK_FORM_PAPER of nook_gl_transfer_create_paper, otherwise NOOK_FORM_DEFAULT. */
-  nook_form form;
-  /* In the paper's form a second texture of the same kind, for nook_transfer_vertices; otherwise 0. */
-  uint32_t vertex_texture;
-} nook_gl_transfer_info;
-
-/* Describes the texture. The call makes no OpenGL call.
- * Any thread. Errors: INVALID_ARGUMENT. */
-NOOK_API nook_result nook_gl_transfer_describe(nook_gl_transfer gl_transfer, nook_gl_transfer_info* info);
 
 #ifdef __cplusplus
 }

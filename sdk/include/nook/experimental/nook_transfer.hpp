@@ -101,43 +101,24 @@ class TransferResponse : public Unique<nook_transfer_response, nook_transfer_res
   }
 };
 
-// Every function and the destructor belong to the context thread, as for Gl.
-class GlTransfer : public Unique<nook_gl_transfer, nook_gl_transfer_destroy> {
- public:
-  GlTransfer() = default;
-  GlTransfer(const Gl& gl, const TransferResponse& response, std::uint32_t vertex_count)
-      : Unique(create(gl, response, vertex_count)) {}
+// An upload of vectors of vertex_count vertices.
+inline Upload upload_transfer(const Gl& gl, const TransferResponse& response, std::uint32_t vertex_count) {
+  nook_gl_upload handle = nullptr;
+  check(nook_gl_upload_transfer(gl.get(), nullptr, response.get(), vertex_count, &handle));
+  return Upload(handle);
+}
 
-  // A transfer in the paper's form, whose vertices the GPU keeps.
-  GlTransfer(const Gl& gl, const Transfer& transfer, const TransferResponse& response)
-      : Unique(create(gl, transfer, response)) {}
+// An upload of a transfer: vectors, or in the paper's form the vertices and the matrices of their clusters.
+inline Upload upload_transfer(const Gl& gl, const Transfer& transfer, const TransferResponse& response) {
+  nook_gl_upload handle = nullptr;
+  check(nook_gl_upload_transfer(gl.get(), transfer.get(), response.get(), 0, &handle));
+  return Upload(handle);
+}
 
-  // Of amplitudes of lobes, in the paper's form.
-  void update_light(const std::vector<float>& amplitudes) {
-    check(nook_gl_transfer_update_light(get(), amplitudes.data(), std::uint32_t(amplitudes.size() / 3)));
-  }
-  void update(const std::vector<float>& vectors) {
-    check(nook_gl_transfer_update(get(), vectors.data(), vectors.size()));
-  }
-  nook_gl_transfer_info info() const {
-    nook_gl_transfer_info info{};
-    info.struct_size = sizeof info;
-    check(nook_gl_transfer_describe(get(), &info));
-    return info;
-  }
-
- private:
-  static nook_gl_transfer create(const Gl& gl, const TransferResponse& response, std::uint32_t vertex_count) {
-    nook_gl_transfer handle = nullptr;
-    check(nook_gl_transfer_create(gl.get(), response.get(), vertex_count, &handle));
-    return handle;
-  }
-  static nook_gl_transfer create(const Gl& gl, const Transfer& transfer, const TransferResponse& response) {
-    nook_gl_transfer handle = nullptr;
-    check(nook_gl_transfer_create_paper(gl.get(), transfer.get(), response.get(), &handle));
-    return handle;
-  }
-};
+// Uploads vectors, in the paper's form the amplitudes of lobes.
+inline void update_transfer(const Upload& upload, const std::vector<float>& values) {
+  check(nook_gl_update_transfer(upload.get(), values.data(), values.size()));
+}
 
 }  // namespace wrapper
 }  // namespace nook

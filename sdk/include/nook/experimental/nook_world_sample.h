@@ -22,10 +22,7 @@ typedef struct nook_model_capsule {
 NOOK_API nook_result nook_model_read_capsules(nook_model model, nook_model_capsule* out, uint32_t* count);
 
 typedef struct nook_world_sample_desc {
-  /* nook_world_sample_desc_init sets these two. */
-  uint32_t struct_size;
-  uint32_t type;
-  /* Must be NULL. */
+  uint32_t struct_size, type;
   const void* next;
   /* Three floats for each point, in world space and metres, and a normal of unit length. A point or normal
    * that is not finite is left open. */
@@ -52,8 +49,6 @@ typedef struct nook_world_sample_desc {
    * lobes. */
   float* directional_ao;
 } nook_world_sample_desc;
-
-/* Fills *desc with defaults. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 static inline nook_result nook_world_sample_desc_init(nook_world_sample_desc* desc) {
   return nook_desc_init(NOOK_DESC_WORLD_SAMPLE, desc, sizeof *desc, NOOK_VERSION);
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sdk/src/api/descriptor_list.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/nnao/network_file.h"
@@ -11,21 +12,11 @@
 namespace nook::api {
 namespace {
 
-void check_switch(const char* field, std::int32_t value) {
-  if (value != 0 && value != 1)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is neither on nor off (got %d, need 0 or 1)", field,
-                  value);
-}
-
 nook_nnao_debug_desc checked_debug(const void* next) {
   const auto* const given = find_extension<nook_nnao_debug_desc>(next);
   const nook_nnao_debug_desc debug = given ? read_descriptor(given) : default_desc<nook_nnao_debug_desc>();
-  if (debug.path < NOOK_NNAO_PATH_AUTOMATIC || debug.path > NOOK_NNAO_PATH_COMPUTE)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "debug.path is unknown (got %d, need 0 to %d)", debug.path,
-                  NOOK_NNAO_PATH_COMPUTE);
-  if (debug.depth_sample < NOOK_NNAO_SAMPLE_MEDIAN || debug.depth_sample > NOOK_NNAO_SAMPLE_NEAREST)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "debug.depth_sample is unknown (got %d, need 0 to %d)",
-                  debug.depth_sample, NOOK_NNAO_SAMPLE_NEAREST);
+  check_known("debug.path", debug.path, NOOK_NNAO_PATH_COMPUTE);
+  check_known("debug.depth_sample", debug.depth_sample, NOOK_NNAO_SAMPLE_NEAREST);
   if (debug.timers != 0 && debug.timers != 1)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "debug.timers is neither on nor off (got %d, need 0 or 1)",
                   debug.timers);
@@ -35,9 +26,7 @@ nook_nnao_debug_desc checked_debug(const void* next) {
 gl::NnaoSettings settings_of(const nook_nnao_desc* given) {
   nook_nnao_desc desc = read_descriptor<nook_nnao_desc, nook_nnao_debug_desc>(given);
   const nook_nnao_debug_desc debug = checked_debug(desc.next);
-  if (desc.preset < NOOK_NNAO_PRESET_DEFAULT || desc.preset > NOOK_NNAO_PRESET_BEST)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.preset is unknown (got %d, need 0 to %d)", desc.preset,
-                  NOOK_NNAO_PRESET_BEST);
+  check_known("desc.preset", desc.preset, NOOK_NNAO_PRESET_BEST);
   if (desc.taps == -1)
     desc.taps = desc.preset == NOOK_NNAO_PRESET_BEST ? nnao::best_taps : nnao::default_taps;
   if (desc.half_resolution == -1) desc.half_resolution = desc.preset == NOOK_NNAO_PRESET_FAST;
@@ -70,33 +59,21 @@ gl::NnaoSettings checked_nnao_desc(const nook_nnao_desc* given) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.taps is unknown (got %d, need 9, 16, 32, 64, 128 or 256, or -1 for the preset's)",
                   desc.taps);
-  if (desc.half_resolution < 0 || desc.half_resolution > 1)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.half_resolution is out of range (got %d, need 0 or 1, or -1 for the preset's)",
-                  desc.half_resolution);
-  if (desc.blur < 0 || desc.blur > 2)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.blur is out of range (got %d, need 0 to 2, or -1 for the preset's)", desc.blur);
-  if (!(desc.blur_sharpness > 0) || !std::isfinite(desc.blur_sharpness))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.blur_sharpness is out of range (got %g, need more than 0)",
-                  double(desc.blur_sharpness));
-  check_switch("bent_normals", desc.bent_normals);
-  if (desc.max_history_frames != 0 && (desc.max_history_frames < 2 || desc.max_history_frames > 64))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.max_history_frames is out of range (got %d, need 0, or 2 to 64)",
-                  desc.max_history_frames);
+  check_fits("desc.half_resolution", desc.half_resolution,
+             desc.half_resolution >= 0 && desc.half_resolution <= 1, "0 or 1, or -1 for the preset's");
+  check_fits("desc.blur", desc.blur, desc.blur >= 0 && desc.blur <= 2, "0 to 2, or -1 for the preset's");
+  check_fits("desc.blur_sharpness", desc.blur_sharpness, desc.blur_sharpness > 0, "more than 0");
+  check_switch("desc.bent_normals", desc.bent_normals);
+  check_fits("desc.max_history_frames", desc.max_history_frames,
+             desc.max_history_frames == 0 || (desc.max_history_frames >= 2 && desc.max_history_frames <= 64),
+             "0, or 2 to 64");
   if (desc.max_history_frames != 0 && desc.bent_normals)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
         "desc.max_history_frames does not go with desc.bent_normals (got %d and 1); use one of them",
         desc.max_history_frames);
-  if (desc.depth_samples < 0 || desc.depth_samples > 16)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.depth_samples is out of range (got %d, need 0 to 16)",
-                  desc.depth_samples);
-  if (desc.views < 0 || desc.views > gl::max_layers)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.views is out of range (got %d, need 0 to %d)",
-                  desc.views, gl::max_layers);
+  check_range("desc.depth_samples", desc.depth_samples, 0, 16);
+  check_range("desc.views", desc.views, 0, gl::max_layers);
   if (desc.normal_samples != 0 && desc.normal_samples != desc.depth_samples)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.normal_samples differs from desc.depth_samples (got %d and %d, need 0 or the same "

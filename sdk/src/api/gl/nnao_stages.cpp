@@ -7,9 +7,10 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/nnao_descriptors.h"
 #include "sdk/src/api/handles.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/ref.h"
 #include "sdk/src/gl/nnao/nnao_frame.h"
-#include "sdk/src/gl/nnao/stages.h"
+#include "sdk/src/gl/nnao/pass_stages.h"
 #include "sdk/src/nnao/network_file.h"
 
 using namespace nook;
@@ -92,9 +93,7 @@ nook_result nook_nnao_stages_describe_image(nook_nnao_stages stages, nook_nnao_i
                                             nook_nnao_image_info* info) {
   return enter("nook_nnao_stages_describe_image", [&] {
     need(stages, "stages");
-    if (image < 0 || image >= NOOK_NNAO_IMAGE_COUNT)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "image is unknown (got %d, need 0 to %d)", image,
-                    NOOK_NNAO_IMAGE_COUNT - 1);
+    check_known("image", image, NOOK_NNAO_IMAGE_COUNT - 1);
     write_info(info, gl::stage_image(stages->desc, image));
   });
 }
@@ -103,9 +102,7 @@ nook_result nook_nnao_stages_describe_stage(nook_nnao_stages stages, uint32_t in
                                             nook_nnao_stage_info* info) {
   return enter("nook_nnao_stages_describe_stage", [&] {
     need(stages, "stages");
-    if (index >= stages->pass.stages.size())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "index is out of range (got %u, need less than %zu)", index,
-                    stages->pass.stages.size());
+    check_index("index", index, stages->pass.stages.size());
     const gl::StageText& stage = stages->pass.stages[index];
     nook_nnao_stage_info known{};
     known.output = stage.output;
@@ -125,9 +122,7 @@ nook_result nook_nnao_stages_frame(nook_nnao_stages stages, const nook_gl_frame_
   return enter("nook_nnao_stages_frame", [&] {
     need(stages, "stages");
     const nook_nnao_desc& pass = stages->desc;
-    if (view >= std::uint32_t(gl::drawn_layers(pass)))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "view is out of range (got %u, need less than %d)", view,
-                    gl::drawn_layers(pass));
+    check_index("view", view, std::size_t(gl::drawn_layers(pass)));
     const gl::NnaoFrame known = checked_frame(frame, desc, pass);
     gl::NnaoFrame before{};
     if (earlier) before = checked_frame(earlier, desc, pass);

@@ -7,6 +7,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/upload.h"
 #include "sdk/src/api/probe_handles.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/gl/probe/capture.h"
 
 using namespace nook;
@@ -34,22 +35,14 @@ namespace {
 
 constexpr std::uint32_t min_face_px = 4, max_face_px = 512, max_level = 15, max_history = 65536;
 
-void need_range(const char* field, std::uint32_t value, std::uint32_t least, std::uint32_t most) {
-  if (value < least || value > most)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is out of range (got %u, need %u to %u)", field,
-                  value, least, most);
-}
-
 gl::CaptureSettings settings_of(const nook_gl_capture_desc& desc) {
-  need_range("face_size_px", desc.face_size_px, min_face_px, max_face_px);
-  need_range("level", desc.level, 0, max_level);
-  need_range("history", desc.history, 1, max_history);
+  check_range("desc.face_size_px", desc.face_size_px, min_face_px, max_face_px);
+  check_range("desc.level", desc.level, 0, max_level);
+  check_range("desc.history", desc.history, 1, max_history);
   if (desc.light != NOOK_GL_CAPTURE_ALL && desc.light != NOOK_GL_CAPTURE_SKY)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.light is unknown (got %d, need 0 or %d)", desc.light,
                   NOOK_GL_CAPTURE_SKY);
-  if (desc.match_sh != 0 && desc.match_sh != 1)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.match_sh is out of range (got %d, need 0 or 1)",
-                  desc.match_sh);
+  check_fits("desc.match_sh", desc.match_sh, desc.match_sh == 0 || desc.match_sh == 1, "0 or 1");
   if (desc.reserved != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", desc.reserved);
   gl::CaptureSettings settings;
@@ -87,9 +80,7 @@ void check_targets(nook_gl gl, const nook_gl_capture_desc& desc) {
 }
 
 void need_index(const gl::ProbeCapture& capture, std::uint32_t index) {
-  if (index >= capture.size())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "index is out of range (got %u, need less than %zu)", index,
-                  capture.size());
+  check_index("index", index, capture.size());
 }
 
 void write_vec3(float* out, Vec3 v) {

@@ -1,5 +1,7 @@
 #include "sdk/src/api/gl/upload.h"
 
+#include <nook/experimental/nook_synthesis.h>
+
 #include <algorithm>
 #include <string_view>
 #include <type_traits>
@@ -8,6 +10,8 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/material_handle.h"
 #include "sdk/src/api/probe_handles.h"
+#include "sdk/src/api/synthesis_handle.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/gl/functions.h"
 #include "sdk/src/gl/texel_table.h"
@@ -54,6 +58,17 @@ struct Describe {
     info.bytes = coordinates.bytes();
     info.glsl = coordinates.source().c_str();
   }
+  void operator()(const gl::TransferTexture& vectors) const {
+    put(info, gl::TexelTable::target(device), vectors.name(), "nook_transfer_texels");
+    info.bytes = vectors.bytes();
+    info.glsl = vectors.source().c_str();
+  }
+  void operator()(const api::PaperUpload& paper) const {
+    put(info, gl::TexelTable::target(device), paper.texture.light(), "nook_transfer_texels");
+    put(info, gl::TexelTable::target(device), paper.texture.vertices(), "nook_transfer_vertices");
+    info.bytes = paper.texture.bytes();
+    info.glsl = paper.texture.source().c_str();
+  }
   void operator()(const gl::ClipTextures& clips) const {
     put(info, GL_TEXTURE_2D, clips.modes(), "nook_clip_modes");
     put(info, GL_TEXTURE_2D, clips.weights(), "nook_clip_weights");
@@ -80,6 +95,7 @@ constexpr Mark marks[] = {{"nook_probe_texels", "a probe of lobes"},
                           {"nook_light_map", "a material"},
                           {"nook_neural_features", "a neural material"},
                           {"nook_synthesis_texels", "a coordinate texture"},
+                          {"nook_transfer_texels", "a transfer"},
                           {"nook_clip_modes", "clips"}};
 
 const char* kind_of(std::string_view uniform) {
@@ -145,9 +161,7 @@ void bind(const gl::Functions& gl, const nook_gl_upload_info& info, GLuint progr
 }
 
 void need_form(nook_gl_probe_form form) {
-  if (form < NOOK_GL_PROBE_SH || form > NOOK_GL_PROBE_LOBES)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "form is unknown (got %d, need 0 to %d)", form,
-                  NOOK_GL_PROBE_LOBES);
+  check_known("form", form, NOOK_GL_PROBE_LOBES);
 }
 
 }  // namespace
@@ -211,6 +225,16 @@ nook_result nook_gl_upload_describe(nook_gl_upload upload, nook_gl_upload_info* 
   return api::enter("nook_gl_upload_describe", [&] {
     need(upload, "upload");
     write_info(info, info_of(*upload));
+  });
+}
+
+nook_result nook_gl_upload_synthesis(nook_gl gl, nook_synthesis synthesis, nook_gl_upload* out) {
+  return api::enter("nook_gl_upload_synthesis", [&] {
+    need(out, "out");
+    *out = nullptr;
+    need(gl, "gl");
+    need(synthesis, "synthesis");
+    *out = api::make_upload<gl::CoordinateTexture>(gl, gl::materials, synthesis->coordinates);
   });
 }
 

@@ -8,10 +8,28 @@
 #include <variant>
 
 #include "sdk/src/api/gl/handle.h"
+#include "sdk/src/api/transfer_handles.h"
 #include "sdk/src/gl/character/clip_textures.h"
 #include "sdk/src/gl/material/material_textures.h"
 #include "sdk/src/gl/probe/grid_volume.h"
 #include "sdk/src/gl/probe/probe_texture.h"
+#include "sdk/src/gl/transfer/transfer_textures.h"
+
+namespace nook::api {
+
+// A transfer in the paper's form, with what its updates need.
+struct PaperUpload {
+  PaperUpload(gl::Device& device, nook_transfer transfer, nook_transfer_response under)
+      : texture(device, transfer->transfer),
+        baked(Ref<nook_transfer_s>::share(transfer)),
+        response(Ref<nook_transfer_response_s>::share(under)) {}
+
+  gl::PaperTexture texture;
+  Ref<nook_transfer_s> baked;
+  Ref<nook_transfer_response_s> response;
+};
+
+}  // namespace nook::api
 
 struct nook_gl_upload_s : nook::RefCounted {
   // Makes the content of a type from its arguments under a guard for these users of the OpenGL state.
@@ -26,10 +44,13 @@ struct nook_gl_upload_s : nook::RefCounted {
   // NULL if the upload is of another kind.
   nook::gl::ProbeTexture* probe() { return std::get_if<nook::gl::ProbeTexture>(&content); }
   nook::gl::GridVolume* grid() { return std::get_if<nook::gl::GridVolume>(&content); }
+  nook::gl::TransferTexture* vectors() { return std::get_if<nook::gl::TransferTexture>(&content); }
+  nook::api::PaperUpload* paper() { return std::get_if<nook::api::PaperUpload>(&content); }
 
   nook_gl_s* gl;
   std::variant<std::monostate, nook::gl::ProbeTexture, nook::gl::GridVolume, nook::gl::MaterialTextures,
-               nook::gl::CoordinateTexture, nook::gl::ClipTextures>
+               nook::gl::CoordinateTexture, nook::gl::ClipTextures, nook::gl::TransferTexture,
+               nook::api::PaperUpload>
       content;
 };
 

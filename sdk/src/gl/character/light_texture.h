@@ -20,8 +20,6 @@ std::uint32_t light_texels(const InstanceLight& light);
 // Writes as many.
 void write_light(const Instance& instance, LightTexel* out);
 
-// The lights of a scene's instances in one table of texels, for the host's shaders.
-
 class LightTexture {
  public:
   explicit LightTexture(Memory* memory) : table_(memory), first_texels_(memory) {}

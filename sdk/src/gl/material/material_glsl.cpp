@@ -1,8 +1,12 @@
 #include "sdk/src/gl/material/material_glsl.h"
 
 #include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <span>
 #include <string_view>
 
+#include "sdk/src/core/compiler.h"
 #include "sdk/src/core/floats.h"
 #include "sdk/src/gl/embedded_shaders.h"
 #include "sdk/src/material/footprint.h"
@@ -12,6 +16,17 @@ namespace {
 
 using material::NeuralLayout;
 using material::NeuralShape;
+
+// Appends up to 199 characters of printf's format.
+void add(String& out, const char* format, ...) NOOK_PRINTF(2, 3);
+void add(String& out, const char* format, ...) {
+  char line[200];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  out += line;
+}
 
 // A block of a matrix: `inputs` columns of `outputs` rows, or a vector of a single column. Digits give each
 // half float.
@@ -53,8 +68,8 @@ Vector<float> hidden_numbers(const material::NeuralTables& tables, bool biases) 
   return numbers;
 }
 
-}  // namespace
-
+// The declarations of a neural material: sizes, weights as constants, and the sampler of its features. They
+// stand before shaders/material/neural/host.glsl.
 void add_neural_declarations(const material::NeuralTables& tables, String& out) {
   const NeuralShape& s = tables.shape;
   const NeuralLayout at(s);
@@ -87,8 +102,6 @@ void add_neural_declarations(const material::NeuralTables& tables, String& out) 
   add(out, "const vec3 nook_neural_out_bias = vec3(%s, %s, %s);\n", float_literal(bias[0]).text,
       float_literal(bias[1]).text, float_literal(bias[2]).text);
 }
-
-namespace {
 
 // Writes the fetch of a layer from the arrays of `most` layers each that it may be in.
 template <class Fetch>

@@ -2,35 +2,12 @@
 // of neural ones.
 #pragma once
 
-#include <cstdarg>
-#include <cstdio>
-#include <string>
+#include <cstdint>
 
-#include "sdk/src/core/compiler.h"
 #include "sdk/src/core/containers.h"
-#include "sdk/src/material/neural_tables.h"
 #include "sdk/src/material/tables.h"
 
 namespace nook::gl {
-
-// Appends up to 199 characters of printf's format.
-inline void add(String& out, const char* format, ...) NOOK_PRINTF(2, 3);
-inline void add(String& out, const char* format, ...) {
-  char line[200];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  out += line;
-}
-
-// The declarations of a neural material: sizes, weights as constants, and the sampler of its features. They
-// stand before shaders/material/neural/host.glsl.
-
-void add_neural_declarations(const material::NeuralTables& tables, String& out);
-
-// The GLSL of a material: constants and samplers for its sizes, then shaders/material/host.glsl, or that of
-// neural ones.
 
 // max_layers is the maximum for one texture array. Both layers of a mode in blocks are in one array.
 inline std::uint32_t array_count(const material::TensorTables& tables, std::uint32_t max_layers) {

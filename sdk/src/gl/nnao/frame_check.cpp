@@ -2,23 +2,13 @@
 
 #include <cmath>
 
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/vec.h"
 #include "sdk/src/nnao/host_depth.h"
 
 namespace nook::gl {
 namespace {
-
-void check_range(const char* field, float value, bool fits, const char* need) {
-  if (!std::isfinite(value) || !fits)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is out of range (got %g, need %s)", field,
-                  static_cast<double>(value), need);
-}
-
-void check_kind(const char* field, int value, int last) {
-  if (value < 0 || value > last)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is unknown (got %d, need 0 to %d)", field, value, last);
-}
 
 void check_size(const NnaoFrame& frame, const nook_nnao_desc& pass) {
   if (frame.width < 1 || frame.height < 1 || frame.width > pass.max_width || frame.height > pass.max_height)
@@ -38,44 +28,44 @@ void check_size(const NnaoFrame& frame, const nook_nnao_desc& pass) {
 
 void check_radius(const NnaoFrame& frame) {
   if (frame.radius_kind == NOOK_NNAO_RADIUS_METRES) {
-    check_range("desc.radius", frame.radius, frame.radius > 0, "more than 0 metres");
+    check_fits("desc.radius", frame.radius, frame.radius > 0, "more than 0 metres");
     return;
   }
-  check_range("desc.radius", frame.radius, frame.radius > 0 && frame.radius <= 1,
-              frame.radius_kind == NOOK_NNAO_RADIUS_SCREEN ? "a share of the screen, more than 0 up to 1"
-                                                           : "a share of the scene, more than 0 up to 1");
+  check_fits("desc.radius", frame.radius, frame.radius > 0 && frame.radius <= 1,
+             frame.radius_kind == NOOK_NNAO_RADIUS_SCREEN ? "a share of the screen, more than 0 up to 1"
+                                                          : "a share of the scene, more than 0 up to 1");
   if (frame.radius_kind == NOOK_NNAO_RADIUS_SCENE)
-    check_range("desc.scene_size", frame.scene_size, frame.scene_size * frame.radius > 0,
-                "more than 0 metres");
+    check_fits("desc.scene_size", frame.scene_size, frame.scene_size * frame.radius > 0,
+               "more than 0 metres");
 }
 
 void check_logarithm(const NnaoFrame& frame) {
   if (frame.depth_kind != NOOK_DEPTH_LOGARITHMIC) return;
-  check_range("frame.depth_log_scale", frame.depth_log_scale, frame.depth_log_scale > 0,
-              "more than 0 per metre");
-  check_range("frame.depth_log_near", frame.depth_log_near, frame.depth_log_near >= 0, "0 or more metres");
-  check_range("frame.depth_log_far", frame.depth_log_far, frame.depth_log_far > frame.depth_log_near,
-              "more metres than depth_log_near");
+  check_fits("frame.depth_log_scale", frame.depth_log_scale, frame.depth_log_scale > 0,
+             "more than 0 per metre");
+  check_fits("frame.depth_log_near", frame.depth_log_near, frame.depth_log_near >= 0, "0 or more metres");
+  check_fits("frame.depth_log_far", frame.depth_log_far, frame.depth_log_far > frame.depth_log_near,
+             "more metres than depth_log_near");
 }
 
 void check_numbers(const NnaoFrame& frame) {
   check_radius(frame);
-  check_range("desc.max_radius_px", frame.max_radius_px, frame.max_radius_px == 0 || frame.max_radius_px >= 1,
-              "at least 1 pixel, or 0 for the default");
-  check_range("desc.intensity", frame.intensity, frame.intensity >= 0 && frame.intensity <= 16, "0 to 16");
-  check_range("desc.power", frame.power, frame.power > 0 && frame.power <= 16, "more than 0, up to 16");
-  check_range("frame.sky_depth", frame.sky_depth, frame.sky_depth >= 0, "0 or more metres");
+  check_fits("desc.max_radius_px", frame.max_radius_px, frame.max_radius_px == 0 || frame.max_radius_px >= 1,
+             "at least 1 pixel, or 0 for the default");
+  check_fits("desc.intensity", frame.intensity, frame.intensity >= 0 && frame.intensity <= 16, "0 to 16");
+  check_fits("desc.power", frame.power, frame.power > 0 && frame.power <= 16, "more than 0, up to 16");
+  check_fits("frame.sky_depth", frame.sky_depth, frame.sky_depth >= 0, "0 or more metres");
   check_logarithm(frame);
 }
 
 void check_kinds(const NnaoFrame& frame) {
-  check_kind("frame.depth_kind", frame.depth_kind, NOOK_DEPTH_LOGARITHMIC);
-  check_kind("desc.radius_kind", frame.radius_kind, NOOK_NNAO_RADIUS_SCENE);
-  check_kind("frame.clip_space", frame.clip_space, NOOK_CLIP_SPACE_ZERO_TO_ONE);
-  check_kind("frame.gbuffer_ao", frame.gbuffer_ao, NOOK_GBUFFER_AO_EXCLUDE);
-  check_kind("frame.target", frame.target, NOOK_TARGET_FRAMEBUFFER);
-  check_kind("frame.blend", frame.blend, NOOK_BLEND_MULTIPLY);
-  check_kind("debug.show", frame.show, NOOK_NNAO_VIEW_NORMALS);
+  check_known("frame.depth_kind", frame.depth_kind, NOOK_DEPTH_LOGARITHMIC);
+  check_known("desc.radius_kind", frame.radius_kind, NOOK_NNAO_RADIUS_SCENE);
+  check_known("frame.clip_space", frame.clip_space, NOOK_CLIP_SPACE_ZERO_TO_ONE);
+  check_known("frame.gbuffer_ao", frame.gbuffer_ao, NOOK_GBUFFER_AO_EXCLUDE);
+  check_known("frame.target", frame.target, NOOK_TARGET_FRAMEBUFFER);
+  check_known("frame.blend", frame.blend, NOOK_BLEND_MULTIPLY);
+  check_known("debug.show", frame.show, NOOK_NNAO_VIEW_NORMALS);
   if (frame.depth_texture == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.depth_texture is 0; give the name of a texture with depth");
@@ -96,8 +86,8 @@ void check_kinds(const NnaoFrame& frame) {
 
 void check_normals(const NnaoFrame& frame) {
   if (frame.normal_texture == 0) return;
-  check_range("frame.normal_scale", frame.normal_scale, frame.normal_scale != 0, "a number other than 0");
-  check_range("frame.normal_bias", frame.normal_bias, true, "a number");
+  check_fits("frame.normal_scale", frame.normal_scale, frame.normal_scale != 0, "a number other than 0");
+  check_fits("frame.normal_bias", frame.normal_bias, true, "a number");
   nnao::check_normal_matrix(frame.normal_matrix);
 }
 
@@ -105,7 +95,7 @@ void check_normals(const NnaoFrame& frame) {
 void check_motion(const NnaoFrame& frame) {
   check_view(frame.view);
   for (const float scale : frame.motion_vector_scale)
-    check_range("desc.motion_vector_scale", scale, true, "finite numbers");
+    check_fits("desc.motion_vector_scale", scale, true, "finite numbers");
   if (frame.reset != 0 && frame.reset != 1)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reset is neither on nor off (got %d, need 0 or 1)",
                   frame.reset);

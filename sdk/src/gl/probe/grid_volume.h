@@ -1,4 +1,5 @@
-// Grids of diffuse light as the half floats that shaders/probe/volume/host.glsl reads.
+// Grids of diffuse light as the half floats that shaders/probe/volume/host.glsl reads, and in a 3D texture of
+// them.
 #pragma once
 
 #include <array>
@@ -31,8 +32,6 @@ Vector<std::uint16_t> grid_texels(const probe::Probes& probes, const GridTexelPl
 
 // The uniform nook_grid_frame.
 std::array<float, 16> grid_frame(const probe::Probes& probes, const GridTexelPlan& plan);
-
-// A grid of diffuse light in a 3D texture, and the GLSL that reads it.
 
 class GridVolume {
  public:

@@ -1,7 +1,7 @@
 #include "bakers/lab/gpu_cost/vulkan_glsl.h"
 
 #include "bakers/lab/gpu_cost/shader_cost.h"
-#include "bakers/lab/gpu_cost/spirv.h"
+#include "bakers/lab/gpu_cost/shader_source.h"
 #include "tests/catch.h"
 
 using namespace nook::lab;

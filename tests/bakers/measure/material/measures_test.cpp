@@ -2,6 +2,7 @@
 
 #include "bakers/material/compression.h"
 #include "bakers/material/raw_material.h"
+#include "bakers/material/tile_heights.h"
 #include "sdk/src/core/failure.h"
 #include "tests/bakers/material/small_material.h"
 #include "tests/catch.h"

@@ -1,6 +1,7 @@
 #include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/handle.h"
+#include "sdk/src/core/checks.h"
 
 using namespace nook;
 
@@ -19,9 +20,7 @@ void check(const nook_gl_desc& desc) {
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "desc.max_tier is unknown (got %d, need 0, 33, 43, 300 or 310)", desc.max_tier);
   }
-  if (desc.state_mode < NOOK_GL_STATE_PRESERVE || desc.state_mode > NOOK_GL_STATE_HOST)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.state_mode is unknown (got %d, need 0 to %d)",
-                  desc.state_mode, NOOK_GL_STATE_HOST);
+  check_known("desc.state_mode", desc.state_mode, NOOK_GL_STATE_HOST);
 }
 
 const char* text_of(const GLubyte* text) {

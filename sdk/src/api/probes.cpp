@@ -10,6 +10,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/probe_handles.h"
 #include "sdk/src/api/probe_lobes.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/probe/probe_file.h"
 #include "sdk/src/probe/probe_light.h"
 
@@ -66,9 +67,7 @@ bool same_function(const nook_lobe& a, const nook_lobe& b) {
 }
 
 void read_lobes(const nook_probe_desc& desc, Probes& probes) {
-  if (desc.lobe_count < 1 || desc.lobe_count > max_functions)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.lobe_count is out of range (got %u, need 1 to %u)",
-                  desc.lobe_count, max_functions);
+  check_range("desc.lobe_count", desc.lobe_count, 1, max_functions);
   const std::size_t count = desc.lobe_count, all = probes.grid.size() * count;
   for (std::size_t i = count; i < all; ++i)
     if (!same_function(desc.lobes[i], desc.lobes[i % count]))
@@ -190,9 +189,7 @@ nook_result nook_probe_save(nook_probe probe, nook_probe_packing packing, void* 
   return api::enter("nook_probe_save", [&] {
     need(probe, "probe");
     need(size, "size");
-    if (packing < NOOK_PROBE_PACKING_FLOAT || packing > NOOK_PROBE_PACKING_RGB9E5)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "packing is unknown (got %d, need 0 to %d)", packing,
-                    NOOK_PROBE_PACKING_RGB9E5);
+    check_known("packing", packing, NOOK_PROBE_PACKING_RGB9E5);
     const std::vector<std::byte> file = write_probes(probe->probes, static_cast<Packing>(packing));
     const std::size_t room = *size;
     *size = file.size();
@@ -231,9 +228,7 @@ nook_result nook_probe_read_coefficients(nook_probe probe, uint32_t index, float
     need(probe, "probe");
     need(coefficients, "coefficients");
     const Probes& probes = probe->probes;
-    if (index >= probes.grid.size())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "index is out of range (got %u, need less than %zu)", index,
-                    probes.grid.size());
+    check_index("index", index, probes.grid.size());
     check_count(probes, function_count);
     for (const Vec3 v : probes.of(index)) {
       write_vec3(coefficients, v);

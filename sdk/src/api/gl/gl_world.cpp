@@ -7,6 +7,7 @@
 #include "sdk/src/api/gl/handle.h"
 #include "sdk/src/api/gl/nnao_descriptors.h"
 #include "sdk/src/api/world_casting.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/geometry.h"
 #include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/gl/shader_program.h"
@@ -42,16 +43,9 @@ nook_world_desc checked(const nook_world_desc* given) {
   const nook_world_desc desc = read_descriptor(given);
   api::check_max_size(desc.max_width, desc.max_height);
   constexpr std::uint32_t most = 1u << 20;
-  if (desc.capsules < 1 || desc.capsules > most)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.capsules is out of range (got %u, need 1 to %u)",
-                  desc.capsules, most);
-  const auto check_switch = [](const char* field, std::int32_t value) {
-    if (value != 0 && value != 1)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is neither on nor off (got %d, need 0 or 1)", field,
-                    value);
-  };
-  check_switch("half_resolution", desc.half_resolution);
-  check_switch("coloured", desc.coloured);
+  check_range("desc.capsules", desc.capsules, 1, most);
+  check_switch("desc.half_resolution", desc.half_resolution);
+  check_switch("desc.coloured", desc.coloured);
   return desc;
 }
 
@@ -71,27 +65,15 @@ gl::NnaoFrame screen_of(const nook_gl_frame_desc* given, const nook_world_frame_
 }
 
 void check_numbers(const nook_world_frame_desc& desc) {
-  const auto check = [](const char* field, float value) {
-    if (!(value >= 0 && value <= 1))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is out of range (got %g, need 0 to 1)", field,
-                    double(value));
-  };
-  check("cutoff_error", desc.cutoff_error);
-  check("level_error", desc.level_error);
-  const auto check_kind = [](const char* field, std::int32_t value, std::int32_t last) {
-    if (value < 0 || value > last)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is unknown (got %d, need 0 to %d)", field, value,
-                    last);
-  };
-  check_kind("combine", desc.combine, NOOK_WORLD_COMBINE_MIN);
+  check_range("desc.cutoff_error", desc.cutoff_error, 0, 1);
+  check_range("desc.level_error", desc.level_error, 0, 1);
+  check_known("desc.combine", desc.combine, NOOK_WORLD_COMBINE_MIN);
 }
 
 nook_world_view shown(const void* next) {
   const auto* const given = find_extension<nook_world_frame_debug_desc>(next);
   const nook_world_view show = given ? read_descriptor(given).show : NOOK_WORLD_VIEW_AO;
-  if (show < NOOK_WORLD_VIEW_AO || show > NOOK_WORLD_VIEW_FAR_TESTS)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "debug.show is unknown (got %d, need 0 to %d)", show,
-                  NOOK_WORLD_VIEW_FAR_TESTS);
+  check_known("debug.show", show, NOOK_WORLD_VIEW_FAR_TESTS);
   return show;
 }
 
@@ -104,9 +86,8 @@ void put_light(gl::WorldFrame& drawn, const nook_world_frame_desc& desc, bool co
   drawn.light = api::terms_of_lobes("desc", desc.lobes, desc.lobe_count, drawn.screen.view);
   if (desc.light_degrees == 0) return;
   const Vec3 axis = api::checked_light("desc", desc.light_axis, desc.light_degrees);
-  if (!(desc.light_reach > 0 && desc.light_reach <= max_metres))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.light_reach is out of range (got %g, need metres above 0)", double(desc.light_reach));
+  check_fits("desc.light_reach", desc.light_reach, desc.light_reach > 0 && desc.light_reach <= max_metres,
+             "metres above 0");
   drawn.cone = gl::LightCone{axis, api::half_angle_radians(desc.light_degrees), desc.light_reach};
 }
 

@@ -1,5 +1,6 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/handle.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/gl/character/light_texture.h"
 
@@ -38,9 +39,7 @@ void check_target(const nook_gl_ao_target& target, std::uint32_t count) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "target.struct_size is too small (got %u, need at least %zu); set it to sizeof",
                   target.struct_size, size);
-  if (target.format < NOOK_FORMAT_FLOAT || target.format > NOOK_FORMAT_UNORM8)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "target.format is unknown (got %d, need 0 to %d)",
-                  target.format, NOOK_FORMAT_UNORM8);
+  check_known("target.format", target.format, NOOK_FORMAT_UNORM8);
   if ((target.buffer == 0) == (target.texture == 0))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "target.buffer and target.texture are %u and %u; need exactly one of them", target.buffer,

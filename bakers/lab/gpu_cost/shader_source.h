@@ -1,8 +1,11 @@
-// The text of a shader as the library compiles it: includes expanded, version line and defines in front.
+// The text of a shader as the library compiles it: includes expanded, version line and defines in front; and
+// its way through the reference compiler.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace nook::lab {
 
@@ -16,5 +19,11 @@ std::string expand_includes(const std::filesystem::path& root, const std::string
 
 // Puts the version line of sdk/src/gl/shader_program.cpp and the defines in front of an expanded text.
 std::string with_version(Stage stage, const std::string& defines, const std::string& text);
+
+// Resolves macros, conditions and comments of a text with a version line.
+std::string preprocess(Stage stage, const std::string& text);
+
+// Compiles Vulkan GLSL. what names the shader in messages.
+std::vector<std::uint32_t> compile_spirv(Stage stage, const std::string& text, const std::string& what);
 
 }  // namespace nook::lab

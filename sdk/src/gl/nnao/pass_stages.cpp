@@ -1,4 +1,4 @@
-#include "sdk/src/gl/nnao/stages.h"
+#include "sdk/src/gl/nnao/pass_stages.h"
 
 #include <algorithm>
 #include <cstdio>

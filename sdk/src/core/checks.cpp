@@ -1,0 +1,65 @@
+#include "sdk/src/core/checks.h"
+
+#include <cstdio>
+
+#include "sdk/src/core/descriptors.h"
+
+namespace nook {
+namespace {
+
+unsigned major_of(std::uint32_t version) {
+  return version >> 22;
+}
+unsigned minor_of(std::uint32_t version) {
+  return version >> 12 & 1023;
+}
+
+}  // namespace
+
+void check_version(std::uint32_t version) {
+  if (major_of(version) != NOOK_VERSION_MAJOR || minor_of(version) > NOOK_VERSION_MINOR)
+    throw Failure(NOOK_ERROR_VERSION,
+                  "the caller's headers do not fit this library (got version %u.%u, need %d.%d or older of "
+                  "the same major version); pass NOOK_VERSION, or update the library",
+                  major_of(version), minor_of(version), NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR);
+}
+
+NumberText::NumberText(double value) noexcept {
+  std::snprintf(text_, sizeof text_, "%g", value);
+}
+
+void NumberText::write(const char* sign, std::uint64_t magnitude) noexcept {
+  std::snprintf(text_, sizeof text_, "%s%llu", sign, static_cast<unsigned long long>(magnitude));
+}
+
+void fail_range(nook_result code, const char* name, const NumberText& got, const char* need) {
+  throw Failure(code, "%s is out of range (got %s, need %s)", name, got.get(), need);
+}
+
+void fail_range(nook_result code, const char* name, const NumberText& got, const NumberText& low,
+                const NumberText& high) {
+  throw Failure(code, "%s is out of range (got %s, need %s to %s)", name, got.get(), low.get(), high.get());
+}
+
+void fail_unknown(const char* name, std::int32_t got, std::int32_t last) {
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is unknown (got %d, need 0 to %d)", name, got, last);
+}
+
+void check_at_most(const char* name, std::uint32_t value, std::uint32_t most) {
+  if (value > most)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is out of range (got %u, need at most %u)", name, value,
+                  most);
+}
+
+void check_switch(const char* name, std::int32_t value) {
+  if (value != 0 && value != 1)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is neither on nor off (got %d, need 0 or 1)", name, value);
+}
+
+void check_index(const char* name, std::size_t index, std::size_t count) {
+  if (index >= count)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is out of range (got %zu, need less than %zu)", name,
+                  index, count);
+}
+
+}  // namespace nook

@@ -1,0 +1,77 @@
+// The checks of what a host or a file gives. Each throws Failure with `code` unless the value fits; its
+// message says the name of the value, what it is and what is needed.
+#pragma once
+
+#include <nook/nook.h>
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "sdk/src/core/failure.h"
+
+namespace nook {
+
+// A number of any type as the text of a message.
+class NumberText {
+ public:
+  template <std::integral Number>
+  explicit NumberText(Number value) noexcept {
+    bool is_negative = false;
+    if constexpr (std::is_signed_v<Number>) is_negative = value < 0;
+    const auto bits = static_cast<std::uint64_t>(value);
+    write(is_negative ? "-" : "", is_negative ? 0 - bits : bits);
+  }
+  // Six digits.
+  explicit NumberText(double value) noexcept;
+
+  const char* get() const noexcept { return text_; }
+
+ private:
+  void write(const char* sign, std::uint64_t magnitude) noexcept;
+
+  char text_[24];
+};
+
+template <class Number>
+concept CheckedNumber = std::integral<Number> || std::floating_point<Number>;
+
+// Throws: NAME is out of range (got GOT, need NEED).
+[[noreturn]] void fail_range(nook_result code, const char* name, const NumberText& got, const char* need);
+[[noreturn]] void fail_range(nook_result code, const char* name, const NumberText& got, const NumberText& low,
+                             const NumberText& high);
+// Throws: NAME is unknown (got GOT, need 0 to LAST).
+[[noreturn]] void fail_unknown(const char* name, std::int32_t got, std::int32_t last);
+
+// fits: whether the value is what `need` says in words, such as "0 or more". Floats must be finite as well.
+template <CheckedNumber Number>
+void check_fits(const char* name, Number value, bool fits, const char* need,
+                nook_result code = NOOK_ERROR_INVALID_ARGUMENT) {
+  // A number minus itself is 0 where it is finite.
+  if (!fits || !(value - value == 0)) fail_range(code, name, NumberText(value), need);
+}
+
+// low and high are within the range.
+template <CheckedNumber Number>
+void check_range(const char* name, Number value, std::type_identity_t<Number> low,
+                 std::type_identity_t<Number> high, nook_result code = NOOK_ERROR_INVALID_ARGUMENT) {
+  // The comparison fails for NaN.
+  if (!(value >= low && value <= high))
+    fail_range(code, name, NumberText(value), NumberText(low), NumberText(high));
+}
+
+// An index of `count` things.
+void check_index(const char* name, std::size_t index, std::size_t count);
+
+void check_at_most(const char* name, std::uint32_t value, std::uint32_t most);
+
+// A switch, which is 0 or 1.
+void check_switch(const char* name, std::int32_t value);
+
+// An enumerator from 0 to `last`.
+inline void check_known(const char* name, std::int32_t value, std::int32_t last) {
+  if (value < 0 || value > last) fail_unknown(name, value, last);
+}
+
+}  // namespace nook
