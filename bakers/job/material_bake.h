@@ -2,9 +2,9 @@
 #pragma once
 
 #include <nook/nook_bake.h>
-#include <nlohmann/json.hpp>
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
