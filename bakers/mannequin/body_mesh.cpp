@@ -4,9 +4,8 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "bakers/mannequin/remesher.h"
+#include "bakers/mannequin/bones.h"
 #include "bakers/mannequin/shape_primitives.h"
-#include "bakers/mannequin/skeleton.h"
 
 namespace nook::mannequin {
 

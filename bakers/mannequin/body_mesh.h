@@ -2,9 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
-#include "bakers/mannequin/shape_primitives.h"
+#include "bakers/mannequin/body_sdf.h"
 
 namespace nook::mannequin {
 
@@ -20,6 +21,14 @@ std::vector<Vec3> area_weighted_normals(const TriangleMesh& mesh);
 
 /// The vertices that share an edge with each vertex.
 std::vector<std::vector<std::uint32_t>> vertex_neighbours(const TriangleMesh& mesh);
+
+/// The target length of edges at a point of the skin, in metres.
+using EdgeLength = std::function<double(const Vec3& point_m)>;
+
+/// Rebuilds a closed manifold with edges near the target length: splits long edges, collapses short ones,
+/// flips for even valences, slides vertices along the skin, and ends with every vertex on it.
+TriangleMesh remesh(const TriangleMesh& dense, const BodySdf& sdf, const EdgeLength& edge_length_m,
+                    int rounds);
 
 /// Makes the figure's skin in the bind pose. It has about 6,000 vertices and is finest at the fingers and the
 /// face.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bakers/mannequin/skeleton.h"
+#include "bakers/mannequin/bones.h"
 
 namespace nook::mannequin {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "bakers/mannequin/body_mesh.h"
-#include "bakers/mannequin/clips.h"
-#include "bakers/mannequin/skeleton.h"
+#include "bakers/mannequin/bones.h"
+#include "bakers/mannequin/motions.h"
 #include "bakers/mannequin/skin_weights.h"
 
 namespace nook::mannequin {

@@ -3,7 +3,7 @@
 // given, so that the repository needs no asset.
 //
 // Begin with make_mannequin_glb at the end of mannequin.cpp, which has the four steps:
-//   skeleton, pose, clips   the bones in the bind pose, poses as rotations away from it, and motions
+//   bones, pose, motions    the bones in the bind pose, poses as rotations away from it, and motions
 //   body_sdf                the body as a signed distance field of lofts and muscles (shape_primitives)
 //   body_mesh, remesher     a closed mesh on that field, with edges of the right length
 //   skin_weights            the weights of bones, spread over the skin

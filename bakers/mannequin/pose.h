@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bakers/mannequin/skeleton.h"
+#include "bakers/mannequin/bones.h"
 
 namespace nook::mannequin {
 

@@ -1,5 +1,3 @@
-#include "bakers/mannequin/remesher.h"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>

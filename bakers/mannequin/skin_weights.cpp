@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "bakers/mannequin/bones.h"
 #include "bakers/mannequin/shape_primitives.h"
-#include "bakers/mannequin/skeleton.h"
 
 namespace nook::mannequin {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bakers/mannequin/body_mesh.h"
-#include "bakers/mannequin/skeleton.h"
+#include "bakers/mannequin/bones.h"
 
 namespace nook::mannequin {
 

@@ -1,5 +1,5 @@
 // nook export casters: the world casters of a model as text for other engines.
-#include "bakers/measure/world/export_casters.h"
+#include "bakers/measure/world/caster_export.h"
 #include "bakers/tool/command_line.h"
 
 #include <cstdio>

@@ -4,7 +4,7 @@
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/peers.h"
-#include "bakers/tool/program.h"
+#include "bakers/tool/command_program.h"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "platform/platform.h"
+#include "samples/crowd/crowd_renderer.h"
 #include "samples/crowd/hero.h"
-#include "samples/crowd/renderer.h"
 
 namespace crowd {
 

@@ -9,7 +9,7 @@
 #include "platform/progress_bar.h"
 #include "platform/render_target.h"
 #include "samples/crowd/crowd_scene.h"
-#include "samples/crowd/layout.h"
+#include "samples/crowd/places.h"
 #include "samples/crowd/screen_passes.h"
 #ifdef CROWD_HAS_WINDOW
 #include "samples/crowd/window.h"

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "platform/platform.h"
+#include "samples/crowd/crowd_renderer.h"
 #include "samples/crowd/light.h"
-#include "samples/crowd/renderer.h"
 
 namespace crowd {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "samples/crowd/crowd_scene.h"
-#include "samples/crowd/layout.h"
+#include "samples/crowd/places.h"
 
 namespace crowd {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "samples/gltf_viewer/character_file.h"
+#include "samples/gltf_viewer/viewed_character.h"
 
 namespace viewer {
 

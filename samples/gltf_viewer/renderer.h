@@ -4,7 +4,7 @@
 #include <glad/gl.h>
 
 #include "platform/program.h"
-#include "samples/gltf_viewer/character_file.h"
+#include "samples/gltf_viewer/viewed_character.h"
 
 namespace viewer {
 

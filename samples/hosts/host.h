@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-#include "samples/gltf_viewer/character_file.h"
+#include "samples/gltf_viewer/viewed_character.h"
 
 namespace hosts {
 

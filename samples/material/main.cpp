@@ -9,7 +9,7 @@
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
 #include "samples/material/frames.h"
-#include "samples/material/options.h"
+#include "samples/material/material_options.h"
 
 namespace material {
 namespace {

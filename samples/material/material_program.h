@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "platform/program.h"
-#include "samples/material/scene.h"
+#include "samples/material/material_scene.h"
 
 namespace material {
 

@@ -3,7 +3,7 @@
 
 #include <glad/gl.h>
 
-#include "samples/material/shapes.h"
+#include "samples/material/material_shapes.h"
 
 namespace material {
 

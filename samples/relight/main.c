@@ -15,7 +15,7 @@
 
 #include "samples/offscreen/offscreen.h"
 #include "samples/offscreen/picture.h"
-#include "samples/relight/room.h"
+#include "samples/relight/lit_room.h"
 
 enum { panel_width = 640, panel_height = 400, samples_across = 2 };
 enum { face_size = 32, shadow_size = 2048, probes_a_frame = 2, panels = 4 };

@@ -129,10 +129,10 @@ forbid(bakers "embree|[a-z]mmintrin|arm_neon|<intrin" "only sources of raytrace 
 foreach(folder platform samples tests)
   forbid(${folder} "embree[0-9]*/" "only sources of bakers/raytrace know Embree")
 endforeach()
-forbid(bakers/tool "CLI/" "CLI11 costs every file seconds: take bakers/tool/command_line.h" "/(command_line|main|program)[.]cpp$")
+forbid(bakers/tool "CLI/" "CLI11 costs every file seconds: take bakers/tool/command_line.h" "/(command_line|main|command_program)[.]cpp$")
 forbid(bakers/lab/tool "CLI/" "CLI11 costs every file seconds: take bakers/tool/command_line.h" "/main[.]cpp$")
 forbid(bakers/lab/crowd "nook_gl|glad" "the program draws what is measured"
-       "/(debug_overlay|debug_shapes|frames|main|map_light|options|panels|plain_look)[.](h|cpp)$")
+       "/(debug_overlay|debug_shapes|timed_frames|main|light_file|crowd_options|panels|plain_look)[.](h|cpp)$")
 foreach(sample offscreen minimal)
   room(samples/${sample} samples/${sample})
 endforeach()

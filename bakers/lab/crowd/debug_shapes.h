@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "samples/crowd/crowd_renderer.h"
 #include "samples/crowd/crowd_scene.h"
-#include "samples/crowd/renderer.h"
 
 namespace crowd::lab {
 

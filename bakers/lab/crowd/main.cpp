@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/lab/crowd/frames.h"
-#include "bakers/lab/crowd/options.h"
+#include "bakers/lab/crowd/crowd_options.h"
 #include "bakers/lab/crowd/panels.h"
+#include "bakers/lab/crowd/timed_frames.h"
 #include "platform/file_bytes.h"
 #include "platform/progress_bar.h"
 

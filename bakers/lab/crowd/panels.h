@@ -6,8 +6,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 
-#include "bakers/lab/crowd/frames.h"
-#include "bakers/lab/crowd/map_light.h"
+#include "bakers/lab/crowd/light_file.h"
+#include "bakers/lab/crowd/timed_frames.h"
 
 namespace crowd::lab {
 

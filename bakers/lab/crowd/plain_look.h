@@ -1,7 +1,7 @@
 // The crowd in plain ambient light times AO and a key light, for pictures in which AO itself is to be seen.
 #pragma once
 
-#include "samples/crowd/renderer.h"
+#include "samples/crowd/crowd_renderer.h"
 
 namespace crowd::lab {
 

@@ -5,7 +5,7 @@
 #include "bakers/lab/tool/lab_commands.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/peers.h"
-#include "bakers/tool/program.h"
+#include "bakers/tool/command_program.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Casters as text for other engines: what is written is read back and compared with the model.
-#include "bakers/measure/world/export_casters.h"
+#include "bakers/measure/world/caster_export.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <nook/nook.hpp>
 
-#include "samples/gltf_viewer/character_file.h"
+#include "samples/gltf_viewer/viewed_character.h"
 #include "tests/catch.h"
 #include "tests/samples/sample_run.h"
 

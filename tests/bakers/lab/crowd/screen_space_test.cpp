@@ -14,7 +14,7 @@
 #include <optional>
 
 #include "samples/crowd/camera.h"
-#include "samples/crowd/layout.h"
+#include "samples/crowd/places.h"
 #include "tests/catch.h"
 
 namespace {

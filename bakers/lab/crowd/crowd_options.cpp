@@ -1,4 +1,4 @@
-#include "bakers/lab/crowd/options.h"
+#include "bakers/lab/crowd/crowd_options.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

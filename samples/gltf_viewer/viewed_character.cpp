@@ -1,4 +1,4 @@
-#include "samples/gltf_viewer/character_file.h"
+#include "samples/gltf_viewer/viewed_character.h"
 
 #include <tiny_gltf.h>
 

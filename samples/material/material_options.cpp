@@ -1,4 +1,4 @@
-#include "samples/material/options.h"
+#include "samples/material/material_options.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -6,7 +6,7 @@
 #include "bakers/lab/crowd/debug_shapes.h"
 #include "bakers/lab/crowd/plain_look.h"
 #include "platform/render_target.h"
-#include "samples/crowd/layout.h"
+#include "samples/crowd/places.h"
 #include "samples/crowd/screen_passes.h"
 
 namespace crowd::lab {

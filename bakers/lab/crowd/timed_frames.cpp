@@ -1,4 +1,4 @@
-#include "bakers/lab/crowd/frames.h"
+#include "bakers/lab/crowd/timed_frames.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "bakers/mannequin/skeleton.h"
+#include "bakers/mannequin/bones.h"
 
 #include <cmath>
 #include <stdexcept>

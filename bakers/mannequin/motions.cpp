@@ -1,4 +1,4 @@
-#include "bakers/mannequin/clips.h"
+#include "bakers/mannequin/motions.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "bakers/lab/crowd/map_light.h"
+#include "bakers/lab/crowd/light_file.h"
 
 #include <nook/experimental/nook_sg.h>
 

@@ -1,4 +1,4 @@
-#include "samples/crowd/renderer.h"
+#include "samples/crowd/crowd_renderer.h"
 
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>

@@ -1,4 +1,4 @@
-#include "samples/material/scene.h"
+#include "samples/material/material_scene.h"
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>

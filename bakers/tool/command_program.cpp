@@ -1,4 +1,4 @@
-#include "bakers/tool/program.h"
+#include "bakers/tool/command_program.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

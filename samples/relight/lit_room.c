@@ -1,4 +1,4 @@
-#include "samples/relight/room.h"
+#include "samples/relight/lit_room.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "samples/material/shapes.h"
+#include "samples/material/material_shapes.h"
 
 #include <cmath>
 #include <functional>

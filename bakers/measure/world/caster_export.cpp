@@ -1,4 +1,4 @@
-#include "bakers/measure/world/export_casters.h"
+#include "bakers/measure/world/caster_export.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "samples/crowd/layout.h"
+#include "samples/crowd/places.h"
 
 #include <tbb/parallel_for.h>
 
