@@ -43,8 +43,8 @@ struct ClipSplit {
   std::vector<std::size_t> fitted, measured;
 };
 ClipSplit split_clips(std::span<const std::size_t> clips);
-// The same with families (clip_families.h) in the order of their first clips, so that no two parts of one
-// motion are on both sides. With one family nothing is measured.
+// The same with families (clip_families() above) in the order of their first clips, so that no two parts of
+// one motion are on both sides. With one family nothing is measured.
 ClipSplit split_families(const ImportedCharacter& character, std::span<const std::size_t> clips);
 
 // An object of one bone, turned about the vertical axis to `count` directions, evenly; `shift` of a step.

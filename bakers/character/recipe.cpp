@@ -1,11 +1,10 @@
 #include "bakers/character/recipe.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cinttypes>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <span>
 
 #include "bakers/character/auto_poses.h"

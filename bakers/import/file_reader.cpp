@@ -1,11 +1,10 @@
 #include "bakers/import/file_reader.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "sdk/src/core/failure.h"

@@ -41,7 +41,7 @@ struct MeshArrays {
 FileMesh to_file_mesh(const MeshArrays& arrays, nook_result code);
 
 // Welds exactly equal rest positions (-0 equals 0) with equal weights, except for those whose faces have
-// opposite normals (opposite_faces.h), drops degenerate triangles with a warning, and validates the mesh.
+// opposite normals, drops degenerate triangles with a warning, and validates the mesh.
 // Fails with `code`.
 SkinnedMesh weld(FileMesh mesh, std::vector<std::string>& warnings, nook_result code);
 

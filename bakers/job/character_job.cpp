@@ -1,9 +1,8 @@
 #include "bakers/job/character_job.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "bakers/character/export_model.h"
 #include "bakers/character/pose_sets.h"

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <nook/nook_bake.h>
-#include <nlohmann/json.hpp>
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
@@ -37,7 +37,8 @@ material::RawMaterial trace_meso_source(const MesoSource& source, const Progress
 struct MaterialTask {
   std::optional<material::MesoParameters> meso;  // empty: measured data
   material::TraceSettings trace;                 // of meso
-  // Directions and sizes, and all measured data except for the gaps, which coverage defines; see fill_gaps.h.
+  // Directions and sizes, and all measured data except for the gaps, which coverage defines; see fill_gaps()
+  // in raw_material.h.
   material::RawMaterial raw;
   std::vector<float> coverage;  // empty: all 1
   material::CompressionSettings settings;

@@ -9,6 +9,7 @@
 
 #include "bakers/nnao/specular_fit.h"
 #include "bakers/nnao/training.h"
+#include "bakers/nnao/validation.h"
 #include "sdk/src/nnao/network_file.h"
 
 namespace nook::bake {

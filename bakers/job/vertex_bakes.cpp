@@ -1,8 +1,7 @@
 #include "bakers/job/vertex_bakes.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "bakers/character/export_model.h"

@@ -31,7 +31,7 @@ struct BentTask {
 // Throws Failure(INVALID_ARGUMENT) for a number out of its range.
 BentTask bent_task_of(const nook_bake_bent_desc& desc);
 
-// Adds occluded directions to the model of `character` (character_model.h), fitted to ray tracing in
+// Adds occluded directions to the model of `character`, fitted to ray tracing in
 // automatic poses and those of the clips that the model was fitted to, or of all clips where it has no
 // recipe. What the model has besides stays as it is. The stage is JobStage::raytrace and counts poses.
 // Throws Failure: BAD_FILE (a recipe that is not that of the character), CANCELLED.

@@ -11,8 +11,8 @@ namespace {
 
 using nook::material::VisibilityForm;
 
-// Checks the limits of a file before hours of tracing and fitting, as check_shape() of sdk's material/check.h
-// does.
+// Checks the limits of a file before hours of tracing and fitting, as check_shape() of sdk's
+// material/material_check.h does.
 void check_file_limits(const CompressionSettings& s, const RawMaterial& raw) {
   const bool clustered = s.method != Method::n_svd;
   const std::uint64_t rank = clustered ? s.cluster_rank_view : s.rank_view;

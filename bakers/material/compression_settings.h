@@ -17,7 +17,7 @@ enum class Seeding : std::uint8_t {
   values,      // k-means of the views' sub-tensors
 };
 
-// Where the relief comes from on which views are moved; see relief.h.
+// Where the relief comes from on which views are moved; see raw_relief.h.
 enum class ReliefSource : std::uint8_t {
   none,
   estimated,  // from what the views agree on
@@ -38,7 +38,7 @@ struct CompressionSettings {
   std::uint32_t cluster_rank_view = 4;
   std::uint32_t clusters = 0;  // C; 0: rank_view / cluster_rank_view
   std::uint32_t mixture = 3;   // K of K-CTA
-  // Fits of the VOTF after the first, to targets that count the sides of values; see visibility_margin.h.
+  // Fits of the VOTF after the first, to targets that count the sides of values; see visibility_values.h.
   std::uint32_t votf_refits = 2;
   Seeding seeding = Seeding::directions;
   nook::material::VisibilityForm visibility = nook::material::VisibilityForm::distance;

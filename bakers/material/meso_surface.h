@@ -23,7 +23,7 @@ struct MesoSurface {
   float specular = 0;   // normal reflectance of a Blinn-Phong lobe on top of the diffuse one; 0: none
   float shininess = 1;  // its exponent
   // In the place of Blinn-Phong, for each vertex: the GGX width and the reflectance at normal incidence,
-  // linear RGB, as in microfacet.h. Both are empty, or neither is.
+  // linear RGB, as in pbr_maps.h. Both are empty, or neither is.
   std::vector<float> ggx_width;
   std::vector<Vec3> reflectance;
 };

@@ -21,7 +21,7 @@ struct RawMaterial {
   std::vector<Vec3> lights, views;  // unit, tile space
   std::uint32_t width = 0, height = 0;
   // BTF: (3 light + channel) x view x width x height, radiance as in sdk's material/material.h, of what the
-  // view meets; where it passes through, as fill_gaps.h has it.
+  // view meets; where it passes through, as fill_gaps() below has it.
   std::vector<float> btf;
   // VOTF: view x width x height, 1 where the view meets the meso-structure, 0 where it passes through; empty:
   // all 1.

@@ -17,7 +17,7 @@ struct GridBakeSettings {
   nook::probe::Basis basis;
   nook::probe::FitSettings fit;
   nook::probe::Grid grid;
-  bool move_probes = false;             // out of solids and away from walls, see moved_probes.h
+  bool move_probes = false;             // out of solids and away from walls, see inside_probes.h
   std::uint32_t samples_per_pass = 64;  // of each probe
   std::uint64_t seed = 1;
   PathSettings path;

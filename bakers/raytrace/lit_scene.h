@@ -39,7 +39,7 @@ class LitScene {
 
   const Environment& environment() const { return environment_; }
   const LightSampler& light() const { return light_; }
-  double sun_limit() const { return sun_limit_; }  // of the environment, see suns.h
+  double sun_limit() const { return sun_limit_; }  // of the environment, see environment.h
 
  private:
   const Surface& surface(const RayHit& hit) const { return surface_[triangle_surface_[hit.triangle]]; }

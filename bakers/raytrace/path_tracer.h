@@ -16,7 +16,7 @@ namespace nook::bake {
 // by way of surfaces always counts, suns included, and so does light that surfaces emit.
 enum class DirectLight : std::uint8_t {
   none = 0,
-  sky = 1,  // the environment without its suns, see suns.h
+  sky = 1,  // the environment without its suns, see environment.h
   all = 2
 };
 

@@ -46,7 +46,7 @@ Mixture resample(const ClusteredFit& fit, const Matrix& projections, const Matri
                  Pursuit pursuit = Pursuit::greedy);
 
 // The same for the cells of a map, weights row by row, side x side of them, with lower steps between cells
-// that mix different clusters; see map_steps.h, whose progress it is.
+// that mix different clusters; see lower_steps(), which reports the rounds.
 Mixture resample_map(const ClusteredFit& fit, const Matrix& projections, const Matrix& weights,
                      std::size_t side, double step_penalty, Pursuit pursuit,
                      const RoundProgress& progress = {});

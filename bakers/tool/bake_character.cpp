@@ -10,7 +10,7 @@
 
 #include "bakers/job/character_job.h"
 #include "bakers/tool/baking.h"
-#include "bakers/tool/character_file.h"
+#include "bakers/tool/character_input.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/interrupt.h"

@@ -1,6 +1,6 @@
 // nook bake probe: one probe of an environment map, or a grid of them in a path-traced scene.
+#include "bakers/tool/bake_probe.h"
 #include "bakers/tool/command_line.h"
-#include "bakers/tool/probe/bake.h"
 
 #include <cstdio>
 #include <memory>

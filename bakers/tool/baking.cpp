@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "bakers/job/worker_arena.h"
-#include "bakers/tool/image_folder.h"
+#include "bakers/tool/command_files.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/table.h"
 #include "bakers/tool/tool_error.h"

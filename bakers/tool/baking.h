@@ -6,8 +6,8 @@
 #include <initializer_list>
 
 #include "bakers/job/baked_file.h"
+#include "bakers/tool/command_files.h"
 #include "bakers/tool/common_options.h"
-#include "bakers/tool/distinct_files.h"
 
 namespace nook::tool {
 

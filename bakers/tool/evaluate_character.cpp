@@ -6,10 +6,10 @@
 
 #include "bakers/measure/character/character_pictures.h"
 #include "bakers/measure/character/character_report.h"
-#include "bakers/tool/character_file.h"
+#include "bakers/tool/character_input.h"
+#include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/evaluation.h"
-#include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/peers.h"
 #include "platform/printable.h"

@@ -6,11 +6,10 @@
 
 #include "bakers/measure/material/material_pictures.h"
 #include "bakers/measure/material/material_report.h"
+#include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/compression_options.h"
 #include "bakers/tool/evaluation.h"
-#include "bakers/tool/image_folder.h"
-#include "bakers/tool/input_file.h"
 #include "bakers/tool/peers.h"
 #include "platform/progress_bar.h"
 #include "sdk/src/material/material_check.h"

@@ -4,10 +4,9 @@
 #include <optional>
 
 #include "bakers/job/worker_arena.h"
+#include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/common_options.h"
-#include "bakers/tool/image_folder.h"
-#include "bakers/tool/input_file.h"
 #include "bakers/tool/table.h"
 #include "bakers/tool/tool_error.h"
 #include "platform/output_file.h"

@@ -9,8 +9,8 @@
 
 #include "bakers/import/linked_files.h"
 #include "bakers/measure/character/evaluated_character.h"
+#include "bakers/tool/command_files.h"
 #include "bakers/tool/common_options.h"
-#include "bakers/tool/distinct_files.h"
 
 namespace nook::tool {
 

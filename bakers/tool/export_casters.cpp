@@ -8,10 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bakers/tool/command_files.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
-#include "bakers/tool/distinct_files.h"
-#include "bakers/tool/input_file.h"
 #include "bakers/tool/table.h"
 #include "platform/output_file.h"
 #include "sdk/src/character/model_file.h"

@@ -3,11 +3,10 @@
 #include <memory>
 #include <optional>
 
+#include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
-#include "bakers/tool/distinct_files.h"
-#include "bakers/tool/input_file.h"
 #include "bakers/tool/inspect/describe.h"
 #include "bakers/tool/table.h"
 #include "platform/output_file.h"

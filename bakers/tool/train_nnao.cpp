@@ -8,11 +8,10 @@
 #include <optional>
 
 #include "bakers/job/nnao_training.h"
+#include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
-#include "bakers/tool/distinct_files.h"
-#include "bakers/tool/input_file.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/table.h"
 #include "bakers/tool/tool_error.h"

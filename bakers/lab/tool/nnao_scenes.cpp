@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "bakers/tool/input_file.h"
+#include "bakers/tool/command_files.h"
 #include "bakers/tool/interrupt.h"
 #include "platform/progress_bar.h"
 #include "sdk/src/core/geometry.h"

@@ -25,7 +25,7 @@ bake::Picture difference_sheet(const bake::material::RawMaterial& raw,
 bake::Picture methods_sheet(const bake::material::RawMaterial& raw,
                             std::span<const nook::material::Material> materials);
 
-// A step of the view of view_jumps.h: the material as it is drawn before and after it, and the absolute
+// A step of the view of view_errors.h: the material as it is drawn before and after it, and the absolute
 // difference ten times, for a light tilted by 45 degrees; two tiles each way.
 bake::Picture jump_strip(const nook::material::Material& material, const bake::material::ViewJumps& jumps);
 

@@ -1,16 +1,29 @@
-#include "bakers/tool/distinct_files.h"
+#include "bakers/tool/command_files.h"
 
 #include <sys/stat.h>
 
 #include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/tool/tool_error.h"
 #include "platform/output_file.h"
 
 namespace nook::tool {
+
+std::vector<std::byte> read_file(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) throw ToolError(exit_bad_input, path.string() + ": cannot be read (" + error.message() + ")");
+  std::vector<std::byte> bytes(size);
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(size)))
+    throw ToolError(exit_bad_input, path.string() + ": cannot be read (" + std::strerror(errno) + ")");
+  return bytes;
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -132,6 +145,22 @@ void require_distinct_files(const CommandFiles& files) {
   if (files.images.empty()) return;
   for (const std::vector<KnownFile>* known : {&inputs, &outputs})
     for (const KnownFile& file : *known) require_not_among_pictures(file, files.images);
+}
+
+void make_image_folder(const std::filesystem::path& folder) {
+  if (folder.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder))
+    throw ToolError(exit_other, "--images: " + folder.string() + " cannot be made (" +
+                                    (error ? error.message() : "it is a file") + "); choose another folder");
+}
+
+std::string as_file_name(const std::string& name) {
+  std::string safe = name;
+  for (char& c : safe)
+    if (c == '/' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '_';
+  return safe;
 }
 
 }  // namespace nook::tool

@@ -1,6 +1,6 @@
-#include "bakers/tool/probe/probe_scene.h"
+#include "bakers/tool/probe_scene.h"
 
-#include "bakers/tool/input_file.h"
+#include "bakers/tool/command_files.h"
 
 namespace nook::tool {
 

@@ -5,8 +5,7 @@
 #include <filesystem>
 
 #include "bakers/tool/baking.h"
-#include "bakers/tool/probe/grid_arguments.h"
-#include "bakers/tool/probe/probe_options.h"
+#include "bakers/tool/probe_options.h"
 #include "sdk/src/core/vec.h"
 
 namespace nook::tool {

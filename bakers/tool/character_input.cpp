@@ -1,9 +1,9 @@
-#include "bakers/tool/character_file.h"
+#include "bakers/tool/character_input.h"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "bakers/tool/input_file.h"
+#include "bakers/tool/command_files.h"
 #include "platform/printable.h"
 
 namespace nook::tool {

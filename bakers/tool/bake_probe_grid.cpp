@@ -6,9 +6,9 @@
 
 #include "bakers/job/probe_bake.h"
 #include "bakers/measure/probe/probe_report.h"
+#include "bakers/tool/bake_probe.h"
 #include "bakers/tool/interrupt.h"
-#include "bakers/tool/probe/bake.h"
-#include "bakers/tool/probe/probe_scene.h"
+#include "bakers/tool/probe_scene.h"
 #include "bakers/tool/tool_error.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"

@@ -1,10 +1,12 @@
-// The basis and the fit of a probe, as options of a command.
+// The options and the arguments of commands on probes: basis, fit and packing, and the places of a grid.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "sdk/src/core/vec.h"
 #include "sdk/src/probe/fit.h"
 #include "sdk/src/probe/probe_file.h"
 
@@ -29,5 +31,15 @@ probe::Packing packing_of(const ProbeOptions& options);
 
 // Returns the options as JSON for recipes and reports.
 nlohmann::ordered_json describe(const ProbeOptions& options, const probe::Basis& basis);
+
+struct BoxArgument {
+  bool given = false;
+  Vec3 low_ws, high_ws;  // metres
+};
+
+// AxBxC. Throws ToolError(bad arguments).
+std::array<std::uint32_t, 3> parse_grid_counts(const std::string& text);
+// x0,y0,z0,x1,y1,z1. Throws ToolError(bad arguments).
+BoxArgument parse_grid_box(const std::string& text);
 
 }  // namespace nook::tool
