@@ -36,7 +36,8 @@ std::string fragment_partner(const std::vector<StageVariable>& outputs) {
   std::size_t location = 0;
   for (const StageVariable& output : outputs)
     for (int element = 0; element < output.locations(); ++element, ++location) {
-      const std::string varying = "v" + std::to_string(location);
+      std::string varying = "v";
+      varying += std::to_string(location);
       text += located("in", location, output) + varying + ";\n";
       body += "  colour += vec4(" + (output.type == "vec3" ? varying : "vec3(" + varying + ")") + ", 1.0);\n";
     }
