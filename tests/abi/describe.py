@@ -49,6 +49,16 @@ def constants(body):
     return out
 
 
+def fields_of(body):
+    """The fields of a structure, each by itself, so that `float a, b;` is what `float a; float b;` is."""
+    fields = []
+    for field in filter(None, (f.strip() for f in body.split(";"))):
+        first, *others = [field] if "(" in field else [part.strip() for part in field.split(",")]
+        kind = re.match(r"(.*?[ *])\w+(?:\[\w+\])*$", first).group(1) if others else ""
+        fields += [first] + [kind + other for other in others]
+    return "; ".join(fields)
+
+
 def describe(paths):
     """The lines of the description, sorted, so that a move between headers changes nothing."""
     lines = set()
@@ -63,8 +73,7 @@ def describe(paths):
             if enumeration:
                 lines |= set(constants(enumeration.group(1)))
             elif structure:
-                fields = "; ".join(f.strip() for f in structure.group(1).split(";") if f.strip())
-                lines.add(f"struct {structure.group(2)} {{ {fields} }}")
+                lines.add(f"struct {structure.group(2)} {{ {fields_of(structure.group(1))} }}")
             elif code.startswith("NOOK_API ") or code.startswith("NOOK_BAKE_API "):
                 lines.add("function " + code.split(" ", 1)[1])
             elif code.startswith("static inline "):

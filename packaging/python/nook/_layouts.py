@@ -57,7 +57,9 @@ NOOK_DESC_GL_CAPTURE = 21
 NOOK_DESC_GL_FRAME = 33
 NOOK_DESC_MATERIAL = 11
 NOOK_DESC_NNAO = 5
+NOOK_DESC_NNAO_DEBUG = 34
 NOOK_DESC_NNAO_FRAME = 6
+NOOK_DESC_NNAO_FRAME_DEBUG = 35
 NOOK_DESC_NNAO_RECORDING = 19
 NOOK_DESC_POSE = 3
 NOOK_DESC_POSE_CHECK = 28
@@ -72,6 +74,7 @@ NOOK_DESC_TRANSFER_VECTORS = 31
 NOOK_DESC_VERTEX_MATCH = 27
 NOOK_DESC_WORLD = 7
 NOOK_DESC_WORLD_FRAME = 8
+NOOK_DESC_WORLD_FRAME_DEBUG = 36
 NOOK_DESC_WORLD_SAMPLE = 20
 NOOK_ERROR_BAD_FILE = -4
 NOOK_ERROR_CANCELLED = -9
@@ -108,6 +111,16 @@ NOOK_MATERIAL_VISIBILITY_MASK = 1
 NOOK_MATERIAL_VISIBILITY_NONE = 0
 NOOK_MODEL_OCCLUDED_DIRECTIONS = 1
 NOOK_MODEL_STATIC_AO = 0
+NOOK_NNAO_PATH_AUTOMATIC = 0
+NOOK_NNAO_PATH_COMPUTE = 2
+NOOK_NNAO_PATH_FRAGMENT = 1
+NOOK_NNAO_SAMPLE_FIRST = 1
+NOOK_NNAO_SAMPLE_MEDIAN = 0
+NOOK_NNAO_SAMPLE_NEAREST = 2
+NOOK_NNAO_VIEW_AO = 0
+NOOK_NNAO_VIEW_BLURRED = 2
+NOOK_NNAO_VIEW_NORMALS = 3
+NOOK_NNAO_VIEW_RAW = 1
 NOOK_OK = 0
 NOOK_POSE_FAULT_INVERTED = 8
 NOOK_POSE_FAULT_KIND = 3
@@ -169,6 +182,12 @@ NOOK_VERSION_PATCH = 0
 NOOK_VERSION_SUFFIX = "-rc1"
 NOOK_WORLD_CONE_PARTS = 16
 NOOK_WORLD_MAX_CASTERS = 64
+NOOK_WORLD_VIEW_AO = 0
+NOOK_WORLD_VIEW_CASTERS = 1
+NOOK_WORLD_VIEW_EXACT_CASTERS = 2
+NOOK_WORLD_VIEW_FAR_CASTERS = 4
+NOOK_WORLD_VIEW_FAR_TESTS = 5
+NOOK_WORLD_VIEW_TESTS = 3
 nook_result = ctypes.c_int32
 
 
@@ -874,6 +893,45 @@ class nook_gl_memory(ctypes.Structure):
     ]
 
 
+nook_nnao_path = ctypes.c_int32
+nook_nnao_sample = ctypes.c_int32
+
+
+class nook_nnao_debug_desc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("type", ctypes.c_uint32),
+        ("next", ctypes.c_void_p),
+        ("path", nook_nnao_path),
+        ("depth_sample", nook_nnao_sample),
+        ("timers", ctypes.c_int32),
+    ]
+
+
+nook_nnao_view = ctypes.c_int32
+
+
+class nook_nnao_frame_debug_desc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("type", ctypes.c_uint32),
+        ("next", ctypes.c_void_p),
+        ("show", nook_nnao_view),
+    ]
+
+
+nook_world_view = ctypes.c_int32
+
+
+class nook_world_frame_debug_desc(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("type", ctypes.c_uint32),
+        ("next", ctypes.c_void_p),
+        ("show", nook_world_view),
+    ]
+
+
 nook_probe_irradiance_form = ctypes.c_int32
 nook_probe_specular_form = ctypes.c_int32
 
@@ -1096,21 +1154,6 @@ class nook_transfer_vectors_desc(ctypes.Structure):
         ("first_vertex", ctypes.c_uint32),
         ("normals", ctypes.POINTER(ctypes.c_float)),
         ("tangents", ctypes.POINTER(ctypes.c_float)),
-    ]
-
-
-class nook_gl_transfer(ctypes.c_void_p):
-    pass
-
-
-class nook_gl_transfer_info(ctypes.Structure):
-    _fields_ = [
-        ("struct_size", ctypes.c_uint32),
-        ("texture", ctypes.c_uint32),
-        ("bytes", ctypes.c_uint64),
-        ("glsl", ctypes.c_char_p),
-        ("form", nook_form),
-        ("vertex_texture", ctypes.c_uint32),
     ]
 
 
