@@ -1,4 +1,5 @@
-// What the character darkens besides itself, and how what others darken reaches its vertices.
+// The casters by which a character darkens the world, and the weights by which casters of others reach its
+// vertices.
 #pragma once
 
 #include <cstdint>
