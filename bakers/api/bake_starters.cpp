@@ -73,6 +73,7 @@ nook_bake_job_s* start_synthesis(const void* desc) {
 nook_bake_job_s* start_transfer(const void* desc) {
   const nook_bake_transfer_desc d = read_descriptor(static_cast<const nook_bake_transfer_desc*>(desc));
   need_threads(d.threads);
+  need_unreserved(d.reserved);
   auto task = std::make_shared<const TransferTask>(transfer_task_of(d));
   return start_job(d, [task](const StageReport& report) { return bake_transfer_file(*task, report); });
 }
