@@ -259,7 +259,7 @@ def clusters():
 
 def frame():
     """The life of a frame."""
-    d = Drawing(900, 330, "The life of a frame: poses, update, AO of vertices, depth, world pass, screen pass, light")
+    d = Drawing(900, 330, "The life of a frame: poses, update, AO of vertices, depth, screen pass, world pass, light")
     y = 40
     for x, words, fill in ((20, "set_pose\nfor each body", PALE), (200, "link_nearest,\nset_camera", PALE),
                            (380, "scene update:\ncull, levels,\nshadows at\nkey points", "#f9e7e1"),
@@ -268,8 +268,8 @@ def frame():
         if x > 20:
             d.line(x - 40, y + 42, x - 2, y + 42, arrow=True)
     y = 200
-    for x, words, fill in ((20, "engine draws\ndepth", "#fff"), (200, "world pass:\ncasters darken\nwhat depth shows", "#f9e7e1"),
-                           (380, "screen pass:\nlinear depth,\nnetwork, filter", "#f9e7e1"), (560, "texture: AO,\nbent normals", PALE),
+    for x, words, fill in ((20, "engine draws\ndepth", "#fff"), (200, "screen pass:\nlinear depth,\nnetwork, filter", "#f9e7e1"),
+                           (380, "world pass:\ncasters darken\nwhat depth shows", "#f9e7e1"), (560, "texture: AO of\neverything", PALE),
                            (740, "engine lights:\nambient × AO", "#fff")):
         d.box(x, y, 140, 84, words, fill)
         if x > 20:

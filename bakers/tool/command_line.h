@@ -1,5 +1,5 @@
-// Commands and their options, by CLI11. Its headers cost every file that includes them four seconds, so that
-// only command_line.cpp and main.cpp do.
+// Commands and their options, by CLI11. Its headers cost every file that includes them four seconds. So only
+// command_line.cpp, command_program.cpp and the main.cpp of the programs do.
 #pragma once
 
 #include <filesystem>

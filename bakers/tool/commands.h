@@ -1,5 +1,6 @@
-// The subcommands. Each adds itself, with its options, to its parent and runs when the parent is parsed; it
-// ends by returning or by throwing ToolError or Failure.
+// The subcommands; peers.h has those that take other methods as well. Each adds itself, with its options, to
+// its parent, and main.cpp calls it. It runs when the parent is parsed, and returns or throws ToolError or
+// Failure.
 #pragma once
 
 namespace nook::tool {

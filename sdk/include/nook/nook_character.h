@@ -332,17 +332,18 @@ static inline nook_result nook_pose_desc_init(nook_pose_desc* desc) {
 }
 
 /* Sets the pose of an instance. Call it once per frame for each instance that moves, before the update. A
- * matrix may have one scale for all axes, which scales the body, and may mirror. The call does not allocate.
- * One at a time. Errors: INVALID_ARGUMENT (a count is wrong, or a matrix is not finite; if strict also a
- * matrix that is sheared or scales unevenly; the message names the bone), INVALID_HANDLE, UNSUPPORTED (the
- * model has no bind data: bake it again from the glTF file, or pass NOOK_POSE_REST_TO_WORLD). */
+ * matrix may have one scale for all axes, which scales the body, and may mirror. A bone whose axes are all
+ * zero shrinks to nothing. On failure the old pose stays. The call does not allocate. One at a time. Errors:
+ * INVALID_ARGUMENT (a count is wrong, or a matrix is not finite; if strict also a matrix that is sheared or
+ * scales unevenly or to zero; the message names the bone), INVALID_HANDLE, UNSUPPORTED (the model has no bind
+ * data: bake it again from the glTF file, or pass NOOK_POSE_REST_TO_WORLD). */
 NOOK_API nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id instance,
                                          const nook_pose_desc* desc);
 
 /* Converts a pose on any thread, such as your animation jobs. Pass the result to nook_scene_set_pose with
  * NOOK_POSE_REST_TO_WORLD and NOOK_TRANSFORM_ROWS_3X4. bones_3x4 takes 12 floats for each of the model's
- * bones. With NOOK_POSE_FLAG_PARTIAL, bones without a transform keep what it holds. The call does not
- * allocate. Any thread. Errors: as nook_scene_set_pose. */
+ * bones; on failure it may hold a part of the result. With NOOK_POSE_FLAG_PARTIAL, bones without a transform
+ * keep what it holds. The call does not allocate. Any thread. Errors: as nook_scene_set_pose. */
 NOOK_API nook_result nook_model_convert_pose(nook_model model, const nook_pose_desc* desc, float* bones_3x4,
                                              uint32_t bone_count);
 

@@ -6,13 +6,13 @@
  * of the hemisphere around the normal, up to the radius. Each frame, after you have drawn depth and before
  * you light:
  *     nook_gl_frame_desc frame;
- *     nook_nnao_frame_desc desc;
+ *     nook_nnao_frame_desc nnao_frame;
  *     nook_gl_frame_desc_init(&frame);
- *     nook_nnao_frame_desc_init(&desc);
+ *     nook_nnao_frame_desc_init(&nnao_frame);
  *     frame.depth_texture = depth;  frame.width = width;  frame.height = height;
  *     memcpy(frame.projection, projection, sizeof frame.projection);
- *     desc.radius = 0.5f;
- *     nook_nnao_render(pass, &frame, &desc);
+ *     nnao_frame.radius = 0.5f;
+ *     nook_nnao_render(nnao, &frame, &nnao_frame);
  * Your shader multiplies the ambient term (not the direct light) by
  *     float ao = texelFetch(nook_ao, ivec2(gl_FragCoord.xy), 0).r;
  * If you wrote an input with image stores, call glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT) before

@@ -28,10 +28,10 @@ extern "C" {
  * With the screen pass, so that both darken once: draw 1 into green of the G-buffer AO where a character is,
  * and its AO into red. The texture of the world pass is then AO of everything.
  *     frame.gbuffer_ao = NOOK_GBUFFER_AO_EXCLUDE;  frame.gbuffer_ao_texture = characters;
- *     nook_nnao_render(nnao, &frame, &nnao_desc);
- *     desc.ao_texture = nnao_info.texture;
- *     nook_world_render(world, &frame, &desc);
- * Under probes and one lamp or sun, with nook_world_desc.coloured, desc.lobes and desc.light_axis:
+ *     nook_nnao_render(nnao, &frame, &nnao_frame);
+ *     world_frame.ao_texture = nnao_info.texture;
+ *     nook_world_render(world, &frame, &world_frame);
+ * Under probes and one lamp or sun, with nook_world_desc.coloured, world_frame.lobes and light_axis:
  *     vec4 open = texelFetch(world_texture, pixel, 0);
  *     colour = albedo / pi * (irradiance_of_lobes * open.rgb + irradiance_of_lamp * open.a); */
 

@@ -1,5 +1,6 @@
-// A scene as plain data, and the steps that evaluate it. The CPU path runs all of them; the GPU path runs the
-// first two on the CPU and the others in shaders, reading the same fields. World space, metres.
+// A scene as plain data, and the steps that evaluate it. The CPU path runs all of them. The GPU path runs
+// only the first one, resolve_casters, on the CPU; shaders do the others, from the same fields. World space,
+// metres.
 #pragma once
 
 #include <nook/experimental/nook_debug.h>

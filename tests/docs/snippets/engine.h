@@ -31,6 +31,7 @@ enum {
   GL_FALSE = 0
 };
 void glBindBuffer(GLenum target, GLuint buffer);
+void glEnableVertexAttribArray(GLuint slot);
 void glBindTexture(GLenum target, GLuint texture);
 void glVertexAttribPointer(GLuint slot, GLint size, GLenum type, unsigned char normalized, GLsizei stride,
                            const void* at);

@@ -1,5 +1,5 @@
 #include <nook/experimental/nook_stages.h>
-extern nook_nnao pass;
+extern nook_nnao nnao;
 extern float view[16];
 extern int camera_was_cut;
 extern uint32_t depth_array, i, number, eye;

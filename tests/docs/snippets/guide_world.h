@@ -1,7 +1,6 @@
-extern nook_world pass;
+extern nook_world world;
 extern nook_nnao nnao;
-extern nook_gl_frame_desc frame;
-extern nook_nnao_frame_desc screen;
+extern nook_nnao_frame_desc nnao_frame;
 extern float open_share_of_light[4];
 extern nook_lobe lobes[12];
 extern uint32_t lobe_count;

@@ -6,7 +6,7 @@
  * nook_nnao_recording_desc itself. Only nook_nnao_record makes OpenGL calls.
  *     nook_nnao_recording recording;
  *     size_t size = 0;
- *     nook_nnao_record(pass, &frame, &desc, "floor too dark", &recording);
+ *     nook_nnao_record(nnao, &frame, &nnao_frame, "floor too dark", &recording);
  *     nook_nnao_recording_save(recording, NULL, &size);
  *     nook_nnao_recording_save(recording, bytes = malloc(size), &size);
  *     nook_nnao_recording_destroy(&recording);
