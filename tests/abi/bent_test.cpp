@@ -10,8 +10,6 @@
 using namespace nook;
 using namespace nook::test;
 
-extern "C" int nook_bent_call_everything(nook_model model, nook_scene scene, nook_instance_id instance);
-
 namespace {
 
 // Half a step of a byte on each of three axes.
@@ -112,7 +110,18 @@ TEST_CASE("models without bent normals are refused, and so are wrong arguments")
   CHECK(bent(with.scene, 99, out.data(), with.count, 0) == NOOK_ERROR_INVALID_HANDLE);
 }
 
-TEST_CASE("a C program reads bent normals") {
+TEST_CASE(
+    "occluded directions are two vectors of bytes, each with a 0 behind it, and bent normals take a stride") {
   const BentStage stage(bent_model());
-  CHECK(nook_bent_call_everything(stage.model, stage.scene, stage.id) == 0);
+  std::vector<std::int8_t> occluded(8 * stage.count, 7), bent(4 * stage.count), wide(8 * stage.count, 7);
+  REQUIRE(nook_model_read(stage.model, NOOK_MODEL_OCCLUDED_DIRECTIONS, occluded.data(), stage.count, 0) ==
+          NOOK_OK);
+  REQUIRE(nook_scene_read(stage.scene, stage.id, NOOK_CHANNEL_BENT_NORMAL, NOOK_FORMAT_SNORM8, bent.data(),
+                          stage.count, 0) == NOOK_OK);
+  REQUIRE(nook_scene_read(stage.scene, stage.id, NOOK_CHANNEL_BENT_NORMAL, NOOK_FORMAT_SNORM8, wide.data(),
+                          stage.count, 8) == NOOK_OK);
+  for (std::size_t i = 0; i < occluded.size(); ++i) {
+    if (i % 4 == 3) CHECK(occluded[i] == 0);
+    CHECK(wide[i] == (i % 8 < 4 ? bent[i / 8 * 4 + i % 8] : 7));
+  }
 }

@@ -23,9 +23,6 @@ std::vector<std::byte> nook_test_clips_bytes() {
   return nook::write_clip_set(sample_clips(sample_model()).set);
 }
 
-extern "C" int nook_clips_call_everything(nook_context context, nook_model model, nook_scene scene,
-                                          nook_instance_id instance, const void* bytes, std::size_t size);
-
 namespace {
 
 nook::CharacterModel casting_model() {
@@ -84,10 +81,41 @@ bool message_has(const char* part) {
 
 }  // namespace
 
-TEST_CASE("clips: every function is called from C") {
+TEST_CASE("clips: a set describes its clips, and a time beyond the end goes around") {
   ClipStage stage;
-  CHECK(nook_clips_call_everything(stage.context, stage.model, stage.scene, stage.ids[0], stage.bytes.data(),
-                                   stage.bytes.size()) == 0);
+  nook_clips_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_clips_describe(stage.clips, &info) == NOOK_OK);
+  CHECK(info.clip_count == 2);
+  CHECK(info.frame_count == 6);
+  CHECK(info.mode_count == 8);
+  CHECK(info.memory_bytes > 0);
+  nook_clip_info clip{};
+  clip.struct_size = sizeof clip;
+  REQUIRE(nook_clips_describe_clip(stage.clips, 1, &clip) == NOOK_OK);
+  CHECK(std::string(clip.name) == "walk");
+  CHECK(clip.first_frame == 1);
+  CHECK(clip.frame_count == 5);
+  const nook_clip_time around{1, NOOK_CLIP_LOOP, 2.25};
+  std::uint32_t frames[2] = {99, 99};
+  float share = -1;
+  REQUIRE(nook_clips_frames(stage.clips, &around, frames, &share) == NOOK_OK);
+  CHECK(frames[0] == 1);
+  CHECK(frames[1] == 2);
+  CHECK(share == 0.5f);
+}
+
+TEST_CASE("clips: a scene keeps the clips of its instances alive") {
+  ClipStage stage;
+  REQUIRE(nook_scene_set_clip(stage.scene, stage.ids[0], stage.clips, &in_walk, nullptr) == NOOK_OK);
+  const std::vector<float> wanted = stage.ao(in_walk);
+  nook_clips_destroy(&stage.clips);
+  CHECK(stage.clips == nullptr);
+  REQUIRE(nook_scene_update(stage.scene) == NOOK_OK);
+  std::vector<float> ao(wanted.size());
+  REQUIRE(nook_scene_read(stage.scene, stage.ids[0], NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, ao.data(),
+                          std::uint32_t(ao.size()), 0) == NOOK_OK);
+  CHECK(ao == wanted);
 }
 
 TEST_CASE("clips: the AO of a time is that of the formula, in every format and with a stride") {
@@ -246,6 +274,9 @@ TEST_CASE("clips: the textures hold modes and weights whose sum is the AO") {
           NOOK_OK);
   REQUIRE(nook_clips_read_table(stage.clips, NOOK_CLIPS_WEIGHTS, nullptr, &size, &width, &height) == NOOK_OK);
   CHECK(size == std::size_t(8) * width * height);
+  std::vector<std::int8_t> weights(size--);
+  CHECK(nook_clips_read_table(stage.clips, NOOK_CLIPS_WEIGHTS, weights.data(), &size, &width, &height) ==
+        NOOK_ERROR_INVALID_ARGUMENT);
   const std::size_t modes_of_vertex = stage.sample.set.ao.modes;
   for (std::size_t i = 0; i < stage.plain.file_to_welded.size(); ++i)
     for (std::size_t k = 0; k < modes_of_vertex; ++k)

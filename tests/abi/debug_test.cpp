@@ -10,12 +10,32 @@
 using namespace nook;
 using namespace nook::test;
 
-extern "C" int nook_debug_call_everything(nook_scene scene, nook_instance_id receiver,
-                                          nook_instance_id caster);
-
-TEST_CASE("every function of nook_debug.h works from C") {
+TEST_CASE("shapes for debug drawing are as many as the instance describes") {
   Stage stage;
-  CHECK(nook_debug_call_everything(stage.scene, stage.first, stage.second) == 0);
+  REQUIRE(nook_scene_link(stage.scene, stage.first, stage.second) == NOOK_OK);
+  REQUIRE(nook_scene_update(stage.scene) == NOOK_OK);
+  nook_scene_instance_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_scene_describe_instance(stage.scene, stage.first, &info) == NOOK_OK);
+  CHECK(info.level == 0);
+  CHECK(info.updated == 1);
+  CHECK(info.bound_radius > 0);
+  constexpr std::uint32_t room = 64;
+  nook_scene_sphere spheres[room];
+  nook_scene_key_point points[room];
+  nook_instance_id links[room];
+  std::uint32_t count = room;
+  REQUIRE(nook_scene_read_spheres(stage.scene, stage.first, spheres, &count) == NOOK_OK);
+  CHECK(count == info.sphere_count);
+  CHECK(spheres[0].radius > 0);
+  count = room;
+  REQUIRE(nook_scene_read_key_points(stage.scene, stage.first, points, &count) == NOOK_OK);
+  REQUIRE(count == info.key_point_count);
+  CHECK(points[count - 1].index == count - 1);
+  count = room;
+  REQUIRE(nook_scene_read_links(stage.scene, stage.first, links, &count) == NOOK_OK);
+  REQUIRE(count == 1);
+  CHECK(links[0] == stage.second);
 }
 
 TEST_CASE("shapes for debug drawing do not allocate") {

@@ -83,6 +83,8 @@ TEST_CASE("materials: modes in blocks take less memory, and other modes are refu
   const std::vector<std::byte> bytes = nook_test_material_bytes();
   nook_material_desc desc;
   REQUIRE(nook_material_desc_init(&desc) == NOOK_OK);
+  CHECK(desc.blocks == NOOK_MATERIAL_BLOCKS_NONE);
+  CHECK(desc.whole_light_modes == 4);
   const auto load = [&](nook_material* out) {
     return nook_material_load(stage.context, bytes.data(), bytes.size(), &desc, out);
   };

@@ -1,4 +1,4 @@
-// The functions of poses and vertices: calls from C, bad arguments, refused allocations, frames without
+// The functions of poses and vertices: good and bad arguments, refused allocations, frames without
 // allocation.
 #include <nook/experimental/nook_lod.h>
 #include <nook/nook_character.h>
@@ -13,8 +13,6 @@
 #include "tests/catch.h"
 
 using namespace nook::test;
-
-extern "C" int nook_call_every_pose_function(const void* bytes, size_t size);
 
 namespace {
 
@@ -62,9 +60,45 @@ std::vector<float> rest_positions(nook_model model) {
 
 }  // namespace
 
-TEST_CASE("every function of the headers of poses and vertices works from C") {
-  const Host host;
-  CHECK(nook_call_every_pose_function(host.bytes.data(), host.bytes.size()) == 0);
+TEST_CASE("the rest pose has no fault, by the bones of a map too") {
+  Stage stage;
+  for (std::size_t b = 0; b < stage.pose.size(); b += 12) stage.pose[b + 3] = 0;
+  std::vector<const char*> names;
+  for (std::uint32_t b = 0; b < stage.info.bone_count; ++b)
+    names.push_back(nook_model_bone_name(stage.model, b));
+  nook_bone_map_desc of_names;
+  REQUIRE(nook_bone_map_desc_init(&of_names) == NOOK_OK);
+  of_names.names = names.data();
+  of_names.name_count = stage.info.bone_count;
+  std::vector<std::int32_t> map(names.size(), -7);
+  std::uint32_t unmatched = 9;
+  REQUIRE(nook_model_map_bones(stage.model, &of_names, map.data(), stage.info.bone_count, &unmatched) ==
+          NOOK_OK);
+  CHECK(unmatched == 0);
+  CHECK(map[1] == 1);
+  nook_pose_desc desc = pose_desc(stage);
+  desc.transform_of_bone = map.data();
+  desc.bone_count = stage.info.bone_count;
+  CHECK(nook_scene_set_pose(stage.scene, stage.first, &desc) == NOOK_OK);
+  const std::vector<float> positions = rest_positions(stage.model);
+  const nook_pose_check_desc check = check_desc(positions);
+  nook_pose_check_info fault{};
+  fault.struct_size = sizeof fault;
+  REQUIRE(nook_model_check_pose(stage.model, &desc, &check, &fault) == NOOK_OK);
+  CHECK(fault.fault == NOOK_POSE_FAULT_NONE);
+  CHECK(fault.text[0] != 0);
+}
+
+TEST_CASE("a vertex of the mesh is found by its position") {
+  const Stage stage;
+  nook_check_vertex_info vertex{};
+  vertex.struct_size = sizeof vertex;
+  REQUIRE(nook_model_describe_check_vertex(stage.model, 0, &vertex) == NOOK_OK);
+  const nook_vertex_match_desc match = match_desc(vertex.mesh_position, 1);
+  std::uint32_t found = NOOK_NO_VERTEX, unmatched = 9;
+  REQUIRE(nook_model_match_vertices(stage.model, &match, &found, &unmatched) == NOOK_OK);
+  CHECK(unmatched == 0);
+  CHECK(found < stage.info.file_vertex_count);
 }
 
 TEST_CASE("a model's info counts its skins and check vertices") {

@@ -1,7 +1,24 @@
 # Fails unless a shared library shows the nook_* functions of its headers and nothing else; of a static one, C symbols alone
 # are looked at, since C++ names carry the namespace nook. -DNM= -DLIBRARY= -DHEADERS=a|b
 cmake_minimum_required(VERSION 3.25)
-include(${CMAKE_CURRENT_LIST_DIR}/declared_functions.cmake)
+
+# nook_declared_functions(OUT HEADER...) : the names of the functions that public headers declare.
+function(nook_declared_functions out)
+  set(names)
+  foreach(header ${ARGN})
+    file(READ ${header} text)
+    string(REGEX MATCHALL "NOOK_API [^;(]*nook_[a-z_0-9]+\\(" declarations "${text}")
+    if(NOT declarations)
+      message(FATAL_ERROR "${header} declares no function; the test on it checks nothing")
+    endif()
+    foreach(declaration ${declarations})
+      string(REGEX REPLACE ".*(nook_[a-z_0-9]+)\\($" "\\1" name "${declaration}")
+      list(APPEND names ${name})
+    endforeach()
+  endforeach()
+  set(${out} ${names} PARENT_SCOPE)
+endfunction()
+
 string(REPLACE "|" ";" HEADERS "${HEADERS}")
 nook_declared_functions(declared ${HEADERS})
 if(LIBRARY MATCHES "\\.so")

@@ -1,4 +1,4 @@
-// nook_synthesis.h: every function from C, bad parameters and bad files.
+// nook_synthesis.h: points of the plane, bad parameters and bad files.
 #include <nook/experimental/nook_synthesis.h>
 
 #include <limits>
@@ -13,9 +13,6 @@
 #include "tests/synthesis/coordinates_sample.h"
 
 using namespace nook::test;
-
-extern "C" int nook_call_every_synthesis_function(const void* synthesis_bytes, std::size_t synthesis_size,
-                                                  const void* material_bytes, std::size_t material_size);
 
 namespace {
 
@@ -35,10 +32,21 @@ std::vector<std::byte> material_bytes() {
 
 }  // namespace
 
-TEST_CASE("every function of coordinate textures, from C") {
-  const std::vector<std::byte> synthesis = synthesis_bytes(), material = material_bytes();
-  CHECK(nook_call_every_synthesis_function(synthesis.data(), synthesis.size(), material.data(),
-                                           material.size()) == 0);
+TEST_CASE("any point of the plane has coordinates in the material") {
+  Stage stage;
+  const std::vector<std::byte> bytes = synthesis_bytes();
+  nook_synthesis synthesis = nullptr;
+  REQUIRE(nook_synthesis_load(stage.context, bytes.data(), bytes.size(), &synthesis) == NOOK_OK);
+  nook_synthesis_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_synthesis_describe(synthesis, &info) == NOOK_OK);
+  CHECK(info.side == 8);
+  CHECK(info.texture_bytes == 8 * 8 * 4);
+  const float plane[4] = {0.25f, 0.5f, -3.5f, 100};
+  float uvs[4] = {-1, -1, -1, -1};
+  REQUIRE(nook_synthesis_material_uvs(synthesis, plane, 2, uvs) == NOOK_OK);
+  for (const float uv : uvs) CHECK((uv >= 0 && uv <= 1));
+  nook_synthesis_destroy(&synthesis);
 }
 
 TEST_CASE("bad parameters of coordinate textures are refused") {
@@ -49,6 +57,8 @@ TEST_CASE("bad parameters of coordinate textures are refused") {
   CHECK(nook_synthesis_load(stage.context, nullptr, 8, &synthesis) == invalid);
   CHECK(nook_synthesis_load(nullptr, bytes.data(), bytes.size(), &synthesis) == invalid);
   CHECK(nook_synthesis_load(stage.context, bytes.data(), bytes.size() - 1, &synthesis) ==
+        NOOK_ERROR_BAD_FILE);
+  CHECK(nook_synthesis_load(stage.context, of_material.data(), of_material.size(), &synthesis) ==
         NOOK_ERROR_BAD_FILE);
   CHECK(synthesis == nullptr);
   REQUIRE(nook_synthesis_load(stage.context, bytes.data(), bytes.size(), &synthesis) == NOOK_OK);

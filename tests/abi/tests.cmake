@@ -12,17 +12,3 @@ function(nook_add_symbols_test library)
            COMMAND ${CMAKE_COMMAND} -DNM=${CMAKE_NM} -DLIBRARY=$<TARGET_FILE:${library}> "-DHEADERS=$<JOIN:${ARGN},|>"
                    -P ${nook_abi_dir}/symbols.cmake)
 endfunction()
-
-# nook_add_called_from_c_test(HEADER TARGET...): the C files of the test programs call every function of the header.
-function(nook_add_called_from_c_test header)
-  if(CMAKE_NM)
-    foreach(target ${ARGN})
-      list(APPEND objects "$<JOIN:$<FILTER:$<TARGET_OBJECTS:${target}>,INCLUDE,\\.c\\.o(bj)?$>,|>")
-    endforeach()
-    list(JOIN objects "|" objects)
-    add_test(NAME called_from_c_${header}
-             COMMAND ${CMAKE_COMMAND} -DNM=${CMAKE_NM} -DHEADER=${PROJECT_SOURCE_DIR}/sdk/include/nook/${header}
-                     "-DOBJECTS=${objects}"
-                     -P ${nook_abi_dir}/called_from_c.cmake)
-  endif()
-endfunction()

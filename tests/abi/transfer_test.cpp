@@ -1,6 +1,7 @@
-// nook_transfer.h: every function from C, bad parameters and bad files.
+// nook_transfer.h: the vectors of a light, bad parameters and bad files.
 #include <nook/experimental/nook_transfer.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -17,8 +18,6 @@
 using namespace nook::test;
 
 std::vector<std::byte> nook_test_material_bytes();
-extern "C" int nook_call_every_transfer_function(const void* transfer_bytes, std::size_t transfer_size,
-                                                 const void* material_bytes, std::size_t material_size);
 
 namespace {
 
@@ -71,9 +70,71 @@ struct Loaded {
 
 }  // namespace
 
-TEST_CASE("transfer: every function, from C") {
-  const std::vector<std::byte> bytes = transfer_bytes(), material = nook_test_material_bytes();
-  CHECK(nook_call_every_transfer_function(bytes.data(), bytes.size(), material.data(), material.size()) == 0);
+TEST_CASE("transfer: a light of a map or of a probe becomes vectors, and they shade") {
+  Loaded l;
+  nook_probe_fit_desc fit_desc;
+  REQUIRE(nook_probe_fit_desc_init(&fit_desc) == NOOK_OK);
+  nook_probe_fit fit = nullptr;
+  REQUIRE(nook_probe_fit_create(l.stage.context, &fit_desc, &fit) == NOOK_OK);
+  nook_probe_desc probe_desc;
+  REQUIRE(nook_probe_desc_init(&probe_desc) == NOOK_OK);
+  const std::vector<float> coefficients(36, 0.3f);
+  probe_desc.functions = fit;
+  probe_desc.coefficients = coefficients.data();
+  nook_probe probe = nullptr;
+  REQUIRE(nook_probe_create(l.stage.context, &probe_desc, &probe) == NOOK_OK);
+  std::vector<float> rgb(3 * 16 * 8, 0.2f);
+  std::fill_n(rgb.begin(), rgb.size() / 2, 1.0f);
+  nook_transfer_light_desc desc;
+  REQUIRE(nook_transfer_light_desc_init(&desc) == NOOK_OK);
+  SECTION("a map") {
+    desc.rgb = rgb.data();
+    desc.width = 16;
+    desc.height = 8;
+  }
+  SECTION("a probe") {
+    desc.probe = probe;
+  }
+  nook_transfer_light light = nullptr;
+  REQUIRE(nook_transfer_light_create(l.stage.context, &desc, &light) == NOOK_OK);
+  const float quarter_turn[9] = {0, 0, 1, 0, 1, 0, -1, 0, 0};
+  nook_transfer_projection_info quality{};
+  quality.struct_size = sizeof quality;
+  REQUIRE(nook_transfer_light_project(light, 19, quarter_turn, l.amplitudes.data(), &quality) == NOOK_OK);
+  // 19 lobes are blurred.
+  CHECK((quality.relative_error > 0 && quality.relative_error < 1));
+  CHECK(quality.negative_share < 0.5f);
+  nook_transfer_response_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_transfer_response_describe(l.response, &info) == NOOK_OK);
+  CHECK(info.vector_floats == 3 * info.light_modes);
+  const nook_transfer_vectors_desc vectors_desc = l.vectors_desc(l.transfer);
+  REQUIRE(nook_transfer_read_vectors(l.response, &vectors_desc, l.vectors.data(), 5, 0) == NOOK_OK);
+  const nook_material_pixel pixel{{0.2f, 0.7f}, {0, 0}, {0, 0}, {0, 0, 1}, {0, 0, 1}};
+  float radiance[3] = {NAN, NAN, NAN};
+  REQUIRE(nook_transfer_shade(l.material, &pixel, l.vectors.data(), info.vector_floats, 1, radiance) ==
+          NOOK_OK);
+  CHECK(std::isfinite(radiance[0] + radiance[1] + radiance[2]));
+  nook_transfer_light_destroy(&light);
+  nook_probe_destroy(&probe);
+  nook_probe_fit_destroy(&fit);
+}
+
+TEST_CASE("transfer: a mesh is checked by its vertices, and a material by its modes") {
+  const Loaded l;
+  nook_transfer_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_transfer_describe(l.transfer, &info) == NOOK_OK);
+  CHECK(info.share_bytes == std::uint64_t(info.lobe_count) * info.vertex_count);
+  nook_transfer_mesh_desc mesh;
+  REQUIRE(nook_transfer_mesh_desc_init(&mesh) == NOOK_OK);
+  mesh.vertex_count = info.vertex_count;
+  CHECK(nook_transfer_check(l.transfer, &mesh, nullptr) == NOOK_OK);
+  CHECK(nook_transfer_check(l.transfer, nullptr, l.material) == NOOK_OK);
+  const std::vector<float> other(3 * info.vertex_count, 7.0f);
+  mesh.positions = other.data();
+  CHECK(nook_transfer_check(l.transfer, &mesh, nullptr) == invalid);
+  CHECK(last_has("positions"));
 }
 
 TEST_CASE("transfer: bad parameters and bad files") {

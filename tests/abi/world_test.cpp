@@ -14,8 +14,6 @@
 using namespace nook;
 using namespace nook::test;
 
-extern "C" int nook_world_call_everything(nook_model model, nook_scene scene);
-
 namespace {
 
 CharacterModel casting_model() {
@@ -92,9 +90,24 @@ float darkest(const std::vector<float>& ao) {
 
 }  // namespace
 
-TEST_CASE("world: every function is called from C") {
-  WorldStage stage;
-  CHECK(nook_world_call_everything(stage.model, stage.scene) == 0);
+TEST_CASE("world: the bodies of a scene darken AO, a light and lobes at one point") {
+  const WorldStage stage;
+  const float position[3] = {-1, -0.9f, 0}, normal[3] = {0, 1, 0};
+  const nook_lobe lobe{{0, 1, 0}, 2, {1, 1, 1}, 0};
+  float ao = -1, light = -1, rgb[3] = {-1, -1, -1};
+  nook_world_sample_desc desc = stage.desc();
+  desc.positions = position;
+  desc.normals = normal;
+  desc.point_count = 1;
+  desc.light_axis[1] = 1;
+  desc.light_degrees = 20;
+  desc.lobes = &lobe;
+  desc.lobe_count = 1;
+  desc.directional_ao = rgb;
+  REQUIRE(nook_world_sample(stage.scene, &desc, &ao, &light) == NOOK_OK);
+  CHECK((ao > 0 && ao < 1));
+  CHECK((light >= 0 && light < 1));
+  CHECK((rgb[0] > 0 && rgb[0] < 1));
 }
 
 TEST_CASE("world: a sphere over a plane has its closed form") {

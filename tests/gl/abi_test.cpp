@@ -1,4 +1,4 @@
-// nook_gl.h as a C program calls it, and as callers of older and newer headers do.
+// nook_gl.h as callers of older and newer headers use it.
 #include "sdk/src/character/model_file.h"
 #include "tests/abi/growing_struct.h"
 #include "tests/gl/crowd.h"
@@ -7,17 +7,8 @@
 using namespace nook;
 using namespace nook::test;
 
-extern "C" int nook_gl_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_proc, void* user);
-
 std::vector<std::byte> nook_test_model_bytes() {
   return write_character_model(sample_model(3));
-}
-
-TEST_CASE("a C program calls every function of nook_gl.h") {
-  NOOK_NEED_CONTEXT(context);
-  const std::vector<std::byte> bytes = nook_test_model_bytes();
-  CHECK(nook_gl_call_everything(bytes.data(), bytes.size(), platform::Context::loader, &context) == 0);
-  CHECK(context.gl().GetError() == GL_NO_ERROR);
 }
 
 TEST_CASE("answers about OpenGL are cut to the caller's struct") {

@@ -1,4 +1,4 @@
-// Materials on the GPU as C and careless hosts use them: any order of destruction, refused allocations,
+// Materials on the GPU as careless hosts use them: any order of destruction, refused allocations,
 // limits, lost contexts.
 #include <cstring>
 #include <string>
@@ -12,9 +12,6 @@
 
 using namespace nook;
 using namespace nook::test;
-
-extern "C" int nook_material_call_everything(const void* bytes, size_t size, nook_gl_proc_fn get_proc,
-                                             void* user);
 
 std::vector<std::byte> nook_test_material_bytes() {
   return material::write_material(material::test::sample_material(3));
@@ -35,13 +32,6 @@ bool message_has(const char* part) {
 }
 
 }  // namespace
-
-TEST_CASE("material: a C program calls every function of nook_material.h and nook_gl.h") {
-  NOOK_NEED_CONTEXT(context);
-  const std::vector<std::byte> bytes = nook_test_material_bytes();
-  CHECK(nook_material_call_everything(bytes.data(), bytes.size(), platform::Context::loader, &context) == 0);
-  CHECK(context.gl().GetError() == GL_NO_ERROR);
-}
 
 TEST_CASE("material: an upload, its nook_gl, its material and its context may go in any order") {
   NOOK_NEED_CONTEXT(context);

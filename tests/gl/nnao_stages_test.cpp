@@ -24,8 +24,6 @@
 using namespace nook;
 using namespace nook::test;
 
-extern "C" int nook_call_every_stages_function(void);
-
 namespace {
 
 constexpr int width = 61, height = 43;
@@ -294,6 +292,23 @@ TEST_CASE("nnao: bad arguments of stages are refused with their name") {
   CHECK(stages == nullptr);
 }
 
-TEST_CASE("nnao: every function of the stages is called from C") {
-  CHECK(nook_call_every_stages_function() == 0);
+TEST_CASE("nnao: stages describe their shaders, the network and the images that they write") {
+  CountedContext host;
+  nook_nnao_stages stages = make_stages(host.handle, pass_desc(width, height));
+  auto info = sized<nook_nnao_stages_info>();
+  NOOK_OK_OR_FAIL(nook_nnao_stages_describe(stages, &info));
+  CHECK(info.stage_count == 5);
+  CHECK(info.network != nullptr);
+  CHECK(info.network_bytes % 16 == 0);
+  for (std::uint32_t i = 0; i < info.stage_count; ++i) {
+    auto stage = sized<nook_nnao_stage_info>();
+    auto image = sized<nook_nnao_image_info>();
+    NOOK_OK_OR_FAIL(nook_nnao_stages_describe_stage(stages, i, &stage));
+    NOOK_OK_OR_FAIL(nook_nnao_stages_describe_image(stages, stage.output, &image));
+    CHECK(std::string_view(stage.fragment_shader).substr(0, 12) == "#version 450");
+    CHECK(image.format != NOOK_NNAO_FORMAT_NONE);
+    CHECK(image.width == width);
+    CHECK(image.height == height);
+  }
+  nook_nnao_stages_destroy(&stages);
 }

@@ -15,9 +15,6 @@
 using namespace nook;
 using namespace nook::test;
 
-extern "C" int nook_synthesis_call_everything(const void* bytes, std::size_t size, nook_gl_proc_fn get_proc,
-                                              void* user);
-
 namespace {
 
 constexpr int count = 64;  // points, one pixel each
@@ -78,12 +75,6 @@ std::vector<float> draw(const GladGLContext& gl, nook_gl_upload synthesis, const
 
 }  // namespace
 
-TEST_CASE("synthesis: a C program calls every function of nook_synthesis.h") {
-  NOOK_NEED_CONTEXT(context);
-  const std::vector<std::byte> bytes = sample_bytes();
-  CHECK(nook_synthesis_call_everything(bytes.data(), bytes.size(), platform::Context::loader, &context) == 0);
-}
-
 TEST_CASE("synthesis: the GLSL gives the points of the CPU reference") {
   NOOK_NEED_CONTEXT(context);
   MaterialFixture fixture(context);
@@ -91,7 +82,9 @@ TEST_CASE("synthesis: the GLSL gives the points of the CPU reference") {
   nook_synthesis synthesis = nullptr;
   nook_gl_upload on_gpu = nullptr;
   NOOK_OK_OR_FAIL(nook_synthesis_load(fixture.host.handle, bytes.data(), bytes.size(), &synthesis));
+  CHECK(nook_gl_upload_synthesis(fixture.gl, nullptr, &on_gpu) == NOOK_ERROR_INVALID_ARGUMENT);
   NOOK_OK_OR_FAIL(nook_gl_upload_synthesis(fixture.gl, synthesis, &on_gpu));
+  CHECK(info_of(on_gpu).bytes == 8 * 8 * 4);
   material::test::Numbers numbers(5);
   std::vector<float> rgb, plane, wanted(2 * count);
   for (int i = 0; i < count; ++i) {

@@ -18,10 +18,6 @@
 using namespace nook;
 using namespace nook::test;
 
-extern "C" int nook_transfer_call_everything(const void* material_bytes, std::size_t material_size,
-                                             const void* transfer_bytes, std::size_t transfer_size,
-                                             nook_gl_proc_fn get_proc, void* user);
-
 namespace {
 
 constexpr int count = 64;  // vertices, one pixel each
@@ -189,17 +185,6 @@ void check_agreement(platform::Context& context, MaterialFixture& fixture, nook_
 
 }  // namespace
 
-TEST_CASE("transfer: a C program calls every function of nook_transfer.h") {
-  NOOK_NEED_CONTEXT(context);
-  const std::vector<std::byte> bytes = material::write_material(material::test::sample_material(2));
-  const material::MaterialTables tables =
-      material::make_tables(material::read_material(bytes), {}, default_memory(), 16);
-  const std::vector<std::byte> baked = transfer::write_transfer(
-      transfer::test::sample_paper(5, 12, tables.btf.light_modes, tables.light_hash));
-  CHECK(nook_transfer_call_everything(bytes.data(), bytes.size(), baked.data(), baked.size(),
-                                      platform::Context::loader, &context) == 0);
-}
-
 TEST_CASE("transfer: the GLSL agrees with the CPU reference to 1/255") {
   NOOK_NEED_CONTEXT(context);
   MaterialFixture fixture(context);
@@ -242,6 +227,9 @@ TEST_CASE(
     check_agreement(context, fixture, material, response, upload(fixture, response, vectors), vectors);
     nook_gl_upload clusters = nullptr;
     NOOK_OK_OR_FAIL(nook_gl_upload_transfer(fixture.gl, transfer, response, 0, &clusters));
+    CHECK(info_of(clusters).texture_count == 2);
+    CHECK(nook_gl_update_transfer(clusters, nullptr, amplitudes.size()) == NOOK_ERROR_INVALID_ARGUMENT);
+    CHECK(nook_gl_update_transfer(clusters, amplitudes.data(), 39) == NOOK_ERROR_INVALID_ARGUMENT);
     NOOK_OK_OR_FAIL(nook_gl_update_transfer(clusters, amplitudes.data(), amplitudes.size()));
     check_agreement(context, fixture, material, response, clusters, vectors);
     nook_transfer_destroy(&transfer);

@@ -14,12 +14,17 @@ using namespace nook;
 using namespace nook::test;
 using namespace nook::test::world;
 
-extern "C" int nook_gl_world_call_everything(nook_gl gl);
-
-TEST_CASE("world: every function of the pass is called from C") {
+TEST_CASE("world: a pass describes its textures and the text for hosts' shaders") {
   NOOK_NEED_CONTEXT(context);
   WorldFixture fixture(context);
-  CHECK(nook_gl_world_call_everything(fixture.gl) == 0);
+  nook_world_info info{};
+  info.struct_size = sizeof info;
+  NOOK_OK_OR_FAIL(nook_world_describe(fixture.made(), &info));
+  CHECK(context.gl().IsTexture(info.texture));
+  CHECK(context.gl().IsTexture(info.caster_texture));
+  CHECK(info.caster_count == 0);
+  CHECK(info.texture_bytes > std::uint64_t(width * height));
+  CHECK(std::strstr(info.glsl, "float nook_world_open(vec3 point, vec3 normal)") != nullptr);
 }
 
 TEST_CASE("world: a sphere and a capsule darken as on the CPU, under every projection") {

@@ -52,8 +52,10 @@ TEST_CASE("the C++ wrapper evaluates on the GPU what it evaluates on the CPU") {
   // The header's promise.
   for (std::uint32_t i = 0; i < count; ++i) CHECK(std::fabs(gpu[i] - cpu[i]) < 2e-3f);
   CHECK(gl.info().ao_bytes >= count * sizeof(float));
+  CHECK_FALSE(std::string(gl.info().renderer).empty());
 
   gl.release(scene);
+  CHECK(gl.info().ao_bytes == 0);
   CHECK_FALSE(context.gl().IsBuffer(view.buffer));
   gl = nook::Gl(host, desc);
   gl.context_lost();
@@ -92,7 +94,10 @@ TEST_CASE("the C++ wrapper uploads a material and deletes its textures") {
   CHECK(textures.size() == 7);
   CHECK(textures[0].uniform == std::string("nook_light_map"));
   CHECK(uploaded.info().bytes == material.info().table_bytes);
-  for (const nook_gl_upload_texture& texture : textures) CHECK(context.gl().IsTexture(texture.texture));
+  for (const nook_gl_upload_texture& texture : textures) {
+    CHECK(context.gl().IsTexture(texture.texture));
+    CHECK(std::string(info.glsl).find(texture.uniform) != std::string::npos);
+  }
   uploaded = nook::Upload();
   for (const nook_gl_upload_texture& texture : textures) CHECK_FALSE(context.gl().IsTexture(texture.texture));
 }
