@@ -89,7 +89,7 @@ for (const name of ["nook_scene_desc", "nook_pose_desc", "nook_gl_frame_desc", "
   "nook_model_info", "nook_scene_info", "nook_material_info", "nook_probe_info", "nook_gl_info"])
   for (const path of layouts.struct(name).fields.keys())
     for (const member of path.split("."))
-      if (!["structSize", "headerVersion", "next", "reserved", "flags", "boneCount", "targetName", "networkSize", ...leftOut].includes(member))
+      if (!["structSize", "type", "next", "reserved", "flags", "boneCount", "targetName", "networkSize", ...leftOut].includes(member))
         assert.match(types, new RegExp(`\\b${member}\\b`), `index.d.ts lacks ${name}.${member}`);
 for (const group of ["nook_pose_kind", "nook_transform_layout", "nook_pose_fault", "nook_gbuffer_ao", "nook_nnao_view", "nook_clip_space",
   "nook_probe_method", "nook_probe_basis", "nook_form", "nook_format"])

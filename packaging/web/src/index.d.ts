@@ -57,6 +57,10 @@ export interface CharacterModelInfo {
   skinCount: number;
   /** The number of vertices of `checkVertex`; 0 without bind data. */
   checkVertexCount: number;
+  /** Memory of the model, of each instance, and of each instance with a light. */
+  modelBytes: number;
+  instanceBytes: number;
+  litInstanceBytes: number;
 }
 export type PoseKind = "rest-to-world" | "joint-to-world" | "skinning";
 export type TransformLayout = "rows-3x4" | "rows-4x4" | "columns-4x4" | "columns-4x3" | "dual-quaternion" | "trs";
