@@ -41,8 +41,9 @@ void main() {
   vec4 open = mix(vec4(1.0), use_screen_ao ? fetch_screen_light() : vec4(1.0), ao_strength);
   vec3 irradiance = ground_irradiance * open.rgb + ground_sun_irradiance * open.a;
 #else
-  vec3 occlusion = mix(vec3(1.0), surface_light, ao_strength);
-  vec3 irradiance = nook_scene_irradiance(light, normalize(surface_normal_ws), occlusion);
+  // Directional AO: the open share of each colour of the light.
+  vec3 open = mix(vec3(1.0), surface_light, ao_strength);
+  vec3 irradiance = nook_scene_irradiance(light, normalize(surface_normal_ws), open);
 #endif
   vec3 seen = 1.0 - exp(-exposure * surface_albedo * irradiance * 0.31830989);
   float distance_m = length(surface_position_ws - eye_ws);
@@ -178,7 +179,7 @@ void Renderer::upload_bones(std::span<const DrawnInstance> instances) {
   gl_.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffers_[bone_matrices]);
 }
 
-// This is all that an engine does with Nook's buffers.
+// An engine binds the values of vertices like this: AO, and directional AO where it uses Nook's lights.
 void Renderer::bind_values(GLuint slot, GLint components, const VertexSource& values) {
   if (values.buffer == 0) {
     gl_.DisableVertexAttribArray(slot);
@@ -225,13 +226,13 @@ void Renderer::draw_ground(const platform::Program& program, const glm::vec3& al
 
 void Renderer::draw_surfaces(std::span<const DrawnInstance> instances, const Camera& camera, float aspect) {
   gl_.Enable(GL_DEPTH_TEST);
-  const glm::mat4 view = clip_from_world(camera, aspect);
+  const glm::mat4 clip_from_ws = clip_from_world(camera, aspect);
   ground_surface_.use();
   gl_.Uniform1f(ground_surface_.uniform("layer_weight"), 0);
-  draw_ground(ground_surface_, glm::vec3(0), view);
+  draw_ground(ground_surface_, glm::vec3(0), clip_from_ws);
   character_surface_.use();
   gl_.Uniform1f(character_surface_.uniform("layer_weight"), 1);
-  draw_characters(character_surface_, instances, view);
+  draw_characters(character_surface_, instances, clip_from_ws);
 }
 
 void Renderer::set_look(const platform::Program& program, const Camera& camera, const Look& look,
@@ -260,8 +261,9 @@ void Renderer::set_look(const platform::Program& program, const Camera& camera, 
   gl_.Uniform3fv(program.uniform("background"), 1, glm::value_ptr(background));
 }
 
-// An engine does no more with Nook's lights: it binds their texture, and for each instance it sets the number
-// of its light and binds its directional AO.
+// For Nook's lights, an engine adds look.glsl to its fragment shader and binds the texture of lights once
+// (set_look). For each instance it sets the number of its light and binds its directional AO
+// (draw_characters).
 void Renderer::draw(std::span<const DrawnInstance> instances, const Camera& camera, const Look& look) {
   if (!character_) {
     character_.emplace(
@@ -280,11 +282,11 @@ void Renderer::draw(std::span<const DrawnInstance> instances, const Camera& came
   const glm::vec3 background = 1.0f - glm::exp(-look.light.exposure * look.light.radiance(ahead));
   gl_.ClearColor(background.r, background.g, background.b, 1);
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  const glm::mat4 view = clip_from_world(camera, float(viewport[2]) / float(viewport[3]));
+  const glm::mat4 clip_from_ws = clip_from_world(camera, float(viewport[2]) / float(viewport[3]));
   set_look(*ground_, camera, look, background);
-  draw_ground(*ground_, ground_albedo, view);
+  draw_ground(*ground_, ground_albedo, clip_from_ws);
   set_look(*character_, camera, look, background);
-  draw_characters(*character_, instances, view);
+  draw_characters(*character_, instances, clip_from_ws);
 }
 
 }  // namespace crowd

@@ -89,12 +89,15 @@ class Renderer {
 inline constexpr glm::vec3 ground_albedo{0.36f, 0.36f, 0.37f};
 
 // The sample's shaders, for OpenGL 3.3 core. Fragment shaders write linear light to an sRGB target.
-// Characters: linear blend skinning with the bones in a texture buffer, three texels for each bone.
+// Both vertex shaders also write surface_ao, plain AO. Only the fragment shaders of nook-lab-crowd read it:
+// the sample's take directional AO from surface_light. Characters: linear blend skinning with the bones in a
+// texture buffer, three texels for each bone.
 extern const char* const character_vertex;
 // One big quad on y = 0, made from gl_VertexID.
 extern const char* const ground_vertex;
 extern const char* const glsl_version;
-// The functions fetch_screen_light() and fetch_screen_ao(), by which a fragment reads ScreenAo.
+// The function fetch_screen_light(), by which a fragment reads ScreenAo, and for nook-lab-crowd
+// fetch_screen_ao(), its red.
 extern const char* const fetch_screen_glsl;
 
 }  // namespace crowd

@@ -38,7 +38,7 @@ glm::vec3 albedo_of(std::size_t character) {
   // Linear reflectances of plaster, sand, terracotta, sage, slate and rose.
   static const glm::vec3 colours[] = {{0.62f, 0.60f, 0.56f}, {0.58f, 0.48f, 0.34f}, {0.52f, 0.28f, 0.19f},
                                       {0.34f, 0.43f, 0.30f}, {0.27f, 0.36f, 0.46f}, {0.54f, 0.38f, 0.37f}};
-  return colours[character * 7 % 6];
+  return colours[character % 6];
 }
 
 }  // namespace
@@ -55,6 +55,7 @@ CrowdScene::CrowdScene(platform::Context& context, const Hero& hero, std::span<c
     scene_.set_ground(instances_.back(), ground_plane);
   }
   link_nearest(size.neighbours);
+  // Makes the buffers now, so that the first frame allocates nothing, and gl_.view has an answer before it.
   gl_.prepare(scene_);
 }
 
@@ -89,6 +90,9 @@ void CrowdScene::set_light(std::span<const nook_lobe> lobes) {
 
 void CrowdScene::set_poses(const std::vector<Bones>& poses) {
   nook_pose_desc desc = nook::pose_desc();
+  // The importer of the bakers gives rest-to-world matrices. An engine leaves kind and layout at their
+  // defaults, NOOK_POSE_SKINNING and NOOK_TRANSFORM_COLUMNS_4X4, and passes the matrices of its vertex
+  // shader.
   desc.kind = NOOK_POSE_REST_TO_WORLD;
   desc.layout = NOOK_TRANSFORM_ROWS_3X4;
   for (std::size_t i = 0; i < instances_.size(); ++i) {
@@ -103,6 +107,8 @@ void CrowdScene::set_camera(const glm::vec3& eye_ws) {
 }
 
 void CrowdScene::update(std::uint32_t terms) {
+  // For the check boxes of the window. set_terms is experimental, and an engine does not need it: all terms
+  // are on by default.
   nook::set_terms(scene_, terms);
   gl_.update(scene_);
 }

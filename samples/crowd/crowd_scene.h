@@ -32,13 +32,15 @@ class CrowdScene {
   void set_light(std::span<const nook_lobe> lobes);
   // One pose for each character.
   void set_poses(const std::vector<Bones>& poses);
-  // Levels of detail follow the distance to the camera.
+  // Levels of detail follow the distance to the camera, if lod_error of the scene's descriptor is above 0. It
+  // is 0 in the sample, so that all characters have full detail.
   void set_camera(const glm::vec3& eye_ws);
   // Evaluates the AO and leaves it on the GPU. The terms (NOOK_TERM_*) are what darkens a character.
   void update(std::uint32_t terms = NOOK_TERM_ALL);
   // All characters with the results of the last update, in the poses that it had.
   std::vector<DrawnInstance> drawn(const std::vector<Bones>& poses) const;
-  // The light of all characters in the last update.
+  // The light of the last update. All characters have the same lobes, and the texture and the GLSL are the
+  // scene's, so that the view of the first one is enough to bind them. drawn() holds what differs.
   nook_gl_view light() const { return gl_.view(scene_, instances_[0], NOOK_CHANNEL_DIRECTIONAL_AO); }
 
   nook::Scene& scene() { return scene_; }

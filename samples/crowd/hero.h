@@ -7,8 +7,8 @@
 
 namespace crowd {
 
-// The skinning matrices of one character: 12 floats for each bone, the three rows of a matrix that takes the
-// rest pose to world space.
+// A pose of one character: 12 floats for each bone, the three rows of a matrix from rest space to world space
+// (NOOK_POSE_REST_TO_WORLD). The skinning matrices of an engine start in the space of the mesh instead.
 using Bones = std::vector<float>;
 
 struct Clip {

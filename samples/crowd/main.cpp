@@ -28,6 +28,23 @@ struct Options {
   std::vector<std::string> debug;
 };
 
+#ifdef CROWD_HAS_WINDOW
+constexpr bool has_window = true;
+#else
+constexpr bool has_window = false;
+#endif
+
+// Refuses a window in a program that was built without ImGui, and options that only a window obeys.
+void require_window(const CLI::App& app, const Options& o) {
+  if (o.context == "window" && !has_window)
+    throw CLI::ValidationError(
+        "--context",
+        "this program was built without a window: install ImGui and configure again, or use egl");
+  if (o.context == "window") return;
+  for (const char* option : {"--debug", "--debug-bodies", "--window-picture"})
+    if (app.count(option) > 0) throw CLI::ValidationError(option, "needs --context window");
+}
+
 // Returns the code of the program's end, or -1 to go on.
 int parse(int argc, char** argv, Options& o) {
   CLI::App app("Draws a crowd of animated characters with Nook's ambient occlusion.");
@@ -62,6 +79,7 @@ int parse(int argc, char** argv, Options& o) {
     if (std::sscanf(o.size.c_str(), "%dx%d%c", &o.width_px, &o.height_px, &rest) != 2 ||
         std::min(o.width_px, o.height_px) < 16 || std::max(o.width_px, o.height_px) > 8192)
       throw CLI::ValidationError("--size", "got '" + o.size + "', need WIDTHxHEIGHT from 16x16 to 8192x8192");
+    require_window(app, o);
     return -1;
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;
@@ -85,6 +103,7 @@ void draw_frames(platform::Context& context, const Hero& hero, const std::vector
     scene.update();
     const std::vector<DrawnInstance> drawn = scene.drawn(poses);
     const nook_gl_view view = scene.light();
+    // The fog begins behind the crowd.
     Look look{light, view.texture, view.glsl, 1, 1.2f * radius_m + 8, {}};
     look.screen_ao = passes.draw(renderer, drawn, camera, scene.scene().get(), &light);
     const auto write = [&](const char* name) {

@@ -12,6 +12,7 @@
 
 namespace crowd {
 
+// The defaults are those of NOOK_NNAO_PRESET_BEST: a picture may take longer than a frame of a game.
 struct ScreenQuality {
   int taps = 32;
   bool half_resolution = false;

@@ -42,6 +42,8 @@ TEST_CASE("bad arguments end with code 2, a bad character with 3") {
   CHECK(run("--size 3 2> /dev/null") == 2);
   CHECK(run("--tier 40 2> /dev/null") == 2);
   CHECK(run("--debug bones 2> /dev/null") == 2);
+  CHECK(run("--context egl --debug spheres 2> /dev/null") == 2);
+  CHECK(run("--context egl --window-picture picture.png 2> /dev/null") == 2);
   CHECK(run("no_such_file.glb 2> /dev/null") == 2);
   const Folder folder;
   std::ofstream(folder.path / "broken.glb") << "not a character";
