@@ -4,8 +4,9 @@
 #include <cmath>
 #include <functional>
 
+#include "bakers/character/blend_weights.h"
 #include "bakers/character/block_descent.h"
-#include "bakers/character/caster_fit.h"
+#include "bakers/character/caster_weights.h"
 #include "bakers/character/export_model.h"
 #include "bakers/character/fit_state.h"
 #include "bakers/character/initialise.h"

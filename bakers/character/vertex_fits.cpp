@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bakers/character/caster_fit.h"
+#include "bakers/character/blend_weights.h"
 #include "bakers/character/export_model.h"
 #include "bakers/character/initialise.h"
 #include "bakers/character/linear_fit.h"

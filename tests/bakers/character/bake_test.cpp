@@ -5,7 +5,7 @@
 #include <tbb/global_control.h>
 
 #include "bakers/character/block_descent.h"
-#include "bakers/character/caster_fit.h"
+#include "bakers/character/caster_weights.h"
 #include "bakers/character/export_model.h"
 #include "bakers/character/mini_batch_fit.h"
 #include "bakers/measure/character/character_error.h"

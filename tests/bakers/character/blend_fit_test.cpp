@@ -1,5 +1,5 @@
 // Blend weights on a bending tube, in poses that their fit has not seen.
-#include "bakers/character/caster_fit.h"
+#include "bakers/character/blend_weights.h"
 
 #include <cmath>
 
