@@ -2,24 +2,9 @@
 
 #include <algorithm>
 
-#include "sdk/src/character/shadow_kernels.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook {
-
-const ShadowKernels* shadow_kernels(Isa isa) {
-  if (!isa_available(isa)) return nullptr;
-#define NOOK_ISA_ENTRY(name, value, built, runs) \
-  if constexpr (built)                           \
-    if (isa == Isa::name) return &isa_##name::kernels();
-#include "sdk/src/core/isa_list.inl"
-  return nullptr;
-}
-
-const ShadowKernels& best_shadow_kernels() {
-  return *shadow_kernels(choose_isa(NOOK_ISA_AUTO));
-}
-
 namespace {
 
 void check_bone(const CharacterModel& model, std::uint16_t bone, const char* owner, std::size_t index) {
