@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sdk/src/character/levels.h"
+#include "bakers/character/levels.h"
 #include "sdk/src/character/scene_readings.h"
 #include "tests/catch.h"
 #include "tests/character/scene_sample.h"
@@ -75,7 +75,8 @@ TEST_CASE("shapes for debug drawing are those of the kernels, also in scaled pos
 
 TEST_CASE("shapes for debug drawing are those of the level of detail") {
   CharacterModel data = sample_model(41, {6, 60, 120, 400, 40, 4});
-  for (const CharacterLevel& level : make_levels(data, turned_poses(data))) data.levels.push_back(level);
+  for (const CharacterLevel& level : nook::bake::make_levels(data, turned_poses(data)))
+    data.levels.push_back(level);
   REQUIRE(!data.levels.empty());
   SceneSettings settings;
   settings.lod_error = 1;

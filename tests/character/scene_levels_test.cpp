@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sdk/src/character/levels.h"
+#include "bakers/character/levels.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"
@@ -34,7 +34,7 @@ std::vector<std::vector<Mat3x4>> random_poses(std::uint32_t seed, std::size_t co
 CharacterModel model_with_levels() {
   CharacterModel model = sample_model(41, {6, 60, 120, 400, 40, 4});
   for (float& alpha : model.alpha) alpha *= 0.3f;
-  for (const CharacterLevel& level : make_levels(model, random_poses(1, 80, model.bone_count())))
+  for (const CharacterLevel& level : bake::make_levels(model, random_poses(1, 80, model.bone_count())))
     model.levels.push_back(level);
   return model;
 }
@@ -148,6 +148,6 @@ TEST_CASE("a level may follow the paper's form and survives being flipped at eve
 
 TEST_CASE("levels need poses") {
   const CharacterModel model = sample_model();
-  CHECK_THROWS_AS(make_levels(model, random_poses(1, 3, model.bone_count())), Failure);
-  CHECK_THROWS_AS(make_levels(model, random_poses(1, 8, model.bone_count() - 1)), Failure);
+  CHECK_THROWS_AS(bake::make_levels(model, random_poses(1, 3, model.bone_count())), Failure);
+  CHECK_THROWS_AS(bake::make_levels(model, random_poses(1, 8, model.bone_count() - 1)), Failure);
 }

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "sdk/src/character/levels.h"
+#include "bakers/character/levels.h"
 #include "sdk/src/core/failure.h"
 #include "tests/catch.h"
 #include "tests/character/scene_sample.h"
@@ -42,7 +42,7 @@ TEST_CASE("under constant light every vertex keeps its AO, in either form and at
   CharacterModel data = sample_model();
   std::vector<std::vector<Mat3x4>> poses;
   for (int i = 0; i < 8; ++i) poses.push_back(stiff_pose(data, {float(i), 0, 0}, 0.7f * float(i)));
-  for (CharacterLevel& level : make_levels(data, poses)) data.levels.push_back(std::move(level));
+  for (CharacterLevel& level : nook::bake::make_levels(data, poses)) data.levels.push_back(std::move(level));
   const auto model = load(std::move(data));
   REQUIRE(!model->model.levels.empty());
   for (const nook_form combine : {NOOK_FORM_DEFAULT, NOOK_FORM_PAPER})

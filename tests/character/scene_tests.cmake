@@ -1,4 +1,6 @@
+# Levels are made by the bakers, of which these tests need no other part.
 add_executable(nook_scene_tests
+  ${PROJECT_SOURCE_DIR}/bakers/character/levels.cpp
   bent_normal_test.cpp
   clips_test.cpp
   model_file_test.cpp

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "sdk/src/character/levels.h"
+#include "bakers/character/levels.h"
 #include "sdk/src/character/model_file.h"
 #include "tests/pose_of_rows.h"
 
@@ -127,7 +127,7 @@ float add_levels(CharacterModel& model) {
   Numbers numbers(3);
   std::vector<std::vector<Mat3x4>> poses;
   for (int i = 0; i < 12; ++i) poses.push_back(random_pose(numbers, model.bone_count()));
-  for (const CharacterLevel& level : make_levels(model, poses)) model.levels.push_back(level);
+  for (const CharacterLevel& level : bake::make_levels(model, poses)) model.levels.push_back(level);
   return model.levels.back().error_rms;
 }
 

@@ -9,7 +9,7 @@
 #include "sdk/src/core/memory.h"
 #include "sdk/src/core/vec.h"
 
-namespace nook {
+namespace nook::bake {
 
 struct LevelShare {
   float spheres = 0.5f;     // share of the model's; at least one for each bone that has any
@@ -25,4 +25,4 @@ std::vector<CharacterLevel> make_levels(const CharacterModel& model,
                                         std::span<const std::vector<Mat3x4>> poses,
                                         std::span<const LevelShare> shares = default_level_shares);
 
-}  // namespace nook
+}  // namespace nook::bake

@@ -1,4 +1,4 @@
-#include "sdk/src/character/levels.h"
+#include "bakers/character/levels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "sdk/src/character/shadow_kernels_rest.h"
 #include "sdk/src/core/failure.h"
 
-namespace nook {
+namespace nook::bake {
 namespace {
 
 // The shadows at all key points in several poses.
@@ -255,4 +255,4 @@ std::vector<CharacterLevel> make_levels(const CharacterModel& model,
   return levels;
 }
 
-}  // namespace nook
+}  // namespace nook::bake
