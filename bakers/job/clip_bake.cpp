@@ -21,7 +21,7 @@ void require_between(const char* name, double value, double low, double high) {
     fail_range(NOOK_ERROR_INVALID_ARGUMENT, name, NumberText(value), NumberText(low), NumberText(high));
 }
 
-std::string recipe_of(const ImportedCharacter& character, const ClipTask& task) {
+std::string clip_recipe(const ImportedCharacter& character, const ClipTask& task) {
   Json recipe;
   recipe["frames_per_second"] = task.frames_per_second;
   recipe["rays"] = task.rays;
@@ -89,7 +89,7 @@ BakedFile bake_clips_file(const ImportedCharacter& character, const CharacterMod
       measure_noise_floor(character.mesh, frames.poses, targets, task.rays, task.tables.seed);
   ClipTableReport tables;
   ClipSet set = make_clip_set(character.mesh, model, frames, targets, noise, task.tables, tables);
-  set.recipe = recipe_of(character, task);
+  set.recipe = clip_recipe(character, task);
   BakedFile file;
   file.model = write_clip_set(set);
   Json report;

@@ -63,7 +63,7 @@ nook::synthesis::Coordinates coordinates_of(const SynthesisTask& task, const std
   return out;
 }
 
-Json recipe_of(const SynthesisTask& task) {
+Json synthesis_recipe(const SynthesisTask& task) {
   Json recipe;
   if (!task.source.empty()) recipe["source"] = task.source;
   recipe["tiling"] = task.exemplar.shape.is_tiling;
@@ -112,7 +112,7 @@ BakedFile bake_synthesis_file(const SynthesisTask& task, const StageReport& prog
                          after =
                              synthesis::measure_seams(task.exemplar, plane, std::int32_t(task.settings.side));
   nook::synthesis::Coordinates coordinates = coordinates_of(task, plane);
-  coordinates.recipe = recipe_of(task).dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
+  coordinates.recipe = synthesis_recipe(task).dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
   BakedFile file;
   file.model = nook::synthesis::write_coordinates(coordinates);
   Json report;

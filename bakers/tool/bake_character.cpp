@@ -62,7 +62,7 @@ nook_bake_character_desc desc_of(const Options& options, const std::vector<const
   return desc;
 }
 
-bake::Recipe recipe_of(const Options& options, const bake::ImportedCharacter& character) {
+bake::Recipe requested_recipe(const Options& options, const bake::ImportedCharacter& character) {
   nook_bake_character_study_desc study;
   nook_bake_character_study_desc_init(&study);
   study.clip_split = options.split;
@@ -74,7 +74,7 @@ bake::Recipe recipe_of(const Options& options, const bake::ImportedCharacter& ch
 }
 
 bake::BakedFile bake(const Options& options, const bake::ImportedCharacter& character) {
-  const bake::Recipe recipe = recipe_of(options, character);
+  const bake::Recipe recipe = requested_recipe(options, character);
   platform::ProgressBar bar(options.common.quiet);
   return bake::bake_by_recipe(character, recipe, {},
                               [&](bake::JobStage stage, std::size_t done, std::size_t total) {

@@ -51,12 +51,12 @@ void draw(const Options& options, const measure::BakedCharacter& baked, const st
 }
 
 Json evaluate(const Options& options) {
-  const measure::BakedCharacter baked = read_evaluated_files(options.files);
+  const measure::BakedCharacter baked = read_evaluated_files(options.files, options.common);
   require_clips(options.poses.clips, baked.character);
   std::vector<measure::GlossyMap> maps;
   for (const std::filesystem::path& path : options.maps)
     maps.push_back({path.stem().string(), measure::coarse_map(read_map(path), map_columns)});
-  const std::optional<bake::Recipe> recipe = measure::recipe_of(baked);
+  const std::optional<bake::Recipe> recipe = measure::stored_recipe(baked);
   const measure::EvaluatedPoses measured =
       measure::choose_poses(baked.character, recipe ? &*recipe : nullptr, options.poses);
   measure::BentStudy study = options.study;

@@ -45,7 +45,7 @@ Json report_of(const std::vector<bake::CasterRow>& rows, std::uint64_t seed) {
 }
 
 Json evaluate(const Options& options) {
-  const measure::BakedCharacter baked = read_evaluated_files(options.files);
+  const measure::BakedCharacter baked = read_evaluated_files(options.files, options.common);
   bake::CasterStudy study = options.study;
   study.seed = options.common.seed;
   platform::ProgressBar bar(options.common.quiet);

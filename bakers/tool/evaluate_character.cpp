@@ -31,7 +31,7 @@ struct Options {
 };
 
 std::optional<bake::Recipe> known_recipe(const BakedCharacter& baked, const Options& options) {
-  const auto recipe = naming_file(options.files.model, [&] { return recipe_of(baked); });
+  const auto recipe = naming_file(options.files.model, [&] { return stored_recipe(baked); });
   if (recipe && recipe->source_hash != baked.character.source_hash && !options.common.quiet)
     std::fprintf(stderr, "%s: the character file has changed since the bake; the numbers mix old and new\n",
                  platform::printable(options.files.model.string()).c_str());
@@ -39,7 +39,7 @@ std::optional<bake::Recipe> known_recipe(const BakedCharacter& baked, const Opti
 }
 
 Json evaluate(const Options& options, std::span<const CharacterPeer> peers) {
-  const BakedCharacter baked = read_evaluated_files(options.files);
+  const BakedCharacter baked = read_evaluated_files(options.files, options.common);
   require_clips(options.poses.clips, baked.character);
   const std::optional<bake::Recipe> recipe = known_recipe(baked, options);
   const EvaluatedPoses measured = choose_poses(baked.character, recipe ? &*recipe : nullptr, options.poses);

@@ -49,7 +49,7 @@ Json row_of(const bake::ClipErrorRow& measured) {
 }
 
 Json evaluate(const Options& options) {
-  const measure::BakedCharacter baked = read_evaluated_files(options.files);
+  const measure::BakedCharacter baked = read_evaluated_files(options.files, options.common);
   const std::vector<std::byte> bytes = read_file(options.clips);
   const ClipSet set = naming_file(options.clips, [&] {
     ClipSet read = read_clip_set(bytes);

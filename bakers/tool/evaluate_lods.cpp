@@ -46,8 +46,8 @@ Json row_of(double share, const bake::LodRow& lod, const bake::ErrorColumns& ful
 }
 
 Json evaluate(const Options& options) {
-  const BakedCharacter baked = read_evaluated_files(options.files);
-  const std::optional<bake::Recipe> recipe = recipe_of(baked);
+  const BakedCharacter baked = read_evaluated_files(options.files, options.common);
+  const std::optional<bake::Recipe> recipe = stored_recipe(baked);
   if (!recipe)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the model holds no recipe of its training poses; bake it again");

@@ -90,10 +90,10 @@ void draw_lit_rooms(const Options& options, const measure::BakedCharacter& baked
 }
 
 Json evaluate(const Options& options) {
-  const measure::BakedCharacter baked = read_evaluated_files(options.files);
+  const measure::BakedCharacter baked = read_evaluated_files(options.files, options.common);
   require_clips(options.poses.clips, baked.character);
   const std::optional<bake::Recipe> recipe =
-      naming_file(options.files.model, [&] { return measure::recipe_of(baked); });
+      naming_file(options.files.model, [&] { return measure::stored_recipe(baked); });
   const measure::EvaluatedPoses measured =
       measure::choose_poses(baked.character, recipe ? &*recipe : nullptr, options.poses);
   measure::WorldStudy study = options.study;

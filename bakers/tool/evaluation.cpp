@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "bakers/job/worker_arena.h"
+#include "bakers/tool/character_input.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/common_options.h"
@@ -43,9 +44,8 @@ std::vector<NamedFile> named_files(const EvaluatedFiles& files) {
   return {{"the character", files.character}, {"the model", files.model}};
 }
 
-measure::BakedCharacter read_evaluated_files(const EvaluatedFiles& files) {
-  auto imported =
-      naming_file(files.character, [&] { return measure::read_character(files.character, files.linked); });
+measure::BakedCharacter read_evaluated_files(const EvaluatedFiles& files, const CommonOptions& options) {
+  bake::ImportedCharacter imported = read_character(files.character, files.linked, options);
   auto bytes = read_file(files.model);
   return naming_file(files.model,
                      [&] { return measure::read_baked_character(std::move(imported), std::move(bytes)); });

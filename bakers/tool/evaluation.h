@@ -33,7 +33,8 @@ void add_evaluated_files(Command command, EvaluatedFiles& files);
 // Returns both as inputs of the command.
 std::vector<NamedFile> named_files(const EvaluatedFiles& files);
 
-// Throws ToolError (bad input) that names the file: one that cannot be read, or a model of another character.
-measure::BakedCharacter read_evaluated_files(const EvaluatedFiles& files);
+// Prints the character's warnings. Throws ToolError (bad input) that names the file: one that cannot be read,
+// or a model of another character.
+measure::BakedCharacter read_evaluated_files(const EvaluatedFiles& files, const CommonOptions& options);
 
 }  // namespace nook::tool

@@ -125,7 +125,7 @@ report::PageParts body_of(const Job& job) {
                   "the .glb or .gltf file that it was baked from");
   require_shape(job, "character model");
   const measure::BakedCharacter baked =
-      read_evaluated_files({job.sources.shape, job.options.file, job.options.linked});
+      read_evaluated_files({job.sources.shape, job.options.file, job.options.linked}, job.options.common);
   job.show_shape();
   report::BodySettings settings = job.options.body;
   settings.seed = job.options.common.seed;

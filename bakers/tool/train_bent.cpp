@@ -29,7 +29,7 @@ struct Options {
 
 Json train(const Options& options) {
   platform::OutputFile output(options.output);
-  const measure::BakedCharacter baked = read_evaluated_files(options.files);
+  const measure::BakedCharacter baked = read_evaluated_files(options.files, options.common);
   measure::PoseChoice choice;
   choice.most = options.poses;
   const measure::EvaluatedPoses measured = measure::choose_poses(baked.character, nullptr, choice);

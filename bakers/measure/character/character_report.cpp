@@ -122,7 +122,7 @@ std::uint64_t evaluation_ray_seed(std::uint64_t seed) {
   return mix_bits(seed ^ 0x6576616c75617465ull);
 }
 
-std::optional<Recipe> recipe_of(const BakedCharacter& baked) {
+std::optional<Recipe> stored_recipe(const BakedCharacter& baked) {
   if (baked.model.recipe.empty()) return std::nullopt;
   return read_recipe(baked.character, std::string_view(baked.model.recipe));
 }

@@ -17,7 +17,7 @@
 namespace nook::measure {
 
 // The recipe in the model's file; none where the model holds none. Throws Failure (BAD_FILE).
-std::optional<bake::Recipe> recipe_of(const BakedCharacter& baked);
+std::optional<bake::Recipe> stored_recipe(const BakedCharacter& baked);
 
 // Another method to measure beside the model: it is fitted to the model's own training poses. Its name ends
 // its keys in the row: mse_NAME, mse_NAME_visible, mse_area_NAME, bytes_NAME and tuned_NAME.

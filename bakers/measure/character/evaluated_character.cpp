@@ -27,10 +27,6 @@ std::vector<std::size_t> named_clips(const ImportedCharacter& character,
 
 }  // namespace
 
-bake::ImportedCharacter read_character(const std::filesystem::path& path, bake::LinkedFiles linked) {
-  return bake::import_gltf(path, linked);
-}
-
 BakedCharacter read_baked_character(bake::ImportedCharacter character, std::vector<std::byte> model_bytes) {
   BakedCharacter baked;
   baked.character = std::move(character);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,9 +18,6 @@ struct BakedCharacter {
   std::vector<std::byte> model_bytes;
   CharacterModel model;
 };
-
-// Throws Failure (BAD_FILE) for a character that cannot be imported.
-bake::ImportedCharacter read_character(const std::filesystem::path& path, bake::LinkedFiles linked);
 
 // Throws Failure (BAD_FILE, FILE_VERSION) for bytes that are no model, or the model of another character.
 BakedCharacter read_baked_character(bake::ImportedCharacter character, std::vector<std::byte> model_bytes);

@@ -236,7 +236,7 @@ Html warnings_of(const ImportedCharacter& character) {
 PageParts body_parts(const BakedCharacter& baked, const BodySettings& settings,
                      const measure::StageProgress& progress) {
   const SkinnedMesh& mesh = baked.character.mesh;
-  const std::optional<Recipe> recipe = measure::recipe_of(baked);
+  const std::optional<Recipe> recipe = measure::stored_recipe(baked);
   const Recipe* known = recipe ? &*recipe : nullptr;
   Poses chosen = choose(baked, known, settings);
   const std::string protocol = chosen.protocol;
