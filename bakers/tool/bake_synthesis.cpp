@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "bakers/job/synthesis_bake.h"
-#include "bakers/measure/synthesis/plane_picture.h"
+#include "bakers/measure/material/plane_picture.h"
 #include "bakers/tool/baking.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"

@@ -25,7 +25,7 @@ using Contact = std::tuple<std::string, std::string, float, float, float, float>
 struct Options {
   CommonOptions common;
   EvaluatedFiles files;
-  bake::CasterStudy study;
+  measure::CasterStudy study;
   std::size_t poses = 4;
   Contact contact;
   std::filesystem::path images;
@@ -37,7 +37,7 @@ std::string picture_name(float distance_m) {
   return name;
 }
 
-Json report_of(const std::vector<bake::CasterRow>& rows, std::uint64_t seed) {
+Json report_of(const std::vector<measure::CasterRow>& rows, std::uint64_t seed) {
   Json report;
   report["rows"] = measure::caster_rows(rows);
   report["seed"] = seed;
@@ -46,28 +46,28 @@ Json report_of(const std::vector<bake::CasterRow>& rows, std::uint64_t seed) {
 
 Json evaluate(const Options& options) {
   const measure::BakedCharacter baked = read_evaluated_files(options.files, options.common);
-  bake::CasterStudy study = options.study;
+  measure::CasterStudy study = options.study;
   study.seed = options.common.seed;
   platform::ProgressBar bar(options.common.quiet);
   const bake::SkinnedMesh& mesh = baked.character.mesh;
   if (!std::get<0>(options.contact).empty()) {
     const auto& [receiver, caster, x, y, z, degrees] = options.contact;
-    const bake::BodyPair pair = measure::contact_pair(baked, receiver, caster, {x, y, z}, degrees);
+    const measure::BodyPair pair = measure::contact_pair(baked, receiver, caster, {x, y, z}, degrees);
     if (!options.images.empty())
       measure::write_pair_picture(options.images / "contact.png", mesh, baked.model, pair, study);
-    return report_of(bake::measure_pair(mesh, baked.model, pair, study), study.seed);
+    return report_of(measure::measure_pair(mesh, baked.model, pair, study), study.seed);
   }
   const std::vector<bake::Pose> poses = measure::caster_poses(baked.character, options.poses);
   const auto rows =
-      bake::measure_casters(mesh, baked.model, poses, study, [&](std::size_t done, std::size_t total) {
+      measure::measure_casters(mesh, baked.model, poses, study, [&](std::size_t done, std::size_t total) {
         bar.show("ray tracing neighbours", "pairs", done, total);
         return !interrupted();
       });
   if (!options.images.empty())
     for (const float distance : study.distances) {
-      const float distance_m = bake::distance_in_metres(study, baked.model, distance);
+      const float distance_m = measure::distance_in_metres(study, baked.model, distance);
       measure::write_pair_picture(options.images / picture_name(distance_m), mesh, baked.model,
-                                  bake::body_pair(baked.model, poses, 0, 0, study.bearings, distance_m),
+                                  measure::body_pair(baked.model, poses, 0, 0, study.bearings, distance_m),
                                   study);
     }
   return report_of(rows, study.seed);

@@ -21,14 +21,14 @@ struct Options {
   CommonOptions common;
   EvaluatedFiles files;
   std::filesystem::path clips;
-  bake::ClipStudy study;
+  measure::ClipStudy study;
 };
 
 double ratio(double error, double baseline) {
   return baseline > 0 ? error / baseline : 0;
 }
 
-Json row_of(const bake::ClipErrorRow& measured) {
+Json row_of(const measure::ClipErrorRow& measured) {
   Json row;
   row["at"] = measured.at;
   row["distance_m"] = measured.distance_m;
@@ -56,14 +56,14 @@ Json evaluate(const Options& options) {
     check_clip_model(read, baked.model);
     return read;
   });
-  bake::ClipStudy study = options.study;
+  measure::ClipStudy study = options.study;
   study.seed = measure::evaluation_ray_seed(options.common.seed);
   platform::ProgressBar bar(options.common.quiet);
-  const auto rows =
-      bake::measure_clips(baked.character, baked.model, set, study, [&](std::size_t done, std::size_t total) {
-        bar.show("ray tracing", "poses", done, total);
-        return !interrupted();
-      });
+  const auto rows = measure::measure_clips(baked.character, baked.model, set, study,
+                                           [&](std::size_t done, std::size_t total) {
+                                             bar.show("ray tracing", "poses", done, total);
+                                             return !interrupted();
+                                           });
   const double values = double(set.frame_count) * double(set.ao.rows);
   Json report;
   report["character"] = options.files.character.stem().string();
@@ -77,7 +77,7 @@ Json evaluate(const Options& options) {
   report["bytes_per_frame_vertex"] = double(bytes.size()) / values;
   report["bytes_per_frame_vertex_with_model"] = double(bytes.size() + baked.model_bytes.size()) / values;
   report["rows"] = Json::array();
-  for (const bake::ClipErrorRow& row : rows) report["rows"].push_back(row_of(row));
+  for (const measure::ClipErrorRow& row : rows) report["rows"].push_back(row_of(row));
   report["seed"] = options.common.seed;
   return report;
 }

@@ -27,13 +27,13 @@ struct Options {
   std::size_t training_poses = 300;
 };
 
-Json row_of(double share, const bake::LodRow& lod, const bake::ErrorColumns& full) {
+Json row_of(double share, const LodRow& lod, const ErrorColumns& full) {
   const auto ratio = [](double error, double baseline) { return baseline > 0 ? error / baseline : 0; };
   Json row;
   row["share"] = share;
   row["triangles"] = lod.triangles;
   row["vertices"] = lod.vertices;
-  const auto add = [&](const std::string& form, const bake::ErrorColumns& error) {
+  const auto add = [&](const std::string& form, const ErrorColumns& error) {
     row["mse_visible" + form] = error.mse_visible;
     row["mse" + form] = error.mse;
     row["ratio_to_full_visible" + form] = ratio(error.mse_visible, full.mse_visible);
@@ -63,8 +63,8 @@ Json evaluate(const Options& options) {
     return !interrupted();
   };
   const bake::SkinnedMesh& mesh = baked.character.mesh;
-  const bake::ErrorColumns full =
-      bake::evaluate_character(mesh, baked.model, measured.poses, options.rays, seed, progress).model;
+  const ErrorColumns full =
+      evaluate_character(mesh, baked.model, measured.poses, options.rays, seed, progress).model;
   Json report;
   report["character"] = options.files.character.stem().string();
   report["protocol"] = measured.protocol;
@@ -77,11 +77,11 @@ Json evaluate(const Options& options) {
   report["mse_area"] = full.mse_area;
   report["rows"] = Json::array();
   for (const double share : options.shares)
-    report["rows"].push_back(row_of(
-        share,
-        bake::measure_lod(bake::simplified(mesh, share), baked.model, training,
-                          {options.rays, options.common.seed}, measured.poses, options.rays, seed, progress),
-        full));
+    report["rows"].push_back(
+        row_of(share,
+               measure_lod(simplified(mesh, share), baked.model, training,
+                           {options.rays, options.common.seed}, measured.poses, options.rays, seed, progress),
+               full));
   report["seed"] = options.common.seed;
   return report;
 }

@@ -85,11 +85,9 @@ room(bakers/transfer bakers/transfer bakers/tensor ${ground} sdk/src/material sd
 set(makers bakers/character bakers/world bakers/nnao bakers/probe bakers/material bakers/synthesis bakers/tensor
     bakers/transfer ${ground} ${systems})
 room(bakers/images bakers/images platform ${makers})
-room(bakers/measure/truth bakers/measure/truth sdk/src/core)
 # Glossy characters are lit by the form of the screen pass with numbers of their own.
-room(bakers/measure/character bakers/measure/character bakers/measure/truth bakers/images bakers/character bakers/nnao ${ground} sdk/src/character
+room(bakers/measure/character bakers/measure/character bakers/images bakers/character bakers/nnao ${ground} sdk/src/character
      sdk/src/nnao shaders/character/specular_numbers.h)
-room(bakers/measure/synthesis bakers/measure/synthesis bakers/images sdk/src/core sdk/src/material sdk/src/synthesis)
 room(bakers/measure/transfer bakers/measure/transfer bakers/measure/material/raw_reflectance.h bakers/images bakers/transfer
      ${stopwatch} ${ground} sdk/src/material sdk/src/transfer)
 # Floors are lit by the lobes of maps.
@@ -100,8 +98,9 @@ room(bakers/measure/nnao bakers/measure/nnao bakers/nnao platform ${ground} sdk/
 room(bakers/measure/composite bakers/measure/composite bakers/measure/nnao bakers/measure/world bakers/nnao bakers/world
      platform ${ground} sdk/src/character sdk/src/world sdk/src/nnao)
 room(bakers/measure/probe bakers/measure/probe bakers/probe ${ground} sdk/src/probe)
+# Materials are shown on planes that a coordinate texture spreads them over.
 room(bakers/measure/material bakers/measure/material bakers/images bakers/material bakers/tensor
-     ${ground} sdk/src/material)
+     ${ground} sdk/src/material sdk/src/synthesis)
 # Pages show what the other measures have, and draw nothing.
 room(bakers/measure/report bakers/measure bakers/images platform ${makers})
 room(bakers/job bakers/job ${process} ${makers})

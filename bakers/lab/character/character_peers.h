@@ -15,9 +15,9 @@ namespace nook::lab {
 // or matrix entries, scaled or not), a ridge on the coefficients, and the rank to which the matrix of all
 // vertices' coefficients is reduced: the best for the left-out poses, or a smaller one that costs them at
 // most 0.5 %. Deterministic on any number of threads.
-std::unique_ptr<bake::PoseRegression> fit_linear_pose(const bake::SkinnedMesh& mesh,
-                                                      std::span<const bake::Pose> poses,
-                                                      const bake::AoTargets& targets);
+std::unique_ptr<measure::PoseRegression> fit_linear_pose(const bake::SkinnedMesh& mesh,
+                                                         std::span<const bake::Pose> poses,
+                                                         const bake::AoTargets& targets);
 
 // Ambient occlusion by clusters of poses, each with a linear model of its own (Kirk & Arikan 2007, "Real-Time
 // Ambient Occlusion for Dynamic Character Skins"). Poses are grouped by k-means in joint parameters; in each
@@ -26,9 +26,9 @@ std::unique_ptr<bake::PoseRegression> fit_linear_pose(const bake::SkinnedMesh& m
 // hold in the fits). Tuned by cross-validation over runs of poses: how rotations become parameters, the
 // metric of poses, the number of clusters, the rank of the basis, a ridge and the width of the blend; of all
 // within 0.5 % of the best, the smallest. Deterministic for a seed on any number of threads.
-std::unique_ptr<bake::PoseRegression> fit_pose_clusters(const bake::SkinnedMesh& mesh,
-                                                        std::span<const bake::Pose> poses,
-                                                        const bake::AoTargets& targets,
-                                                        std::uint64_t seed = 1);
+std::unique_ptr<measure::PoseRegression> fit_pose_clusters(const bake::SkinnedMesh& mesh,
+                                                           std::span<const bake::Pose> poses,
+                                                           const bake::AoTargets& targets,
+                                                           std::uint64_t seed = 1);
 
 }  // namespace nook::lab

@@ -16,6 +16,7 @@ namespace nook::lab {
 namespace {
 
 using namespace bake;
+using namespace measure;
 
 using Eigen::Index;
 

@@ -15,6 +15,7 @@ namespace nook::lab {
 namespace {
 
 using namespace bake;
+using namespace measure;
 
 using Eigen::Index;
 

@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <nook/nook_bake.hpp>
 
-#include "bakers/measure/truth/visible_truth.h"
+#include "bakers/measure/character/character_error.h"
 
 namespace nook::lab::crowd {
 namespace {

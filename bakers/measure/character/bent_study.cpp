@@ -216,7 +216,7 @@ BentBody bent_body(const bake::SkinnedMesh& mesh, const CharacterModel& model, c
   BentBody body;
   bake::skin_positions(mesh, pose, body.position);
   bake::vertex_normals(mesh.triangle, body.position, body.normal);
-  body.ao = bake::predict_ao(model, pose);
+  body.ao = predict_ao(model, pose);
   for (std::size_t v = 0; v < body.position.size(); ++v)
     body.bent.push_back(
         bent_normal(body.normal[v], skinned(mesh.weights[v], pose, model.occluded[v].at(body.ao[v]))));

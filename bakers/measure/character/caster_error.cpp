@@ -10,8 +10,10 @@
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/failure.h"
 
-namespace nook::bake {
+namespace nook::measure {
 namespace {
+
+using namespace bake;
 
 // The pose turned about the vertical axis through the body's centre, then moved along the ground.
 Pose placed(const Pose& pose, Vec3 centre, float yaw_radians, Vec3 move) {
@@ -270,4 +272,4 @@ std::vector<CasterRow> measure_pair(const SkinnedMesh& mesh, const CharacterMode
   return rows;
 }
 
-}  // namespace nook::bake
+}  // namespace nook::measure

@@ -10,7 +10,7 @@
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "sdk/src/character/model.h"
 
-namespace nook::bake {
+namespace nook::measure {
 
 // Means are by area, over the receiver's vertices outside the neighbour, bearings and poses. Darkening is the
 // AO of the body alone minus that with the neighbour.
@@ -44,36 +44,37 @@ float distance_in_metres(const CasterStudy& study, const CharacterModel& model, 
 
 // Two bodies in world space.
 struct BodyPair {
-  Pose receiver, caster;
+  bake::Pose receiver, caster;
 };
 
 // Pose p of the receiver and the next one of the caster, which is turned and stands at a bearing of its
 // centre.
-BodyPair body_pair(const CharacterModel& model, std::span<const Pose> poses, std::size_t p,
+BodyPair body_pair(const CharacterModel& model, std::span<const bake::Pose> poses, std::size_t p,
                    std::size_t bearing, std::size_t bearings, float distance_m);
 
 // The caster turned about the vertical axis through its centre, and moved from the receiver's centre by
 // `offset` (x, y and z, metres).
-BodyPair body_pair(const CharacterModel& model, const Pose& receiver, const Pose& caster, Vec3 offset,
-                   float yaw_radians);
+BodyPair body_pair(const CharacterModel& model, const bake::Pose& receiver, const bake::Pose& caster,
+                   Vec3 offset, float yaw_radians);
 
 // The traced AO of the receiver's vertices, alone and with the caster.
 struct TracedPair {
   std::vector<float> alone, together;
 };
-TracedPair trace_pair(const SkinnedMesh& mesh, const BodyPair& pair, std::uint32_t rays, std::uint64_t seed);
+TracedPair trace_pair(const bake::SkinnedMesh& mesh, const BodyPair& pair, std::uint32_t rays,
+                      std::uint64_t seed);
 
 // The AO of a receiver with one linked caster, by the runtime itself. Nothing is culled.
 std::vector<float> linked_ao(const CharacterModel& model, const BodyPair& pair);
 
 // poses: of the receiver, each also of the caster in turn; placed on +y-up ground. Two rows a distance.
-std::vector<CasterRow> measure_casters(const SkinnedMesh& mesh, const CharacterModel& model,
-                                       std::span<const Pose> poses, const CasterStudy& study,
-                                       const Progress& progress = {});
+std::vector<CasterRow> measure_casters(const bake::SkinnedMesh& mesh, const CharacterModel& model,
+                                       std::span<const bake::Pose> poses, const CasterStudy& study,
+                                       const bake::Progress& progress = {});
 
 // One pair: means over the vertices of both bodies, each darkened by the other. Two rows, whose distance is
 // along the ground.
-std::vector<CasterRow> measure_pair(const SkinnedMesh& mesh, const CharacterModel& model,
+std::vector<CasterRow> measure_pair(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                     const BodyPair& pair, const CasterStudy& study);
 
-}  // namespace nook::bake
+}  // namespace nook::measure

@@ -13,8 +13,10 @@
 #include "sdk/src/character/loaded_model.h"
 #include "sdk/src/character/scene.h"
 
-namespace nook::bake {
+namespace nook::measure {
 namespace {
+
+using namespace bake;
 
 float linear_ao(const CharacterModel& model, std::size_t vertex, const float* shadow) {
   float dark = model.bias[vertex];
@@ -238,4 +240,4 @@ RegressionError measure_regression(const PoseRegression& regression, std::span<c
   return total;
 }
 
-}  // namespace nook::bake
+}  // namespace nook::measure

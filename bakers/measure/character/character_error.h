@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "bakers/import/skinned_mesh.h"
-#include "bakers/measure/truth/visible_truth.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "sdk/src/character/model.h"
 
-namespace nook::bake {
+namespace nook::measure {
 
-using measure::visible_truth;
+// Vertex-poses whose ray-traced AO is below this are black: inside the body or in a fist, where no camera
+// sees them and any model is right that says 0. Two rays of 128 reach it.
+inline constexpr double visible_truth = 0.01;
 
 struct ErrorColumns {
   double mse = 0;  // over all welded vertices and poses, as the paper has it
@@ -38,7 +39,7 @@ struct CharacterEvaluation {
   // mse_visible over those in which the vertex is visible.
   ErrorColumns model, static_bake, oracle;
   std::vector<PoseErrorSums> pose_visible;  // a value a pose
-  AoTargets truth;                          // what was measured against, for other methods on the same
+  bake::AoTargets truth;                    // what was measured against, for other methods on the same
   std::vector<float> vertex_rms;  // of the model, a value a welded vertex: what a picture of the error shows
 };
 
@@ -46,13 +47,13 @@ struct CharacterEvaluation {
 std::vector<float> predict_ao(const CharacterModel& model, std::span<const Mat3x4> bones);
 
 // The error against targets that are given, a row for each pose; rays and noise_floor_mse stay 0.
-CharacterEvaluation score_character(const SkinnedMesh& mesh, const CharacterModel& model,
-                                    std::span<const Pose> poses, AoTargets targets);
+CharacterEvaluation score_character(const bake::SkinnedMesh& mesh, const CharacterModel& model,
+                                    std::span<const bake::Pose> poses, bake::AoTargets targets);
 
 // Targets are traced with rays for each vertex under another seed than the fit's.
-CharacterEvaluation evaluate_character(const SkinnedMesh& mesh, const CharacterModel& model,
-                                       std::span<const Pose> poses, std::uint32_t rays, std::uint64_t seed,
-                                       const Progress& progress = {});
+CharacterEvaluation evaluate_character(const bake::SkinnedMesh& mesh, const CharacterModel& model,
+                                       std::span<const bake::Pose> poses, std::uint32_t rays,
+                                       std::uint64_t seed, const bake::Progress& progress = {});
 
 // The error of the runtime's own update of a lone instance, which groups far spheres as far_error allows (0:
 // none, which differs from the scalar reference by rounding alone).
@@ -60,32 +61,31 @@ struct UpdateErrors {
   double mse = 0;          // over all welded vertices and poses
   double mse_visible = 0;  // over those vertex-poses whose truth is at least visible_truth
 };
-UpdateErrors measure_update(const CharacterModel& model, std::span<const Pose> poses, const AoTargets& truth,
-                            float far_error);
+UpdateErrors measure_update(const CharacterModel& model, std::span<const bake::Pose> poses,
+                            const bake::AoTargets& truth, float far_error);
 
 // Splits vertices for mse_body and mse_hands: true where a hand bone (by role) or a bone below it holds most
 // of the weight.
-std::vector<char> hand_vertices(const SkinnedMesh& mesh);
+std::vector<char> hand_vertices(const bake::SkinnedMesh& mesh);
 
 // A fitted pose -> AO regression that can be evaluated in any pose: another method than the model.
 class PoseRegression {
  public:
   virtual ~PoseRegression() = default;
   // A value a welded vertex, clamped to [0, 1].
-  virtual std::vector<float> predict(const Pose& pose) const = 0;
+  virtual std::vector<float> predict(const bake::Pose& pose) const = 0;
   virtual std::size_t model_bytes() const = 0;  // with half floats
   virtual std::string description() const = 0;  // what cross-validation chose, for reports
 };
 
 struct RegressionError {
-  double mse = 0;  // over all welded vertices and poses
-  double mse_visible =
-      0;                // over those vertex-poses whose truth is at least visible_truth, see visible_truth.h
-  double mse_area = 0;  // weighted by vertex_area
+  double mse = 0;          // over all welded vertices and poses
+  double mse_visible = 0;  // over those vertex-poses whose truth is at least visible_truth
+  double mse_area = 0;     // weighted by vertex_area
 };
 
 // Clamped predictions against targets of the same poses.
-RegressionError measure_regression(const PoseRegression& regression, std::span<const Pose> poses,
-                                   const AoTargets& targets, std::span<const float> vertex_area);
+RegressionError measure_regression(const PoseRegression& regression, std::span<const bake::Pose> poses,
+                                   const bake::AoTargets& targets, std::span<const float> vertex_area);
 
-}  // namespace nook::bake
+}  // namespace nook::measure

@@ -25,8 +25,7 @@ void write_pictures(const std::filesystem::path& directory, const bake::SkinnedM
 // Two bodies, each darkened by itself and the other, obliquely from before: traced, predicted, |error| x 4,
 // then the same from behind. The file's directory is created.
 void write_pair_picture(const std::filesystem::path& path, const bake::SkinnedMesh& mesh,
-                        const CharacterModel& model, const bake::BodyPair& pair,
-                        const bake::CasterStudy& study);
+                        const CharacterModel& model, const BodyPair& pair, const CasterStudy& study);
 
 struct GlossyPictureSettings {
   float roughness = 0.3f;

@@ -108,8 +108,8 @@ void add_peers(Json& row, const ImportedCharacter& character, const Recipe* reci
 // The runtime's update with the far_error that scenes have by default, and with exact sums.
 void add_update_errors(Json& row, const CharacterModel& model, std::span<const Pose> poses,
                        const AoTargets& truth) {
-  const UpdateErrors by_default = bake::measure_update(model, poses, truth, SceneSettings().far_error),
-                     exact = bake::measure_update(model, poses, truth, 0);
+  const UpdateErrors by_default = measure_update(model, poses, truth, SceneSettings().far_error),
+                     exact = measure_update(model, poses, truth, 0);
   row["mse_update"] = by_default.mse;
   row["mse_update_exact"] = exact.mse;
   row["mse_update_visible"] = by_default.mse_visible;

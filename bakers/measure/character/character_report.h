@@ -23,9 +23,8 @@ std::optional<bake::Recipe> stored_recipe(const BakedCharacter& baked);
 // its keys in the row: mse_NAME, mse_NAME_visible, mse_area_NAME, bytes_NAME and tuned_NAME.
 struct CharacterPeer {
   const char* name;
-  std::unique_ptr<bake::PoseRegression> (*fit)(const bake::SkinnedMesh& mesh,
-                                               std::span<const bake::Pose> training,
-                                               const bake::AoTargets& targets, std::uint64_t seed);
+  std::unique_ptr<PoseRegression> (*fit)(const bake::SkinnedMesh& mesh, std::span<const bake::Pose> training,
+                                         const bake::AoTargets& targets, std::uint64_t seed);
 };
 
 struct CharacterReportSettings {
@@ -40,7 +39,7 @@ using StageProgress = std::function<bake::Progress(const char* stage)>;
 
 struct CharacterReport {
   nlohmann::ordered_json row;
-  bake::CharacterEvaluation evaluation;
+  CharacterEvaluation evaluation;
 };
 
 // Throws Failure (INVALID_ARGUMENT) for other methods where the model's training poses cannot be made again.
@@ -55,8 +54,8 @@ std::uint64_t evaluation_ray_seed(std::uint64_t seed);
 std::vector<bake::Pose> caster_poses(const bake::ImportedCharacter& character, std::size_t count);
 // Two bodies in the middles of two clips, the caster moved from the receiver's middle by `offset` metres and
 // turned about the vertical axis. Throws Failure (INVALID_ARGUMENT) for an unknown clip.
-bake::BodyPair contact_pair(const BakedCharacter& baked, const std::string& receiver_clip,
-                            const std::string& caster_clip, Vec3 offset, float turn_degrees);
-nlohmann::ordered_json caster_rows(const std::vector<bake::CasterRow>& rows);
+BodyPair contact_pair(const BakedCharacter& baked, const std::string& receiver_clip,
+                      const std::string& caster_clip, Vec3 offset, float turn_degrees);
+nlohmann::ordered_json caster_rows(const std::vector<CasterRow>& rows);
 
 }  // namespace nook::measure

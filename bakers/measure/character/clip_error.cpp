@@ -11,8 +11,10 @@
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/failure.h"
 
-namespace nook::bake {
+namespace nook::measure {
 namespace {
+
+using namespace bake;
 
 // A time of a clip of the set, and the pose that the file has there.
 struct TimedPose {
@@ -235,4 +237,4 @@ std::vector<ClipErrorRow> measure_clips(const ImportedCharacter& character, cons
   return rows;
 }
 
-}  // namespace nook::bake
+}  // namespace nook::measure

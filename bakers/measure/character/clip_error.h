@@ -11,7 +11,7 @@
 #include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/model.h"
 
-namespace nook::bake {
+namespace nook::measure {
 
 struct ClipStudy {
   std::uint32_t rays = 128;
@@ -36,7 +36,8 @@ struct ClipErrorRow {
 };
 
 // The set is that of the character and the model. Throws Failure(NOOK_ERROR_CANCELLED).
-std::vector<ClipErrorRow> measure_clips(const ImportedCharacter& character, const CharacterModel& model,
-                                        const ClipSet& set, const ClipStudy& study, const Progress& progress);
+std::vector<ClipErrorRow> measure_clips(const bake::ImportedCharacter& character, const CharacterModel& model,
+                                        const ClipSet& set, const ClipStudy& study,
+                                        const bake::Progress& progress);
 
-}  // namespace nook::bake
+}  // namespace nook::measure

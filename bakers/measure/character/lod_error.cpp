@@ -8,8 +8,10 @@
 #include "sdk/src/character/host_vertices.h"
 #include "sdk/src/core/failure.h"
 
-namespace nook::bake {
+namespace nook::measure {
 namespace {
+
+using namespace bake;
 
 constexpr std::uint32_t unused = UINT32_MAX;
 
@@ -103,4 +105,4 @@ LodRow measure_lod(const LodMesh& lod, const CharacterModel& model, std::span<co
   return row;
 }
 
-}  // namespace nook::bake
+}  // namespace nook::measure

@@ -8,16 +8,16 @@
 #include "bakers/character/vertex_fits.h"
 #include "bakers/measure/character/character_error.h"
 
-namespace nook::bake {
+namespace nook::measure {
 
 // The mesh with about `share` of its triangles, by edge collapses of meshoptimizer, which keep vertices where
 // they are; collapses that would change the topology end it earlier. welded_vertex gives for each vertex that
 // of the full mesh.
 struct LodMesh {
-  SkinnedMesh mesh;
+  bake::SkinnedMesh mesh;
   std::vector<std::uint32_t> welded_vertex;
 };
-LodMesh simplified(const SkinnedMesh& mesh, double share);
+LodMesh simplified(const bake::SkinnedMesh& mesh, double share);
 
 struct LodRow {
   std::size_t triangles = 0, vertices = 0;
@@ -28,8 +28,8 @@ struct LodRow {
 
 // Truth is traced on the mesh of less detail, with its own normals. The refitted form is fitted to the
 // training poses. Throws Failure: BAD_FILE (a model without rest positions), CANCELLED.
-LodRow measure_lod(const LodMesh& lod, const CharacterModel& model, std::span<const Pose> training,
-                   const RefitSettings& refit, std::span<const Pose> measured, std::uint32_t rays,
-                   std::uint64_t seed, const Progress& progress = {});
+LodRow measure_lod(const LodMesh& lod, const CharacterModel& model, std::span<const bake::Pose> training,
+                   const bake::RefitSettings& refit, std::span<const bake::Pose> measured, std::uint32_t rays,
+                   std::uint64_t seed, const bake::Progress& progress = {});
 
-}  // namespace nook::bake
+}  // namespace nook::measure

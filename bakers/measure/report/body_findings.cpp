@@ -7,7 +7,7 @@
 
 #include "bakers/character/rig_anatomy.h"
 #include "bakers/import/skinned_mesh.h"
-#include "bakers/measure/truth/visible_truth.h"
+#include "bakers/measure/character/character_error.h"
 
 namespace nook::report {
 namespace {

@@ -17,7 +17,7 @@ namespace nook::report {
 namespace {
 
 using namespace bake;
-using measure::BakedCharacter;
+using namespace measure;
 
 constexpr std::size_t shown_clips = 3, shown_places = 4, listed_joints = 20, listed_clips = 40;
 constexpr std::size_t turnable_bytes = 5'000'000;
@@ -234,15 +234,15 @@ Html warnings_of(const ImportedCharacter& character) {
 }  // namespace
 
 PageParts body_parts(const BakedCharacter& baked, const BodySettings& settings,
-                     const measure::StageProgress& progress) {
+                     const StageProgress& progress) {
   const SkinnedMesh& mesh = baked.character.mesh;
-  const std::optional<Recipe> recipe = measure::stored_recipe(baked);
+  const std::optional<Recipe> recipe = stored_recipe(baked);
   const Recipe* known = recipe ? &*recipe : nullptr;
   Poses chosen = choose(baked, known, settings);
   const std::string protocol = chosen.protocol;
   CharacterEvaluation evaluation =
-      evaluate_character(mesh, baked.model, chosen.poses, settings.rays,
-                         measure::evaluation_ray_seed(settings.seed), progress("ray tracing"));
+      evaluate_character(mesh, baked.model, chosen.poses, settings.rays, evaluation_ray_seed(settings.seed),
+                         progress("ray tracing"));
   const MeasuredBody body = measured_body(baked, std::move(chosen), std::move(evaluation.truth));
   const BodyFindings found = find_errors(mesh, body, shown_places);
   const Measures measures = measures_of(baked, known, found, evaluation, body.poses.size());

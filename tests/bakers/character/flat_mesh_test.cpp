@@ -10,6 +10,7 @@
 
 using namespace nook;
 using namespace nook::bake;
+using namespace nook::measure;
 
 TEST_CASE("a flag bakes and follows poses that it has not seen") {
   const FlagSides sides = GENERATE(FlagSides::front, FlagSides::both);

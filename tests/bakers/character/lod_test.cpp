@@ -12,6 +12,7 @@
 
 using namespace nook;
 using namespace nook::bake;
+using namespace nook::measure;
 
 namespace {
 

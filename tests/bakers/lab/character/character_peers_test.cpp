@@ -14,6 +14,7 @@
 
 using namespace nook;
 using namespace nook::bake;
+using namespace nook::measure;
 using namespace nook::lab;
 
 namespace {

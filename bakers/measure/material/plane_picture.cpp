@@ -1,4 +1,4 @@
-#include "bakers/measure/synthesis/plane_picture.h"
+#include "bakers/measure/material/plane_picture.h"
 
 #include <tbb/parallel_for.h>
 
