@@ -10,7 +10,7 @@
 #include "bakers/job/synthesis_bake.h"
 #include "bakers/job/transfer_bake.h"
 #include "bakers/job/vertex_bakes.h"
-#include "bakers/job/worker_arena.h"
+#include "bakers/raytrace/worker_arena.h"
 
 namespace nook::bake::api {
 namespace {

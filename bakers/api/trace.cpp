@@ -7,9 +7,9 @@
 #include "bakers/api/bake_descriptors.h"
 #include "bakers/api/bake_entry.h"
 #include "bakers/job/caller_arrays.h"
-#include "bakers/job/worker_arena.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/path_tracer.h"
+#include "bakers/raytrace/worker_arena.h"
 
 using namespace nook;
 using namespace nook::bake;

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "bakers/job/baked_file.h"
-#include "bakers/job/worker_arena.h"
+#include "bakers/raytrace/worker_arena.h"
 
 namespace nook::bake {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bakers/import/weld.h"
-#include "bakers/job/worker_arena.h"
+#include "bakers/raytrace/worker_arena.h"
 #include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/geometry.h"

@@ -6,7 +6,7 @@
 
 #include "bakers/character/export_model.h"
 #include "bakers/character/pose_sets.h"
-#include "bakers/job/worker_arena.h"
+#include "bakers/raytrace/worker_arena.h"
 #include "bakers/world/fit_casters.h"
 #include "platform/peak_memory.h"
 #include "sdk/src/character/model.h"

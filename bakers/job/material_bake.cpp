@@ -4,9 +4,9 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "bakers/job/worker_arena.h"
 #include "bakers/material/baked_figures.h"
 #include "bakers/material/raw_relief.h"
+#include "bakers/raytrace/worker_arena.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"

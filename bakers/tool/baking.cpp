@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bakers/job/worker_arena.h"
+#include "bakers/raytrace/worker_arena.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/table.h"

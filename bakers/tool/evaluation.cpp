@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "bakers/job/worker_arena.h"
+#include "bakers/raytrace/worker_arena.h"
 #include "bakers/tool/character_input.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "bakers/job/material_bake.h"
-#include "bakers/job/worker_arena.h"
 #include "bakers/measure/report/pages.h"
+#include "bakers/raytrace/worker_arena.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
