@@ -66,6 +66,13 @@ inline KeyPointSoa surface_points(const PointLanes& p) {
   return {p.surface_x, p.surface_y, p.surface_z, p.surface_nx, p.surface_ny, p.surface_nz, p.padded_count};
 }
 
+// The number of spheres that darken the instance beside those of characters: free occluders, and the ground
+// if it matters.
+inline std::uint32_t free_sphere_count(const Instance& instance) {
+  return static_cast<std::uint32_t>(instance.plan.occluders.size()) +
+         (instance.plan.ground_sphere.radius > 0);
+}
+
 // The ground's sphere, if there is one that matters.
 template <class Apply>
 void for_ground(const Instance& instance, Apply&& apply) {

@@ -17,8 +17,7 @@ bool may_darken(const Scene& scene, const Instance& instance) {
 }
 
 bool has_casters(const Instance& instance) {
-  return !instance.plan.casters.empty() || !instance.plan.occluders.empty() ||
-         instance.plan.ground_sphere.radius > 0;
+  return !instance.plan.casters.empty() || free_sphere_count(instance) > 0;
 }
 
 // Leaves what casters add in optical_depth, which then is no depth any more. Returns the number of spheres.

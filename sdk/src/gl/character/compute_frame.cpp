@@ -23,11 +23,6 @@ Vec3 origin(const Instance& instance) {
   return instance.input.bound.centre;
 }
 
-std::uint32_t exact_count(const Instance& instance) {
-  return static_cast<std::uint32_t>(instance.plan.occluders.size()) +
-         (instance.plan.ground_sphere.radius > 0);
-}
-
 // Calls visit(slot) for the instances that are evaluated, level by level, then for those that only moved.
 template <class Visit>
 void for_selected(const Scene& scene, const ComputeChunk& chunk, Visit&& visit) {
@@ -82,7 +77,7 @@ std::uint64_t lay_out(const Device& device, ComputeScene& placed) {
       ++frame.due;
       frame.lit += instance.light.count > 0;
       ++frame.due_at_level[instance.plan.level];
-      casters += NOOK_CASTER_UVEC4S * instance.plan.casters.size() + exact_count(instance);
+      casters += NOOK_CASTER_UVEC4S * instance.plan.casters.size() + free_sphere_count(instance);
       lights += light_texels(instance.light);
     });
     if (frame.selected == 0) continue;
@@ -129,7 +124,7 @@ void write_casters(const ComputeScene& placed, const Instance& instance, Word4* 
     piece[next++] = {level.spheres, 0, 0, 0};
   }
   record.first_exact = next;
-  record.exact_count = exact_count(instance);
+  record.exact_count = free_sphere_count(instance);
   if (instance.plan.ground_sphere.radius > 0)
     piece[next++] = exact_sphere(instance, instance.plan.ground_sphere);
   for (const std::uint32_t slot : instance.plan.occluders)

@@ -49,8 +49,8 @@ std::uint64_t count_evaluations(const ComputeScene& placed, const Scene& scene, 
   const auto level_of = [&](std::uint32_t of) -> const LevelRange& {
     return placed.placements[of].chunk->model->level(instance.plan.level);
   };
-  std::uint64_t spheres = (has_self_shadow(scene, instance) ? level_of(slot).spheres : 0) +
-                          instance.plan.occluders.size() + (instance.plan.ground_sphere.radius > 0);
+  std::uint64_t spheres =
+      (has_self_shadow(scene, instance) ? level_of(slot).spheres : 0) + free_sphere_count(instance);
   for (const std::uint32_t caster : instance.plan.casters) spheres += level_of(caster).spheres;
   return spheres * level_of(slot).key_points;
 }
