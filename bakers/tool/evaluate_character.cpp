@@ -9,6 +9,7 @@
 #include "bakers/tool/character_input.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
+#include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/peers.h"
@@ -66,6 +67,10 @@ Json evaluate(const Options& options, std::span<const CharacterPeer> peers) {
 }
 
 }  // namespace
+
+void add_evaluate_character(Command evaluate_command) {
+  add_evaluate_character(evaluate_command, std::span<const measure::CharacterPeer>());
+}
 
 void add_evaluate_character(Command evaluate_command, std::span<const CharacterPeer> peers) {
   const Command command =

@@ -8,6 +8,7 @@
 #include "bakers/measure/material/material_report.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
+#include "bakers/tool/commands.h"
 #include "bakers/tool/compression_options.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/peers.h"
@@ -123,6 +124,10 @@ void add_mode_options(Command command, nook::material::ModeForm& form) {
 }
 
 }  // namespace
+
+void add_evaluate_material(Command evaluate_command) {
+  add_evaluate_material(evaluate_command, nullptr);
+}
 
 void add_evaluate_material(Command evaluate_command, std::shared_ptr<MaterialPeers> peers) {
   const Command command =

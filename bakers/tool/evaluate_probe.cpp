@@ -9,6 +9,7 @@
 #include "bakers/measure/probe/probe_report.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
+#include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/interrupt.h"
 #include "bakers/tool/peers.h"
@@ -144,6 +145,10 @@ Json evaluate(const Options& options, const ProbePeers* peers) {
 }
 
 }  // namespace
+
+void add_evaluate_probe(Command evaluate_command) {
+  add_evaluate_probe(evaluate_command, nullptr);
+}
 
 void add_evaluate_probe(Command evaluate_command, std::shared_ptr<ProbePeers> peers) {
   const Command command =

@@ -2,9 +2,8 @@
 #include <CLI/CLI.hpp>
 
 #include "bakers/tool/command_line.h"
-#include "bakers/tool/commands.h"
-#include "bakers/tool/peers.h"
 #include "bakers/tool/command_program.h"
+#include "bakers/tool/commands.h"
 
 namespace {
 

@@ -1,5 +1,4 @@
-// Evaluations that measure other methods beside Nook's. `nook` adds none; `nook-lab` adds the methods of
-// bakers/lab.
+// The evaluations of commands.h with other methods beside Nook's. nook-lab adds the methods of bakers/lab.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +18,7 @@ namespace nook::tool {
 
 class Command;
 
-void add_evaluate_character(Command evaluate, std::span<const measure::CharacterPeer> peers = {});
+void add_evaluate_character(Command evaluate, std::span<const measure::CharacterPeer> peers);
 
 // `evaluate material` has read and measured this when other methods take their turn.
 struct MaterialEvaluation {
@@ -47,7 +46,7 @@ class MaterialPeers {
   virtual void measure(const MaterialEvaluation& evaluation, nlohmann::ordered_json& report) const = 0;
 };
 
-void add_evaluate_material(Command evaluate, std::shared_ptr<MaterialPeers> peers = nullptr);
+void add_evaluate_material(Command evaluate, std::shared_ptr<MaterialPeers> peers);
 
 class ProbePeers {
  public:
@@ -62,6 +61,6 @@ class ProbePeers {
                                              platform::ProgressBar& bar) const = 0;
 };
 
-void add_evaluate_probe(Command evaluate, std::shared_ptr<ProbePeers> peers = nullptr);
+void add_evaluate_probe(Command evaluate, std::shared_ptr<ProbePeers> peers);
 
 }  // namespace nook::tool
