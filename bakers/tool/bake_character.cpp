@@ -10,10 +10,10 @@
 
 #include "bakers/job/character_job.h"
 #include "bakers/tool/baking.h"
-#include "bakers/tool/character_input.h"
+#include "bakers/tool/command_end.h"
+#include "bakers/tool/command_inputs.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
-#include "bakers/tool/interrupt.h"
 #include "bakers/tool/table.h"
 #include "platform/progress_bar.h"
 

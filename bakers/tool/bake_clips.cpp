@@ -4,11 +4,11 @@
 #include "bakers/job/clip_bake.h"
 #include "bakers/job/vertex_bakes.h"
 #include "bakers/tool/baking.h"
-#include "bakers/tool/character_input.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_files.h"
+#include "bakers/tool/command_inputs.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
-#include "bakers/tool/interrupt.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {

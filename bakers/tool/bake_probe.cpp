@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "bakers/job/probe_bake.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/commands.h"
-#include "bakers/tool/tool_error.h"
 #include "sdk/src/core/geometry.h"
 
 namespace nook::tool {

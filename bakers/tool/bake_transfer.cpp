@@ -4,10 +4,10 @@
 
 #include "bakers/job/transfer_bake.h"
 #include "bakers/tool/baking.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
-#include "bakers/tool/interrupt.h"
 #include "platform/printable.h"
 #include "platform/progress_bar.h"
 #include "sdk/src/transfer/transfer.h"

@@ -5,10 +5,9 @@
 #include <optional>
 
 #include "bakers/raytrace/worker_arena.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_files.h"
-#include "bakers/tool/interrupt.h"
 #include "bakers/tool/table.h"
-#include "bakers/tool/tool_error.h"
 #include "platform/output_file.h"
 #include "sdk/src/core/failure.h"
 

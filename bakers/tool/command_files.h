@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "bakers/tool/tool_error.h"
+#include "bakers/tool/command_end.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::tool {

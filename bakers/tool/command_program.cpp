@@ -5,8 +5,7 @@
 #include <new>
 #include <sstream>
 
-#include "bakers/tool/interrupt.h"
-#include "bakers/tool/tool_error.h"
+#include "bakers/tool/command_end.h"
 #include "platform/printable.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/version.h"

@@ -4,9 +4,8 @@
 #include <cstdio>
 #include <map>
 
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_line.h"
-#include "bakers/tool/interrupt.h"
-#include "bakers/tool/tool_error.h"
 
 namespace nook::tool {
 namespace {

@@ -8,12 +8,11 @@
 #include "bakers/measure/character/character_pictures.h"
 #include "bakers/measure/character/character_report.h"
 #include "bakers/measure/character/evaluated_character.h"
-#include "bakers/tool/character_input.h"
+#include "bakers/tool/command_end.h"
+#include "bakers/tool/command_inputs.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
-#include "bakers/tool/interrupt.h"
-#include "bakers/tool/probe_scene.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {

@@ -8,10 +8,10 @@
 
 #include "bakers/measure/character/character_pictures.h"
 #include "bakers/measure/character/character_report.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
-#include "bakers/tool/interrupt.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {

@@ -4,11 +4,11 @@
 
 #include "bakers/measure/character/character_report.h"
 #include "bakers/measure/character/clip_error.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
-#include "bakers/tool/interrupt.h"
 #include "platform/progress_bar.h"
 #include "sdk/src/character/clip_set.h"
 

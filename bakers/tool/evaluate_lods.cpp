@@ -5,10 +5,10 @@
 
 #include "bakers/measure/character/character_report.h"
 #include "bakers/measure/character/lod_error.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
-#include "bakers/tool/interrupt.h"
 #include "platform/progress_bar.h"
 #include "sdk/src/core/failure.h"
 

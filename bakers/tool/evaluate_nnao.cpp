@@ -5,11 +5,11 @@
 #include <cstdio>
 
 #include "bakers/measure/nnao/frame_pictures.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
-#include "bakers/tool/interrupt.h"
 #include "platform/progress_bar.h"
 #include "sdk/src/nnao/recording_file.h"
 

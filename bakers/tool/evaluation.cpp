@@ -4,12 +4,12 @@
 #include <optional>
 
 #include "bakers/raytrace/worker_arena.h"
-#include "bakers/tool/character_input.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_files.h"
+#include "bakers/tool/command_inputs.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/common_options.h"
 #include "bakers/tool/table.h"
-#include "bakers/tool/tool_error.h"
 #include "platform/output_file.h"
 #include "sdk/src/core/failure.h"
 

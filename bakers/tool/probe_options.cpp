@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_line.h"
-#include "bakers/tool/tool_error.h"
 #include "sdk/src/core/geometry.h"
 
 namespace nook::tool {

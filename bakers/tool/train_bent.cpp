@@ -6,10 +6,10 @@
 
 #include "bakers/measure/character/bent_study.h"
 #include "bakers/measure/character/evaluated_character.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
-#include "bakers/tool/interrupt.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
 

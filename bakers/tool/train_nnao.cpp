@@ -8,13 +8,12 @@
 #include <optional>
 
 #include "bakers/job/nnao_training.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
-#include "bakers/tool/interrupt.h"
 #include "bakers/tool/table.h"
-#include "bakers/tool/tool_error.h"
 #include "platform/output_file.h"
 #include "platform/printable.h"
 #include "platform/progress_bar.h"

@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "bakers/job/nnao_training.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
-#include "bakers/tool/interrupt.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
 

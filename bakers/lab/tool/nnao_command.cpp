@@ -7,10 +7,10 @@
 #include "bakers/lab/nnao/tuning.h"
 #include "bakers/lab/tool/lab_commands.h"
 #include "bakers/lab/tool/nnao_options.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/evaluate_nnao.h"
 #include "bakers/tool/evaluation.h"
-#include "bakers/tool/interrupt.h"
 #include "platform/progress_bar.h"
 
 namespace nook::lab {

@@ -6,8 +6,8 @@
 #include "bakers/lab/nnao/screen_comparison.h"
 #include "bakers/measure/nnao/frame_comparison.h"
 #include "bakers/measure/nnao/oracle_pass.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_line.h"
-#include "bakers/tool/tool_error.h"
 
 namespace nook::lab {
 

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_files.h"
-#include "bakers/tool/interrupt.h"
 #include "platform/progress_bar.h"
 #include "sdk/src/core/geometry.h"
 

@@ -6,9 +6,8 @@
 #include "bakers/lab/nnao/screen_comparison.h"
 #include "bakers/lab/nnao/view_pictures.h"
 #include "bakers/lab/tool/nnao_scenes.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/evaluate_nnao.h"
-#include "bakers/tool/interrupt.h"
-#include "bakers/tool/tool_error.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
 

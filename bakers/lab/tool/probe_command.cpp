@@ -3,8 +3,8 @@
 #include "bakers/lab/probe/glossy_error.h"
 #include "bakers/lab/probe/probe_methods.h"
 #include "bakers/lab/tool/lab_commands.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_line.h"
-#include "bakers/tool/interrupt.h"
 #include "bakers/tool/peers.h"
 
 namespace nook::lab {

@@ -1,10 +1,11 @@
-// The character that a command reads.
+// The characters, scenes and maps that commands read.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "bakers/images/scene_file.h"
 #include "bakers/import/gltf.h"
 #include "bakers/tool/common_options.h"
 
@@ -17,5 +18,13 @@ bake::ImportedCharacter read_character(const std::filesystem::path& path, bake::
 // Throws ToolError (bad arguments) that names the first clip of --clips that the character lacks and lists
 // all that it has.
 void require_clips(const std::vector<std::string>& wanted, const bake::ImportedCharacter& character);
+
+// Throws ToolError (bad input) that names the file and, where it is one's fault, the texture. Without
+// textures their colour factors stand for them.
+bake::ProbeScene read_probe_scene(const std::filesystem::path& scene, const std::filesystem::path& light,
+                                  bool textures, bake::LinkedFiles linked);
+
+// Reads a latitude-longitude map. Throws ToolError (bad input) that names the file.
+bake::Environment read_map(const std::filesystem::path& path);
 
 }  // namespace nook::tool

@@ -1,4 +1,4 @@
-#include "bakers/tool/interrupt.h"
+#include "bakers/tool/command_end.h"
 
 #include <csignal>
 #include <initializer_list>

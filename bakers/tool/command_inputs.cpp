@@ -1,4 +1,4 @@
-#include "bakers/tool/character_input.h"
+#include "bakers/tool/command_inputs.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -29,6 +29,17 @@ void require_clips(const std::vector<std::string>& wanted, const bake::ImportedC
     for (const std::string& there : present) text += "\n  " + platform::printable(there);
     throw ToolError(exit_bad_arguments, text);
   }
+}
+
+bake::Environment read_map(const std::filesystem::path& path) {
+  return naming_file(path, [&] { return bake::probe::read_environment(path); });
+}
+
+bake::ProbeScene read_probe_scene(const std::filesystem::path& path, const std::filesystem::path& light,
+                                  bool textures, bake::LinkedFiles linked) {
+  bake::LitTriangles triangles =
+      naming_file(path, [&] { return bake::read_lit_triangles(path, textures, linked); });
+  return bake::make_probe_scene(std::move(triangles), read_map(light));
 }
 
 }  // namespace nook::tool

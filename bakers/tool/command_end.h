@@ -1,4 +1,5 @@
-// The end of a command by a failure: a text for the user and the documented exit code.
+// The end of a command before its work is done: a failure has a text for the user and the documented exit
+// code, and Ctrl-C sets a flag.
 #pragma once
 
 #include <nook/nook.h>
@@ -32,5 +33,11 @@ inline ExitCode exit_code_of(nook_result result) {
       return exit_other;
   }
 }
+
+// Ctrl-C as a flag that long work checks between its steps.
+// The first SIGINT, SIGTERM or SIGHUP sets the flag, a second one ends the process at once. A signal that was
+// ignored when the program began stays ignored.
+void watch_for_interrupt();
+bool interrupted();
 
 }  // namespace nook::tool
