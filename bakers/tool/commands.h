@@ -1,6 +1,5 @@
-// The subcommands; peers.h has those that take other methods as well. Each adds itself, with its options, to
-// its parent, and main.cpp calls it. It runs when the parent is parsed, and returns or throws ToolError or
-// Failure.
+// The subcommands. Each adds itself, with its options, to its parent, and main.cpp calls it. It runs when the
+// parent is parsed, and returns or throws ToolError or Failure. peers.h gives evaluations other methods too.
 #pragma once
 
 namespace nook::tool {
