@@ -79,6 +79,10 @@ const before = nook.memoryBytes;
 for (let i = 0; i < 2000; ++i) nook.createScene().destroy();
 assert.equal(nook.memoryBytes, before);
 
+// A word where numbers belong, and too few numbers, are refused by name.
+for (const view of ["raw", [1, 0, 0]])
+  assert.throws(() => nook.library.call(() => nook.library.descriptor("nook_gl_frame_desc", { view })), /nook_gl_frame_desc: view needs 16 numbers/);
+
 // Every struct and word of the module's tables that an option takes is in the types.
 const types = readFileSync(join(folder, "index.d.ts"), "utf8");
 const { layouts } = nook.library;

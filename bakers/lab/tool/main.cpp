@@ -4,8 +4,8 @@
 #include "bakers/lab/character/character_peers.h"
 #include "bakers/lab/tool/lab_commands.h"
 #include "bakers/tool/command_line.h"
-#include "bakers/tool/peers.h"
 #include "bakers/tool/command_program.h"
+#include "bakers/tool/peers.h"
 
 namespace {
 

@@ -74,6 +74,9 @@ export class Layouts {
       const field = struct.fields.get(name);
       if (!field) throw new TypeError(`nook: ${struct.name} has no ${name}; it has ${[...struct.fields.keys()].join(", ")}`);
       const value = typeof given === "string" && field.constants ? this.number(field.constants.numbers, given, name) : given;
+      const got = typeof value === "string" ? `"${value}"` : value;
+      if (field.count > 1 ? typeof value === "string" || value?.length !== field.count : typeof value === "string")
+        throw new TypeError(`nook: ${struct.name}: ${name} needs ${field.count > 1 ? `${field.count} numbers` : "a number"} (got ${got})`);
       const at = (address + field.offset) >> 2;
       if (field.type === "f") {
         if (field.count > 1) module.HEAPF32.set(value, at);

@@ -74,7 +74,7 @@ export function makeChecks(page) {
       };
       const texture = upload(gl.R32F, gl.RED, depth), normalTexture = upload(gl.RGBA32F, gl.RGBA, normals);
       const pass = page.renderer.ao.createNnao({ maxWidth: width, maxHeight: height });
-      pass.render({ depthTexture: texture, depthKind: "linear", normalTexture, view: "raw", width, height, projection, radius });
+      pass.render({ depthTexture: texture, depthKind: "linear", normalTexture, show: "raw", width, height, projection, radius });
       const framebuffer = gl.createFramebuffer();
       gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
       gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, pass.texture, 0);

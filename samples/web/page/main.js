@@ -125,7 +125,7 @@ class Page {
     const { references } = this.character.arrays;
     let sum = 0, count = 0;
     for (const body of this.crowd.bodies) {
-      const ao = this.renderer.ao.readAo(this.crowd.scene, body.instance);
+      const ao = this.renderer.ao.read(this.crowd.scene, body.instance);
       ao.forEach((value, i) => (sum += (value - references[body.clip * ao.length + i] / 255) ** 2));
       count += ao.length;
     }
