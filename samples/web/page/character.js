@@ -30,7 +30,19 @@ export function samplePose(character, clip, seconds, out) {
   const a = Math.floor(at) % frames, b = (a + 1) % frames, t = at - Math.floor(at);
   const all = character.arrays.frames, from = (first + a) * floats, to = (first + b) * floats;
   for (let i = 0; i < floats; ++i) out[i] = all[from + i] * (1 - t) + all[to + i] * t;
+  for (let i = 0; i < floats; i += 12) straighten(out, i, Math.hypot(all[from + i], all[from + i + 4], all[from + i + 8]));
   return out;
+}
+
+// Makes the axes of a 3x4 matrix a rotation with one scale: those of a mean of two rotations are shorter and no longer perpendicular.
+function straighten(matrix, at, scale) {
+  const axis = (column) => [matrix[at + column], matrix[at + column + 4], matrix[at + column + 8]];
+  const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  const unit = (v) => v.map((value) => value / Math.sqrt(dot(v, v)));
+  const x = unit(axis(0)), second = axis(1), along = dot(x, second);
+  const y = unit(second.map((value, i) => value - along * x[i]));
+  const z = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
+  [x, y, z].forEach((v, column) => v.forEach((value, row) => (matrix[at + 4 * row + column] = scale * value)));
 }
 
 // The matrices of the frame that the ray-traced reference has.
