@@ -8,6 +8,16 @@ build=${NOOK_BUILD_DIR:-$root/build}
 command -v run-clang-tidy-14 > /dev/null || { echo "tidy.sh: install clang-tidy-14" >&2; exit 1; }
 [ -f "$build/build.ninja" ] || { echo "tidy.sh: $build is not built; run tests/run.sh first" >&2; exit 1; }
 mkdir -p "$build/tidy"
-# clang does not read the precompiled headers of gcc.
-ninja -C "$build" -t compdb | sed -E 's/ -include [^ ]*cmake_pch\.h(xx)?//; s/"command": "[^ ]*ccache /"command": "/' > "$build/tidy/compile_commands.json"
-run-clang-tidy-14 -p "$build/tidy" -quiet -extra-arg=-Wno-unknown-warning-option "$root/(sdk/src|bakers|platform)/.*${1:-}[^/]*\.cpp$"
+# Compilations alone, without the precompiled headers of gcc, which clang does not read.
+ninja -C "$build" -t compdb | python3 -c '
+import json, re, sys
+entries = [entry for entry in json.load(sys.stdin) if " -c " in entry["command"]]
+for entry in entries:
+    entry["command"] = re.sub(r"^\S*ccache | -include \S*cmake_pch\.h(xx)?", "", entry["command"])
+json.dump(entries, sys.stdout, indent=1)' > "$build/tidy/compile_commands.json"
+matching=$(grep "\"file\": \"$root/" "$build/tidy/compile_commands.json" | grep -E "$root/(sdk/src|bakers|platform)/" | grep -cE "${1:-}" || true)
+if [ "$matching" -eq 0 ]; then
+  echo "tidy.sh: no source of the library, the bakers or the tool matches \"$1\"" >&2
+  exit 2
+fi
+run-clang-tidy-14 -p "$build/tidy" -quiet -extra-arg=-Wno-unknown-warning-option "^(?=.*${1:-})$root/(sdk/src|bakers|platform)/"
