@@ -128,7 +128,9 @@ Json evaluate_frames(platform::Context& context, const FrameWords& words, const 
 
 void add_evaluate_nnao(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
-      "nnao", "recorded frames of the screen-space pass: replayed, by the presets, and against the oracle");
+      "nnao",
+      "recorded frames of the screen-space pass: replayed, by the presets, and against the oracle; "
+      "nook-lab evaluate nnao measures scenes");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_option("--frame", o.frames, "a frame that nook_nnao_record wrote; any number of times")

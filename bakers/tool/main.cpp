@@ -10,7 +10,10 @@ namespace {
 void add_commands(CLI::App& tool) {
   CLI::App* bake = tool.add_subcommand("bake", "make .nook files")->require_subcommand(1);
   CLI::App* evaluate =
-      tool.add_subcommand("evaluate", "measure .nook files against ray tracing")->require_subcommand(1);
+      tool.add_subcommand("evaluate",
+                          "measure .nook files against ray tracing; nook-lab evaluate, which -DNOOK_LAB=ON "
+                          "builds, adds other methods")
+          ->require_subcommand(1);
   nook::tool::add_bake_character(nook::tool::Command(*bake));
   nook::tool::add_bake_bent(nook::tool::Command(*bake));
   nook::tool::add_bake_clips(nook::tool::Command(*bake));
