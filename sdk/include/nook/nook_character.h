@@ -105,12 +105,11 @@ typedef struct nook_scene_desc {
   /* AO, root mean square, >= 0. An update uses the coarsest level whose baked error of self-shadow is below
    * lod_error * (distance to the camera / lod_distance). Default 0: full detail. */
   float lod_error;
-  /* Metres, > 0, default 10. */
+  /* Above 0, or 0 (default): 10 metres. */
   float lod_distance;
-  /* Frames, >= 1. An update may skip a distant instance, but evaluates it at least once in so many frames.
-   * Default 1. */
+  /* Frames, >= 1, default 1. An update may skip distant instances, but none for so many frames. */
   uint32_t lod_max_interval;
-  /* Metres, > 0, default 10,000: the radius of the sphere that stands for a ground plane. */
+  /* The radius of the sphere that stands for a ground. 0 (default): 11,000 bounding radii of the body. */
   float ground_radius;
   /* 0 (default): a bone that is sheared or scaled unevenly is projected to the nearest rotation with one
    * scale, as the baker does, and logged once for an instance. 1: such a pose fails. */
@@ -162,10 +161,10 @@ NOOK_API nook_result nook_scene_unlink(nook_scene scene, nook_instance_id receiv
  * call may allocate, so that the update does not. One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_link_nearest(nook_scene scene, uint32_t k, float max_distance);
 
-/* Sets the ground under an instance: the points p with dot(normal, p) = offset, in world space and metres.
- * plane_xyzd holds the normal, which points away from the ground and has unit length to 1e-3, and the offset;
- * NULL removes the ground. It acts as a sphere of ground_radius that touches the plane under the instance and
- * follows it. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+/* Sets the ground under an instance: the points p with dot(normal, p) = offset, in world space. plane_xyzd
+ * holds the normal, which points upwards and has unit length to 1e-3, and the offset; NULL removes the
+ * ground. It acts as a sphere that touches the plane under the instance.
+ * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_set_ground(nook_scene scene, nook_instance_id instance,
                                            const float* plane_xyzd);
 

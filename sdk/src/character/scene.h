@@ -134,8 +134,17 @@ struct InstanceInput {
   float scale = 1;
 };
 
+  // The largest scale of its bones, which is that of the body's place.
+  float largest_scale() const { return scale / scale_margin; }
+  // The admitted unevenness and shear can lengthen a vector by less than 2 % more than the longest axis.
+  static constexpr float scale_margin = 1.02f;
 // The decisions of resolve_casters for an update. The lists of an instance that is not due are those of an
 // earlier update; they may name free slots and must not be read.
+// The radius of the sphere that stands for the ground, over the bounding radius of the body. The ends of the
+// sphere's horizon lie 0.0135 rad below it for a point at one bounding radius above the ground, and float
+// places the sphere to 1e-3 bounding radii.
+inline constexpr float default_ground_radii = 11'000;
+
 struct InstancePlan {
   explicit InstancePlan(Memory* memory) : casters(memory), occluders(memory) {}
 
@@ -200,8 +209,8 @@ struct SceneSettings {
   float lod_error = 0;               // AO, rms at lod_distance
   float lod_distance = 10;           // metres
   std::uint32_t lod_max_interval = 1;
-  float ground_radius = 10'000;  // metres
-  bool strict_poses = false;     // uneven matrices of set_pose fail instead of being projected
+  float ground_radius = 0;    // metres; 0: default_ground_radii of the body
+  bool strict_poses = false;  // uneven matrices of set_pose fail instead of being projected
 };
 
 struct Scene {

@@ -76,8 +76,7 @@ Mat3x4 evened(const CharacterModel& model, const Mat3x4& matrix, std::size_t bon
 
 void derive_bound(Instance& instance, float largest_scale_squared) {
   const LoadedModel& loaded = *instance.model;
-  // The admitted unevenness and shear can lengthen a vector by less than 2 % more than the longest axis.
-  const float stretch = std::sqrt(largest_scale_squared) * 1.02f;
+  const float stretch = std::sqrt(largest_scale_squared) * InstanceInput::scale_margin;
   instance.input.bound.centre =
       transform_point(instance.input.bones[loaded.model.root_bone], loaded.model.bounding_centre);
   instance.input.bound.radius = 0;
