@@ -240,7 +240,8 @@ typedef struct nook_scene_info {
   uint32_t instances, instances_updated;
   /* Pairs of receiver and caster that it evaluated; and casters, occluders and grounds that it skipped. */
   uint32_t links, links_culled;
-  uint32_t reserved;
+  /* Instances whose pose now has a bone that is sheared or scaled unevenly, and so was projected. */
+  uint32_t uneven_instances;
   /* Pairs of sphere and key point that the last update evaluated. */
   uint64_t evaluations;
   /* Bytes of host memory that the scene holds now, without its models. */
@@ -255,12 +256,10 @@ NOOK_API nook_result nook_scene_describe(nook_scene scene, nook_scene_info* info
  * Pass the matrices that your engine already has: those of your vertex shader (NOOK_POSE_SKINNING), or the
  * world matrices of the joints (NOOK_POSE_JOINT_TO_WORLD). Nook converts them to its own, from rest space to
  * the world. Rest space is the bind pose in metres with the node transforms of the file applied. Do not
- * convert yourself: many files have a node above the skeleton that scales by 0.01 or turns by 90 degrees, and
- * a pose that leaves it out gives wrong AO and no error. If AO looks wrong, call nook_model_check_pose.
- * docs/poses.md has the formula. */
+ * convert yourself: many files have a node above the skeleton that scales by 0.01 or turns by 90 degrees. If
+ * AO looks wrong, call nook_model_check_pose. docs/poses.md has the formula. */
 
-/* The matrices that you pass. Each maps to the space of place_3x4, which is the world if place_3x4 is
- * NULL. */
+/* The matrices that you pass. Each maps to the space of place_3x4, or to the world if that is NULL. */
 enum {
   /* From rest space: Nook's own matrices, as nook_model_convert_pose gives them, one for each bone. Models
    * without bind data take no other kind. */
@@ -296,9 +295,10 @@ enum {
   /* Bones without a transform keep their matrices. Pose a character of several skins by one call for each
    * skin with this flag. */
   NOOK_POSE_FLAG_PARTIAL = 1,
-  /* A bone that is sheared or scaled unevenly by more than 1 % fails, as with
-   * nook_scene_desc.strict_poses. */
-  NOOK_POSE_FLAG_STRICT = 2
+  /* A bone that is sheared or scaled unevenly by more than 1 % fails, as with strict_poses. */
+  NOOK_POSE_FLAG_STRICT = 2,
+  /* transform_count may be larger than needed, as with a buffer of fixed size; the first ones count. */
+  NOOK_POSE_FLAG_SURPLUS = 4
 };
 
 typedef struct nook_pose_desc {

@@ -5,6 +5,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
 #include "sdk/src/character/occluded_directions.h"
+#include "sdk/src/character/scene_readings.h"
 #include "sdk/src/core/checks.h"
 
 using namespace nook;
@@ -238,6 +239,7 @@ nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, co
 nook_result nook_scene_describe(nook_scene scene, nook_scene_info* info) {
   return with_scene("nook_scene_describe", scene, [&](const Scene& s) {
     nook_scene_info answer = s.stats;
+    answer.uneven_instances = uneven_instances(s);
     answer.memory_bytes = sizeof *scene + scene->metered.bytes();
     write_info(info, answer);
   });
