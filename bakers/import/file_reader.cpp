@@ -43,15 +43,13 @@ void check_structure(std::span<const std::byte> json) {
 
 // Read here, or without any bearing on geometry, poses and the colours that are read.
 bool is_readable(std::string_view extension) {
-  constexpr std::array<std::string_view, 9> names = {"KHR_mesh_quantization",
-                                                     "KHR_texture_transform",
-                                                     "KHR_texture_basisu",
-                                                     "KHR_lights_punctual",
-                                                     "KHR_xmp",
-                                                     "KHR_xmp_json_ld",
-                                                     "EXT_texture_webp",
-                                                     "EXT_texture_avif",
-                                                     "MSFT_texture_dds"};
+  constexpr std::array<std::string_view, 14> names = {"KHR_mesh_quantization",   "KHR_node_visibility",
+                                                      "KHR_node_selectability",  "KHR_node_hoverability",
+                                                      "EXT_mesh_gpu_instancing", "MSFT_lod",
+                                                      "KHR_texture_transform",   "KHR_texture_basisu",
+                                                      "KHR_lights_punctual",     "KHR_xmp",
+                                                      "KHR_xmp_json_ld",         "EXT_texture_webp",
+                                                      "EXT_texture_avif",        "MSFT_texture_dds"};
   return std::find(names.begin(), names.end(), extension) != names.end() ||
          extension.starts_with("KHR_materials_") || extension.starts_with("EXT_materials_");
 }
@@ -61,7 +59,6 @@ const char* advice_for(std::string_view extension) {
   if (extension == "EXT_meshopt_compression" || extension == "KHR_meshopt_compression" ||
       extension == "MESHOPT_compression")
     return "decode it first: gltfpack -i IN.glb -o OUT.glb -noq, or gltf-transform copy IN.glb OUT.glb";
-  if (extension == "EXT_mesh_gpu_instancing") return "write the instances as nodes of their own";
   return "export it without";
 }
 

@@ -100,23 +100,6 @@ Node read_node(const tinygltf::Node& source, std::size_t index) {
   return node;
 }
 
-// Which nodes the default scene shows; all of them when the file has no scene.
-std::vector<bool> shown_nodes(const tinygltf::Model& model, const NodeTree& nodes) {
-  if (model.scenes.empty()) return std::vector<bool>(nodes.size(), true);
-  const int scene = model.defaultScene < 0 ? 0 : model.defaultScene;
-  if (static_cast<std::size_t>(scene) >= model.scenes.size())
-    throw Failure(NOOK_ERROR_BAD_FILE, "default scene is %d (file has %zu)", scene, model.scenes.size());
-  std::vector<bool> shown(nodes.size(), false);
-  for (const int root : model.scenes[scene].nodes) {
-    if (root < 0 || static_cast<std::size_t>(root) >= nodes.size())
-      throw Failure(NOOK_ERROR_BAD_FILE, "scene %d names node %d (file has %zu)", scene, root, nodes.size());
-    shown[root] = true;
-  }
-  for (const std::uint32_t i : nodes.order)
-    if (nodes.nodes[i].parent >= 0 && shown[nodes.nodes[i].parent]) shown[i] = true;
-  return shown;
-}
-
 }  // namespace
 
 tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const FileAccess& files, Images images) {
@@ -179,20 +162,6 @@ NodeTree read_nodes(const tinygltf::Model& model) {
       throw Failure(NOOK_ERROR_BAD_FILE, "node %zu (\"%s\") has a world matrix that is not finite", i,
                     tree.nodes[i].name.c_str());
   return tree;
-}
-
-std::vector<int> shown_meshes(const tinygltf::Model& model, const NodeTree& nodes) {
-  const std::vector<bool> shown = shown_nodes(model, nodes);
-  std::vector<int> meshes(nodes.size(), -1);
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const int mesh = model.nodes[n].mesh;
-    if (mesh < 0 || !shown[n]) continue;
-    if (static_cast<std::size_t>(mesh) >= model.meshes.size())
-      throw Failure(NOOK_ERROR_BAD_FILE, "node %zu names mesh %d (file has %zu)", n, mesh,
-                    model.meshes.size());
-    meshes[n] = mesh;
-  }
-  return meshes;
 }
 
 }  // namespace nook::bake
