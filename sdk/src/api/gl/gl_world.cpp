@@ -138,7 +138,7 @@ nook_result nook_world_render(nook_world pass, const nook_gl_frame_desc* frame,
   return api::enter("nook_world_render", [&] {
     need(pass, "pass");
     const auto known = read_descriptor<nook_world_frame_desc, nook_world_frame_debug_desc>(desc);
-    const gl::NnaoFrame screen = screen_of(frame, known, pass->desc);
+    gl::NnaoFrame screen = screen_of(frame, known, pass->desc);
     api::check_props("desc", known.capsules, known.capsule_count);
     check_numbers(known);
     const api::Casting casting(known.scene ? &known.scene->scene : nullptr, 0, known.capsules,
@@ -156,6 +156,7 @@ nook_result nook_world_render(nook_world pass, const nook_gl_frame_desc* frame,
 nook_result nook_world_describe(nook_world pass, nook_world_info* info) {
   return api::enter("nook_world_describe", [&] {
     need(pass, "pass");
+    pass->gl->device.need_current();
     nook_world_info known{};
     known.texture = pass->pass->ao_texture();
     known.caster_texture = pass->pass->casters().table().texture();
