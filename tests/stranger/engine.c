@@ -260,10 +260,31 @@ void engine_skinned_vertices(const engine* e, uint32_t frame, float* out) {
   }
 }
 
+/* The sign of the determinant of a part's first matrix in the default pose: a mirrored mesh has its triangles
+ * the other way round, as glTF says. */
+static int is_mirrored(const engine* e, const engine_part* part) {
+  float m[16];
+  double determinant = 0;
+  memcpy(m, engine_world(e, 0, (uint32_t)part->node), sizeof m);
+  if (part->skin >= 0)
+    matrix_product(engine_world(e, 0, e->skins[part->skin].joints[0]), e->skins[part->skin].inverse_bind, m);
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    determinant += (double)m[i] * ((double)m[4 + j] * (double)m[8 + k] - (double)m[4 + k] * (double)m[8 + j]);
+  }
+  return determinant < 0;
+}
+
 void engine_indices(const engine* e, uint32_t* out) {
-  for (uint32_t p = 0; p < e->part_count; ++p)
-    for (size_t i = 0; i < e->parts[p].index_count; ++i)
-      *out++ = e->parts[p].first_vertex + e->parts[p].indices[i];
+  for (uint32_t p = 0; p < e->part_count; ++p) {
+    const engine_part* const part = &e->parts[p];
+    const size_t second = is_mirrored(e, part) ? 2 : 1;
+    for (size_t i = 0; i + 2 < part->index_count; i += 3) {
+      *out++ = part->first_vertex + part->indices[i];
+      *out++ = part->first_vertex + part->indices[i + second];
+      *out++ = part->first_vertex + part->indices[i + 3 - second];
+    }
+  }
 }
 
 void engine_normals(const engine* e, const float* positions, float* out) {

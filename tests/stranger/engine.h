@@ -55,7 +55,7 @@ void engine_skinned_vertex(const engine* e, uint32_t frame, uint32_t vertex, flo
 void engine_skinned_vertices(const engine* e, uint32_t frame, float* out);
 /* Area-weighted unit normals of such vertices. */
 void engine_normals(const engine* e, const float* positions, float* out);
-/* The triangles of all parts, counted over all parts. */
+/* The triangles of all parts, counted over all parts, counter-clockwise from outside. */
 void engine_indices(const engine* e, uint32_t* out);
 
 #endif

@@ -1,7 +1,9 @@
-/* stranger poses MODEL.nook RIG.engine AO BOUND    AO of all frames to the file AO; error at most BOUND
- * stranger checks MODEL.nook RIG.engine           the check of right poses
- * stranger mistakes MODEL.nook RIG.engine         the check of wrong ones
- * stranger pictures MODEL.nook RIG.engine         the screen and world passes, on OpenGL */
+/* Each part takes MODEL.nook and RIG.engine, the file of flatten.py:
+ *   stranger layouts MODEL RIG AO     AO in each kind, layout and place; writes it to the file AO
+ *   stranger truth MODEL RIG BOUND    its error against ray tracing, as a share of a static bake's
+ *   stranger checks MODEL RIG         the check of right poses
+ *   stranger mistakes MODEL RIG       the check of wrong ones
+ *   stranger pictures MODEL RIG       the screen and world passes, on OpenGL */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,12 +14,14 @@ int main(int argc, char** argv) {
   stranger s;
   int failures;
   if (argc < 4) {
-    fputs("usage: stranger poses|checks|mistakes|pictures MODEL RIG [AO BOUND]\n", stderr);
+    fputs("usage: stranger layouts|truth|checks|mistakes|pictures MODEL RIG [AO|BOUND]\n", stderr);
     return 2;
   }
   if (!stranger_start(&s, argv[2], argv[3])) return 1;
-  if (strcmp(argv[1], "poses") == 0 && argc == 6)
-    stranger_run_poses(&s, argv[4], strtof(argv[5], NULL));
+  if (strcmp(argv[1], "layouts") == 0 && argc == 5)
+    stranger_run_layouts(&s, argv[4]);
+  else if (strcmp(argv[1], "truth") == 0 && argc == 5)
+    stranger_run_truth(&s, strtof(argv[4], NULL));
   else if (strcmp(argv[1], "checks") == 0)
     stranger_run_checks(&s);
   else

@@ -6,9 +6,9 @@
 #include <string.h>
 
 void stranger_expect(stranger* s, int ok, const char* format, ...) {
+  enum { most_lines = 20 };
   va_list arguments;
-  if (ok) return;
-  ++s->failures;
+  if (ok || ++s->failures > most_lines) return;
   fputs("FAILED: ", stdout);
   va_start(arguments, format);
   vfprintf(stdout, format, arguments);
