@@ -17,18 +17,35 @@ std::vector<double> default_morph_weights(const tinygltf::Mesh& mesh, const tiny
   return all_zero ? std::vector<double>() : weights;
 }
 
+namespace {
+
+// Each target at work is read for each of up to 10 million vertices, from accessors that may share their bytes.
+constexpr std::size_t max_targets_at_work = 256;
+
+// A mesh without vertices costs its primitives once more for each node that shows it.
+constexpr std::size_t max_primitives = std::size_t{1} << 20;
+
+}  // namespace
+
 void add_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                        const std::vector<double>& weights, const std::string& what,
                        std::vector<float>& position) {
   if (weights.size() > primitive.targets.size())
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu morph targets and %zu default weights for them",
                   what.c_str(), primitive.targets.size(), weights.size());
+  const auto at_work = std::size_t(
+      std::count_if(weights.begin(), weights.end(), [](double weight) { return weight != 0; }));
+  if (at_work > max_targets_at_work)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%s has %zu morph targets with default weights other than 0 (need at most %zu); apply them",
+                  what.c_str(), at_work, max_targets_at_work);
   for (std::size_t t = 0; t < weights.size(); ++t) {
+    if (weights[t] == 0) continue;
     const std::string target = what + " morph target " + std::to_string(t);
     if (!std::isfinite(weights[t]))
       throw Failure(NOOK_ERROR_BAD_FILE, "%s has a default weight that is not finite", target.c_str());
     const auto accessor = primitive.targets[t].find("POSITION");
-    if (weights[t] == 0 || accessor == primitive.targets[t].end()) continue;
+    if (accessor == primitive.targets[t].end()) continue;
     const std::size_t count = element_count(model, accessor->second, target);
     if (count != position.size() / 3)
       throw Failure(NOOK_ERROR_BAD_FILE, "%s moves %zu vertices (primitive has %zu)", target.c_str(), count,
@@ -181,6 +198,9 @@ void append_mesh(const tinygltf::Model& model, const tinygltf::Node& node, const
   const tinygltf::Mesh& mesh = model.meshes[node.mesh];
   const std::string name = mesh.name.empty() ? "mesh_" + std::to_string(node.mesh) : mesh.name;
   const MeshSource source{name, binding, node.skin >= 0, default_morph_weights(mesh, node)};
+  repairs.primitives += mesh.primitives.size();
+  if (repairs.primitives > max_primitives)
+    throw Failure(NOOK_ERROR_BAD_FILE, "the nodes show more than %zu primitives; join meshes", max_primitives);
   if (!source.morph_weights.empty()) ++repairs.morphed;
   if (std::ranges::any_of(mesh.primitives, [](const tinygltf::Primitive& p) { return !p.targets.empty(); }))
     ++repairs.with_targets;
