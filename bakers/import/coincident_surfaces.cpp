@@ -18,7 +18,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 constexpr std::size_t all_samples = std::size_t{1} << 16, most_of_part = 512, fewest_of_part = 16;
 constexpr std::size_t most_parts = std::size_t{1} << 16;
 // Bounds the time on files whose triangles all lie on each other: what is found until then is enough.
-constexpr std::size_t most_candidates = 256, most_tests = std::size_t{1} << 28;
+constexpr std::size_t most_candidates = 256, most_tests = std::size_t{1} << 26;
 constexpr float reach_of_size = 0.01f;  // of the diagonal of a part
 constexpr float least_cosine = 0.7f;    // of surfaces that face the same way
 

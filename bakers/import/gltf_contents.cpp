@@ -52,7 +52,9 @@ void add_mesh(const tinygltf::Model& model, std::size_t node, NodeState state,
     if (first != nodes.end() && *first == node) number = first - nodes.begin();
   }
   for (const tinygltf::Primitive& primitive : model.meshes[std::size_t(index)].primitives) {
-    ContentsMesh row{node_label(model, node), mesh_label(model, index)};
+    ContentsMesh row;
+    row.node = node_label(model, node);
+    row.mesh = mesh_label(model, index);
     row.skin = model.nodes[node].skin;
     row.state = text_of(state);
     const int position = attribute(primitive, "POSITION");
@@ -81,7 +83,9 @@ std::vector<ContentsSkin> skins_of(const tinygltf::Model& model, const std::vect
   std::vector<ContentsSkin> skins;
   for (std::size_t s = 0; s < model.skins.size(); ++s) {
     const std::string& name = model.skins[s].name;
-    ContentsSkin skin{name.empty() ? "skin_" + std::to_string(s) : name, model.skins[s].joints.size()};
+    ContentsSkin skin;
+    skin.name = name.empty() ? "skin_" + std::to_string(s) : name;
+    skin.joints = model.skins[s].joints.size();
     for (std::size_t n = 0; n < state.size(); ++n)
       skin.meshes += state[n] == NodeState::in && model.nodes[n].skin == int(s);
     skins.push_back(skin);
