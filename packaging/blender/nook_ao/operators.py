@@ -32,11 +32,11 @@ def error_text(error):
     return text[0].upper() + text[1:]
 
 
-def ask(operator, context, folder):
-    """Returns True after it has shown a dialog about a folder that only the file has chosen; the dialog calls the operator again."""
+def ask(folder, then):
+    """Returns True after it has shown a dialog about a folder that only the file has chosen; the dialog calls operator `then`."""
     if folders.is_confirmed(folder) or bpy.app.background:
         return False
-    bpy.ops.nook.confirm("INVOKE_DEFAULT", folder=folder, then=operator.bl_idname.partition(".")[2])
+    bpy.ops.nook.confirm("INVOKE_DEFAULT", folder=folder, then=then)
     return True
 
 
@@ -74,7 +74,11 @@ class NOOK_OT_confirm(bpy.types.Operator):
             self.report({"ERROR"}, error_text(error))
             return {"CANCELLED"}
         if self.then != "none":
-            getattr(bpy.ops.nook, self.then)("INVOKE_DEFAULT")
+            try:
+                getattr(bpy.ops.nook, self.then)("INVOKE_DEFAULT")
+            except RuntimeError as error:  # what the operator reported
+                self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
+                return {"CANCELLED"}
         return {"FINISHED"}
 
 
@@ -90,6 +94,8 @@ class CommandOperator(bpy.types.Operator):
     def finish(self, context):
         """What happens after the command."""
         raise NotImplementedError
+
+    then = ""  # its name behind "nook.", which the dialog calls
 
     def folder(self, context):
         """The folder that the command reads or writes, or None for one of its own."""
@@ -118,7 +124,7 @@ class CommandOperator(bpy.types.Operator):
             return self.execute(context)
         try:
             folder = self.folder(context)
-            if folder is not None and ask(self, context, folder):
+            if folder is not None and ask(folder, self.then):
                 return {"CANCELLED"}
             self._run = tool.Run(self.begin(context))
         except Fault as error:
@@ -170,6 +176,7 @@ class NOOK_OT_bake(CommandOperator):
     bl_idname = "nook.bake"
     bl_label = "Bake ambient occlusion"
 
+    then = "bake"
     _folder = None
 
     def folder(self, context):
@@ -236,7 +243,7 @@ class NOOK_OT_show(bpy.types.Operator):
     def invoke(self, context, _event):
         try:
             armature = character.armature_of(context)
-            if shown.get(armature) is None and ask(self, context, shown.folder_of(armature)):
+            if shown.get(armature) is None and ask(shown.folder_of(armature), "show"):
                 return {"CANCELLED"}
         except Fault:
             pass  # execute() says it
@@ -283,6 +290,8 @@ class NOOK_OT_report(CommandOperator):
 
     bl_idname = "nook.report"
     bl_label = "Open the report"
+
+    then = "report"
 
     def folder(self, context):
         return shown.folder_of(character.armature_of(context))
