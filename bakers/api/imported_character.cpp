@@ -35,9 +35,9 @@ void need_index(const char* name, std::size_t index, std::size_t count) {
                   count);
 }
 
-ImportedCharacter import_file(const char* path) {
+ImportedCharacter import_file(const char* path, LinkedFiles linked) {
   try {
-    return import_gltf(std::filesystem::path(reinterpret_cast<const char8_t*>(path)));
+    return import_gltf(std::filesystem::path(reinterpret_cast<const char8_t*>(path)), linked);
   } catch (const Failure& failure) {
     // The message of the importer may already contain the name of the file.
     if (std::string_view(failure.what()).find(path) != std::string_view::npos) throw;
@@ -53,7 +53,8 @@ ImportedCharacter character_of(const nook_bake_source_desc& desc) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc has %s of desc.path, desc.bytes and arrays such as desc.positions; give exactly one",
                   sources == 0 ? "none" : "more than one");
-  if (desc.path) return import_file(desc.path);
+  if (desc.path)
+    return import_file(desc.path, desc.allow_outside_files ? LinkedFiles::anywhere : LinkedFiles::folder);
   if (desc.bytes) return import_gltf(std::span(static_cast<const std::byte*>(desc.bytes), desc.byte_count));
   return character_of_arrays(desc);
 }

@@ -91,20 +91,19 @@ NOOK_API void nook_bake_job_destroy(nook_bake_job* job);
 typedef struct nook_bake_source_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* UTF-8. The file may name other files of its folder. */
+  /* UTF-8. The file may name other files of its folder; of any folder if allow_outside_files is not 0. */
   const char* path;
   /* All buffers must be embedded. */
   const void* bytes;
   size_t byte_count;
   /* Metres, 3 floats for each vertex. */
   const float* positions;
-  /* 3 vertex indices for each triangle. */
+  /* 3 vertex indices for each triangle; index_count is a multiple of 3. */
   const uint32_t* indices;
   /* `influences` bone indices for each vertex. */
   const uint16_t* joints;
   /* `influences` weights >= 0 for each vertex; the import normalises them. */
   const float* weights;
-  /* index_count is a multiple of 3. */
   uint32_t vertex_count, index_count;
   /* Default 4. The import keeps the 8 largest weights of each vertex. */
   uint32_t influences;
@@ -118,6 +117,7 @@ typedef struct nook_bake_source_desc {
   /* Primitives in order and without gaps. NULL: one primitive holds all vertices. */
   const nook_range* primitives;
   uint32_t primitive_count;
+  int32_t allow_outside_files;
 } nook_bake_source_desc;
 static inline nook_result nook_bake_source_desc_init(nook_bake_source_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_SOURCE, desc, sizeof *desc, NOOK_VERSION);
