@@ -51,7 +51,8 @@ static double difference(Character* c, const nook_skin_info* skin, animation ani
   return largest;
 }
 
-/* Returns the answer of the check of poses for matrices of c->pose.kind, beside the vertices of the rest pose. */
+/* Returns the answer of the check of poses for matrices of c->pose.kind, beside the vertices of the rest
+ * pose. */
 static nook_pose_fault fault_of(Character* c, const nook_skin_info* skin, animation animate) {
   float* const matrices = animate(skin, 0);
   float positions[64 * 3];
