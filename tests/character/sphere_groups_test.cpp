@@ -97,7 +97,7 @@ struct BodyPoints {
     const float* at = lanes.data();
     return {at, at + count, at + 2 * count, at + 3 * count, at + 4 * count, at + 5 * count, count};
   }
-  Receiver receiver() const { return receiver_of(view().x, view().y, view().z, count); }
+  Receiver receiver() const { return receiver_of(view().x, view().y, view().z, count, 1); }
 
   std::vector<float> lanes;
 };

@@ -1,11 +1,22 @@
 """What the runtime does with baked characters: models, scenes, ambient occlusion of poses."""
 import ctypes
+import logging
 from typing import Any, List, Optional, Sequence
 
 import numpy as np
 
 from . import _layouts as c
 from ._library import FloatArray, Handle, call, described, descriptor, floats, pointer, text
+
+
+_log = logging.getLogger("nook")
+
+
+@c.nook_log_fn
+def _log_line(_user: Any, severity: int, line: bytes) -> None:
+    """Passes what the library logs to the logger "nook"."""
+    levels = {c.NOOK_LOG_WARNING: logging.WARNING, c.NOOK_LOG_ERROR: logging.ERROR}
+    _log.log(levels.get(severity, logging.DEBUG), "%s", text(line))
 
 
 class Context(Handle):
@@ -17,6 +28,7 @@ class Context(Handle):
     def __init__(self) -> None:
         super().__init__()
         desc = descriptor(c.nook_context_desc)
+        desc.log = _log_line
         call("nook_context_create", ctypes.byref(desc), ctypes.byref(self._handle))
 
 
@@ -117,6 +129,11 @@ class Scene(Handle):
 
     def remove_sphere(self, number: int) -> None:
         call("nook_scene_remove_occluder", self.handle, number)
+
+    @property
+    def uneven_instances(self) -> int:
+        """The number of instances whose pose has a bone that is sheared or scaled unevenly, which is projected."""
+        return int(described(c.nook_scene_info, "nook_scene_describe", self.handle).uneven_instances)
 
     def update(self) -> None:
         """Evaluates all instances on this thread."""

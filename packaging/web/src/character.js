@@ -3,11 +3,12 @@ import { Owned } from "./library.js";
 const floatsOfLayout = { "rows-3x4": 12, "rows-4x4": 16, "columns-4x4": 16, "columns-4x3": 12, "dual-quaternion": 8, trs: 10 };
 
 // The address of a nook_pose_desc for an object such as
-//   { kind: "skinning", layout: "columns-4x4", transforms, skin, transformOfBone, place3x4, partial, strict }.
+//   { kind: "skinning", layout: "columns-4x4", transforms, skin, transformOfBone, place3x4, partial, strict, surplus }.
 export function poseDescriptor(library, pose) {
-  const { transforms, transformOfBone, place3x4, partial, strict, ...others } = pose;
+  const { transforms, transformOfBone, place3x4, partial, strict, surplus, ...others } = pose;
   const floats = floatsOfLayout[pose.layout ?? "columns-4x4"] ?? 16;
-  const flags = library.layouts.bits("NOOK_POSE_FLAG_PARTIAL", [...(partial ? ["partial"] : []), ...(strict ? ["strict"] : [])]);
+  const flags = library.layouts.bits("NOOK_POSE_FLAG_PARTIAL",
+    Object.entries({ partial, strict, surplus }).filter(([, isSet]) => isSet).map(([word]) => word));
   return library.descriptor("nook_pose_desc", {
     transformCount: Math.floor(transforms.length / floats),
     ...others,

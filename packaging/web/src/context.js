@@ -8,12 +8,12 @@ import { Scene } from "./scene.js";
 // One instance of the library; everything else is made by it.
 export class Context extends Owned {
   // isa: a word of nook_isa.
-  static make(library, log, isa = "auto") {
+  static make(library, log, isa = "auto", unitsPerMetre = 1) {
     const { module } = library;
     const severities = ["info", "warning", "error"];
     module.nookLog = log ? (severity, text) => log(severities[severity], text) : () => {};
     return new Context(library, library.call("nook_context_create", () => library.made((out) => module._nook_context_create(
-      library.descriptor("nook_context_desc", { log: log ? module._nook_web_log() : 0, isa }), out))));
+      library.descriptor("nook_context_desc", { log: log ? module._nook_web_log() : 0, isa, unitsPerMetre }), out))));
   }
   constructor(library, handle) {
     super(library, handle, "nook_context_destroy");

@@ -18,6 +18,8 @@ export interface LoadOptions {
   log?: (severity: "info" | "warning" | "error", text: string) => void;
   /** The instruction set of all objects of the context. */
   isa?: "auto" | "scalar" | "wasm128";
+  /** Units of length of your scene in a metre, such as 100; default 1. */
+  unitsPerMetre?: number;
 }
 /** Loads the module of WebAssembly and makes a context in it. */
 export function load(options?: LoadOptions): Promise<Context>;
@@ -83,6 +85,8 @@ export interface Pose {
   /** Bones without a transform keep their matrices. */
   partial?: boolean;
   strict?: boolean;
+  /** There may be more transforms than needed; the first ones count. */
+  surplus?: boolean;
 }
 export interface SkinInfo {
   fileIndex: number;
@@ -150,6 +154,8 @@ export interface SceneInfo {
   instancesUpdated: number;
   links: number;
   linksCulled: number;
+  /** Instances whose pose now has a bone that is sheared or scaled unevenly. */
+  unevenInstances: number;
   evaluations: number;
   memoryBytes: number;
 }

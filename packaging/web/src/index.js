@@ -26,8 +26,8 @@ async function instantiate(wasm, imports) {
 
 // Loads the module of WebAssembly and makes a context in it. wasm: where nook.wasm is, if it does not lie beside this file, or
 // its bytes; log(severity, text) takes the lines of the library's log;
-// isa chooses the instruction set of all objects.
-export async function load({ wasm, log, isa } = {}) {
+// isa chooses the instruction set of all objects, unitsPerMetre the unit of lengths.
+export async function load({ wasm, log, isa, unitsPerMetre } = {}) {
   const module = await new Promise((resolve, reject) => {
     makeModule({
       instantiateWasm(imports, receive) {
@@ -36,5 +36,5 @@ export async function load({ wasm, log, isa } = {}) {
       },
     }).then(resolve, reject);
   });
-  return Context.make(new Library(module), log, isa);
+  return Context.make(new Library(module), log, isa, unitsPerMetre);
 }

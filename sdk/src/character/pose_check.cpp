@@ -121,7 +121,7 @@ bool pose(Check& check, const Reading& reading) {
     const std::size_t expected = source.kind == NOOK_POSE_SKINNING
                                      ? check.model.bind.skins[source.skin].joint_count
                                      : check.model.bone_count();
-    if (source.transform_count < expected) return false;
+    if (source.given_count < expected) return false;
   }
   std::fill(check.has_matrix.begin(), check.has_matrix.end(), std::uint8_t{0});
   for_each_transform(check.model, source, [&](std::size_t bone, std::uint32_t index) {
