@@ -1,5 +1,5 @@
-// Names that rotate, as those of swap chains and of the frames of a headset: no frame asks OpenGL about names
-// that are known, and names of new textures are not taken for the old ones.
+// Names that rotate, as those of swap chains and of the frames of a headset: no frame makes a query about
+// names that are known, and names of new textures are not taken for the old ones.
 #include <functional>
 
 #include "tests/gl/nnao_images.h"
@@ -44,7 +44,7 @@ using Draw = std::function<void(const ScreenFrame&)>;
 void check_rotations(Trace& trace, const Chain& chain, const Draw& draw) {
   for (const std::size_t names : {2u, 3u, 4u}) {
     INFO(names << " names");
-    // A set is asked about when it comes, and when it comes back.
+    // A set is checked when it comes, and when it comes back.
     for (std::size_t i = 0; i < 2 * names; ++i) draw(chain.frames[i % names]);
     trace.reset();
     for (std::size_t i = 0; i < 6 * names; ++i) draw(chain.frames[i % names]);
@@ -53,7 +53,7 @@ void check_rotations(Trace& trace, const Chain& chain, const Draw& draw) {
     for (const std::size_t i : {0u, 0u, 1u, 0u, 1u, 1u, 0u}) draw(chain.frames[i]);
     CHECK(queries(trace) == 0);
   }
-  // More sets than are kept: each is asked about again, as before.
+  // More sets than are kept: each is checked again, as before.
   for (int i = 0; i < 24; ++i) draw(chain.frames[std::size_t(i % 6)]);
   trace.reset();
   for (int i = 0; i < 6; ++i) draw(chain.frames[std::size_t(i)]);
@@ -62,7 +62,7 @@ void check_rotations(Trace& trace, const Chain& chain, const Draw& draw) {
 
 }  // namespace
 
-TEST_CASE("rotating names: a warm frame of the screen pass asks OpenGL nothing") {
+TEST_CASE("rotating names: a warm frame of the screen pass makes no query") {
   NOOK_NEED_CONTEXT(context);
   Trace trace(context);
   Chain chain(context, trace);
@@ -77,7 +77,7 @@ TEST_CASE("rotating names: a warm frame of the screen pass asks OpenGL nothing")
   }
 }
 
-TEST_CASE("rotating names: a warm frame of the world pass asks OpenGL nothing") {
+TEST_CASE("rotating names: a warm frame of the world pass makes no query") {
   NOOK_NEED_CONTEXT(context);
   Trace trace(context);
   Chain chain(context, trace);
@@ -96,7 +96,7 @@ TEST_CASE("rotating names: a warm frame of the world pass asks OpenGL nothing") 
   nook_world_destroy(&pass);
 }
 
-TEST_CASE("rotating names: a name that was deleted and made anew is asked about again") {
+TEST_CASE("rotating names: a name that was deleted and made anew is checked again") {
   NOOK_NEED_CONTEXT(context);
   if (context.is_es() && version_of(context) < 31) return;  // it tells no formats
   const GladGLContext& gl = context.gl();
