@@ -151,7 +151,7 @@ TEST_CASE("depth of 16 bits is logged once by a pass") {
   NOOK_OK_OR_FAIL(nook_world_create(fixture.gl, &world_desc, &world));
   const auto warnings = [&] {
     return std::count_if(fixture.host.log.begin(), fixture.host.log.end(), [](const std::string& line) {
-      return line.find("has 16 bits (GL_DEPTH_COMPONENT16") != std::string::npos;
+      return line.find("has 16 bits (GL_DEPTH_COMPONENT16 or half floats") != std::string::npos;
     });
   };
   const auto render = [&](GLuint depth) {
@@ -173,4 +173,14 @@ TEST_CASE("depth of 16 bits is logged once by a pass") {
   CHECK(warnings() == 2);
   nook_nnao_destroy(&pass);
   nook_world_destroy(&world);
+  // Linear depth in half floats.
+  pass = create_pass(fixture.gl, pass_desc(width, height));
+  for (const GLint format : {GL_R32F, GL_R16F}) {
+    ScreenFrame linear = frame_desc(
+        camera, width, height, fixture.textures.floats(format, 1, width, height, picture.depth), 0, 0.5f);
+    linear.depth_kind = NOOK_DEPTH_LINEAR;
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &linear, &linear));
+    CHECK(warnings() == (format == GL_R16F ? 3 : 2));
+  }
+  nook_nnao_destroy(&pass);
 }

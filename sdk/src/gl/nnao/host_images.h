@@ -30,7 +30,7 @@ void check_images_of(const Functions& gl, const nook_nnao_desc& pass);
 // OpenGL's answers about the images of a frame.
 struct ImageFacts {
   std::uint32_t answers = 0;  // a sum that differs where sizes or formats do
-  int depth_bits = 0;         // of a depth format
+  int depth_bits = 0;         // of the channel with depth; 0: unknown
   bool normalised_normals = false;
 
   bool operator==(const ImageFacts&) const = default;
