@@ -1,5 +1,5 @@
 // nook_gl_desc.debug: calls without the OpenGL context of nook_gl_create are refused by name, and frames
-// without a surface are logged. Without it nothing is asked.
+// without a surface are logged.
 #include <EGL/egl.h>
 
 #include <optional>
@@ -162,7 +162,7 @@ TEST_CASE("debug: a context that shares objects is another one") {
   REQUIRE(shared != EGL_NO_CONTEXT);
   REQUIRE(eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, shared));
   calls.check_all_refused(other);
-  // What is destroyed here is left, and the log says so.
+  // Its objects are left, and the log has a line about them.
   nook_nnao_destroy(&calls.pass);
   CHECK(lines_with(calls.cast.context, "cannot be deleted") == 1);
   context.make_current();
@@ -178,6 +178,8 @@ TEST_CASE("debug: a frame without a surface is logged by a later frame, once") {
   const GLuint seen = fixture.depth_of(camera, look(camera, still_life(), width, height));
   const GLuint cleared =
       fixture.textures.floats(GL_R32F, 1, width, height, std::vector<float>(width * height, 1.0f));
+  const GLuint metres =
+      fixture.textures.floats(GL_R32F, 1, width, height, std::vector<float>(width * height, 2.5f));
   for (const std::int32_t debug : {0, 1}) {
     CountedContext host;
     Trace trace(context);
@@ -203,6 +205,10 @@ TEST_CASE("debug: a frame without a surface is logged by a later frame, once") {
     render(seen, 4);
     render(cleared, 4);
     CHECK(reports() == 4 * debug);
+    // Linear depth in metres, given as hardware depth.
+    render(seen, 4);
+    render(metres, 4);
+    CHECK(reports() == 6 * debug);
     CHECK((trace.calls("glBeginQuery") > 0) == (debug == 1));
     for (const char* forbidden : {"glReadPixels", "glGetBufferSubData", "glMapBufferRange", "glFinish"})
       CHECK(trace.calls(forbidden) == 0);

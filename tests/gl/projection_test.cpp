@@ -1,10 +1,11 @@
-// What a host gives as frame.projection: the projections of engines pass in every call that takes a frame,
-// and what is none is refused with a name.
+// frame.projection: the projections of engines pass in every call that takes a frame, and other matrices are
+// refused by name.
 #include <nook/experimental/nook_recording.h>
 #include <nook/experimental/nook_stages.h>
 
 #include <limits>
 
+#include "sdk/src/nnao/recording.h"
 #include "tests/gl/real_projections.h"
 #include "tests/gl/world_scene.h"
 
@@ -166,6 +167,15 @@ TEST_CASE("projection: other matrices are refused in every call, and named") {
        "not multiplied by a view matrix"},
       {{"an orthographic view-projection", product(box, turned_about_y(0.3))},
        "not multiplied by a view matrix"},
+      {{"a wide orthographic view-projection",
+        product(gl_ortho(-4e7, 4e7, -3e7, 3e7, 10, 9e7), turned_about_y(0.3))},
+       "not multiplied by a view matrix"},
+      {{"a view-projection that rolls",
+        product(plain, {0.8, 0.6, 0, 0, -0.6, 0.8, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1})},
+       "not multiplied by a view matrix"},
+      {{"a view-projection that looks down",
+        product(plain, {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, -5, 1})},
+       "frame.projection"},
       {{"the inverse", {0.9, 0, 0, 0, 0, 0.6, 0, 0, 0, 0, 0, -4.995, 0, 0, -1, 5.005}},
        "frame.projection is an inverse projection"},
       {{"left-handed", left_handed(plain)}, "frame.projection is left-handed"},
@@ -179,6 +189,31 @@ TEST_CASE("projection: other matrices are refused in every call, and named") {
        "frame.projection has its near or far plane behind the camera"},
   };
   for (const auto& [projection, text] : cases) calls.check_refused(projection, text);
+}
+
+TEST_CASE("projection: a recording of an oblique one gives the CPU the depths that were drawn") {
+  const std::vector<Camera> all = cameras(1.5f);
+  for (std::size_t i = all.size() - 2; i < all.size(); ++i) {
+    const Camera& camera = all[i];
+    INFO(camera.name);
+    REQUIRE(camera.name.find("oblique") != std::string::npos);
+    const Picture picture = look(camera, still_life(), 60, 40);
+    nnao::Recording recording;
+    recording.width = 60;
+    recording.height = 40;
+    recording.frame.clip = camera.clip;
+    std::copy_n(camera.projection, 16, recording.frame.projection);
+    const std::vector<float> stored = stored_depth(camera, picture);
+    recording.depth.assign(stored.begin(), stored.end());
+    const std::vector<float> found = nnao::view_depths(recording);
+    // A step of a float below 1 is 6e-8, which with a near plane of 0.3 m is 1e-5 m at 7 m; the coefficients
+    // are rounded as well.
+    for (std::size_t pixel = 0; pixel < found.size(); ++pixel)
+      if (std::isfinite(picture.depth[pixel]))
+        REQUIRE(std::abs(found[pixel] - picture.depth[pixel]) < 1e-4f * picture.depth[pixel]);
+      else
+        REQUIRE(std::isinf(found[pixel]));
+  }
 }
 
 TEST_CASE("projection: reversed depth with the other clip range is refused, and the range is named") {

@@ -184,6 +184,10 @@ inline std::vector<RealProjection> real_projections() {
       {"libGDX: OrthographicCamera", gl_ortho(0, 1280, 0, 720, 0, 100)},
       {"A cascade of shadows: XMMatrixOrthographicOffCenterRH", d3d_ortho(-30, 34, -31, 33, -120, 80), zero},
       {"A tile of a screenshot", gl_frustum(0.05, 0.1, 0.0, 0.03, 0.1, 400)},
+      {"Cesium: the far one of several frustums", gl_frustum(-4e5, 4e5, -2e5, 2e5, 1e6, 5e8)},
+      {"A survey in millimetres: orthographic", gl_ortho(-4e7, 4e7, -3e7, 3e7, 10, 9e7)},
+      {"A microscope in metres", glu_perspective(5, 1, 2e-5, 4e-3)},
+      {"A telescope: an angle of 0.05 degrees", glu_perspective(0.05, wide, 10, 1e5)},
       {"X-Plane: reversed, -1 to 1", glu_perspective(60, wide, 20000, 0.5)},
   };
 }

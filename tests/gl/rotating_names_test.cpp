@@ -1,5 +1,5 @@
-// Names that rotate, as those of swap chains and of the frames of a headset: no frame asks OpenGL about names
-// that are known, and names of new textures are not taken for the old ones.
+// Names that rotate, as those of swap chains and of the frames of a headset: no frame makes a query about
+// names that are known, and names of new textures are not taken for the old ones.
 #include <functional>
 
 #include "tests/gl/nnao_images.h"
@@ -44,7 +44,7 @@ using Draw = std::function<void(const ScreenFrame&)>;
 void check_rotations(Trace& trace, const Chain& chain, const Draw& draw) {
   for (const std::size_t names : {2u, 3u, 4u}) {
     INFO(names << " names");
-    // A set is asked about when it comes, and when it comes back.
+    // A set is checked when it comes, and when it comes back.
     for (std::size_t i = 0; i < 2 * names; ++i) draw(chain.frames[i % names]);
     trace.reset();
     for (std::size_t i = 0; i < 6 * names; ++i) draw(chain.frames[i % names]);
@@ -53,7 +53,7 @@ void check_rotations(Trace& trace, const Chain& chain, const Draw& draw) {
     for (const std::size_t i : {0u, 0u, 1u, 0u, 1u, 1u, 0u}) draw(chain.frames[i]);
     CHECK(queries(trace) == 0);
   }
-  // More sets than are kept: each is asked about again, as before.
+  // More sets than are kept: each is checked again, as before.
   for (int i = 0; i < 24; ++i) draw(chain.frames[std::size_t(i % 6)]);
   trace.reset();
   for (int i = 0; i < 6; ++i) draw(chain.frames[std::size_t(i)]);
@@ -62,7 +62,7 @@ void check_rotations(Trace& trace, const Chain& chain, const Draw& draw) {
 
 }  // namespace
 
-TEST_CASE("rotating names: a warm frame of the screen pass asks OpenGL nothing") {
+TEST_CASE("rotating names: a warm frame of the screen pass makes no query") {
   NOOK_NEED_CONTEXT(context);
   Trace trace(context);
   Chain chain(context, trace);
@@ -77,7 +77,7 @@ TEST_CASE("rotating names: a warm frame of the screen pass asks OpenGL nothing")
   }
 }
 
-TEST_CASE("rotating names: a warm frame of the world pass asks OpenGL nothing") {
+TEST_CASE("rotating names: a warm frame of the world pass makes no query") {
   NOOK_NEED_CONTEXT(context);
   Trace trace(context);
   Chain chain(context, trace);
@@ -96,7 +96,7 @@ TEST_CASE("rotating names: a warm frame of the world pass asks OpenGL nothing") 
   nook_world_destroy(&pass);
 }
 
-TEST_CASE("rotating names: a name that was deleted and made anew is asked about again") {
+TEST_CASE("rotating names: a name that was deleted and made anew is checked again") {
   NOOK_NEED_CONTEXT(context);
   if (context.is_es() && version_of(context) < 31) return;  // it tells no formats
   const GladGLContext& gl = context.gl();
@@ -151,7 +151,7 @@ TEST_CASE("depth of 16 bits is logged once by a pass") {
   NOOK_OK_OR_FAIL(nook_world_create(fixture.gl, &world_desc, &world));
   const auto warnings = [&] {
     return std::count_if(fixture.host.log.begin(), fixture.host.log.end(), [](const std::string& line) {
-      return line.find("has 16 bits (GL_DEPTH_COMPONENT16") != std::string::npos;
+      return line.find("has 16 bits (GL_DEPTH_COMPONENT16 or half floats") != std::string::npos;
     });
   };
   const auto render = [&](GLuint depth) {
@@ -173,4 +173,14 @@ TEST_CASE("depth of 16 bits is logged once by a pass") {
   CHECK(warnings() == 2);
   nook_nnao_destroy(&pass);
   nook_world_destroy(&world);
+  // Linear depth in half floats.
+  pass = create_pass(fixture.gl, pass_desc(width, height));
+  for (const GLint format : {GL_R32F, GL_R16F}) {
+    ScreenFrame linear = frame_desc(
+        camera, width, height, fixture.textures.floats(format, 1, width, height, picture.depth), 0, 0.5f);
+    linear.depth_kind = NOOK_DEPTH_LINEAR;
+    NOOK_OK_OR_FAIL(nook_nnao_render(pass, &linear, &linear));
+    CHECK(warnings() == (format == GL_R16F ? 3 : 2));
+  }
+  nook_nnao_destroy(&pass);
 }

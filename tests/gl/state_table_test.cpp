@@ -65,6 +65,12 @@ std::string table() {
          "their state, viewports from OpenGL 4.1 on and draw buffers from 4.0 on.\n\n"
          "With `NOOK_GL_STATE_PRESERVE`, each call queries this state once and restores it. With "
          "`NOOK_GL_STATE_DEFAULTS` and `NOOK_GL_STATE_HOST`, calls query nothing.\n\n"
+         "In every mode, nook_nnao_render and nook_world_render query the host's textures and target, 8 to "
+         "15 "
+         "queries, when a set of names, kinds and sizes comes and when it first comes back. They remember "
+         "the "
+         "last four sets: names that rotate over 2 to 4 cause no query after two rounds. With "
+         "`nook_gl_desc.debug`, every call queries the OpenGL context as well.\n\n"
          "At each call, no transform feedback may be active unless it is paused, and neither conditional "
          "rendering nor a query that counts primitives or samples may be active.\n";
   return out.str();

@@ -270,8 +270,8 @@ enum {
 typedef int32_t nook_blend;
 
 /* One frame. Textures are 2D and single-sampled, unless the pass was made for views or samples; level 0 with
- * width x height texels is read, through the pass's own samplers. The pass queries the size and format of
- * textures and targets when the names, kinds and sizes here are not among the last four that it has had. */
+ * width x height texels is read, through the pass's own samplers. The pass remembers the last four sets of
+ * names, kinds and sizes here, and queries OpenGL when a set is new or comes back for the first time. */
 typedef struct nook_gl_frame_desc {
   uint32_t struct_size, type;
   const void* next;

@@ -9,7 +9,8 @@
 namespace nook::nnao {
 namespace {
 
-// Elements are zero, one or equal up to this share of the largest.
+// An element is zero up to this share of the largest of its row. Rows differ: a wide orthographic projection
+// has small ones, a far near plane a large one.
 constexpr double equal_share = 1e-6;
 
 // The depths at both ends of the clip range agree with a camera up to this share: some infinite projections
@@ -22,10 +23,13 @@ constexpr double usual_depth_ratio = 50;
 // A projection as the check reads it: m[i] as OpenGL numbers the elements.
 struct Matrix {
   double m[16];
-  double largest;  // absolute element
+  double largest[4];  // absolute element of each row
 
   double operator[](int i) const { return m[i]; }
-  bool zero(int i) const { return std::abs(m[i]) <= equal_share * largest; }
+  bool zero(int i) const { return std::abs(m[i]) <= equal_share * largest[i % 4]; }
+  bool all_zeros() const {
+    return std::all_of(m, m + 16, [](double element) { return element == 0; });
+  }
   bool zeros(std::initializer_list<int> elements) const {
     return std::all_of(elements.begin(), elements.end(), [&](int i) { return zero(i); });
   }
@@ -33,17 +37,19 @@ struct Matrix {
   bool oblique() const { return !zero(2) || !zero(6); }
 };
 
-Matrix matrix_of(const float (&projection)[16]) {
+// element: the value of each.
+template <class Element>
+Matrix matrix_of(const Element& element) {
   Matrix matrix{};
-  std::copy_n(projection, 16, matrix.m);
-  for (const double element : matrix.m) matrix.largest = std::max(matrix.largest, std::abs(element));
+  for (int i = 0; i < 16; ++i) {
+    matrix.m[i] = element(i);
+    matrix.largest[i % 4] = std::max(matrix.largest[i % 4], std::abs(matrix.m[i]));
+  }
   return matrix;
 }
 
 Matrix transposed(const Matrix& matrix) {
-  Matrix turned = matrix;
-  for (int i = 0; i < 16; ++i) turned.m[i] = matrix[4 * (i % 4) + i / 4];
-  return turned;
+  return matrix_of([&](int i) { return matrix[4 * (i % 4) + i / 4]; });
 }
 
 // Clip x depends on x and z, clip y on y and z, and clip w on z or on nothing. An element that has to be 0
@@ -58,7 +64,7 @@ int stray_element(const Matrix& m) {
 // A camera that looks along -z, or along +z as left-handed ones do.
 bool is_camera_of_any_hand(const Matrix& m) {
   return stray_element(m) < 0 && !m.zero(0) && !m.zero(5) && (m.perspective() || m[15] > 0) &&
-         !m.zero(m.perspective() ? 14 : 10);
+         m[m.perspective() ? 14 : 10] != 0;
 }
 
 bool is_one(double value) {
@@ -91,8 +97,8 @@ bool is_deep(const Matrix& m, ClipRange clip) {
   return !m.oblique() && depths.before_camera() && depths.ratio() > usual_depth_ratio;
 }
 
-// Clip w of a perspective is -z or z. In a transposed matrix this number stands in the place of the near
-// plane, and the other way round.
+// Clip w of a perspective is -z or z. A transposed matrix has this number in the place of the near
+// plane, and the near plane in the place of this number.
 bool is_transposed(const Matrix& m, ClipRange clip) {
   const Matrix turned = transposed(m);
   if (!is_camera_of_any_hand(turned)) return false;
@@ -164,7 +170,7 @@ void check_perspective_depth(const Matrix& m, ClipRange clip) {
       element, m[element]);
 }
 
-// Of a left-handed orthographic projection the whole box lies behind a camera that looks along -z.
+// The whole box of a left-handed orthographic projection lies behind a camera that looks along -z.
 void check_parallel_depth(const Matrix& m, ClipRange clip) {
   const double first = (m[14] / m[15] - (clip == ClipRange::zero_to_one ? 0 : -1)) / m[10] * m[15],
                last = (m[14] / m[15] - 1) / m[10] * m[15];
@@ -187,7 +193,7 @@ void check_hardware_depth(const Matrix& m, ClipRange clip) {
 
 // Names the matrices that hosts give by mistake.
 void check_kind_of_matrix(const Matrix& m, ClipRange clip) {
-  if (m.largest == 0)
+  if (m.all_zeros())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.projection is all zeros; copy the projection of the camera to it");
   if (is_transposed(m, clip))
@@ -216,7 +222,7 @@ void check_projection(const float (&projection)[16], DepthKind kind, ClipRange c
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "frame.projection[%d] is not finite (got %g, need a projection matrix)", i,
                     double(projection[i]));
-  const Matrix m = matrix_of(projection);
+  const Matrix m = matrix_of([&](int i) { return double(projection[i]); });
   check_kind_of_matrix(m, clip);
   if (m.zero(0) || m.zero(5) || (m.perspective() ? m[11] > 0 : !(m[15] > 0)))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

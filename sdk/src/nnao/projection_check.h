@@ -1,5 +1,5 @@
-// What a host gives as its projection: a matrix that no camera has is refused, and the message says what the
-// matrix seems to be.
+// Checks the projection of a host. A matrix that no camera has is refused, and the message names the likely
+// mistake.
 #pragma once
 
 #include "sdk/src/nnao/host_depth.h"

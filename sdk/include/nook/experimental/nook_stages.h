@@ -163,7 +163,9 @@ typedef struct nook_nnao_frame_values {
 
 /* Computes the numbers of a frame. It depends on its arguments alone, and allocates nothing.
  * Set frame->normal_texture and desc->motion_vectors to 1 if the frame has such images; no other texture name
- * is read. target and target_name are not read, and blend only with bent normals. desc->show is
+ * is read. The call cannot see the format of the normals: with a normal_bias other than 0 it takes them as
+ * normalised integers, where a normal shorter than 0.25 is reconstructed from depth.
+ * target and target_name are not read, and blend only with bent normals. desc->show is
  * NOOK_NNAO_VIEW_AO, RAW or BLURRED, and RAW only without max_history_frames.
  * earlier: the frame before, or NULL for a cut. number: the count of frames before, which turns the noise of
  * passes with max_history_frames. view: less than nook_nnao_desc.views, or 0.

@@ -1,4 +1,4 @@
-// The sets of host images that a pass has checked, so that it asks OpenGL nothing about names that it knows.
+// The sets of host images that a pass has checked. It does not query OpenGL about names that it knows.
 #pragma once
 
 #include <cstddef>

@@ -127,11 +127,15 @@ bool is_float_or_normalised(GLint type) {
                 static_cast<unsigned>(texture.level(GL_TEXTURE_INTERNAL_FORMAT)), need);
 }
 
-// Returns the bits of a depth format, 0 for colours. framebuffer: see ask_attached.
+// Returns the bits of the channel with depth. framebuffer: see ask_attached.
 int check_depth(const BoundTexture& texture, nook_depth_kind kind, GLuint framebuffer) {
   const Functions& gl = texture.gl;
-  if (!gl.can.texture_sizes)
-    return ask_attached(texture, framebuffer, GL_DEPTH_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
+  if (!gl.can.texture_sizes) {
+    const int bits =
+        ask_attached(texture, framebuffer, GL_DEPTH_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
+    if (bits > 0) return bits;
+    return ask_attached(texture, framebuffer, GL_COLOR_ATTACHMENT0, GL_FRAMEBUFFER_ATTACHMENT_RED_SIZE);
+  }
   const GLint depth_bits = texture.level(GL_TEXTURE_DEPTH_SIZE);
   const bool depth_format = depth_bits > 0;
   const GLint red_bits = texture.level(GL_TEXTURE_RED_SIZE);
@@ -144,7 +148,8 @@ int check_depth(const BoundTexture& texture, nook_depth_kind kind, GLuint frameb
                   kind == NOOK_DEPTH_HARDWARE ? "a depth format or GL_R32F for NOOK_DEPTH_HARDWARE"
                                               : "a depth format or GL_R32F for NOOK_DEPTH_LOGARITHMIC");
   }
-  if (!depth_format || !gl.can.stencil_textures) return depth_bits;
+  if (!depth_format) return red_bits;
+  if (!gl.can.stencil_textures) return depth_bits;
   GLint mode = GL_DEPTH_COMPONENT;
   gl.GetTexParameteriv(texture.target, GL_DEPTH_STENCIL_TEXTURE_MODE, &mode);
   if (mode != GL_DEPTH_COMPONENT)

@@ -27,10 +27,10 @@ HostImages images_of(const NnaoFrame& frame, const nook_nnao_desc& pass);
 // Throws Failure(NOOK_ERROR_UNSUPPORTED) unless this OpenGL has the kinds of images of a pass.
 void check_images_of(const Functions& gl, const nook_nnao_desc& pass);
 
-// What OpenGL has answered about the images of a frame.
+// OpenGL's answers about the images of a frame.
 struct ImageFacts {
   std::uint32_t answers = 0;  // a sum that differs where sizes or formats do
-  int depth_bits = 0;         // of a depth format
+  int depth_bits = 0;         // of the channel with depth; 0: unknown
   bool normalised_normals = false;
 
   bool operator==(const ImageFacts&) const = default;

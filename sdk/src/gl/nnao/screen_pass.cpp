@@ -80,14 +80,14 @@ ImageFacts ScreenPass::check(const HostImages& images, bool changed) {
     throw;
   }
   checked_.add(images, facts);
-  if (facts.depth_bits == 16 && !coarse_depth_told_) {
+  if (facts.depth_bits > 0 && facts.depth_bits <= 16 && !coarse_depth_told_) {
     coarse_depth_told_ = true;
     device_.context.log(
         NOOK_LOG_WARNING,
-        "nook_gl: frame.depth_texture %u has 16 bits (GL_DEPTH_COMPONENT16, need 24 or more): "
-        "AO shows bands that grow with the distance; use GL_DEPTH_COMPONENT24 or "
-        "GL_DEPTH_COMPONENT32F",
-        images.depth);
+        "nook_gl: frame.depth_texture %u has %d bits (GL_DEPTH_COMPONENT16 or half floats, need "
+        "24 or more): AO shows bands; use GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32F or "
+        "GL_R32F",
+        images.depth, facts.depth_bits);
   }
   return facts;
 }

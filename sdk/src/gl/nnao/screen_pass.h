@@ -53,8 +53,8 @@ class ScreenPass {
   ImageFacts check(const HostImages& images, bool changed);
   // Makes the stage that draws a pixel for each surface. Only with nook_gl_desc.debug.
   void make_watch(ScreenStage stage);
-  // Where the stage was made: asks whether the frame has a surface. bind_depth(frame) binds the depth of a
-  // layer. Draws into the pass's own texture, which the frame overwrites.
+  // If the stage was made, counts the surfaces of the frame. bind_depth(frame) binds the depth of a layer.
+  // Draws into the pass's own texture, which the frame overwrites.
   template <class BindDepth>
   void watch_surfaces(const NnaoFrame& frame, const BindDepth& bind_depth) {
     if (!watch_ || !watch_->begin(device_, frame)) return;
