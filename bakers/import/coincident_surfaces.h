@@ -30,7 +30,7 @@ struct CoincidentPair {
   float cover[2] = {};                            // share of the area of each that the other covers
 };
 
-// Looks along the normals of samples of each part, as far as 1 % of its size. Linear in the triangles, times
+// Looks along the normals of samples of each part, as far as 2 % of its size. Linear in the triangles, times
 // the logarithm of the samples, of which there are at most 2^16 or 16 a part.
 std::vector<CoincidentPair> coincident_surfaces(const SurfaceParts& parts, std::span<const Vec3> position,
                                                 std::span<const std::array<std::uint32_t, 3>> triangle);
