@@ -380,8 +380,8 @@ void warn_of_coincident_surfaces(const tinygltf::Model& model, const SurfacePart
     warnings.push_back(sentence_of(model, pairs[i]));
   if (pairs.size() > most)
     warnings.push_back(std::to_string(pairs.size() - most) +
-                       (pairs.size() == most + 1 ? " more pair" : " more pairs") +
-                       " of nodes lie on each other; `nook inspect` lists the nodes of a file");
+                       (pairs.size() == most + 1 ? " more pair of nodes lies" : " more pairs of nodes lie") +
+                       " on each other; `nook inspect` lists the nodes of a file");
 }
 
 }  // namespace nook::bake
