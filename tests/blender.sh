@@ -30,3 +30,5 @@ BLENDER_USER_SCRIPTS="$folder/user" BLENDER_USER_CONFIG="$folder/user" PYTHONDON
   blender -b --factory-startup --python-exit-code 1 --python "$root/tests/blender/blender_test.py" -- \
   "$addon" "$NOOK_TOOL" "$NOOK_LIBRARY" "$folder/character" ${1:+"$1"} | tee "$folder/log"
 grep "^the add-on passes" "$folder/log"
+left=$(find "$folder/temporary" -mindepth 1)
+[ -z "$left" ] || { echo "tests/blender.sh: Blender left $left" >&2; exit 1; }

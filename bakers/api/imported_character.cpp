@@ -35,10 +35,9 @@ void need_index(const char* name, std::size_t index, std::size_t count) {
                   count);
 }
 
-ImportedCharacter import_file(const char* path, const MeshSelection& meshes) {
+ImportedCharacter import_file(const char* path, const ImportOptions& options) {
   try {
-    return import_gltf(std::filesystem::path(reinterpret_cast<const char8_t*>(path)),
-                       {LinkedFiles::folder, meshes});
+    return import_gltf(std::filesystem::path(reinterpret_cast<const char8_t*>(path)), options);
   } catch (const Failure& failure) {
     // The message of the importer may already contain the name of the file.
     if (std::string_view(failure.what()).find(path) != std::string_view::npos) throw;
@@ -70,7 +69,9 @@ ImportedCharacter character_of(const nook_bake_source_desc& desc) {
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
         "desc.meshes and desc.without choose meshes of a file, but desc has arrays; leave them out");
-  if (desc.path) return import_file(desc.path, meshes);
+  if (desc.path)
+    return import_file(desc.path,
+                       {desc.allow_outside_files ? LinkedFiles::anywhere : LinkedFiles::folder, meshes});
   if (desc.bytes)
     return import_gltf(std::span(static_cast<const std::byte*>(desc.bytes), desc.byte_count), meshes);
   return character_of_arrays(desc);

@@ -7,6 +7,7 @@
 #include "bakers/import/accessor.h"
 #include "bakers/import/coincident_surfaces.h"
 #include "bakers/import/file_reader.h"
+#include "bakers/import/gltf_check.h"
 #include "bakers/import/gltf_clips.h"
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_mesh.h"
@@ -19,7 +20,8 @@
 namespace nook::bake {
 namespace {
 
-Skin read_skin(const tinygltf::Model& model, int index, const NodeTree& nodes) {
+Skin read_skin(const tinygltf::Model& model, int index, const NodeTree& nodes,
+               std::vector<std::string>& warnings) {
   const tinygltf::Skin& source = model.skins[index];
   const std::string what = "skin " + std::to_string(index);
   if (source.joints.empty()) throw Failure(NOOK_ERROR_BAD_FILE, "%s has no joints", what.c_str());
@@ -35,9 +37,9 @@ Skin read_skin(const tinygltf::Model& model, int index, const NodeTree& nodes) {
   }
   std::vector<std::uint32_t> sorted = skin.joint;
   std::sort(sorted.begin(), sorted.end());
-  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twice != sorted.end())
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s lists joint node %u twice", what.c_str(), *twice);
+  if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
+    warnings.push_back(what + " lists joint node " + std::to_string(*twice) +
+                       " twice, which glTF forbids; both entries follow it");
   // Without the accessor all matrices are identity: glTF 2.0, section 3.7.3.1.
   skin.inverse_bind.resize(skin.joint.size());
   if (source.inverseBindMatrices < 0) return skin;
@@ -46,7 +48,8 @@ Skin read_skin(const tinygltf::Model& model, int index, const NodeTree& nodes) {
   if (count < skin.joint.size() || count > max_bone_count)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu inverse bind matrices for %zu joints", what.c_str(), count,
                   skin.joint.size());
-  const Floats matrices = read_floats(model, source.inverseBindMatrices, 16, matrices_name);
+  const Floats matrices =
+      read_floats(model, source.inverseBindMatrices, 16, matrices_name, skin.joint.size());
   for (std::size_t j = 0; j < skin.joint.size(); ++j) {
     std::array<double, 16> columns;
     std::copy_n(matrices.value.begin() + 16 * j, 16, columns.begin());
@@ -76,7 +79,8 @@ struct MeshNodes {
   std::vector<std::uint32_t> rigid_nodes;
 };
 
-MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes, const ShownNodes& shown) {
+MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes, const ShownNodes& shown,
+                          std::vector<std::string>& warnings) {
   MeshNodes out;
   std::vector<std::int64_t> place_of_skin(model.skins.size(), -1);
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {
@@ -91,7 +95,7 @@ MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes, c
       throw Failure(NOOK_ERROR_BAD_FILE, "node %u names skin %d (file has %zu)", i, skin, model.skins.size());
     if (place_of_skin[skin] < 0) {
       place_of_skin[skin] = static_cast<std::int64_t>(out.skins.size());
-      out.skins.push_back(read_skin(model, skin, nodes));
+      out.skins.push_back(read_skin(model, skin, nodes, warnings));
       out.file_skins.push_back(static_cast<std::uint32_t>(skin));
     }
     out.all.push_back({i, true, static_cast<std::size_t>(place_of_skin[skin])});
@@ -99,6 +103,10 @@ MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes, c
   if (out.all.empty()) throw Failure(NOOK_ERROR_BAD_FILE, "no triangles: the scene shows no mesh");
   return out;
 }
+
+// Nodes and bones over all sampled poses: those of thousands of clips of usual characters, so that the work
+// does not grow with clips times nodes.
+constexpr std::size_t max_checked_matrices = std::size_t{1} << 24;
 
 // Bones that a clip shears or scales unevenly: their matrices are replaced by the nearest similarity.
 void warn_of_uneven_bones(ImportedCharacter& character) {
@@ -111,12 +119,24 @@ void warn_of_uneven_bones(ImportedCharacter& character) {
     for (std::size_t b = 0; b < worst.size(); ++b) worst[b] = std::max(worst[b], deviation[b]);
   };
   look(default_locals(character.nodes));
-  for (const Clip& clip : character.clips)
+  std::size_t left = max_checked_matrices, unchecked = 0;
+  for (const Clip& clip : character.clips) {
+    const std::size_t cost = samples * (character.nodes.size() + worst.size());
+    if (cost > left) {
+      ++unchecked;
+      continue;
+    }
+    left -= cost;
     for (int i = 0; i < samples; ++i) {
       std::vector<Trs> locals = default_locals(character.nodes);
       apply_clip(clip, clip.duration_s * static_cast<float>(i) / (samples - 1), locals);
       look(locals);
     }
+  }
+  if (unchecked > 0)
+    character.warnings.push_back(
+        std::to_string(unchecked) +
+        " clips were not checked for shear and uneven scale, because the file has so many");
   for (std::size_t b = 0; b < worst.size(); ++b) {
     if (worst[b] <= tolerance) continue;
     char percent[32];
@@ -210,11 +230,12 @@ ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAcces
   ImportedCharacter character;
   character.source_hash = hash_of(bytes, model);
   character.nodes = read_nodes(model);
+  character.warnings = document_warnings(model);
   character.clips = read_clips(model, character.nodes, character.warnings);
 
   const ShownNodes shown = choose_nodes(model, character.nodes, selection);
   character.warnings.insert(character.warnings.end(), shown.notes.begin(), shown.notes.end());
-  const MeshNodes mesh_nodes = find_mesh_nodes(model, character.nodes, shown);
+  const MeshNodes mesh_nodes = find_mesh_nodes(model, character.nodes, shown, character.warnings);
   Skeleton skeleton = skeleton_of(character, mesh_nodes);
 
   FileMesh file;

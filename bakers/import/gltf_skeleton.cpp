@@ -216,8 +216,7 @@ Skeleton build_skeleton(const NodeTree& nodes, const std::vector<Skin>& skins, c
   for (const std::size_t i : by_depth) add_skin(b, skins[i], out.skins[i]);
   b.settle_rigid_nodes(moves);
   out.rigid_parts.resize(rigid_nodes.size());
-  for (std::size_t i = 0; i < rigid_nodes.size(); ++i)
-    add_rigid_part(b, rigid_nodes[i], out.rigid_parts[i]);
+  for (std::size_t i = 0; i < rigid_nodes.size(); ++i) add_rigid_part(b, rigid_nodes[i], out.rigid_parts[i]);
 
   const std::vector<std::int32_t> parent_bone = parent_bones(b);
   const std::vector<std::uint32_t> order = parents_first(b, parent_bone);

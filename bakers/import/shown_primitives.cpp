@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bakers/import/gltf_check.h"
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_mesh.h"
 #include "bakers/import/shown_nodes.h"
@@ -84,7 +85,9 @@ std::vector<std::string> for_each_shown_primitive(const tinygltf::Model& model,
       }
     }
   }
-  return std::move(chosen.notes);
+  std::vector<std::string> warnings = document_warnings(model);
+  warnings.insert(warnings.end(), chosen.notes.begin(), chosen.notes.end());
+  return warnings;
 }
 
 Floats read_positions(const tinygltf::Model& model, const ShownPrimitive& shown, std::size_t before) {

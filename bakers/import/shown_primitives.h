@@ -41,7 +41,8 @@ struct ShownPrimitive {
 
 // Visits the primitives of the nodes that are in (choose_nodes) in the order of nodes, and those of each
 // instance of a mesh after one another. One at a time, because a small file may show a mesh of many
-// primitives by many nodes. Returns the notes of choose_nodes, and fails as it does.
+// primitives by many nodes. Returns the warnings of the document and the notes of choose_nodes, and fails as
+// choose_nodes does.
 std::vector<std::string> for_each_shown_primitive(const tinygltf::Model& model,
                                                   const MeshSelection& selection,
                                                   const std::function<void(const ShownPrimitive&)>& visit);

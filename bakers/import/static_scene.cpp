@@ -9,6 +9,7 @@
 #include "bakers/import/file_reader.h"
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_textures.h"
+#include "bakers/import/gltf_types.h"
 #include "bakers/import/shown_primitives.h"
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
@@ -76,6 +77,7 @@ void read_uv(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
   if (accessor < 0)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has no %s, which the texture of material %d reads", what.c_str(),
                   name.c_str(), primitive.material);
+  require_allowed_type(model, accessor, AccessorUse::texture_coordinates, what + "." + name);
   const std::size_t count = element_count(model, accessor, what + "." + name);
   if (count != scene.position.size() - first)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu %s (need one for each of %zu vertices)", what.c_str(),

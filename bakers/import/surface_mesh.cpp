@@ -9,6 +9,7 @@
 #include "bakers/import/coincident_surfaces.h"
 #include "bakers/import/file_reader.h"
 #include "bakers/import/gltf_document.h"
+#include "bakers/import/gltf_types.h"
 #include "bakers/import/shown_primitives.h"
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
@@ -22,15 +23,17 @@ struct Building {
   SurfaceMesh mesh;
   std::vector<bool> makes_normal, makes_tangent;  // of each vertex
   std::size_t opposite = 0;                       // tangents whose w contradicts the texture coordinates
+  std::size_t not_unit = 0;                       // normals that were normalised
 };
 
 // Reads an attribute of one number of components for each of `count` vertices; empty if there is none.
 std::vector<float> read_attribute(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                                  const char* name, int components, std::size_t count,
+                                  const char* name, AccessorUse use, int components, std::size_t count,
                                   const std::string& what) {
   const int accessor = attribute(primitive, name);
   if (accessor < 0) return {};
   const std::string place = std::string(what).append(".").append(name);
+  require_allowed_type(model, accessor, use, place);
   const std::size_t got = element_count(model, accessor, place);
   if (got != count)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu elements (need one for each of %zu vertices)",
@@ -80,15 +83,17 @@ void append_primitive(const tinygltf::Model& model, const ShownPrimitive& shown,
   const auto first = std::uint32_t(mesh.position.size());
   const Floats position = read_positions(model, shown, first);
   const std::size_t count = position.count;
-  const std::vector<float> uv = read_attribute(model, primitive, "TEXCOORD_0", 2, count, what);
+  const std::vector<float> uv =
+      read_attribute(model, primitive, "TEXCOORD_0", AccessorUse::texture_coordinates, 2, count, what);
   if (uv.empty() && count > 0)
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "%s has no TEXCOORD_0, which a material needs; unwrap the mesh and export it again",
                   what.c_str());
   std::vector<float> normal, tangent;
   if (shown.morph_weights.empty()) {
-    normal = read_attribute(model, primitive, "NORMAL", 3, count, what);
-    if (!normal.empty()) tangent = read_attribute(model, primitive, "TANGENT", 4, count, what);
+    normal = read_attribute(model, primitive, "NORMAL", AccessorUse::normal, 3, count, what);
+    if (!normal.empty())
+      tangent = read_attribute(model, primitive, "TANGENT", AccessorUse::tangent, 4, count, what);
   }
   const bool stays = is_identity(world_from_mesh), is_mirrored = determinant(world_from_mesh) < 0;
   for (std::size_t v = 0; v < count; ++v) {
@@ -103,6 +108,8 @@ void append_primitive(const tinygltf::Model& model, const ShownPrimitive& shown,
     Vec3 n;
     if (!normal.empty()) {
       n = {normal[3 * v], normal[3 * v + 1], normal[3 * v + 2]};
+      // Normals in bytes are up to 1.5 % off.
+      building.not_unit += std::abs(length(n) - 1) > 0.03f && length(n) > 0.1f;
       if (!stays) n = turn_normal(world_from_mesh, n);
     }
     const bool has_normal = length(n) > 0.1f;
@@ -129,6 +136,10 @@ void append_primitive(const tinygltf::Model& model, const ShownPrimitive& shown,
 
 void make_missing(Building& building, std::vector<std::string>& warnings) {
   SurfaceMesh& mesh = building.mesh;
+  if (building.not_unit > 0)
+    warnings.push_back(
+        std::to_string(building.not_unit)
+            .append(" vertices have normals that are not of unit length; they were normalised"));
   const auto count = [](const std::vector<bool>& made) {
     return std::size_t(std::count(made.begin(), made.end(), true));
   };

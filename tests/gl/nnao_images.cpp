@@ -94,11 +94,10 @@ std::vector<Camera> cameras(float aspect) {
   oblique_parallel.name = "orthographic with oblique planes";
   oblique_parallel.projection[2] = 0.004f;
   oblique_parallel.projection[6] = -0.007f;
-  all.push_back(oblique);
-  all.push_back(oblique_parallel);
   for (Camera& camera :
        {std::ref(off_centre), std::ref(off_centre_parallel), std::ref(flipped), std::ref(scaled)})
     all.push_back(camera);
+  for (const Camera& camera : {oblique, oblique_parallel}) all.push_back(camera);
   return all;
 }
 

@@ -24,6 +24,8 @@ int main(int argc, char** argv) {
     stranger_run_truth(&s, strtof(argv[4], NULL));
   else if (strcmp(argv[1], "checks") == 0)
     stranger_run_checks(&s);
+  else if (strcmp(argv[1], "mistakes") == 0)
+    stranger_run_mistakes(&s);
   else
     stranger_expect(&s, 0, "there is no part \"%s\" with %d arguments", argv[1], argc - 4);
   failures = s.failures;

@@ -28,7 +28,9 @@ LARGEST_RMS = 5e-4
 # pose gives.
 BAKE = ["--preset", "draft", "--poses", "clips", "--samples-per-clip", "10", "--rays", "32", "--steps", "300", "--spheres", "60",
         "--key-points", "150", "--threads", "1", "--quiet"]
-LARGEST_SHARE = "0.33"
+LARGEST_SHARE = 0.33
+# Joints that lie at one place do not tell the baker where the body bends.
+LARGEST_SHARE_OF = {"one_place": 0.6, "no_inverse_bind": 0.6}
 
 
 class Runner:
@@ -72,6 +74,7 @@ def run_rigs(runner, options, names):
         ao[name] = options.folder / f"{name}.ao"
         runner.run(name, [options.program, "layouts", model, flat, ao[name]])
         runner.run(name, [options.program, "checks", model, flat])
+        runner.run(name, [options.program, "mistakes", model, flat])
         base = BASE.get(name, "plain")
         if base in ao and ao[name].exists():
             rms = rms_of(ao[name], ao[base])
@@ -85,7 +88,7 @@ def run_bakes(runner, options, names):
         character, flat = prepared(runner, options.folder, name)
         model = options.folder / f"{name}.nook"
         if runner.run(name, [options.tool, "bake", "character", character, "-o", model, *BAKE]):
-            runner.run(name, [options.program, "truth", model, flat, LARGEST_SHARE])
+            runner.run(name, [options.program, "truth", model, flat, LARGEST_SHARE_OF.get(name, LARGEST_SHARE)])
 
 
 def run_characters(runner, options):
@@ -95,6 +98,7 @@ def run_characters(runner, options):
         if runner.run(file.stem, [sys.executable, HERE / "flatten.py", file, flat]) and \
                 runner.run(file.stem, [options.unfitted, file, model]):
             runner.run(file.stem, [options.program, "checks", model, flat])
+            runner.run(file.stem, [options.program, "mistakes", model, flat])
     return len(files)
 
 

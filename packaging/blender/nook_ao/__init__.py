@@ -10,9 +10,9 @@ bl_info = {
     "category": "Bake",
 }
 
-from . import operators, panel, preferences, shown  # noqa: E402
+from . import folders, operators, panel, preferences, shown  # noqa: E402
 
-PARTS = (preferences, operators, panel, shown)
+PARTS = (folders, preferences, operators, panel, shown)
 
 
 def register():

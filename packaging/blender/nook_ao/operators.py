@@ -1,12 +1,11 @@
 """The operators: bake, show, ray trace a frame, open the report."""
 import contextlib
 import pathlib
-import tempfile
 import webbrowser
 
 import bpy
 
-from . import character, export, library, preferences, shown, tool
+from . import character, export, folders, library, preferences, shown, tool
 from .faults import Fault
 
 PAGE_FILE = "report.html"
@@ -33,6 +32,56 @@ def error_text(error):
     return text[0].upper() + text[1:]
 
 
+def ask(folder, then):
+    """Returns True after it has shown a dialog about a folder that only the file has chosen; the dialog calls operator `then`."""
+    if folders.is_confirmed(folder) or bpy.app.background:
+        return False
+    bpy.ops.nook.confirm("INVOKE_DEFAULT", folder=folder, then=then)
+    return True
+
+
+class NOOK_OT_confirm(bpy.types.Operator):
+    """Allow the add-on to use a folder that this .blend file names"""
+
+    bl_idname = "nook.confirm"
+    bl_label = "Use this folder?"
+    bl_options = {"INTERNAL"}
+
+    folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH", options={"SKIP_SAVE"})
+    then: bpy.props.EnumProperty(items=(("none", "", ""), ("bake", "", ""), ("show", "", ""), ("report", "", "")), default="none",
+                                 options={"SKIP_SAVE", "HIDDEN"})
+
+    # What happens to the folder, for the user who decides.
+    USES = {"bake": "Nook will write character.glb and character.nook there, over files of these names:",
+            "show": "Nook will load character.glb and character.nook from there:",
+            "report": "Nook will load the bake from there, and write report.html there:", "none": "Nook may read and write there:"}
+
+    def invoke(self, context, _event):
+        return context.window_manager.invoke_props_dialog(self, width=600)
+
+    def draw(self, _context):
+        column = self.layout.column()
+        column.label(text="This .blend file names a folder, which you have not chosen since it was opened.", icon="QUESTION")
+        column.label(text=self.USES[self.then])
+        text = folders.printable(self.folder)
+        for at in range(0, len(text), 80):
+            column.label(text=text[at:at + 80])
+
+    def execute(self, _context):
+        try:
+            folders.confirm(self.folder)
+        except Fault as error:
+            self.report({"ERROR"}, error_text(error))
+            return {"CANCELLED"}
+        if self.then != "none":
+            try:
+                getattr(bpy.ops.nook, self.then)("INVOKE_DEFAULT")
+            except RuntimeError as error:  # what the operator reported
+                self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
+                return {"CANCELLED"}
+        return {"FINISHED"}
+
+
 class CommandOperator(bpy.types.Operator):
     """A command of the tool. From the interface it runs beside Blender and Escape ends it; from a script Blender waits."""
 
@@ -46,6 +95,15 @@ class CommandOperator(bpy.types.Operator):
         """What happens after the command."""
         raise NotImplementedError
 
+    then = ""  # its name behind "nook.", which the dialog calls
+
+    def folder(self, context):
+        """The folder that the command reads or writes, or None for one of its own."""
+        raise NotImplementedError
+
+    def abandon(self):
+        """What happens instead of finish() where the command is not started, fails or is ended."""
+
     def execute(self, context):
         try:
             run = tool.Run(self.begin(context))
@@ -53,18 +111,29 @@ class CommandOperator(bpy.types.Operator):
             run.check()
             self.finish(context)
         except Fault as error:
+            self.abandon()
             self.report({"ERROR"}, error_text(error))
             return {"CANCELLED"}
+        except BaseException:
+            self.abandon()
+            raise
         return {"FINISHED"}
 
     def invoke(self, context, _event):
         if bpy.app.background:
             return self.execute(context)
         try:
+            folder = self.folder(context)
+            if folder is not None and ask(folder, self.then):
+                return {"CANCELLED"}
             self._run = tool.Run(self.begin(context))
         except Fault as error:
+            self.abandon()
             self.report({"ERROR"}, error_text(error))
             return {"CANCELLED"}
+        except BaseException:
+            self.abandon()
+            raise
         self._timer = context.window_manager.event_timer_add(0.2, window=context.window)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
@@ -73,6 +142,7 @@ class CommandOperator(bpy.types.Operator):
         if event.type == "ESC":
             self._run.cancel()
             self._end(context)
+            self.abandon()
             self.report({"INFO"}, "Nook: cancelled")
             return {"CANCELLED"}
         if event.type != "TIMER":
@@ -85,6 +155,7 @@ class CommandOperator(bpy.types.Operator):
             self._run.check()
             self.finish(context)
         except Fault as error:
+            self.abandon()
             self.report({"ERROR"}, error_text(error))
             return {"CANCELLED"}
         return {"FINISHED"}
@@ -92,6 +163,7 @@ class CommandOperator(bpy.types.Operator):
     def cancel(self, _context):
         """Blender ends."""
         self._run.cancel()
+        self.abandon()
 
     def _end(self, context):
         context.window_manager.event_timer_remove(self._timer)
@@ -104,14 +176,30 @@ class NOOK_OT_bake(CommandOperator):
     bl_idname = "nook.bake"
     bl_label = "Bake ambient occlusion"
 
+    then = "bake"
+    _folder = None
+
+    def folder(self, context):
+        chosen = context.scene.nook.folder
+        return folders.resolved(chosen, "the scene") if chosen else None
+
+    def abandon(self):
+        if self._folder is not None:
+            folders.remove_temporary(self._folder)
+
     def begin(self, context):
         settings = context.scene.nook
         command = tool.find(preferences.of(context).tool)
         library.load(preferences.of(context).library)  # a bake that cannot be shown is not begun
         armature = character.armature_of(context)
         self._armature_name = armature.name
-        folder = bpy.path.abspath(settings.folder) if settings.folder else tempfile.mkdtemp(prefix="nook-")
+        folder = self.folder(context)
+        if folder is not None:
+            folders.require_confirmed(folder)
+        else:
+            folder = folders.make_temporary()
         self._folder = pathlib.Path(folder)
+        folders.require_own_files(folder, (shown.CHARACTER_FILE, shown.MODEL_FILE))
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
@@ -153,16 +241,22 @@ class NOOK_OT_show(bpy.types.Operator):
     bl_label = "Show ambient occlusion"
     bl_options = {"REGISTER"}
 
+    def invoke(self, context, _event):
+        try:
+            armature = character.armature_of(context)
+            if shown.get(armature) is None and ask(shown.folder_of(armature), "show"):
+                return {"CANCELLED"}
+        except Fault:
+            pass  # execute() says it
+        return self.execute(context)
+
     def execute(self, context):
         try:
             armature = character.armature_of(context)
             if shown.get(armature) is not None:
                 shown.hide(armature)
                 return {"FINISHED"}
-            folder = armature.get(shown.FOLDER_PROPERTY)
-            if folder is None:
-                raise Fault(f"the armature {armature.name} has no bake; bake it first")
-            shown.show(context, armature, folder)
+            shown.show(context, armature, shown.folder_of(armature))
             show_colours(context)
         except Fault as error:
             self.report({"ERROR"}, error_text(error))
@@ -198,13 +292,19 @@ class NOOK_OT_report(CommandOperator):
     bl_idname = "nook.report"
     bl_label = "Open the report"
 
+    then = "report"
+
+    def folder(self, context):
+        return shown.folder_of(character.armature_of(context))
+
     def begin(self, context):
         command = tool.find(preferences.of(context).tool)
-        armature = character.armature_of(context)
-        folder = armature.get(shown.FOLDER_PROPERTY)
-        if folder is None or not (pathlib.Path(folder) / shown.MODEL_FILE).is_file():
-            raise Fault(f"the armature {armature.name} has no bake; bake it first")
+        folder = self.folder(context)
+        folders.require_confirmed(folder)
         self._folder = pathlib.Path(folder)
+        if not (self._folder / shown.MODEL_FILE).is_file():
+            raise Fault(f"the armature {character.armature_of(context).name} has no bake; bake it first")
+        folders.require_own_files(folder, (PAGE_FILE,))
         self._page = self._folder / PAGE_FILE
         return [command, "report", str(self._folder / shown.MODEL_FILE), str(self._folder / shown.CHARACTER_FILE), "-o", str(self._page)]
 
@@ -231,7 +331,7 @@ def show_colours(context):
                 shading.light, shading.color_type = "FLAT", "VERTEX"
 
 
-CLASSES = (NOOK_OT_bake, NOOK_OT_show, NOOK_OT_trace, NOOK_OT_report)
+CLASSES = (NOOK_OT_confirm, NOOK_OT_bake, NOOK_OT_show, NOOK_OT_trace, NOOK_OT_report)
 
 
 def register():

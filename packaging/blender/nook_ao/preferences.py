@@ -1,6 +1,8 @@
 """Where the command and the libraries are, and the settings of a scene."""
 import bpy
 
+from . import folders
+
 PRESETS = (("draft", "Draft", "About 20 seconds"), ("standard", "Standard", "Up to 5 minutes"), ("production", "Production", "Up to half an hour"))
 POSES = (("all", "Generated and actions", "Generated poses, and those of the character's actions"), ("auto", "Generated", "Generated poses alone"),
          ("clips", "Actions", "Poses of the character's actions alone"))
@@ -18,6 +20,12 @@ class NookPreferences(bpy.types.AddonPreferences):
         self.layout.prop(self, "library")
 
 
+def confirm_chosen(settings, _context):
+    """Called when the user or a script sets the folder, and not when a file is loaded."""
+    if settings.folder:
+        folders.confirm(settings.folder)
+
+
 class NookSettings(bpy.types.PropertyGroup):
     preset: bpy.props.EnumProperty(name="Preset", items=PRESETS, default="draft", description="How long the bake may take")
     poses: bpy.props.EnumProperty(name="Poses", items=POSES, default="all", description="Poses that the bake learns from")
@@ -26,7 +34,7 @@ class NookSettings(bpy.types.PropertyGroup):
                                       "commas; * and ? stand for any text and any character. Lower levels of detail (LOD1 and so on) "
                                       "are always left out")
     ground: bpy.props.BoolProperty(name="Ground", default=False, description="A floor at the height of zero darkens the character from below")
-    folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH", default="",
+    folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH", default="", update=confirm_chosen,
                                      description="Where character.glb and character.nook are kept; empty: a temporary folder")
     rays: bpy.props.IntProperty(name="Rays", default=256, min=16, max=16384, description="Rays for each vertex of a traced frame")
 

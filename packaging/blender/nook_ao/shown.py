@@ -4,7 +4,7 @@ import pathlib
 import bpy
 import numpy as np
 
-from . import character, library, poses, preferences, vertex_numbers
+from . import character, folders, library, poses, preferences, vertex_numbers
 from .faults import Fault
 
 AO, TRACED = "Nook AO", "Nook traced"
@@ -29,7 +29,7 @@ class Shown:
             raise Fault(f"{MODEL_FILE} has {self.model.vertex_count} vertices and {CHARACTER_FILE} {self.character.vertex_count}; bake again")
         self.numbers = vertex_numbers.read_vertex_numbers(data)
         counts = vertex_counts(meshes)
-        baked = list(armature.get(COUNTS_PROPERTY, counts))
+        baked = baked_counts(armature, counts)
         self.count = sum(counts)
         if baked != counts or len(self.numbers) != self.model.vertex_count or self.numbers.max() >= self.count:
             raise Fault(f"the meshes have {counts} vertices, and the bake is of {baked}; bake again after a change of the meshes")
@@ -97,6 +97,21 @@ class Shown:
             (any(o.data.is_editmode for o in self.meshes) or self.count == sum(vertex_counts(self.meshes)))
 
 
+def baked_counts(armature, default):
+    """What the bake wrote; a property of a file can hold anything."""
+    try:
+        return [int(count) for count in armature.get(COUNTS_PROPERTY, default)]
+    except (TypeError, ValueError):
+        return None
+
+
+def folder_of(armature):
+    """Where the armature's bake is, as the file says; it may have to be confirmed."""
+    if FOLDER_PROPERTY not in armature:
+        raise Fault(f"the armature {armature.name} has no bake; bake it first")
+    return folders.resolved(armature[FOLDER_PROPERTY], f"the armature {armature.name}")
+
+
 def vertex_counts(meshes):
     return [len(o.data.vertices) for o in meshes]
 
@@ -127,7 +142,8 @@ def get(armature):
 
 
 def show(context, armature, folder):
-    """Loads the bake in a folder and paints the current pose."""
+    """Loads the bake in a confirmed folder and paints the current pose."""
+    folders.require_confirmed(str(folder))
     nook = library.load(preferences.of(context).library)
     meshes = character.meshes_of(armature, context.view_layer)
     for name in (MODEL_FILE, CHARACTER_FILE):
@@ -138,6 +154,9 @@ def show(context, armature, folder):
     except nook.NookError as error:
         raise Fault(str(error)) from error
     _shown[armature.name] = entry
+    before = armature.get(FOLDER_PROPERTY)
+    if isinstance(before, str) and before != str(folder):
+        folders.remove_temporary(before)  # the bake that this one replaces
     armature[FOLDER_PROPERTY] = str(folder)
     entry.follow(context.scene.nook.ground)
     return entry

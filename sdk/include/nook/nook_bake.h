@@ -90,7 +90,7 @@ NOOK_API void nook_bake_job_destroy(nook_bake_job* job);
 typedef struct nook_bake_source_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* UTF-8. The file may name other files of its folder. */
+  /* UTF-8. The file may name other files of its folder; of any folder if allow_outside_files is not 0. */
   const char* path;
   /* All buffers must be embedded. */
   const void* bytes;
@@ -114,11 +114,11 @@ typedef struct nook_bake_source_desc {
   /* Primitives in order and without gaps. NULL: one primitive holds all vertices. */
   const nook_range* primitives;
   uint32_t primitive_count;
-  /* Names of the file's nodes or meshes to take and to leave out, where * and ? stand for any text and any
-   * character. Default: all that it shows but lower levels of detail (LOD1, ...). */
+  /* Node or mesh names to take, and to leave out, with * and ?. Default: all but hidden ones and LOD1, .... */
   const char* const* meshes;
   const char* const* without;
   uint32_t mesh_count, without_count;
+  int32_t allow_outside_files;
 } nook_bake_source_desc;
 static inline nook_result nook_bake_source_desc_init(nook_bake_source_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_SOURCE, desc, sizeof *desc, NOOK_VERSION);

@@ -177,7 +177,9 @@ nook_result nook_model_check_pose(nook_model model, const nook_pose_desc* desc,
     check_pose_source(model->model, source, true);
     nook::Memory* const memory = model->context->memory();
     const auto vertices = skinned_vertices(model->model, given, memory);
-    const PoseFinding finding = find_pose_fault(model->model, source, vertices, given.tolerance, memory);
+    const Affine place = read_place(given.place_3x4, "check.place_3x4");
+    const PoseFinding finding =
+        find_pose_fault(model->model, source, vertices, place, given.tolerance, memory);
     nook_pose_check_info answer{};
     answer.fault = finding.fault;
     answer.max_error = static_cast<float>(finding.max_error);

@@ -17,8 +17,7 @@ void CheckedImages::bring_forward(std::size_t place) {
 const ImageFacts* CheckedImages::find(const HostImages& images) {
   const std::size_t place = place_of(images);
   if (place == count_) return nullptr;
-  const bool in_turn = turn_ != 0 && place + 1 == turn_;
-  if (place != 0 && !in_turn && !sets_[place].checked_again) return nullptr;
+  if (place != 0 && !sets_[place].checked_again) return nullptr;
   bring_forward(place);
   return &sets_[0].facts;
 }
@@ -28,13 +27,11 @@ void CheckedImages::add(const HostImages& images, const ImageFacts& facts) {
   const bool known = place < count_;
   if (known && sets_[place].facts == facts) {
     sets_[place].checked_again = true;
-    turn_ = place + 1;
     bring_forward(place);
     return;
   }
   // Other answers for names that were known: the host has made its textures anew.
   if (known) clear();
-  turn_ = 0;
   count_ = std::min(count_ + 1, most_sets);
   bring_forward(count_ - 1);
   sets_[0] = {images, facts, false};

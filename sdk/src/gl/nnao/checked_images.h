@@ -8,9 +8,8 @@
 namespace nook::gl {
 
 // The last four different sets, as names rotate in a swap chain. A host may delete a texture and get its name
-// again for one of another format, while other sets are in use. So a set that comes back is checked once more
-// before it counts as known, unless the sets come back in the turn in which one of them was checked again
-// with the same answers.
+// again for one of another format, while other sets are in use. So a set that comes back for the first time
+// is checked once more before it counts as known.
 class CheckedImages {
  public:
   static constexpr std::size_t most_sets = 4;
@@ -33,7 +32,6 @@ class CheckedImages {
 
   Set sets_[most_sets];  // the newest first
   std::size_t count_ = 0;
-  std::size_t turn_ = 0;  // the sets that come back in turn; 0: none is known to
 };
 
 }  // namespace nook::gl
