@@ -34,7 +34,7 @@ struct Box {
   }
 };
 
-// What a sample found of one other part.
+// The nearest crossing of a sample's normal with another part.
 struct Hit {
   std::uint32_t part = 0;
   float height = 0;  // along the sample's normal, in units of its reach
@@ -220,7 +220,7 @@ void find_hits(const Mesh& mesh, std::vector<Sample>& samples) {
 using Surface = std::array<std::uint32_t, 2>;
 constexpr std::uint32_t whole_node = ~0u;
 
-// How one surface lies on another, seen from samples of the first. Heights are in reaches.
+// Sums over the samples of one surface that see another. Heights are in reaches.
 struct Contact {
   double area = 0, height = 0, height_square = 0;
 };
@@ -278,7 +278,7 @@ std::set<std::array<float, 3>> places_of(const Mesh& mesh, const Surface& surfac
   return places;
 }
 
-// Whether half of the vertices of one surface are vertices of the other. Levels of detail that keep a part of
+// True if half of the vertices of one surface are vertices of the other. Levels of detail that keep a part of
 // the vertices lie inside a convex body, so that they do not go through its surface.
 bool share_vertices(const Mesh& mesh, const Surface& a, const Surface& b) {
   std::set<std::array<float, 3>> few = places_of(mesh, a), many = places_of(mesh, b);
@@ -288,8 +288,7 @@ bool share_vertices(const Mesh& mesh, const Surface& a, const Surface& b) {
   return 2 * shared >= few.size();
 }
 
-// What lies on a surface without being a copy of it, such as clothes on a body or a picture on a wall, is on
-// one side of it, and covers only a part.
+// A copy or a level of detail. Clothes on a body and pictures on a wall stay on one side, and cover a part.
 bool is_coincident(const Mesh& mesh, const Surface& a, const Surface& b, const Contact& from_a,
                    const Contact& from_b, const float (&cover)[2]) {
   constexpr double same_plane = 0.01;  // of the reach

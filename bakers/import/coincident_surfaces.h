@@ -35,7 +35,7 @@ struct CoincidentPair {
 std::vector<CoincidentPair> coincident_surfaces(const SurfaceParts& parts, std::span<const Vec3> position,
                                                 std::span<const std::array<std::uint32_t, 3>> triangle);
 
-// Adds a sentence for each pair, at most four, that says what to leave out.
+// Adds one sentence for each pair, at most four. It names both and the one to leave out.
 void warn_of_coincident_surfaces(const tinygltf::Model& model, const SurfaceParts& parts,
                                  std::span<const Vec3> position,
                                  std::span<const std::array<std::uint32_t, 3>> triangle,
