@@ -19,7 +19,7 @@ constexpr std::size_t all_samples = std::size_t{1} << 16, most_of_part = 512, fe
 constexpr std::size_t most_parts = std::size_t{1} << 16;
 // Bounds the time on files whose triangles all lie on each other: what is found until then is enough.
 constexpr std::size_t most_candidates = 256, most_tests = std::size_t{1} << 26;
-constexpr float reach_of_size = 0.01f;  // of the diagonal of a part
+constexpr float reach_of_size = 0.02f;  // of the diagonal of a part
 constexpr float least_cosine = 0.7f;    // of surfaces that face the same way
 
 struct Box {
@@ -34,7 +34,7 @@ struct Box {
   }
 };
 
-// What a sample found of one other part.
+// The nearest crossing of a sample's normal with another part.
 struct Hit {
   std::uint32_t part = 0;
   float height = 0;  // along the sample's normal, in units of its reach
@@ -220,7 +220,7 @@ void find_hits(const Mesh& mesh, std::vector<Sample>& samples) {
 using Surface = std::array<std::uint32_t, 2>;
 constexpr std::uint32_t whole_node = ~0u;
 
-// How one surface lies on another, seen from samples of the first. Heights are in reaches.
+// Sums over the samples of one surface that see another. Heights are in reaches.
 struct Contact {
   double area = 0, height = 0, height_square = 0;
 };
@@ -278,7 +278,7 @@ std::set<std::array<float, 3>> places_of(const Mesh& mesh, const Surface& surfac
   return places;
 }
 
-// Whether half of the vertices of one surface are vertices of the other. Levels of detail that keep a part of
+// True if half of the vertices of one surface are vertices of the other. Levels of detail that keep a part of
 // the vertices lie inside a convex body, so that they do not go through its surface.
 bool share_vertices(const Mesh& mesh, const Surface& a, const Surface& b) {
   std::set<std::array<float, 3>> few = places_of(mesh, a), many = places_of(mesh, b);
@@ -288,8 +288,7 @@ bool share_vertices(const Mesh& mesh, const Surface& a, const Surface& b) {
   return 2 * shared >= few.size();
 }
 
-// What lies on a surface without being a copy of it, such as clothes on a body or a picture on a wall, is on
-// one side of it, and covers only a part.
+// A copy or a level of detail. Clothes on a body and pictures on a wall stay on one side, and cover a part.
 bool is_coincident(const Mesh& mesh, const Surface& a, const Surface& b, const Contact& from_a,
                    const Contact& from_b, const float (&cover)[2]) {
   constexpr double same_plane = 0.01;  // of the reach
@@ -297,11 +296,11 @@ bool is_coincident(const Mesh& mesh, const Surface& a, const Surface& b, const C
   const double mean = std::abs(from_a.height - from_b.height) / area;
   const double rms = std::sqrt((from_a.height_square + from_b.height_square) / area);
   const float least = std::min(cover[0], cover[1]), most = std::max(cover[0], cover[1]);
-  // Clothes keep their distance: mean / rms is 0.96 and more. Levels of detail lie on both sides (0.05 to
-  // 0.4), or with their corners on the surface of a convex body and the rest inside (0.67 to 0.86).
+  // Clothes keep their distance: mean / rms is 0.93 and more. Levels of detail lie on both sides, or with
+  // their corners on the surface of a convex body and the rest inside: 0.05 to 0.86, the more the coarser.
   const double one_sided = rms < same_plane ? 0 : mean / rms;
   if (least >= 0.9f) return one_sided < 0.9 || share_vertices(mesh, a, b);
-  if (least >= 0.5f) return one_sided < 0.5 || share_vertices(mesh, a, b);
+  if (least >= 0.5f) return one_sided < 0.8 || share_vertices(mesh, a, b);
   return most >= 0.9f && rms >= same_plane && one_sided < 0.7;
 }
 
@@ -380,7 +379,8 @@ void warn_of_coincident_surfaces(const tinygltf::Model& model, const SurfacePart
     warnings.push_back(sentence_of(model, pairs[i]));
   if (pairs.size() > most)
     warnings.push_back(std::to_string(pairs.size() - most) +
-                       " more pairs of nodes lie on each other; `nook inspect` lists the nodes of a file");
+                       (pairs.size() == most + 1 ? " more pair of nodes lies" : " more pairs of nodes lie") +
+                       " on each other; `nook inspect` lists the nodes of a file");
 }
 
 }  // namespace nook::bake

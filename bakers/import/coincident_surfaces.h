@@ -30,12 +30,12 @@ struct CoincidentPair {
   float cover[2] = {};                            // share of the area of each that the other covers
 };
 
-// Looks along the normals of samples of each part, as far as 1 % of its size. Linear in the triangles, times
+// Looks along the normals of samples of each part, as far as 2 % of its size. Linear in the triangles, times
 // the logarithm of the samples, of which there are at most 2^16 or 16 a part.
 std::vector<CoincidentPair> coincident_surfaces(const SurfaceParts& parts, std::span<const Vec3> position,
                                                 std::span<const std::array<std::uint32_t, 3>> triangle);
 
-// Adds a sentence for each pair, at most four, that says what to leave out.
+// Adds one sentence for each pair, at most four. It names both and the one to leave out.
 void warn_of_coincident_surfaces(const tinygltf::Model& model, const SurfaceParts& parts,
                                  std::span<const Vec3> position,
                                  std::span<const std::array<std::uint32_t, 3>> triangle,

@@ -1,4 +1,4 @@
-// What a glTF file holds, for a person who chooses what to bake.
+// Lists the meshes, skins and clips of a glTF file, so that a user can choose meshes.
 #pragma once
 
 #include <cstddef>

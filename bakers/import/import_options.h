@@ -1,4 +1,4 @@
-// What an import reads of a glTF file.
+// The options of every import of a glTF file.
 #pragma once
 
 #include <string>

@@ -252,7 +252,7 @@ InstanceAttributes instance_attributes(const tinygltf::Model& model, std::size_t
   return out;
 }
 
-// What the triangle primitives of a mesh hold.
+// Sums over the triangle primitives of a mesh.
 struct MeshSize {
   std::size_t vertices = 0, corners = 0;
 };

@@ -1,5 +1,5 @@
-// Which nodes of a file are in as geometry. Every import asks here, so that all bakes of a file see the same
-// meshes.
+// Decides which nodes of a file are in as geometry. Every import calls it, so that all bakes of a file see
+// the same meshes.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -15,7 +15,7 @@
 
 namespace nook::bake {
 
-// Why the mesh of a node is in or out. A node that is out still poses what hangs on it.
+// The reason that the mesh of a node is in or out. A node that is out still poses its children.
 enum class NodeState : std::uint8_t {
   in,
   no_mesh,

@@ -105,7 +105,7 @@ room(bakers/measure/material bakers/measure/material bakers/images bakers/materi
 room(bakers/measure/report bakers/measure bakers/images platform ${makers})
 room(bakers/job bakers/job ${process} ${makers})
 room(bakers/api bakers/api bakers/job ${makers})
-room(bakers/tool bakers/tool bakers/import/gltf.h bakers/import/linked_files.h bakers/raytrace/worker_arena.h bakers/job bakers/measure bakers/images platform
+room(bakers/tool bakers/tool bakers/import/gltf.h bakers/import/gltf_contents.h bakers/import/import_options.h bakers/raytrace/worker_arena.h bakers/job bakers/measure bakers/images platform
      ${systems} sdk/src/core)
 
 # The lab compares Nook with other methods. It takes from every room and, to measure it, from the
