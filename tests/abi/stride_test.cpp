@@ -187,7 +187,8 @@ TEST_CASE("strides of 32 bits: products of a count and a stride are checked") {
 
 TEST_CASE("counts of packed arrays that no memory can hold are refused") {
   float direction[3] = {0, 1, 0}, rgb[3] = {2, 2, 2};
-  const nook_lobe lobe{{0, 1, 0}, 1, {1, 1, 1}};
+  nook_lobe lobe{};
+  lobe.axis[1] = lobe.sharpness = lobe.amplitude[0] = 1;
   nook_probe_surface surface{};
   const float coefficients[27] = {};
   for (const std::size_t count : {SIZE_MAX, SIZE_MAX / 12 + 1, std::size_t{PTRDIFF_MAX} / 12 + 1}) {
