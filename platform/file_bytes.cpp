@@ -1,18 +1,16 @@
 #include "platform/file_bytes.h"
 
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
+#include <cstdint>
 
+#include "platform/input_file.h"
 #include "platform/output_file.h"
 
 namespace platform {
 
 std::vector<unsigned char> read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::vector<unsigned char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file) throw std::runtime_error("read_file: " + path.string() + " cannot be read; check the path");
-  return bytes;
+  const std::vector<std::byte> bytes = read_input(path, UINT64_MAX, {});
+  const auto* const first = reinterpret_cast<const unsigned char*>(bytes.data());
+  return {first, first + bytes.size()};
 }
 
 void write_file(const std::filesystem::path& path, const void* bytes, std::size_t size) {

@@ -1,7 +1,7 @@
 #include "platform/output_file.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,33 +9,41 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "platform/file_attributes.h"
+#include "platform/part_files.h"
 
 namespace platform {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string part_mark = ".part-";
-constexpr int max_links = 40;   // as Linux follows
-constexpr int max_parts = 100;  // of one process beside one target
+constexpr int max_links = 40;  // as Linux follows
 
-[[noreturn]] void fail(const fs::path& target, int error) {
-  throw std::runtime_error(target.string() + ": cannot be written (" + std::strerror(error) +
-                           "); choose a place that exists and can be written");
+[[noreturn]] void fail(const fs::path& target, const std::string& why,
+                       const char* cure = "choose a place that exists and can be written") {
+  throw std::runtime_error(target.string() + ": cannot be written (" + why + "); " + cure);
 }
 
-fs::path folder_of(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+[[noreturn]] void fail_errno(const fs::path& target, int error) {
+  fail(target, std::strerror(error));
 }
 
 bool same_file(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-// The number N of /proc/self/fd/N, where a path such as /dev/stdout ends; -1 for other paths.
+// Root may write to every file. A file without any w is protected from root too: somebody meant it.
+void require_writable(const fs::path& named, const fs::path& target, const struct stat& there) {
+  if ((there.st_mode & 0222) == 0)
+    fail(named, "it is write-protected", "make it writable (chmod u+w), or choose another place");
+  if (faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) fail_errno(named, errno);
+}
+
+}  // namespace
+
 int own_descriptor(const fs::path& path) {
   struct stat folder, own;
   if (stat(folder_of(path).c_str(), &folder) != 0 || stat("/proc/self/fd", &own) != 0 ||
@@ -47,52 +55,6 @@ int own_descriptor(const fs::path& path) {
   return error == std::errc() && end == name.data() + name.size() ? number : -1;
 }
 
-// Returns whether the name is TARGET.part-DIGITS, also with a second number after a dash.
-bool is_part_of(const std::string& name, const std::string& target) {
-  const std::string start = target + part_mark;
-  return name.size() > start.size() && name.starts_with(start) &&
-         std::all_of(name.begin() + std::ptrdiff_t(start.size()), name.end(),
-                     [](char c) { return (c >= '0' && c <= '9') || c == '-'; });
-}
-
-bool lock(int descriptor) {
-  return flock(descriptor, LOCK_EX | LOCK_NB) == 0;
-}
-
-// A live process holds a lock on its part, which the kernel gives up with the process, however that ends.
-void remove_if_abandoned(const fs::path& part) {
-  const int descriptor = open(part.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-  if (descriptor < 0) return;
-  struct stat opened;
-  if (fstat(descriptor, &opened) == 0 && S_ISREG(opened.st_mode) && lock(descriptor)) unlink(part.c_str());
-  close(descriptor);
-}
-
-void remove_abandoned_parts(const fs::path& target) {
-  std::error_code error;
-  for (fs::directory_iterator entry(folder_of(target), error), end; !error && entry != end;
-       entry.increment(error))
-    if (is_part_of(entry->path().filename().string(), target.filename().string()))
-      remove_if_abandoned(entry->path());
-}
-
-// A descriptor of a new part, locked; -1 where one of this name is there, or another process has just removed
-// it.
-int try_part(const fs::path& part, const fs::path& named) {
-  const int descriptor = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor < 0 && errno != EEXIST) fail(named, errno);
-  if (descriptor < 0) return -1;
-  const bool locked = lock(descriptor) || errno != EWOULDBLOCK;  // some file systems have no locks
-  struct stat opened, there;
-  if (locked && fstat(descriptor, &opened) == 0 && lstat(part.c_str(), &there) == 0 &&
-      same_file(opened, there))
-    return descriptor;
-  close(descriptor);
-  return -1;
-}
-
-}  // namespace
-
 fs::path followed(const fs::path& path) {
   fs::path at = path;
   for (int links = 0; links <= max_links; ++links) {
@@ -100,35 +62,68 @@ fs::path followed(const fs::path& path) {
     std::error_code error;
     if (own_descriptor(at) >= 0 || !fs::is_symlink(at, error)) return at;
     const fs::path next = fs::read_symlink(at, error);
-    if (error) fail(path, error.value());
+    if (error) fail_errno(path, error.value());
     at = next.is_absolute() ? next : folder_of(at) / next;
   }
-  fail(path, ELOOP);
+  fail_errno(path, ELOOP);
 }
 
-OutputFile::OutputFile(fs::path target) : named_(std::move(target)), target_(followed(named_)) {
+OutputFile::OutputFile(fs::path target, FileEvents events)
+    : events_(std::move(events)), named_(std::move(target)), target_(followed(named_)) {
   if (const int own = own_descriptor(target_); own >= 0) {
+    // A stream that was closed at the start cannot be written; see standard_streams.h.
+    const int flags = fcntl(own, F_GETFL);
+    if (flags >= 0 && (flags & O_ACCMODE) == O_RDONLY) fail_errno(named_, EBADF);
     descriptor_ = fcntl(own, F_DUPFD_CLOEXEC, 0);
-  } else {
-    struct stat there;
-    const bool exists = stat(target_.c_str(), &there) == 0;
-    if (!exists || S_ISREG(there.st_mode))
-      open_part();
-    else
-      descriptor_ = open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) fail_errno(named_, errno);
+    return;
   }
-  if (descriptor_ < 0) fail(named_, errno);
+  struct stat there;
+  if (stat(target_.c_str(), &there) == 0 && !S_ISREG(there.st_mode))
+    open_stream();
+  else
+    open_part();
+}
+
+// A pipe without a reader gives ENXIO until there is one.
+void OutputFile::open_stream() {
+  std::error_code error;
+  if (fs::is_directory(target_, error)) fail(named_, "it is a folder", "add the name of a file");
+  Wait wait(events_, named_.string() + ": waits for a program that reads it");
+  for (;;) {
+    descriptor_ = open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor_ >= 0) return;
+    if (errno != EINTR && (errno != ENXIO || !fs::is_fifo(target_, error))) fail_errno(named_, errno);
+    poll(nullptr, 0, Wait::step_ms);
+    wait.step();
+  }
 }
 
 void OutputFile::open_part() {
-  if (!target_.has_filename()) fail(named_, EISDIR);
+  if (!target_.has_filename()) fail(named_, "it is a folder", "add the name of a file");
   remove_abandoned_parts(target_);
-  const std::string start = target_.string() + part_mark + std::to_string(getpid());
-  for (int attempt = 0; attempt < max_parts && descriptor_ < 0; ++attempt) {
-    part_ = attempt == 0 ? start : start + "-" + std::to_string(attempt);
-    descriptor_ = try_part(part_, named_);
+  struct stat there;
+  const bool exists = stat(target_.c_str(), &there) == 0;
+  if (!exists && errno != ENOENT) fail_errno(named_, errno);
+  if (exists) require_writable(named_, target_, there);
+  const PartFile part = make_part(target_, exists ? 0600 : 0666);
+  if (part.descriptor < 0) {
+    const int error = errno;
+    if (exists && (error == EACCES || error == EROFS))
+      fail(named_,
+           std::string(std::strerror(error)) + ": the new file is made beside the old one, in " +
+               folder_of(target_).string(),
+           "allow that, or choose another place");
+    fail_errno(named_, error);
   }
-  if (descriptor_ < 0) fail(named_, EEXIST);
+  part_ = part.path;
+  descriptor_ = part.descriptor;
+  std::string note = exists ? take_attributes(descriptor_, target_, there) : "";
+  std::error_code error;
+  if (fs::is_symlink(named_, error))
+    note += (note.empty() ? "" : "; ") +
+            ("the link stays, and the file that it points to is replaced: " + target_.string());
+  if (!note.empty() && events_.replaces) events_.replaces(named_.string() + ": " + note);
 }
 
 OutputFile::~OutputFile() {
@@ -137,24 +132,72 @@ OutputFile::~OutputFile() {
   close(descriptor_);
 }
 
-void OutputFile::write(std::span<const std::byte> bytes) {
+void OutputFile::write_stream(std::span<const std::byte> bytes) {
+  // A pipe that can be written has room for this many bytes (POSIX, PIPE_BUF).
+  constexpr std::size_t piece = 4096;
+  Wait wait(events_, named_.string() + ": waits for a program that reads it");
   while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail(named_, errno);
+    wait_until_ready(descriptor_, POLLOUT, wait);
+    const ssize_t written = ::write(descriptor_, bytes.data(), std::min(bytes.size(), piece));
+    if (written < 0 && errno != EINTR && errno != EAGAIN) fail_errno(named_, errno);
+    if (written <= 0) {
+      wait.step();
+      continue;
+    }
+    wait.restart();
     bytes = bytes.subspan(std::size_t(written));
   }
 }
 
-void OutputFile::commit(std::span<const std::byte> bytes) {
-  write(bytes);
-  if (is_regular()) {
-    // The bytes are on the disk before they take the place of an older file. Some file systems cannot
-    // synchronise, which is no fault.
-    if (fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail(named_, errno);
-    if (rename(part_.c_str(), target_.c_str()) != 0) fail(named_, errno);
+// The front last, in the place of the mark.
+void OutputFile::write_part(std::span<const std::byte> bytes) {
+  const auto write_at = [&](std::span<const std::byte> left, std::size_t at) {
+    while (!left.empty()) {
+      const ssize_t written = pwrite(descriptor_, left.data(), left.size(), off_t(at));
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail_errno(named_, errno);
+      left = left.subspan(std::size_t(written));
+      at += std::size_t(written);
+    }
+  };
+  const std::size_t front = std::min(bytes.size(), part_mark_size);
+  write_at(bytes.subspan(front), front);
+  write_at(bytes.first(front), 0);
+  if (ftruncate(descriptor_, off_t(bytes.size())) != 0) fail_errno(named_, errno);
+  // The bytes are on the disk before they take the place of an older file. Some file systems cannot
+  // synchronise, which is not a fault.
+  if (fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail_errno(named_, errno);
+}
+
+void OutputFile::replace_target(std::span<const std::byte> bytes) {
+  write_part(bytes);
+  if (rename(part_.c_str(), target_.c_str()) == 0) return;
+  std::error_code error;
+  if (errno == ENOENT && fs::is_directory(folder_of(target_), error)) {
+    // Somebody emptied the folder, or made it again.
+    close(std::exchange(descriptor_, -1));
+    open_part();
+    write_part(bytes);
+    if (rename(part_.c_str(), target_.c_str()) == 0) return;
+  } else if (errno == EBUSY) {
+    // A file that is mounted, as containers do, keeps its place.
+    unlink(part_.c_str());
+    close(std::exchange(descriptor_, -1));
+    descriptor_ = open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    part_.clear();
+    if (descriptor_ < 0 || ftruncate(descriptor_, 0) != 0) fail_errno(named_, errno);
+    write_stream(bytes);
+    return;
   }
-  if (close(std::exchange(descriptor_, -1)) != 0) fail(named_, errno);
+  fail_errno(named_, errno);
+}
+
+void OutputFile::commit(std::span<const std::byte> bytes) {
+  if (is_regular())
+    replace_target(bytes);
+  else
+    write_stream(bytes);
+  if (close(std::exchange(descriptor_, -1)) != 0) fail_errno(named_, errno);
 }
 
 void OutputFile::commit(std::string_view text) {

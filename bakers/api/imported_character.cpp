@@ -80,12 +80,10 @@ ImportedCharacter character_of(const nook_bake_source_desc& desc) {
 // Copies elements of `size` bytes to where the caller wants each.
 class Rows {
  public:
-  Rows(void* out, std::size_t size, std::size_t stride) : at_(static_cast<std::byte*>(out)), size_(size) {
-    if (stride != 0 && stride < size)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "stride is too small (got %zu, need 0 or at least %zu)",
-                    stride, size);
-    stride_ = stride ? stride : size;
-  }
+  Rows(void* out, std::size_t count, std::size_t size, std::size_t stride)
+      : at_(static_cast<std::byte*>(out)),
+        size_(size),
+        stride_(checked_stride("stride", stride, count, size)) {}
   void add(const void* element) {
     std::memcpy(at_, element, size_);
     at_ += stride_;
@@ -93,12 +91,12 @@ class Rows {
 
  private:
   std::byte* at_;
-  std::size_t size_, stride_ = 0;
+  std::size_t size_, stride_;
 };
 
 void read_bones(const std::vector<Bone>& bones, nook_bake_array array, void* out, std::size_t stride) {
   const bool parents = array == NOOK_BAKE_ARRAY_PARENTS;
-  Rows rows(out, parents ? sizeof(std::int32_t) : 12 * sizeof(float), stride);
+  Rows rows(out, bones.size(), parents ? sizeof(std::int32_t) : 12 * sizeof(float), stride);
   for (const Bone& bone : bones) {
     const std::int32_t parent = bone.parent;
     parents ? rows.add(&parent) : rows.add(bone.frame_rest.m);
@@ -106,7 +104,7 @@ void read_bones(const std::vector<Bone>& bones, nook_bake_array array, void* out
 }
 
 void read_primitives(const SkinnedMesh& mesh, void* out, std::size_t stride) {
-  Rows rows(out, sizeof(nook_range), stride);
+  Rows rows(out, mesh.primitives.size(), sizeof(nook_range), stride);
   for (const Primitive& primitive : mesh.primitives) {
     const nook_range range{primitive.first_vertex, primitive.vertex_count};
     rows.add(&range);
@@ -114,7 +112,7 @@ void read_primitives(const SkinnedMesh& mesh, void* out, std::size_t stride) {
 }
 
 void read_vertices(const SkinnedMesh& mesh, nook_bake_array array, void* out, std::size_t stride) {
-  Rows rows(out, 3 * sizeof(float), stride);
+  Rows rows(out, mesh.file_to_welded.size(), 3 * sizeof(float), stride);
   std::vector<Vec3> normal;
   if (array == NOOK_BAKE_ARRAY_NORMALS) vertex_normals(mesh.triangle, mesh.position, normal);
   const std::vector<Vec3>& of = array == NOOK_BAKE_ARRAY_NORMALS ? normal : mesh.position;
@@ -125,7 +123,7 @@ void read_vertices(const SkinnedMesh& mesh, nook_bake_array array, void* out, st
 }
 
 void read_triangles(const SkinnedMesh& mesh, void* out, std::size_t stride) {
-  Rows rows(out, 3 * sizeof(std::uint32_t), stride);
+  Rows rows(out, mesh.triangle.size(), 3 * sizeof(std::uint32_t), stride);
   std::vector<std::uint32_t> file_of_welded(mesh.vertex_count());
   for (std::size_t f = mesh.file_to_welded.size(); f-- > 0;)
     file_of_welded[mesh.file_to_welded[f]] = std::uint32_t(f);
@@ -138,7 +136,7 @@ void read_triangles(const SkinnedMesh& mesh, void* out, std::size_t stride) {
 
 void read_skin(const SkinnedMesh& mesh, nook_bake_array array, void* out, std::size_t stride) {
   const bool joints = array == NOOK_BAKE_ARRAY_JOINTS;
-  Rows rows(out, joints ? 4 * sizeof(std::uint16_t) : 4 * sizeof(float), stride);
+  Rows rows(out, mesh.file_to_welded.size(), joints ? 4 * sizeof(std::uint16_t) : 4 * sizeof(float), stride);
   for (const std::uint32_t welded : mesh.file_to_welded) {
     const SkinWeights& w = mesh.weights[welded];
     const float sum = w.weight[0] + w.weight[1] + w.weight[2] + w.weight[3];

@@ -5,8 +5,10 @@
 
 #include "bakers/mannequin/mannequin.h"
 #include "platform/output_file.h"
+#include "platform/standard_streams.h"
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   if (argc != 2) {
     std::cerr << "usage: mannequin OUT.glb\n";
     return 2;

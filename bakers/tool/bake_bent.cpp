@@ -48,8 +48,8 @@ void add_bake_bent(Command bake_command) {
                                   "in the model stays as it is");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_option("character", o.input, "the rigged character, .glb or .gltf").required();
-  command.add_option("model", o.model, "its model, .nook").required();
+  command.add_input("character", o.input, "the rigged character, .glb or .gltf").required();
+  command.add_input("model", o.model, "its model, .nook").required();
   command.add_option("-o,--output", o.output, "the .nook file to write").required();
   command.add_option("--auto-poses", o.task.auto_poses, "generated poses to fit to")
       .check(in_range(8, 100000))

@@ -142,7 +142,7 @@ void add_bake_character(Command bake) {
       bake.add_subcommand("character", "bake a rigged character for dynamic ambient occlusion");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_option("input", o.input, "character, .glb or .gltf").required();
+  command.add_input("input", o.input, "character, .glb or .gltf").required();
   command.add_option("-o,--output", o.output, "the .nook file to write").required();
   add_import_options(command, o.reading);
   add_choice(

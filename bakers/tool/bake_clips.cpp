@@ -54,8 +54,8 @@ void add_bake_clips(Command bake_command) {
       "drawn from baked animation needs no bones on the CPU");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_option("input", o.input, "the character, .glb or .gltf").required();
-  command.add_option("model", o.model, "its baked model, .nook").required();
+  command.add_input("input", o.input, "the character, .glb or .gltf").required();
+  command.add_input("model", o.model, "its baked model, .nook").required();
   command.add_option("-o,--output", o.output, "the .nook file to write").required();
   command.add_option("--clips", o.task.clips, "only these clips (default: all but T- and A-poses)")
       .delimiter(',');

@@ -47,8 +47,8 @@ void add_bake_lod(Command bake_command) {
       "character's spheres, key points and casters, and its vertices are fitted to its own shape in seconds");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_option("model", o.model, "the baked full mesh, .nook").required();
-  command.add_option("mesh", o.input, "the other mesh with the same skeleton, .glb or .gltf").required();
+  command.add_input("model", o.model, "the baked full mesh, .nook").required();
+  command.add_input("mesh", o.input, "the other mesh with the same skeleton, .glb or .gltf").required();
   command.add_option("-o,--output", o.output, "the .nook file to write").required();
   command.add_option("--auto-poses", o.task.auto_poses, "generated poses to fit to")
       .check(in_range(8, 100000))

@@ -131,7 +131,7 @@ RawMaterial read_measured(const Options& o, const bake::Progress& progress) {
   constexpr std::size_t most_bytes = std::size_t{6} << 30;
   if (std::filesystem::is_directory(o.btf) || !std::filesystem::exists(o.btf))
     return read_ubo_folder(o.btf, o.texels, progress, most_bytes, o.colours);
-  RawMaterial raw = read_btf_file(read_file(o.btf), o.texels, most_bytes);
+  RawMaterial raw = read_btf_file(read_any_file(o.btf), o.texels, most_bytes);
   raw.name = o.btf.stem().string();
   return raw;
 }
@@ -195,7 +195,7 @@ void write_pictures(const Options& o, const RawMaterial& raw, std::span<const st
 
 BakeOutput bake(const Options& o) {
   std::optional<platform::OutputFile> raw_file;
-  if (!o.keep_raw.empty()) raw_file.emplace(o.keep_raw);
+  if (!o.keep_raw.empty()) raw_file.emplace(o.keep_raw, file_events(o.common.quiet));
   platform::ProgressBar bar(o.common.quiet);
   PbrMaps relief;
   if (!o.relief.empty()) relief = read_relief(o);
@@ -287,14 +287,13 @@ void add_bake_material(Command bake) {
   std::string names;
   for (const std::string_view name : meso_names()) names.append(names.empty() ? "" : ", ").append(name);
   command
-      .add_option(
+      .add_input(
           "--meso", o.meso,
           "a meso-structure, ray traced: " + names + ", or one tile as a closed mesh, y up, .glb or .gltf")
       .type_name("NAME|TILE.glb");
-  command.add_option(
-      "--pbr", o.pbr,
-      "a folder with the maps of a physically based material, ray traced: base colour, normal, "
-      "roughness or gloss, metalness, height, by their names");
+  command.add_input("--pbr", o.pbr,
+                    "a folder with the maps of a physically based material, ray traced: base colour, normal, "
+                    "roughness or gloss, metalness, height, by their names");
   command
       .add_option("--height-scale", o.height_scale_m,
                   "of --pbr and of an image of --relief: metres from 0 to 1 of the height map; 1 where it "
@@ -308,9 +307,9 @@ void add_bake_material(Command bake) {
       .check(positive_number())
       .capture_default_str();
   add_import_options(command, o.reading);
-  command.add_option("--btf", o.btf,
-                     "a folder of measured images, tl pl tv pv in their names (UBO 2003, UTIA), or a .btf "
-                     "file (UBO 2014)");
+  command.add_input("--btf", o.btf,
+                    "a folder of measured images, tl pl tv pv in their names (UBO 2003, UTIA), or a .btf "
+                    "file (UBO 2014)");
   command
       .add_option_function(
           "--btf-colours",
@@ -318,7 +317,7 @@ void add_bake_material(Command bake) {
           "of float images of --btf: linear rgb (default), or xyz under D65 (UTIA)")
       .check(one_of({"rgb", "xyz"}))
       .type_name("NAME");
-  command.add_option("--raw", o.raw, "a raw material that --keep-raw wrote");
+  command.add_input("--raw", o.raw, "a raw material that --keep-raw wrote");
   command.add_option("-o,--output", o.output, "the .nook file to write").required();
   command.add_option("--keep-raw", o.keep_raw, "write the uncompressed material, for `evaluate material`");
   command.add_option("--images", o.images,
@@ -419,6 +418,7 @@ void add_bake_material(Command bake) {
           "between them is sharper; no relief where that predicts no view better. known: by the heights of "
           "--meso or --pbr; or those of an image, as --pbr reads them. none (default)")
       .type_name("none|estimated|known|IMAGE");
+  command.reads(o.relief);
   add_compression_options(command, o.compression);
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });

@@ -38,7 +38,7 @@ void add_bake_probe(Command bake_command) {
       "probe", "spherical-Gaussian light probes of an environment map, or of a path-traced scene");
   const auto options = std::make_shared<BakeProbeOptions>();
   BakeProbeOptions& o = *options;
-  command.add_option("input", o.input, "a latitude-longitude map, .hdr or .exr, or a scene, .glb or .gltf")
+  command.add_input("input", o.input, "a latitude-longitude map, .hdr or .exr, or a scene, .glb or .gltf")
       .required();
   command.add_option("-o,--output", o.output, "the .nook file to write").required();
   add_probe_options(command, o.probe);
@@ -62,7 +62,7 @@ void add_bake_probe(Command bake_command) {
           "--grid", [&o](const std::string& text) { o.grid = parse_grid_counts(text); },
           "of a scene: probes along x, y and z, AxBxC")
       .type_name("AxBxC");
-  command.add_option("--light", o.light, "of a scene: the map round it");
+  command.add_input("--light", o.light, "of a scene: the map round it");
   command
       .add_option_function(
           "--box", [&o](const std::string& text) { o.box = parse_grid_box(text); },

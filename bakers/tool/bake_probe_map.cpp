@@ -47,7 +47,7 @@ BakeOutput bake_probe_of_map(const BakeProbeOptions& options) {
   if (options.samples > 0) settings.samples = options.samples;
   settings.seed = options.common.seed;
   std::optional<platform::OutputFile> picture;
-  if (!options.picture.empty()) picture.emplace(options.picture);
+  if (!options.picture.empty()) picture.emplace(options.picture, file_events(options.common.quiet));
   const bake::Environment map = read_map(options.input);
 
   platform::ProgressBar bar(options.common.quiet);

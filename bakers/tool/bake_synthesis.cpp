@@ -64,7 +64,7 @@ void add_bake_synthesis(Command bake_command) {
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command
-      .add_option("input", o.input, "the material, a .nook file of `bake material`, or what --keep-raw wrote")
+      .add_input("input", o.input, "the material, a .nook file of `bake material`, or what --keep-raw wrote")
       .required();
   command.add_option("-o,--output", o.output, "the .nook file to write").required();
   command

@@ -73,7 +73,7 @@ void add_bake_transfer(Command bake_command) {
       "transfer", "the visibility of a static shape, which lights its materials under any light");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_option("input", o.input, "the shape, .glb or .gltf, with texture coordinates").required();
+  command.add_input("input", o.input, "the shape, .glb or .gltf, with texture coordinates").required();
   command.add_option("-o,--output", o.output, "the .nook file to write").required();
   command
       .add_option("--lobes", o.settings.lobes,
@@ -90,8 +90,8 @@ void add_bake_transfer(Command bake_command) {
                   "reflections of the shape onto itself; each adds 18 bytes for a vertex")
       .check(in_range(0u, transfer::max_bounces))
       .capture_default_str();
-  command.add_option("--votf", o.votf,
-                     "the .nook file of the material that the shape wears: light falls through its holes");
+  command.add_input("--votf", o.votf,
+                    "the .nook file of the material that the shape wears: light falls through its holes");
   command.add_option("--tiles", o.settings.tiles, "tiles of that material in one unit of texture coordinates")
       .check(in_range(0.01f, 1000.0f))
       .capture_default_str();
@@ -100,7 +100,7 @@ void add_bake_transfer(Command bake_command) {
                   "separated: takes any material; paper: matrices of one --material, compressed by CTA")
       .check(one_of({"separated", "paper"}))
       .capture_default_str();
-  command.add_option("--material", o.material, "the .nook file of the material, for --form paper");
+  command.add_input("--material", o.material, "the .nook file of the material, for --form paper");
   command
       .add_option("--clusters", o.paper.clusters,
                   "clusters of vertices, of --form paper; 0: one for each 360")

@@ -1,6 +1,5 @@
 #include "bakers/tool/baking.h"
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -52,14 +51,15 @@ void run_bake(BakeCommand command, const std::function<BakeOutput()>& bake) {
   files.outputs.insert(files.outputs.begin(), {"-o", command.output});
   files.outputs.push_back({"--report", report});
   require_distinct_files(files);
-  platform::OutputFile output_file(command.output);
+  const platform::FileEvents events = file_events(command.common.quiet);
+  platform::OutputFile output_file(command.output, events);
   std::optional<platform::OutputFile> report_file;
-  if (!report.empty()) report_file.emplace(report);
+  if (!report.empty()) report_file.emplace(report, events);
   make_image_folder(files.images);
   const BakeOutput output = baked(command, bake);
   output_file.commit(output.file);
   if (report_file) report_file->commit(output.report);
-  if (!command.common.quiet) std::fputs(output.table.c_str(), stdout);
+  print_table(command.common, output.table, true);
 }
 
 }  // namespace nook::tool

@@ -1,7 +1,10 @@
 #include "bakers/tool/command_end.h"
 
 #include <csignal>
+#include <cstdio>
 #include <initializer_list>
+
+#include "platform/printable.h"
 
 namespace nook::tool {
 namespace {
@@ -27,10 +30,22 @@ void watch_for_interrupt() {
   }
   // A reader that went away makes a write fail, which is reported; it does not end the process.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // as a full disk does
 }
 
 bool interrupted() {
   return signalled != 0;
+}
+
+platform::FileEvents file_events(bool quiet) {
+  const auto say = [](const std::string& text) {
+    std::fprintf(stderr, "nook: %s\n", platform::printable(text).c_str());
+  };
+  platform::FileEvents events;
+  events.stopped = interrupted;
+  events.waits = say;
+  if (!quiet) events.replaces = say;
+  return events;
 }
 
 }  // namespace nook::tool

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "platform/file_waits.h"
+
 namespace nook::tool {
 
 enum ExitCode { exit_done = 0, exit_other = 1, exit_bad_arguments = 2, exit_bad_input = 3 };
@@ -39,5 +41,9 @@ inline ExitCode exit_code_of(nook_result result) {
 // ignored when the program began stays ignored.
 void watch_for_interrupt();
 bool interrupted();
+
+// For files that may be pipes: the flag ends their waits, and the user reads on the error stream what a
+// command waits for, and without --quiet what else happens to a file that is replaced.
+platform::FileEvents file_events(bool quiet);
 
 }  // namespace nook::tool

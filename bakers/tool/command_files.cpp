@@ -1,27 +1,91 @@
 #include "bakers/tool/command_files.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
+#include <stdexcept>
 
+#include "platform/input_file.h"
 #include "platform/output_file.h"
+#include "sdk/src/core/container.h"
 
 namespace nook::tool {
 
+namespace {
+
+constexpr FourLetters raw_material = four_letters("MRAW");
+// Raw materials hold up to 16 GiB of floats as half as many bytes, .btf files come from elsewhere. All other
+// kinds are far below 4 GiB at the limits of their formats.
+constexpr std::uint64_t max_raw_bytes = std::uint64_t{16} << 30, max_nook_bytes = std::uint64_t{4} << 30;
+
+std::uint64_t memory_bytes() {
+  const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+  return pages > 0 && size > 0 ? std::uint64_t(pages) * std::uint64_t(size) : UINT64_MAX;
+}
+
+// Throws std::runtime_error. A file that is larger than the memory would end the program while it is read.
+void check_size(const std::filesystem::path& path, std::uint64_t size, std::uint64_t most) {
+  const std::uint64_t memory = memory_bytes();
+  const bool fits_machine = size <= memory;
+  if (size <= most && fits_machine) return;
+  throw std::runtime_error(path.string() + ": is too large (got " + std::to_string(size) +
+                           " bytes, need at most " + std::to_string(std::min(most, memory)) +
+                           (size <= most ? ", the memory of this machine); use a larger machine"
+                                         : "); it is damaged, or not a file that this command reads"));
+}
+
+// Throws std::runtime_error where the head of a .nook file says another size than the file has.
+void check_nook_size(const std::filesystem::path& path, std::span<const std::byte> head, std::uint64_t size) {
+  check_size(path, size, container_kind(head) == raw_material ? max_raw_bytes : max_nook_bytes);
+  const std::uint64_t said = container_size(head);
+  if (said != size)
+    throw std::runtime_error(path.string() + ": the file's size is wrong (got " + std::to_string(size) +
+                             " bytes, need " + std::to_string(said) + "); it was cut or extended");
+}
+
+template <class Read>
+std::vector<std::byte> reading(Read&& read) {
+  try {
+    return read();
+  } catch (const platform::Stopped&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw ToolError(exit_bad_input, error.what());
+  }
+}
+
+}  // namespace
+
 std::vector<std::byte> read_file(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) throw ToolError(exit_bad_input, path.string() + ": cannot be read (" + error.message() + ")");
-  std::vector<std::byte> bytes(size);
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(size)))
-    throw ToolError(exit_bad_input, path.string() + ": cannot be read (" + std::strerror(errno) + ")");
-  return bytes;
+  return reading([&] {
+    std::error_code error;
+    const std::uint64_t size = std::filesystem::file_size(path, error);
+    if (error) return platform::read_input(path, max_nook_bytes, file_events(true));  // it says why
+    std::vector<std::byte> head(std::min<std::uint64_t>(size, container_head_bytes));
+    std::ifstream(path, std::ios::binary)
+        .read(reinterpret_cast<char*>(head.data()), std::streamsize(head.size()));
+    if (container_kind(head) == 0) return head;
+    check_nook_size(path, head, size);
+    return platform::read_input(path, size, file_events(true));
+  });
+}
+
+std::vector<std::byte> read_any_file(const std::filesystem::path& path) {
+  return reading([&] {
+    std::error_code error;
+    const std::uint64_t size = std::filesystem::file_size(path, error);
+    if (!error) check_size(path, size, max_raw_bytes);
+    return platform::read_input(path, max_raw_bytes, file_events(true));
+  });
 }
 
 namespace {
@@ -154,6 +218,9 @@ void make_image_folder(const std::filesystem::path& folder) {
   if (error || !std::filesystem::is_directory(folder))
     throw ToolError(exit_other, "--images: " + folder.string() + " cannot be made (" +
                                     (error ? error.message() : "it is a file") + "); choose another folder");
+  if (faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
+    throw ToolError(exit_other, "--images: no file can be made in " + folder.string() + " (" +
+                                    std::strerror(errno) + "); choose another folder");
 }
 
 std::string as_file_name(const std::string& name) {

@@ -12,8 +12,13 @@
 
 namespace nook::tool {
 
-// Throws ToolError (bad input) that names the file.
+// Reads a .nook file. Its size is checked by the first bytes and by the memory of the machine before the rest
+// is read. Of a file that does not begin as a .nook file only the first bytes come, enough for a reader to
+// refuse it. Throws ToolError (bad input) that names the file; platform::Stopped.
 std::vector<std::byte> read_file(const std::filesystem::path& path);
+
+// The same for a file of any kind, up to the size of the largest that a command takes.
+std::vector<std::byte> read_any_file(const std::filesystem::path& path);
 
 // Runs body; a Failure inside becomes a ToolError whose text begins with the file's name, unless it has it
 // already.

@@ -5,6 +5,10 @@
 #include <optional>
 #include <tuple>
 
+#include "bakers/tool/command_end.h"
+#include "platform/input_file.h"
+#include "sdk/src/core/failure.h"
+
 namespace nook::tool {
 
 Check::Check(const CLI::Validator& validator)
@@ -89,8 +93,89 @@ Option Option::number_of(const std::map<std::string, int>& numbers) const {
 Command Command::add_subcommand(const char* name, const std::string& help) const {
   return Command(*app_->add_subcommand(name, help));
 }
+
+namespace {
+
+struct NamedCopy {
+  std::unique_ptr<platform::InputCopy> copy;
+  std::string named;  // by the user
+};
+using InputCopies = std::vector<NamedCopy>;
+
+constexpr std::uint64_t max_stream_bytes = std::uint64_t{1} << 32;
+
+template <class Path>
+void copy_stream(Path& path, InputCopies& copies) {
+  if (!platform::is_stream(path)) return;
+  try {
+    copies.push_back({std::make_unique<platform::InputCopy>(path, max_stream_bytes, file_events(true)),
+                      std::filesystem::path(path).string()});
+  } catch (const platform::Stopped&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw ToolError(exit_bad_input, error.what());
+  }
+  path = copies.back().copy->path();
+}
+
+template <class Path>
+void copy_stream(std::vector<Path>& paths, InputCopies& copies) {
+  for (Path& path : paths) copy_stream(path, copies);
+}
+
+// A message that names what the user named, and not the copies.
+std::string without_copies(std::string text, const InputCopies& copies) {
+  for (const NamedCopy& each : copies) {
+    const std::string path = each.copy->path().string();
+    for (std::size_t at = text.find(path); at != std::string::npos;
+         at = text.find(path, at + each.named.size()))
+      text.replace(at, path.size(), each.named);
+  }
+  return text;
+}
+
+// Scripts with an unset variable give an empty name, and many programs take "-" for a stream.
+std::string fault_of_path(const std::string& path) {
+  if (path.empty()) return "the name of a file is empty";
+  return path == "-"
+             ? "\"-\" is not a file; /dev/stdin and /dev/stdout are the streams, ./- a file of this name"
+             : "";
+}
+
+template <class T>
+constexpr bool is_path =
+    std::is_same_v<T, std::filesystem::path> || std::is_same_v<T, std::vector<std::filesystem::path>>;
+
+}  // namespace
+
+struct Command::Inputs {
+  std::vector<std::function<void(InputCopies&)>> copy;
+};
+
+Command::Command(CLI::App& app) : app_(&app), inputs_(std::make_shared<Inputs>()) {}
+
+template <class T>
+void Command::reads(T& value) const {
+  inputs_->copy.push_back([&value](InputCopies& copies) { copy_stream(value, copies); });
+}
+template void Command::reads(std::string&) const;
+template void Command::reads(std::filesystem::path&) const;
+template void Command::reads(std::vector<std::filesystem::path>&) const;
+
 void Command::callback(const std::function<void()>& run) const {
-  app_->callback(run);
+  app_->callback([run, inputs = inputs_] {
+    InputCopies copies;
+    for (const auto& copy : inputs->copy) copy(copies);
+    try {
+      run();
+    } catch (const ToolError& error) {
+      if (copies.empty()) throw;
+      throw ToolError(error.code(), without_copies(error.what(), copies));
+    } catch (const Failure& failure) {
+      if (copies.empty()) throw;
+      throw ToolError(exit_code_of(failure.code()), without_copies(failure.what(), copies));
+    }
+  });
 }
 
 // The pose of evaluate casters: two clips, a place and an angle.
@@ -99,7 +184,9 @@ using TwoNamesFourNumbers = std::tuple<std::string, std::string, float, float, f
 template <class T>
 requires(!std::is_enum_v<T>) Option Command::add_option(const char* names, T& value, const std::string& help)
 const {
-  return Option(app_->add_option(names, value, help));
+  const Option option(app_->add_option(names, value, help));
+  if constexpr (is_path<T>) option.check([](const std::string& path) { return fault_of_path(path); });
+  return option;
 }
 template Option Command::add_option(const char*, std::string&, const std::string&) const;
 template Option Command::add_option(const char*, std::filesystem::path&, const std::string&) const;

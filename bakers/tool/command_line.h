@@ -68,7 +68,7 @@ class Option {
 // Refers to a command; copies refer to the same. Variables and functions must outlive the parsing.
 class Command {
  public:
-  explicit Command(CLI::App& app) : app_(&app) {}
+  explicit Command(CLI::App& app);
 
   Command add_subcommand(const char* name, const std::string& help) const;
   void callback(const std::function<void()>& run) const;
@@ -78,6 +78,16 @@ class Command {
   template <class T>
   requires(!std::is_enum_v<T>) Option add_option(const char* names, T& value, const std::string& help)
   const;
+  // An option that names a file, or files, to read; T is text, a path or a vector of paths. A pipe that it
+  // names is read to its end before the command runs, and the value becomes the name of a copy.
+  template <class T>
+  Option add_input(const char* names, T& value, const std::string& help) const {
+    reads(value);
+    return add_option(names, value, help);
+  }
+  // The same for a value that an option sets by a function.
+  template <class T>
+  void reads(T& value) const;
   Option add_option_function(const char* names, const std::function<void(const std::string&)>& set,
                              const std::string& help) const;
   Option add_flag(const char* names, bool& value, const std::string& help) const;
@@ -97,7 +107,10 @@ class Command {
   }
 
  private:
+  struct Inputs;
+
   CLI::App* app_;
+  std::shared_ptr<Inputs> inputs_;
 };
 
 }  // namespace nook::tool

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -10,8 +13,17 @@ class App;
 
 namespace nook::tool {
 
-// `name` and `description` head the help; `add_commands` adds the subcommands. Returns the exit code.
+// Commands and options that belong to another program, for users who look for them here.
+struct ElsewhereWords {
+  std::string program, how_to_get;  // as the message names it
+  // By the command here under which somebody may look for them, such as "evaluate nnao"; "*" stands for
+  // arguments without dashes.
+  std::map<std::string, std::vector<std::string>> words;
+};
+
+// `name` and `description` head the help; `add_commands` adds the subcommands. Returns the exit code. Call it
+// first in main().
 int run_program(int argc, char** argv, const char* name, const char* description,
-                const std::function<void(CLI::App&)>& add_commands);
+                const std::function<void(CLI::App&)>& add_commands, const ElsewhereWords& elsewhere = {});
 
 }  // namespace nook::tool

@@ -87,7 +87,7 @@ void add_evaluate_bent(Command evaluate_command) {
   o.poses.most = 24;
   add_evaluated_files(command, o.files);
   const Option maps =
-      command.add_option("--maps", o.maps, "latitude-longitude maps to be glossy under, at most 8")
+      command.add_input("--maps", o.maps, "latitude-longitude maps to be glossy under, at most 8")
           .delimiter(',')
           .expected(1, int(bake::max_glossy_maps));
   command.add_option("--clips", o.poses.clips, "measure only these clips").delimiter(',');

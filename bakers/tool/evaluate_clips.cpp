@@ -93,7 +93,7 @@ void add_evaluate_clips(Command evaluate_command) {
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(command, o.files);
-  command.add_option("clips", o.clips, "the baked clips, .nook").required();
+  command.add_input("clips", o.clips, "the baked clips, .nook").required();
   command.add_option("--rays", o.study.rays, "rays for each vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();

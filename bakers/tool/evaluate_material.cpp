@@ -134,11 +134,11 @@ void add_evaluate_material(Command evaluate_command, std::shared_ptr<MaterialPee
       evaluate_command.add_subcommand("material", "measure a compressed material against the raw one");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_option("raw", o.raw, "the raw material, written by `bake material --keep-raw`").required();
-  command.add_option("material", o.material, "the .nook file").required();
-  command.add_option("--unseen", o.unseen,
-                     "a raw material of other views, and of other lights where they differ, for the error "
-                     "between the samples");
+  command.add_input("raw", o.raw, "the raw material, written by `bake material --keep-raw`").required();
+  command.add_input("material", o.material, "the .nook file").required();
+  command.add_input("--unseen", o.unseen,
+                    "a raw material of other views, and of other lights where they differ, for the error "
+                    "between the samples");
   command.add_flag(
       "--jumps", o.jumps,
       "measure jumps as the view moves by 0.1 degrees, with and without the view map; with --images a "

@@ -133,7 +133,7 @@ void add_evaluate_nnao(Command evaluate_command) {
       "nook-lab evaluate nnao measures scenes");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_option("--frame", o.frames, "a frame that nook_nnao_record wrote; any number of times")
+  command.add_input("--frame", o.frames, "a frame that nook_nnao_record wrote; any number of times")
       .required()
       .type_name("FILE.nook");
   std::vector<std::string> names{"all", file_name};
@@ -146,8 +146,8 @@ void add_evaluate_nnao(Command evaluate_command) {
           "and oracle, and nnao_file with --network")
       .delimiter(',')
       .check([names](const std::string& text) { return one_of(names)(text.substr(0, text.find(':'))); });
-  command.add_option("--network", o.network,
-                     "a file of `nook train nnao`, such as the paper's form, drawn as well: nnao_file");
+  command.add_input("--network", o.network,
+                    "a file of `nook train nnao`, such as the paper's form, drawn as well: nnao_file");
   command.add_option("--images", o.images, "write pictures of each frame into this folder");
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });

@@ -158,13 +158,13 @@ void add_evaluate_probe(Command evaluate_command, std::shared_ptr<ProbePeers> pe
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command
-      .add_option(
+      .add_input(
           "files", o.files,
           "latitude-longitude maps, .hdr or .exr, each followed by .nook files that were baked from it; with "
           "--scene: .nook files of grids")
       .required();
-  command.add_option("--scene", o.grid.scene, "of grids: the scene that they were baked from, .glb or .gltf");
-  command.add_option("--light", o.grid.light, "of grids: the map round it");
+  command.add_input("--scene", o.grid.scene, "of grids: the scene that they were baked from, .glb or .gltf");
+  command.add_input("--light", o.grid.light, "of grids: the map round it");
   command
       .add_option("--points", o.grid.points, "of grids: random points on surfaces, and as many in the open")
       .check(in_range(1u, 1u << 24))

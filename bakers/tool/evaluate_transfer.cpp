@@ -147,14 +147,14 @@ void add_evaluate_transfer(Command evaluate_command) {
       "transfer", "measure baked radiance transfer against direct sums and path tracing");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_option("mesh", o.mesh, "the shape, .glb or .gltf").required();
-  command.add_option("transfer", o.transfer, "the .nook file that was baked from it").required();
-  command.add_option("--material", o.material, "the .nook file of the material that it wears").required();
-  command.add_option(
+  command.add_input("mesh", o.mesh, "the shape, .glb or .gltf").required();
+  command.add_input("transfer", o.transfer, "the .nook file that was baked from it").required();
+  command.add_input("--material", o.material, "the .nook file of the material that it wears").required();
+  command.add_input(
       "--raw", o.raw,
       "the raw material, written by `bake material --keep-raw`: pictures are compared with it in "
       "place of the decoded material");
-  command.add_option("--light", o.lights, "latitude-longitude maps, .hdr or .exr").required();
+  command.add_input("--light", o.lights, "latitude-longitude maps, .hdr or .exr").required();
   command.add_flag("--without-suns", o.without_suns,
                    "take suns out of the maps first, as a host does that draws them with shadow maps");
   command.add_option("--images", o.images, "write a picture of each light, truth and forms side by side");

@@ -163,12 +163,12 @@ void add_evaluate_world(Command evaluate_command) {
       "measure instead the darkening by characters and the screen pass together, in rooms with "
       "characters, over pixels that the characters darken and elsewhere");
   command
-      .add_option("--light", o.lights,
-                  "measure instead the irradiance of floor and wall under this latitude-longitude map, "
-                  "channel by channel against path tracing; any number of maps")
+      .add_input("--light", o.lights,
+                 "measure instead the irradiance of floor and wall under this latitude-longitude map, "
+                 "channel by channel against path tracing; any number of maps")
       .check(existing_file())
       .excludes(composite);
-  command.add_option("--scene", o.scenes, "a room in glTF, with +y up, beside the built-in one")
+  command.add_input("--scene", o.scenes, "a room in glTF, with +y up, beside the built-in one")
       .check(existing_file());
   command.add_option("--scene-metres", o.scene_metres, "metres of a unit of each --scene, default 1")
       .check(in_range(1e-4f, 1e4f));

@@ -1,6 +1,5 @@
 #include "bakers/tool/evaluation.h"
 
-#include <cstdio>
 #include <optional>
 
 #include "bakers/raytrace/worker_arena.h"
@@ -20,9 +19,10 @@ void run_evaluation(const CommonOptions& options, CommandFiles files,
   using Json = nlohmann::ordered_json;
   files.outputs.push_back({"--report", options.report});
   require_distinct_files(files);
+  require_place_of_table(options);
   make_image_folder(files.images);
   std::optional<platform::OutputFile> report_file;
-  if (!options.report.empty()) report_file.emplace(options.report);
+  if (!options.report.empty()) report_file.emplace(options.report, file_events(options.quiet));
   Json report;
   try {
     bake::run_with_threads(options.threads, [&] { report = evaluate(); });
@@ -31,12 +31,12 @@ void run_evaluation(const CommonOptions& options, CommandFiles files,
     throw;
   }
   if (report_file) report_file->commit(report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  if (!options.quiet) std::fputs(table_text(report["rows"]).c_str(), stdout);
+  print_table(options, table_text(report["rows"]), !options.report.empty());
 }
 
 void add_evaluated_files(Command command, EvaluatedFiles& files) {
-  command.add_option("input", files.character, "the character it was baked from, .glb or .gltf").required();
-  command.add_option("model", files.model, "the .nook file").required();
+  command.add_input("input", files.character, "the character it was baked from, .glb or .gltf").required();
+  command.add_input("model", files.model, "the .nook file").required();
   add_import_options(command, files.reading);
 }
 

@@ -2,7 +2,6 @@
 #include "bakers/measure/world/caster_export.h"
 #include "bakers/tool/command_line.h"
 
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -43,9 +42,10 @@ std::string name_of(const Names& names, Value value) {
 void run(const Options& o) {
   require_distinct_files({{{"the model", o.model}}, {{"-o", o.output}, {"--report", o.common.report}}, {}});
   const std::vector<std::byte> bytes = read_file(o.model);
-  platform::OutputFile output(o.output);
+  const platform::FileEvents events = file_events(o.common.quiet);
+  platform::OutputFile output(o.output, events);
   std::optional<platform::OutputFile> report;
-  if (!o.common.report.empty()) report.emplace(o.common.report);
+  if (!o.common.report.empty()) report.emplace(o.common.report, events);
   const CharacterModel model = naming_file(o.model, [&] { return read_character_model(bytes); });
   output.commit(naming_file(o.model, [&] { return measure::export_casters(model, o.format, o.radii); }));
   const measure::ExportError error = measure::export_error(model, o.format, o.radii);
@@ -56,7 +56,7 @@ void run(const Options& o) {
                                   {"largest", error.largest},
                                   {"over_none", error.over_none}}});
   if (report) report->commit(Json{{"rows", rows}}.dump(2) + "\n");
-  if (!o.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
+  print_table(o.common, table_text(rows), true);
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ void add_export_casters(Command export_command) {
       "rms and largest are the AO by which the floor below the rest pose differs from that of Nook's own "
       "casters, over_none its mean squared error over that of no darkening");
   const auto options = std::make_shared<Options>();
-  command.add_option("model", options->model, "a .nook file of nook bake character").required();
+  command.add_input("model", options->model, "a .nook file of nook bake character").required();
   command.add_option("-o,--output", options->output, "the file to write").required();
   command.add_choice("--format", options->format, formats, "unreal, source2 or gltf (default)");
   command.add_choice("--radii", options->radii, radii_names,

@@ -1,5 +1,4 @@
 // nook inspect: what is inside a .nook file, and what of a glTF file a bake would take.
-#include <cstdio>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -20,7 +19,7 @@ namespace {
 
 struct Options {
   CommonOptions common;
-  std::string input;
+  std::filesystem::path input;
   bake::ImportOptions reading;
 };
 
@@ -65,9 +64,11 @@ std::vector<Table> tables_of_gltf(const Options& options) {
 
 void run(const Options& options) {
   require_distinct_files({{{"the input", options.input}}, {{"--report", options.common.report}}, {}});
+  require_place_of_table(options.common);
   const std::vector<std::byte> bytes = read_file(options.input);
   std::optional<platform::OutputFile> report;
-  if (!options.common.report.empty()) report.emplace(options.common.report);
+  if (!options.common.report.empty())
+    report.emplace(options.common.report, file_events(options.common.quiet));
   std::vector<Table> tables;
   if (is_gltf(bytes))
     tables = tables_of_gltf(options);
@@ -80,7 +81,7 @@ void run(const Options& options) {
     if (!table.rows.empty()) text += (text.empty() ? "" : "\n") + table_text(table.rows);
   }
   if (report) report->commit(all.dump(2, ' ', false, Row::error_handler_t::replace) + "\n");
-  if (!options.common.quiet) std::fputs(text.c_str(), stdout);
+  print_table(options.common, text, !options.common.report.empty());
 }
 
 }  // namespace
@@ -91,7 +92,7 @@ void add_inspect(Command tool) {
                                               "clips of a glTF file and what of them a bake "
                                               "takes");
   const auto options = std::make_shared<Options>();
-  command.add_option("file", options->input, "a .nook, .glb or .gltf file").required();
+  command.add_input("file", options->input, "a .nook, .glb or .gltf file").required();
   add_import_options(command, options->reading);
   add_common_options(command, options->common);
   command.callback([options] { run(*options); });

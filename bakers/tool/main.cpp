@@ -1,6 +1,8 @@
 // nook: bakes, measures and inspects what the runtime loads.
 #include <CLI/CLI.hpp>
 
+#include <initializer_list>
+
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/command_program.h"
 #include "bakers/tool/commands.h"
@@ -43,6 +45,25 @@ void add_commands(CLI::App& tool) {
   nook::tool::add_report(nook::tool::Command(tool));
 }
 
+// Comparisons with other methods, by the command of `nook` that is next to them.
+nook::tool::ElsewhereWords lab_words() {
+  nook::tool::ElsewhereWords lab{"nook-lab", "(built with -DNOOK_LAB=ON)", {}};
+  lab.words["evaluate"] = {"grid"};
+  for (const char* command : {"evaluate character", "evaluate material", "evaluate probe", "evaluate nnao"})
+    lab.words[command] = {"--peers"};
+  const auto add = [&](const char* command, std::initializer_list<const char*> options) {
+    lab.words[command].insert(lab.words[command].end(), options.begin(), options.end());
+  };
+  add("evaluate material", {"--methods", "--votf-refits", "--compare-seeding", "--sweep"});
+  add("evaluate probe", {"--glossy", "--surfaces"});
+  add("evaluate nnao",
+      {"*",        "--views",      "--folder",   "--sources", "--thin",          "--tune",
+       "--camera", "--cameras",    "--radius",   "--size",    "--max-radius-px", "--references",
+       "--ratio",  "--rays",       "--temporal", "--mover",   "--bent-normals",  "--path-step",
+       "--clip",   "--walk-speed", "--no-raw",   "--markdown"});
+  return lab;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -51,5 +72,5 @@ int main(int argc, char** argv) {
       "Bakes ambient occlusion, light probes, materials and radiance transfer, measures them against ray "
       "tracing, and inspects .nook files.\n"
       "Exit codes: 0 done, 2 bad arguments, 3 bad input, 1 anything else.",
-      add_commands);
+      add_commands, lab_words());
 }

@@ -191,9 +191,10 @@ void run(const Options& options) {
   for (const std::filesystem::path& source : options.sources) files.inputs.push_back({"a source", source});
   require_distinct_files(files);
   const ReportSources sources = sort_sources(options.sources);
-  platform::OutputFile output(options.output);
+  const platform::FileEvents events = file_events(options.common.quiet);
+  platform::OutputFile output(options.output, events);
   std::optional<platform::OutputFile> report_file;
-  if (!options.common.report.empty()) report_file.emplace(options.common.report);
+  if (!options.common.report.empty()) report_file.emplace(options.common.report, events);
 
   report::PageSource page;
   page.title = options.file.filename().string();
@@ -226,8 +227,8 @@ void add_report(Command tool) {
                           "sizes, and advice");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_option("file", o.file, "a .nook file").required();
-  command.add_option("sources", o.sources, "what it was baked from; see docs/guide/artists.md");
+  command.add_input("file", o.file, "a .nook file").required();
+  command.add_input("sources", o.sources, "what it was baked from; see docs/guide/artists.md");
   command.add_option("-o,--output", o.output, "the page").required();
   command.add_option("--rays", o.body.rays, "of a character: rays for each vertex and pose")
       .check(in_range(1, 65536))

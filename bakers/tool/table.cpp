@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "bakers/tool/command_end.h"
+#include "platform/output_stream.h"
 #include "platform/printable.h"
 
 namespace nook::tool {
@@ -52,6 +54,18 @@ std::string table_text(const nlohmann::ordered_json& rows) {
     text += "\n";
   }
   return text;
+}
+
+void require_place_of_table(const CommonOptions& options) {
+  if (!options.quiet && options.report.empty() && !platform::has_output_stream())
+    throw ToolError(
+        exit_other,
+        "the output stream is closed, and the result would be lost; open it, or give --report FILE");
+}
+
+void print_table(const CommonOptions& options, const std::string& text, bool in_file) {
+  if (options.quiet || (in_file && !platform::has_output_stream())) return;
+  platform::print(text);
 }
 
 }  // namespace nook::tool

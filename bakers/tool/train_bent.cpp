@@ -28,7 +28,7 @@ struct Options {
 };
 
 Json train(const Options& options) {
-  platform::OutputFile output(options.output);
+  platform::OutputFile output(options.output, file_events(options.common.quiet));
   const measure::BakedCharacter baked = read_evaluated_files(options.files, options.common);
   measure::PoseChoice choice;
   choice.most = options.poses;

@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   CommonOptions common;
-  std::string output;
+  std::filesystem::path output;
   double time_limit_s = 0;  // 0: none
   DatasetSettings data;
   TrainingSettings training;
@@ -73,10 +73,11 @@ Network train_with_progress(const Options& options, const Dataset& data, const s
 }
 
 void run_in_arena(Options& options) {
-  platform::OutputFile output(options.output);
-  if (output.is_regular()) options.resume = options.output + ".resume";
+  const platform::FileEvents events = file_events(options.common.quiet);
+  platform::OutputFile output(options.output, events);
+  if (output.is_regular()) options.resume = options.output.string() + ".resume";
   std::optional<platform::OutputFile> report_file;
-  if (!options.common.report.empty()) report_file.emplace(options.common.report);
+  if (!options.common.report.empty()) report_file.emplace(options.common.report, events);
   const std::string recipe = bake::network_recipe(options.data, options.training);
   platform::Stopwatch watch;
   const Dataset data = [&] {
@@ -105,13 +106,13 @@ void run_in_arena(Options& options) {
                    {"bytes", file.size()}};
     report_file->commit(report.dump(2) + "\n");
   }
-  if (!options.common.quiet) std::fputs(table_text(rows).c_str(), stdout);
+  print_table(options.common, table_text(rows), true);
 }
 
 void run(Options& options) {
   require_distinct_files({{},
                           {{"-o", options.output},
-                           {"the checkpoint of -o", options.output + ".resume"},
+                           {"the checkpoint of -o", options.output.string() + ".resume"},
                            {"--report", options.common.report}},
                           {}});
   options.training.seed = options.data.seed = options.common.seed;

@@ -13,6 +13,7 @@
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/common_options.h"
+#include "bakers/tool/table.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
 
@@ -23,14 +24,15 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   CommonOptions common;
-  std::string output;
+  std::filesystem::path output;
   bake::nnao::SpecularFitSettings fit;
 };
 
 void run_in_arena(const Options& options) {
-  platform::OutputFile output(options.output);
+  const platform::FileEvents events = file_events(options.common.quiet);
+  platform::OutputFile output(options.output, events);
   std::optional<platform::OutputFile> report_file;
-  if (!options.common.report.empty()) report_file.emplace(options.common.report);
+  if (!options.common.report.empty()) report_file.emplace(options.common.report, events);
   platform::ProgressBar bar(options.common.quiet);
   const bake::SpecularTraining trained =
       bake::train_specular(options.fit, [&](std::size_t done, std::size_t total) {
@@ -45,9 +47,10 @@ void run_in_arena(const Options& options) {
                          {"mse_lagarde", trained.error.lagarde}};
     report_file->commit(report.dump(2) + "\n");
   }
-  if (!options.common.quiet)
-    std::printf("mse %.5f, by Lagarde's form of the same AO %.5f, ratio %.3f\n", trained.error.fitted,
-                trained.error.lagarde, trained.error.fitted / trained.error.lagarde);
+  char line[160];
+  std::snprintf(line, sizeof line, "mse %.5f, by Lagarde's form of the same AO %.5f, ratio %.3f\n",
+                trained.error.fitted, trained.error.lagarde, trained.error.fitted / trained.error.lagarde);
+  print_table(options.common, line, true);
 }
 
 void run(Options& options) {

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "platform/standard_streams.h"
 #include "samples/clips/body.h"
 #include "samples/offscreen/offscreen.h"
 #include "samples/offscreen/picture.h"
@@ -397,6 +398,7 @@ static int run(App* a, char** argv) {
 }
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   App app;
   int code;
   memset(&app, 0, sizeof app);
@@ -408,5 +410,5 @@ int main(int argc, char** argv) {
   code = run(&app, argv);
   stop(&app);
   offscreen_stop();
-  return code;
+  return code_after_output(code);
 }

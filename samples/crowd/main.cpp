@@ -8,6 +8,7 @@
 #include "platform/file_bytes.h"
 #include "platform/progress_bar.h"
 #include "platform/render_target.h"
+#include "platform/standard_streams.h"
 #include "samples/crowd/crowd_scene.h"
 #include "samples/crowd/places.h"
 #include "samples/crowd/screen_passes.h"
@@ -82,7 +83,7 @@ int parse(int argc, char** argv, Options& o) {
     require_window(app, o);
     return -1;
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
+    return app.exit(e) == 0 ? code_after_output(0) : 2;
   }
 }
 
@@ -162,6 +163,7 @@ void run(const Options& o) {
 }  // namespace crowd
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   crowd::Options options;
   if (const int code = crowd::parse(argc, argv, options); code >= 0) return code;
   try {

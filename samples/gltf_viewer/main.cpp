@@ -9,6 +9,7 @@
 
 #include "platform/file_bytes.h"
 #include "platform/platform.h"
+#include "platform/standard_streams.h"
 #include "platform/stopwatch.h"
 #include "samples/gltf_viewer/nook_ao.h"
 #include "samples/gltf_viewer/renderer.h"
@@ -44,7 +45,7 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
       throw CLI::ValidationError("--size", "got '" + size + "', need WIDTHxHEIGHT from 16x16 to 8192x8192");
     return true;
   } catch (const CLI::ParseError& e) {
-    exit_code = app.exit(e) == 0 ? 0 : 2;
+    exit_code = app.exit(e) == 0 ? code_after_output(0) : 2;
     return false;
   }
 }
@@ -122,6 +123,7 @@ void run(const Options& o) {
 }  // namespace viewer
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   viewer::Options options;
   int exit_code = 0;
   if (!viewer::parse_options(argc, argv, options, exit_code)) return exit_code;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "platform/platform.h"
+#include "platform/standard_streams.h"
 
 // As in GL/glx.h, whose X11 headers define Success and other words as macros.
 extern "C" void (*glXGetProcAddressARB(const GLubyte* name))();
@@ -69,7 +70,7 @@ bool parse_options(const char* name, int argc, char** argv, Options& o, int& exi
       throw CLI::ValidationError("--size", "got '" + size + "', need WIDTHxHEIGHT from 16x16 to 4096x4096");
     return true;
   } catch (const CLI::ParseError& e) {
-    exit_code = app.exit(e) == 0 ? 0 : 2;
+    exit_code = app.exit(e) == 0 ? code_after_output(0) : 2;
     return false;
   }
 }
@@ -126,6 +127,7 @@ void finish(const char* name, const Options& o, const unsigned char* rgb) {
 }
 
 int run(const char* name, int argc, char** argv, void (*body)(const Options&)) {
+  open_closed_streams();
   Options options;
   int exit_code = 0;
   if (!parse_options(name, argc, argv, options, exit_code)) return exit_code;

@@ -8,6 +8,7 @@
 #include "platform/file_bytes.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
+#include "platform/standard_streams.h"
 #include "samples/material/frames.h"
 #include "samples/material/material_options.h"
 
@@ -117,6 +118,7 @@ void run(const Options& o) {
 }  // namespace material
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   material::Options options;
   int exit_code = 0;
   if (!material::parse_options(argc, argv, options, exit_code)) return exit_code;

@@ -14,9 +14,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "platform/standard_streams.h"
 #include "samples/nnao/room.h"
 #include "samples/offscreen/offscreen.h"
 #include "samples/offscreen/picture.h"
+#include "samples/offscreen/whole_file.h"
 
 enum { width = 960, height = 540 };
 
@@ -197,25 +199,20 @@ static nook_result record_frame(Pass* p, const Engine* e, float radius_m, void**
   return r;
 }
 
-/* The file is written beside its place and renamed, so that no half file appears. */
 static int save_frame(Pass* p, const Engine* e, float radius_m, const char* folder) {
-  char path[1024], part[1024];
+  char path[1024];
   void* bytes = NULL;
   size_t size = 0;
-  FILE* file = NULL;
-  int ok = record_frame(p, e, radius_m, &bytes, &size) == NOOK_OK && bytes &&
-           snprintf(path, sizeof path, "%s/frame.nook", folder) < (int)sizeof path &&
-           snprintf(part, sizeof part, "%s/frame.nook.part", folder) < (int)sizeof part;
-  if (ok) file = fopen(part, "wb");
-  ok = file && fwrite(bytes, 1, size, file) == size;
-  if (file) ok = !fclose(file) && ok;
-  ok = ok && rename(part, path) == 0;
+  const int ok = record_frame(p, e, radius_m, &bytes, &size) == NOOK_OK && bytes &&
+                 snprintf(path, sizeof path, "%s/frame.nook", folder) < (int)sizeof path &&
+                 whole_file_write(path, bytes, size);
   if (!ok) fprintf(stderr, "nnao: %s/frame.nook cannot be written: %s\n", folder, nook_last_message());
   free(bytes);
   return ok;
 }
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   Engine engine = {0};
   Pass pass = {NULL, NULL, NULL};
   const char* const folder = argc > 1 ? argv[1] : ".";

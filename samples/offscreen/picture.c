@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "samples/offscreen/whole_file.h"
+
 static uint32_t crc_of(const unsigned char* bytes, size_t count) {
   uint32_t crc = 0xffffffffU;
   for (size_t i = 0; i < count; ++i) {
@@ -76,17 +78,6 @@ static int write_png(FILE* file, const unsigned char* rgb, int width, int height
 }
 
 int picture_write(const char* path, const unsigned char* rgb, int width, int height) {
-  char partial[1024];
-  FILE* file;
-  int ok;
-  if (snprintf(partial, sizeof partial, "%s.part", path) >= (int)sizeof partial) return 0;
-  file = fopen(partial, "wb");
-  if (!file) return 0;
-  ok = write_png(file, rgb, width, height);
-  ok = fclose(file) == 0 && ok;
-  if (!ok || rename(partial, path) != 0) {
-    remove(partial);
-    return 0;
-  }
-  return 1;
+  WholeFile file;
+  return whole_file_open(&file, path) && whole_file_close(&file, write_png(file.stream, rgb, width, height));
 }

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "platform/standard_streams.h"
 #include "samples/offscreen/offscreen.h"
 #include "samples/offscreen/picture.h"
 #include "samples/probe/shapes.h"
@@ -209,6 +210,7 @@ static int save(const char* path) {
 }
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   Light light;
   Shape sphere, character;
   unsigned char* bytes;

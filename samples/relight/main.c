@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "platform/standard_streams.h"
 #include "samples/offscreen/offscreen.h"
 #include "samples/offscreen/picture.h"
 #include "samples/relight/lit_room.h"
@@ -382,6 +383,7 @@ static nook_result pass_day(const Engine* e, const Light* l, int frames, unsigne
 }
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   const int frames = argc > 2 ? atoi(argv[2]) : 240;
   unsigned char* const picture = calloc((size_t)panel_width * panel_height * panels, 3);
   Light light;

@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "platform/standard_streams.h"
 #include "samples/offscreen/offscreen.h"
 #include "samples/offscreen/picture.h"
 #include "samples/transfer/shape.h"
@@ -310,6 +311,7 @@ static unsigned char* read_file(const char* path, size_t* size) {
 }
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   App app;
   Shape shape;
   nook_bake_job job = NULL;

@@ -12,7 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "platform/standard_streams.h"
 #include "samples/offscreen/picture.h"
+#include "samples/offscreen/whole_file.h"
 #include "samples/vulkan/engine.h"
 #include "samples/vulkan/nook_vulkan.h"
 
@@ -107,19 +109,6 @@ static nook_result record_frame(const Pass* p, const engine* e, float radius_m, 
   return r;
 }
 
-/* Writes a file beside its place and renames it, so that no half file appears. */
-static int save_bytes(const char* path, const void* bytes, size_t size) {
-  char part[1024];
-  FILE* file;
-  int ok;
-  if (!bytes || snprintf(part, sizeof part, "%s.part", path) >= (int)sizeof part) return 0;
-  file = fopen(part, "wb");
-  if (!file) return 0;
-  ok = fwrite(bytes, 1, size, file) == size;
-  ok = fclose(file) == 0 && ok;
-  return ok && rename(part, path) == 0;
-}
-
 /* Saves a picture of 1 or 4 bytes for each pixel, the upper row first, as images of Vulkan are. */
 static int save_picture(const char* path, const unsigned char* texels, int texel_bytes) {
   unsigned char* const rgb = malloc((size_t)pixels * 3);
@@ -165,7 +154,7 @@ static int save_frame(Pass* p, engine* e, const Settings* s, const unsigned char
   int ok = memory && read_texels(e, &texels) == VK_SUCCESS;
   for (int i = 0; ok && i < pixels; ++i) texels.ao[i] = (float)ao[i] / 255;
   ok = ok && record_frame(p, e, s->radius_m, &texels, &bytes, &size) == NOOK_OK;
-  ok = ok && save_bytes(path_in(s->folder, "frame.nook"), bytes, size);
+  ok = ok && bytes && whole_file_write(path_in(s->folder, "frame.nook"), bytes, size);
   free(bytes);
   free(memory);
   return ok;
@@ -216,6 +205,7 @@ static VkResult draw_frames(Pass* p, engine* e, const Settings* s) {
 }
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   Settings settings = {".", 0.5F, NOOK_NNAO_PRESET_DEFAULT, 0, 0, 0};
   engine e;
   Pass pass = {0};

@@ -20,6 +20,8 @@
 #include <string>
 #include <vector>
 
+#include "platform/standard_streams.h"
+
 namespace {
 
 constexpr float frames_per_second = 30;
@@ -235,6 +237,7 @@ void write_file(const std::string& path, const char* bytes, std::size_t size) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   if (argc != 4) {
     std::fputs("usage: web_data CHARACTER.glb CHARACTER.nook FOLDER\n", stderr);
     return 2;

@@ -205,6 +205,15 @@ TEST_CASE("recorded frames: the wrapper writes a file whole or not at all") {
   CHECK(folder.files() == 1);
   CHECK_THROWS_AS(recording.write(folder.path / "absent" / "frame.nook"), std::runtime_error);
   CHECK(folder.files() == 1);
+  // Files of the user's beside it stay, and the file keeps its permissions.
+  for (const char* name : {"frame.nook.part", "frame.nook.nook-part-recording-0"})
+    std::ofstream(folder.path / name) << "mine";
+  const auto own = std::filesystem::perms::owner_read | std::filesystem::perms::owner_write;
+  std::filesystem::permissions(file, own);
+  recording.write(file);
+  CHECK(folder.files() == 3);
+  CHECK(std::filesystem::file_size(folder.path / "frame.nook.nook-part-recording-0") == 4);
+  CHECK(std::filesystem::status(file).permissions() == own);
 }
 
 TEST_CASE("the C++ wrapper of clips loads, finds and reads") {

@@ -58,3 +58,17 @@ TEST_CASE("checks carry the result that their caller names") {
     CHECK(failure.code() == NOOK_ERROR_BAD_FILE);
   }
 }
+
+TEST_CASE("strides are checked by what they reach") {
+  CHECK(checked_stride("stride", 0, 10, 12) == 12);
+  CHECK(checked_stride("stride", 16, 10, 12) == 16);
+  CHECK(checked_stride("stride", SIZE_MAX, 0, 12) == SIZE_MAX);  // of nothing
+  CHECK(checked_stride("stride", PTRDIFF_MAX / 10, 10, 12) == PTRDIFF_MAX / 10);
+  CHECK_THROWS_WITH(checked_stride("stride", 11, 10, 12),
+                    "stride is too small (got 11 bytes, need 0 or at least 12)");
+  CHECK_THROWS_AS(checked_stride("stride", PTRDIFF_MAX / 10 + 1, 10, 12), Failure);
+  CHECK_THROWS_AS(checked_stride("stride", SIZE_MAX, 1, 12), Failure);
+  CHECK_THROWS_AS(checked_stride("stride", SIZE_MAX, SIZE_MAX, 12), Failure);
+  check_array("count", PTRDIFF_MAX / 12, 12);
+  CHECK_THROWS_AS(check_array("count", PTRDIFF_MAX / 12 + 1, 12), Failure);
+}

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "platform/platform.h"
+#include "platform/standard_streams.h"
 
 namespace crowd::lab {
 namespace {
@@ -98,7 +99,7 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
     if (o.report.empty()) o.report = o.out / "report.json";
     return true;
   } catch (const CLI::ParseError& e) {
-    exit_code = app.exit(e) == 0 ? 0 : 2;
+    exit_code = app.exit(e) == 0 ? code_after_output(0) : 2;
     return false;
   }
 }

@@ -10,6 +10,7 @@
 #include "bakers/lab/crowd/timed_frames.h"
 #include "platform/file_bytes.h"
 #include "platform/progress_bar.h"
+#include "platform/standard_streams.h"
 
 namespace crowd::lab {
 namespace {
@@ -162,6 +163,7 @@ void run(const Options& o) {
 }  // namespace crowd::lab
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   crowd::lab::Options options;
   int exit_code = 0;
   if (!crowd::lab::parse_options(argc, argv, options, exit_code)) return exit_code;

@@ -7,6 +7,8 @@
 #include <set>
 
 #include "bakers/lab/gpu_cost/cost_report.h"
+#include "platform/output_file.h"
+#include "platform/standard_streams.h"
 
 namespace {
 
@@ -45,8 +47,7 @@ std::string first_lines(const Options& options) {
 }
 
 void write(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  if (!(file << text)) throw std::runtime_error("nook_gpu_cost: cannot write " + path.string());
+  platform::OutputFile(path).commit(text);
 }
 
 nlohmann::json read_json(const std::string& path) {
@@ -180,8 +181,9 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   try {
-    return run(argc, argv);
+    return code_after_output(run(argc, argv));
   } catch (const NoRadv& missing) {
     return without_radv(missing.what());
   } catch (const std::exception& error) {

@@ -8,6 +8,7 @@
 
 #include "bakers/lab/gpu_time/timed_rows.h"
 #include "platform/output_file.h"
+#include "platform/standard_streams.h"
 
 namespace {
 
@@ -114,8 +115,9 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_closed_streams();
   try {
-    return run(argc, argv);
+    return code_after_output(run(argc, argv));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "nook_gpu_time: %s\n", error.what());
     return exit_failed;

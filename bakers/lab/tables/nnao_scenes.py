@@ -11,6 +11,7 @@ import array
 import base64
 import hashlib
 import json
+import os
 import pathlib
 import shutil
 import struct
@@ -166,7 +167,7 @@ def write_glb(path, positions, indices):
     text += b" " * (-len(text) % 4)
     binary = places.tobytes() + corners.tobytes()
     head = struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(binary))
-    part = path.with_suffix(".part")
+    part = path.with_name(f"{path.name}.nook-part-{os.getpid()}")
     part.write_bytes(head + struct.pack("<I4s", len(text), b"JSON") + text +
                      struct.pack("<I4s", len(binary), b"BIN\0") + binary)
     part.rename(path)

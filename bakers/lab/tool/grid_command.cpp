@@ -108,8 +108,8 @@ void add_evaluate_grid(Command evaluate_command) {
       "grid", "ways to look up a grid of light probes near walls, in built-in closed rooms or in a scene");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_option("--scene", o.scene, "a scene in place of the rooms, .glb or .gltf");
-  command.add_option("--light", o.light, "of a scene: the map round it");
+  command.add_input("--scene", o.scene, "a scene in place of the rooms, .glb or .gltf");
+  command.add_input("--light", o.light, "of a scene: the map round it");
   command
       .add_option_function(
           "--grid", [&o](const std::string& text) { o.counts = parse_grid_counts(text); },

@@ -71,11 +71,11 @@ void check_options(const EvaluateNnaoOptions& options) {
 }
 
 void add_options(Command command, EvaluateNnaoOptions& options) {
-  command.add_option("scene", options.scenes.files,
-                     "scenes in metres, y up, .glb or .gltf; of several, the means are reported as well");
+  command.add_input("scene", options.scenes.files,
+                    "scenes in metres, y up, .glb or .gltf; of several, the means are reported as well");
   add_import_options(command, options.scenes.reading);
-  command.add_option("--views", options.views,
-                     "a list of scenes with their cameras, such as docs/nnao_views.json, instead of files");
+  command.add_input("--views", options.views,
+                    "a list of scenes with their cameras, such as docs/nnao_views.json, instead of files");
   command.add_option("--folder", options.folder,
                      "where the scenes of --views lie, each as NAME.glb; default: here");
   command
@@ -84,9 +84,9 @@ void add_options(Command command, EvaluateNnaoOptions& options) {
   command.add_flag("--thin", options.scenes.thin,
                    "a built-in scene of thin things, called thin; it enters no mean");
   command
-      .add_option("--frame", options.frames,
-                  "replay frames that nook_nnao_record wrote, instead of scenes: against the recorded AO and "
-                  "the oracle; any number of times")
+      .add_input("--frame", options.frames,
+                 "replay frames that nook_nnao_record wrote, instead of scenes: against the recorded AO and "
+                 "the oracle; any number of times")
       .type_name("FILE.nook");
   std::vector<std::string> baselines{"all"};
   for (const Baseline baseline : all_baselines) baselines.push_back(baseline_name(baseline));
@@ -159,9 +159,9 @@ void add_options(Command command, EvaluateNnaoOptions& options) {
       .check(in_range(0.0, 100.0))
       .capture_default_str();
   command
-      .add_option("--mover", options.movers,
-                  "with --temporal, instead of scenes: a character that walks before a wall, .glb or .gltf "
-                  "with clips; any number of times")
+      .add_input("--mover", options.movers,
+                 "with --temporal, instead of scenes: a character that walks before a wall, .glb or .gltf "
+                 "with clips; any number of times")
       .type_name("FILE");
   command.add_option("--clip", options.clip,
                      "the clip of --mover; default: the first whose name has walk in it, or the first");
@@ -169,8 +169,8 @@ void add_options(Command command, EvaluateNnaoOptions& options) {
       .check(in_range(0.0, 100.0))
       .capture_default_str();
   command.add_flag("!--no-raw", options.raw, "measure each method with its blur alone");
-  command.add_option("--network", options.network,
-                     "a file of `nook train nnao`, such as the paper's form, measured as well");
+  command.add_input("--network", options.network,
+                    "a file of `nook train nnao`, such as the paper's form, measured as well");
   command.add_option("--images", options.images,
                      "write sheets of each view and pictures of the networks into this folder");
   command.add_option("--markdown", options.markdown, "write the tables of docs/nnao.md to this file");

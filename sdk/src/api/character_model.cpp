@@ -104,10 +104,7 @@ nook_result nook_model_read(nook_model model, nook_model_array array, void* out,
                     "count is not the model's file_vertex_count (got %u, need %zu)", count,
                     m.file_to_welded.size());
     const std::size_t bytes = array == NOOK_MODEL_STATIC_AO ? sizeof(float) : occluded_bytes;
-    if (stride != 0 && stride < bytes)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "stride is too small (got %zu bytes, need 0 or at least %zu)", stride, bytes);
-    if (stride == 0) stride = bytes;
+    stride = checked_stride("stride", stride, count, bytes);
     if (array == NOOK_MODEL_STATIC_AO)
       copy_static_ao(m, static_cast<std::byte*>(out), stride);
     else

@@ -63,10 +63,8 @@ nook::Vector<SkinnedVertex> skinned_vertices(const CharacterModel& model, const 
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "check.vertex_count is out of range (got %u, need %zu to %zu, the model's check vertices)",
                   check.vertex_count, std::min<std::size_t>(min_vertices, known), known);
-  const std::size_t stride = check.stride ? check.stride : 3 * sizeof(float);
-  if (stride < 3 * sizeof(float))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "check.stride is too small (got %zu bytes, need 0 or at least 12)", stride);
+  const std::size_t stride =
+      checked_stride("check.stride", check.stride, check.vertex_count, 3 * sizeof(float));
   const Affine place = read_place(check.place_3x4, "check.place_3x4");
   nook::Vector<SkinnedVertex> out(memory);
   for (std::uint32_t v = 0; v < check.vertex_count; ++v) {

@@ -84,14 +84,13 @@ std::size_t entry_bytes_of(nook_channel channel, nook_format format) {
   return std::size_t{form.numbers} * format_forms[format].bytes;
 }
 
-void check_output(const Instance& instance, uint32_t count, size_t stride, std::size_t entry_bytes) {
+// Returns the stride in bytes.
+std::size_t check_output(const Instance& instance, uint32_t count, size_t stride, std::size_t entry_bytes) {
   const std::size_t file_vertices = instance.model->model.file_to_welded.size();
   if (count != file_vertices)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "count is not the model's file_vertex_count (got %u, need %zu)", count, file_vertices);
-  if (stride != 0 && stride < entry_bytes)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "stride is too small (got %zu bytes, need 0 or at least %zu)",
-                  stride, entry_bytes);
+  return checked_stride("stride", stride, count, entry_bytes);
 }
 
 }  // namespace
@@ -205,9 +204,7 @@ nook_result nook_scene_read(nook_scene scene, nook_instance_id instance, nook_ch
   return with_scene("nook_scene_read", scene, [&](const Scene& s) {
     const Instance& found = instance_of(s, instance);
     need(out, "out");
-    const std::size_t bytes = entry_bytes_of(channel, format);
-    check_output(found, count, stride, bytes);
-    if (stride == 0) stride = bytes;
+    stride = check_output(found, count, stride, entry_bytes_of(channel, format));
     switch (channel) {
       case NOOK_CHANNEL_DIRECTIONAL_AO:
         return read_directional_ao(s, found, static_cast<float*>(out), stride);

@@ -13,13 +13,9 @@ using namespace nook;
 
 namespace {
 
-StridedPoints points_of(const float* first, std::size_t stride, std::uint32_t count, const char* name) {
-  constexpr std::size_t size = 3 * sizeof(float);
-  const StridedPoints points{first, stride ? stride : size};
-  if (points.stride < size)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the stride of desc.%s is too small (got %zu bytes, need 0, or %zu or more)", name, stride,
-                  size);
+StridedPoints points_of(const float* first, std::size_t stride, std::uint32_t count, const char* name,
+                        const char* stride_name) {
+  const StridedPoints points{first, checked_stride(stride_name, stride, count, 3 * sizeof(float))};
   for (std::uint32_t i = 0; first && i < count; ++i) {
     const Vec3 p = points[i];
     if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
@@ -41,8 +37,10 @@ HostVertices host_vertices(const CharacterModel& model, const nook_vertex_match_
   check_range("desc.tolerance", match.tolerance, 0, 1);
   HostVertices host;
   host.count = match.vertex_count;
-  host.position = points_of(match.positions, match.position_stride, match.vertex_count, "positions");
-  host.normal = points_of(match.normals, match.normal_stride, match.vertex_count, "normals");
+  host.position = points_of(match.positions, match.position_stride, match.vertex_count, "positions",
+                            "desc.position_stride");
+  host.normal =
+      points_of(match.normals, match.normal_stride, match.vertex_count, "normals", "desc.normal_stride");
   host.in_rest_space = match.in_rest_space != 0;
   host.primitive = match.primitive;
   if (match.tolerance > 0) host.tolerance = match.tolerance;

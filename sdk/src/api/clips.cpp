@@ -81,16 +81,15 @@ void write_ao_as(const LoadedClips& clips, const FrameMix& mix, nook_format form
   }
 }
 
-void check_ao_output(const LoadedClips& clips, nook_format format, std::uint32_t count, std::size_t stride) {
+// Returns the stride in bytes.
+std::size_t check_ao_output(const LoadedClips& clips, nook_format format, std::uint32_t count,
+                            std::size_t stride) {
   check_known("format", format, NOOK_FORMAT_UNORM8);
   const std::size_t vertices = clips.model->model.file_to_welded.size();
   if (count != vertices)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "count is not the model's file_vertex_count (got %u, need %zu)", count, vertices);
-  const std::size_t entry = sizeof(float) >> format;
-  if (stride != 0 && stride < entry)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "stride is too small (got %zu bytes, need 0 or at least %zu)",
-                  stride, entry);
+  return checked_stride("stride", stride, count, sizeof(float) >> format);
 }
 
 // The pose of one bone at a time, checked as nook_scene_set_pose checks it.
@@ -194,8 +193,8 @@ nook_result nook_clips_read_ao(nook_clips clips, const nook_clip_time* time, noo
     need(clips, "clips");
     const FrameMix mix = mix_of(clips->set, time);
     need(out, "out");
-    check_ao_output(*clips, format, count, stride);
-    write_ao_as(*clips, mix, format, out, stride ? stride : sizeof(float) >> format);
+    stride = check_ao_output(*clips, format, count, stride);
+    write_ao_as(*clips, mix, format, out, stride);
   });
 }
 

@@ -158,6 +158,7 @@ nook_result nook_probe_fit_add_samples(nook_probe_fit fit, const float* directio
     if (count == 0) return;
     need(directions, "directions");
     need(radiance, "radiance");
+    check_array("count", count, 3 * sizeof(float));
     f.add_samples(directions, radiance, weights, count);
   });
 }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "sdk/src/api/entry.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/probe/harmonics.h"
 #include "sdk/src/probe/probe_light.h"
@@ -43,6 +44,7 @@ void at_directions(const float* directions, float* rgb, std::size_t count, Evalu
   if (count == 0) return;
   need(directions, "the array of directions");
   need(rgb, "the array for the answer");
+  check_array("count", count, 3 * sizeof(float));
   for (std::size_t i = 0; i < count; ++i)
     write_vec3(rgb + 3 * i, evaluate(Vec3{directions[3 * i], directions[3 * i + 1], directions[3 * i + 2]}));
 }

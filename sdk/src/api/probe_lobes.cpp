@@ -98,6 +98,7 @@ nook_result at_directions(const char* function, const nook_lobe* lobes, std::uin
     if (count == 0) return;
     need(directions, "the array of directions");
     need(rgb, "the array for the answer");
+    check_array("count", count, 3 * sizeof(float));
     for (std::size_t i = 0; i < count; ++i) {
       const float* d = directions + 3 * i;
       write_vec3(rgb + 3 * i, evaluate(checked.get(), Vec3{d[0], d[1], d[2]}));
@@ -153,6 +154,7 @@ nook_result nook_sg_specular(const nook_lobe* lobes, uint32_t lobe_count, nook_p
     if (count == 0) return;
     need(surfaces, "surfaces");
     need(rgb, "rgb");
+    check_array("count", count, sizeof(nook_probe_surface));
     // All surfaces are checked before anything is written.
     for (std::size_t i = 0; i < count; ++i) surface_of(surfaces[i], i);
     for (std::size_t i = 0; i < count; ++i)

@@ -137,6 +137,7 @@ nook_result at_directions(const char* function, nook_probe probe, const float* p
     if (count == 0) return;
     need(directions, "the array of directions");
     need(rgb, "the array for the answer");
+    check_array("count", count, 3 * sizeof(float));
     const Probes& probes = probe->probes;
     Coefficients storage;
     const std::span<Vec3> coefficients = std::span(storage).first(probes.basis.count);

@@ -7,6 +7,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/material_handle.h"
 #include "sdk/src/api/transfer_handles.h"
+#include "sdk/src/core/checks.h"
 #include "sdk/src/material/material_check.h"
 #include "sdk/src/material/reflectance.h"
 #include "sdk/src/transfer/transfer_check.h"
@@ -31,13 +32,15 @@ Response response_of(const nook::material::MaterialTables& tables, std::uint32_t
                        memory);
 }
 
-VectorOutput output_of(float* vectors, std::uint32_t stride, const Response& response) {
+VectorOutput output_of(float* vectors, std::uint32_t count, std::uint32_t stride, const Response& response) {
   need(vectors, "vectors");
   const std::uint32_t floats = 3 * response.light_modes;
   if (stride != 0 && stride < floats)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "stride_floats is too small (got %u, need 0 or at least %u, the floats of a vector)",
                   stride, floats);
+  check_array("stride_floats", stride, sizeof(float));
+  checked_stride("stride_floats", stride * sizeof(float), count, floats * sizeof(float));
   return {vectors, stride == 0 ? floats : stride};
 }
 
@@ -77,7 +80,7 @@ void write_baked(const nook_transfer_response_s& response, const nook_transfer_v
                   "vertices are out of range (got %u from %u on, the transfer has %u)", vertex_count,
                   desc.first_vertex, baked.vertex_count());
   check_same_light(baked, response.response.light_modes, response.response.light_hash);
-  const VectorOutput output = output_of(vectors, stride, response.response);
+  const VectorOutput output = output_of(vectors, vertex_count, stride, response.response);
   baked_vectors(response.response, response.isa, {desc.amplitudes, std::size_t(3) * desc.lobe_count}, baked,
                 desc.first_vertex, vertex_count, output, response.context->parallel(),
                 response.context->memory());
@@ -85,7 +88,7 @@ void write_baked(const nook_transfer_response_s& response, const nook_transfer_v
 
 void write_open(const nook_transfer_response_s& response, const nook_transfer_vectors_desc& desc,
                 float* vectors, std::uint32_t vertex_count, std::uint32_t stride) {
-  const VectorOutput output = output_of(vectors, stride, response.response);
+  const VectorOutput output = output_of(vectors, vertex_count, stride, response.response);
   if (desc.first_vertex != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.first_vertex is %u without a transfer, need 0",
                   desc.first_vertex);

@@ -25,6 +25,7 @@ world::SampleRequest request_of(const nook_world_sample_desc& desc, float cutoff
   check_fits("desc.stride", desc.stride,
              desc.stride % sizeof(float) == 0 && (desc.stride == 0 || desc.stride >= 3 * sizeof(float)),
              "0 or a multiple of 4 from 12 on");
+  checked_stride("desc.stride", desc.stride, desc.point_count, 3 * sizeof(float));
   api::check_props("desc", desc.capsules, desc.capsule_count);
   world::SampleRequest request;
   request.positions = desc.positions;

@@ -120,6 +120,7 @@ void check_pose_source(const CharacterModel& model, PoseSource& source, bool nee
                   "desc.stride is out of range (got %zu bytes, need 0 or a multiple of 4 from %zu on)",
                   source.stride, bytes);
   check_range("desc.transform_count", source.transform_count, 1, max_transforms);
+  checked_stride("desc.stride", source.stride, source.transform_count, bytes);
   if (needs_bind_data || source.kind != NOOK_POSE_REST_TO_WORLD) need_bind_data(model);
   const bool is_skinning = source.kind == NOOK_POSE_SKINNING;
   if (is_skinning) source.skin = find_skin(model, source.file_skin);

@@ -1,5 +1,6 @@
 #include "sdk/src/core/checks.h"
 
+#include <cstdint>
 #include <cstdio>
 
 #include "sdk/src/core/descriptors.h"
@@ -54,6 +55,32 @@ void check_at_most(const char* name, std::uint32_t value, std::uint32_t most) {
 void check_switch(const char* name, std::int32_t value) {
   if (value != 0 && value != 1)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is neither on nor off (got %d, need 0 or 1)", name, value);
+}
+
+namespace {
+
+// The largest array: differences of addresses are signed.
+constexpr std::size_t max_array_bytes = PTRDIFF_MAX;
+
+}  // namespace
+
+std::size_t checked_stride(const char* name, std::size_t stride, std::size_t count,
+                           std::size_t element_bytes) {
+  if (stride == 0) stride = element_bytes;
+  if (stride < element_bytes)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is too small (got %zu bytes, need 0 or at least %zu)",
+                  name, stride, element_bytes);
+  if (count > 0 && stride > max_array_bytes / count)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "%s is too large (got %zu bytes for each of %zu, need at most %zu)", name, stride, count,
+                  max_array_bytes / count);
+  return stride;
+}
+
+void check_array(const char* name, std::size_t count, std::size_t element_bytes) {
+  if (count > max_array_bytes / element_bytes)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is too large (got %zu, need at most %zu)", name, count,
+                  max_array_bytes / element_bytes);
 }
 
 void check_index(const char* name, std::size_t index, std::size_t count) {

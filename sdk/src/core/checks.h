@@ -66,6 +66,15 @@ void check_index(const char* name, std::size_t index, std::size_t count);
 
 void check_at_most(const char* name, std::uint32_t value, std::uint32_t most);
 
+// Returns the distance in bytes between `count` elements in an array of the caller's: stride, or
+// element_bytes where stride is 0. Throws INVALID_ARGUMENT where elements overlap, or where no memory can
+// hold so many that far apart, so that places beyond it are never computed. name: the stride's.
+std::size_t checked_stride(const char* name, std::size_t stride, std::size_t count,
+                           std::size_t element_bytes);
+
+// The same for tightly packed arrays; name: the count's.
+void check_array(const char* name, std::size_t count, std::size_t element_bytes);
+
 // A switch, which is 0 or 1.
 void check_switch(const char* name, std::int32_t value);
 

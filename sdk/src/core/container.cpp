@@ -11,7 +11,7 @@ namespace {
 
 constexpr FourLetters magic = four_letters("NOOK");
 constexpr std::uint32_t order_mark = 0x01020304, swapped_mark = 0x04030201;
-constexpr std::size_t checksum_at = 24, head_size = 40, entry_size = 24;
+constexpr std::size_t checksum_at = 24, head_size = container_head_bytes, entry_size = 24;
 
 std::uint64_t checksum_of(std::span<const std::byte> bytes) {
   Hash64 hash;
@@ -75,6 +75,12 @@ FourLetters container_kind(std::span<const std::byte> bytes) {
   if (head.u32() != magic || head.u32() != order_mark) return 0;
   head.u32();
   return head.u32();
+}
+
+std::uint64_t container_size(std::span<const std::byte> bytes) {
+  if (container_kind(bytes) == 0) return 0;
+  ByteReader head(bytes.subspan(16), "head");
+  return head.u64();
 }
 
 Container::Container(std::span<const std::byte> bytes, const ContainerKind& kind) : bytes_(bytes) {

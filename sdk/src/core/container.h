@@ -63,7 +63,12 @@ class Container {
 
 // Writes the correct checksum into changed bytes, for tests of the code behind the checksum.
 void repair_checksum(std::span<std::byte> bytes);
-// Returns the kind of a file, so that a tool can choose a reader, or 0 if the bytes are no .nook file.
+// The bytes at the front of a file that tell its kind and its size.
+inline constexpr std::size_t container_head_bytes = 40;
+// Returns the kind of a file, so that a tool can choose a reader, or 0 if the bytes are no .nook file. The
+// head is enough.
 FourLetters container_kind(std::span<const std::byte> bytes);
+// Returns what the head says of the file's size, or 0 if the bytes are no .nook file.
+std::uint64_t container_size(std::span<const std::byte> bytes);
 
 }  // namespace nook

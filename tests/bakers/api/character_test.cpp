@@ -360,3 +360,30 @@ TEST_CASE("the meshes of a file are chosen by name") {
   CHECK(arrays.create() == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(message_has("desc.meshes and desc.without choose meshes of a file"));
 }
+
+TEST_CASE("reading a character refuses strides that overflow") {
+  const Character character = tube_character();
+  REQUIRE(character);
+  struct Array {
+    nook_bake_array array;
+    std::uint32_t count;
+  };
+  const Array arrays[] = {{NOOK_BAKE_ARRAY_PARENTS, 2},
+                          {NOOK_BAKE_ARRAY_FRAMES, 2},
+                          {NOOK_BAKE_ARRAY_POSITIONS, tube_vertices},
+                          {NOOK_BAKE_ARRAY_NORMALS, tube_vertices},
+                          {NOOK_BAKE_ARRAY_TRIANGLES, tube_triangles},
+                          {NOOK_BAKE_ARRAY_JOINTS, tube_vertices},
+                          {NOOK_BAKE_ARRAY_WEIGHTS, tube_vertices}};
+  std::vector<unsigned char> out(1 << 16, 0xa5);
+  for (const Array& a : arrays) {
+    INFO("array " << a.array);
+    for (const std::size_t stride :
+         {SIZE_MAX, SIZE_MAX - 3, SIZE_MAX / a.count + 1, std::size_t{PTRDIFF_MAX} / a.count + 1}) {
+      CHECK(nook_bake_character_read(character.get(), a.array, out.data(), a.count, stride) ==
+            NOOK_ERROR_INVALID_ARGUMENT);
+      CHECK(std::string(nook_last_message()).find("stride") != std::string::npos);
+    }
+  }
+  CHECK(out == std::vector<unsigned char>(out.size(), 0xa5));
+}

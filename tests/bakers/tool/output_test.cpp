@@ -257,7 +257,7 @@ TEST_CASE("a hang-up leaves nothing behind, but for a program that ignores it") 
   const ToolRun run = folder.run_and_signal(endless, SIGHUP, "ray tracing");
   CHECK(run.exit_code == 1);
   CHECK(has(run.error, "stopped"));
-  for (const std::string& name : folder.names()) CHECK_FALSE(has(name, ".part-"));
+  for (const std::string& name : folder.names()) CHECK_FALSE(has(name, "-part-"));
   // SIGHUP is ignored, as under nohup.
   std::signal(SIGHUP, SIG_IGN);
   const ToolRun ignoring = folder.run_and_signal(training(folder.path("m.nook"), "2"), SIGHUP, "ray tracing");
@@ -272,12 +272,20 @@ TEST_CASE("the parts of dead processes are removed by the next run, those of liv
   CHECK(killed.exit_code == 128 + SIGKILL);
   Names parts = folder.names();
   REQUIRE(parts.size() == 1);
-  CHECK(has(parts[0], "n.nook.part-"));
-  write_text(folder.path("n.nook.part-999999999"), "of no process");
-  write_text(folder.path("n.nook.part-of-mine"), "another name");
-  write_text(folder.path("other.nook.part-999999999"), "of another target");
+  CHECK(has(parts[0], "n.nook.nook-part-"));
+  // The part of a process of this number.
+  const auto left_by = [](int process) {
+    std::string mark = "nook: an unfinished file of process " + std::to_string(process);
+    mark.resize(63, ' ');
+    return mark + "\nand more";
+  };
+  write_text(folder.path("n.nook.nook-part-999999999"), left_by(999999999));
+  write_text(folder.path("n.nook.nook-part-999999998-3"), left_by(999999998));
+  write_text(folder.path("n.nook.nook-part-999999997"), left_by(999999996));
+  write_text(folder.path("n.nook.nook-part-of-mine"), left_by(999999999));
+  write_text(folder.path("other.nook.nook-part-999999999"), left_by(999999999));
   const int living = folder.start(endless);
-  const std::string of_living = "n.nook.part-" + std::to_string(living);
+  const std::string of_living = "n.nook.nook-part-" + std::to_string(living);
   while (!fs::exists(folder.path(of_living))) usleep(2000);
   const ToolRun run = folder.run(small_probe(folder, folder.path("n.nook")));
   INFO(run.error);
@@ -287,7 +295,8 @@ TEST_CASE("the parts of dead processes are removed by the next run, those of liv
   folder.finish(living);
   Names left = folder.names();
   std::erase(left, "n.nook.resume");
-  CHECK(left == Names{"map.hdr", "n.nook", "n.nook.part-of-mine", "other.nook.part-999999999"});
+  CHECK(left == Names{"map.hdr", "n.nook", "n.nook.nook-part-999999997", "n.nook.nook-part-of-mine",
+                      "other.nook.nook-part-999999999"});
 }
 
 TEST_CASE("previews of a grid are replaced by the last version") {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "../nook_handle.hpp"
@@ -45,18 +46,24 @@ class Recording : public Unique<nook_nnao_recording, nook_nnao_recording_destroy
     check(nook_nnao_recording_save(get(), bytes.data(), &size));
     return bytes;
   }
-  // Writes the file beside its place and renames it, so that it appears whole or not at all. Throws
+  // Writes the file beside its place, under a name that is new, and renames it, so that it appears whole or
+  // not at all. A file that is replaced keeps its permissions, and a link its place. Throws
   // std::runtime_error with a text that names the file.
   void write(const std::filesystem::path& file) const {
     const std::vector<unsigned char> bytes = save();
-    std::filesystem::path part = file;
-    part += ".part";
     std::error_code error;
+    std::filesystem::path target = std::filesystem::canonical(file, error), part;
+    const bool replaces = !error;
+    if (!replaces) target = file;
+    for (int i = 0; part.empty() || std::filesystem::exists(part, error); ++i)
+      (part = target) += ".nook-part-recording-" + std::to_string(i);
     std::ofstream out(part, std::ios::binary);
     out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     out.close();
     bool written = static_cast<bool>(out);
-    if (written) std::filesystem::rename(part, file, error);
+    if (written && replaces)
+      std::filesystem::permissions(part, std::filesystem::status(target, error).permissions(), error);
+    if (written) std::filesystem::rename(part, target, error);
     written = written && !error;
     if (!written) {
       std::filesystem::remove(part, error);

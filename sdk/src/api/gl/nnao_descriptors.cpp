@@ -17,9 +17,7 @@ nook_nnao_debug_desc checked_debug(const void* next) {
   const nook_nnao_debug_desc debug = given ? read_descriptor(given) : default_desc<nook_nnao_debug_desc>();
   check_known("debug.path", debug.path, NOOK_NNAO_PATH_COMPUTE);
   check_known("debug.depth_sample", debug.depth_sample, NOOK_NNAO_SAMPLE_NEAREST);
-  if (debug.timers != 0 && debug.timers != 1)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "debug.timers is neither on nor off (got %d, need 0 or 1)",
-                  debug.timers);
+  check_switch("debug.timers", debug.timers);
   return debug;
 }
 
