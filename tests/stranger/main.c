@@ -1,6 +1,7 @@
 /* Each part takes MODEL.nook and RIG.engine, the file of flatten.py:
  *   stranger layouts MODEL RIG AO     AO in each kind, layout and place; writes it to the file AO
- *   stranger truth MODEL RIG BOUND    its error against ray tracing, as a share of a static bake's
+ *   stranger truth MODEL RIG BOUND UNIT    its error against ray tracing, as a share of a static bake's; units for each
+ *                                          metre
  *   stranger checks MODEL RIG         the check of right poses
  *   stranger mistakes MODEL RIG       the check of wrong ones
  *   stranger pictures MODEL RIG       the screen and world passes, on OpenGL */
@@ -20,9 +21,10 @@ int main(int argc, char** argv) {
   if (!stranger_start(&s, argv[2], argv[3])) return 1;
   if (strcmp(argv[1], "layouts") == 0 && argc == 5)
     stranger_run_layouts(&s, argv[4]);
-  else if (strcmp(argv[1], "truth") == 0 && argc == 5)
+  else if (strcmp(argv[1], "truth") == 0 && argc == 6) {
+    s.unit = strtof(argv[5], NULL);
     stranger_run_truth(&s, strtof(argv[4], NULL));
-  else if (strcmp(argv[1], "checks") == 0)
+  } else if (strcmp(argv[1], "checks") == 0)
     stranger_run_checks(&s);
   else if (strcmp(argv[1], "mistakes") == 0)
     stranger_run_mistakes(&s);

@@ -88,7 +88,8 @@ def run_bakes(runner, options, names):
         character, flat = prepared(runner, options.folder, name)
         model = options.folder / f"{name}.nook"
         if runner.run(name, [options.tool, "bake", "character", character, "-o", model, *BAKE]):
-            runner.run(name, [options.program, "truth", model, flat, LARGEST_SHARE_OF.get(name, LARGEST_SHARE)])
+            runner.run(name, [options.program, "truth", model, flat, LARGEST_SHARE_OF.get(name, LARGEST_SHARE),
+                                rigs.rigs()[name].unit])
 
 
 def run_characters(runner, options):
