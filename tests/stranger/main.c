@@ -28,6 +28,8 @@ int main(int argc, char** argv) {
     stranger_run_checks(&s);
   else if (strcmp(argv[1], "mistakes") == 0)
     stranger_run_mistakes(&s);
+  else if (strcmp(argv[1], "pictures") == 0)
+    stranger_run_pictures(&s);
   else
     stranger_expect(&s, 0, "there is no part \"%s\" with %d arguments", argv[1], argc - 4);
   failures = s.failures;

@@ -11,6 +11,7 @@ of its own, whose AO is compared with ray tracing. characters: the checks alone,
 """
 import argparse
 import array
+import os
 import pathlib
 import subprocess
 import sys
@@ -29,6 +30,8 @@ LARGEST_RMS = 5e-4
 BAKE = ["--preset", "draft", "--poses", "clips", "--samples-per-clip", "10", "--rays", "32", "--steps", "300", "--spheres", "60",
         "--key-points", "150", "--threads", "1", "--quiet"]
 LARGEST_SHARE = 0.33
+# Drawn by the passes on OpenGL; the others have the same casters but for rounding.
+DRAWN = ["plain", "two_skins", "prop"]
 # Joints that lie at one place do not tell the baker where the body bends.
 LARGEST_SHARE_OF = {"one_place": 0.6, "no_inverse_bind": 0.6}
 
@@ -41,7 +44,9 @@ class Runner:
         done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
         for line in (done.stdout + done.stderr).splitlines():
             print(f"{name}: {line}")
-        if done.returncode != 0:
+        if done.returncode == 77 and os.environ.get("NOOK_REQUIRE_GL") != "1":
+            print(f"{name}: SKIPPED: {command[1]} needs an OpenGL 3.3 context")
+        elif done.returncode != 0:
             self.fail(name, f"{pathlib.Path(command[0]).name} {command[1]} ended with {done.returncode}")
         return done.returncode == 0
 
@@ -90,6 +95,8 @@ def run_bakes(runner, options, names):
         if runner.run(name, [options.tool, "bake", "character", character, "-o", model, *BAKE]):
             runner.run(name, [options.program, "truth", model, flat, LARGEST_SHARE_OF.get(name, LARGEST_SHARE),
                                 rigs.rigs()[name].unit])
+            if name in DRAWN:
+                runner.run(name, [options.program, "pictures", model, flat])
 
 
 def run_characters(runner, options):
