@@ -19,6 +19,22 @@ namespace {
 constexpr double keys_per_second = 24.0;
 constexpr int fewest_keys = 24;
 
+// The file has z up and a unit of its own, and a node above the skeleton that turns and scales it into the
+// world, as files from Blender and Mixamo do. So the skinning matrices of the file are not rest-to-world
+// matrices, and a sample that confuses them shows it. A power of two and a quarter turn cost no digit.
+constexpr double units_per_metre = 128.0;
+
+/// From model space, y up, to the axes of the file, z up.
+Vec3 turned(const Vec3& v) {
+  return {v.x, -v.z, v.y};
+}
+
+/// The armature's node brings the file's axes and units to the world; the root bone turns the axes back, so
+/// that all other bones keep theirs. The root has no animation, so that it may have a matrix.
+const std::vector<double> armature_columns{
+    1 / units_per_metre, 0, 0, 0, 0, 0, -1 / units_per_metre, 0, 0, 1 / units_per_metre, 0, 0, 0, 0, 0, 1};
+const std::vector<double> root_columns{1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1};
+
 class Builder {
  public:
   Builder() {
@@ -88,10 +104,10 @@ void add_mesh(Builder& builder, const TriangleMesh& mesh, const std::vector<Vert
   std::vector<float> positions, normals, shares;
   std::vector<std::uint16_t> joints, indices;
   for (const Vec3& p : mesh.positions_m) {
-    append(positions, p);
+    append(positions, units_per_metre * turned(p));
   }
   for (const Vec3& n : area_weighted_normals(mesh)) {
-    append(normals, n);
+    append(normals, turned(n));
   }
   for (const VertexWeights& w : weights) {
     shares.insert(shares.end(), w.weights.begin(), w.weights.end());
@@ -126,16 +142,25 @@ void add_mesh(Builder& builder, const TriangleMesh& mesh, const std::vector<Vert
   builder.model().materials.push_back(std::move(material));
 }
 
-/// The offset from the parent in the parent's own axes.
+/// The offset from the parent in the parent's own axes. The root, which stands in the origin, has no parent.
 Vec3 local_offset_m(const Skeleton& skeleton, const Bone& bone) {
-  if (bone.parent < 0) {
-    return bone.position_m;
-  }
   const Bone& parent = skeleton.bones()[static_cast<std::size_t>(bone.parent)];
   return glm::conjugate(parent.orientation) * (bone.position_m - parent.position_m);
 }
 
-/// Nodes 0 to n - 1 are the bones in the skeleton's order, node n carries the mesh.
+/// The inverse bind matrix of a bone: from the mesh's axes and units to those of the bone.
+void append_inverse_bind(std::vector<float>& to, const Bone& bone) {
+  const Mat3 turn = glm::transpose(glm::mat3_cast(bone.orientation));
+  for (const Vec3& column : {turn[0], -turn[2], turn[1]}) {
+    append(to, column);
+    to.push_back(0.0F);
+  }
+  append(to, -units_per_metre * (turn * bone.position_m));
+  to.push_back(1.0F);
+}
+
+/// Nodes 0 to n - 1 are the bones in the skeleton's order, node n carries the mesh, node n + 1 is the
+/// armature above both.
 void add_nodes(Builder& builder, const Skeleton& skeleton) {
   tinygltf::Model& model = builder.model();
   const Pose bind(skeleton);
@@ -145,25 +170,22 @@ void add_nodes(Builder& builder, const Skeleton& skeleton) {
   skin.skeleton = 0;
   for (std::size_t i = 0; i < skeleton.size(); ++i) {
     const Bone& bone = skeleton.bones()[i];
-    const Vec3 t = local_offset_m(skeleton, bone);
-    const Quat q = bind.local_rotation(static_cast<int>(i));
     tinygltf::Node node;
     node.name = bone.name;
-    node.translation = {t.x, t.y, t.z};
-    node.rotation = {q.x, q.y, q.z, q.w};
+    if (bone.parent < 0) {
+      node.matrix = root_columns;
+    } else {
+      const Vec3 t = units_per_metre * local_offset_m(skeleton, bone);
+      const Quat q = bind.local_rotation(static_cast<int>(i));
+      node.translation = {t.x, t.y, t.z};
+      node.rotation = {q.x, q.y, q.z, q.w};
+    }
     model.nodes.push_back(std::move(node));
     if (bone.parent >= 0) {
       model.nodes[static_cast<std::size_t>(bone.parent)].children.push_back(static_cast<int>(i));
     }
     skin.joints.push_back(static_cast<int>(i));
-    const Mat3 turn = glm::transpose(glm::mat3_cast(bone.orientation));
-    const Vec3 shift = -(turn * bone.position_m);
-    for (int column = 0; column < 3; ++column) {
-      append(inverse_bind, turn[column]);
-      inverse_bind.push_back(0.0F);
-    }
-    append(inverse_bind, shift);
-    inverse_bind.push_back(1.0F);
+    append_inverse_bind(inverse_bind, bone);
   }
   skin.inverseBindMatrices = builder.add_floats(inverse_bind, TINYGLTF_TYPE_MAT4);
   model.skins.push_back(std::move(skin));
@@ -174,8 +196,13 @@ void add_nodes(Builder& builder, const Skeleton& skeleton) {
   body.skin = 0;
   const int body_index = static_cast<int>(model.nodes.size());
   model.nodes.push_back(std::move(body));
+  tinygltf::Node armature;
+  armature.name = "Armature";
+  armature.matrix = armature_columns;
+  armature.children = {0, body_index};
+  model.nodes.push_back(std::move(armature));
   tinygltf::Scene scene;
-  scene.nodes = {0, body_index};
+  scene.nodes = {body_index + 1};
   model.scenes.push_back(std::move(scene));
   model.defaultScene = 0;
 }
@@ -193,7 +220,8 @@ void add_animation(Builder& builder, const Skeleton& skeleton, const Clip& clip)
     const double phase = key == intervals ? 0.0 : static_cast<double>(key) / intervals;
     times.push_back(static_cast<float>(clip.duration_s * key / intervals));
     const Pose pose = clip.pose_at(skeleton, phase);
-    append(pelvis, local_offset_m(skeleton, skeleton.bones()[pelvis_bone]) + pose.pelvis_shift_m());
+    append(pelvis, units_per_metre *
+                       (local_offset_m(skeleton, skeleton.bones()[pelvis_bone]) + pose.pelvis_shift_m()));
     for (std::size_t i = 0; i < skeleton.size(); ++i) {
       Quat q = pose.local_rotation(static_cast<int>(i));
       // A rotation has two quaternions. With the one near the previous key, players take the short way.

@@ -10,15 +10,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* An engine passes its own skinning matrices. Here they are rest-to-world matrices of the rest pose, moved
- * sideways: twelve floats for each bone, three rows of four. */
-static float* rest_pose(uint32_t bone_count, float x_m) {
-  float* const bones = calloc(bone_count, 12 * sizeof(float));
-  for (uint32_t b = 0; bones && b < bone_count; ++b) {
-    bones[12 * b] = bones[12 * b + 5] = bones[12 * b + 10] = 1.0F;
-    bones[12 * b + 3] = x_m;
+/* Stands in for the engine's animation: the matrices of its vertex shader, joint matrix * inverse bind
+ * matrix, in columns of four. This character stands still in its rest pose, x_m to the side, so that all of
+ * its joints have the same one. It is not the identity: like most files, this one turns and scales above its
+ * skeleton. */
+static float* skinning_matrices(const nook_skin_info* skin, float x_m) {
+  float* const joints = calloc(skin->joint_count, 16 * sizeof(float));
+  for (uint32_t j = 0; joints && j < skin->joint_count; ++j) {
+    float* const columns = joints + (size_t)16 * j;
+    for (uint32_t i = 0; i < 12; ++i) columns[4 * (i % 4) + i / 4] = skin->rest_from_mesh_3x4[i];
+    columns[12] += x_m;
+    columns[15] = 1;
   }
-  return bones;
+  return joints;
 }
 
 static void* read_file(const char* path, size_t* size) {
@@ -70,16 +74,17 @@ static nook_result start(Character* c, const void* bytes, size_t size) {
   if (!r) r = nook_scene_link(c->scene, c->left, c->right);
   if (!r) r = nook_scene_link(c->scene, c->right, c->left);
   if (!r) r = nook_pose_desc_init(&c->pose);
-  c->pose.kind = NOOK_POSE_REST_TO_WORLD; /* an engine: NOOK_POSE_SKINNING, with its shader's matrices */
-  c->pose.layout = NOOK_TRANSFORM_ROWS_3X4;
+  /* Name the matrices that you have. These are those of a vertex shader; docs/poses.md has the other kinds. */
+  c->pose.kind = NOOK_POSE_SKINNING;
+  c->pose.layout = NOOK_TRANSFORM_COLUMNS_4X4;
   return r;
 }
 
 /* ---- 2. Each frame: hand over the poses, evaluate, read one value a vertex ---- */
-static nook_result frame(Character* c, const float* left_pose, const float* right_pose, uint32_t bone_count,
+static nook_result frame(Character* c, const float* left_pose, const float* right_pose, uint32_t joint_count,
                          float* ao, uint32_t vertex_count) {
   nook_result r;
-  c->pose.transform_count = bone_count;
+  c->pose.transform_count = joint_count;
   c->pose.transforms = left_pose;
   r = nook_scene_set_pose(c->scene, c->left, &c->pose);
   c->pose.transforms = right_pose;
@@ -99,23 +104,22 @@ static void stop(Character* c) {
 /* The other instance comes nearer from frame to frame, and the mean AO falls. */
 static nook_result approach(Character* c) {
   static const float distances_m[] = {4.0F, 2.0F, 1.0F, 0.6F};
-  nook_model_info info;
-  nook_result r;
-  memset(&info, 0, sizeof info);
-  info.struct_size = sizeof info;
-  r = nook_model_describe(c->model, &info);
+  nook_model_info info = {.struct_size = sizeof info};
+  nook_skin_info skin = {.struct_size = sizeof skin};
+  nook_result r = nook_model_describe(c->model, &info);
+  if (!r) r = nook_model_describe_skin(c->model, 0, &skin);
   if (r) return r;
   printf("%u vertices, %u bones, %u spheres, %u key points\n", (unsigned)info.file_vertex_count,
          (unsigned)info.bone_count, (unsigned)info.sphere_count, (unsigned)info.key_point_count);
   float* const ao = malloc(info.file_vertex_count * sizeof *ao);
-  float* const here = rest_pose(info.bone_count, 0);
+  float* const here = skinning_matrices(&skin, 0);
   for (size_t i = 0; !r && i < sizeof distances_m / sizeof *distances_m; ++i) {
-    float* const there = rest_pose(info.bone_count, distances_m[i]);
+    float* const there = skinning_matrices(&skin, distances_m[i]);
     if (!ao || !here || !there) {
       fputs("minimal: out of memory\n", stderr);
       exit(1);
     }
-    r = frame(c, here, there, info.bone_count, ao, info.file_vertex_count);
+    r = frame(c, here, there, skin.joint_count, ao, info.file_vertex_count);
     if (!r)
       printf("neighbour at %.1f m: mean ambient occlusion %.4f (1 is open)\n", (double)distances_m[i],
              mean(ao, info.file_vertex_count));

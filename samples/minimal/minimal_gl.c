@@ -13,7 +13,7 @@ nook_result minimal_gl_start(nook_context context, nook_gl_proc_fn get_proc, voi
   return nook_gl_create(context, &desc, gl);
 }
 
-/* ---- 2. Each frame, after nook_scene_set_pose ---- */
+/* ---- 2. Each frame, after nook_scene_set_pose as in main.c ---- */
 nook_result minimal_gl_frame(nook_gl gl, nook_scene scene) {
   return nook_gl_scene_update(gl, scene); /* instead of nook_scene_update */
 }

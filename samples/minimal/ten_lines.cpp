@@ -1,5 +1,5 @@
-// The ten lines of the project's README, with what stands round them: a file that is read, a pose and a mean
-// that is printed.
+// The ten lines of the project's README, with what stands round them: a file that is read, an animation and a
+// mean that is printed.
 //
 //   ten_lines MODEL.nook
 #include <algorithm>
@@ -16,24 +16,30 @@ std::vector<char> read_file(const char* path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-// An engine passes the matrices of its own skinning. Here they are the rest pose, moved sideways: three rows
-// of four for each bone.
-class Standing {
- public:
-  Standing(const nook::CharacterModel& model, float x_m) : desc_(nook::pose_desc()) {
-    for (std::uint32_t bone = 0; bone < model.info().bone_count; ++bone)
-      rows_.insert(rows_.end(), {1, 0, 0, x_m, 0, 1, 0, 0, 0, 0, 1, 0});
-    desc_.kind = NOOK_POSE_REST_TO_WORLD;
-    desc_.layout = NOOK_TRANSFORM_ROWS_3X4;
-    desc_.transforms = rows_.data();
-    desc_.transform_count = model.info().bone_count;
-  }
-  operator const nook_pose_desc&() const { return desc_; }
+// Stands in for the engine's animation: the matrices of its vertex shader, joint matrix * inverse bind
+// matrix, in columns of four. The character stands still in its rest pose, x_m to the side, so that all of
+// its joints have the same one.
+std::vector<float> animate(const nook::CharacterModel& model, float x_m) {
+  nook_skin_info skin{};
+  skin.struct_size = sizeof skin;
+  nook::check(nook_model_describe_skin(model.get(), 0, &skin));
+  const float* const s = skin.rest_from_mesh_3x4;
+  std::vector<float> columns;
+  for (std::uint32_t joint = 0; joint < skin.joint_count; ++joint)
+    columns.insert(columns.end(), {s[0], s[4], s[8], 0, s[1], s[5], s[9], 0,  //
+                                   s[2], s[6], s[10], 0, s[3] + x_m, s[7], s[11], 1});
+  return columns;
+}
 
- private:
-  std::vector<float> rows_;
-  nook_pose_desc desc_;
-};
+// Describes matrices and names their kind.
+nook_pose_desc pose(nook_pose_kind kind, const std::vector<float>& columns_4x4) {
+  nook_pose_desc desc = nook::pose_desc();
+  desc.kind = kind;
+  desc.layout = NOOK_TRANSFORM_COLUMNS_4X4;
+  desc.transforms = columns_4x4.data();
+  desc.transform_count = static_cast<std::uint32_t>(columns_4x4.size() / 16);
+  return desc;
+}
 
 std::vector<float> ao_beside_another(const std::vector<char>& file) {
   // clang-format off
@@ -43,8 +49,8 @@ std::vector<float> ao_beside_another(const std::vector<char>& file) {
   nook::Scene scene(context);
   const nook_instance_id left = scene.add_instance(hero), right = scene.add_instance(hero);
   scene.link(left, right);                                           // the right body darkens the left one
-  scene.set_pose(left, Standing(hero, 0.0f));                        // in each frame: your skinning's matrices
-  scene.set_pose(right, Standing(hero, 0.6f));                       // the same body, 0.6 m to the side
+  scene.set_pose(left, pose(NOOK_POSE_SKINNING, animate(hero, 0)));  // in each frame: your vertex shader's matrices
+  scene.set_pose(right, pose(NOOK_POSE_SKINNING, animate(hero, 0.6f)));  // the same body, 0.6 m to the side
   scene.update();
   std::vector<float> ao(hero.info().file_vertex_count);              // 1 is open, 0 is fully occluded
   scene.read_ao(left, ao.data(), hero.info().file_vertex_count);     // one value for each vertex of the file

@@ -1,4 +1,4 @@
-// What the log and nook_scene_info say about poses that are taken but are unlikely to be meant: uneven bones,
+// The log and nook_scene_info name poses that are taken but are unlikely to be meant: uneven bones,
 // zeros, more transforms than needed.
 #include <nook/nook_clips.h>
 

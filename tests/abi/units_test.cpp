@@ -14,9 +14,9 @@ using namespace nook::test;
 
 namespace {
 
-// The world's unit and what the context is told of it: a host may forget to tell.
+// The world's unit, and units_per_metre of the context: a host may forget to set it.
 struct Unit {
-  float per_metre = 1, told = 1;
+  float per_metre = 1, set = 1;
 };
 
 enum Feature : unsigned {
@@ -64,7 +64,7 @@ class Stand {
   Stand(Unit unit, unsigned features, float ground_radius = 0) : unit_(unit), features_(features) {
     nook_context_desc context_desc;
     REQUIRE(nook_context_desc_init(&context_desc) == NOOK_OK);
-    context_desc.units_per_metre = unit.told;
+    context_desc.units_per_metre = unit.set;
     REQUIRE(nook_context_create(&context_desc, &context_) == NOOK_OK);
     const std::vector<char> bytes = mannequin();
     REQUIRE(nook_model_load(context_, bytes.data(), bytes.size(), &model_) == NOOK_OK);
@@ -162,7 +162,7 @@ TEST_CASE("AO is the same in every unit of length") {
     INFO("units per metre " << unit);
     const double error = rms(Stand({unit, unit}, features).ao(), metres);
     CHECK(error <= allowed);
-    // What has a place needs no telling. Levels have none, and a camera 14,000 units away chooses others.
+    // A place is enough for the rest. Levels have none, and a camera 14,000 units away chooses others.
     if (!(features & levels)) CHECK(rms(Stand({unit, 1}, features).ao(), metres) <= allowed);
   }
 }
@@ -176,7 +176,7 @@ TEST_CASE("each feature of the scene in several units matters") {
   }
 }
 
-TEST_CASE("levels of detail follow the unit that the context is told") {
+TEST_CASE("levels of detail follow the unit of the context") {
   const std::vector<float> metres = Stand({}, levels).ao();
   CHECK(rms(Stand({100, 100}, levels).ao(), metres) <= allowed);
   CHECK(rms(Stand({100, 1}, levels).ao(), metres) > 2 * allowed);

@@ -1,4 +1,4 @@
-// What the host's log says about poses that were taken but are unlikely to be meant.
+// Log lines about poses that were taken but are unlikely to be meant.
 #pragma once
 
 #include <atomic>

@@ -87,7 +87,7 @@ std::array<double, 3> joint_origin(const CharacterModel& model, std::size_t bone
 // is a similarity to 1e-4 is returned as it is.
 Affine projected(const Affine& matrix, const std::array<double, 3>& fixed);
 
-// What a host should hear about a pose that was taken. A bone is uneven if its matrix is sheared, scaled
+// Remarks about a pose that was taken, for the log. A bone is uneven if its matrix is sheared, scaled
 // unevenly or has an axis of zero; it is projected.
 struct PoseNotes {
   std::uint32_t bones = 0;   // bones that the pose set
@@ -98,7 +98,7 @@ struct PoseNotes {
   bool is_place_uneven = false;
   std::uint32_t transforms_given = 0, transforms_used = 0;  // different ones if there was a surplus
 
-  // The topics are bits, so that each is told once. In a pose of zeros alone, as in a buffer that was not
+  // The topics are bits, so that each is reported once. In a pose of zeros alone, as in a buffer that was not
   // filled, nothing else is worth a word.
   enum Topic : std::uint32_t { topic_uneven = 1, topic_zero = 2, topic_surplus = 4 };
   std::uint32_t topics() const {
@@ -111,7 +111,7 @@ struct PoseNotes {
 };
 
 void note_uneven(PoseNotes& notes, std::size_t bone, const BoneAxes<double>& axes);
-// Of a pose whose matrices are even but for a place that is put before all of them.
+// The notes of a pose whose matrices are even, behind a place that may not be.
 PoseNotes notes_of_place(const CharacterModel& model, const Mat3x4& place);
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT): the axes of a bone are uneven and the pose is strict.

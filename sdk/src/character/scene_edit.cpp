@@ -191,7 +191,7 @@ void remove_instance(Scene& scene, nook_instance_id id) {
 
 namespace {
 
-// What follows from new matrices, all of which are even.
+// Updates what follows from new matrices, all of which are even.
 void finish_pose(Instance& instance, float longest_squared) {
   derive_bound(instance, longest_squared);
   ++instance.input.pose_revision;

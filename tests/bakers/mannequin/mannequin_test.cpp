@@ -65,8 +65,24 @@ const tinygltf::Primitive& primitive() {
   return model().meshes.at(0).primitives.at(0);
 }
 
-std::vector<glm::vec3> positions() {
+glm::mat4 matrix_of(const tinygltf::Node& node) {
+  return glm::mat4(glm::make_mat4(node.matrix.data()));
+}
+// From the axes and the unit of the mesh to metres with y up: the node above the skeleton.
+glm::mat4 metres_from_mesh() {
+  return matrix_of(model().nodes.back());
+}
+
+std::vector<glm::vec3> mesh_positions() {
   return read<glm::vec3>(primitive().attributes.at("POSITION"));
+}
+// Places in metres.
+std::vector<glm::vec3> positions() {
+  auto out = mesh_positions();
+  for (glm::vec3& p : out) {
+    p = glm::vec3(metres_from_mesh() * glm::vec4(p, 1.0F));
+  }
+  return out;
 }
 std::vector<std::uint16_t> indices() {
   return read<std::uint16_t>(primitive().indices);
@@ -143,24 +159,24 @@ LocalPose pose_at(const tinygltf::Animation& clip, float time_s) {
 std::vector<glm::vec3> skinned(const LocalPose& pose) {
   const std::size_t count = model().nodes.size();
   std::vector<glm::mat4> world(count, glm::mat4(1.0F));
-  // Parents stand before their children in this file.
-  std::vector<int> parents(count, -1);
-  for (std::size_t i = 0; i < count; ++i) {
-    const glm::mat4 local =
-        glm::translate(glm::mat4(1.0F), pose.translations[i]) * glm::mat4_cast(pose.rotations[i]);
-    world[i] = parents[i] < 0 ? local : world[static_cast<std::size_t>(parents[i])] * local;
-    for (int child : model().nodes[i].children) {
-      REQUIRE(child > static_cast<int>(i));
-      parents[static_cast<std::size_t>(child)] = static_cast<int>(i);
+  const auto pose_node = [&](const auto& self, std::size_t i, const glm::mat4& parent) -> void {
+    const tinygltf::Node& node = model().nodes[i];
+    const glm::mat4 local = node.matrix.empty() ? glm::translate(glm::mat4(1.0F), pose.translations[i]) *
+                                                      glm::mat4_cast(pose.rotations[i])
+                                                : matrix_of(node);
+    world[i] = parent * local;
+    for (int child : node.children) {
+      self(self, static_cast<std::size_t>(child), world[i]);
     }
-  }
+  };
+  pose_node(pose_node, count - 1, glm::mat4(1.0F));
   const tinygltf::Skin& skin = model().skins.at(0);
   const auto inverse_bind = read<glm::mat4>(skin.inverseBindMatrices);
   std::vector<glm::mat4> bones;
   for (std::size_t i = 0; i < skin.joints.size(); ++i) {
     bones.push_back(world[static_cast<std::size_t>(skin.joints[i])] * inverse_bind[i]);
   }
-  const auto rest = positions();
+  const auto rest = mesh_positions();
   const auto bone_indices = joints();
   const auto shares = weights();
   std::vector<glm::vec3> result(rest.size(), glm::vec3(0.0F));
@@ -246,7 +262,10 @@ TEST_CASE("the mannequin's welded positions are distinct", "[mannequin]") {
 
 TEST_CASE("the mannequin's normals are unit and point outwards", "[mannequin]") {
   const auto p = positions();
-  const auto normals = read<glm::vec3>(primitive().attributes.at("NORMAL"));
+  auto normals = read<glm::vec3>(primitive().attributes.at("NORMAL"));
+  for (glm::vec3& n : normals) {
+    n = glm::vec3(metres_from_mesh() * glm::vec4(n, 0.0F)) * 128.0F;
+  }
   const auto index = indices();
   float worst = 0.0F;
   for (const glm::vec3& n : normals) {
@@ -323,6 +342,19 @@ TEST_CASE("the bind pose reproduces the mesh", "[mannequin]") {
     worst = std::max(worst, glm::length(posed[v] - rest[v]));
   }
   CHECK(worst < 1e-5F);
+}
+
+TEST_CASE("the mannequin has an armature that turns and scales, without a digit lost", "[mannequin]") {
+  const glm::mat4 armature = metres_from_mesh();
+  CHECK(armature[0] == glm::vec4(1.0F / 128, 0, 0, 0));
+  CHECK(armature[1] == glm::vec4(0, 0, -1.0F / 128, 0));
+  CHECK(armature[2] == glm::vec4(0, 1.0F / 128, 0, 0));
+  const auto metres = positions(), mesh = mesh_positions();
+  bool exact = true;
+  for (std::size_t v = 0; v < mesh.size(); ++v) {
+    exact = exact && metres[v] * 128.0F == glm::vec3(mesh[v].x, mesh[v].z, -mesh[v].y);
+  }
+  CHECK(exact);
 }
 
 TEST_CASE("the mannequin's clips loop and keep their feet on the ground", "[mannequin]") {
