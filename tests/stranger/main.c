@@ -4,7 +4,8 @@
  *                                          metre
  *   stranger checks MODEL RIG         the check of right poses
  *   stranger mistakes MODEL RIG       the check of wrong ones
- *   stranger pictures MODEL RIG       the screen and world passes, on OpenGL */
+ *   stranger pictures MODEL RIG       the screen and world passes, on OpenGL
+ *   stranger documents MODEL RIG      the lines that the documents show */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +16,8 @@ int main(int argc, char** argv) {
   stranger s;
   int failures;
   if (argc < 4) {
-    fputs("usage: stranger layouts|truth|checks|mistakes|pictures MODEL RIG [AO|BOUND]\n", stderr);
+    fputs("usage: stranger layouts|truth|checks|mistakes|pictures|documents MODEL RIG [AO | BOUND UNIT]\n",
+          stderr);
     return 2;
   }
   if (!stranger_start(&s, argv[2], argv[3])) return 1;
@@ -30,6 +32,8 @@ int main(int argc, char** argv) {
     stranger_run_mistakes(&s);
   else if (strcmp(argv[1], "pictures") == 0)
     stranger_run_pictures(&s);
+  else if (strcmp(argv[1], "documents") == 0)
+    stranger_run_documents(&s, argv[2]);
   else
     stranger_expect(&s, 0, "there is no part \"%s\" with %d arguments", argv[1], argc - 4);
   failures = s.failures;

@@ -68,5 +68,7 @@ void stranger_run_truth(stranger* s, float bound);
 void stranger_run_checks(stranger* s);
 void stranger_run_mistakes(stranger* s);
 void stranger_run_pictures(stranger* s);
+/* The lines of the pages, on a file of one mesh and one skin. */
+void stranger_run_documents(stranger* s, const char* model_path);
 
 #endif

@@ -30,6 +30,8 @@ LARGEST_RMS = 5e-4
 BAKE = ["--preset", "draft", "--poses", "clips", "--samples-per-clip", "10", "--rays", "32", "--steps", "300", "--spheres", "60",
         "--key-points", "150", "--threads", "1", "--quiet"]
 LARGEST_SHARE = 0.33
+# The lines of the documents are for one mesh under one skin.
+SEVERAL_PARTS = ["two_skins", "prop", "prop_skinned"]
 # Drawn by the passes on OpenGL; the others have the same casters but for rounding.
 DRAWN = ["plain", "two_skins", "prop"]
 # Joints that lie at one place do not tell the baker where the body bends.
@@ -80,6 +82,8 @@ def run_rigs(runner, options, names):
         runner.run(name, [options.program, "layouts", model, flat, ao[name]])
         runner.run(name, [options.program, "checks", model, flat])
         runner.run(name, [options.program, "mistakes", model, flat])
+        if name not in SEVERAL_PARTS:
+            runner.run(name, [options.program, "documents", model, flat])
         base = BASE.get(name, "plain")
         if base in ao and ao[name].exists():
             rms = rms_of(ao[name], ao[base])
