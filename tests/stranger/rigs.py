@@ -19,7 +19,7 @@ KEY_STEP_S = 0.25
 
 
 class Rig:
-    """How a file stores a body.
+    """The differences between the files of a body.
 
     armature: the node above the skeleton. It must be a similarity.
     joint_scale: what a joint's axes have more than those of the plain rig: the scale and the mirror of the armature.

@@ -172,7 +172,7 @@ void stranger_free_pose(stranger_pose* pose) {
   memset(pose, 0, sizeof *pose);
 }
 
-/* Whether the joints of skin 0 are all bones. */
+/* True if the joints of skin 0 are all bones. */
 static int is_one_skin(const stranger* s) {
   nook_skin_info skin;
   memset(&skin, 0, sizeof skin);

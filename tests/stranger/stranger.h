@@ -30,7 +30,7 @@ void stranger_expect(stranger* s, int ok, const char* format, ...);
 /* Ends the program with Nook's message unless the result is NOOK_OK. */
 void stranger_need(nook_result result, const char* what);
 
-/* Matrices that the engine hands over, with the descriptor that says what they are. */
+/* The engine's matrices, and the descriptor that names their kind and layout. */
 typedef struct stranger_pose {
   nook_pose_desc desc;
   float* transforms;
