@@ -22,7 +22,7 @@ import rigs  # noqa: E402
 
 # A rig whose body or skeleton differs from the plain one's has a rig of its own to compare with.
 BASE = {"no_inverse_bind": "one_place", "prop": "prop_skinned", "quadruped_blender": "quadruped",
-        "one_place": None, "prop_skinned": None, "quadruped": None, "plain": None}
+        "one_place": None, "prop_skinned": None, "quadruped": None, "segments": None, "plain": None}
 # AO of a byte has steps of 1/255; this is an eighth of one.
 LARGEST_RMS = 5e-4
 # A quick fit: it has a sixth of the error of AO that was baked at rest, and twice as much is still far from what a wrong
