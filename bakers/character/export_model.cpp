@@ -205,9 +205,9 @@ struct CellVertices {
   bool is_mixed = false;  // not all vertices of the cell have the weights of the first
 };
 
-// Vertices that are nearer to each other than a host's match of vertices tells apart, and that have different
-// weights. The match may take one for the other, and both move apart in a pose. A cell is as large as the
-// tolerance of the match, so that only neighbours count.
+// Finds vertices that lie within the tolerance of nook_model_match_vertices and have different weights. The
+// match may take one for the other, and both move apart in a pose. A cell is as large as the tolerance, so
+// that only neighbours count.
 std::vector<bool> ambiguous_vertices(const SkinnedMesh& mesh) {
   Vec3 low = mesh.position[0], high = low;
   for (const Vec3 p : mesh.position) {

@@ -14,8 +14,9 @@ Body = collections.namedtuple("Body", "joints position normal weights triangles 
 class Surface:
     """Vertices and triangles, tube after tube."""
 
-    def __init__(self):
+    def __init__(self, is_rigid=False):
         self.position, self.weights, self.triangles = [], [], []
+        self.is_rigid = is_rigid  # limbs are a tube for each segment, as those of a robot
 
     def ring(self, centre, across, up, radii, around, weights):
         for a in range(around):
@@ -64,6 +65,12 @@ class Surface:
 
 def limb(surface, points, joints, radii, around, across, up, rings):
     """A tube along the points, one joint for each segment; weights change evenly about the inner points."""
+    if surface.is_rigid:
+        for s, joint in enumerate(joints):
+            between = [k / rings for k in range(rings + 1)]
+            surface.tube([([points[s][i] * (1 - t) + points[s + 1][i] * t for i in range(3)],
+                           (radii[s] * (1 - t) + radii[s + 1] * t,) * 2, {joint: 1.0}) for t in between], around, across, up)
+        return
     total = []
     for s in range(len(joints)):
         for k in range(rings + (s + 1 == len(joints))):
@@ -103,9 +110,9 @@ def person_joints():
             for name, parent, head, turn in table]
 
 
-def person_surface():
+def person_surface(is_rigid):
     """Returns the surface and the number of the first vertex of the upper half."""
-    s = Surface()
+    s = Surface(is_rigid)
     s.tube([((0, 0.84, 0), (0.10, 0.08), {0: 1.0}), ((0, 0.88, 0), (0.17, 0.12), {0: 1.0}), ((0, 0.97, 0), (0.17, 0.12), {0: 1.0}),
             ((0, 1.06, 0), (0.15, 0.11), {0: 1.0})], 16, X, minus(Z))
     for side, first in ((1, 1), (-1, 5)):
@@ -216,9 +223,9 @@ def bind_matrix(joint):
     return matrix.chain(matrix.translation(*joint.head), matrix.rotation(2, joint.turn), matrix.rotation(0, 0.3 * joint.turn))
 
 
-def person(prop=False):
+def person(prop=False, is_rigid=False):
     joints = person_joints()
-    surface, upper = person_surface()
+    surface, upper = person_surface(is_rigid)
     parts = [(0, upper), (upper, len(surface.position))]
     if prop:
         first = len(surface.position)

@@ -260,8 +260,8 @@ void engine_skinned_vertices(const engine* e, uint32_t frame, float* out) {
   }
 }
 
-/* The sign of the determinant of a part's first matrix in the default pose: a mirrored mesh has its triangles
- * the other way round, as glTF says. */
+/* True if the first matrix of a part mirrors in the default pose. By the glTF specification its triangles are
+ * then clockwise from outside. */
 static int is_mirrored(const engine* e, const engine_part* part) {
   float m[16];
   double determinant = 0;

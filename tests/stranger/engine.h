@@ -1,5 +1,5 @@
-/* The engine of the stranger: what a program has that loaded a rigged glTF file by itself. It knows nothing
- * of Nook. flatten.py reads the glTF file. Matrices are sixteen floats, column-major. */
+/* The engine of the stranger: a program that has loaded a rigged glTF file without Nook. flatten.py reads the
+ * glTF file. Matrices are sixteen floats, column-major. */
 #ifndef STRANGER_ENGINE_H
 #define STRANGER_ENGINE_H
 

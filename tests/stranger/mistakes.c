@@ -197,7 +197,7 @@ static int give_other_place(trial* t) {
   return 1;
 }
 
-/* The first twelve floats of a matrix of columns, where three rows are wanted. */
+/* Gives the first twelve floats of a matrix of columns instead of three rows. */
 static int give_place_as_columns(trial* t) {
   float columns[16] = {0};
   for (int row = 0; row < 3; ++row)
@@ -290,7 +290,7 @@ static int moved_vertices(const trial* t, const nook_pose_desc* desc, float* out
   return is_taken;
 }
 
-/* Whether the mistake moves a vertex by more than the check's tolerance. A change of the positions or of
+/* True if the mistake moves a vertex by more than the check's tolerance. A change of the positions or of
  * their place always does. */
 static int changes_anything(const trial* t, const float* right_place) {
   const size_t count = 3 * (size_t)t->s->info.check_vertex_count;

@@ -47,38 +47,67 @@ static void to_own_order(const stranger* s, const float* of_file, float* own) {
   for (size_t v = 0; v < s->engine.vertex_count; ++v) own[v] = of_file[s->order[v]];
 }
 
-void stranger_trace(const stranger* s, uint32_t frame, float* ao) {
+/* Ray-traced AO of the engine's vertices among meshes, of which the first is their own. */
+static void trace(const stranger* s, const nook_bake_occluder_mesh* meshes, uint32_t mesh_count, float* ao) {
   const engine* const e = &s->engine;
-  float* const positions = engine_memory(3 * sizeof *positions * e->vertex_count);
   float* const normals = engine_memory(3 * sizeof *normals * e->vertex_count);
   float* const of_file = engine_memory(sizeof *of_file * e->vertex_count);
-  uint32_t* const indices = engine_memory(sizeof *indices * e->index_count);
-  nook_bake_occluder_mesh mesh;
   nook_bake_trace_desc trace;
-  engine_skinned_vertices(e, frame, positions);
-  engine_normals(e, positions, normals);
-  engine_indices(e, indices);
-  mesh.positions = positions;
-  mesh.vertex_count = e->vertex_count;
-  mesh.indices = indices;
-  mesh.index_count = e->index_count;
-  stranger_need(nook_bake_trace_desc_init(&trace), "the trace");
-  trace.meshes = &mesh;
-  trace.mesh_count = 1;
-  trace.positions = positions;
+  engine_normals(e, meshes[0].positions, normals);
+  if (nook_bake_trace_desc_init(&trace)) exit(1);
+  trace.meshes = meshes;
+  trace.mesh_count = mesh_count;
+  trace.positions = meshes[0].positions;
   trace.normals = normals;
   trace.point_count = e->vertex_count;
   trace.rays = 256;
   trace.threads = 1;
-  trace.origin_offset = 1e-4F * box_diagonal(positions, e->vertex_count);
+  trace.origin_offset = 1e-4F * box_diagonal(meshes[0].positions, e->vertex_count);
   if (nook_bake_trace_ao(&trace, of_file, e->vertex_count)) {
     fprintf(stderr, "stranger: the trace: %s\n", nook_bake_last_message());
     exit(1);
   }
   to_own_order(s, of_file, ao);
-  free(positions);
   free(normals);
   free(of_file);
+}
+
+/* The body and, for `among`, one beside it, and the ground under both. */
+enum { alone = 0, among = 1 };
+static const float beside[12] = {1, 0, 0, 0.7F, 0, 1, 0, 0, 0, 0, 1, 0.1F};
+static const float ground[4] = {0, 1, 0, -0.02F};
+
+static void trace_frame(const stranger* s, uint32_t frame, int company, float* ao) {
+  static const uint32_t quad[6] = {0, 1, 2, 0, 2, 3};
+  const engine* const e = &s->engine;
+  const size_t count = 3 * (size_t)e->vertex_count;
+  float* const positions = engine_memory(count * sizeof *positions);
+  float* const moved = engine_memory(count * sizeof *moved);
+  uint32_t* const indices = engine_memory(sizeof *indices * e->index_count);
+  float floor_corners[12];
+  nook_bake_occluder_mesh meshes[3];
+  engine_skinned_vertices(e, frame, positions);
+  engine_indices(e, indices);
+  const float size = box_diagonal(positions, e->vertex_count), far = 500 * size;
+  for (size_t i = 0; i < count; ++i) moved[i] = positions[i] + beside[4 * (i % 3) + 3] * s->unit;
+  for (int c = 0; c < 4; ++c) {
+    floor_corners[3 * c] = c == 1 || c == 2 ? far : -far;
+    floor_corners[3 * c + 1] = ground[3] * s->unit;
+    floor_corners[3 * c + 2] = c > 1 ? far : -far;
+  }
+  for (int m = 0; m < 2; ++m) {
+    meshes[m].positions = m ? moved : positions;
+    meshes[m].vertex_count = e->vertex_count;
+    meshes[m].indices = indices;
+    meshes[m].index_count = e->index_count;
+  }
+  meshes[2].positions = floor_corners;
+  meshes[2].vertex_count = 4;
+  meshes[2].indices = quad;
+  meshes[2].index_count = 6;
+  trace(s, meshes, company == among ? 3 : 1, ao);
+  free(positions);
+  free(moved);
   free(indices);
 }
 
@@ -102,13 +131,13 @@ static void compare_layouts(stranger* s, uint32_t frame, const float* expected, 
   const double bound = 5e-5;
   for (size_t l = 0; l < sizeof layouts / sizeof layouts[0]; ++l) {
     double rms;
-    stranger_set_skinning_pose(s, frame, layouts[l], NULL);
+    stranger_set_skinning_pose(s, s->hero, frame, layouts[l], NULL);
     stranger_read_ao(s, ao);
     rms = rms_difference(ao, expected, s->engine.vertex_count);
     stranger_expect(s, rms <= bound, "frame %u, skinning matrices in layout %d: AO differs by %g rms",
                     (unsigned)frame, (int)layouts[l], rms);
     if (s->unnamed_bones) continue;
-    stranger_set_joint_pose(s, frame, layouts[l], NULL);
+    stranger_set_joint_pose(s, s->hero, frame, layouts[l], NULL);
     stranger_read_ao(s, ao);
     rms = rms_difference(ao, expected, s->engine.vertex_count);
     stranger_expect(s, rms <= bound, "frame %u, joint matrices in layout %d: AO differs by %g rms",
@@ -120,7 +149,7 @@ static void compare_layouts(stranger* s, uint32_t frame, const float* expected, 
 static void compare_places(stranger* s, uint32_t frame, const float* expected, float* ao) {
   const double bound = 5e-4;
   for (size_t p = 0; p < place_count; ++p) {
-    stranger_set_skinning_pose(s, frame, NOOK_TRANSFORM_COLUMNS_4X4, places[p].matrix);
+    stranger_set_skinning_pose(s, s->hero, frame, NOOK_TRANSFORM_COLUMNS_4X4, places[p].matrix);
     stranger_read_ao(s, ao);
     const double rms = rms_difference(ao, expected, s->engine.vertex_count);
     stranger_expect(s, rms <= bound, "frame %u, %s: AO differs by %g rms", (unsigned)frame, places[p].name,
@@ -135,7 +164,7 @@ void stranger_run_layouts(stranger* s, const char* ao_path) {
   FILE* const file = fopen(ao_path, "wb");
   int is_written = file != NULL;
   for (uint32_t frame = 0; frame < s->engine.frame_count; ++frame) {
-    stranger_set_skinning_pose(s, frame, NOOK_TRANSFORM_COLUMNS_4X4, NULL);
+    stranger_set_skinning_pose(s, s->hero, frame, NOOK_TRANSFORM_COLUMNS_4X4, NULL);
     stranger_read_ao(s, expected);
     compare_layouts(s, frame, expected, ao);
     compare_places(s, frame, expected, ao);
@@ -148,29 +177,71 @@ void stranger_run_layouts(stranger* s, const char* ao_path) {
   free(ao);
 }
 
-/* The mean over the frames of the clip of the error of the model, and of AO that was baked at rest. */
-void stranger_run_truth(stranger* s, float bound) {
+/* docs/guide/character.md, Ground, neighbours, spheres. Lengths are those of the world. */
+static void add_company(stranger* s) {
+  const float plane[4] = {ground[0], ground[1], ground[2], ground[3] * s->unit};
+  stranger_need(nook_scene_add_instance(s->scene, s->model, &s->neighbour), "the neighbour");
+  stranger_need(nook_scene_link(s->scene, s->hero, s->neighbour), "the link");
+  stranger_need(nook_scene_set_ground(s->scene, s->hero, plane), "the ground");
+}
+
+static void remove_company(stranger* s) {
+  stranger_need(nook_scene_set_ground(s->scene, s->hero, NULL), "the ground");
+  stranger_need(nook_scene_remove_instance(s->scene, s->neighbour), "the neighbour");
+  s->neighbour = 0;
+}
+
+/* The mean over the frames of the clip of the error of the model, alone or among others. */
+static double error_of_model(stranger* s, int company) {
+  const size_t count = s->engine.vertex_count;
+  float* const truth = engine_memory(count * sizeof *truth);
+  float* const ao = engine_memory(count * sizeof *ao);
+  double sum = 0;
+  float place[12];
+  memcpy(place, beside, sizeof place);
+  for (int row = 3; row < 12; row += 4) place[row] *= s->unit;
+  if (company == among) add_company(s);
+  for (uint32_t frame = 1; frame < s->engine.frame_count; ++frame) {
+    stranger_set_skinning_pose(s, s->hero, frame, NOOK_TRANSFORM_COLUMNS_4X4, NULL);
+    if (company == among)
+      stranger_set_skinning_pose(s, s->neighbour, frame, NOOK_TRANSFORM_COLUMNS_4X4, place);
+    stranger_read_ao(s, ao);
+    trace_frame(s, frame, company, truth);
+    sum += visible_error(ao, truth, count);
+  }
+  if (company == among) remove_company(s);
+  free(truth);
+  free(ao);
+  return sum / (s->engine.frame_count - 1);
+}
+
+/* The same of AO that was baked at rest. */
+static double error_of_static_bake(stranger* s) {
   const size_t count = s->engine.vertex_count;
   float* const at_rest = engine_memory(count * sizeof *at_rest);
   float* const truth = engine_memory(count * sizeof *truth);
-  float* const ao = engine_memory(count * sizeof *ao);
-  const double share = 1.0 / (s->engine.frame_count - 1);
-  double of_model = 0, of_rest = 0;
-  stranger_trace(s, 0, at_rest);
+  double sum = 0;
+  trace_frame(s, 0, alone, at_rest);
   for (uint32_t frame = 1; frame < s->engine.frame_count; ++frame) {
-    stranger_set_skinning_pose(s, frame, NOOK_TRANSFORM_COLUMNS_4X4, NULL);
-    stranger_read_ao(s, ao);
-    stranger_trace(s, frame, truth);
-    of_model += share * visible_error(ao, truth, count);
-    of_rest += share * visible_error(at_rest, truth, count);
+    trace_frame(s, frame, alone, truth);
+    sum += visible_error(at_rest, truth, count);
   }
-  printf("mse_visible %.3e, of a static bake %.3e\n", of_model, of_rest);
-  stranger_expect(s, of_model <= (double)bound * of_rest,
-                  "the error against ray tracing is %g, above %g of that of a static bake, %g", of_model,
-                  (double)bound, of_rest);
   free(at_rest);
   free(truth);
-  free(ao);
+  return sum / (s->engine.frame_count - 1);
+}
+
+void stranger_run_truth(stranger* s, float bound) {
+  const double of_rest = error_of_static_bake(s), largest = (double)bound * of_rest;
+  const double of_body = error_of_model(s, alone), of_two = error_of_model(s, among);
+  printf("mse_visible %.3e, beside another on the ground %.3e, of a static bake %.3e\n", of_body, of_two,
+         of_rest);
+  stranger_expect(s, of_body <= largest,
+                  "the error against ray tracing is %g, above %g of a static bake's, %g", of_body,
+                  (double)bound, of_rest);
+  stranger_expect(s, of_two <= largest,
+                  "the error beside another on the ground is %g, above %g of a static bake's alone, %g",
+                  of_two, (double)bound, of_rest);
 }
 
 static void check_one(stranger* s, const nook_pose_desc* given, uint32_t frame, const char* kind,

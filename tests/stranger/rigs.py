@@ -19,7 +19,7 @@ KEY_STEP_S = 0.25
 
 
 class Rig:
-    """How a file stores a body.
+    """The differences between the files of a body.
 
     armature: the node above the skeleton. It must be a similarity.
     joint_scale: what a joint's axes have more than those of the plain rig: the scale and the mirror of the armature.
@@ -31,6 +31,7 @@ class Rig:
         self.joint_scale = matrix.scaling(*joint_scale)
         self.mesh = mesh or [matrix.identity()]
         self.is_beast = options.get("beast", False)
+        self.is_rigid = options.get("rigid", False)  # vertices of two bones lie at one place where segments meet
         self.prop = options.get("prop")  # "rigid": a mesh under the joint; "skinned": with weight 1 on it
         self.wide_joints = options.get("wide_joints", False)
         self.two_skins = options.get("two_skins", False)
@@ -61,6 +62,7 @@ def rigs():
         "no_inverse_bind": Rig(bind="none"),
         "prop_skinned": Rig(prop="skinned"),
         "prop": Rig(small, (0.01,) * 3, [small], prop="rigid"),
+        "segments": Rig(small, (0.01,) * 3, [small], rigid=True),
         "quadruped": Rig(beast=True),
         "quadruped_blender": Rig(matrix.product(up_z, small), (0.01,) * 3, [matrix.product(up_z, small)], beast=True),
         "centimetres": Rig(unit=100.0),
@@ -197,7 +199,7 @@ def add_meshes(rig, shape, document, buffer, bind):
 
 
 def document_of(rig):
-    shape = body.beast() if rig.is_beast else body.person(prop=rig.prop is not None)
+    shape = body.beast() if rig.is_beast else body.person(rig.prop is not None, rig.is_rigid)
     buffer = Buffer()
     bind = bind_globals(rig, shape.joints)
     document = {"asset": {"version": "2.0", "generator": "tests/stranger/rigs.py"}, "scene": 0, "scenes": [{"nodes": [0]}],

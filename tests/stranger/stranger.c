@@ -67,8 +67,7 @@ static void match_vertices(stranger* s) {
   s->model = mine;
 }
 
-/* The engine's vertex in the order of the file. */
-static uint32_t file_vertex(const stranger* s, uint32_t own) {
+uint32_t stranger_file_vertex(const stranger* s, uint32_t own) {
   const engine* const e = &s->engine;
   for (uint32_t p = 0; p < e->part_count; ++p)
     if (own - e->parts[p].first_vertex < e->parts[p].vertex_count)
@@ -91,6 +90,7 @@ static void map_bones(stranger* s) {
 int stranger_start(stranger* s, const char* model_path, const char* engine_path) {
   nook_scene_desc scene_desc;
   memset(s, 0, sizeof *s);
+  s->unit = 1;
   if (!engine_read(&s->engine, engine_path)) return 0;
   load_model(s, model_path);
   match_vertices(s);
@@ -172,7 +172,7 @@ void stranger_free_pose(stranger_pose* pose) {
   memset(pose, 0, sizeof *pose);
 }
 
-/* Whether the joints of skin 0 are all bones. */
+/* True if the joints of skin 0 are all bones. */
 static int is_one_skin(const stranger* s) {
   nook_skin_info skin;
   memset(&skin, 0, sizeof skin);
@@ -182,26 +182,27 @@ static int is_one_skin(const stranger* s) {
   return skin.joint_count == s->info.bone_count && skin.file_index == 0;
 }
 
-void stranger_set_joint_pose(stranger* s, uint32_t frame, nook_transform_layout layout, const float* place) {
+void stranger_set_joint_pose(stranger* s, nook_instance_id instance, uint32_t frame,
+                             nook_transform_layout layout, const float* place) {
   stranger_pose pose = stranger_joint_pose(s, frame, place);
   stranger_change_layout(&pose, layout);
-  stranger_need(nook_scene_set_pose(s->scene, s->hero, &pose.desc), "the pose of joints");
+  stranger_need(nook_scene_set_pose(s->scene, instance, &pose.desc), "the pose of joints");
   stranger_free_pose(&pose);
 }
 
 /* docs/poses.md, Several skins, rigid parts. */
-void stranger_set_skinning_pose(stranger* s, uint32_t frame, nook_transform_layout layout,
-                                const float* place) {
+void stranger_set_skinning_pose(stranger* s, nook_instance_id instance, uint32_t frame,
+                                nook_transform_layout layout, const float* place) {
   nook_skin_info skin;
   memset(&skin, 0, sizeof skin);
   skin.struct_size = sizeof skin;
-  if (!is_one_skin(s)) stranger_set_joint_pose(s, frame, layout, place);
+  if (!is_one_skin(s)) stranger_set_joint_pose(s, instance, frame, layout, place);
   for (uint32_t k = 0; k < s->info.skin_count; ++k) {
     stranger_need(nook_model_describe_skin(s->model, k, &skin), "the skin");
     stranger_pose pose = stranger_skinning_pose(s, frame, skin.file_index, place);
     if (!is_one_skin(s)) pose.desc.flags = NOOK_POSE_FLAG_PARTIAL;
     stranger_change_layout(&pose, layout);
-    stranger_need(nook_scene_set_pose(s->scene, s->hero, &pose.desc), "the pose of a skin");
+    stranger_need(nook_scene_set_pose(s->scene, instance, &pose.desc), "the pose of a skin");
     stranger_free_pose(&pose);
   }
 }
@@ -221,7 +222,8 @@ float* stranger_check_positions(const stranger* s, uint32_t frame) {
   vertex.struct_size = sizeof vertex;
   for (uint32_t v = 0; v < s->info.check_vertex_count; ++v) {
     stranger_need(nook_model_describe_check_vertex(s->model, v, &vertex), "a check vertex");
-    engine_skinned_vertex(&s->engine, frame, file_vertex(s, vertex.vertex), positions + 3 * (size_t)v);
+    engine_skinned_vertex(&s->engine, frame, stranger_file_vertex(s, vertex.vertex),
+                          positions + 3 * (size_t)v);
   }
   return positions;
 }

@@ -12,7 +12,8 @@ typedef struct stranger {
   nook_context context;
   nook_model model; /* in the order of the engine's own vertices */
   nook_scene scene;
-  nook_instance_id hero;
+  nook_instance_id hero, neighbour;
+  float unit; /* of the world, in units for each metre */
   nook_model_info info;
   uint32_t* order; /* the file's vertex of each of the engine's vertices */
   int32_t* transform_of_bone;
@@ -29,7 +30,7 @@ void stranger_expect(stranger* s, int ok, const char* format, ...);
 /* Ends the program with Nook's message unless the result is NOOK_OK. */
 void stranger_need(nook_result result, const char* what);
 
-/* Matrices that the engine hands over, with the descriptor that says what they are. */
+/* The engine's matrices, and the descriptor that names their kind and layout. */
 typedef struct stranger_pose {
   nook_pose_desc desc;
   float* transforms;
@@ -43,13 +44,16 @@ stranger_pose stranger_joint_pose(const stranger* s, uint32_t frame, const float
 void stranger_change_layout(stranger_pose* pose, nook_transform_layout layout);
 void stranger_free_pose(stranger_pose* pose);
 
-/* Poses the hero by one pose for each skin; the bones of rigid meshes take joint matrices. */
-void stranger_set_skinning_pose(stranger* s, uint32_t frame, nook_transform_layout layout,
-                                const float* place);
-void stranger_set_joint_pose(stranger* s, uint32_t frame, nook_transform_layout layout, const float* place);
+/* Poses an instance by one pose for each skin; the bones of rigid meshes take joint matrices. */
+void stranger_set_skinning_pose(stranger* s, nook_instance_id instance, uint32_t frame,
+                                nook_transform_layout layout, const float* place);
+void stranger_set_joint_pose(stranger* s, nook_instance_id instance, uint32_t frame,
+                             nook_transform_layout layout, const float* place);
 /* Updates the scene and reads the AO of the engine's vertices. */
 void stranger_read_ao(stranger* s, float* ao);
 
+/* The place in the file's order of one of the engine's vertices. */
+uint32_t stranger_file_vertex(const stranger* s, uint32_t own);
 /* Where the engine's skinning puts the model's check vertices, in the engine's model space. */
 float* stranger_check_positions(const stranger* s, uint32_t frame);
 /* place: of the positions. */
@@ -64,8 +68,7 @@ void stranger_run_truth(stranger* s, float bound);
 void stranger_run_checks(stranger* s);
 void stranger_run_mistakes(stranger* s);
 void stranger_run_pictures(stranger* s);
-
-/* Ray-traced AO of the engine's vertices in a frame. */
-void stranger_trace(const stranger* s, uint32_t frame, float* ao);
+/* The lines of the pages, on a file of one mesh and one skin. */
+void stranger_run_documents(stranger* s, const char* model_path);
 
 #endif

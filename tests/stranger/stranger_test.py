@@ -11,6 +11,7 @@ of its own, whose AO is compared with ray tracing. characters: the checks alone,
 """
 import argparse
 import array
+import os
 import pathlib
 import subprocess
 import sys
@@ -21,7 +22,7 @@ import rigs  # noqa: E402
 
 # A rig whose body or skeleton differs from the plain one's has a rig of its own to compare with.
 BASE = {"no_inverse_bind": "one_place", "prop": "prop_skinned", "quadruped_blender": "quadruped",
-        "one_place": None, "prop_skinned": None, "quadruped": None, "plain": None}
+        "one_place": None, "prop_skinned": None, "quadruped": None, "segments": None, "plain": None}
 # AO of a byte has steps of 1/255; this is an eighth of one.
 LARGEST_RMS = 5e-4
 # A quick fit: it has a sixth of the error of AO that was baked at rest, and twice as much is still far from what a wrong
@@ -29,6 +30,10 @@ LARGEST_RMS = 5e-4
 BAKE = ["--preset", "draft", "--poses", "clips", "--samples-per-clip", "10", "--rays", "32", "--steps", "300", "--spheres", "60",
         "--key-points", "150", "--threads", "1", "--quiet"]
 LARGEST_SHARE = 0.33
+# The lines of the documents are for one mesh under one skin.
+SEVERAL_PARTS = ["two_skins", "prop", "prop_skinned"]
+# Drawn by the passes on OpenGL; the others have the same casters but for rounding.
+DRAWN = ["plain", "two_skins", "prop"]
 # Joints that lie at one place do not tell the baker where the body bends.
 LARGEST_SHARE_OF = {"one_place": 0.6, "no_inverse_bind": 0.6}
 
@@ -41,7 +46,9 @@ class Runner:
         done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
         for line in (done.stdout + done.stderr).splitlines():
             print(f"{name}: {line}")
-        if done.returncode != 0:
+        if done.returncode == 77 and os.environ.get("NOOK_REQUIRE_GL") != "1":
+            print(f"{name}: SKIPPED: {command[1]} needs an OpenGL 3.3 context")
+        elif done.returncode != 0:
             self.fail(name, f"{pathlib.Path(command[0]).name} {command[1]} ended with {done.returncode}")
         return done.returncode == 0
 
@@ -75,6 +82,8 @@ def run_rigs(runner, options, names):
         runner.run(name, [options.program, "layouts", model, flat, ao[name]])
         runner.run(name, [options.program, "checks", model, flat])
         runner.run(name, [options.program, "mistakes", model, flat])
+        if name not in SEVERAL_PARTS:
+            runner.run(name, [options.program, "documents", model, flat])
         base = BASE.get(name, "plain")
         if base in ao and ao[name].exists():
             rms = rms_of(ao[name], ao[base])
@@ -88,7 +97,10 @@ def run_bakes(runner, options, names):
         character, flat = prepared(runner, options.folder, name)
         model = options.folder / f"{name}.nook"
         if runner.run(name, [options.tool, "bake", "character", character, "-o", model, *BAKE]):
-            runner.run(name, [options.program, "truth", model, flat, LARGEST_SHARE_OF.get(name, LARGEST_SHARE)])
+            runner.run(name, [options.program, "truth", model, flat, LARGEST_SHARE_OF.get(name, LARGEST_SHARE),
+                                rigs.rigs()[name].unit])
+            if name in DRAWN:
+                runner.run(name, [options.program, "pictures", model, flat])
 
 
 def run_characters(runner, options):

@@ -62,7 +62,7 @@ double distance(const Point3& a, const Point3& b);
 // The root mean square distance of points from their mean; 0 for no points.
 double spread(std::span<const Point3> points);
 
-// What the places of a pose and of the host's vertices may have to do with their difference.
+// Differences that are the same for the whole body: the places of a pose and of the host's vertices.
 
 struct PosedPoints {
   std::span<const Point3> posed;  // by the model, under the pose's place

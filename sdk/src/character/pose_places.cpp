@@ -78,7 +78,7 @@ Affine turned_back(const Affine& place) {
   return out;
 }
 
-// The place that a host gave as four columns of three numbers where three rows of four were wanted.
+// Reads a place of four columns of three numbers that the host gave as three rows of four.
 Affine from_columns_4x3(const Affine& place) {
   Affine out;
   for (int i = 0; i < 3; ++i)
@@ -86,7 +86,7 @@ Affine from_columns_4x3(const Affine& place) {
   return out;
 }
 
-// Whether the model's vertices are the host's under another place than the pose's.
+// True if the model's vertices are the host's under this place.
 bool fits_under(const PosedPoints& points, const Affine& place) {
   const Affine map = place * inverse(points.pose_place);
   for (std::size_t v = 0; v < points.posed.size(); ++v) {
