@@ -5,12 +5,14 @@
 #include <span>
 
 #include "bakers/import/accessor.h"
+#include "bakers/import/coincident_surfaces.h"
 #include "bakers/import/file_reader.h"
 #include "bakers/import/gltf_check.h"
 #include "bakers/import/gltf_clips.h"
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_mesh.h"
 #include "bakers/import/gltf_skeleton.h"
+#include "bakers/import/shown_nodes.h"
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/hash.h"
@@ -77,14 +79,13 @@ struct MeshNodes {
   std::vector<std::uint32_t> rigid_nodes;
 };
 
-MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes,
+MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes, const ShownNodes& shown,
                           std::vector<std::string>& warnings) {
-  const std::vector<int> shown = shown_meshes(model, nodes);
   MeshNodes out;
   std::vector<std::int64_t> place_of_skin(model.skins.size(), -1);
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {
     const int skin = model.nodes[i].skin;
-    if (shown[i] < 0) continue;
+    if (!shown.shows(i)) continue;
     if (skin < 0) {
       out.all.push_back({i, false, out.rigid_nodes.size()});
       out.rigid_nodes.push_back(i);
@@ -187,7 +188,44 @@ Skeleton skeleton_of(ImportedCharacter& character, const MeshNodes& mesh_nodes) 
   return skeleton;
 }
 
-ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAccess& files) {
+// The triangles of primitives in file order.
+SurfaceParts parts_of(const FileMesh& file, const std::vector<std::uint32_t>& node_of_primitive) {
+  SurfaceParts parts;
+  std::size_t end = 0;
+  std::uint32_t of_node = 0;
+  for (std::size_t p = 0; p < file.primitives.size(); ++p) {
+    const std::size_t end_vertex = file.primitives[p].first_vertex + file.primitives[p].vertex_count;
+    while (end < file.triangle.size() && file.triangle[end][0] < end_vertex) ++end;
+    of_node = p > 0 && node_of_primitive[p] == node_of_primitive[p - 1] ? of_node + 1 : 0;
+    parts.all.push_back({node_of_primitive[p], of_node, end});
+  }
+  return parts;
+}
+
+// The meshes of all nodes, one after another.
+void append_meshes(const tinygltf::Model& model, const MeshNodes& mesh_nodes, const Skeleton& skeleton,
+                   ImportedCharacter& character, FileMesh& file) {
+  MeshRepairs repairs;
+  for (const MeshNode& at : mesh_nodes.all) {
+    MeshBinding binding = at.is_skinned ? skeleton.skins[at.binding] : skeleton.rigid_parts[at.binding];
+    if (binding.bone.empty()) {
+      character.warnings.push_back("mesh node \"" + character.nodes.nodes[at.node].name +
+                                   "\" has no skin and hangs on no joint and was left out");
+      continue;
+    }
+    const Affine rest_from_node = binding.rest_from_mesh;
+    for (const Affine& instance : mesh_instances(model, at.node)) {
+      binding.rest_from_mesh = rest_from_node * instance;
+      append_mesh(model, model.nodes[at.node], binding, file, repairs);
+      character.rest_from_primitive.resize(file.primitives.size(), binding.rest_from_mesh);
+      character.node_of_primitive.resize(file.primitives.size(), at.node);
+    }
+  }
+  add_warnings(repairs, character.warnings);
+}
+
+ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAccess& files,
+                               const MeshSelection& selection) {
   const tinygltf::Model model = parse_gltf(bytes, files);
   ImportedCharacter character;
   character.source_hash = hash_of(bytes, model);
@@ -195,23 +233,15 @@ ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAcces
   character.warnings = document_warnings(model);
   character.clips = read_clips(model, character.nodes, character.warnings);
 
-  const MeshNodes mesh_nodes = find_mesh_nodes(model, character.nodes, character.warnings);
+  const ShownNodes shown = choose_nodes(model, character.nodes, selection);
+  character.warnings.insert(character.warnings.end(), shown.notes.begin(), shown.notes.end());
+  const MeshNodes mesh_nodes = find_mesh_nodes(model, character.nodes, shown, character.warnings);
   Skeleton skeleton = skeleton_of(character, mesh_nodes);
 
   FileMesh file;
-  MeshRepairs repairs;
-  for (const MeshNode& at : mesh_nodes.all) {
-    const MeshBinding& binding =
-        at.is_skinned ? skeleton.skins[at.binding] : skeleton.rigid_parts[at.binding];
-    if (binding.bone.empty()) {
-      character.warnings.push_back("mesh node \"" + character.nodes.nodes[at.node].name +
-                                   "\" has no skin and hangs on no joint and was left out");
-      continue;
-    }
-    append_mesh(model, model.nodes[at.node], binding, file, repairs);
-    character.rest_from_primitive.resize(file.primitives.size(), binding.rest_from_mesh);
-  }
-  add_warnings(repairs, character.warnings);
+  append_meshes(model, mesh_nodes, skeleton, character, file);
+  warn_of_coincident_surfaces(model, parts_of(file, character.node_of_primitive), file.position,
+                              file.triangle, character.warnings);
   for (std::size_t s = 0; s < skeleton.skins.size(); ++s)
     character.skins.push_back(
         {mesh_nodes.file_skins[s], skeleton.skins[s].rest_from_mesh, std::move(skeleton.skins[s].bone)});
@@ -225,13 +255,14 @@ ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAcces
 
 }  // namespace
 
-ImportedCharacter import_gltf(const std::filesystem::path& path, LinkedFiles linked) {
+ImportedCharacter import_gltf(const std::filesystem::path& path, const ImportOptions& options) {
   return import_bytes(read_file_bytes(path),
-                      {std::filesystem::absolute(path).parent_path().string(), linked});
+                      {std::filesystem::absolute(path).parent_path().string(), options.linked},
+                      options.meshes);
 }
 
-ImportedCharacter import_gltf(std::span<const std::byte> bytes) {
-  return import_bytes(bytes, {});
+ImportedCharacter import_gltf(std::span<const std::byte> bytes, const MeshSelection& meshes) {
+  return import_bytes(bytes, {}, meshes);
 }
 
 }  // namespace nook::bake

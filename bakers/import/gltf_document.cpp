@@ -106,23 +106,6 @@ Node read_node(const tinygltf::Node& source, std::size_t index) {
   return node;
 }
 
-// Which nodes the default scene shows; all of them when the file has no scene.
-std::vector<bool> shown_nodes(const tinygltf::Model& model, const NodeTree& nodes) {
-  if (model.scenes.empty()) return std::vector<bool>(nodes.size(), true);
-  const int scene = model.defaultScene < 0 ? 0 : model.defaultScene;
-  if (static_cast<std::size_t>(scene) >= model.scenes.size())
-    throw Failure(NOOK_ERROR_BAD_FILE, "default scene is %d (file has %zu)", scene, model.scenes.size());
-  std::vector<bool> shown(nodes.size(), false);
-  for (const int root : model.scenes[scene].nodes) {
-    if (root < 0 || static_cast<std::size_t>(root) >= nodes.size())
-      throw Failure(NOOK_ERROR_BAD_FILE, "scene %d names node %d (file has %zu)", scene, root, nodes.size());
-    shown[root] = true;
-  }
-  for (const std::uint32_t i : nodes.order)
-    if (nodes.nodes[i].parent >= 0 && shown[nodes.nodes[i].parent]) shown[i] = true;
-  return shown;
-}
-
 // The bytes of the file with another JSON chunk. glTF 2.0, section 4.4: chunks are padded to 4 bytes.
 std::vector<std::byte> with_json(std::span<const std::byte> bytes, std::string json) {
   const auto* text = reinterpret_cast<const std::byte*>(json.data());
@@ -143,15 +126,19 @@ std::vector<std::byte> with_json(std::span<const std::byte> bytes, std::string j
   return out;
 }
 
-// URIs as the file has them, decoded; what was only room for decompressed views has neither name nor bytes.
-void restore_uris(const GltfPreflight& preflight, tinygltf::Model& model) {
-  const auto restore = [&](std::string& uri) {
+// What the parser dropped or got replaced. URIs are as the file has them, decoded; what was only room for
+// decompressed views has neither name nor bytes. Of two transforms a node's matrix counts, and a translation
+// beside it tells that there were two.
+void restore(const GltfPreflight& preflight, tinygltf::Model& model) {
+  const auto restore_uri = [&](std::string& uri) {
     const auto name = preflight.names.find(uri);
     if (name != preflight.names.end()) uri = name->second;
   };
-  for (tinygltf::Image& image : model.images) restore(image.uri);
+  for (const std::size_t node : preflight.matrix_beside_trs)
+    if (node < model.nodes.size()) model.nodes[node].translation = {0, 0, 0};
+  for (tinygltf::Image& image : model.images) restore_uri(image.uri);
   for (tinygltf::Buffer& buffer : model.buffers) {
-    restore(buffer.uri);
+    restore_uri(buffer.uri);
     if (preflight.rooms.contains(buffer.uri)) buffer = tinygltf::Buffer();
   }
 }
@@ -199,7 +186,7 @@ tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const FileAccess& f
     throw Failure(NOOK_ERROR_BAD_FILE, "not a glTF 2.0 file, or a damaged one: %s",
                   error.empty() ? "the parser gives no reason" : one_line(error).c_str());
   check_names(model);
-  restore_uris(preflight, model);
+  restore(preflight, model);
   decompress_views(preflight.compressed_views, model);
   decompress_draco(model);
   check_types(model);
@@ -227,20 +214,6 @@ NodeTree read_nodes(const tinygltf::Model& model) {
       throw Failure(NOOK_ERROR_BAD_FILE, "node %zu (\"%s\") has a world matrix that is not finite", i,
                     tree.nodes[i].name.c_str());
   return tree;
-}
-
-std::vector<int> shown_meshes(const tinygltf::Model& model, const NodeTree& nodes) {
-  const std::vector<bool> shown = shown_nodes(model, nodes);
-  std::vector<int> meshes(nodes.size(), -1);
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const int mesh = model.nodes[n].mesh;
-    if (mesh < 0 || !shown[n]) continue;
-    if (static_cast<std::size_t>(mesh) >= model.meshes.size())
-      throw Failure(NOOK_ERROR_BAD_FILE, "node %zu names mesh %d (file has %zu)", n, mesh,
-                    model.meshes.size());
-    meshes[n] = mesh;
-  }
-  return meshes;
 }
 
 }  // namespace nook::bake

@@ -33,8 +33,4 @@ tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const FileAccess& f
 // time is linear in the nodes.
 NodeTree read_nodes(const tinygltf::Model& model);
 
-// The mesh that each node shows, -1 for none: those of the default scene, or of all nodes when the file has
-// no scene. Fails with BAD_FILE on indices out of range.
-std::vector<int> shown_meshes(const tinygltf::Model& model, const NodeTree& nodes);
-
 }  // namespace nook::bake

@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "bakers/import/accessor.h"
+#include "bakers/import/coincident_surfaces.h"
 #include "bakers/import/file_reader.h"
+#include "bakers/import/gltf_check.h"
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_textures.h"
 #include "bakers/import/gltf_types.h"
@@ -122,29 +124,37 @@ void append_primitive(const tinygltf::Model& model, const ShownPrimitive& shown,
     read_uv(model, primitive, *use, first, what, scene);
 }
 
-StaticScene import_document(std::span<const std::byte> bytes, const FileAccess& files,
-                            SceneTextures textures) {
+StaticScene import_document(std::span<const std::byte> bytes, const FileAccess& files, SceneTextures textures,
+                            const MeshSelection& meshes) {
   const tinygltf::Model model =
       parse_gltf(bytes, files, textures == SceneTextures::read ? Images::keep : Images::skip);
   StaticScene scene;
+  scene.warnings = document_warnings(model);
   read_surfaces(model, textures, scene);
-  for_each_shown_primitive(model,
-                           [&](const ShownPrimitive& shown) { append_primitive(model, shown, scene); });
+  SurfaceParts parts;
+  std::vector<std::string> notes = for_each_shown_primitive(model, meshes, [&](const ShownPrimitive& shown) {
+    append_primitive(model, shown, scene);
+    parts.all.push_back({shown.node, shown.index, scene.triangle.size()});
+  });
+  for (std::string& note : notes) scene.warnings.push_back(std::move(note));
   if (scene.triangle.empty())
     throw Failure(NOOK_ERROR_BAD_FILE, "the default scene shows no triangle; export the meshes with it");
+  warn_of_coincident_surfaces(model, parts, scene.position, scene.triangle, scene.warnings);
   return scene;
 }
 
 }  // namespace
 
 StaticScene import_static_scene(const std::filesystem::path& path, SceneTextures textures,
-                                LinkedFiles linked) {
+                                const ImportOptions& options) {
   return import_document(read_file_bytes(path),
-                         {std::filesystem::absolute(path).parent_path().string(), linked}, textures);
+                         {std::filesystem::absolute(path).parent_path().string(), options.linked}, textures,
+                         options.meshes);
 }
 
-StaticScene import_static_scene(std::span<const std::byte> bytes, SceneTextures textures) {
-  return import_document(bytes, {}, textures);
+StaticScene import_static_scene(std::span<const std::byte> bytes, SceneTextures textures,
+                                const MeshSelection& meshes) {
+  return import_document(bytes, {}, textures, meshes);
 }
 
 }  // namespace nook::bake

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "bakers/import/accessor.h"
+#include "bakers/import/coincident_surfaces.h"
 #include "bakers/import/file_reader.h"
 #include "bakers/import/gltf_check.h"
 #include "bakers/import/gltf_document.h"
@@ -170,29 +171,36 @@ void make_missing(Building& building, std::vector<std::string>& warnings) {
         " vertices have a TANGENT whose w contradicts their texture coordinates; it was kept"));
 }
 
-ImportedSurface import_document(std::span<const std::byte> bytes, const FileAccess& files) {
+ImportedSurface import_document(std::span<const std::byte> bytes, const FileAccess& files,
+                                const MeshSelection& meshes) {
   const tinygltf::Model model = parse_gltf(bytes, files);
   Building building;
-  for_each_shown_primitive(model,
-                           [&](const ShownPrimitive& shown) { append_primitive(model, shown, building); });
+  ImportedSurface imported;
+  SurfaceParts parts;
+  imported.warnings = for_each_shown_primitive(model, meshes, [&](const ShownPrimitive& shown) {
+    append_primitive(model, shown, building);
+    parts.all.push_back({shown.node, shown.index, building.mesh.triangle.size()});
+  });
   if (building.mesh.triangle.empty())
     throw Failure(NOOK_ERROR_BAD_FILE, "the default scene shows no triangle; export the meshes with it");
-  ImportedSurface imported;
-  imported.warnings = document_warnings(model);
+  for (std::string& warning : document_warnings(model)) imported.warnings.push_back(std::move(warning));
   make_missing(building, imported.warnings);
+  warn_of_coincident_surfaces(model, parts, building.mesh.position, building.mesh.triangle,
+                              imported.warnings);
   imported.mesh = std::move(building.mesh);
   return imported;
 }
 
 }  // namespace
 
-ImportedSurface import_surface(const std::filesystem::path& path, LinkedFiles linked) {
+ImportedSurface import_surface(const std::filesystem::path& path, const ImportOptions& options) {
   return import_document(read_file_bytes(path),
-                         {std::filesystem::absolute(path).parent_path().string(), linked});
+                         {std::filesystem::absolute(path).parent_path().string(), options.linked},
+                         options.meshes);
 }
 
-ImportedSurface import_surface(std::span<const std::byte> bytes) {
-  return import_document(bytes, {});
+ImportedSurface import_surface(std::span<const std::byte> bytes, const MeshSelection& meshes) {
+  return import_document(bytes, {}, meshes);
 }
 
 namespace {

@@ -33,7 +33,7 @@ vec3 nook_world_normal(ivec2 pixel, vec3 position) {
     vec3 n = nook_normal_matrix * (stored * nook_normal_scale + nook_normal_bias);
     float size = length(n);
     // A size outside these bounds means that nothing, or no normal, was drawn here.
-    if (size > 1.0e-3 && size < 1.0e6) return n / size;
+    if (size > nook_shortest_normal && size < 1.0e6) return n / size;
   }
   ivec2 right = ivec2(1, 0), up = ivec2(0, 1);
   vec3 x = nook_world_tangent(position - nook_world_position(pixel - right), nook_world_position(pixel + right) - position);

@@ -1,7 +1,14 @@
 """A rigged character of the scene: an armature and the meshes that it deforms."""
+import fnmatch
+import re
+
 import numpy as np
 
 from .faults import Fault
+
+# Where an armature keeps the names of the objects that its bake leaves out.
+WITHOUT_PROPERTY = "nook_without"
+LEVEL = re.compile(r"(?:^|[_.\- ])LOD(\d+)$", re.IGNORECASE)
 
 
 def armature_of(context):
@@ -24,13 +31,33 @@ def armature_of_object(candidate):
     return None
 
 
+def level_of(candidate):
+    """The level of detail that an object or its mesh is named as, 0 for the finest."""
+    return max((int(found[1]) for found in map(LEVEL.search, (candidate.name, candidate.data.name)) if found), default=0)
+
+
+def is_left_out(name, patterns):
+    """Whether one of some names with * and ?, separated by commas, is that of an object."""
+    # Brackets have no meaning of their own here, as in the command.
+    return any(fnmatch.fnmatchcase(name, p.strip().replace("[", "[[]")) for p in patterns.split(",") if p.strip())
+
+
 def meshes_of(armature, view_layer):
-    """The meshes of a view layer that an armature deforms, in the order of their names, so that numbers of vertices are stable."""
+    """The meshes of a view layer that an armature deforms, in the order of their names, so that numbers of vertices are stable.
+
+    Lower levels of detail are left out, and what the settings name.
+    """
     found = [o for o in view_layer.objects
              if o.type == "MESH" and o.data.polygons and o.visible_get(view_layer=view_layer)
              and any(m.type == "ARMATURE" and m.object == armature for m in o.modifiers)]
     if not found:
         raise Fault(f"the armature {armature.name} deforms no visible mesh; add an armature modifier to the body")
+    without = armature.get(WITHOUT_PROPERTY, "")
+    left = [o for o in found if not is_left_out(o.name, without)]
+    if not left:
+        raise Fault(f"{without} leaves out every mesh of the armature {armature.name}: {', '.join(o.name for o in found)}")
+    finest = min(level_of(o) for o in left)
+    found = [o for o in left if level_of(o) == finest]
     return sorted(found, key=lambda o: o.name)
 
 

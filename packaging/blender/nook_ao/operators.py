@@ -119,6 +119,7 @@ class NOOK_OT_bake(CommandOperator):
         shown.hide(armature)
         glb = self._folder / shown.CHARACTER_FILE
         with object_mode(context):
+            armature[character.WITHOUT_PROPERTY] = settings.without
             meshes = character.meshes_of(armature, context.view_layer)
             armature[shown.COUNTS_PROPERTY] = shown.vertex_counts(meshes)
             export.export_character(context, armature, meshes, str(glb), settings.poses != "auto")

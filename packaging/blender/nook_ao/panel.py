@@ -23,6 +23,7 @@ class NOOK_PT_panel(bpy.types.Panel):
         column = layout.column()
         column.prop(settings, "preset")
         column.prop(settings, "poses")
+        column.prop(settings, "without")
         column.prop(settings, "folder")
         layout.operator("nook.bake", icon="RENDER_STILL")
         baked = shown.FOLDER_PROPERTY in armature

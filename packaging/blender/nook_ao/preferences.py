@@ -21,6 +21,10 @@ class NookPreferences(bpy.types.AddonPreferences):
 class NookSettings(bpy.types.PropertyGroup):
     preset: bpy.props.EnumProperty(name="Preset", items=PRESETS, default="draft", description="How long the bake may take")
     poses: bpy.props.EnumProperty(name="Poses", items=POSES, default="all", description="Poses that the bake learns from")
+    without: bpy.props.StringProperty(name="Leave out", default="",
+                                      description="Names of objects that are no part of the bake, such as spare weapons, separated by "
+                                      "commas; * and ? stand for any text and any character. Lower levels of detail (LOD1 and so on) "
+                                      "are always left out")
     ground: bpy.props.BoolProperty(name="Ground", default=False, description="A floor at the height of zero darkens the character from below")
     folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH", default="",
                                      description="Where character.glb and character.nook are kept; empty: a temporary folder")

@@ -83,8 +83,8 @@ NOOK_API void nook_bake_job_destroy(nook_bake_job* job);
 /* ---- Characters: immutable; jobs that use one keep it alive ----
  *
  * Matrices of poses are NOOK_POSE_REST_TO_WORLD: one 3x4 matrix for each bone, row-major, from rest space to
- * world space in metres. Vertices are in the imported file's order, the primitives one after another, which
- * is also the order of the runtime's AO. */
+ * world space in metres. Vertices are in the imported file's order, the primitives that are in one after
+ * another (`nook inspect FILE` lists them), which is also the order of the runtime's AO. */
 
 /* Where a rigged character comes from: exactly one of the path of a .glb or .gltf file, the bytes of one, or
  * arrays, from positions on, in the rest pose and in metres. The import copies what it needs. */
@@ -117,6 +117,11 @@ typedef struct nook_bake_source_desc {
   /* Primitives in order and without gaps. NULL: one primitive holds all vertices. */
   const nook_range* primitives;
   uint32_t primitive_count;
+  /* Names of the file's nodes or meshes to take and to leave out, where * and ? stand for any text and any
+   * character. Default: all that it shows but lower levels of detail (LOD1, ...). */
+  const char* const* meshes;
+  const char* const* without;
+  uint32_t mesh_count, without_count;
   int32_t allow_outside_files;
 } nook_bake_source_desc;
 static inline nook_result nook_bake_source_desc_init(nook_bake_source_desc* desc) {
