@@ -86,20 +86,50 @@ def unused_vertices(count):
             "values": {"bufferView": document["accessors"][0].pop("bufferView")}})
         for accessor in (1, 2):
             document["meshes"][0]["primitives"][0]["attributes"].pop(("JOINTS_0", "WEIGHTS_0")[accessor - 1])
-        document["nodes"][3].pop("skin")
-        document["nodes"][2]["children"] = [3]
-        document["nodes"][0]["children"] = [1]
+        on_the_tip(document)
     return edited(change)
 
 
-def restart(file, document):
-    positions = [0, 0, 0, 1, 0, 0] + [0, 1, 0] * 254
+def on_the_tip(document):
+    """The mesh without its skin, as a rigid part of node 2."""
     document["nodes"][3].pop("skin")
-    document["nodes"][3]["mesh"] = 0
     document["nodes"][2]["children"] = [3]
     document["nodes"][0]["children"] = [1]
-    document["meshes"][0]["primitives"][0] = {"attributes": {"POSITION": file.add(positions, "VEC3")},
-                                              "indices": file.add([0, 1, 255], "SCALAR", U8)}
+
+
+def restart(mode, component):
+    def change(file, document):
+        last = 255 if component == U8 else 65535
+        on_the_tip(document)
+        positions = [0, 0, 0, 1, 0, 0] + [0, 1, 0] * (last - 1)
+        document["meshes"][0]["primitives"][0] = {"attributes": {"POSITION": file.add(positions, "VEC3")}, "mode": mode,
+                                                  "indices": file.add([0, 1, last], "SCALAR", component)}
+    return edited(change)
+
+
+def no_position(file, document):
+    on_the_tip(document)
+    document["meshes"][0]["primitives"][0]["attributes"] = {"NORMAL": file.add([0, 0, 1] * 160, "VEC3")}
+
+
+def second_body(name, **node_words):
+    """Another node that shows the same mesh."""
+    def change(file, document):
+        document["nodes"].append({"name": name, "mesh": 0, "skin": 0, **node_words})
+        document["nodes"][0]["children"].append(4)
+    return edited(change)
+
+
+def hidden_parent(file, document):
+    document["nodes"] += [{"name": "hull", "mesh": 0, "skin": 0},
+                          {"children": [4], "extensions": {"KHR_node_visibility": {"visible": False}}}]
+    document["nodes"][0]["children"].append(5)
+
+
+def instances(file, document):
+    on_the_tip(document)
+    moves = {"TRANSLATION": file.add([0, 0, 0, 3, 0, 0, 6, 0, 0], "VEC3")}
+    document["nodes"][3]["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": moves}}
 
 
 def buffer_in(uri, stored, link=None):
@@ -151,7 +181,11 @@ CASES = [
     ("weights_zero_one", zero_weights(1), [], 0, ["1 of 160 skinned vertices have no weights"]),
     ("weights_zero_two", zero_weights(2), [], 3, ["2 of 160 skinned vertices have no weights (need at most 1 %)"]),
     # What has one reading.
-    ("restart", edited(restart), [], 0, ["restarts primitives"]),
+    *[(f"restart_{mode}_{component}", restart(mode, component), [], 0, ["restarts primitives"])
+      for mode in (4, 5, 6) for component in (U8, U16)],
+    *[(f"restart_{mode}_{component}", restart(mode, component), [], 3, ["no triangles"])
+      for mode in (0, 1, 2, 3) for component in (U8, U16)],
+    ("no_position", edited(no_position), [], 3, ["has no POSITION"]),
     ("joint_twice", edited(joints_twice), [], 0, ["lists joint node 2 twice"]),
     ("matrix_and_translation", node(0, matrix=[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], translation=[9, 0, 0]), [], 0,
      ["matrix beside translation"]),
@@ -161,6 +195,14 @@ CASES = [
     ("times_falling", key_times(0, 2, 1), [], 3, ["key times that go back"]),
     ("bounds_false", edited(lambda f, d: d["accessors"][0].update(min=[-1, 0, -1], max=[1, 1, 1])), [], 0,
      ["min and max that do not match"]),
+    # Which meshes are in.
+    ("hidden", second_body("hull", extensions={"KHR_node_visibility": {"visible": False}}), [], 0, ["hidden by KHR_node_visibility", "hull"]),
+    ("hidden_parent", edited(hidden_parent), [], 0, ["hidden by KHR_node_visibility", "hull"]),
+    ("lod1", second_body("body_LOD1"), [], 0, ["lower level of detail", "body_LOD1"]),
+    ("lod2_lower_case", second_body("body.lod2"), [], 0, ["lower level of detail", "body.lod2"]),
+    ("copy", second_body("copy"), [], 0, ["lie on each other"]),
+    ("copy_without", second_body("copy"), ["--without", "copy"], 0, []),
+    ("instances", edited(instances), [], 0, []),
     # Names of files.
     ("percent_bare", buffer_in("100%.bin", "100%.bin"), [], 0, []),
     ("percent_space", buffer_in("a%20b.bin", "a b.bin"), [], 0, []),
