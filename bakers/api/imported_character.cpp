@@ -69,9 +69,8 @@ ImportedCharacter character_of(const nook_bake_source_desc& desc) {
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
         "desc.meshes and desc.without choose meshes of a file, but desc has arrays; leave them out");
-  if (desc.path)
-    return import_file(desc.path,
-                       {desc.allow_outside_files ? LinkedFiles::anywhere : LinkedFiles::folder, meshes});
+  const LinkedFiles linked = desc.allow_outside_files ? LinkedFiles::anywhere : LinkedFiles::folder;
+  if (desc.path) return import_file(desc.path, {linked, meshes});
   if (desc.bytes)
     return import_gltf(std::span(static_cast<const std::byte*>(desc.bytes), desc.byte_count), meshes);
   return character_of_arrays(desc);

@@ -26,10 +26,11 @@ bool has_bytes(const tinygltf::Model& model, int accessor) {
          model.accessors[std::size_t(accessor)].bufferView >= 0;
 }
 
-// Whether a primitive needs its compressed data: some of what it compresses is nowhere else.
+// Whether a primitive needs its compressed data: some of what it compresses is nowhere else. Draco compresses
+// meshes with indices alone, and the parser got none without bytes.
 bool needs_decoding(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                     const tinygltf::Value& extension) {
-  if (primitive.indices >= 0 && !has_bytes(model, primitive.indices)) return true;
+  if (!has_bytes(model, primitive.indices)) return true;
   if (!extension.IsObject() || !extension.Has("attributes") || !extension.Get("attributes").IsObject())
     return true;
   for (const std::string& name : extension.Get("attributes").Keys()) {

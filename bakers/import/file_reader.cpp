@@ -45,14 +45,11 @@ void check_structure(std::span<const std::byte> json) {
 
 // Read here, or without any bearing on geometry, poses and the colours that are read.
 bool is_readable(std::string_view extension) {
-  constexpr std::array<std::string_view, 16> names = {"KHR_mesh_quantization",   "EXT_meshopt_compression",
-                                                      "KHR_meshopt_compression", "KHR_node_visibility",
-                                                      "KHR_node_selectability",  "KHR_node_hoverability",
-                                                      "EXT_mesh_gpu_instancing", "MSFT_lod",
-                                                      "KHR_texture_transform",   "KHR_texture_basisu",
-                                                      "KHR_lights_punctual",     "KHR_xmp",
-                                                      "KHR_xmp_json_ld",         "EXT_texture_webp",
-                                                      "EXT_texture_avif",        "MSFT_texture_dds"};
+  constexpr std::array<std::string_view, 16> names = {
+      "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization",   "KHR_node_visibility",
+      "KHR_node_selectability",  "KHR_node_hoverability",   "EXT_mesh_gpu_instancing", "MSFT_lod",
+      "KHR_texture_transform",   "KHR_texture_basisu",      "KHR_lights_punctual",     "KHR_xmp",
+      "KHR_xmp_json_ld",         "EXT_texture_webp",        "EXT_texture_avif",        "MSFT_texture_dds"};
   if (extension == "KHR_draco_mesh_compression") return reads_draco();
   return std::find(names.begin(), names.end(), extension) != names.end() ||
          extension.starts_with("KHR_materials_") || extension.starts_with("EXT_materials_");
@@ -167,9 +164,55 @@ void check_buffers(const Json& document, std::set<std::string>& files) {
   }
 }
 
+std::vector<std::size_t> nodes_of_two_transforms(const Json& document) {
+  std::vector<std::size_t> out;
+  const auto nodes = document.find("nodes");
+  if (nodes == document.end() || !nodes->is_array()) return out;
+  for (std::size_t n = 0; n < nodes->size(); ++n) {
+    const Json& node = (*nodes)[n];
+    if (node.is_object() && node.contains("matrix") &&
+        (node.contains("translation") || node.contains("rotation") || node.contains("scale")))
+      out.push_back(n);
+  }
+  return out;
+}
+
+// The primitives of all meshes that Draco compresses and that have indices.
+std::vector<Json*> draco_primitives(Json& document) {
+  std::vector<Json*> out;
+  const auto meshes = document.find("meshes");
+  if (meshes == document.end() || !meshes->is_array()) return out;
+  for (Json& mesh : *meshes) {
+    if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) continue;
+    for (Json& primitive : mesh["primitives"])
+      if (primitive.is_object() && primitive.contains("extensions") && primitive.contains("indices") &&
+          primitive["extensions"].is_object() &&
+          primitive["extensions"].contains("KHR_draco_mesh_compression"))
+        out.push_back(&primitive);
+  }
+  return out;
+}
+
+// Takes indices without bytes from them: the parser refuses those, and the decompressed ones replace them.
+// Returns whether there were some.
+bool drop_draco_indices(Json& document) {
+  bool dropped = false;
+  const auto accessors = document.find("accessors");
+  if (accessors == document.end() || !accessors->is_array()) return false;
+  for (Json* primitive : draco_primitives(document)) {
+    const Json& indices = (*primitive)["indices"];
+    if (!indices.is_number_unsigned() || indices.get<std::size_t>() >= accessors->size()) continue;
+    const Json& accessor = (*accessors)[indices.get<std::size_t>()];
+    if (!accessor.is_object() || accessor.contains("bufferView")) continue;
+    primitive->erase("indices");
+    dropped = true;
+  }
+  return dropped;
+}
+
 // Replaces names of files and buffers without bytes, if there is one that the parser would misread.
 void replace_uris(Json& document, GltfPreflight& result) {
-  bool is_needed = false;
+  bool is_needed = drop_draco_indices(document);
   const auto for_each = [&](const char* list, const auto& visit) {
     const auto entries = document.find(list);
     if (entries != document.end() && entries->is_array())
@@ -211,6 +254,7 @@ GltfPreflight check_before_parsing(std::span<const std::byte> json) {
   check_extensions(document);
   check_buffers(document, result.buffer_files);
   result.compressed_views = find_compressed_views(document);
+  result.matrix_beside_trs = nodes_of_two_transforms(document);
   replace_uris(document, result);
   return result;
 }

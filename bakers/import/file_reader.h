@@ -25,8 +25,9 @@ constexpr std::uint64_t max_file_bytes = std::uint64_t{1} << 31;
 struct GltfPreflight {
   std::set<std::string> buffer_files;  // URIs of the buffers in other files, decoded
   std::vector<CompressedView> compressed_views;
+  std::vector<std::size_t> matrix_beside_trs;  // nodes, of whose two transforms the parser drops one
   // The JSON that the parser gets instead of the file's; empty: the file's own. The parser decodes URIs in
-  // its own way, and needs bytes for buffers that are only room for decompressed views.
+  // its own way, and needs bytes for buffers that are only room for decompressed views and for indices.
   std::string replacement;
   std::map<std::string, std::string> names;  // of files, by their URI in the replacement
   std::set<std::string> rooms;               // URIs of the buffers without bytes

@@ -60,14 +60,14 @@ void check_animation_types(const tinygltf::Model& model, const tinygltf::Animati
     if (channel.sampler < 0 || std::size_t(channel.sampler) >= animation.samplers.size()) continue;
     const tinygltf::AnimationSampler& sampler = animation.samplers[std::size_t(channel.sampler)];
     const std::string what = name + " channel " + std::to_string(c);
-    require_allowed_type(model, sampler.input, AccessorUse::key_times, what + " input");
     const std::string& path = channel.target_path;
+    // Weights of morph targets are not read.
+    if (path != "translation" && path != "rotation" && path != "scale") continue;
+    require_allowed_type(model, sampler.input, AccessorUse::key_times, what + " input");
     if (path == "translation" || path == "scale")
       require_allowed_type(model, sampler.output, AccessorUse::translation_or_scale, what + " output");
     if (path == "rotation")
       require_allowed_type(model, sampler.output, AccessorUse::rotation, what + " output");
-    if (path == "weights")
-      require_allowed_type(model, sampler.output, AccessorUse::morph_weights, what + " output");
   }
 }
 

@@ -81,13 +81,17 @@ void add_mesh(const tinygltf::Model& model, std::size_t node, NodeState state,
 
 std::vector<ContentsSkin> skins_of(const tinygltf::Model& model, const std::vector<NodeState>& state) {
   std::vector<ContentsSkin> skins;
+  std::vector<std::size_t> meshes(model.skins.size(), 0);
+  for (std::size_t n = 0; n < state.size(); ++n)
+    if (const int skin = model.nodes[n].skin;
+        state[n] == NodeState::in && skin >= 0 && std::size_t(skin) < meshes.size())
+      ++meshes[std::size_t(skin)];
   for (std::size_t s = 0; s < model.skins.size(); ++s) {
     const std::string& name = model.skins[s].name;
     ContentsSkin skin;
     skin.name = name.empty() ? "skin_" + std::to_string(s) : name;
     skin.joints = model.skins[s].joints.size();
-    for (std::size_t n = 0; n < state.size(); ++n)
-      skin.meshes += state[n] == NodeState::in && model.nodes[n].skin == int(s);
+    skin.meshes = meshes[s];
     skins.push_back(skin);
   }
   return skins;

@@ -17,7 +17,7 @@ struct ContentsMesh {
   std::int64_t primitive = -1;  // its number in a bake of the character, of the first instance; -1: not in it
   std::size_t vertices = 0, triangles = 0, instances = 1;
   int skin = -1;
-  std::string state;  // "in", or why it is not
+  std::string state = {};  // "in", or why it is not
 };
 
 struct ContentsSkin {

@@ -126,15 +126,19 @@ std::vector<std::byte> with_json(std::span<const std::byte> bytes, std::string j
   return out;
 }
 
-// URIs as the file has them, decoded; what was only room for decompressed views has neither name nor bytes.
-void restore_uris(const GltfPreflight& preflight, tinygltf::Model& model) {
-  const auto restore = [&](std::string& uri) {
+// What the parser dropped or got replaced. URIs are as the file has them, decoded; what was only room for
+// decompressed views has neither name nor bytes. Of two transforms a node's matrix counts, and a translation
+// beside it tells that there were two.
+void restore(const GltfPreflight& preflight, tinygltf::Model& model) {
+  const auto restore_uri = [&](std::string& uri) {
     const auto name = preflight.names.find(uri);
     if (name != preflight.names.end()) uri = name->second;
   };
-  for (tinygltf::Image& image : model.images) restore(image.uri);
+  for (const std::size_t node : preflight.matrix_beside_trs)
+    if (node < model.nodes.size()) model.nodes[node].translation = {0, 0, 0};
+  for (tinygltf::Image& image : model.images) restore_uri(image.uri);
   for (tinygltf::Buffer& buffer : model.buffers) {
-    restore(buffer.uri);
+    restore_uri(buffer.uri);
     if (preflight.rooms.contains(buffer.uri)) buffer = tinygltf::Buffer();
   }
 }
@@ -182,7 +186,7 @@ tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const FileAccess& f
     throw Failure(NOOK_ERROR_BAD_FILE, "not a glTF 2.0 file, or a damaged one: %s",
                   error.empty() ? "the parser gives no reason" : one_line(error).c_str());
   check_names(model);
-  restore_uris(preflight, model);
+  restore(preflight, model);
   decompress_views(preflight.compressed_views, model);
   decompress_draco(model);
   check_types(model);

@@ -23,10 +23,13 @@ namespace {
 // bytes.
 constexpr std::size_t max_targets_at_work = 256;
 
-// A mesh without vertices costs its primitives once more for each node that shows it.
-constexpr std::size_t max_primitives = std::size_t{1} << 20;
-
 }  // namespace
+
+void refuse_many_primitives(std::size_t count) {
+  constexpr std::size_t most = std::size_t{1} << 20;
+  if (count > most)
+    throw Failure(NOOK_ERROR_BAD_FILE, "the nodes show more than %zu primitives; join meshes", most);
+}
 
 void add_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                        const std::vector<double>& weights, const std::string& what,
@@ -216,9 +219,7 @@ void append_mesh(const tinygltf::Model& model, const tinygltf::Node& node, const
   const std::string name = mesh.name.empty() ? "mesh_" + std::to_string(node.mesh) : mesh.name;
   const MeshSource source{name, binding, node.skin >= 0, default_morph_weights(mesh, node)};
   repairs.primitives += mesh.primitives.size();
-  if (repairs.primitives > max_primitives)
-    throw Failure(NOOK_ERROR_BAD_FILE, "the nodes show more than %zu primitives; join meshes",
-                  max_primitives);
+  refuse_many_primitives(repairs.primitives);
   if (!source.morph_weights.empty()) ++repairs.morphed;
   if (std::ranges::any_of(mesh.primitives, [](const tinygltf::Primitive& p) { return !p.targets.empty(); }))
     ++repairs.with_targets;

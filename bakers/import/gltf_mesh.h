@@ -22,6 +22,10 @@ void add_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& 
                        const std::vector<double>& weights, const std::string& what,
                        std::vector<float>& position);
 
+// Fails with BAD_FILE above 2^20, counted once for each node and instance that shows them: a mesh without
+// vertices costs its primitives again for each.
+void refuse_many_primitives(std::size_t count);
+
 // Counts over all primitives, for the warnings.
 struct MeshRepairs {
   std::size_t primitives = 0;

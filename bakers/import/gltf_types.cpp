@@ -49,7 +49,7 @@ struct Allowed {
 // clang-format off
 // glTF 2.0, sections 3.7.2.1 (attributes and indices), 3.7.2.2 (morph targets), 3.7.3.1 (skins) and 3.11
 // (animations); KHR_mesh_quantization, "Extending Mesh Attributes" and "Extending Morph Target Attributes".
-constexpr std::array<Allowed, 16> table{{
+constexpr std::array<Allowed, 15> table{{
     {AccessorUse::position, TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC3, f32, u8 | u8n | i8 | i8n | u16 | u16n | i16 | i16n},
     {AccessorUse::normal, TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC3, f32, i8n | i16n},
     {AccessorUse::tangent, TINYGLTF_TYPE_VEC4, TINYGLTF_TYPE_VEC4, f32, i8n | i16n},
@@ -65,7 +65,6 @@ constexpr std::array<Allowed, 16> table{{
     {AccessorUse::key_times, TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_SCALAR, f32, 0},
     {AccessorUse::translation_or_scale, TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC3, f32, 0},
     {AccessorUse::rotation, TINYGLTF_TYPE_VEC4, TINYGLTF_TYPE_VEC4, f32 | normalised_integers, 0},
-    {AccessorUse::morph_weights, TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_SCALAR, f32 | normalised_integers, 0},
 }};
 // clang-format on
 

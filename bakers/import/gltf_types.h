@@ -23,7 +23,6 @@ enum class AccessorUse {
   key_times,
   translation_or_scale,
   rotation,
-  morph_weights,
 };
 
 // True where the specification, with KHR_mesh_quantization if the file uses it, allows the accessor's element

@@ -68,6 +68,7 @@ std::vector<std::string> for_each_shown_primitive(const tinygltf::Model& model,
   const NodeTree nodes = read_nodes(model);
   ShownNodes chosen = choose_nodes(model, nodes, selection);
   const std::vector<Affine> world = default_world_transforms(nodes);
+  std::size_t visited = 0;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     if (!chosen.shows(n)) continue;
     const int index = model.nodes[n].mesh;
@@ -76,6 +77,7 @@ std::vector<std::string> for_each_shown_primitive(const tinygltf::Model& model,
     shown.node = std::uint32_t(n);
     shown.morph_weights = default_morph_weights(mesh, model.nodes[n]);
     for (const Affine& instance : mesh_instances(model, n)) {
+      refuse_many_primitives(visited += mesh.primitives.size());
       shown.world_from_mesh = world[n] * instance;
       for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
         shown.primitive = &mesh.primitives[p];

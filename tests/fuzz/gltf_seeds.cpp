@@ -1,3 +1,5 @@
+#include <meshoptimizer.h>
+
 #include "tests/bakers/import/tube_file.h"
 #include "tests/fuzz/seeds.h"
 
@@ -86,12 +88,52 @@ GltfBuilder textured() {
   return file;
 }
 
+// Positions compressed by meshopt, with room for them in a second buffer.
+GltfBuilder compressed_by_meshopt() {
+  GltfBuilder file = rigid_parts();
+  const std::vector<float> position{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  std::vector<unsigned char> bytes(meshopt_encodeVertexBufferBound(4, 12));
+  bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), position.data(), 4, 12));
+  const int source = file.add_view(bytes);
+  const char* name = "EXT_meshopt_compression";
+  const Json compressed = {{"buffer", 0},
+                           {"byteOffset", file.document["bufferViews"][source]["byteOffset"]},
+                           {"byteLength", bytes.size()},
+                           {"byteStride", 12},
+                           {"count", 4},
+                           {"mode", "ATTRIBUTES"},
+                           {"filter", "NONE"}};
+  file.document["bufferViews"].push_back(
+      {{"buffer", 1}, {"byteLength", 48}, {"byteStride", 12}, {"extensions", {{name, compressed}}}});
+  file.document["accessors"][0]["bufferView"] = source + 1;
+  file.document["extensionsRequired"] = {name};
+  file.room = {{"byteLength", 48}, {"extensions", {{name, {{"fallback", true}}}}}};
+  return file;
+}
+
+// The head of Draco's format, without the rest: what follows is the fuzzer's.
+GltfBuilder compressed_by_draco() {
+  GltfBuilder file = rigid_parts();
+  const int view = file.add_view(std::vector<unsigned char>{'D', 'R', 'A', 'C', 'O', 2, 2, 1, 0, 0, 0, 4,
+                                                            4,   0,   1,   0,   0,   2, 1, 3, 1, 2, 3});
+  file.document["accessors"][0].erase("bufferView");
+  file.document["accessors"][1].erase("bufferView");
+  file.document["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
+      {"bufferView", view}, {"attributes", {{"POSITION", 0}}}};
+  return file;
+}
+
 }  // namespace
 
 std::vector<Seed> seeds() {
-  return {{"tube.glb", tube_file().glb()},    {"flag.glb", flag().glb()},
-          {"flag.gltf", flag().gltf()},       {"parts.glb", rigid_parts().glb()},
-          {"textured.glb", textured().glb()}, {"textured.gltf", textured().gltf()}};
+  return {{"tube.glb", tube_file().glb()},
+          {"flag.glb", flag().glb()},
+          {"flag.gltf", flag().gltf()},
+          {"parts.glb", rigid_parts().glb()},
+          {"textured.glb", textured().glb()},
+          {"textured.gltf", textured().gltf()},
+          {"meshopt.glb", compressed_by_meshopt().glb()},
+          {"draco.glb", compressed_by_draco().glb()}};
 }
 
 }  // namespace nook::test

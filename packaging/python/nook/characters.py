@@ -26,11 +26,12 @@ class Character(Handle):
     _destroy = "nook_bake_character_destroy"
 
     def __init__(self, path: Union[str, "os.PathLike[str]", None] = None, *, data: Optional[bytes] = None, meshes: Sequence[str] = (),
-                 without: Sequence[str] = ()) -> None:
+                 without: Sequence[str] = (), allow_outside_files: bool = False) -> None:
         """Imports a .glb or .gltf file, or the bytes of one whose buffers are embedded.
 
         meshes and without are names of its nodes or meshes to take and to leave out, in which * and ? stand for any text and any
-        character. Without meshes it takes all that the file shows but lower levels of detail.
+        character. Without meshes it takes all that the file shows but lower levels of detail. The file may name other files
+        of its own folder; with allow_outside_files, of any folder.
         """
         super().__init__()
         if (path is None) == (data is None):
@@ -45,6 +46,7 @@ class Character(Handle):
             desc.bytes, desc.byte_count = ctypes.cast(held, ctypes.c_void_p), len(data)
         desc.meshes, desc.mesh_count = _patterns(meshes, "meshes"), len(meshes)
         desc.without, desc.without_count = _patterns(without, "without"), len(without)
+        desc.allow_outside_files = int(allow_outside_files)
         call("nook_bake_character_create", ctypes.byref(desc), ctypes.byref(self._handle))
         self._describe()
 

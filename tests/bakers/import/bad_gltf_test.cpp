@@ -39,10 +39,10 @@ TEST_CASE("files that are missing, empty, folders or something else") {
   CHECK(failure_of({}).find("empty") != std::string::npos);
   CHECK(failure_of(GltfBuilder::bytes_of("this is no glTF")).find("not a glTF 2.0 file") !=
         std::string::npos);
-  CHECK(failure_of(GltfBuilder::bytes_of("{}")).find("not a glTF 2.0 file") != std::string::npos);
+  CHECK(failure_of(GltfBuilder::bytes_of("{}")).find("no asset.version") != std::string::npos);
   std::vector<std::byte> old_version = tube_file().glb();
   old_version[4] = std::byte{1};
-  CHECK(failure_of(old_version).find("glTF version 1 (need 2)") != std::string::npos);
+  CHECK(failure_of(old_version).find("glTF version 1, by its binary header (need 2)") != std::string::npos);
 }
 
 TEST_CASE("a binary file cut anywhere is refused") {
@@ -190,7 +190,7 @@ TEST_CASE("faults of accessors and buffer views") {
   }
   SECTION("another type") {
     accessor["type"] = "VEC4";
-    check_refused(file, "4 components an element (need 3)");
+    check_refused(file, "POSITION (accessor 0) is VEC4 of FLOAT (need VEC3 of FLOAT)");
   }
   SECTION("sparse values beyond the elements") {
     accessor["sparse"] = {
@@ -330,12 +330,14 @@ TEST_CASE("faults of clips") {
   }
 }
 
+#if !NOOK_DRACO
 TEST_CASE("compressed meshes are refused by name") {
   GltfBuilder file = tube_file();
   file.document["extensionsUsed"] = Json::array({"KHR_draco_mesh_compression"});
   file.document["extensionsRequired"] = Json::array({"KHR_draco_mesh_compression"});
   check_refused(file, "KHR_draco_mesh_compression");
 }
+#endif
 
 TEST_CASE("flipped bytes either load or are refused") {
   const std::vector<std::byte> whole = tube_file().glb();

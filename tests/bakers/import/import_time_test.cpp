@@ -97,7 +97,7 @@ std::vector<std::byte> chain(std::size_t count) {
   GltfBuilder file = tube_file();
   Json& nodes = file.document["nodes"];
   for (std::size_t i = 0; i < count; ++i) {
-    Json node = {{"mesh", 1}, {"rotation", {0, 0, 0, 1}}};
+    Json node = {{"mesh", 1}, {"translation", {1, 0, 0}}};
     if (i + 1 < count) node["children"] = Json::array({nodes.size() + 1});
     nodes.push_back(std::move(node));
   }

@@ -1,0 +1,246 @@
+#!/usr/bin/env python3
+"""cases_test.py FOLDER TOOL: files of each kind, one line each, with the exit code and the words that `nook inspect` must give.
+
+Writes the files into FOLDER. Exit code 3 is a refusal; code 0 with words is a repair or a note. A line without words
+must print no warning at all."""
+import os
+import pathlib
+import struct
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True
+from write_gltf import FLOAT, I16, U8, U16, U32, Gltf, column  # noqa: E402
+
+OUTSIDE = "--allow-outside-files"
+
+
+def edited(change):
+    """A column after `change`, which gets the file and its document."""
+    def write(folder, name):
+        file = column()
+        change(file, file.document)
+        file.write(folder / f"{name}.glb")
+        return f"{name}.glb"
+    return write
+
+
+def asset(**words):
+    return edited(lambda file, document: document["asset"].update(words))
+
+
+def attribute(name, values, element, component, **more):
+    def change(file, document):
+        document["meshes"][0]["primitives"][0]["attributes"][name] = file.add(values, element, component, **more)
+    return edited(change)
+
+
+def indices(component):
+    def change(file, document):
+        document["accessors"][3]["componentType"] = component
+        document["accessors"][3]["count"] //= 2
+    return edited(change)
+
+
+def zero_weights(count):
+    def change(file, document):
+        at = document["bufferViews"][2]["byteOffset"]
+        file.data[at:at + 16 * count] = bytes(16 * count)
+    return edited(change)
+
+
+def node(index, **words):
+    return edited(lambda file, document: document["nodes"][index].update(words))
+
+
+def key_times(*times):
+    def change(file, document):
+        sampler = document["animations"][0]["samplers"][0]
+        sampler["input"] = file.add(times, "SCALAR")
+        sampler["output"] = file.add([0, 0, 0, 1] * len(times), "VEC4")
+    return edited(change)
+
+
+def rotations(*values):
+    return edited(lambda file, document: document["animations"][0]["samplers"][0].update(output=file.add(values, "VEC4")))
+
+
+def joints_twice(file, document):
+    identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+    matrices = identity + 2 * (identity[:13] + [-1, 0, 1])
+    document["skins"][0] = {"joints": [1, 2, 2], "inverseBindMatrices": file.add(matrices, "MAT4")}
+
+
+def header_version(folder, name):
+    path = folder / edited(lambda file, document: None)(folder, name)
+    data = bytearray(path.read_bytes())
+    data[4:8] = struct.pack("<I", 1)
+    path.write_bytes(data)
+    return path.name
+
+
+def unused_vertices(count):
+    def change(file, document):
+        document["accessors"][0].update(count=count, sparse={
+            "count": 160, "indices": {"bufferView": file.view(struct.pack("<160I", *range(160))), "componentType": U32},
+            "values": {"bufferView": document["accessors"][0].pop("bufferView")}})
+        for accessor in (1, 2):
+            document["meshes"][0]["primitives"][0]["attributes"].pop(("JOINTS_0", "WEIGHTS_0")[accessor - 1])
+        on_the_tip(document)
+    return edited(change)
+
+
+def on_the_tip(document):
+    """The mesh without its skin, as a rigid part of node 2."""
+    document["nodes"][3].pop("skin")
+    document["nodes"][2]["children"] = [3]
+    document["nodes"][0]["children"] = [1]
+
+
+def restart(mode, component):
+    def change(file, document):
+        last = 255 if component == U8 else 65535
+        on_the_tip(document)
+        positions = [0, 0, 0, 1, 0, 0] + [0, 1, 0] * (last - 1)
+        document["meshes"][0]["primitives"][0] = {"attributes": {"POSITION": file.add(positions, "VEC3")}, "mode": mode,
+                                                  "indices": file.add([0, 1, last], "SCALAR", component)}
+    return edited(change)
+
+
+def no_position(file, document):
+    on_the_tip(document)
+    document["meshes"][0]["primitives"][0]["attributes"] = {"NORMAL": file.add([0, 0, 1] * 160, "VEC3")}
+
+
+def second_body(name, **node_words):
+    """Another node that shows the same mesh."""
+    def change(file, document):
+        document["nodes"].append({"name": name, "mesh": 0, "skin": 0, **node_words})
+        document["nodes"][0]["children"].append(4)
+    return edited(change)
+
+
+def hidden_parent(file, document):
+    document["nodes"] += [{"name": "hull", "mesh": 0, "skin": 0},
+                          {"children": [4], "extensions": {"KHR_node_visibility": {"visible": False}}}]
+    document["nodes"][0]["children"].append(5)
+
+
+def instances(file, document):
+    on_the_tip(document)
+    moves = {"TRANSLATION": file.add([0, 0, 0, 3, 0, 0, 6, 0, 0], "VEC3")}
+    document["nodes"][3]["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": moves}}
+
+
+def buffer_in(uri, stored, link=None):
+    """A .gltf in a folder of its own that names `uri`; the buffer is in `stored`, and `link` leads from one to another."""
+    def write(folder, name):
+        own = folder / name
+        (own / "inner").mkdir(parents=True, exist_ok=True)
+        file = column()
+        file.write(own / "inner/file.gltf", uri)
+        (own / "inner" / stored).write_bytes(file.data)
+        if link:
+            place = own / "inner" / link[0]
+            if not place.is_symlink():
+                place.symlink_to(link[1])
+        return f"{name}/inner/file.gltf"
+    return write
+
+
+def no_change(file, document):
+    pass
+
+
+def sparse_floats(file, document):
+    document["accessors"][0]["sparse"] = {
+        "count": 1, "indices": {"bufferView": file.view(struct.pack("<f", 0)), "componentType": FLOAT},
+        "values": {"bufferView": file.view(struct.pack("<3f", 0, 0, 0))}}
+
+
+# Name, how the file is made, options of the command, exit code, words of its message or warnings.
+CASES = [
+    ("plain", edited(no_change), [], 0, []),
+    # Versions.
+    ("version_3", asset(version="3.0"), [], 3, ['glTF version "3.0"']),
+    ("version_1", asset(version="1.0"), [], 3, ['glTF version "1.0"']),
+    ("version_2_1", asset(version="2.1"), [], 0, []),
+    ("minimum_2_1", asset(version="2.1", minVersion="2.1"), [], 3, ['glTF version "2.1"', "minVersion"]),
+    ("header_1", header_version, [], 3, ["glTF version 1, by its binary header"]),
+    # Types of accessors.
+    ("indices_float", indices(FLOAT), [], 3, ["indices (accessor 3) is SCALAR of FLOAT"]),
+    ("indices_signed", indices(I16), [], 3, ["indices (accessor 3) is SCALAR of SHORT"]),
+    ("joints_float", attribute("JOINTS_0", [0] * 640, "VEC4", FLOAT), [], 3, ["JOINTS_0 (accessor 7) is VEC4 of FLOAT"]),
+    ("joints_u32", attribute("JOINTS_0", [0] * 640, "VEC4", U32), [], 3, ["JOINTS_0 (accessor 7) is VEC4 of UNSIGNED_INT"]),
+    ("weights_u16", attribute("WEIGHTS_0", [1] * 640, "VEC4", U16), [], 3, ["WEIGHTS_0 (accessor 7) is VEC4 of UNSIGNED_SHORT"]),
+    ("positions_u16", attribute("POSITION", [1] * 480, "VEC3", U16), [], 3, ["list KHR_mesh_quantization"]),
+    ("sparse_float", edited(sparse_floats), [], 3, ["sparse indices have component type 5126"]),
+    ("times_u16", edited(lambda f, d: d["accessors"][5].update(componentType=U16)), [], 3, ["input (accessor 5) is SCALAR of UNSIGNED_SHORT"]),
+    ("colours_u8", attribute("COLOR_0", [1] * 640, "VEC4", U8), [], 0, ["COLOR_0, VEC4 of UNSIGNED_BYTE"]),
+    # Weights.
+    ("weights_zero_one", zero_weights(1), [], 0, ["1 of 160 skinned vertices have no weights"]),
+    ("weights_zero_two", zero_weights(2), [], 3, ["2 of 160 skinned vertices have no weights (need at most 1 %)"]),
+    # What has one reading.
+    *[(f"restart_{mode}_{component}", restart(mode, component), [], 0, ["restarts primitives"])
+      for mode in (4, 5, 6) for component in (U8, U16)],
+    *[(f"restart_{mode}_{component}", restart(mode, component), [], 3, ["no triangles"])
+      for mode in (0, 1, 2, 3) for component in (U8, U16)],
+    ("no_position", edited(no_position), [], 3, ["has no POSITION"]),
+    ("joint_twice", edited(joints_twice), [], 0, ["lists joint node 2 twice"]),
+    ("matrix_and_translation", node(0, matrix=[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], translation=[9, 0, 0]), [], 0,
+     ["matrix beside translation"]),
+    ("rotation_of_length_2", node(0, rotation=[0, 0, 0, 2]), [], 0, ["not a unit quaternion"]),
+    ("key_of_length_2", rotations(0, 0, 0, 1, 0, 0, 0, 2), [], 0, ["not unit quaternions"]),
+    ("times_equal", key_times(0, 1, 1), [], 0, ["equal key times"]),
+    ("times_falling", key_times(0, 2, 1), [], 3, ["key times that go back"]),
+    ("bounds_false", edited(lambda f, d: d["accessors"][0].update(min=[-1, 0, -1], max=[1, 1, 1])), [], 0,
+     ["min and max that do not match"]),
+    # Which meshes are in.
+    ("hidden", second_body("hull", extensions={"KHR_node_visibility": {"visible": False}}), [], 0, ["hidden by KHR_node_visibility", "hull"]),
+    ("hidden_parent", edited(hidden_parent), [], 0, ["hidden by KHR_node_visibility", "hull"]),
+    ("lod1", second_body("body_LOD1"), [], 0, ["lower level of detail", "body_LOD1"]),
+    ("lod2_lower_case", second_body("body.lod2"), [], 0, ["lower level of detail", "body.lod2"]),
+    ("copy", second_body("copy"), [], 0, ["lie on each other"]),
+    ("copy_without", second_body("copy"), ["--without", "copy"], 0, []),
+    ("instances", edited(instances), [], 0, []),
+    # Names of files.
+    ("percent_bare", buffer_in("100%.bin", "100%.bin"), [], 0, []),
+    ("percent_space", buffer_in("a%20b.bin", "a b.bin"), [], 0, []),
+    ("plus", buffer_in("a+b.bin", "a+b.bin"), [], 0, []),
+    ("link_out", buffer_in("link.bin", "../outside.bin", ("link.bin", "../outside.bin")), [], 3, ["a link that leads outside", OUTSIDE]),
+    ("link_out_allowed", buffer_in("link.bin", "../outside.bin", ("link.bin", "../outside.bin")), [OUTSIDE], 0, []),
+    ("folder_out", buffer_in("up/outside.bin", "../outside.bin", ("up", "..")), [], 3, ["a link that leads outside"]),
+    ("link_inside", buffer_in("link.bin", "real.bin", ("link.bin", "real.bin")), [], 0, []),
+    ("dots", buffer_in("../outside.bin", "../outside.bin"), [], 3, ["outside of its own folder"]),
+    ("dots_encoded", buffer_in("%2e%2e/outside.bin", "../outside.bin"), [], 3, ["outside of its own folder"]),
+    ("dots_allowed", buffer_in("../outside.bin", "../outside.bin"), [OUTSIDE], 0, []),
+    ("absolute", buffer_in("/etc/hostname", "x.bin"), [], 3, ["outside of its own folder"]),
+    # Time: with a quadratic stage, this one takes hours.
+    ("unused_vertices", unused_vertices(1_000_000), [], 0, []),
+]
+
+
+def refused(text):
+    """`nook inspect` lists files that are no character, and says so."""
+    return "cannot be baked as a character: " in text
+
+
+def main():
+    folder, tool = pathlib.Path(sys.argv[1]), sys.argv[2]
+    folder.mkdir(parents=True, exist_ok=True)
+    faults = []
+    for name, make, options, code, words in CASES:
+        path = folder / make(folder, name)
+        run = subprocess.run([tool, "inspect", str(path), *options], capture_output=True, text=True, timeout=120,
+                             env={**os.environ, "LC_ALL": "C"})
+        got = 3 if run.returncode == 0 and refused(run.stderr) else run.returncode
+        missing = [word for word in words if word not in run.stderr]
+        too_much = not words and run.stderr.strip()
+        if got != code or missing or too_much:
+            faults.append(f"{name}: exit code {got} (need {code}), missing {missing}\n{run.stderr.strip()}")
+    print("\n".join(faults) or f"{len(CASES)} cases are as the table says")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
