@@ -10,9 +10,9 @@ bl_info = {
     "category": "Bake",
 }
 
-from . import operators, panel, preferences, shown  # noqa: E402
+from . import background, operators, panel, preferences, records, shown  # noqa: E402
 
-PARTS = (preferences, operators, panel, shown)
+PARTS = (preferences, records, operators, panel, shown, background)
 
 
 def register():

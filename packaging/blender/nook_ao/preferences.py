@@ -1,9 +1,10 @@
-"""Where the command and the libraries are, and the settings of a scene."""
+"""Where the command and the libraries are, and the settings of a rig."""
 import bpy
 
 PRESETS = (("draft", "Draft", "About 20 seconds"), ("standard", "Standard", "Up to 5 minutes"), ("production", "Production", "Up to half an hour"))
 POSES = (("all", "Generated and actions", "Generated poses, and those of the character's actions"), ("auto", "Generated", "Generated poses alone"),
          ("clips", "Actions", "Poses of the character's actions alone"))
+OVERRIDABLE = {"LIBRARY_OVERRIDABLE"}
 
 
 class NookPreferences(bpy.types.AddonPreferences):
@@ -19,12 +20,16 @@ class NookPreferences(bpy.types.AddonPreferences):
 
 
 class NookSettings(bpy.types.PropertyGroup):
-    preset: bpy.props.EnumProperty(name="Preset", items=PRESETS, default="draft", description="How long the bake may take")
-    poses: bpy.props.EnumProperty(name="Poses", items=POSES, default="all", description="Poses that the bake learns from")
-    ground: bpy.props.BoolProperty(name="Ground", default=False, description="A floor at the height of zero darkens the character from below")
-    folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH", default="",
-                                     description="Where character.glb and character.nook are kept; empty: a temporary folder")
-    rays: bpy.props.IntProperty(name="Rays", default=256, min=16, max=16384, description="Rays for each vertex of a traced frame")
+    """Settings of a rig, and those of a scene for rigs that have none. An override of a library keeps its own."""
+
+    preset: bpy.props.EnumProperty(name="Preset", items=PRESETS, default="draft", override=OVERRIDABLE, description="How long the bake may take")
+    poses: bpy.props.EnumProperty(name="Poses", items=POSES, default="all", override=OVERRIDABLE, description="Poses that the bake learns from")
+    ground: bpy.props.BoolProperty(name="Ground", default=False, override=OVERRIDABLE,
+                                   description="A floor at the height of zero darkens the character from below")
+    folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH", default="", override=OVERRIDABLE,
+                                     description="Where the files of the bake are kept, by the name of the armature; empty: a temporary folder")
+    rays: bpy.props.IntProperty(name="Rays", default=256, min=16, max=16384, override=OVERRIDABLE,
+                                   description="Rays for each vertex of a traced frame")
 
 
 class Unregistered:
@@ -42,10 +47,14 @@ def of(context):
 def register():
     bpy.utils.register_class(NookPreferences)
     bpy.utils.register_class(NookSettings)
+    bpy.types.Object.nook = bpy.props.PointerProperty(type=NookSettings, override=OVERRIDABLE)
     bpy.types.Scene.nook = bpy.props.PointerProperty(type=NookSettings)
+    bpy.types.Action.nook_bake = bpy.props.BoolProperty(name="Bake", default=False, description="Nook's bakes of rigs that fit learn from this action")
 
 
 def unregister():
+    del bpy.types.Action.nook_bake
     del bpy.types.Scene.nook
+    del bpy.types.Object.nook
     bpy.utils.unregister_class(NookSettings)
     bpy.utils.unregister_class(NookPreferences)
