@@ -69,10 +69,11 @@ class Still:
         return entry.nook.trace_ao([(self.positions, self.triangles)], points, normals, rays=rays, origin_offset=entry.ray_offset)
 
 
-def take_still(entry, played, pose):
+def take_still(entry, played, frame):
     """Colours of a pose on the meshes, then the meshes: modifiers interpolate what they add."""
+    pose = _rig_pose(entry, played)
     entry.paint(shown.AO, entry.to_vertices(entry.evaluate(pose, False)))
-    played.scene.view_layers[0].update()
+    played.set_frame(frame)  # an update without a frame would take the pose of the artist's scene
     return Still(entry, pose, [played.evaluated(played.copies[item]) for item in entry.items])
 
 
@@ -125,12 +126,10 @@ def take_pose(entry, way, actions):
     with stage.opened(entry.armature, entry.items) as played:
         if kind == "turned":
             played.turn_bones(value)
-            played.set_frame(1)
-        else:
-            if kind == "action":
-                played.play(next(a for a in actions if a.name == name))
-            played.set_frame(value)
-        return take_still(entry, played, _rig_pose(entry, played))
+        elif kind == "action":
+            played.play(next(a for a in actions if a.name == name))
+        played.set_frame(value)
+        return take_still(entry, played, value)
 
 
 def chosen_points(count, most, seed):
@@ -182,8 +181,6 @@ def reasons(entry, stills):
             found.append(f"{name} has shape keys")
     if any(b.bbone_segments > 1 for b in armature.data.bones):
         found.append("the rig has bendy bones")
-    if any(shear_of(still.pose) > SHEAR for still in stills):
-        found.append("the rig shears or stretches its bones (uneven scale)")
     return found
 
 
@@ -191,7 +188,7 @@ def text_of(errors, stills, why):
     lines = [f"Error in {len(stills)} poses: {errors['bake']:.3f} with the bake's normals",
              f"and {errors['blender']:.3f} with Blender's; the model's own: {errors['model']:.3f}"]
     if why:
-        lines += ["Blender shows another body than the baked one:", *why]
+        lines += ["Blender shows what the bake does not know:", *why]
     return lines
 
 
@@ -213,4 +210,6 @@ def after_bake(context, entry, actions):
         why = reasons(entry, stills) or ["the mesh is another one than the baked one; bake again"]
         if apart > NEAR * size:
             why.append(f"vertices are up to {apart:.3g} m apart")
+    if any(shear_of(still.pose) > SHEAR for still in stills):
+        why.append("the rig shears or stretches its bones, which a model does not learn; apply its scale, or scale evenly")
     yield text_of(errors, stills, why), why

@@ -141,7 +141,7 @@ def checked_folder(folder):
     """The folder of a setting as it is on disk; without one a temporary folder."""
     if not folder:
         return pathlib.Path(tempfile.mkdtemp(prefix="nook-"))
-    if not os.path.isabs(folder):
+    if folder.startswith("//") or not os.path.isabs(folder):
         if not bpy.data.filepath:
             raise Fault(f"the folder {folder} is relative to the .blend, which is not saved; save it first, or choose a folder by its whole path")
         folder = folder if folder.startswith("//") else f"//{folder}"
@@ -187,7 +187,8 @@ class NOOK_OT_bake(CommandOperator):
         known = records.find(armature) is not None
         key, name = records.make(scene, armature).key, armature.name
         self.is_kept, names = False, [p.item.name for p in parts]
-        self._others = [f"{item} {reason}" for item, reason in left_out]
+        self._others = [f"Left out: {item} {reason}" for item, reason in left_out]
+        self._others += [f"Part of it: {p.item.name} is hidden in the view, but rendered" for p in parts if not p.item.visible_get()]
         action_names = [a.name for a in actions]
         try:
             with alone(key, name), scratch(folder) as temporary:
@@ -197,7 +198,7 @@ class NOOK_OT_bake(CommandOperator):
             if not self.is_kept and not known:
                 records.remove(key)
         if self._others:
-            self.report({"INFO"}, "Nook: not part of the character: " + "; ".join(self._others))
+            self.report({"INFO"}, "Nook: " + "; ".join(self._others))
         entry = shown.show(context, records.find_key(key).rig)
         show_colours(context)
         yield from self._measure(context, entry, action_names)
@@ -253,10 +254,10 @@ class NOOK_OT_bake(CommandOperator):
             if entry.record is not None:
                 entry.follow(context.evaluated_depsgraph_get(), records.setting(entry.armature, context.scene, "ground"))
         lines, why = result
-        entry.record.says = "\n".join([*lines, *(f"Left out: {other}" for other in self._others)])
+        entry.record.says = "\n".join([*lines, *self._others])
         self.report({"INFO"}, "Nook: " + " ".join(lines[:2]))
         if why:
-            self.report({"WARNING"}, "Nook: Blender shows another body than the baked one: " + "; ".join(why))
+            self.report({"WARNING"}, "Nook: Blender shows what the bake does not know: " + "; ".join(why))
 
 
 def find_again(item, name):

@@ -71,6 +71,28 @@ def set_parts(record, items):
         part.item, part.vertices = item, len(item.data.vertices)
 
 
+def to_words(record):
+    """A record without pointers."""
+    values = {name: getattr(record, name) for name in ("key", "folder", "relative", "stem", "is_shown", "says")}
+    parts = [(p.item.name, p.vertices) for p in record.parts if p.item is not None]
+    return record.id_data.name, record.rig.name, parts, values
+
+
+def from_words(words):
+    """The record again, if its objects are there and have no other one."""
+    scene_name, rig_name, parts, values = words
+    scene, rig = bpy.data.scenes.get(scene_name), bpy.data.objects.get(rig_name)
+    items = [bpy.data.objects.get(name) for name, _ in parts]
+    if scene is None or rig is None or None in items or find(rig) is not None:
+        return
+    record = make(scene, rig)
+    for name, value in values.items():
+        setattr(record, name, value)
+    for item, (_, vertices) in zip(items, parts):
+        part = record.parts.add()
+        part.item, part.vertices = item, vertices
+
+
 def folder_inside(folder):
     """A folder as seen from that of the saved .blend; None where it is not inside, links followed."""
     if not bpy.data.filepath:

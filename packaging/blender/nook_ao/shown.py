@@ -122,7 +122,11 @@ def write_colours(data, name, grey):
         attribute = data.color_attributes.new(name, "FLOAT_COLOR", "POINT")
     colours = np.ones((len(grey), 4), dtype=np.float32)
     colours[:, :3] = grey[:, None]
-    attribute.data.foreach_set("color", colours.ravel())
+    if data.library is None:
+        attribute.data.foreach_set("color", colours.ravel())
+    else:  # foreach_set leaves data of a library as they are, without a word
+        for element, colour in zip(attribute.data, colours.tolist()):
+            element.color = colour
     if not is_rendering() and data.color_attributes.active_color != attribute:
         data.color_attributes.active_color = data.color_attributes[name]
     data.update_tag()
@@ -213,7 +217,7 @@ def follow(scene, depsgraph=None):
     for key in list(_shown):
         entry = _shown[key]
         if entry.record is None:
-            continue  # an undo took the bake back; a redo brings it again
+            continue  # an undo took the armature back; a redo brings it again
         gone = entry.what_is_gone()
         if gone is not None:
             _stop(key, gone)
@@ -234,9 +238,25 @@ def end_render(*_):
     _renders[0] = False
 
 
+_before_undo = {}
+
+
+@bpy.app.handlers.persistent
+def remember(*_):
+    """What an undo may take back although the files stay: by names, because objects are made anew."""
+    _before_undo.clear()
+    for key in _shown:
+        record = records.find_key(key)
+        if record is not None and record.rig is not None:
+            _before_undo[key] = records.to_words(record)
+
+
 @bpy.app.handlers.persistent
 def repaint(*_):
-    """After an undo the meshes have the colours of another time."""
+    """After an undo a bake is still on disk, and the meshes have the colours of another time."""
+    for key, words in _before_undo.items():
+        if records.find_key(key) is None:
+            records.from_words(words)
     for entry in _shown.values():
         entry.painted = None
 
@@ -250,7 +270,8 @@ def forget(*_):
 
 
 HANDLERS = (("frame_change_post", follow), ("depsgraph_update_post", follow), ("render_init", begin_render), ("render_complete", end_render),
-            ("render_cancel", end_render), ("undo_post", repaint), ("redo_post", repaint), ("load_pre", forget))
+            ("render_cancel", end_render), ("undo_pre", remember), ("redo_pre", remember),
+            ("undo_post", repaint), ("redo_post", repaint), ("load_pre", forget))
 
 
 def register():

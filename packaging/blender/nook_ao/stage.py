@@ -40,9 +40,9 @@ class Stage:
 
     def _follow_copies(self, copy):
         if copy.parent in self.copies:
-            inverse = copy.matrix_parent_inverse.copy()
+            kind, bone, inverse = copy.parent_type, copy.parent_bone, copy.matrix_parent_inverse.copy()
             copy.parent = self.copies[copy.parent]
-            copy.matrix_parent_inverse = inverse
+            copy.parent_type, copy.parent_bone, copy.matrix_parent_inverse = kind, bone, inverse
         targets = [t for c in copy.constraints if c.type == "ARMATURE" for t in c.targets]
         for owner in (*copy.modifiers, *copy.constraints, *targets):
             for each in owner.bl_rna.properties:
