@@ -21,6 +21,15 @@ if [ "$(id -u)" -ne 0 ]; then
   fi
   as_root="sudo"
 fi
+if ! command -v apt-get > /dev/null; then
+  echo "install_packages.sh: there is no apt-get; install these packages by hand:$missing" >&2
+  exit 1
+fi
 echo "installing:$missing"
-$as_root apt-get update -q
-$as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing
+# The packages may be in a cache, so that a failure here is not the end.
+$as_root apt-get update -q || echo "install_packages.sh: apt-get update failed; is there a network?" >&2
+if ! $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing; then
+  echo "install_packages.sh: apt-get cannot install these packages (its reason is above):$missing" >&2
+  echo "install_packages.sh: it needs a network, the package lists of Debian 12 and no other apt-get that runs" >&2
+  exit 1
+fi

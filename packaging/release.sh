@@ -58,7 +58,7 @@ notices() {
     echo "The library holds code that the glad generator writes, and GLM's headers. The tool and nook_bake use the other libraries; they are"
     echo "not part of these files where a package manager brings them. Each text is that of the Debian package it was built with."
     for package in python3-glad libglm-dev libembree-dev libtbb-dev libeigen3-dev liblbfgspp-dev libopenimageio-dev libtinygltf-dev \
-                   libcli11-dev libmeshoptimizer-dev nlohmann-json3-dev; do
+                   libcli11-dev libmeshoptimizer-dev libdraco-dev nlohmann-json3-dev; do
       file=/usr/share/doc/$package/copyright
       [ -e "$file" ] || continue
       printf '\n%s\n%s %s\n%s\n\n' "$(printf '=%.0s' {1..78})" "$package" "$(dpkg-query -W -f '${Version}' "$package")" "$(printf '=%.0s' {1..78})"

@@ -47,6 +47,8 @@ on_display() { timeout 120 xvfb-run -a -s "-screen 0 1000x700x24" "$@"; }
 blender -b --factory-startup --python-exit-code 1 --python "$tests/blender_test.py" -- \
   "$addon" "$NOOK_TOOL" "$NOOK_LIBRARY" "$folder/character" ${1:+"$1"} | tee "$folder/log"
 grep -q "^the add-on passes" "$folder/log"
+left=$(find "$folder/temporary" -mindepth 1)
+[ -z "$left" ] || { echo "tests/blender.sh: Blender left $left" >&2; exit 1; }
 
 (cd "$folder" && run rows blender -b --factory-startup --python-exit-code 1 --python "$tests/rows_test.py" -- \
   "$quick" "$NOOK_LIBRARY" "$folder/rows")

@@ -35,14 +35,24 @@ void need_index(const char* name, std::size_t index, std::size_t count) {
                   count);
 }
 
-ImportedCharacter import_file(const char* path) {
+ImportedCharacter import_file(const char* path, const ImportOptions& options) {
   try {
-    return import_gltf(std::filesystem::path(reinterpret_cast<const char8_t*>(path)));
+    return import_gltf(std::filesystem::path(reinterpret_cast<const char8_t*>(path)), options);
   } catch (const Failure& failure) {
     // The message of the importer may already contain the name of the file.
     if (std::string_view(failure.what()).find(path) != std::string_view::npos) throw;
     throw Failure(failure.code(), "%s: %s", path, failure.what());
   }
+}
+
+std::vector<std::string> read_patterns(const char* name, const char* const* patterns, std::uint32_t count) {
+  if (count > 0) need(patterns, name);
+  std::vector<std::string> out;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    need(patterns[i], name);
+    out.emplace_back(patterns[i]);
+  }
+  return out;
 }
 
 ImportedCharacter character_of(const nook_bake_source_desc& desc) {
@@ -53,8 +63,17 @@ ImportedCharacter character_of(const nook_bake_source_desc& desc) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc has %s of desc.path, desc.bytes and arrays such as desc.positions; give exactly one",
                   sources == 0 ? "none" : "more than one");
-  if (desc.path) return import_file(desc.path);
-  if (desc.bytes) return import_gltf(std::span(static_cast<const std::byte*>(desc.bytes), desc.byte_count));
+  const MeshSelection meshes{read_patterns("desc.meshes", desc.meshes, desc.mesh_count),
+                             read_patterns("desc.without", desc.without, desc.without_count)};
+  if (has_arrays && !(meshes.only.empty() && meshes.without.empty()))
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.meshes and desc.without choose meshes of a file, but desc has arrays; leave them out");
+  if (desc.path)
+    return import_file(desc.path,
+                       {desc.allow_outside_files ? LinkedFiles::anywhere : LinkedFiles::folder, meshes});
+  if (desc.bytes)
+    return import_gltf(std::span(static_cast<const std::byte*>(desc.bytes), desc.byte_count), meshes);
   return character_of_arrays(desc);
 }
 

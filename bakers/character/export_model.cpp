@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "bakers/import/skinned_mesh.h"
@@ -197,10 +198,54 @@ void add_skins(const ImportedCharacter& character, BindData& out) {
   }
 }
 
-// The vertices that each bone moves more than any other bone does.
+using Cell = std::array<std::int64_t, 3>;
+
+struct CellVertices {
+  std::uint32_t first = 0;
+  bool is_mixed = false;  // not all vertices of the cell have the weights of the first
+};
+
+// Vertices that are nearer to each other than a host's match of vertices tells apart, and that have different
+// weights. The match may take one for the other, and both move apart in a pose. A cell is as large as the
+// tolerance of the match, so that only neighbours count.
+std::vector<bool> ambiguous_vertices(const SkinnedMesh& mesh) {
+  Vec3 low = mesh.position[0], high = low;
+  for (const Vec3 p : mesh.position) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const double size = std::max(1e-4 * static_cast<double>(length(high - low)), 1e-30);
+  const auto cell_of = [&](Vec3 p) {
+    const auto number = [&](float from, float to) {
+      return std::int64_t((double(to) - double(from)) / size);
+    };
+    return Cell{number(low.x, p.x), number(low.y, p.y), number(low.z, p.z)};
+  };
+  std::map<Cell, CellVertices> cells;
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    CellVertices& cell = cells.try_emplace(cell_of(mesh.position[v]), CellVertices{v, false}).first->second;
+    cell.is_mixed = cell.is_mixed || mesh.weights[v] != mesh.weights[cell.first];
+  }
+  std::vector<bool> out(mesh.vertex_count());
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    const Cell own = cell_of(mesh.position[v]);
+    for (std::int64_t neighbour = 0; neighbour < 27 && !out[v]; ++neighbour) {
+      const auto found = cells.find(
+          {own[0] + neighbour % 3 - 1, own[1] + neighbour / 3 % 3 - 1, own[2] + neighbour / 9 - 1});
+      if (found == cells.end()) continue;
+      out[v] = found->second.is_mixed || mesh.weights[found->second.first] != mesh.weights[v];
+    }
+  }
+  return out;
+}
+
+// The vertices that each bone moves more than any other bone does, without the ambiguous ones unless all are.
 std::vector<std::vector<std::uint32_t>> vertices_of_bones(const SkinnedMesh& mesh) {
+  std::vector<bool> left_out = ambiguous_vertices(mesh);
+  if (std::ranges::find(left_out, false) == left_out.end()) left_out.assign(left_out.size(), false);
   std::vector<std::vector<std::uint32_t>> out(mesh.bones.size());
-  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) out[mesh.weights[v].bone[0]].push_back(v);
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+    if (!left_out[v]) out[mesh.weights[v].bone[0]].push_back(v);
   return out;
 }
 

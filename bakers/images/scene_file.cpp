@@ -131,8 +131,11 @@ Environment read_environment(const std::filesystem::path& path) {
 
 namespace nook::bake {
 
-LitTriangles read_lit_triangles(const std::filesystem::path& path, bool textures, LinkedFiles linked) {
-  StaticScene scene = import_static_scene(path, textures ? SceneTextures::read : SceneTextures::skip, linked);
+LitTriangles read_lit_triangles(const std::filesystem::path& path, bool textures,
+                                const ImportOptions& options, std::vector<std::string>& warnings) {
+  StaticScene scene =
+      import_static_scene(path, textures ? SceneTextures::read : SceneTextures::skip, options);
+  warnings.insert(warnings.end(), scene.warnings.begin(), scene.warnings.end());
   std::vector<Texture> decoded;
   for (const EncodedImage& image : scene.image) decoded.push_back(decode_texture(image));
   return lit_triangles(std::move(scene), std::move(decoded));

@@ -4,8 +4,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
-#include "bakers/import/linked_files.h"
+#include "bakers/import/import_options.h"
 #include "bakers/raytrace/environment.h"
 #include "bakers/raytrace/lit_scene.h"
 #include "bakers/raytrace/texture.h"
@@ -39,8 +41,9 @@ struct ProbeScene {
 };
 
 // Throws Failure (BAD_FILE) that names the texture, where it is one's fault. Without textures their colour
-// factors stand for them.
-LitTriangles read_lit_triangles(const std::filesystem::path& path, bool textures, LinkedFiles linked);
+// factors stand for them. Adds the warnings of the import.
+LitTriangles read_lit_triangles(const std::filesystem::path& path, bool textures,
+                                const ImportOptions& options, std::vector<std::string>& warnings);
 
 ProbeScene make_probe_scene(LitTriangles triangles, Environment light);
 

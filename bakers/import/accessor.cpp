@@ -88,18 +88,15 @@ std::uint32_t load_integer(const unsigned char* at, int type, const std::string&
       return load<std::uint16_t>(at);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
       return load<std::uint32_t>(at);
-    case TINYGLTF_COMPONENT_TYPE_FLOAT: {
-      // Some exporters write joints as floats, against the specification; whole numbers are unambiguous.
-      const float v = load<float>(at);
-      if (v >= 0 && v < 16777216.0f && v == static_cast<float>(static_cast<std::uint32_t>(v)))
-        return static_cast<std::uint32_t>(v);
-      throw Failure(NOOK_ERROR_BAD_FILE, "%s holds %g (need whole numbers from 0)", what.c_str(),
-                    static_cast<double>(v));
-    }
     default:
       throw Failure(NOOK_ERROR_BAD_FILE, "%s has component type %d (need an unsigned integer type)",
                     what.c_str(), type);
   }
+}
+
+bool is_index_type(int type) {
+  return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
 struct Strided {
@@ -140,11 +137,11 @@ const tinygltf::Accessor& checked_accessor(const tinygltf::Model& model, int ind
   return model.accessors[index];
 }
 
-// Calls store(element, component, pointer) for each component of each element, dense data first, then sparse
-// overrides; elements never stored are zeros.
+// Calls store(element, component, pointer) for each component of the first `most` elements, dense data first,
+// then sparse overrides; elements never stored are zeros.
 template <typename Prepare, typename Store>
 void visit(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int wanted_components,
-           const std::string& what, Prepare prepare, Store store) {
+           std::size_t most, const std::string& what, Prepare prepare, Store store) {
   const std::size_t size = component_size(accessor.componentType);
   const int components = component_count(accessor.type);
   if (size == 0 || components == 0)
@@ -156,7 +153,7 @@ void visit(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int
   if (accessor.count > max_elements)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu elements (need at most %zu)", what.c_str(), accessor.count,
                   max_elements);
-  const std::size_t element_size = size * components;
+  const std::size_t element_size = size * components, wanted = std::min(accessor.count, most);
   const auto store_element = [&](std::size_t element, const unsigned char* at) {
     for (int c = 0; c < components; ++c) store(element * components + c, at + c * size);
   };
@@ -164,10 +161,10 @@ void visit(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int
   if (accessor.bufferView >= 0) {
     const Strided dense = checked_view(model, accessor.bufferView, accessor.byteOffset, accessor.count,
                                        element_size, true, what);
-    prepare(accessor.count, components);
-    for (std::size_t i = 0; i < accessor.count; ++i) store_element(i, dense.first + i * dense.stride);
+    prepare(wanted, components);
+    for (std::size_t i = 0; i < wanted; ++i) store_element(i, dense.first + i * dense.stride);
   } else {
-    prepare(accessor.count, components);
+    prepare(wanted, components);
   }
 
   if (!accessor.sparse.isSparse) return;
@@ -178,9 +175,11 @@ void visit(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int
                   "%s: sparse count %d or its offsets are out of range (accessor has %zu elements)",
                   what.c_str(), sparse.count, accessor.count);
   const std::size_t index_size = component_size(sparse.indices.componentType);
-  if (index_size == 0)
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s: sparse indices have component type %d", what.c_str(),
-                  sparse.indices.componentType);
+  if (!is_index_type(sparse.indices.componentType))
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%s: sparse indices have component type %d (need UNSIGNED_BYTE, _SHORT or _INT: 5121, 5123 "
+                  "or 5125)",
+                  what.c_str(), sparse.indices.componentType);
   const std::size_t count = sparse.count;
   const Strided indices = checked_view(model, sparse.indices.bufferView, sparse.indices.byteOffset, count,
                                        index_size, false, what + " (sparse indices)");
@@ -192,7 +191,7 @@ void visit(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int
     if (element >= accessor.count)
       throw Failure(NOOK_ERROR_BAD_FILE, "%s: sparse index %u (accessor has %zu elements)", what.c_str(),
                     element, accessor.count);
-    store_element(element, values.first + i * element_size);
+    if (element < wanted) store_element(element, values.first + i * element_size);
   }
 }
 
@@ -202,12 +201,12 @@ std::size_t element_count(const tinygltf::Model& model, int accessor, const std:
   return checked_accessor(model, accessor, what).count;
 }
 
-Floats read_floats(const tinygltf::Model& model, int accessor_index, int components,
-                   const std::string& what) {
+Floats read_floats(const tinygltf::Model& model, int accessor_index, int components, const std::string& what,
+                   std::size_t most) {
   const tinygltf::Accessor& accessor = checked_accessor(model, accessor_index, what);
   Floats out;
   visit(
-      model, accessor, components, what,
+      model, accessor, components, most, what,
       [&](std::size_t count, int per_element) {
         out.count = count;
         out.components = per_element;
@@ -228,7 +227,7 @@ Integers read_integers(const tinygltf::Model& model, int accessor_index, int com
   const tinygltf::Accessor& accessor = checked_accessor(model, accessor_index, what);
   Integers out;
   visit(
-      model, accessor, components, what,
+      model, accessor, components, ~std::size_t{0}, what,
       [&](std::size_t count, int per_element) {
         out.count = count;
         out.components = per_element;

@@ -1,4 +1,5 @@
-// Reads glTF accessors with every bound checked: tinygltf checks only some of them.
+// Reads glTF accessors with every bound checked: tinygltf checks only some of them. The time is linear in the
+// elements that are read.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -22,8 +23,10 @@ struct Floats {
 };
 Floats read_floats(const tinygltf::Model& model, int accessor, const std::string& what);
 
-// As read_floats, and the accessor must have this many components.
-Floats read_floats(const tinygltf::Model& model, int accessor, int components, const std::string& what);
+// As read_floats, and the accessor must have this many components. Only the first elements are read where
+// there are more than `most`.
+Floats read_floats(const tinygltf::Model& model, int accessor, int components, const std::string& what,
+                   std::size_t most = ~std::size_t{0});
 
 // Unsigned integers: indices and joints.
 struct Integers {

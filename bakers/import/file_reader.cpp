@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "bakers/import/draco_meshes.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -43,25 +45,23 @@ void check_structure(std::span<const std::byte> json) {
 
 // Read here, or without any bearing on geometry, poses and the colours that are read.
 bool is_readable(std::string_view extension) {
-  constexpr std::array<std::string_view, 9> names = {"KHR_mesh_quantization",
-                                                     "KHR_texture_transform",
-                                                     "KHR_texture_basisu",
-                                                     "KHR_lights_punctual",
-                                                     "KHR_xmp",
-                                                     "KHR_xmp_json_ld",
-                                                     "EXT_texture_webp",
-                                                     "EXT_texture_avif",
-                                                     "MSFT_texture_dds"};
+  constexpr std::array<std::string_view, 16> names = {"KHR_mesh_quantization",   "EXT_meshopt_compression",
+                                                      "KHR_meshopt_compression", "KHR_node_visibility",
+                                                      "KHR_node_selectability",  "KHR_node_hoverability",
+                                                      "EXT_mesh_gpu_instancing", "MSFT_lod",
+                                                      "KHR_texture_transform",   "KHR_texture_basisu",
+                                                      "KHR_lights_punctual",     "KHR_xmp",
+                                                      "KHR_xmp_json_ld",         "EXT_texture_webp",
+                                                      "EXT_texture_avif",        "MSFT_texture_dds"};
+  if (extension == "KHR_draco_mesh_compression") return reads_draco();
   return std::find(names.begin(), names.end(), extension) != names.end() ||
          extension.starts_with("KHR_materials_") || extension.starts_with("EXT_materials_");
 }
 
 const char* advice_for(std::string_view extension) {
   if (extension == "KHR_draco_mesh_compression") return "decode it first: gltf-transform copy IN.glb OUT.glb";
-  if (extension == "EXT_meshopt_compression" || extension == "KHR_meshopt_compression" ||
-      extension == "MESHOPT_compression")
+  if (extension == "MESHOPT_compression")
     return "decode it first: gltfpack -i IN.glb -o OUT.glb -noq, or gltf-transform copy IN.glb OUT.glb";
-  if (extension == "EXT_mesh_gpu_instancing") return "write the instances as nodes of their own";
   return "export it without";
 }
 
@@ -100,12 +100,62 @@ std::string percent_decoded(const std::string& uri) {
   return out;
 }
 
+// "2.0" as {2, 0}; glTF 1.0 may have a number there.
+bool read_version(const Json& value, int& major, int& minor) {
+  const std::string text = value.is_string()   ? value.get<std::string>()
+                           : value.is_number() ? value.dump()
+                                               : "";
+  char rest = 0;
+  minor = 0;
+  const int read = std::sscanf(text.c_str(), "%4d.%4d%c", &major, &minor, &rest);
+  return major >= 0 && minor >= 0 &&
+         (read == 2 || (read == 1 && text.find_first_not_of("0123456789") == text.npos));
+}
+
+void check_version(const Json& document) {
+  const auto asset = document.find("asset");
+  if (asset == document.end() || !asset->is_object() || !asset->contains("version"))
+    throw Failure(NOOK_ERROR_BAD_FILE, "the file has no asset.version (need 2.0); export it as glTF 2.0");
+  const auto written = [&](const char* key) { return (*asset)[key].dump().substr(0, 40); };
+  int major = 0, minor = 0;
+  if (!read_version((*asset)["version"], major, minor) || major != 2)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the file is of glTF version %s, by its asset.version (need 2.x); export it as glTF 2.0",
+                  written("version").c_str());
+  if (!asset->contains("minVersion")) return;
+  if (!read_version((*asset)["minVersion"], major, minor) || major != 2 || minor > 0)
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "the file needs a reader of glTF version %s, by its asset.minVersion (this one reads 2.0); export "
+        "it as glTF 2.0",
+        written("minVersion").c_str());
+}
+
+// What the parser makes of a URI: it takes any two characters after % for digits, and + for a space.
+bool is_decoded_alike(const std::string& uri) {
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    if (uri[i] == '+') return false;
+    if (uri[i] == '%' && (i + 2 >= uri.size() || hex_digit(uri[i + 1]) < 0 || hex_digit(uri[i + 2]) < 0))
+      return false;
+  }
+  return true;
+}
+
+// The URI of a file, null for data and for what has none.
+const std::string* file_uri(const Json& entry) {
+  if (!entry.is_object()) return nullptr;
+  const auto uri = entry.find("uri");
+  if (uri == entry.end() || !uri->is_string()) return nullptr;
+  const std::string& text = uri->get_ref<const std::string&>();
+  return text.starts_with("data:") ? nullptr : &text;
+}
+
 void check_buffers(const Json& document, std::set<std::string>& files) {
   const auto buffers = document.find("buffers");
   if (buffers == document.end() || !buffers->is_array()) return;
   std::uint64_t total = 0;
   for (const Json& buffer : *buffers) {
-    if (!buffer.is_object()) continue;
+    if (!buffer.is_object() || is_fallback_buffer(buffer)) continue;
     const auto length = buffer.find("byteLength");
     if (length != buffer.end() && length->is_number()) {
       const double bytes = length->get<double>();
@@ -113,10 +163,40 @@ void check_buffers(const Json& document, std::set<std::string>& files) {
       if (total > max_file_bytes)
         throw Failure(NOOK_ERROR_BAD_FILE, "buffers of more than 2 GiB in all; split the file");
     }
-    const auto uri = buffer.find("uri");
-    if (uri != buffer.end() && uri->is_string() && !uri->get_ref<const std::string&>().starts_with("data:"))
-      files.insert(percent_decoded(uri->get_ref<const std::string&>()));
+    if (const std::string* uri = file_uri(buffer)) files.insert(percent_decoded(*uri));
   }
+}
+
+// Replaces names of files and buffers without bytes, if there is one that the parser would misread.
+void replace_uris(Json& document, GltfPreflight& result) {
+  bool is_needed = false;
+  const auto for_each = [&](const char* list, const auto& visit) {
+    const auto entries = document.find(list);
+    if (entries != document.end() && entries->is_array())
+      for (Json& entry : *entries) visit(entry);
+  };
+  const auto look = [&](const Json& entry) {
+    const std::string* uri = file_uri(entry);
+    is_needed = is_needed || (uri && !is_decoded_alike(*uri)) || is_fallback_buffer(entry);
+  };
+  for_each("buffers", look);
+  for_each("images", look);
+  if (!is_needed) return;
+  const auto replace = [&](Json& entry) {
+    if (is_fallback_buffer(entry)) {
+      const std::string room = "room-" + std::to_string(result.rooms.size());
+      result.rooms.insert(room);
+      entry["uri"] = room;
+      entry["byteLength"] = 1;
+    } else if (const std::string* uri = file_uri(entry)) {
+      const std::string name = "file-" + std::to_string(result.names.size());
+      result.names.emplace(name, percent_decoded(*uri));
+      entry["uri"] = name;
+    }
+  };
+  for_each("buffers", replace);
+  for_each("images", replace);
+  result.replacement = document.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -124,11 +204,14 @@ void check_buffers(const Json& document, std::set<std::string>& files) {
 GltfPreflight check_before_parsing(std::span<const std::byte> json) {
   check_structure(json);
   const char* first = reinterpret_cast<const char*>(json.data());
-  const Json document = Json::parse(first, first + json.size(), nullptr, false);
+  Json document = Json::parse(first, first + json.size(), nullptr, false);
   GltfPreflight result;
   if (!document.is_object()) return result;
+  check_version(document);
   check_extensions(document);
   check_buffers(document, result.buffer_files);
+  result.compressed_views = find_compressed_views(document);
+  replace_uris(document, result);
   return result;
 }
 
@@ -137,7 +220,7 @@ namespace {
 // Returns whether a relative path climbs above where it starts.
 bool climbs(const std::string& relative) {
   const std::filesystem::path normal = std::filesystem::path(relative).lexically_normal();
-  return normal.is_absolute() || (!normal.empty() && *normal.begin() == "..");
+  return normal.has_root_path() || (!normal.empty() && *normal.begin() == "..");
 }
 
 }  // namespace
@@ -181,42 +264,77 @@ tinygltf::FsCallbacks LinkedFileReader::callbacks() {
   return callbacks;
 }
 
+std::string LinkedFileReader::name_of(const std::string& path) const {
+  std::string prefix = folder_;
+  if (!prefix.ends_with('/')) prefix += '/';
+  if (!path.starts_with(prefix)) return "";
+  const std::string uri = path.substr(prefix.size());
+  const auto name = preflight_.names.find(uri);
+  return name == preflight_.names.end() ? uri : name->second;
+}
+
+bool LinkedFileReader::is_room(const std::string& path) const {
+  return preflight_.rooms.contains(path.substr(path.rfind('/') + 1));
+}
+
+bool LinkedFileReader::refuse(const std::string& name, const char* why) {
+  fault_ = "names \"";
+  fault_.append(name, 0, 120).append("\", ").append(why);
+  return false;
+}
+
+// Links are followed to their end: the file must lie where the folder does.
+bool LinkedFileReader::leaves_folder(const std::string& name) const {
+  std::error_code no_folder, no_file;
+  const std::filesystem::path folder = std::filesystem::canonical(folder_, no_folder);
+  const std::filesystem::path file =
+      std::filesystem::canonical(std::filesystem::path(folder_) / name, no_file);
+  if (no_folder || no_file) return true;
+  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first != folder.end();
+}
+
 // tinygltf looks for every name twice, in the folder given and in the current one, where nothing is to be
 // read.
 bool LinkedFileReader::may_open(const std::string& path) {
-  std::string prefix = folder_;
-  if (!prefix.ends_with('/')) prefix += '/';
+  if (is_room(path)) return true;
   if (folder_.empty()) {
     fault_ = "external files are not read from memory; put the buffers into the file";
     return false;
   }
-  if (!path.starts_with(prefix)) return false;
-  const std::string name = path.substr(prefix.size());
-  if (only_ && !only_->contains(name)) return false;
-  const auto refuse = [&](const char* why) {
-    fault_ = "names \"";
-    fault_.append(name, 0, 120).append("\", ").append(why);
-    return false;
-  };
+  const std::string name = name_of(path);
+  if (name.empty() || (only_buffers_ && !preflight_.buffer_files.contains(name))) return false;
+  // A C string ends there, so that another file would be opened than was checked.
+  if (name.find('\0') != std::string::npos) return refuse(name.c_str(), "with a NUL character; rename it");
   if (linked_ == LinkedFiles::folder && climbs(name))
-    return refuse("outside of its own folder; copy it there, or allow files outside");
+    return refuse(name,
+                  "outside of its own folder; copy it there, or allow files outside (--allow-outside-files)");
   std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) return refuse("which is not there");
-  if (!std::filesystem::is_regular_file(status)) return refuse("which is no regular file");
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error || size > left_) return refuse("with which its files have more than 2 GiB");
+  const std::filesystem::path file = std::filesystem::path(folder_) / name;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) return refuse(name, "which is not there");
+  if (linked_ == LinkedFiles::folder && leaves_folder(name))
+    return refuse(name,
+                  "a link that leads outside of its own folder; copy the file there, or "
+                  "allow files outside (--allow-outside-files)");
+  if (!std::filesystem::is_regular_file(status)) return refuse(name, "which is no regular file");
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error || size > left_) return refuse(name, "with which its files have more than 2 GiB");
   return true;
 }
 
 bool LinkedFileReader::read(const std::string& path, std::vector<unsigned char>& out) {
+  if (is_room(path)) {
+    out.assign(1, 0);
+    return true;
+  }
   std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  const std::filesystem::path named = std::filesystem::path(folder_) / name_of(path);
+  const std::uintmax_t size = std::filesystem::file_size(named, error);
   if (error || size > left_) return false;
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file(named, std::ios::binary);
   out.resize(std::size_t(size));
   if (!file || !file.read(reinterpret_cast<char*>(out.data()), std::streamsize(size))) {
-    fault_ = "names a file that cannot be read: " + path.substr(0, 200);
+    fault_ = "names a file that cannot be read: " + named.string().substr(0, 200);
     return false;
   }
   left_ -= size;

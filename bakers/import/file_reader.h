@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "bakers/import/linked_files.h"
+#include "bakers/import/meshopt_views.h"
 
 namespace nook::bake {
 
@@ -22,12 +24,18 @@ constexpr std::uint64_t max_file_bytes = std::uint64_t{1} << 31;
 
 struct GltfPreflight {
   std::set<std::string> buffer_files;  // URIs of the buffers in other files, decoded
+  std::vector<CompressedView> compressed_views;
+  // The JSON that the parser gets instead of the file's; empty: the file's own. The parser decodes URIs in
+  // its own way, and needs bytes for buffers that are only room for decompressed views.
+  std::string replacement;
+  std::map<std::string, std::string> names;  // of files, by their URI in the replacement
+  std::set<std::string> rooms;               // URIs of the buffers without bytes
 };
 
 // Looks at the JSON of a file. Fails with BAD_FILE on nesting deeper than 128 levels, on more than 2^24
-// values, on extensions that the file requires and nobody reads here, which are named with the tool that
-// takes them out, and on buffers of more than max_file_bytes in all. Anything else that is wrong is left to
-// the parser.
+// values, on versions other than 2.x or a minimum above 2.0, on extensions that the file requires and nobody
+// reads here, which are named with the tool that takes them out, and on buffers of more than max_file_bytes
+// in all. Anything else that is wrong is left to the parser. The time is linear in the text.
 GltfPreflight check_before_parsing(std::span<const std::byte> json);
 
 // Reads a glTF file and the files that it names, each within limits.
@@ -38,10 +46,10 @@ std::vector<std::byte> read_file_bytes(const std::filesystem::path& path);
 // The reader that tinygltf opens files through. It opens regular files of at most max_file_bytes in all.
 class LinkedFileReader {
  public:
-  // folder empty: no file is opened. only: decoded URIs; files with other names are passed over unopened;
-  // null: all are opened.
-  LinkedFileReader(std::string folder, LinkedFiles linked, const std::set<std::string>* only)
-      : folder_(std::move(folder)), linked_(linked), only_(only) {}
+  // folder empty: no file is opened. only_buffers: files with other names are passed over unopened. The
+  // preflight must outlive this.
+  LinkedFileReader(std::string folder, LinkedFiles linked, const GltfPreflight& preflight, bool only_buffers)
+      : folder_(std::move(folder)), linked_(linked), preflight_(preflight), only_buffers_(only_buffers) {}
 
   // They point to this object.
   tinygltf::FsCallbacks callbacks();
@@ -52,10 +60,15 @@ class LinkedFileReader {
  private:
   bool may_open(const std::string& path);
   bool read(const std::string& path, std::vector<unsigned char>& out);
+  bool is_room(const std::string& path) const;
+  std::string name_of(const std::string& path) const;
+  bool refuse(const std::string& name, const char* why);
+  bool leaves_folder(const std::string& name) const;
 
   std::string folder_;
   LinkedFiles linked_;
-  const std::set<std::string>* only_;
+  const GltfPreflight& preflight_;
+  bool only_buffers_;
   std::uint64_t left_ = max_file_bytes;
   std::string fault_;
 };

@@ -5,11 +5,14 @@
 #include <span>
 
 #include "bakers/import/accessor.h"
+#include "bakers/import/coincident_surfaces.h"
 #include "bakers/import/file_reader.h"
+#include "bakers/import/gltf_check.h"
 #include "bakers/import/gltf_clips.h"
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_mesh.h"
 #include "bakers/import/gltf_skeleton.h"
+#include "bakers/import/shown_nodes.h"
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/hash.h"
@@ -17,7 +20,8 @@
 namespace nook::bake {
 namespace {
 
-Skin read_skin(const tinygltf::Model& model, int index, const NodeTree& nodes) {
+Skin read_skin(const tinygltf::Model& model, int index, const NodeTree& nodes,
+               std::vector<std::string>& warnings) {
   const tinygltf::Skin& source = model.skins[index];
   const std::string what = "skin " + std::to_string(index);
   if (source.joints.empty()) throw Failure(NOOK_ERROR_BAD_FILE, "%s has no joints", what.c_str());
@@ -33,9 +37,9 @@ Skin read_skin(const tinygltf::Model& model, int index, const NodeTree& nodes) {
   }
   std::vector<std::uint32_t> sorted = skin.joint;
   std::sort(sorted.begin(), sorted.end());
-  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twice != sorted.end())
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s lists joint node %u twice", what.c_str(), *twice);
+  if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
+    warnings.push_back(what + " lists joint node " + std::to_string(*twice) +
+                       " twice, which glTF forbids; both entries follow it");
   // Without the accessor all matrices are identity: glTF 2.0, section 3.7.3.1.
   skin.inverse_bind.resize(skin.joint.size());
   if (source.inverseBindMatrices < 0) return skin;
@@ -44,7 +48,8 @@ Skin read_skin(const tinygltf::Model& model, int index, const NodeTree& nodes) {
   if (count < skin.joint.size() || count > max_bone_count)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu inverse bind matrices for %zu joints", what.c_str(), count,
                   skin.joint.size());
-  const Floats matrices = read_floats(model, source.inverseBindMatrices, 16, matrices_name);
+  const Floats matrices =
+      read_floats(model, source.inverseBindMatrices, 16, matrices_name, skin.joint.size());
   for (std::size_t j = 0; j < skin.joint.size(); ++j) {
     std::array<double, 16> columns;
     std::copy_n(matrices.value.begin() + 16 * j, 16, columns.begin());
@@ -74,13 +79,13 @@ struct MeshNodes {
   std::vector<std::uint32_t> rigid_nodes;
 };
 
-MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes) {
-  const std::vector<int> shown = shown_meshes(model, nodes);
+MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes, const ShownNodes& shown,
+                          std::vector<std::string>& warnings) {
   MeshNodes out;
   std::vector<std::int64_t> place_of_skin(model.skins.size(), -1);
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {
     const int skin = model.nodes[i].skin;
-    if (shown[i] < 0) continue;
+    if (!shown.shows(i)) continue;
     if (skin < 0) {
       out.all.push_back({i, false, out.rigid_nodes.size()});
       out.rigid_nodes.push_back(i);
@@ -90,7 +95,7 @@ MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes) {
       throw Failure(NOOK_ERROR_BAD_FILE, "node %u names skin %d (file has %zu)", i, skin, model.skins.size());
     if (place_of_skin[skin] < 0) {
       place_of_skin[skin] = static_cast<std::int64_t>(out.skins.size());
-      out.skins.push_back(read_skin(model, skin, nodes));
+      out.skins.push_back(read_skin(model, skin, nodes, warnings));
       out.file_skins.push_back(static_cast<std::uint32_t>(skin));
     }
     out.all.push_back({i, true, static_cast<std::size_t>(place_of_skin[skin])});
@@ -98,6 +103,10 @@ MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes) {
   if (out.all.empty()) throw Failure(NOOK_ERROR_BAD_FILE, "no triangles: the scene shows no mesh");
   return out;
 }
+
+// Nodes and bones over all sampled poses: those of thousands of clips of usual characters, so that the work
+// does not grow with clips times nodes.
+constexpr std::size_t max_checked_matrices = std::size_t{1} << 24;
 
 // Bones that a clip shears or scales unevenly: their matrices are replaced by the nearest similarity.
 void warn_of_uneven_bones(ImportedCharacter& character) {
@@ -110,12 +119,24 @@ void warn_of_uneven_bones(ImportedCharacter& character) {
     for (std::size_t b = 0; b < worst.size(); ++b) worst[b] = std::max(worst[b], deviation[b]);
   };
   look(default_locals(character.nodes));
-  for (const Clip& clip : character.clips)
+  std::size_t left = max_checked_matrices, unchecked = 0;
+  for (const Clip& clip : character.clips) {
+    const std::size_t cost = samples * (character.nodes.size() + worst.size());
+    if (cost > left) {
+      ++unchecked;
+      continue;
+    }
+    left -= cost;
     for (int i = 0; i < samples; ++i) {
       std::vector<Trs> locals = default_locals(character.nodes);
       apply_clip(clip, clip.duration_s * static_cast<float>(i) / (samples - 1), locals);
       look(locals);
     }
+  }
+  if (unchecked > 0)
+    character.warnings.push_back(
+        std::to_string(unchecked) +
+        " clips were not checked for shear and uneven scale, because the file has so many");
   for (std::size_t b = 0; b < worst.size(); ++b) {
     if (worst[b] <= tolerance) continue;
     char percent[32];
@@ -167,30 +188,60 @@ Skeleton skeleton_of(ImportedCharacter& character, const MeshNodes& mesh_nodes) 
   return skeleton;
 }
 
-ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAccess& files) {
-  const tinygltf::Model model = parse_gltf(bytes, files);
-  ImportedCharacter character;
-  character.source_hash = hash_of(bytes, model);
-  character.nodes = read_nodes(model);
-  character.clips = read_clips(model, character.nodes, character.warnings);
+// The triangles of primitives in file order.
+SurfaceParts parts_of(const FileMesh& file, const std::vector<std::uint32_t>& node_of_primitive) {
+  SurfaceParts parts;
+  std::size_t end = 0;
+  std::uint32_t of_node = 0;
+  for (std::size_t p = 0; p < file.primitives.size(); ++p) {
+    const std::size_t end_vertex = file.primitives[p].first_vertex + file.primitives[p].vertex_count;
+    while (end < file.triangle.size() && file.triangle[end][0] < end_vertex) ++end;
+    of_node = p > 0 && node_of_primitive[p] == node_of_primitive[p - 1] ? of_node + 1 : 0;
+    parts.all.push_back({node_of_primitive[p], of_node, end});
+  }
+  return parts;
+}
 
-  const MeshNodes mesh_nodes = find_mesh_nodes(model, character.nodes);
-  Skeleton skeleton = skeleton_of(character, mesh_nodes);
-
-  FileMesh file;
+// The meshes of all nodes, one after another.
+void append_meshes(const tinygltf::Model& model, const MeshNodes& mesh_nodes, const Skeleton& skeleton,
+                   ImportedCharacter& character, FileMesh& file) {
   MeshRepairs repairs;
   for (const MeshNode& at : mesh_nodes.all) {
-    const MeshBinding& binding =
-        at.is_skinned ? skeleton.skins[at.binding] : skeleton.rigid_parts[at.binding];
+    MeshBinding binding = at.is_skinned ? skeleton.skins[at.binding] : skeleton.rigid_parts[at.binding];
     if (binding.bone.empty()) {
       character.warnings.push_back("mesh node \"" + character.nodes.nodes[at.node].name +
                                    "\" has no skin and hangs on no joint and was left out");
       continue;
     }
-    append_mesh(model, model.nodes[at.node], binding, file, repairs);
-    character.rest_from_primitive.resize(file.primitives.size(), binding.rest_from_mesh);
+    const Affine rest_from_node = binding.rest_from_mesh;
+    for (const Affine& instance : mesh_instances(model, at.node)) {
+      binding.rest_from_mesh = rest_from_node * instance;
+      append_mesh(model, model.nodes[at.node], binding, file, repairs);
+      character.rest_from_primitive.resize(file.primitives.size(), binding.rest_from_mesh);
+      character.node_of_primitive.resize(file.primitives.size(), at.node);
+    }
   }
   add_warnings(repairs, character.warnings);
+}
+
+ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAccess& files,
+                               const MeshSelection& selection) {
+  const tinygltf::Model model = parse_gltf(bytes, files);
+  ImportedCharacter character;
+  character.source_hash = hash_of(bytes, model);
+  character.nodes = read_nodes(model);
+  character.warnings = document_warnings(model);
+  character.clips = read_clips(model, character.nodes, character.warnings);
+
+  const ShownNodes shown = choose_nodes(model, character.nodes, selection);
+  character.warnings.insert(character.warnings.end(), shown.notes.begin(), shown.notes.end());
+  const MeshNodes mesh_nodes = find_mesh_nodes(model, character.nodes, shown, character.warnings);
+  Skeleton skeleton = skeleton_of(character, mesh_nodes);
+
+  FileMesh file;
+  append_meshes(model, mesh_nodes, skeleton, character, file);
+  warn_of_coincident_surfaces(model, parts_of(file, character.node_of_primitive), file.position,
+                              file.triangle, character.warnings);
   for (std::size_t s = 0; s < skeleton.skins.size(); ++s)
     character.skins.push_back(
         {mesh_nodes.file_skins[s], skeleton.skins[s].rest_from_mesh, std::move(skeleton.skins[s].bone)});
@@ -204,13 +255,14 @@ ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAcces
 
 }  // namespace
 
-ImportedCharacter import_gltf(const std::filesystem::path& path, LinkedFiles linked) {
+ImportedCharacter import_gltf(const std::filesystem::path& path, const ImportOptions& options) {
   return import_bytes(read_file_bytes(path),
-                      {std::filesystem::absolute(path).parent_path().string(), linked});
+                      {std::filesystem::absolute(path).parent_path().string(), options.linked},
+                      options.meshes);
 }
 
-ImportedCharacter import_gltf(std::span<const std::byte> bytes) {
-  return import_bytes(bytes, {});
+ImportedCharacter import_gltf(std::span<const std::byte> bytes, const MeshSelection& meshes) {
+  return import_bytes(bytes, {}, meshes);
 }
 
 }  // namespace nook::bake

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bakers/import/clip.h"
-#include "bakers/import/linked_files.h"
+#include "bakers/import/import_options.h"
 #include "bakers/import/node_tree.h"
 #include "bakers/import/skinned_mesh.h"
 
@@ -41,14 +41,16 @@ struct ImportedCharacter {
   std::vector<BoundSkin> skins;       // those that a shown mesh uses
   // For each primitive of the mesh the matrix from its POSITION attribute to rest space.
   std::vector<Affine> rest_from_primitive;
+  // For each primitive of the mesh the node of the file that shows it.
+  std::vector<std::uint32_t> node_of_primitive;
   std::vector<std::string> warnings;  // what was left out or repaired, one sentence each
   std::uint64_t source_hash = 0;      // XXH64 of the file's bytes and of the external buffers it names
 };
 
 // Fails with BAD_FILE; the message names the fault, and the caller adds the name of the file.
-ImportedCharacter import_gltf(const std::filesystem::path& path, LinkedFiles linked = LinkedFiles::folder);
+ImportedCharacter import_gltf(const std::filesystem::path& path, const ImportOptions& options = {});
 
 // From memory, without access to any file: buffers must be in the bytes or in data URIs.
-ImportedCharacter import_gltf(std::span<const std::byte> bytes);
+ImportedCharacter import_gltf(std::span<const std::byte> bytes, const MeshSelection& meshes = {});
 
 }  // namespace nook::bake

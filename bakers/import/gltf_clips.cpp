@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "bakers/import/accessor.h"
 #include "bakers/import/node_tree.h"
@@ -27,6 +28,41 @@ Interpolation interpolation_of(const std::string& text, const std::string& what)
   if (text == "CUBICSPLINE") return Interpolation::cubic_spline;
   throw Failure(NOOK_ERROR_BAD_FILE, "%s: interpolation \"%s\" (need LINEAR, STEP or CUBICSPLINE)",
                 what.c_str(), text.c_str());
+}
+
+// Faults of keys that have one reading; counted over all channels.
+struct KeyRepairs {
+  std::size_t equal_times = 0, not_unit = 0, twice = 0;
+};
+
+// Rotations in bytes are off by up to 2 %, those in floats by rounding.
+bool has_not_unit_rotation(const Channel& channel) {
+  if (channel.path != ChannelPath::rotation) return false;
+  const bool is_cubic = channel.interpolation == Interpolation::cubic_spline;
+  for (std::size_t k = is_cubic ? 1 : 0; 4 * k + 3 < channel.value.size(); k += is_cubic ? 3 : 1) {
+    double square = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      square += double(channel.value[4 * k + i]) * double(channel.value[4 * k + i]);
+    if (!(std::abs(square - 1) < 0.05)) return true;
+  }
+  return false;
+}
+
+void look_at_keys(const Channel& channel, KeyRepairs& repairs) {
+  if (std::adjacent_find(channel.time_s.begin(), channel.time_s.end()) != channel.time_s.end())
+    ++repairs.equal_times;
+  if (has_not_unit_rotation(channel)) ++repairs.not_unit;
+}
+
+void add_warnings(const KeyRepairs& repairs, std::vector<std::string>& warnings) {
+  const auto warn = [&](std::size_t count, const char* what) {
+    if (count > 0) warnings.push_back(std::to_string(count) + what);
+  };
+  warn(repairs.equal_times, " animation channels have equal key times; the last key of each time counts");
+  warn(repairs.not_unit,
+       " animation channels have rotations that are not unit quaternions; they were normalised");
+  warn(repairs.twice,
+       " animation channels move what another channel of their clip moves; the last one counts");
 }
 
 // left: of max_key_floats; what the channel takes is taken off.
@@ -91,10 +127,12 @@ std::vector<Clip> read_clips(const tinygltf::Model& model, const NodeTree& nodes
   std::vector<Clip> clips;
   std::size_t left = max_key_floats;
   std::size_t morph_channels = 0;
+  KeyRepairs repairs;
   for (std::size_t a = 0; a < model.animations.size(); ++a) {
     const tinygltf::Animation& animation = model.animations[a];
     Clip clip;
     clip.name = names[a];
+    std::set<std::pair<int, ChannelPath>> moved;
     for (std::size_t c = 0; c < animation.channels.size(); ++c) {
       const tinygltf::AnimationChannel& source = animation.channels[c];
       const std::string what = "clip \"" + clip.name + "\" channel " + std::to_string(c);
@@ -112,6 +150,8 @@ std::vector<Clip> read_clips(const tinygltf::Model& model, const NodeTree& nodes
                       "%s animates node %d, which has a matrix (need translation, rotation, scale)",
                       what.c_str(), source.target_node);
       clip.channels.push_back(read_channel(model, animation, source, *path, what, left));
+      look_at_keys(clip.channels.back(), repairs);
+      if (!moved.insert({source.target_node, *path}).second) ++repairs.twice;
     }
     if (clip.channels.empty()) {
       warnings.push_back("clip \"" + clip.name + "\" moves no node and was left out");
@@ -120,6 +160,7 @@ std::vector<Clip> read_clips(const tinygltf::Model& model, const NodeTree& nodes
     settle_times(clip);
     clips.push_back(std::move(clip));
   }
+  add_warnings(repairs, warnings);
   if (morph_channels > 0)
     warnings.push_back(std::to_string(morph_channels) +
                        " animation channels move no node (morph targets) and were left out");

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <cstring>
 
+#include "bakers/import/draco_meshes.h"
 #include "bakers/import/file_reader.h"
+#include "bakers/import/gltf_check.h"
+#include "bakers/import/meshopt_views.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -28,7 +31,10 @@ std::span<const std::byte> json_of_binary(std::span<const std::byte> bytes) {
   const std::uint32_t version = load_u32(bytes, 4);
   const std::uint32_t total = load_u32(bytes, 8);
   const std::uint32_t json = load_u32(bytes, 12);
-  if (version != 2) throw Failure(NOOK_ERROR_BAD_FILE, "glTF version %u (need 2)", version);
+  if (version != 2)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the file is of glTF version %u, by its binary header (need 2); export it as glTF 2.0",
+                  version);
   if (total > bytes.size() || total < 20)
     throw Failure(NOOK_ERROR_BAD_FILE, "truncated .glb (got %zu bytes, its header says %u)", bytes.size(),
                   total);
@@ -100,21 +106,37 @@ Node read_node(const tinygltf::Node& source, std::size_t index) {
   return node;
 }
 
-// Which nodes the default scene shows; all of them when the file has no scene.
-std::vector<bool> shown_nodes(const tinygltf::Model& model, const NodeTree& nodes) {
-  if (model.scenes.empty()) return std::vector<bool>(nodes.size(), true);
-  const int scene = model.defaultScene < 0 ? 0 : model.defaultScene;
-  if (static_cast<std::size_t>(scene) >= model.scenes.size())
-    throw Failure(NOOK_ERROR_BAD_FILE, "default scene is %d (file has %zu)", scene, model.scenes.size());
-  std::vector<bool> shown(nodes.size(), false);
-  for (const int root : model.scenes[scene].nodes) {
-    if (root < 0 || static_cast<std::size_t>(root) >= nodes.size())
-      throw Failure(NOOK_ERROR_BAD_FILE, "scene %d names node %d (file has %zu)", scene, root, nodes.size());
-    shown[root] = true;
+// The bytes of the file with another JSON chunk. glTF 2.0, section 4.4: chunks are padded to 4 bytes.
+std::vector<std::byte> with_json(std::span<const std::byte> bytes, std::string json) {
+  const auto* text = reinterpret_cast<const std::byte*>(json.data());
+  if (!is_binary(bytes)) return {text, text + json.size()};
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  text = reinterpret_cast<const std::byte*>(json.data());
+  const std::size_t chunks_at = 20 + json_of_binary(bytes).size();
+  const std::span<const std::byte> chunks = bytes.subspan(chunks_at, load_u32(bytes, 8) - chunks_at);
+  std::vector<std::byte> out(bytes.begin(), bytes.begin() + 20);
+  out.insert(out.end(), text, text + json.size());
+  out.insert(out.end(), chunks.begin(), chunks.end());
+  const auto store = [&](std::size_t at, std::size_t value) {
+    const auto word = static_cast<std::uint32_t>(value);
+    std::memcpy(out.data() + at, &word, sizeof word);
+  };
+  store(8, out.size());
+  store(12, json.size());
+  return out;
+}
+
+// URIs as the file has them, decoded; what was only room for decompressed views has neither name nor bytes.
+void restore_uris(const GltfPreflight& preflight, tinygltf::Model& model) {
+  const auto restore = [&](std::string& uri) {
+    const auto name = preflight.names.find(uri);
+    if (name != preflight.names.end()) uri = name->second;
+  };
+  for (tinygltf::Image& image : model.images) restore(image.uri);
+  for (tinygltf::Buffer& buffer : model.buffers) {
+    restore(buffer.uri);
+    if (preflight.rooms.contains(buffer.uri)) buffer = tinygltf::Buffer();
   }
-  for (const std::uint32_t i : nodes.order)
-    if (nodes.nodes[i].parent >= 0 && shown[nodes.nodes[i].parent]) shown[i] = true;
-  return shown;
 }
 
 }  // namespace
@@ -124,9 +146,14 @@ tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const FileAccess& f
   if (bytes.size() > 0x7fffffffu)
     throw Failure(NOOK_ERROR_BAD_FILE, "file of %zu bytes (need less than 2 GiB)", bytes.size());
   const GltfPreflight preflight = check_before_parsing(is_binary(bytes) ? json_of_binary(bytes) : bytes);
+  std::vector<std::byte> replaced;
+  if (!preflight.replacement.empty()) {
+    replaced = with_json(bytes, preflight.replacement);
+    bytes = replaced;
+    if (bytes.size() > 0x7fffffffu) throw Failure(NOOK_ERROR_BAD_FILE, "the file has 2 GiB or more");
+  }
 
-  LinkedFileReader reader(files.folder, files.linked,
-                          images == Images::keep ? nullptr : &preflight.buffer_files);
+  LinkedFileReader reader(files.folder, files.linked, preflight, images != Images::keep);
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(images == Images::keep ? keep_encoded_image : accept_any_image, nullptr);
   loader.SetFsCallbacks(reader.callbacks());
@@ -155,6 +182,10 @@ tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const FileAccess& f
     throw Failure(NOOK_ERROR_BAD_FILE, "not a glTF 2.0 file, or a damaged one: %s",
                   error.empty() ? "the parser gives no reason" : one_line(error).c_str());
   check_names(model);
+  restore_uris(preflight, model);
+  decompress_views(preflight.compressed_views, model);
+  decompress_draco(model);
+  check_types(model);
   return model;
 }
 
@@ -179,20 +210,6 @@ NodeTree read_nodes(const tinygltf::Model& model) {
       throw Failure(NOOK_ERROR_BAD_FILE, "node %zu (\"%s\") has a world matrix that is not finite", i,
                     tree.nodes[i].name.c_str());
   return tree;
-}
-
-std::vector<int> shown_meshes(const tinygltf::Model& model, const NodeTree& nodes) {
-  const std::vector<bool> shown = shown_nodes(model, nodes);
-  std::vector<int> meshes(nodes.size(), -1);
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const int mesh = model.nodes[n].mesh;
-    if (mesh < 0 || !shown[n]) continue;
-    if (static_cast<std::size_t>(mesh) >= model.meshes.size())
-      throw Failure(NOOK_ERROR_BAD_FILE, "node %zu names mesh %d (file has %zu)", n, mesh,
-                    model.meshes.size());
-    meshes[n] = mesh;
-  }
-  return meshes;
 }
 
 }  // namespace nook::bake

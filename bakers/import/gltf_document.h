@@ -23,15 +23,14 @@ struct FileAccess {
   LinkedFiles linked = LinkedFiles::folder;
 };
 
-// Fails with BAD_FILE.
+// Compressed views and primitives come decompressed, and positions, joints, weights, indices and animations
+// have types that glTF allows. Fails with BAD_FILE. The time is linear in the file and in what it
+// decompresses to.
 tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const FileAccess& files,
                            Images images = Images::skip);
 
-// Fails with BAD_FILE on cycles, second parents, indices out of range and transforms that are not finite.
+// Fails with BAD_FILE on cycles, second parents, indices out of range and transforms that are not finite. The
+// time is linear in the nodes.
 NodeTree read_nodes(const tinygltf::Model& model);
-
-// The mesh that each node shows, -1 for none: those of the default scene, or of all nodes when the file has
-// no scene. Fails with BAD_FILE on indices out of range.
-std::vector<int> shown_meshes(const tinygltf::Model& model, const NodeTree& nodes);
 
 }  // namespace nook::bake

@@ -17,18 +17,36 @@ std::vector<double> default_morph_weights(const tinygltf::Mesh& mesh, const tiny
   return all_zero ? std::vector<double>() : weights;
 }
 
+namespace {
+
+// Each target at work is read for each of up to 10 million vertices, from accessors that may share their
+// bytes.
+constexpr std::size_t max_targets_at_work = 256;
+
+// A mesh without vertices costs its primitives once more for each node that shows it.
+constexpr std::size_t max_primitives = std::size_t{1} << 20;
+
+}  // namespace
+
 void add_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                        const std::vector<double>& weights, const std::string& what,
                        std::vector<float>& position) {
   if (weights.size() > primitive.targets.size())
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu morph targets and %zu default weights for them",
                   what.c_str(), primitive.targets.size(), weights.size());
+  const auto at_work =
+      std::size_t(std::count_if(weights.begin(), weights.end(), [](double weight) { return weight != 0; }));
+  if (at_work > max_targets_at_work)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%s has %zu morph targets with default weights other than 0 (need at most %zu); apply them",
+                  what.c_str(), at_work, max_targets_at_work);
   for (std::size_t t = 0; t < weights.size(); ++t) {
+    if (weights[t] == 0) continue;
     const std::string target = what + " morph target " + std::to_string(t);
     if (!std::isfinite(weights[t]))
       throw Failure(NOOK_ERROR_BAD_FILE, "%s has a default weight that is not finite", target.c_str());
     const auto accessor = primitive.targets[t].find("POSITION");
-    if (weights[t] == 0 || accessor == primitive.targets[t].end()) continue;
+    if (accessor == primitive.targets[t].end()) continue;
     const std::size_t count = element_count(model, accessor->second, target);
     if (count != position.size() / 3)
       throw Failure(NOOK_ERROR_BAD_FILE, "%s moves %zu vertices (primitive has %zu)", target.c_str(), count,
@@ -90,6 +108,17 @@ Influences read_influences(const tinygltf::Model& model, const tinygltf::Primiti
   return out;
 }
 
+// The bone of JOINTS_0.x, for a vertex without weights: exporters leave them out where painting missed a
+// vertex, and the slot names the joint that it would follow, or the root.
+std::uint16_t first_bone(const Influences& influences, const MeshBinding& binding, std::size_t vertex,
+                         const std::string& what) {
+  const std::uint32_t joint = influences.joint[0].value[4 * vertex];
+  if (joint >= binding.bone.size())
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s: vertex %zu has no weights and names joint %u (skin has %zu)",
+                  what.c_str(), vertex, joint, binding.bone.size());
+  return binding.bone[joint];
+}
+
 void append_skin_weights(const Influences& influences, const MeshBinding& binding, std::size_t vertices,
                          const std::string& what, FileMesh& out, MeshRepairs& repairs) {
   std::vector<std::pair<std::uint16_t, float>> of_vertex;
@@ -117,6 +146,11 @@ void append_skin_weights(const Influences& influences, const MeshBinding& bindin
         sum += weight;
         ++positive;
       }
+    ++repairs.skinned;
+    if (positive == 0) {
+      ++repairs.without_weights;
+      of_vertex.push_back({first_bone(influences, binding, v, what), 1.0f});
+    }
     // Exporters round weights to bytes or shorts, which changes the sum by at most 4 x half a step of 1/255.
     if (positive > 0 && std::abs(sum - 1) > 0.01) {
       ++repairs.sums_not_one;
@@ -181,6 +215,10 @@ void append_mesh(const tinygltf::Model& model, const tinygltf::Node& node, const
   const tinygltf::Mesh& mesh = model.meshes[node.mesh];
   const std::string name = mesh.name.empty() ? "mesh_" + std::to_string(node.mesh) : mesh.name;
   const MeshSource source{name, binding, node.skin >= 0, default_morph_weights(mesh, node)};
+  repairs.primitives += mesh.primitives.size();
+  if (repairs.primitives > max_primitives)
+    throw Failure(NOOK_ERROR_BAD_FILE, "the nodes show more than %zu primitives; join meshes",
+                  max_primitives);
   if (!source.morph_weights.empty()) ++repairs.morphed;
   if (std::ranges::any_of(mesh.primitives, [](const tinygltf::Primitive& p) { return !p.targets.empty(); }))
     ++repairs.with_targets;
@@ -190,6 +228,16 @@ void append_mesh(const tinygltf::Model& model, const tinygltf::Node& node, const
 }
 
 void add_warnings(const MeshRepairs& repairs, std::vector<std::string>& warnings) {
+  // Counted in integers: at most one in a hundred.
+  if (repairs.without_weights > repairs.skinned / 100)
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "%zu of %zu skinned vertices have no weights (need at most 1 %%); weight them in the modelling "
+        "tool, for example by \"Normalize All\" and \"Limit Total\" in Blender, and export again",
+        repairs.without_weights, repairs.skinned);
+  if (repairs.without_weights > 0)
+    warnings.push_back(std::to_string(repairs.without_weights) + " of " + std::to_string(repairs.skinned) +
+                       " skinned vertices have no weights; each follows its own first joint alone");
   char text[200];
   if (repairs.sums_not_one > 0) {
     std::snprintf(text, sizeof text,

@@ -12,14 +12,21 @@
 namespace nook::bake {
 namespace {
 
+// A skin compares its joints with each of their bind poses so far.
+constexpr std::size_t max_binds_of_node = 1024;
+
 struct Builder {
   const NodeTree& nodes;
   std::vector<Affine> world;  // default pose
   std::vector<std::uint32_t> depth;
   // Frame of each joint in rest space, with its scale; of other nodes only once they became bones.
   std::vector<std::optional<Affine>> bind_rest;
+  // What implied_bind gives for nodes without a bind pose, once the skins are in; empty before.
+  std::vector<Affine> implied;
+  std::vector<std::int32_t> anchor;  // with them: the nearest node upwards that has a bone or moves, -1: none
   std::vector<std::int32_t> bone_of_node;  // the first bone of a node, -1: none
   std::vector<BoneBinding> bindings;
+  std::vector<Affine> rest_from_node;  // of bindings
   std::vector<std::vector<std::uint32_t>> bones_of_node;
 
   explicit Builder(const NodeTree& tree)
@@ -36,12 +43,32 @@ struct Builder {
   // Rest frame of a node that is no joint itself: it hangs on its nearest ancestor with a bind pose, or
   // stands where the default pose has it.
   Affine implied_bind(std::uint32_t node) const {
+    if (!implied.empty()) return implied[node];
     Affine below;
     for (std::int32_t i = static_cast<std::int32_t>(node); i >= 0; i = nodes.nodes[i].parent) {
       if (bind_rest[i]) return *bind_rest[i] * below;
       below = default_local(nodes.nodes[i]) * below;
     }
     return world[node];
+  }
+
+  // One walk down the tree, so that a deep chain of mesh nodes costs no walk up for each.
+  void settle_rigid_nodes(const std::vector<bool>& moves) {
+    std::vector<bool> hangs(nodes.size(), false);  // on a bind pose
+    implied = world;
+    anchor.assign(nodes.size(), -1);
+    for (const std::uint32_t i : nodes.order) {
+      const std::int32_t parent = nodes.nodes[i].parent;
+      hangs[i] = bind_rest[i].has_value() || (parent >= 0 && hangs[parent]);
+      if (bind_rest[i])
+        implied[i] = *bind_rest[i];
+      else if (hangs[i])
+        implied[i] = implied[parent] * default_local(nodes.nodes[i]);
+      if (bone_of_node[i] >= 0 || moves[i])
+        anchor[i] = static_cast<std::int32_t>(i);
+      else if (parent >= 0)
+        anchor[i] = anchor[parent];
+    }
   }
 
   void require_invertible(const Affine& a, const char* what, std::uint32_t node) const {
@@ -56,8 +83,9 @@ struct Builder {
   }
 
   // The same matrix in every pose: equal up to 0.1 % and 0.1 mm at the joint.
-  static bool same_binding(const Affine& a, const BoneBinding& b) {
-    const Affine difference = inverse(b.node_from_rest) * a;
+  bool same_binding(const Affine& a, std::uint32_t bone) const {
+    const BoneBinding& b = bindings[bone];
+    const Affine difference = rest_from_node[bone] * a;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         if (!(std::abs(difference.m[4 * i + j] - (i == j ? 1 : 0)) < 1e-3)) return false;
@@ -69,11 +97,17 @@ struct Builder {
 
   std::uint32_t bone_for(std::uint32_t node, const Affine& node_from_rest) {
     for (const std::uint32_t bone : bones_of_node[node])
-      if (same_binding(node_from_rest, bindings[bone])) return bone;
+      if (same_binding(node_from_rest, bone)) return bone;
+    if (bones_of_node[node].size() == max_binds_of_node)
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "node %u (\"%s\") is a joint of skins with more than %zu different bind poses; split the "
+                    "file",
+                    node, nodes.nodes[node].name.c_str(), max_binds_of_node);
     if (bindings.size() == max_bone_count)
       throw Failure(NOOK_ERROR_BAD_FILE, "too many bones (need at most %zu)", max_bone_count);
     const std::uint32_t bone = static_cast<std::uint32_t>(bindings.size());
     const Affine frame = inverse(node_from_rest);
+    rest_from_node.push_back(frame);
     bindings.push_back({node, node_from_rest, {frame.m[3], frame.m[7], frame.m[11]}});
     bones_of_node[node].push_back(bone);
     if (bone_of_node[node] < 0) bone_of_node[node] = static_cast<std::int32_t>(bone);
@@ -116,9 +150,8 @@ void add_skin(Builder& b, const Skin& skin, MeshBinding& out) {
   }
 }
 
-void add_rigid_part(Builder& b, std::uint32_t mesh_node, const std::vector<bool>& moves, MeshBinding& out) {
-  std::int32_t anchor = static_cast<std::int32_t>(mesh_node);
-  while (anchor >= 0 && b.bone_of_node[anchor] < 0 && !moves[anchor]) anchor = b.nodes.nodes[anchor].parent;
+void add_rigid_part(Builder& b, std::uint32_t mesh_node, MeshBinding& out) {
+  const std::int32_t anchor = b.anchor[mesh_node];
   if (anchor < 0) return;
   const std::uint32_t node = static_cast<std::uint32_t>(anchor);
   if (b.bone_of_node[node] < 0) {
@@ -131,21 +164,27 @@ void add_rigid_part(Builder& b, std::uint32_t mesh_node, const std::vector<bool>
   out.bone = {static_cast<std::uint16_t>(b.bone_of_node[node])};
 }
 
-std::int32_t parent_bone(const Builder& b, std::uint32_t bone) {
-  std::int32_t node = b.nodes.nodes[b.bindings[bone].node].parent;
-  while (node >= 0 && b.bone_of_node[node] < 0) node = b.nodes.nodes[node].parent;
-  return node < 0 ? -1 : b.bone_of_node[node];
+// For each bone the first bone of its nearest ancestor that has one, -1 for none.
+std::vector<std::int32_t> parent_bones(const Builder& b) {
+  std::vector<std::int32_t> above(b.nodes.size(), -1);
+  for (const std::uint32_t i : b.nodes.order) {
+    const std::int32_t parent = b.nodes.nodes[i].parent;
+    if (parent >= 0) above[i] = b.bone_of_node[parent] >= 0 ? b.bone_of_node[parent] : above[parent];
+  }
+  std::vector<std::int32_t> parent;
+  for (const BoneBinding& binding : b.bindings) parent.push_back(above[binding.node]);
+  return parent;
 }
 
 // New order of the bones: as the skins list them, except that ancestors come first.
-std::vector<std::uint32_t> parents_first(const Builder& b) {
+std::vector<std::uint32_t> parents_first(const Builder& b, const std::vector<std::int32_t>& parent_bone) {
   std::vector<std::uint32_t> order;
   std::vector<bool> is_placed(b.bindings.size(), false);
   std::vector<std::uint32_t> chain;
   for (std::uint32_t i = 0; i < b.bindings.size(); ++i) {
     chain.clear();
     for (std::int32_t bone = static_cast<std::int32_t>(i); bone >= 0 && !is_placed[bone];
-         bone = parent_bone(b, bone))
+         bone = parent_bone[bone])
       chain.push_back(bone);
     for (auto bone = chain.rbegin(); bone != chain.rend(); ++bone) {
       is_placed[*bone] = true;
@@ -175,18 +214,19 @@ Skeleton build_skeleton(const NodeTree& nodes, const std::vector<Skin>& skins, c
     return top_depth(b, skins[a]) < top_depth(b, skins[c]);
   });
   for (const std::size_t i : by_depth) add_skin(b, skins[i], out.skins[i]);
+  b.settle_rigid_nodes(moves);
   out.rigid_parts.resize(rigid_nodes.size());
-  for (std::size_t i = 0; i < rigid_nodes.size(); ++i)
-    add_rigid_part(b, rigid_nodes[i], moves, out.rigid_parts[i]);
+  for (std::size_t i = 0; i < rigid_nodes.size(); ++i) add_rigid_part(b, rigid_nodes[i], out.rigid_parts[i]);
 
-  const std::vector<std::uint32_t> order = parents_first(b);
+  const std::vector<std::int32_t> parent_bone = parent_bones(b);
+  const std::vector<std::uint32_t> order = parents_first(b, parent_bone);
   std::vector<std::uint16_t> new_index(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) new_index[order[i]] = static_cast<std::uint16_t>(i);
   std::vector<std::string> names;
   for (const std::uint32_t bone : order) names.push_back(nodes.nodes[b.bindings[bone].node].name);
   names = unique_names(names, "bone");
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const std::int32_t parent = parent_bone(b, order[i]);
+    const std::int32_t parent = parent_bone[order[i]];
     out.bones.push_back({names[i], parent < 0 ? -1 : std::int32_t{new_index[parent]},
                          frame_of(inverse(b.bindings[order[i]].node_from_rest))});
     out.bindings.push_back(b.bindings[order[i]]);

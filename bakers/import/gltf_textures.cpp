@@ -63,8 +63,8 @@ std::uint32_t GltfTextures::image_of(const tinygltf::Texture& texture, const std
   if (std::size_t(source) >= model_.images.size())
     throw Failure(NOOK_ERROR_BAD_FILE, "%s names image %d (file has %zu)", what.c_str(), source,
                   model_.images.size());
-  const auto known = std::find(sources_.begin(), sources_.end(), source);
-  if (known != sources_.end()) return std::uint32_t(known - sources_.begin());
+  const auto known = place_of_source_.find(source);
+  if (known != place_of_source_.end()) return known->second;
   const tinygltf::Image& image = model_.images[std::size_t(source)];
   const std::span<const unsigned char> bytes = bytes_of(model_, image);
   if (bytes.empty())
@@ -77,8 +77,9 @@ std::uint32_t GltfTextures::image_of(const tinygltf::Texture& texture, const std
   bytes_ += bytes.size();
   const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
   images_.push_back({what + ": " + name_of(image, source), {first, first + bytes.size()}});
-  sources_.push_back(source);
-  return std::uint32_t(sources_.size() - 1);
+  const auto place = std::uint32_t(images_.size() - 1);
+  place_of_source_.emplace(source, place);
+  return place;
 }
 
 TextureUse GltfTextures::use(const tinygltf::TextureInfo& info, const std::string& what) {

@@ -1,9 +1,11 @@
-// The colour textures of glTF materials, their images collected once each.
+// The colour textures of glTF materials, their images collected once each. The time is linear in the textures
+// and in the bytes of the images.
 #pragma once
 
 #include <tiny_gltf.h>
 
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "bakers/import/texture_use.h"
@@ -27,8 +29,8 @@ class GltfTextures {
 
   const tinygltf::Model& model_;
   std::vector<EncodedImage> images_;
-  std::vector<int> sources_;  // of images_, in the file
-  std::size_t bytes_ = 0;     // of images_
+  std::unordered_map<int, std::uint32_t> place_of_source_;  // of an image of the file in images_
+  std::size_t bytes_ = 0;                                   // of images_
 };
 
 }  // namespace nook::bake

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
+#include "bakers/import/gltf_check.h"
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_mesh.h"
+#include "bakers/import/shown_nodes.h"
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
 namespace {
-
-constexpr std::size_t max_triangles = std::size_t{1} << 25;
 
 int mode_of(const tinygltf::Primitive& primitive) {
   return primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
@@ -62,23 +62,32 @@ void append_triangles(const tinygltf::Model& model, const tinygltf::Primitive& p
   }
 }
 
-void for_each_shown_primitive(const tinygltf::Model& model,
-                              const std::function<void(const ShownPrimitive&)>& visit) {
+std::vector<std::string> for_each_shown_primitive(const tinygltf::Model& model,
+                                                  const MeshSelection& selection,
+                                                  const std::function<void(const ShownPrimitive&)>& visit) {
   const NodeTree nodes = read_nodes(model);
-  const std::vector<int> meshes = shown_meshes(model, nodes);
+  ShownNodes chosen = choose_nodes(model, nodes, selection);
   const std::vector<Affine> world = default_world_transforms(nodes);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    if (meshes[n] < 0) continue;
-    const tinygltf::Mesh& mesh = model.meshes[std::size_t(meshes[n])];
+    if (!chosen.shows(n)) continue;
+    const int index = model.nodes[n].mesh;
+    const tinygltf::Mesh& mesh = model.meshes[std::size_t(index)];
     ShownPrimitive shown;
-    shown.world_from_mesh = world[n];
+    shown.node = std::uint32_t(n);
     shown.morph_weights = default_morph_weights(mesh, model.nodes[n]);
-    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
-      shown.primitive = &mesh.primitives[p];
-      shown.what = "mesh " + std::to_string(meshes[n]) + " primitive " + std::to_string(p);
-      visit(shown);
+    for (const Affine& instance : mesh_instances(model, n)) {
+      shown.world_from_mesh = world[n] * instance;
+      for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+        shown.primitive = &mesh.primitives[p];
+        shown.index = std::uint32_t(p);
+        shown.what = "mesh " + std::to_string(index) + " primitive " + std::to_string(p);
+        visit(shown);
+      }
     }
   }
+  std::vector<std::string> warnings = document_warnings(model);
+  warnings.insert(warnings.end(), chosen.notes.begin(), chosen.notes.end());
+  return warnings;
 }
 
 Floats read_positions(const tinygltf::Model& model, const ShownPrimitive& shown, std::size_t before) {

@@ -11,9 +11,13 @@
 #include <vector>
 
 #include "bakers/import/accessor.h"
+#include "bakers/import/import_options.h"
 #include "sdk/src/core/affine.h"
 
 namespace nook::bake {
+
+// Bounds memory on hostile input.
+inline constexpr std::size_t max_triangles = std::size_t{1} << 25;
 
 // False for points and lines.
 bool has_triangles(const tinygltf::Primitive& primitive);
@@ -22,23 +26,26 @@ bool has_triangles(const tinygltf::Primitive& primitive);
 int attribute(const tinygltf::Primitive& primitive, const std::string& name);
 
 // Appends the triangles of a list, strip or fan of `vertices` vertices; `what` names the primitive in
-// messages. Fails with BAD_FILE on an index out of range, and where `out` would exceed 2^25 triangles, which
-// bounds memory on hostile input.
+// messages. Fails with BAD_FILE on an index out of range, and where `out` would exceed max_triangles.
 void append_triangles(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                       std::size_t vertices, const std::string& what,
                       std::vector<std::array<std::uint32_t, 3>>& out);
 
 struct ShownPrimitive {
   const tinygltf::Primitive* primitive = nullptr;  // of the model
+  std::uint32_t node = 0, index = 0;               // the node and the primitive's index in its mesh
   std::string what;                                // names it in messages
   Affine world_from_mesh;
   std::vector<double> morph_weights;  // empty where all are 0
 };
 
-// One at a time, because a small file may show a mesh of many primitives by many nodes. In the order of
-// nodes. Fails with BAD_FILE on indices out of range.
-void for_each_shown_primitive(const tinygltf::Model& model,
-                              const std::function<void(const ShownPrimitive&)>& visit);
+// Visits the primitives of the nodes that are in (choose_nodes) in the order of nodes, and those of each
+// instance of a mesh after one another. One at a time, because a small file may show a mesh of many
+// primitives by many nodes. Returns the warnings of the document and the notes of choose_nodes, and fails as
+// choose_nodes does.
+std::vector<std::string> for_each_shown_primitive(const tinygltf::Model& model,
+                                                  const MeshSelection& selection,
+                                                  const std::function<void(const ShownPrimitive&)>& visit);
 
 // The positions of a primitive in the space of its mesh, 3 floats for each vertex, with the morph targets at
 // their weights. A shape has a limit of vertices, of which `before` belong to other primitives. Fails with

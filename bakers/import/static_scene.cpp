@@ -5,9 +5,11 @@
 #include <limits>
 
 #include "bakers/import/accessor.h"
+#include "bakers/import/coincident_surfaces.h"
 #include "bakers/import/file_reader.h"
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_textures.h"
+#include "bakers/import/gltf_types.h"
 #include "bakers/import/shown_primitives.h"
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
@@ -75,6 +77,7 @@ void read_uv(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
   if (accessor < 0)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has no %s, which the texture of material %d reads", what.c_str(),
                   name.c_str(), primitive.material);
+  require_allowed_type(model, accessor, AccessorUse::texture_coordinates, what + "." + name);
   const std::size_t count = element_count(model, accessor, what + "." + name);
   if (count != scene.position.size() - first)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu %s (need one for each of %zu vertices)", what.c_str(),
@@ -120,29 +123,35 @@ void append_primitive(const tinygltf::Model& model, const ShownPrimitive& shown,
     read_uv(model, primitive, *use, first, what, scene);
 }
 
-StaticScene import_document(std::span<const std::byte> bytes, const FileAccess& files,
-                            SceneTextures textures) {
+StaticScene import_document(std::span<const std::byte> bytes, const FileAccess& files, SceneTextures textures,
+                            const MeshSelection& meshes) {
   const tinygltf::Model model =
       parse_gltf(bytes, files, textures == SceneTextures::read ? Images::keep : Images::skip);
   StaticScene scene;
   read_surfaces(model, textures, scene);
-  for_each_shown_primitive(model,
-                           [&](const ShownPrimitive& shown) { append_primitive(model, shown, scene); });
+  SurfaceParts parts;
+  scene.warnings = for_each_shown_primitive(model, meshes, [&](const ShownPrimitive& shown) {
+    append_primitive(model, shown, scene);
+    parts.all.push_back({shown.node, shown.index, scene.triangle.size()});
+  });
   if (scene.triangle.empty())
     throw Failure(NOOK_ERROR_BAD_FILE, "the default scene shows no triangle; export the meshes with it");
+  warn_of_coincident_surfaces(model, parts, scene.position, scene.triangle, scene.warnings);
   return scene;
 }
 
 }  // namespace
 
 StaticScene import_static_scene(const std::filesystem::path& path, SceneTextures textures,
-                                LinkedFiles linked) {
+                                const ImportOptions& options) {
   return import_document(read_file_bytes(path),
-                         {std::filesystem::absolute(path).parent_path().string(), linked}, textures);
+                         {std::filesystem::absolute(path).parent_path().string(), options.linked}, textures,
+                         options.meshes);
 }
 
-StaticScene import_static_scene(std::span<const std::byte> bytes, SceneTextures textures) {
-  return import_document(bytes, {}, textures);
+StaticScene import_static_scene(std::span<const std::byte> bytes, SceneTextures textures,
+                                const MeshSelection& meshes) {
+  return import_document(bytes, {}, textures, meshes);
 }
 
 }  // namespace nook::bake

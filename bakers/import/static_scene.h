@@ -6,9 +6,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "bakers/import/linked_files.h"
+#include "bakers/import/import_options.h"
 #include "bakers/import/texture_use.h"
 #include "sdk/src/core/vec.h"
 
@@ -34,6 +35,7 @@ struct StaticScene {
   std::vector<std::uint32_t> triangle_surface;  // an index of surface for each triangle
   std::vector<EncodedImage> image;              // of the surfaces' textures
   std::vector<std::array<TexturePoint, 2>> uv;  // sets 0 and 1 of each vertex; empty where image is
+  std::vector<std::string> warnings;            // what was left out or is in doubt, one sentence each
 };
 
 // skip: colour factors stand for their textures, and alpha masks are solid.
@@ -45,10 +47,11 @@ enum class SceneTextures { skip, read };
 // scene has no triangle; the message names the fault, and the caller adds the name of the file.
 StaticScene import_static_scene(const std::filesystem::path& path,
                                 SceneTextures textures = SceneTextures::skip,
-                                LinkedFiles linked = LinkedFiles::folder);
+                                const ImportOptions& options = {});
 
 // From memory, without access to any file: buffers and images must be in the bytes or in data URIs.
 StaticScene import_static_scene(std::span<const std::byte> bytes,
-                                SceneTextures textures = SceneTextures::skip);
+                                SceneTextures textures = SceneTextures::skip,
+                                const MeshSelection& meshes = {});
 
 }  // namespace nook::bake

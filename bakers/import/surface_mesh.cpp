@@ -6,8 +6,10 @@
 #include <numeric>
 
 #include "bakers/import/accessor.h"
+#include "bakers/import/coincident_surfaces.h"
 #include "bakers/import/file_reader.h"
 #include "bakers/import/gltf_document.h"
+#include "bakers/import/gltf_types.h"
 #include "bakers/import/shown_primitives.h"
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
@@ -21,15 +23,17 @@ struct Building {
   SurfaceMesh mesh;
   std::vector<bool> makes_normal, makes_tangent;  // of each vertex
   std::size_t opposite = 0;                       // tangents whose w contradicts the texture coordinates
+  std::size_t not_unit = 0;                       // normals that were normalised
 };
 
 // Reads an attribute of one number of components for each of `count` vertices; empty if there is none.
 std::vector<float> read_attribute(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                                  const char* name, int components, std::size_t count,
+                                  const char* name, AccessorUse use, int components, std::size_t count,
                                   const std::string& what) {
   const int accessor = attribute(primitive, name);
   if (accessor < 0) return {};
   const std::string place = std::string(what).append(".").append(name);
+  require_allowed_type(model, accessor, use, place);
   const std::size_t got = element_count(model, accessor, place);
   if (got != count)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu elements (need one for each of %zu vertices)",
@@ -79,15 +83,17 @@ void append_primitive(const tinygltf::Model& model, const ShownPrimitive& shown,
   const auto first = std::uint32_t(mesh.position.size());
   const Floats position = read_positions(model, shown, first);
   const std::size_t count = position.count;
-  const std::vector<float> uv = read_attribute(model, primitive, "TEXCOORD_0", 2, count, what);
+  const std::vector<float> uv =
+      read_attribute(model, primitive, "TEXCOORD_0", AccessorUse::texture_coordinates, 2, count, what);
   if (uv.empty() && count > 0)
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "%s has no TEXCOORD_0, which a material needs; unwrap the mesh and export it again",
                   what.c_str());
   std::vector<float> normal, tangent;
   if (shown.morph_weights.empty()) {
-    normal = read_attribute(model, primitive, "NORMAL", 3, count, what);
-    if (!normal.empty()) tangent = read_attribute(model, primitive, "TANGENT", 4, count, what);
+    normal = read_attribute(model, primitive, "NORMAL", AccessorUse::normal, 3, count, what);
+    if (!normal.empty())
+      tangent = read_attribute(model, primitive, "TANGENT", AccessorUse::tangent, 4, count, what);
   }
   const bool stays = is_identity(world_from_mesh), is_mirrored = determinant(world_from_mesh) < 0;
   for (std::size_t v = 0; v < count; ++v) {
@@ -102,6 +108,8 @@ void append_primitive(const tinygltf::Model& model, const ShownPrimitive& shown,
     Vec3 n;
     if (!normal.empty()) {
       n = {normal[3 * v], normal[3 * v + 1], normal[3 * v + 2]};
+      // Normals in bytes are up to 1.5 % off.
+      building.not_unit += std::abs(length(n) - 1) > 0.03f && length(n) > 0.1f;
       if (!stays) n = turn_normal(world_from_mesh, n);
     }
     const bool has_normal = length(n) > 0.1f;
@@ -128,6 +136,10 @@ void append_primitive(const tinygltf::Model& model, const ShownPrimitive& shown,
 
 void make_missing(Building& building, std::vector<std::string>& warnings) {
   SurfaceMesh& mesh = building.mesh;
+  if (building.not_unit > 0)
+    warnings.push_back(
+        std::to_string(building.not_unit)
+            .append(" vertices have normals that are not of unit length; they were normalised"));
   const auto count = [](const std::vector<bool>& made) {
     return std::size_t(std::count(made.begin(), made.end(), true));
   };
@@ -158,28 +170,35 @@ void make_missing(Building& building, std::vector<std::string>& warnings) {
         " vertices have a TANGENT whose w contradicts their texture coordinates; it was kept"));
 }
 
-ImportedSurface import_document(std::span<const std::byte> bytes, const FileAccess& files) {
+ImportedSurface import_document(std::span<const std::byte> bytes, const FileAccess& files,
+                                const MeshSelection& meshes) {
   const tinygltf::Model model = parse_gltf(bytes, files);
   Building building;
-  for_each_shown_primitive(model,
-                           [&](const ShownPrimitive& shown) { append_primitive(model, shown, building); });
+  ImportedSurface imported;
+  SurfaceParts parts;
+  imported.warnings = for_each_shown_primitive(model, meshes, [&](const ShownPrimitive& shown) {
+    append_primitive(model, shown, building);
+    parts.all.push_back({shown.node, shown.index, building.mesh.triangle.size()});
+  });
   if (building.mesh.triangle.empty())
     throw Failure(NOOK_ERROR_BAD_FILE, "the default scene shows no triangle; export the meshes with it");
-  ImportedSurface imported;
   make_missing(building, imported.warnings);
+  warn_of_coincident_surfaces(model, parts, building.mesh.position, building.mesh.triangle,
+                              imported.warnings);
   imported.mesh = std::move(building.mesh);
   return imported;
 }
 
 }  // namespace
 
-ImportedSurface import_surface(const std::filesystem::path& path, LinkedFiles linked) {
+ImportedSurface import_surface(const std::filesystem::path& path, const ImportOptions& options) {
   return import_document(read_file_bytes(path),
-                         {std::filesystem::absolute(path).parent_path().string(), linked});
+                         {std::filesystem::absolute(path).parent_path().string(), options.linked},
+                         options.meshes);
 }
 
-ImportedSurface import_surface(std::span<const std::byte> bytes) {
-  return import_document(bytes, {});
+ImportedSurface import_surface(std::span<const std::byte> bytes, const MeshSelection& meshes) {
+  return import_document(bytes, {}, meshes);
 }
 
 namespace {

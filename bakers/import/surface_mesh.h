@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "bakers/import/linked_files.h"
+#include "bakers/import/import_options.h"
 #include "bakers/import/texture_use.h"
 #include "sdk/src/core/vec.h"
 
@@ -24,7 +24,7 @@ struct Tangent {
 };
 
 // World space, metres. Vertices follow each other node by node and primitive by primitive in the file's
-// order; a mesh that two nodes show appears twice.
+// order; a mesh that two nodes or instances show appears twice.
 struct SurfaceMesh {
   std::vector<Vec3> position, normal;
   std::vector<Tangent> tangent;
@@ -41,10 +41,10 @@ struct ImportedSurface {
 // primitive has none or is morphed. Tangents are made by surface_tangents where a primitive lacks TANGENT, or
 // its normals are made. Fails with BAD_FILE, also where a primitive has no TEXCOORD_0; the message names the
 // fault, and the caller adds the name of the file.
-ImportedSurface import_surface(const std::filesystem::path& path, LinkedFiles linked = LinkedFiles::folder);
+ImportedSurface import_surface(const std::filesystem::path& path, const ImportOptions& options = {});
 
 // From memory, without access to any file: buffers must be in the bytes or in data URIs.
-ImportedSurface import_surface(std::span<const std::byte> bytes);
+ImportedSurface import_surface(std::span<const std::byte> bytes, const MeshSelection& meshes = {});
 
 // Normals and tangents of vertices that have none.
 

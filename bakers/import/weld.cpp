@@ -136,9 +136,18 @@ std::vector<Neighbour> straightest_neighbours(std::span<const Corner> corners) {
   return best;
 }
 
-// The sides of the vertices at one place; `vertices` ascend.
-void divide_place(std::span<const std::uint32_t> vertices, std::span<const Corner> corners,
-                  std::vector<std::uint32_t>& side) {
+// The vertices that corners touch, ascending. Others have no face, and so no side but 0.
+std::vector<std::uint32_t> touched_vertices(std::span<const Corner> corners) {
+  std::vector<std::uint32_t> vertices;
+  for (const Corner& corner : corners) vertices.push_back(corner.vertex);
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+// The sides of the vertices at one place.
+void divide_place(std::span<const Corner> corners, std::vector<std::uint32_t>& side) {
+  const std::vector<std::uint32_t> vertices = touched_vertices(corners);
   const auto local = [&](std::uint32_t vertex) {
     return std::uint32_t(std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin());
   };
@@ -207,7 +216,7 @@ std::vector<std::uint32_t> sides_of_vertices(const PlacedVertices& mesh) {
       at_place.push_back(
           {t[c % 3], mesh.place[t[(c + 1) % 3]], mesh.place[t[(c + 2) % 3]], normal, direction});
     }
-    divide_place(vertices.of(p), at_place, side);
+    divide_place(at_place, side);
   }
   return side;
 }

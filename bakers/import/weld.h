@@ -42,7 +42,8 @@ FileMesh to_file_mesh(const MeshArrays& arrays, nook_result code);
 
 // Welds exactly equal rest positions (-0 equals 0) with equal weights, except for those whose faces have
 // opposite normals, drops degenerate triangles with a warning, and validates the mesh.
-// Fails with `code`.
+// Fails with `code`. The time is linear in vertices and triangles: places hash, and the work at one place is
+// at most the square of its corners, of which 256 are looked at.
 SkinnedMesh weld(FileMesh mesh, std::vector<std::string>& warnings, nook_result code);
 
 }  // namespace nook::bake

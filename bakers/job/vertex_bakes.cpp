@@ -23,10 +23,11 @@ void require_same_character(const CharacterModel& model, const SkinnedMesh& mesh
   for (std::size_t b = 0; is_same && b < mesh.bones.size(); ++b)
     is_same = mesh.bones[b].name == std::string_view(model.bone_names[b]);
   if (!is_same)
-    throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the model is that of another character (got %zu vertices and %zu bones, need %zu and %zu "
-                  "in the same order); bake the character first",
-                  model.vertex_count(), model.bone_count(), mesh.vertex_count(), mesh.bones.size());
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "the model is that of another character (got %zu vertices and %zu bones, need %zu and %zu "
+        "in the same order); bake the character first, or choose the meshes of its bake (--mesh, --without)",
+        model.vertex_count(), model.bone_count(), mesh.vertex_count(), mesh.bones.size());
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::filesystem::path input, output;
-  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::ImportOptions reading;
   std::int32_t preset = NOOK_BAKE_PRESET_STANDARD, poses = NOOK_BAKE_POSES_ALL, split = NOOK_BAKE_SPLIT_ALL;
   std::int32_t form = NOOK_FORM_DEFAULT, kernel = NOOK_FORM_DEFAULT, fit = NOOK_FORM_DEFAULT;
   std::vector<std::string> clips;
@@ -93,7 +93,7 @@ BakeOutput output_of(bake::BakedFile file) {
 
 void run(const Options& options) {
   run_bake({options.common, options.output, {{{"the input", options.input}}, {}, {}}}, [&] {
-    const bake::ImportedCharacter character = read_character(options.input, options.linked, options.common);
+    const bake::ImportedCharacter character = read_character(options.input, options.reading, options.common);
     require_clips(options.clips, character);
     return output_of(bake(options, character));
   });
@@ -144,7 +144,7 @@ void add_bake_character(Command bake) {
   Options& o = *options;
   command.add_option("input", o.input, "character, .glb or .gltf").required();
   command.add_option("-o,--output", o.output, "the .nook file to write").required();
-  add_linked_files_option(command, o.linked);
+  add_import_options(command, o.reading);
   add_choice(
       command, "--preset", o.preset,
       {{"draft", NOOK_BAKE_PRESET_DRAFT},

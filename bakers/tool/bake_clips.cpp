@@ -17,7 +17,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::filesystem::path input, model, output;
-  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::ImportOptions reading;
   bake::ClipTask task;
 };
 
@@ -38,7 +38,7 @@ bake::BakedFile bake(const Options& o, const bake::ImportedCharacter& character)
 void run(Options o) {
   o.task.tables.seed = o.common.seed;
   run_bake({o.common, o.output, {{{"the character", o.input}, {"the model", o.model}}, {}, {}}}, [&] {
-    const bake::ImportedCharacter character = read_character(o.input, o.linked, o.common);
+    const bake::ImportedCharacter character = read_character(o.input, o.reading, o.common);
     require_clips(o.task.clips, character);
     // The table has one line for each row; the error by modes is for the report.
     return one_row(bake(o, character), {"error_of_modes"});
@@ -78,7 +78,7 @@ void add_bake_clips(Command bake_command) {
   command.add_option("--max-modes", o.task.tables.max_modes, "modes of AO, a multiple of 4")
       .check(in_range(4u, ClipSet::max_ao_modes))
       .capture_default_str();
-  add_linked_files_option(command, o.linked);
+  add_import_options(command, o.reading);
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });
 }

@@ -16,7 +16,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::filesystem::path model, input, output;
-  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::ImportOptions reading;
   bake::LodTask task;
 };
 
@@ -33,7 +33,7 @@ void run(Options o) {
   o.task.seed = o.common.seed;
   run_bake({o.common, o.output, {{{"the model", o.model}, {"the mesh", o.input}}, {}, {}}}, [&] {
     const std::vector<std::byte> model = read_file(o.model);
-    const bake::ImportedCharacter lod = read_character(o.input, o.linked, o.common);
+    const bake::ImportedCharacter lod = read_character(o.input, o.reading, o.common);
     return one_row(naming_file(o.model, [&] { return bake(o, model, lod); }));
   });
 }
@@ -59,7 +59,7 @@ void add_bake_lod(Command bake_command) {
   command.add_option("--rays", o.task.rays, "rays for each vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
-  add_linked_files_option(command, o.linked);
+  add_import_options(command, o.reading);
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });
 }

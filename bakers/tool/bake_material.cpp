@@ -13,6 +13,7 @@
 #include "bakers/tool/baking.h"
 #include "bakers/tool/command_end.h"
 #include "bakers/tool/command_files.h"
+#include "bakers/tool/command_inputs.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/compression_options.h"
@@ -40,7 +41,7 @@ struct Options {
   TraceSettings trace;
   float tile_side_m = 1;  // of a mesh that --meso names, of the maps of --pbr and of the image of --relief
   float height_scale_m = 0.05f;
-  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::ImportOptions reading;
   std::optional<std::uint32_t> count;
   std::optional<float> radius, thickness, roughness;
   float detail = 1;
@@ -88,8 +89,9 @@ bake::MesoSource source_of(const Options& o) {
   if (!o.pbr.empty()) return source_of_maps(o);
   if (!is_mesh(o.meso)) return {meso_of(o), {}, o.directions, o.lights, o.max_tilt_deg, o.trace};
   MesoSurface tile = naming_file(o.meso, [&] {
-    return tile_of_scene(bake::import_static_scene(o.meso, bake::SceneTextures::skip, o.linked),
-                         o.tile_side_m);
+    bake::StaticScene scene = bake::import_static_scene(o.meso, bake::SceneTextures::skip, o.reading);
+    print_warnings(o.meso, scene.warnings, o.common);
+    return tile_of_scene(std::move(scene), o.tile_side_m);
   });
   return {{}, std::move(tile), o.directions, o.lights, o.max_tilt_deg, o.trace};
 }
@@ -305,7 +307,7 @@ void add_bake_material(Command bake) {
                   "the image of --relief")
       .check(positive_number())
       .capture_default_str();
-  add_linked_files_option(command, o.linked);
+  add_import_options(command, o.reading);
   command.add_option("--btf", o.btf,
                      "a folder of measured images, tl pl tv pv in their names (UBO 2003, UTIA), or a .btf "
                      "file (UBO 2014)");

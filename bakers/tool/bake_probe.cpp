@@ -95,7 +95,7 @@ void add_bake_probe(Command bake_command) {
                   "with --walls: for each place that walls and probes are fitted to")
       .check(in_range(1u, 1u << 24))
       .capture_default_str();
-  add_linked_files_option(command, o.linked);
+  add_import_options(command, o.reading);
   command.add_flag("--no-textures", o.no_textures,
                    "of a scene: colour factors stand for textures, and alpha masks are solid");
   add_common_options(command, o.common);

@@ -27,7 +27,7 @@ struct BakeProbeOptions {
   double error = 0.01, preview_every_s = 0;
   std::uint32_t max_bounces = ~0u;
   bool no_textures = false;
-  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::ImportOptions reading;
   std::string direct = "all";
   bool walls = false;
   std::uint32_t training_paths = 2048;

@@ -82,7 +82,7 @@ BakeOutput bake_probe_grid(const BakeProbeOptions& options) {
                     "a preview (got " +
                         options.output.string() + "); give a file");
   const bake::ProbeScene scene =
-      read_probe_scene(options.input, options.light, !options.no_textures, options.linked);
+      read_probe_scene(options.input, options.light, !options.no_textures, options.reading, options.common);
   GridBakeSettings settings;
   settings.basis = basis_of(options.probe);
   settings.fit = fit_of(options.probe);

@@ -18,7 +18,7 @@ namespace {
 struct Options {
   CommonOptions common;
   std::filesystem::path input, output;
-  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::ImportOptions reading;
   bake::transfer::BakeSettings settings;
   std::filesystem::path votf, material;
   std::string form = "separated";
@@ -27,7 +27,7 @@ struct Options {
 
 bake::TransferTask read_task(const Options& o) {
   bake::ImportedSurface imported =
-      naming_file(o.input, [&] { return bake::import_surface(o.input, o.linked); });
+      naming_file(o.input, [&] { return bake::import_surface(o.input, o.reading); });
   bake::TransferTask task;
   task.mesh = std::move(imported.mesh);
   task.settings = o.settings;
@@ -112,7 +112,7 @@ void add_bake_transfer(Command bake_command) {
   command.add_option("--vertex-rank", o.paper.vertex_rank, "vertex modes of a cluster, of --form paper")
       .check(in_range(1u, transfer::max_vertex_rank))
       .capture_default_str();
-  add_linked_files_option(command, o.linked);
+  add_import_options(command, o.reading);
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });
 }

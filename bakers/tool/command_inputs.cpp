@@ -8,13 +8,18 @@
 
 namespace nook::tool {
 
-bake::ImportedCharacter read_character(const std::filesystem::path& path, bake::LinkedFiles linked,
+void print_warnings(const std::filesystem::path& path, const std::vector<std::string>& warnings,
+                    const CommonOptions& common) {
+  if (common.quiet) return;
+  for (const std::string& warning : warnings)
+    std::fprintf(stderr, "%s: %s\n", platform::printable(path.string()).c_str(),
+                 platform::printable_lines(warning).c_str());
+}
+
+bake::ImportedCharacter read_character(const std::filesystem::path& path, const bake::ImportOptions& reading,
                                        const CommonOptions& common) {
-  bake::ImportedCharacter character = naming_file(path, [&] { return bake::import_gltf(path, linked); });
-  if (!common.quiet)
-    for (const std::string& warning : character.warnings)
-      std::fprintf(stderr, "%s: %s\n", platform::printable(path.string()).c_str(),
-                   platform::printable_lines(warning).c_str());
+  bake::ImportedCharacter character = naming_file(path, [&] { return bake::import_gltf(path, reading); });
+  print_warnings(path, character.warnings, common);
   return character;
 }
 
@@ -36,9 +41,12 @@ bake::Environment read_map(const std::filesystem::path& path) {
 }
 
 bake::ProbeScene read_probe_scene(const std::filesystem::path& path, const std::filesystem::path& light,
-                                  bool textures, bake::LinkedFiles linked) {
+                                  bool textures, const bake::ImportOptions& reading,
+                                  const CommonOptions& common) {
+  std::vector<std::string> warnings;
   bake::LitTriangles triangles =
-      naming_file(path, [&] { return bake::read_lit_triangles(path, textures, linked); });
+      naming_file(path, [&] { return bake::read_lit_triangles(path, textures, reading, warnings); });
+  print_warnings(path, warnings, common);
   return bake::make_probe_scene(std::move(triangles), read_map(light));
 }
 

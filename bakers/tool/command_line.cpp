@@ -67,6 +67,9 @@ Option Option::type_name(const std::string& name) const {
 Option Option::delimiter(char between) const {
   return Option(option_->delimiter(between));
 }
+Option Option::one_each() const {
+  return Option(option_->allow_extra_args(false));
+}
 Option Option::expected(int count) const {
   return Option(option_->expected(count));
 }

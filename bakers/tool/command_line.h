@@ -53,6 +53,7 @@ class Option {
   Option default_str(const std::string& text) const;
   Option type_name(const std::string& name) const;
   Option delimiter(char between) const;
+  Option one_each() const;  // a list takes one text for each time that it is named
   Option expected(int count) const;
   Option expected(int least, int most) const;
   Option needs(Option other) const;

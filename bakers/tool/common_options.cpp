@@ -16,10 +16,24 @@ void add_common_options(Command command, CommonOptions& options) {
   command.add_flag("--quiet", options.quiet, "say nothing but errors");
 }
 
-void add_linked_files_option(Command command, bake::LinkedFiles& linked) {
+void add_import_options(Command command, bake::ImportOptions& options) {
   command.add_flag_callback(
-      "--allow-outside-files", [&linked] { linked = bake::LinkedFiles::anywhere; },
+      "--allow-outside-files", [&options] { options.linked = bake::LinkedFiles::anywhere; },
       "of a .gltf file: also read buffers and images that it names outside of its own folder (../)");
+  command
+      .add_option(
+          "--mesh", options.meshes.only,
+          "read only meshes of this name, of the node or the mesh; * and ? stand for any text and any "
+          "character. Repeat it for more. Default: all that the file shows, without lower levels of "
+          "detail (LOD1 and so on); `nook inspect` lists them")
+      .one_each()
+      .type_name("NAME");
+  command
+      .add_option("--without", options.meshes.without,
+                  "leave out meshes of this name, as --mesh; give the options of the bake to other commands "
+                  "as well")
+      .one_each()
+      .type_name("NAME");
 }
 
 }  // namespace nook::tool

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "bakers/import/linked_files.h"
+#include "bakers/import/import_options.h"
 
 namespace nook::tool {
 
@@ -19,7 +19,7 @@ struct CommonOptions {
 
 void add_common_options(Command command, CommonOptions& options);
 
-// The choice of every command that reads glTF.
-void add_linked_files_option(Command command, bake::LinkedFiles& linked);
+// The choices of every command that reads glTF.
+void add_import_options(Command command, bake::ImportOptions& options);
 
 }  // namespace nook::tool

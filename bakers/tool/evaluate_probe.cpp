@@ -29,7 +29,7 @@ struct EvaluateGridOptions {
   std::uint32_t paths = 2048;   // a point
   std::uint32_t max_bounces = ~0u;
   bool no_textures = false;
-  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::ImportOptions reading;
   std::string direct;  // empty: as each grid was baked
 };
 
@@ -103,7 +103,7 @@ void append_grid(const EvaluateGridOptions& options, const CommonOptions& common
 Json evaluate_grids(const EvaluateGridOptions& options, const CommonOptions& common,
                     const std::vector<std::filesystem::path>& grids) {
   const bake::ProbeScene scene =
-      read_probe_scene(options.scene, options.light, !options.no_textures, options.linked);
+      read_probe_scene(options.scene, options.light, !options.no_textures, options.reading, common);
   Json report;
   report["rows"] = Json::array();
   platform::ProgressBar bar(common.quiet);
@@ -178,7 +178,7 @@ void add_evaluate_probe(Command evaluate_command, std::shared_ptr<ProbePeers> pe
                   "of grids: what both sides hold of the map's light that comes straight: none, the sky "
                   "without suns, or all; default as the grid was baked")
       .check(one_of(bake::direct_names()));
-  add_linked_files_option(command, o.grid.linked);
+  add_import_options(command, o.grid.reading);
   command.add_flag("--no-textures", o.grid.no_textures,
                    "of grids: colour factors stand for textures, and alpha masks are solid");
   command.add_option("--lobes", o.lobes, "spherical Gaussians of the forms that are fitted here")

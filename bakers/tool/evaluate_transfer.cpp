@@ -28,7 +28,7 @@ struct Options {
   CommonOptions common;
   std::filesystem::path mesh, transfer, material, raw, images;
   std::vector<std::filesystem::path> lights;
-  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::ImportOptions reading;
   measure::PictureSettings picture;
   float tiles = 1;
   std::optional<std::uint32_t> truth_bounces;
@@ -73,7 +73,7 @@ std::optional<measure::RawReflectance> read_raw(const Options& o) {
 Json evaluate(const Options& o) {
   platform::ProgressBar bar(o.common.quiet);
   const bake::SurfaceMesh mesh =
-      naming_file(o.mesh, [&] { return bake::import_surface(o.mesh, o.linked); }).mesh;
+      naming_file(o.mesh, [&] { return bake::import_surface(o.mesh, o.reading); }).mesh;
   const std::vector<std::byte> bytes = read_file(o.transfer), material_bytes = read_file(o.material);
   const transfer::Transfer baked = naming_file(o.transfer, [&] { return transfer::read_transfer(bytes); });
   check_mesh(o, mesh, baked);
@@ -177,7 +177,7 @@ void add_evaluate_transfer(Command evaluate_command) {
   command.add_option("--tiles", o.tiles, "tiles of the material in one unit of texture coordinates")
       .check(in_range(0.01f, 1000.0f))
       .capture_default_str();
-  add_linked_files_option(command, o.linked);
+  add_import_options(command, o.reading);
   add_common_options(command, o.common);
   command.callback([options] {
     CommandFiles files{

@@ -41,9 +41,11 @@ std::vector<measure::MeasuredRoom> rooms_of(const Options& options) {
   std::vector<measure::MeasuredRoom> rooms{{"room", measure::own_room()}};
   for (std::size_t i = 0; i < options.scenes.size(); ++i) {
     const float metres = i < options.scene_metres.size() ? options.scene_metres[i] : 1;
+    std::vector<std::string> warnings;
     rooms.push_back({options.scenes[i].stem().string(), naming_file(options.scenes[i], [&] {
-                       return measure::room_of(options.scenes[i], metres);
+                       return measure::room_of(options.scenes[i], metres, warnings);
                      })});
+    print_warnings(options.scenes[i], warnings, options.common);
   }
   return rooms;
 }

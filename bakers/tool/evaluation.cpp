@@ -37,7 +37,7 @@ void run_evaluation(const CommonOptions& options, CommandFiles files,
 void add_evaluated_files(Command command, EvaluatedFiles& files) {
   command.add_option("input", files.character, "the character it was baked from, .glb or .gltf").required();
   command.add_option("model", files.model, "the .nook file").required();
-  add_linked_files_option(command, files.linked);
+  add_import_options(command, files.reading);
 }
 
 std::vector<NamedFile> named_files(const EvaluatedFiles& files) {
@@ -45,7 +45,7 @@ std::vector<NamedFile> named_files(const EvaluatedFiles& files) {
 }
 
 measure::BakedCharacter read_evaluated_files(const EvaluatedFiles& files, const CommonOptions& options) {
-  bake::ImportedCharacter imported = read_character(files.character, files.linked, options);
+  bake::ImportedCharacter imported = read_character(files.character, files.reading, options);
   auto bytes = read_file(files.model);
   return naming_file(files.model,
                      [&] { return measure::read_baked_character(std::move(imported), std::move(bytes)); });

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "bakers/import/linked_files.h"
+#include "bakers/import/import_options.h"
 #include "bakers/measure/character/evaluated_character.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/common_options.h"
@@ -25,7 +25,7 @@ void run_evaluation(const CommonOptions& options, CommandFiles files,
 // The two files of a baked character, as arguments of a command.
 struct EvaluatedFiles {
   std::filesystem::path character, model;
-  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::ImportOptions reading;
 };
 
 void add_evaluated_files(Command command, EvaluatedFiles& files);

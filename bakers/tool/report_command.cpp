@@ -88,7 +88,7 @@ struct Options {
   std::filesystem::path file, output;
   std::vector<std::filesystem::path> sources;
   std::string licence;
-  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::ImportOptions reading;
   report::BodySettings body;
 };
 
@@ -108,7 +108,7 @@ struct Job {
   }
   void show_shape() const {
     page.shown.push_back({sources.shape.filename().string(), naming_file(sources.shape, [&] {
-                            return bake::read_asset_notes(sources.shape, options.linked);
+                            return bake::read_asset_notes(sources.shape, options.reading.linked);
                           })});
   }
 };
@@ -124,7 +124,7 @@ report::PageParts body_of(const Job& job) {
                   "the .glb or .gltf file that it was baked from");
   require_shape(job, "character model");
   const measure::BakedCharacter baked =
-      read_evaluated_files({job.sources.shape, job.options.file, job.options.linked}, job.options.common);
+      read_evaluated_files({job.sources.shape, job.options.file, job.options.reading}, job.options.common);
   job.show_shape();
   report::BodySettings settings = job.options.body;
   settings.seed = job.options.common.seed;
@@ -162,7 +162,8 @@ report::PageParts transfer_of(const Job& job, std::span<const std::byte> bytes) 
   require_shape(job, "radiance transfer");
   const transfer::Transfer baked = transfer::read_transfer(bytes);
   const bake::ImportedSurface surface = naming_file(
-      job.sources.shape, [&] { return bake::import_surface(job.sources.shape, job.options.linked); });
+      job.sources.shape, [&] { return bake::import_surface(job.sources.shape, job.options.reading); });
+  print_warnings(job.sources.shape, surface.warnings, job.options.common);
   job.show_shape();
   return report::transfer_parts(bytes.size(), baked, surface.mesh);
 }
@@ -236,7 +237,7 @@ void add_report(Command tool) {
                   "of a character: poses of each clip; default as many as take about a minute, up to 20")
       .check(in_range(1, 100000));
   command.add_option("--licence", o.licence, "words about the licence of what is shown, for the page");
-  add_linked_files_option(command, o.linked);
+  add_import_options(command, o.reading);
   add_common_options(command, o.common);
   command.callback([options] {
     try {

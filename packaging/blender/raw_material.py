@@ -8,6 +8,8 @@ It needs numpy alone. With the Python module xxhash or the library libxxhash che
 import argparse
 import ctypes
 import ctypes.util
+import os
+import shutil
 import struct
 
 import numpy
@@ -115,9 +117,28 @@ def write(path, name, lights, views, radiance, mask=None):
     text = name.encode()
     head = struct.pack("<6I", len(lights), len(views), *radiance.shape[3:], mask is not None, len(text)) + text
     bits = b"" if mask is None else numpy.packbits(numpy.asarray(mask, bool).ravel(), bitorder="little").tobytes()
-    with open(path, "wb") as out:
-        out.write(_container([(b"HEAD", head), (b"DIRS", lights.tobytes() + views.tobytes()),
-                              (b"BTF_", radiance.tobytes()), (b"MASK", bits)]))
+    _write_whole(path, _container([(b"HEAD", head), (b"DIRS", lights.tobytes() + views.tobytes()),
+                                   (b"BTF_", radiance.tobytes()), (b"MASK", bits)]))
+
+
+def _write_whole(path, data):
+    """A file appears whole or not at all, with the mode of the one that it replaces; pipes and devices are written to."""
+    if os.path.exists(path) and not os.path.isfile(path):
+        with open(path, "wb") as out:
+            out.write(data)
+        return
+    target = os.path.realpath(path)
+    part = f"{target}.nook-part-{os.getpid()}"
+    out = open(part, "xb")
+    try:
+        with out:
+            out.write(data)
+        if os.path.exists(target):
+            shutil.copymode(target, part)
+        os.replace(part, target)
+    except BaseException:
+        os.remove(part)
+        raise
 
 
 def hills(texels, lights):

@@ -1,6 +1,6 @@
 // Shows an animated glTF character with Nook's ambient occlusion, in a window or as pictures.
 //
-//   gltf_viewer CHARACTER.glb MODEL.nook [--clip NAME] [--frames N --size WxH --out DIR]
+//   gltf_viewer CHARACTER.glb MODEL.nook [--clip NAME] [--without NODE] [--frames N --size WxH --out DIR]
 //
 // nook_ao.h is all that concerns Nook. The other files stand in for an engine.
 #include <CLI/CLI.hpp>
@@ -19,6 +19,7 @@ namespace {
 struct Options {
   std::filesystem::path character, model, out;
   std::string clip;
+  std::vector<std::string> without;
   int frames = 1, width_px = 960, height_px = 720;
 };
 
@@ -30,6 +31,8 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
       ->required()
       ->check(CLI::ExistingFile);
   app.add_option("--clip", o.clip, "name of a clip; without it, the first one of the file");
+  app.add_option("--without", o.without, "nodes that the bake left out by --without")
+      ->allow_extra_args(false);
   app.add_option("--frames", o.frames, "pictures, spread over the clip")->check(CLI::Range(1, 100000));
   app.add_option("--size", size, "pixels of a picture, WIDTHxHEIGHT");
   app.add_option("--out", o.out, "folder of the pictures; without it, a window opens");
@@ -70,7 +73,7 @@ View view_of(const Box& box, float turn_rad, float aspect) {
 }
 
 void run(const Options& o) {
-  const CharacterFile file(o.character);
+  const CharacterFile file(o.character, o.without);
   const Clip* const clip = file.find_clip(o.clip);
   platform::ContextRequest request;
   request.kind = o.out.empty() ? "window" : "egl";

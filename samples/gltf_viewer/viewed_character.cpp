@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
+#include <regex>
 #include <stdexcept>
 
 namespace viewer {
@@ -190,15 +191,43 @@ void read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& pri
   if (normals_at < 0) compute_normals(out, first, first_index);
 }
 
-void read_meshes(const tinygltf::Model& model, CharacterFile& out) {
-  const std::vector<bool> moves = moving_nodes(out);
-  std::vector<bool> shown(out.nodes.size(), model.scenes.empty());
+bool is_hidden(const tinygltf::Node& node) {
+  const auto extension = node.extensions.find("KHR_node_visibility");
+  if (extension == node.extensions.end() || !extension->second.Has("visible")) return false;
+  const tinygltf::Value& visible = extension->second.Get("visible");
+  return visible.IsBool() && !visible.Get<bool>();
+}
+
+// "Body_LOD1": the model is baked from the finest level.
+bool is_lower_level(const std::string& name) {
+  static const std::regex level("(^|.*[_.\\- ])LOD0*[1-9][0-9]*", std::regex::icase);
+  return std::regex_match(name, level);
+}
+
+// The nodes of the scene without those that a bake leaves out.
+std::vector<bool> shown_nodes(const tinygltf::Model& model, const std::vector<std::string>& without,
+                              const CharacterFile& out) {
+  std::vector<bool> shown(out.nodes.size(), model.scenes.empty()), hidden(out.nodes.size());
   if (!model.scenes.empty())
     for (const int root : model.scenes.at(std::size_t(std::max(model.defaultScene, 0))).nodes)
       shown.at(std::size_t(root)) = true;
-  for (const int n : out.parents_first)
-    if (const int parent = out.nodes[std::size_t(n)].parent; parent >= 0 && shown[std::size_t(parent)])
-      shown[std::size_t(n)] = true;
+  for (const int n : out.parents_first) {
+    const tinygltf::Node& node = model.nodes[std::size_t(n)];
+    const int parent = out.nodes[std::size_t(n)].parent;
+    if (parent >= 0 && shown[std::size_t(parent)]) shown[std::size_t(n)] = true;
+    hidden[std::size_t(n)] = (parent >= 0 && hidden[std::size_t(parent)]) || is_hidden(node) ||
+                             is_lower_level(node.name) || std::ranges::count(without, node.name) > 0;
+  }
+  for (std::size_t n = 0; n < shown.size(); ++n) {
+    const int mesh = model.nodes[n].mesh;
+    const bool is_level = mesh >= 0 && is_lower_level(model.meshes.at(std::size_t(mesh)).name);
+    shown[n] = shown[n] && !hidden[n] && !is_level;
+  }
+  return shown;
+}
+
+void read_meshes(const tinygltf::Model& model, const std::vector<std::string>& without, CharacterFile& out) {
+  const std::vector<bool> moves = moving_nodes(out), shown = shown_nodes(model, without, out);
   for (std::size_t n = 0; n < model.nodes.size(); ++n) {
     const tinygltf::Node& node = model.nodes[n];
     if (node.mesh < 0 || !shown[n] || (node.skin < 0 && !moves[n])) continue;
@@ -259,7 +288,8 @@ void apply(const Channel& channel, float time_s, std::vector<Node>& nodes) {
     node.rotation = glm::normalize(glm::slerp(as_quat(channel.values[a]), as_quat(channel.values[b]), share));
 }
 
-void read_file(const std::filesystem::path& path, CharacterFile& out) {
+void read_file(const std::filesystem::path& path, const std::vector<std::string>& without,
+               CharacterFile& out) {
   tinygltf::TinyGLTF loader;
   tinygltf::Model model;
   std::string error, warning;
@@ -273,15 +303,15 @@ void read_file(const std::filesystem::path& path, CharacterFile& out) {
   read_nodes(model, out);
   read_skins(model, out);
   read_clips(model, out);
-  read_meshes(model, out);
+  read_meshes(model, without, out);
   if (out.triangles.empty()) throw std::runtime_error("it has no triangles");
 }
 
 }  // namespace
 
-CharacterFile::CharacterFile(const std::filesystem::path& path) {
+CharacterFile::CharacterFile(const std::filesystem::path& path, const std::vector<std::string>& without) {
   try {
-    read_file(path, *this);
+    read_file(path, without, *this);
   } catch (const std::exception& e) {
     throw std::runtime_error(path.string() + " cannot be read: " + e.what());
   }

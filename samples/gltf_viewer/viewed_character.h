@@ -1,5 +1,6 @@
 // A rigged glTF file as a viewer needs it: one mesh, skins, nodes and clips. Vertices are in the order of the
-// file, the primitives one after another in the order of the nodes, which is the order of Nook's AO.
+// file, the primitives one after another in the order of the nodes, which is the order of Nook's AO. Meshes
+// that a bake leaves out are not there: hidden ones, lower levels of detail, and those that the caller names.
 #pragma once
 
 #include <cstdint>
@@ -64,8 +65,9 @@ struct CharacterFile {
   std::vector<std::uint32_t> triangles;
   std::vector<Clip> clips;
 
-  // Reads a .glb or .gltf of triangle lists. Throws std::runtime_error, whose text names the file.
-  explicit CharacterFile(const std::filesystem::path& path);
+  // Reads a .glb or .gltf of triangle lists, without the nodes of some names. Throws std::runtime_error,
+  // whose text names the file.
+  explicit CharacterFile(const std::filesystem::path& path, const std::vector<std::string>& without = {});
 
   // Throws std::runtime_error that lists the clips. An empty name is the first clip; without clips the result
   // is null.

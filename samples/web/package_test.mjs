@@ -74,6 +74,19 @@ half.solve().coefficients().forEach((value, i) => assert.ok(Math.abs(value - pro
 half.destroy();
 assert.equal(fit.info.samples, 500);
 
+// Without memory a call throws, and nothing is written where malloc's 0 points.
+{
+  const { module } = nook.library, malloc = module._malloc, before = module.HEAPU8.slice(0, 1024);
+  const large = new Float32Array(9000000);
+  module._malloc = () => 0;
+  assert.throws(() => nook.loadCharacter(new Uint8Array(40000000)), (error) => error instanceof NookError &&
+    error.code === "NOOK_ERROR_OUT_OF_MEMORY" && error.message.startsWith("nook_model_load: no memory for 40000000 bytes"));
+  assert.throws(() => nook.createProbeFit().addSamples(large, large), /nook_probe_fit_add_samples: no memory for 36000000 bytes/);
+  module._malloc = malloc;
+  assert.deepEqual(module.HEAPU8.subarray(0, 1024), before);
+  nook.createScene().destroy();
+}
+
 // Memory that is freed is used again: as many scenes as would not fit beside one another.
 const before = nook.memoryBytes;
 for (let i = 0; i < 2000; ++i) nook.createScene().destroy();
@@ -81,7 +94,7 @@ assert.equal(nook.memoryBytes, before);
 
 // A word where numbers belong, and too few numbers, are refused by name.
 for (const view of ["raw", [1, 0, 0]])
-  assert.throws(() => nook.library.call(() => nook.library.descriptor("nook_gl_frame_desc", { view })), /nook_gl_frame_desc: view needs 16 numbers/);
+  assert.throws(() => nook.library.call("nook_nnao_render", () => nook.library.descriptor("nook_gl_frame_desc", { view })), /nook_gl_frame_desc: view needs 16 numbers/);
 
 // Every struct and word of the module's tables that an option takes is in the types.
 const types = readFileSync(join(folder, "index.d.ts"), "utf8");

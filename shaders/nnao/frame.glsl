@@ -6,7 +6,7 @@ uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 
 #define nook_screen_rays nook_frame[NOOK_FRAME_SCREEN_RAYS]   // x_scale, x_offset, y_scale, y_offset, from pixels of the screen
 #define nook_surface_rays nook_frame[NOOK_FRAME_SURFACE_RAYS]  // from texels of the surface
-#define nook_depth_decode nook_frame[NOOK_FRAME_DEPTH_DECODE]  // depth = (x + y s) / (z + w s), s: the stored value, or as nook_log_rate says
+#define nook_depth_decode nook_frame[NOOK_FRAME_DEPTH_DECODE]  // depth = (x + y s) / (z + w s), s: the stored value with nook_stored_slope, or as nook_log_rate says
 #define nook_far_stored nook_frame[NOOK_FRAME_FAR].x  // the stored value of the far plane
 #define nook_far_sign nook_frame[NOOK_FRAME_FAR].y    // 1: stored values grow with the distance; -1: they fall
 #define nook_min_depth nook_frame[NOOK_FRAME_FAR].z
@@ -23,12 +23,14 @@ uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 #define nook_power nook_frame[NOOK_FRAME_RADIUS].w
 #define nook_normal_scale nook_frame[NOOK_FRAME_NORMAL].x
 #define nook_normal_bias nook_frame[NOOK_FRAME_NORMAL].y
-#define nook_has_normals (nook_frame[NOOK_FRAME_NORMAL].z != 0.0)
+#define nook_shortest_normal nook_frame[NOOK_FRAME_NORMAL].z  // shorter texels are no normals; 0: there are none
+#define nook_has_normals (nook_shortest_normal != 0.0)
 #define nook_layer_mode int(nook_frame[NOOK_FRAME_NORMAL].w)
 #define nook_origin ivec2(nook_frame[NOOK_FRAME_VIEWPORT].xy)  // of the viewport in the host's textures
 #define nook_screen_size ivec2(nook_frame[NOOK_FRAME_VIEWPORT].zw)
 #define nook_surface_last nook_frame[NOOK_FRAME_SURFACE].xy  // the texel of the upper right corner
-#define nook_surface_size ivec2(nook_frame[NOOK_FRAME_SURFACE].zw)
+#define nook_surface_size (ivec2(nook_surface_last) + 1)
+#define nook_stored_slope nook_frame[NOOK_FRAME_SURFACE].zw  // what an oblique projection adds to stored depth for each pixel
 #define nook_normal_matrix mat3(nook_frame[NOOK_FRAME_NORMAL_MATRIX].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 1].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 2].xyz)
 
 #define nook_noise_shift vec2(nook_frame[NOOK_FRAME_NORMAL_MATRIX].w, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 1].w)  // of this frame

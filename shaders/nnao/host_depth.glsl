@@ -7,8 +7,9 @@ uniform NOOK_HOST_SAMPLES nook_host_depth;
 uniform NOOK_HOST_IMAGE nook_host_depth;
 #endif
 
-float nook_view_depth(float stored) {
+float nook_view_depth(float stored, ivec2 pixel) {
   if ((stored - nook_far_stored) * nook_far_sign >= 0.0) return nook_no_surface;
+  stored += dot(nook_stored_slope, vec2(pixel));
   if (nook_log_rate != 0.0) stored = exp2(nook_log_rate * stored);
   float depth = (nook_depth_decode.x + nook_depth_decode.y * stored) /
                 (nook_depth_decode.z + nook_depth_decode.w * stored);
@@ -24,7 +25,7 @@ struct NookDepthSample {
 };
 
 NookDepthSample nook_sample_at(ivec2 pixel, int number) {
-  return NookDepthSample(nook_view_depth(nook_host_sample(nook_host_depth, pixel, number).r), number);
+  return NookDepthSample(nook_view_depth(nook_host_sample(nook_host_depth, pixel, number).r, pixel), number);
 }
 
 // Returns the sample that nook_nnao_sample says; sdk/src/nnao/host_depth.h has the same on the CPU.
@@ -55,6 +56,6 @@ float nook_screen_depth(ivec2 pixel) {
 }
 #else
 float nook_screen_depth(ivec2 pixel) {
-  return nook_view_depth(nook_host_texel(nook_host_depth, pixel).r);
+  return nook_view_depth(nook_host_texel(nook_host_depth, pixel).r, pixel);
 }
 #endif

@@ -41,7 +41,7 @@ vec3 nook_texel_normal(ivec2 texel, NookNeighbours around) {
     vec3 n = nook_normal_matrix * (nook_stored_normal(texel, pixel) * nook_normal_scale + nook_normal_bias);
     float size = length(n);
     // A size outside these bounds means that nothing, or no normal, was drawn here.
-    if (size > 1.0e-3 && size < 1.0e6) return n / size;
+    if (size > nook_shortest_normal && size < 1.0e6) return n / size;
   }
   return nook_rebuilt_normal(texel, around);
 }

@@ -43,6 +43,22 @@ void nook_fetch_quad(ivec2 low, out vec4 depths, out mat4 values) {
 }
 #endif
 
+#ifdef NOOK_LAYERED
+// Returns the value of the texel that is nearest in depth, of those around the four.
+vec4 nook_value_around(ivec2 low, float depth) {
+  vec4 found = nook_open;
+  float least = nook_no_surface;
+  for (int i = 0; i < 16; ++i) {
+    ivec2 texel = low + ivec2(i & 3, i >> 2) - 1;
+    if (!nook_inside(texel, nook_surface_size)) continue;
+    float off = abs(nook_depth_at(texel) - depth);
+    if (off < least) found = texelFetch(nook_ao, texel, 0);
+    least = min(least, off);
+  }
+  return found;
+}
+#endif
+
 // Returns a value of nook_ao; its edges mean nothing.
 vec4 nook_upsampled(ivec2 pixel, float depth) {
   ivec2 low = pixel / 2;
@@ -66,5 +82,9 @@ vec4 nook_upsampled(ivec2 pixel, float depth) {
   vec4 weights = (lerp + 1.0e-3) / (1.0e-3 + off * off);
   weights *= vec4(notEqual(depths, vec4(nook_no_surface)));
   float sum = dot(weights, vec4(1.0));
+#ifdef NOOK_LAYERED
+  // Beside a foot that the layer leaves out, the floor may have none of the four.
+  if (sum == 0.0 && nook_layer_mode >= NOOK_LAYER_REPLACE) return nook_value_around(low, depth);
+#endif
   return sum > 0.0 ? values * weights / sum : nook_open;
 }

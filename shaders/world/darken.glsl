@@ -14,15 +14,47 @@ uniform int nook_world_tile_columns;  // 0: no body reaches the view
 uniform int nook_world_tile_size;     // pixels along a side
 uniform int nook_world_counts;        // not 0: a nook_world_view that shows numbers over 255
 
-// The position of a pixel of the viewport; far away where there is no surface.
-vec3 nook_world_position(ivec2 pixel) {
+#ifdef NOOK_LAYERED
+bool nook_world_replaced(ivec2 pixel, float above) {
+  return nook_layer_mode >= NOOK_LAYER_REPLACE && texelFetch(nook_layer, pixel + nook_origin, 0).g > above;
+}
+#endif
+
+// Pixels from one that this stage evaluates to the next one whose depth it knows.
+#if NOOK_HALF
+#define NOOK_NORMAL_STEP 2
+#else
+#define NOOK_NORMAL_STEP 1
+#endif
+
+// The depth of a pixel beside one that this stage evaluates; far away where there is no surface, and where the layer has a
+// surface of its own. A foot that faces the viewer is flatter than the floor it stands on: the floor would get its normal.
+float nook_world_depth_beside(ivec2 pixel) {
+#if NOOK_HALF
+  return nook_depth_near(pixel / NOOK_NORMAL_STEP);
+#else
   ivec2 inside = clamp(pixel, ivec2(0), nook_screen_size - 1);
-  return nook_position(nook_screen_rays, vec2(pixel), nook_screen_depth(inside));
+#ifdef NOOK_LAYERED
+  if (nook_world_replaced(inside, NOOK_EXCLUDED_ABOVE)) return nook_no_surface;
+#endif
+  return nook_screen_depth(inside);
+#endif
 }
 
 // The tangent along an axis from the steps to both neighbours, each weighted by the inverse square of its change of
-// depth: past a silhouette depth changes more steeply than on the pixel's own surface.
-vec3 nook_world_tangent(vec3 back, vec3 forth) {
+// depth: past a silhouette depth changes more steeply than on the pixel's own surface. axis: of one pixel.
+vec3 nook_world_tangent(ivec2 pixel, ivec2 axis, vec3 position) {
+  ivec2 step = NOOK_NORMAL_STEP * axis;
+  vec2 depths = vec2(nook_world_depth_beside(pixel - step), nook_world_depth_beside(pixel + step));
+#ifdef NOOK_LAYERED
+  // Between two fingers the surface goes on beyond them.
+  for (int i = 0; i < 7 && min(depths.x, depths.y) == nook_no_surface; ++i) {
+    step += NOOK_NORMAL_STEP * axis;
+    depths = vec2(nook_world_depth_beside(pixel - step), nook_world_depth_beside(pixel + step));
+  }
+#endif
+  vec3 back = position - nook_position(nook_screen_rays, vec2(pixel - step), depths.x);
+  vec3 forth = nook_position(nook_screen_rays, vec2(pixel + step), depths.y) - position;
   float b = back.z * back.z + 1.0e-12, f = forth.z * forth.z + 1.0e-12;
   return b < f ? back + forth * (b / f) : back * (f / b) + forth;
 }
@@ -33,11 +65,9 @@ vec3 nook_world_normal(ivec2 pixel, vec3 position) {
     vec3 n = nook_normal_matrix * (stored * nook_normal_scale + nook_normal_bias);
     float size = length(n);
     // A size outside these bounds means that nothing, or no normal, was drawn here.
-    if (size > 1.0e-3 && size < 1.0e6) return n / size;
+    if (size > nook_shortest_normal && size < 1.0e6) return n / size;
   }
-  ivec2 right = ivec2(1, 0), up = ivec2(0, 1);
-  vec3 x = nook_world_tangent(position - nook_world_position(pixel - right), nook_world_position(pixel + right) - position);
-  vec3 y = nook_world_tangent(position - nook_world_position(pixel - up), nook_world_position(pixel + up) - position);
+  vec3 x = nook_world_tangent(pixel, ivec2(1, 0), position), y = nook_world_tangent(pixel, ivec2(0, 1), position);
   vec3 n = normalize(cross(x, y));
   return dot(n, nook_to_viewer(position)) < 0.0 ? -n : n;
 }
@@ -87,7 +117,7 @@ float nook_world_depth(ivec2 pixel) {
   return nook_depth_at(pixel / 2);
 #else
 #ifdef NOOK_LAYERED
-  if (nook_layer_mode >= NOOK_LAYER_REPLACE && texelFetch(nook_layer, pixel + nook_origin, 0).g > NOOK_REPLACED_ABOVE) return nook_no_surface;
+  if (nook_world_replaced(pixel, NOOK_REPLACED_ABOVE)) return nook_no_surface;
 #endif
   return nook_screen_depth(pixel);
 #endif

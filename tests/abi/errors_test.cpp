@@ -98,23 +98,26 @@ TEST_CASE("scenes: every field out of its range") {
   CHECK(refused([](auto& d) { d.far_error = NAN; }, "desc.far_error"));
   CHECK(refused([](auto& d) { d.far_error = -1; }, "desc.far_error"));
   CHECK(refused([](auto& d) { d.lod_error = -1; }, "desc.lod_error"));
-  CHECK(refused([](auto& d) { d.lod_distance = 0; }, "desc.lod_distance"));
+  CHECK(refused([](auto& d) { d.lod_distance = -1; }, "desc.lod_distance"));
   CHECK(refused([](auto& d) { d.lod_max_interval = 0; }, "desc.lod_max_interval"));
   CHECK(refused([](auto& d) { d.ground_radius = INFINITY; }, "desc.ground_radius"));
+  CHECK(refused([](auto& d) { d.ground_radius = -1; }, "desc.ground_radius"));
   const nook_scene_desc good = Host::scene_desc();
   nook_scene scene = nullptr;
   CHECK(nook_scene_create(nullptr, &good, &scene) == invalid);
   CHECK(nook_scene_create(stage.context, &good, nullptr) == invalid);
 }
 
-TEST_CASE("contexts: instruction sets and reserved fields") {
+TEST_CASE("contexts: instruction sets and units") {
   nook_context context = nullptr;
   nook_context_desc desc;
   REQUIRE(nook_context_desc_init(&desc) == NOOK_OK);
-  desc.reserved = 1;
-  CHECK(nook_context_create(&desc, &context) == invalid);
-  CHECK(last_is("nook_context_create: ", "desc.reserved"));
-  desc.reserved = 0;
+  for (const float wrong : {0.0f, -1.0f, NAN, INFINITY, 1e7f}) {
+    desc.units_per_metre = wrong;
+    CHECK(nook_context_create(&desc, &context) == invalid);
+    CHECK(last_is("nook_context_create: ", "desc.units_per_metre"));
+  }
+  desc.units_per_metre = 1;
   // No machine has all instruction sets. What is missing is named, with those that are there.
   int unsupported = 0;
   for (nook_isa isa = NOOK_ISA_SCALAR;; ++isa) {

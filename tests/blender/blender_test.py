@@ -8,6 +8,7 @@ rest positions, which are all apart in this character.
 import os
 import pathlib
 import sys
+import tempfile
 
 import bpy
 import numpy as np
@@ -197,17 +198,98 @@ def test_saved_scene(folder):
     bpy.ops.wm.open_mainfile(filepath=path)
     armature = bpy.data.objects["Rig"]
     bpy.context.view_layer.objects.active = armature
+    bpy.ops.nook.confirm(folder=str(folder))
     check(bpy.ops.nook.show() == {"FINISHED"}, "a scene that was saved shows its bake again")
     body = bpy.data.objects["Limb"]
     bpy.ops.nook.show()
     extra = body.data.vertices
     extra.add(1)
     fails_with(bpy.ops.nook.show, ["bake again"])
+    open_again(path)
+    return path
+
+
+def open_again(path):
     bpy.ops.wm.open_mainfile(filepath=path)
-    bpy.context.view_layer.objects.active = bpy.data.objects["Rig"]
+    armature = bpy.data.objects["Rig"]
+    bpy.context.view_layer.objects.active = armature
+    return armature
+
+
+def test_trust(path, folder, preferences):
+    """A .blend file from somebody else chooses neither what is loaded nor where is written."""
+    page = folder / "Rig.html"
+    before = sorted(folder.iterdir())
+    armature = open_again(path)
+    unconfirmed = [str(folder), "not confirmed"]
+    fails_with(bpy.ops.nook.show, unconfirmed)
+    fails_with(bpy.ops.nook.report, unconfirmed)
+    fails_with(bpy.ops.nook.bake, unconfirmed)  # the folder of the scene is the file's as well
+    check(sorted(folder.iterdir()) == before and not page.exists(), "nothing was written before the folder was confirmed")
+    elsewhere = folder.parent / "chosen by the file"
+    bpy.ops.nook.confirm(folder=str(folder))
+    armature["nook_folder"] = str(elsewhere)
+    fails_with(bpy.ops.nook.show, [str(elsewhere), "not confirmed"])
+    fails_with(bpy.ops.nook.report, [str(elsewhere), "not confirmed"])
+    check(not elsewhere.exists(), "a folder that was not confirmed is not made")
+    hidden = str(folder) + "\u202e\n\x1b"
+    armature["nook_folder"] = hidden
+    fails_with(bpy.ops.nook.show, ["\\u202e\\u000a\\u001b"])
+    for value in (7, [1.0, 2.0], ""):
+        armature["nook_folder"] = value
+        fails_with(bpy.ops.nook.show, ["names no folder"])
+    armature["nook_folder"] = str(folder)
+    part = bpy.context.scene.nook_characters[0].parts[0]
+    part.vertices += 1
+    fails_with(bpy.ops.nook.show, ["bake again"])
+    part.vertices -= 1
+    check(bpy.ops.nook.show() == {"FINISHED"}, "a confirmed folder is used")
+    bpy.ops.nook.show()
+    target = folder.parent / "victim"
+    target.write_text("kept")
+    page.symlink_to(target)
+    fails_with(bpy.ops.nook.report, ["symbolic link"])
+    check(target.read_text() == "kept", "a link in the folder is not followed")
+    page.unlink()
+    open_again(path)
+    fails_with(bpy.ops.nook.show, unconfirmed)
+    # Whoever types a folder has chosen it; setting the same one again counts.
+    bpy.context.scene.nook.folder = str(folder)
+    check(bpy.ops.nook.show() == {"FINISHED"}, "a folder that was chosen since needs no question")
+    bpy.ops.nook.show()
+
+
+def test_temporary(path, folder, preferences):
+    """Temporary folders go when a bake fails, when the next one replaces it, and with the add-on."""
+    temporary = folder.parent / "temporary"
+    temporary.mkdir()
+    tempfile.tempdir = str(temporary)
+    own = lambda: [p for p in temporary.iterdir() if p.name.startswith("nook-")]  # noqa: E731
+    armature = open_again(path)
+    bpy.context.scene.nook.folder = ""
+    failing = folder.parent / "failing"
+    failing.write_text("#!/bin/sh\necho 'nook: no luck' >&2\nexit 3\n")
+    failing.chmod(0o755)
+    preferences.tool = str(failing)
+    fails_with(bpy.ops.nook.bake, ["no luck"])
+    check(own() == [], "a bake that fails leaves no temporary folder")
+    preferences.tool = TOOL
+    check(bpy.ops.nook.bake() == {"FINISHED"}, "the limb was baked into a temporary folder")
+    first = own()
+    check(len(first) == 1 and armature["nook_folder"] == str(first[0]), "there is one temporary folder")
+    bpy.ops.nook.show()
+    check(bpy.ops.nook.show() == {"FINISHED"}, "what was baked now needs no question")
+    check(bpy.ops.nook.bake() == {"FINISHED"} and len(own()) == 1 and own() != first, "the next bake replaces it")
+    bpy.ops.preferences.addon_disable(module="nook_ao")
+    check(own() == [], "nothing is left without the add-on")
+    bpy.ops.preferences.addon_enable(module="nook_ao")
+    again = bpy.context.preferences.addons["nook_ao"].preferences
+    again.tool, again.library = TOOL, LIBRARY
+    check(bpy.ops.nook.bake() == {"FINISHED"} and len(own()) == 1, "a folder is left for Blender's end, which the script looks at")
 
 
 def test_report(folder):
+    bpy.ops.nook.confirm(folder=str(folder))
     check(bpy.ops.nook.report() == {"FINISHED"}, "the report was written")
     page = (folder / "Rig.html").read_text(encoding="utf-8")
     check(page.startswith("<!DOCTYPE html>") or page.startswith("<!doctype html>"), "it is a page")
@@ -251,10 +333,12 @@ def main():
     preferences = install()
     test_errors(preferences)
     test_bake(preferences)
-    test_saved_scene(FOLDER)
+    path = test_saved_scene(FOLDER)
+    test_trust(path, FOLDER, preferences)
     test_report(FOLDER)
     if PICTURES:
         draw_pictures(PICTURES[0])
+    test_temporary(path, FOLDER, preferences)
     print("the add-on passes", flush=True)
 
 

@@ -1,4 +1,4 @@
-"""What the tests of the add-on share: they run inside of Blender."""
+"""Helpers of the tests of the add-on. They run inside of Blender."""
 import bpy
 import numpy as np
 

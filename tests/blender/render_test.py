@@ -68,6 +68,7 @@ def render_in_window(folder, lock):
     scene = bpy.context.scene
     with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
         bpy.context.view_layer.objects.active = bpy.data.objects["Rig"]
+        bpy.ops.nook.confirm(folder=os.path.join(folder, "bake"))
         bpy.ops.nook.show()
         scene.render.use_lock_interface = lock == "1"
         scene.render.filepath = os.path.join(folder, f"window{lock}_")

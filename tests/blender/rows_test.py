@@ -21,8 +21,8 @@ from checks import check, colours, error_to_truth, fails_with  # noqa: E402
 
 TOOL, LIBRARY, FOLDER = sys.argv[sys.argv.index("--") + 1:]
 FOLDER = pathlib.Path(FOLDER)
-# What the colours may be wrong beyond the model itself, whose few steps are another matter; colours of other vertices or poses are wrong
-# by 0.1 and more beyond it.
+# The colours may be wrong by this much more than the model, which has few steps here. Colours of other vertices or poses are wrong by 0.1
+# and more beyond the model's error.
 ALLOWED = 0.01
 
 

@@ -1,9 +1,11 @@
 #include "tests/gl/nnao_images.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
 #include "sdk/src/nnao/network_file.h"
+#include "tests/gl/real_projections.h"
 #include "tests/gl/test_context.h"
 #include "tests/nnao/network_sample.h"
 
@@ -82,9 +84,20 @@ std::vector<Camera> cameras(float aspect) {
   Camera scaled = plain_camera(aspect);
   scaled.name = "times 3";
   for (float& number : scaled.projection) number *= 3;
+  // Clipped by a plane that leans, 0.3 m before the camera.
+  Camera oblique = off_centre, oblique_parallel = off_centre_parallel;
+  oblique.name = "oblique near plane";
+  Matrix4 clipped{};
+  std::copy_n(off_centre.projection, 16, clipped.begin());
+  clipped = lengyel_oblique(clipped, {0.1, 0.2, -0.97, -0.3});
+  std::transform(clipped.begin(), clipped.end(), oblique.projection, [](double v) { return float(v); });
+  oblique_parallel.name = "orthographic with oblique planes";
+  oblique_parallel.projection[2] = 0.004f;
+  oblique_parallel.projection[6] = -0.007f;
   for (Camera& camera :
        {std::ref(off_centre), std::ref(off_centre_parallel), std::ref(flipped), std::ref(scaled)})
     all.push_back(camera);
+  for (const Camera& camera : {oblique, oblique_parallel}) all.push_back(camera);
   return all;
 }
 
@@ -150,14 +163,21 @@ Picture halved(const Picture& picture) {
 std::vector<float> stored_depth(const Camera& camera, const Picture& picture) {
   const float* m = camera.projection;
   const bool zero_to_one = camera.clip == NOOK_CLIP_SPACE_ZERO_TO_ONE;
-  const auto stored = [&](double depth) {
-    const double ndc = (-m[10] * depth + m[14]) / (-m[11] * depth + m[15]);
+  const bool orthographic = m[11] == 0;
+  // ray: x and y of view space at a depth of one metre.
+  const auto stored = [&](Vec3 ray, double depth) {
+    const double x = ray.x * (orthographic ? 1 : depth), y = ray.y * (orthographic ? 1 : depth);
+    const double ndc = (m[2] * x + m[6] * y - m[10] * depth + m[14]) / (-m[11] * depth + m[15]);
     return zero_to_one ? ndc : 0.5 * ndc + 0.5;
   };
-  const float far_stored = stored(5) > stored(4) ? 1.0f : 0.0f;
+  const float far_stored = stored({}, 5) > stored({}, 4) ? 1.0f : 0.0f;
   std::vector<float> out;
-  for (const float depth : picture.depth)
-    out.push_back(std::isfinite(depth) ? float(stored(depth)) : far_stored);
+  for (std::size_t i = 0; i < picture.depth.size(); ++i) {
+    const float depth = picture.depth[i];
+    const Vec3 ray = nnao::view_position(picture.rays, float(i % picture.width) + 0.5f,
+                                         float(i / picture.width) + 0.5f, 1);
+    out.push_back(std::isfinite(depth) ? float(stored(ray, depth)) : far_stored);
+  }
   return out;
 }
 

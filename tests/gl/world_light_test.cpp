@@ -241,7 +241,7 @@ TEST_CASE("world light: bad light is refused with the field's name") {
   refused("desc.light_degrees", [](auto& f) { set_axis(f, {0, 1, 0}, NAN); });
   refused("desc.light_reach", [](auto& f) {
     set_axis(f, {0, 1, 0}, 10);
-    f.light_reach = 0;
+    f.light_reach = -1;
   });
   nook_world_desc odd = coloured_desc();
   odd.coloured = 2;

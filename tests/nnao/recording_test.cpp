@@ -5,6 +5,7 @@
 
 #include "sdk/src/core/floats.h"
 #include "sdk/src/nnao/exact_packing.h"
+#include "sdk/src/nnao/projection_check.h"
 #include "sdk/src/nnao/recording_file.h"
 #include "tests/catch.h"
 #include "tests/nnao/network_sample.h"
@@ -245,7 +246,7 @@ TEST_CASE("stored depth gives the distance under every projection, and the far p
         for (const float far_m : {40.0f, infinite}) {
           if (!perspective && std::isinf(far_m)) continue;
           const Lens lens(perspective, 0.2f, far_m, reversed, clip);
-          check_projection(lens.projection, DepthKind::hardware);
+          check_projection(lens.projection, DepthKind::hardware, clip);
           const DepthDecode decode = depth_decode({lens.projection, DepthKind::hardware, clip, 0});
           INFO(perspective << reversed << int(clip) << far_m);
           // Depth of 24 bits and more: a float near 1 has a step of 6e-8, which at 10 m and a near plane of

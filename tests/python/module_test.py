@@ -1,4 +1,5 @@
 """The Python module: bakes with progress and cancel, AO of poses, probes and materials, faults of callers."""
+import json
 import math
 import pathlib
 import subprocess
@@ -134,6 +135,21 @@ class Characters(unittest.TestCase):
             nook.bake_character(self.character, ray=3)
         with self.assertRaisesRegex(ValueError, "whole numbers"):
             nook.trace_ao([(np.zeros((3, 3)), [[0, 1, -1]])], np.zeros((1, 3)), [[0, 1, 0]])
+
+    def test_meshes_of_a_file_are_chosen_by_name(self):
+        data = json.dumps({
+            "asset": {"version": "2.0"}, "nodes": [{"name": "Body", "mesh": 0}, {"name": "Sword", "mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}).encode()
+        self.assertEqual(nook.Character(data=data).triangle_count, 2)
+        self.assertEqual(nook.Character(data=data, without=["Sw*"]).triangle_count, 1)
+        self.assertEqual(nook.Character(data=data, meshes=["Body"]).triangle_count, 1)
+        with self.assertRaisesRegex(nook.NookError, '"Axe".*"Body", "Sword"'):
+            nook.Character(data=data, meshes=["Axe"])
+        with self.assertRaisesRegex(TypeError, "without is a list of names"):
+            nook.Character(data=data, without="Sword")
 
     def test_a_closed_object_says_so(self):
         model = nook.CharacterModel(self.data)

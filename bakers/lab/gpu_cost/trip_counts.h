@@ -38,6 +38,10 @@ inline constexpr double no_normal = 0;
 // The share of pixels that lie between characters so that no texel of far bodies is on their surface.
 inline constexpr double alone = 0.004;
 
+// Steps to the next surface along an axis where both neighbours belong to characters, of pixels without the
+// host's normal: one pixel in a hundred, two steps.
+inline constexpr double steps_past_characters = 0.02;
+
 // A capture: a cube map of faces of 64 texels becomes 12 lobes, which are one group of sums.
 inline constexpr int capture_face_size = 64;  // texels
 inline constexpr int capture_rows = 6 * capture_face_size;

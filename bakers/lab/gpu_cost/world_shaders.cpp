@@ -82,6 +82,9 @@ std::vector<ShaderCase> world_shaders() {
        {{"parts of a body", trips::parts_of_near_body, {{"casters of a part", trips::casters_of_part, {}}}}}},
       {"bodies of a tile, where no texel of far bodies is near", trips::alone * trips::bodies_of_tile, {}}};
   const std::vector<Loop> far_loops{{"bodies of a tile", trips::bodies_of_tile, {}}};
+  std::vector<Loop> layered_loops{{"steps along x past characters", trips::steps_past_characters, {}},
+                                  {"steps along y past characters", trips::steps_past_characters, {}}};
+  layered_loops.push_back(loops.front());
   const char* const path = "shaders/world/darken.frag";
   const char* const resolve = "shaders/world/resolve.frag";
   const char* const groups = "shaders/world/darken.comp";
@@ -90,7 +93,8 @@ std::vector<ShaderCase> world_shaders() {
                     far = "#define NOOK_BODIES NOOK_FAR_BODIES\n";
   return {
       tree_shader(Stage::fragment, path, "darken.frag", full, loops),
-      tree_shader(Stage::fragment, path, "darken.frag, layered", full + "#define NOOK_LAYERED 1\n", loops),
+      tree_shader(Stage::fragment, path, "darken.frag, layered", full + "#define NOOK_LAYERED 1\n",
+                  layered_loops),
       tree_shader(Stage::fragment, path, "darken.frag, half resolution, near bodies", half + near,
                   near_loops),
       tree_shader(Stage::fragment, path, "darken.frag, far bodies", half + far, far_loops),

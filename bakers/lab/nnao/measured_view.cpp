@@ -56,7 +56,7 @@ namespace {
 TrainingScene read_scene(const SceneRequest& request, std::uint64_t seed) {
   if (request.file.empty()) return make_thin_scene(seed);
   bake::StaticScene scene =
-      bake::import_static_scene(request.file, bake::SceneTextures::skip, request.linked);
+      bake::import_static_scene(request.file, bake::SceneTextures::skip, request.reading);
   return scene_to_look_at({std::move(scene.position), std::move(scene.triangle)});
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bakers/import/linked_files.h"
+#include "bakers/import/import_options.h"
 #include "bakers/lab/nnao/traced_truth.h"
 #include "bakers/lab/nnao/truth_store.h"
 
@@ -48,7 +48,7 @@ struct SceneRequest {
   std::filesystem::path file;  // empty: the built-in scene of thin things
   float radius = 0.5f;         // metres
   std::vector<GivenCamera> cameras;
-  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::ImportOptions reading;
   std::string source = {};  // empty: the scene's name
 };
 

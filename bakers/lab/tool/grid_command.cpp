@@ -31,7 +31,7 @@ struct Options {
   BoxArgument box;
   LookupSettings settings;
   std::string direct = "all";
-  bake::LinkedFiles linked = bake::LinkedFiles::folder;
+  bake::ImportOptions reading;
   bool no_textures = false;
   std::filesystem::path picture;
 };
@@ -93,7 +93,7 @@ Json evaluate(const Options& options) {
       platform::OutputFile(options.picture).commit(bake::png_bytes(picture_of(plan)));
   } else {
     const bake::ProbeScene scene =
-        read_probe_scene(options.scene, options.light, !options.no_textures, options.linked);
+        read_probe_scene(options.scene, options.light, !options.no_textures, options.reading, options.common);
     report["rows"] = rows_of(options, {options.scene.stem().string(), *scene.lit, scene.soup},
                              scene.origin_offset, scene.low_ws, scene.high_ws);
   }
@@ -143,7 +143,7 @@ void add_evaluate_grid(Command evaluate_command) {
   command.add_option(
       "--picture", o.picture,
       "of the rooms: write the light on their floor as one .png, path traced, trilinear and with walls");
-  add_linked_files_option(command, o.linked);
+  add_import_options(command, o.reading);
   command.add_flag("--no-textures", o.no_textures, "colour factors stand for textures");
   add_common_options(command, o.common);
   command.callback([options] {

@@ -73,7 +73,7 @@ void check_options(const EvaluateNnaoOptions& options) {
 void add_options(Command command, EvaluateNnaoOptions& options) {
   command.add_option("scene", options.scenes.files,
                      "scenes in metres, y up, .glb or .gltf; of several, the means are reported as well");
-  add_linked_files_option(command, options.scenes.linked);
+  add_import_options(command, options.scenes.reading);
   command.add_option("--views", options.views,
                      "a list of scenes with their cameras, such as docs/nnao_views.json, instead of files");
   command.add_option("--folder", options.folder,

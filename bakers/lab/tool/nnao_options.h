@@ -20,7 +20,7 @@ namespace nook::lab {
 struct SceneWords {
   std::vector<std::filesystem::path> files;
   bool thin = false;
-  bake::LinkedFiles linked = bake::LinkedFiles::folder;  // of all files
+  bake::ImportOptions reading;
   std::vector<std::string> cameras;  // [NAME:]ox,oy,oz,tx,ty,tz,fov; without a name, of every scene
   std::vector<std::string> radii;    // [NAME:]metres
 };

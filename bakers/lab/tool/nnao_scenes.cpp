@@ -77,8 +77,8 @@ void apply(std::vector<SceneRequest>& scenes, const std::string& option, const s
 std::vector<SceneRequest> parse_scenes(const SceneWords& words) {
   std::vector<SceneRequest> scenes;
   for (const std::filesystem::path& file : words.files)
-    scenes.push_back({file.stem().string(), file, 0.5f, {}, words.linked, {}});
-  if (words.thin) scenes.push_back({"thin", {}, 0.5f, {}, words.linked, {}});
+    scenes.push_back({file.stem().string(), file, 0.5f, {}, words.reading, {}});
+  if (words.thin) scenes.push_back({"thin", {}, 0.5f, {}, words.reading, {}});
   for (std::size_t i = 0; i < scenes.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (scenes[i].name == scenes[j].name) refuse("two scenes have one name (got " + scenes[i].name + ")");

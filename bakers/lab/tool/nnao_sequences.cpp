@@ -56,7 +56,7 @@ class Shots {
   Shots(const std::filesystem::path& file, const EvaluateNnaoOptions& options)
       : name_(file.stem().string()), options_(options) {
     naming_file(file, [&] {
-      character_ = bake::import_gltf(file, options.scenes.linked);
+      character_ = bake::import_gltf(file, options.scenes.reading);
       clip_ = walking_clip(character_, options.clip);
     });
   }

@@ -14,8 +14,10 @@ using namespace bake;
 void require_same(const char* what, std::size_t got, std::size_t needed) {
   if (got != needed)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the model was not baked from this character (%s: got %zu, need %zu); bake it again", what,
-                  got, needed);
+                  "the model was not baked from this character (%s: got %zu, need %zu); bake it again, or "
+                  "choose the meshes of "
+                  "its bake (--mesh, --without)",
+                  what, got, needed);
 }
 
 std::vector<std::size_t> named_clips(const ImportedCharacter& character,

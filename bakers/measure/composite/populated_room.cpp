@@ -197,8 +197,10 @@ TriangleSoup own_room() {
   return soup;
 }
 
-bake::TriangleSoup room_of(const std::filesystem::path& file, float metres_per_unit) {
+bake::TriangleSoup room_of(const std::filesystem::path& file, float metres_per_unit,
+                           std::vector<std::string>& warnings) {
   StaticScene scene = import_static_scene(file);
+  warnings.insert(warnings.end(), scene.warnings.begin(), scene.warnings.end());
   for (Vec3& p : scene.position) p = metres_per_unit * p;
   return {std::move(scene.position), std::move(scene.triangle)};
 }

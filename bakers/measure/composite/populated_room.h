@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "bakers/import/skinned_mesh.h"
@@ -15,8 +16,10 @@ namespace nook::measure {
 // Walls, steps, a table with chairs, a shelf. World space, metres, the floor at y = 0.
 bake::TriangleSoup own_room();
 
-// The triangles of a glTF file with +y up, whose unit has so many metres. Throws Failure (BAD_FILE).
-bake::TriangleSoup room_of(const std::filesystem::path& file, float metres_per_unit);
+// The triangles of a glTF file with +y up, whose unit has so many metres. Adds the warnings of the import.
+// Throws Failure (BAD_FILE).
+bake::TriangleSoup room_of(const std::filesystem::path& file, float metres_per_unit,
+                           std::vector<std::string>& warnings);
 
 // A character in its place. World space, metres, +y up.
 struct Figure {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "bakers/world/posed_casters.h"
@@ -118,13 +119,22 @@ std::string source2_text(const CharacterModel& model, std::span<const Capsule> c
   return text;
 }
 
+// As a string of JSON: the name stays as it is, so that it finds its node.
+std::string json_string(const String& name) {
+  using Json = nlohmann::json;
+  return Json(std::string(name.data(), name.size())).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+// A glTF file needs its asset, and nothing else.
 std::string gltf_text(const CharacterModel& model) {
-  std::string text = "{\n  \"extras\": {\n    \"nook_world_casters\": [\n";
+  std::string text =
+      "{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"nook export casters\"},\n"
+      "  \"extras\": {\n    \"nook_world_casters\": [\n";
   for (std::size_t k = 0; k < model.world_casters.size(); ++k) {
     const WorldCaster& caster = model.world_casters[k];
     const Capsule c = in_joint(model, caster, caster.capsule);
     text += "      {\"joint\": ";
-    text += quoted(model.bone_names[caster.bone]);
+    text += json_string(model.bone_names[caster.bone]);
     add(text,
         ", \"a\": [%.6g, %.6g, %.6g], \"radius_a\": %.6g, \"b\": [%.6g, %.6g, %.6g], \"radius_b\": %.6g, "
         "\"ao_scale\": %.6g}%s\n",

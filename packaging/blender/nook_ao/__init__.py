@@ -10,9 +10,9 @@ bl_info = {
     "category": "Bake",
 }
 
-from . import background, operators, panel, preferences, records, shown  # noqa: E402
+from . import background, folders, operators, panel, preferences, records, shown  # noqa: E402
 
-PARTS = (preferences, records, operators, panel, shown, background)
+PARTS = (folders, preferences, records, operators, panel, shown, background)
 
 
 def register():

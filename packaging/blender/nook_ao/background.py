@@ -9,7 +9,7 @@ import sys
 
 import bpy
 
-from . import records, shown
+from . import folders, records, shown
 from .faults import Fault
 
 
@@ -39,6 +39,7 @@ def refusal(files):
 
 
 def baked_rigs():
+    """Rigs that were shown when the file was saved, and those that version 1.0 baked."""
     found = [r.rig for r in records.every() if r.rig is not None and r.is_shown]
     return found + [o for o in bpy.data.objects if o.type == "ARMATURE" and records.FOLDER_PROPERTY in o and records.find(o) is None]
 
@@ -49,8 +50,10 @@ def after_load(*_):
         return
     for rig in baked_rigs():
         try:
-            reason = refusal(records.files_of(rig))
+            files = shown.existing_files(rig)
+            reason = refusal(files)
             if reason is None:
+                folders.confirm(str(files.folder))
                 shown.show(bpy.context, rig)
         except Fault as error:
             reason = str(error)

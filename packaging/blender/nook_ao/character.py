@@ -1,7 +1,12 @@
 """A rigged character of the scene: an armature, the meshes that it deforms, and those that hang on its bones."""
+import fnmatch
+import re
+
 import numpy as np
 
 from .faults import Fault
+
+LEVEL = re.compile(r"(?:^|[_.\- ])LOD(\d+)$", re.IGNORECASE)
 
 # Constraints by which an object hangs on a bone, as artists hold a sword in a hand.
 HOLDING = ("CHILD_OF", "COPY_TRANSFORMS", "ARMATURE")
@@ -130,7 +135,25 @@ def reason_to_leave_out(item, armature, rendered):
     return None
 
 
-def parts_of(armature, view_layer):
+def level_of(item):
+    """The level of detail that an object or its mesh is named as, 0 for the finest."""
+    return max((int(found[1]) for found in map(LEVEL.search, (item.name, item.data.name)) if found), default=0)
+
+
+def is_left_out(name, patterns):
+    """Whether one of some names with * and ?, separated by commas, is that of an object."""
+    # Brackets have no meaning of their own here, as in the command.
+    return any(fnmatch.fnmatchcase(name, p.strip().replace("[", "[[]")) for p in patterns.split(",") if p.strip())
+
+
+def without_coarse(parts, left_out):
+    """The parts of the finest level of detail."""
+    finest = min((level_of(p.item) for p in parts), default=0)
+    left_out += [(p.item.name, "is a lower level of detail") for p in parts if level_of(p.item) > finest]
+    return [p for p in parts if level_of(p.item) == finest]
+
+
+def parts_of(armature, view_layer, without=""):
     """The parts of a character in the order of their names, and what is left out, as pairs of a name and the reason."""
     rendered = rendered_objects(view_layer.layer_collection)
     shapes = {b.custom_shape for b in armature.pose.bones if b.custom_shape is not None}
@@ -138,11 +161,12 @@ def parts_of(armature, view_layer):
     for item in sorted(view_layer.objects, key=lambda o: o.name_full):
         if item.type not in ("MESH", *SURFACES) or item in shapes or not belongs_to(item, armature):
             continue
-        reason = reason_to_leave_out(item, armature, rendered)
+        reason = "is left out by the settings" if is_left_out(item.name, without) else reason_to_leave_out(item, armature, rendered)
         if reason is None:
             parts.append(Part(item, armature))
         else:
             left_out.append((item.name, reason))
+    parts = without_coarse(parts, left_out)
     if not parts:
         others = "".join(f"; {name} {reason}" for name, reason in left_out)
         raise Fault(f"the armature {armature.name} deforms no mesh that is rendered{others}; add an armature modifier to the body")

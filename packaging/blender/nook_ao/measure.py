@@ -4,7 +4,7 @@ import numpy as np
 from . import character, clips, poses, shown, stage, surface
 
 POSES, MOST_POINTS, RAYS = 3, 3000, 128
-MOST_FRAMES, FRAMES_OF_ACTION = 24, 4
+MOST_FRAMES, MOST_ACTIONS, FRAMES_OF_ACTION = 24, 12, 4
 VISIBLE = 0.01
 # How much worse than the model's own error the colours may be before a reason is looked for: noise of the rays stays below.
 ALLOWED = 0.01
@@ -89,7 +89,7 @@ def candidates(entry, scene, actions):
         for frame in (scene.frame_current, *frames):
             played.set_frame(frame)
             found.append((("timeline", None, frame), _rig_pose(entry, played)))
-        for action in actions:
+        for action in actions[::max(1, -(-len(actions) // MOST_ACTIONS))]:
             played.play(action)
             for frame in np.linspace(*action.frame_range, FRAMES_OF_ACTION):
                 played.set_frame(float(frame))

@@ -9,7 +9,7 @@ import webbrowser
 
 import bpy
 
-from . import character, clips, export, library, measure, preferences, records, shown, tool
+from . import character, clips, export, folders, library, measure, preferences, records, shown, tool
 from .faults import Fault
 
 # How long a command may work before Blender draws its window again.
@@ -36,11 +36,66 @@ def error_text(error):
     return text[0].upper() + text[1:] if text.split(" ", 1)[0].isalpha() else text
 
 
+def ask(folder, then):
+    """Returns True after it has shown a dialog about a folder that only the file has chosen; the dialog calls operator `then`."""
+    if folders.is_confirmed(folder) or bpy.app.background:
+        return False
+    bpy.ops.nook.confirm("INVOKE_DEFAULT", folder=folder, then=then)
+    return True
+
+
+class NOOK_OT_confirm(bpy.types.Operator):
+    """Allow the add-on to use a folder that this .blend file names"""
+
+    bl_idname = "nook.confirm"
+    bl_label = "Use this folder?"
+    bl_options = {"INTERNAL"}
+
+    folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH", options={"SKIP_SAVE"})
+    then: bpy.props.EnumProperty(items=(("none", "", ""), ("bake", "", ""), ("show", "", ""), ("report", "", "")), default="none",
+                                 options={"SKIP_SAVE", "HIDDEN"})
+
+    # What happens to the folder, for the user who decides.
+    USES = {"bake": "Nook will write files by the name of the armature there:",
+            "show": "Nook will load the files of the bake from there:",
+            "report": "Nook will load the bake from there, and write the report there:", "none": "Nook may read and write there:"}
+
+    def invoke(self, context, _event):
+        return context.window_manager.invoke_props_dialog(self, width=600)
+
+    def draw(self, _context):
+        column = self.layout.column()
+        column.label(text="This .blend file names a folder, which you have not chosen since it was opened.", icon="QUESTION")
+        column.label(text=self.USES[self.then])
+        text = folders.printable(self.folder)
+        for at in range(0, len(text), 80):
+            column.label(text=text[at:at + 80])
+
+    def execute(self, _context):
+        try:
+            folders.confirm(self.folder)
+        except Fault as error:
+            self.report({"ERROR"}, error_text(error))
+            return {"CANCELLED"}
+        if self.then != "none":
+            try:
+                getattr(bpy.ops.nook, self.then)("INVOKE_DEFAULT")
+            except RuntimeError as error:  # what the operator reported
+                self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
+                return {"CANCELLED"}
+        return {"FINISHED"}
+
+
 class CommandOperator(bpy.types.Operator):
     """Work in slices. From the interface it runs beside Blender and Escape ends it; from a script Blender waits."""
 
     bl_options = {"REGISTER"}
     is_kept = False  # whether Escape comes too late
+    then = ""  # its name behind "nook.", which the dialog about a folder calls
+
+    def folder(self, context):
+        """The folder that the command reads or writes, or None for one of its own."""
+        raise NotImplementedError
 
     def work(self, context):
         """Works, and yields between slices what it is at."""
@@ -58,6 +113,13 @@ class CommandOperator(bpy.types.Operator):
     def invoke(self, context, _event):
         if bpy.app.background:
             return self.execute(context)
+        try:
+            folder = self.folder(context)
+            if folder is not None and ask(folder, self.then):
+                return {"CANCELLED"}
+        except Fault as error:
+            self.report({"ERROR"}, error_text(error))
+            return {"CANCELLED"}
         self._work = self.work(context)
         first = self._go_on(context)
         if first != {"RUNNING_MODAL"}:
@@ -137,20 +199,9 @@ def alone(record_key, name):
         _baking.discard(record_key)
 
 
-def checked_folder(folder):
-    """The folder of a setting as it is on disk; without one a temporary folder."""
-    if not folder:
-        return pathlib.Path(tempfile.mkdtemp(prefix="nook-"))
-    if folder.startswith("//") or not os.path.isabs(folder):
-        if not bpy.data.filepath:
-            raise Fault(f"the folder {folder} is relative to the .blend, which is not saved; save it first, or choose a folder by its whole path")
-        folder = folder if folder.startswith("//") else f"//{folder}"
-    return pathlib.Path(os.path.normpath(bpy.path.abspath(folder)))
-
-
 @contextlib.contextmanager
 def scratch(folder):
-    """A folder beside the final files. What is in it goes with it, so that a bake that ends early leaves nothing."""
+    """A folder beside the final files, which are in `folder`. It goes with what is in it, so that a bake that ends early leaves nothing."""
     made = [p for p in (folder, *folder.parents) if not p.exists()]
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -172,18 +223,27 @@ class NOOK_OT_bake(CommandOperator):
     bl_idname = "nook.bake"
     bl_label = "Bake ambient occlusion"
     bl_options = {"REGISTER", "UNDO"}
+    then = "bake"
+
+    def folder(self, context):
+        armature = character.armature_of(context)
+        chosen = records.setting(armature, context.scene, "folder")
+        return folders.resolved(chosen, f"the armature {armature.name}") if chosen else None
 
     def work(self, context):
         command = tool.find(preferences.of(context).tool)
         library.load(preferences.of(context).library)  # a bake that cannot be shown is not begun
         armature, scene = character.armature_of(context), context.scene
-        parts, left_out = character.parts_of(armature, context.view_layer)
+        parts, left_out = character.parts_of(armature, context.view_layer, records.setting(armature, scene, "without"))
         character.check_paintable(armature, parts, bpy.data.scenes)
         preset, learns_from = (records.setting(armature, scene, name) for name in ("preset", "poses"))
         actions = clips.chosen_actions(armature, bpy.data.actions) if learns_from != "auto" else []
         if learns_from == "clips" and not actions:
             raise Fault(f"the armature {armature.name} has no action; give it one, tick one in the panel, or let the bake learn from generated poses")
-        folder = checked_folder(records.setting(armature, scene, "folder"))
+        chosen = self.folder(context)
+        if chosen is not None:
+            folders.require_confirmed(chosen)
+        folder = pathlib.Path(chosen or folders.make_temporary())
         known = records.find(armature) is not None
         key, name = records.make(scene, armature).key, armature.name
         self.is_kept, names = False, [p.item.name for p in parts]
@@ -195,8 +255,10 @@ class NOOK_OT_bake(CommandOperator):
                 yield from self._bake(context, temporary, armature, parts, actions, [command, preset, learns_from], key)
                 self._keep(context, temporary, folder, key, name, [find_again(p.item, n) for p, n in zip(parts, names)])
         finally:
-            if not self.is_kept and not known:
-                records.remove(key)
+            if not self.is_kept:
+                folders.remove_temporary(folder)
+                if not known:
+                    records.remove(key)
         if self._others:
             self.report({"INFO"}, "Nook: " + "; ".join(self._others))
         entry = shown.show(context, records.find_key(key).rig)
@@ -218,6 +280,7 @@ class NOOK_OT_bake(CommandOperator):
             for clip in clips.sample(rig, action, rate):
                 yield None
             sampled.append(clip)
+        yield "writing the character"
         glb, model = temporary / "character.glb", temporary / "character.nook"
         glb.write_bytes(export.to_glb(geometry, sampled, key))
         yield from self.run_tool([command, "bake", "character", str(glb), "-o", str(model), "--preset", preset, "--poses", learns_from])
@@ -237,6 +300,8 @@ class NOOK_OT_bake(CommandOperator):
             os.replace(temporary / "character.nook", files.model)
         except OSError as error:
             raise Fault(f"the files {files.character} and {files.model} cannot be written ({error.strerror})") from error
+        if record.folder and record.folder != str(folder):
+            folders.remove_temporary(record.folder)  # the bake that this one replaces
         records.keep_files(record, files)
         records.set_parts(record, items)
         record.rig[records.FOLDER_PROPERTY] = str(folder)
@@ -274,6 +339,15 @@ class NOOK_OT_show(bpy.types.Operator):
     bl_idname = "nook.show"
     bl_label = "Show ambient occlusion"
     bl_options = {"REGISTER", "UNDO"}
+
+    def invoke(self, context, _event):
+        try:
+            armature = character.armature_of(context)
+            if shown.get(armature) is None and ask(str(shown.existing_files(armature).folder), "show"):
+                return {"CANCELLED"}
+        except Fault:
+            pass  # execute() says it
+        return self.execute(context)
 
     def execute(self, context):
         try:
@@ -328,13 +402,19 @@ class NOOK_OT_report(CommandOperator):
 
     bl_idname = "nook.report"
     bl_label = "Open the report"
+    then = "report"
+
+    def folder(self, context):
+        return str(shown.existing_files(character.armature_of(context)).folder)
 
     def work(self, context):
         command = tool.find(preferences.of(context).tool)
         armature = character.armature_of(context)
-        files = records.files_of(armature)
-        if files is None or not files.model.is_file():
-            raise Fault(f"the armature {armature.name} has no bake; bake it first")
+        files = shown.existing_files(armature)
+        folders.require_confirmed(str(files.folder))
+        if not files.model.is_file():
+            raise Fault(f"the file {files.model} of the armature {armature.name} does not exist; bake it first")
+        folders.require_own_files(files.folder, (files.report.name,))
         yield from self.run_tool([command, "report", str(files.model), str(files.character), "-o", str(files.report)])
         if not bpy.app.background:
             webbrowser.open(files.report.as_uri())
@@ -358,7 +438,7 @@ def show_colours(context):
                 shading.light, shading.color_type = "FLAT", "VERTEX"
 
 
-CLASSES = (NOOK_OT_bake, NOOK_OT_show, NOOK_OT_trace, NOOK_OT_report)
+CLASSES = (NOOK_OT_confirm, NOOK_OT_bake, NOOK_OT_show, NOOK_OT_trace, NOOK_OT_report)
 
 
 def register():

@@ -38,13 +38,13 @@ class NOOK_PT_panel(bpy.types.Panel):
 
         layout.label(text=armature.name, icon="ARMATURE_DATA")
         column = layout.column()
-        for name in ("preset", "poses", "folder"):
+        for name in ("preset", "poses", "without", "folder"):
             setting(column, name)
         if records.setting(armature, context.scene, "poses") != "auto":
             draw_actions(layout, armature)
         layout.operator("nook.bake", icon="RENDER_STILL")
         column = layout.column()
-        column.enabled = records.files_of(armature) is not None
+        column.enabled = records.has_bake(armature)
         setting(column, "ground")
         column.operator("nook.show", text="Stop showing it" if shown.get(armature) else "Show over the timeline", icon="HIDE_OFF")
         tracing = column.column(align=True)

@@ -1,6 +1,8 @@
 """Where the command and the libraries are, and the settings of a rig."""
 import bpy
 
+from . import folders
+
 PRESETS = (("draft", "Draft", "About 20 seconds"), ("standard", "Standard", "Up to 5 minutes"), ("production", "Production", "Up to half an hour"))
 POSES = (("all", "Generated and actions", "Generated poses, and those of the character's actions"), ("auto", "Generated", "Generated poses alone"),
          ("clips", "Actions", "Poses of the character's actions alone"))
@@ -19,14 +21,24 @@ class NookPreferences(bpy.types.AddonPreferences):
         self.layout.prop(self, "library")
 
 
+def confirm_chosen(settings, _context):
+    """Called when the user or a script sets the folder, and not when a file is loaded."""
+    if settings.folder:
+        folders.confirm(settings.folder)
+
+
 class NookSettings(bpy.types.PropertyGroup):
     """Settings of a rig, and those of a scene for rigs that have none. An override of a library keeps its own."""
 
     preset: bpy.props.EnumProperty(name="Preset", items=PRESETS, default="draft", override=OVERRIDABLE, description="How long the bake may take")
     poses: bpy.props.EnumProperty(name="Poses", items=POSES, default="all", override=OVERRIDABLE, description="Poses that the bake learns from")
+    without: bpy.props.StringProperty(name="Leave out", default="", override=OVERRIDABLE,
+                                      description="Names of objects that are no part of the bake, such as spare weapons, separated by "
+                                      "commas; * and ? stand for any text and any character. Lower levels of detail (LOD1 and so on) "
+                                      "are always left out")
     ground: bpy.props.BoolProperty(name="Ground", default=False, override=OVERRIDABLE,
                                    description="A floor at the height of zero darkens the character from below")
-    folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH", default="", override=OVERRIDABLE,
+    folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH", default="", override=OVERRIDABLE, update=confirm_chosen,
                                      description="Where the files of the bake are kept, by the name of the armature; empty: a temporary folder")
     rays: bpy.props.IntProperty(name="Rays", default=256, min=16, max=16384, override=OVERRIDABLE,
                                    description="Rays for each vertex of a traced frame")

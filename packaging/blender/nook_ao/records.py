@@ -9,12 +9,11 @@ import uuid
 
 import bpy
 
-from . import vertex_numbers
+from . import folders, vertex_numbers
 from .faults import Fault
 
 # Where scenes of version 1.0 keep the folder of a bake, whose files are all called alike.
 FOLDER_PROPERTY, OLD_STEM = "nook_folder", "character"
-SETTINGS = ("preset", "poses", "ground", "folder", "rays")
 RESERVED = re.compile(r"^(con|prn|aux|nul|com\d|lpt\d)$", re.IGNORECASE)
 
 
@@ -122,15 +121,20 @@ class Files:
 
 def files_of(armature):
     """Where the bake of an armature is; None without one. A folder inside that of the .blend moves with it."""
-    record = find(armature)
+    record, owner = find(armature), f"the armature {armature.name}"
     if record is None or not record.folder:
-        folder = armature.get(FOLDER_PROPERTY)
-        return Files(folder, OLD_STEM) if isinstance(folder, str) and folder else None
-    if record.relative and bpy.data.filepath:
+        return Files(folders.resolved(armature[FOLDER_PROPERTY], owner), OLD_STEM) if FOLDER_PROPERTY in armature else None
+    folder = folders.resolved(armature.get(FOLDER_PROPERTY, record.folder), owner)
+    if folder == record.folder and record.relative and bpy.data.filepath:
         moved = Files(os.path.normpath(os.path.join(os.path.dirname(bpy.data.filepath), record.relative)), record.stem)
         if moved.model.is_file():
             return moved
-    return Files(record.folder, record.stem)
+    return Files(folder, record.stem)
+
+
+def has_bake(armature):
+    record = find(armature)
+    return FOLDER_PROPERTY in armature or (record is not None and bool(record.folder))
 
 
 def keep_files(record, files):

@@ -2,12 +2,14 @@
 import bpy
 import numpy as np
 
-from . import character, library, poses, preferences, records, stage, vertex_numbers
+from . import character, folders, library, poses, preferences, records, stage, vertex_numbers
 from .faults import Fault
 
 AO, TRACED = "Nook AO", "Nook traced"
 # How many vertices each mesh had at the bake, in scenes of version 1.0.
 COUNTS_PROPERTY = "nook_vertex_counts"
+# What they leave out, there.
+WITHOUT_PROPERTY = "nook_without"
 
 
 class Shown:
@@ -154,22 +156,34 @@ def why_stopped(armature):
 
 def record_of_old_bake(context, armature):
     """The record of a bake by version 1.0, which knew the meshes by their order."""
-    parts, _ = character.parts_of(armature, context.view_layer)
-    items = [p.item for p in parts if not p.bone]
+    without = armature.get(WITHOUT_PROPERTY, "")
+    parts, _ = character.parts_of(armature, context.view_layer, without if isinstance(without, str) else "")
+    items = [p.item for p in parts if not p.bone and p.item.visible_get(view_layer=context.view_layer)]
+    try:
+        counts = [int(count) for count in armature.get(COUNTS_PROPERTY, vertex_counts(items))]
+    except (TypeError, ValueError):  # a property of a file can hold anything
+        counts = []
+    if counts != vertex_counts(items):
+        raise Fault(f"the meshes have {vertex_counts(items)} vertices, and the bake is of {counts}; bake again after a change of the meshes")
     record = records.make(context.scene, armature)
     records.keep_files(record, records.files_of(armature))
     records.set_parts(record, items)
-    for part, count in zip(record.parts, armature.get(COUNTS_PROPERTY, vertex_counts(items))):
-        part.vertices = count
     return record
 
 
-def show(context, armature):
-    """Loads the bake of an armature and paints the current pose."""
-    nook = library.load(preferences.of(context).library)
+def existing_files(armature):
+    """Where the armature's bake is, as the file says; it may have to be confirmed."""
     files = records.files_of(armature)
     if files is None:
         raise Fault(f"the armature {armature.name} has no bake; bake it first")
+    return files
+
+
+def show(context, armature):
+    """Loads the bake of an armature from a confirmed folder and paints the current pose."""
+    files = existing_files(armature)
+    folders.require_confirmed(str(files.folder))
+    nook = library.load(preferences.of(context).library)
     for path in (files.model, files.character):
         if not path.is_file():
             raise Fault(f"the file {path} does not exist; bake the character first")

@@ -10,6 +10,12 @@ from . import _layouts as c
 from ._library import FloatArray, Handle, call, described, descriptor, floats, integers, pointer, text
 
 
+def _patterns(names: Sequence[str], argument: str) -> Any:
+    if isinstance(names, str):
+        raise TypeError(f"Character: {argument} is a list of names, not one text")
+    return (ctypes.c_char_p * len(names))(*[name.encode("utf-8") for name in names]) if names else None
+
+
 class Character(Handle):
     """A rigged character in its rest pose, in metres. Vertices are in the order of its file.
 
@@ -19,8 +25,13 @@ class Character(Handle):
     _kind = c.nook_bake_character
     _destroy = "nook_bake_character_destroy"
 
-    def __init__(self, path: Union[str, "os.PathLike[str]", None] = None, *, data: Optional[bytes] = None) -> None:
-        """Imports a .glb or .gltf file, or the bytes of one whose buffers are embedded."""
+    def __init__(self, path: Union[str, "os.PathLike[str]", None] = None, *, data: Optional[bytes] = None, meshes: Sequence[str] = (),
+                 without: Sequence[str] = ()) -> None:
+        """Imports a .glb or .gltf file, or the bytes of one whose buffers are embedded.
+
+        meshes and without are names of its nodes or meshes to take and to leave out, in which * and ? stand for any text and any
+        character. Without meshes it takes all that the file shows but lower levels of detail.
+        """
         super().__init__()
         if (path is None) == (data is None):
             raise TypeError("Character: give either a path or data")
@@ -32,6 +43,8 @@ class Character(Handle):
             # A buffer, because ctypes makes NULL of empty bytes.
             held = ctypes.create_string_buffer(data, max(len(data), 1))
             desc.bytes, desc.byte_count = ctypes.cast(held, ctypes.c_void_p), len(data)
+        desc.meshes, desc.mesh_count = _patterns(meshes, "meshes"), len(meshes)
+        desc.without, desc.without_count = _patterns(without, "without"), len(without)
         call("nook_bake_character_create", ctypes.byref(desc), ctypes.byref(self._handle))
         self._describe()
 

@@ -12,7 +12,7 @@ export class Context extends Owned {
     const { module } = library;
     const severities = ["info", "warning", "error"];
     module.nookLog = log ? (severity, text) => log(severities[severity], text) : () => {};
-    return new Context(library, library.call(() => library.made((out) => module._nook_context_create(
+    return new Context(library, library.call("nook_context_create", () => library.made((out) => module._nook_context_create(
       library.descriptor("nook_context_desc", { log: log ? module._nook_web_log() : 0, isa }), out))));
   }
   constructor(library, handle) {
@@ -29,35 +29,35 @@ export class Context extends Owned {
     return this.library.module.HEAPU8.length;
   }
 
-  #load(bytes, call) {
+  #load(name, bytes, call) {
     const { library } = this;
-    return library.call(() => library.made((out) => {
+    return library.call(name, () => library.made((out) => {
       const copy = library.bytes(bytes);
       return call(this.handle, copy.address, copy.size, out);
     }));
   }
   // The bytes of .nook files.
   loadCharacter(bytes) {
-    return new CharacterModel(this.library, this.#load(bytes, this.library.module._nook_model_load));
+    return new CharacterModel(this.library, this.#load("nook_model_load", bytes, this.library.module._nook_model_load));
   }
   loadProbe(bytes) {
-    return new Probe(this.library, this.#load(bytes, this.library.module._nook_probe_load));
+    return new Probe(this.library, this.#load("nook_probe_load", bytes, this.library.module._nook_probe_load));
   }
   loadMaterial(bytes) {
     const load = (context, address, size, out) => this.library.module._nook_material_load(context, address, size, 0, out);
-    return new Material(this.library, this.#load(bytes, load));
+    return new Material(this.library, this.#load("nook_material_load", bytes, load));
   }
 
   // The members of nook_scene_desc in camelCase.
   createScene(options = {}) {
     const { library } = this;
-    return new Scene(library, library.call(() => library.made((out) =>
+    return new Scene(library, library.call("nook_scene_create", () => library.made((out) =>
       library.module._nook_scene_create(this.handle, library.descriptor("nook_scene_desc", options), out))));
   }
   // The members of nook_probe_fit_desc in camelCase.
   createProbeFit({ axes, sharpnesses, ...options } = {}) {
     const { library } = this;
-    return new ProbeFit(library, library.call(() => library.made((out) => library.module._nook_probe_fit_create(this.handle,
+    return new ProbeFit(library, library.call("nook_probe_fit_create", () => library.made((out) => library.module._nook_probe_fit_create(this.handle,
       library.descriptor("nook_probe_fit_desc",
         { ...options, axes: library.floats(axes), sharpnesses: library.floats(sharpnesses) }), out))));
   }

@@ -10,20 +10,20 @@ export class Gl extends OnSurface {
       throw new NookError("Context.createGl: webgl is no WebGL2RenderingContext; call canvas.getContext(\"webgl2\")",
         "NOOK_ERROR_UNSUPPORTED");
     const surface = Surface.of(library.module.GL, webgl);
-    return makeOnSurface(Gl, library, surface, (out) => library.module._nook_gl_create(context,
+    return makeOnSurface(Gl, library, surface, "nook_gl_create", (out) => library.module._nook_gl_create(context,
       library.descriptor("nook_gl_desc", { stateMode: "defaults", ...options, getProc: library.module._nook_web_get_proc() }), out));
   }
   constructor(library, handle, surface) {
     super(library, handle, "nook_gl_destroy", surface);
   }
 
-  #current(body) {
-    return this.surface.current(() => this.library.call(body));
+  #current(name, body) {
+    return this.surface.current(() => this.library.call(name, body));
   }
 
   // tier, version, renderer, bufferBytes, aoBytes.
   get info() {
-    return this.library.info("nook_gl_info", (info) => this.library.module._nook_gl_describe(this.handle, info));
+    return this.library.info("nook_gl_describe", "nook_gl_info", (info) => this.library.module._nook_gl_describe(this.handle, info));
   }
   // The number of WebGL objects that the library holds in this context, for tests.
   get objectCount() {
@@ -37,20 +37,20 @@ export class Gl extends OnSurface {
   }
 
   prepare(scene) {
-    this.#current(() => this.library.check(this.library.module._nook_gl_scene_prepare(this.handle, scene.handle)));
+    this.#current("nook_gl_scene_prepare", () => this.library.check(this.library.module._nook_gl_scene_prepare(this.handle, scene.handle)));
   }
   // Evaluates the AO of all instances of a scene.
   update(scene) {
-    this.#current(() => this.library.check(this.library.module._nook_gl_scene_update(this.handle, scene.handle)));
+    this.#current("nook_gl_scene_update", () => this.library.check(this.library.module._nook_gl_scene_update(this.handle, scene.handle)));
   }
   release(scene) {
-    this.#current(() => this.library.check(this.library.module._nook_gl_scene_release(this.handle, scene.handle)));
+    this.#current("nook_gl_scene_release", () => this.library.check(this.library.module._nook_gl_scene_release(this.handle, scene.handle)));
   }
 
   // The place of an instance's values, for vertexAttribPointer: { buffer, offset, stride, count, texture, light, glsl }. channel: "ao",
   // or "directional-ao" of an instance with a light; texture and light are for the latter.
   view(scene, instance, channel = "ao") {
-    const view = this.library.info("nook_gl_view", (at) =>
+    const view = this.library.info("nook_gl_scene_view", "nook_gl_view", (at) =>
       this.library.module._nook_gl_scene_view(this.handle, scene.handle, instance, this.#channel(channel), at));
     return { ...view, buffer: this.surface.object("buffers", view.buffer), texture: this.surface.object("textures", view.texture) };
   }
@@ -63,7 +63,7 @@ export class Gl extends OnSurface {
   // textureWidth }.
   writeAo(scene, instances, { buffer, texture, ...target }) {
     const { library } = this;
-    this.surface.lend([["buffers", buffer], ["textures", texture]], (bufferName, textureName) => this.#current(() =>
+    this.surface.lend([["buffers", buffer], ["textures", texture]], (bufferName, textureName) => this.#current("nook_gl_scene_write", () =>
       library.check(library.module._nook_gl_scene_write(this.handle, scene.handle, library.integers(instances), instances.length,
         library.struct("nook_gl_ao_target", { ...target, buffer: bufferName, texture: textureName })))));
   }
@@ -71,14 +71,14 @@ export class Gl extends OnSurface {
   // For tests: waits for the GPU. One number for each vertex, three for "directional-ao".
   read(scene, instance, channel = "ao", out) {
     const count = scene.vertexCount(instance), numbers = channel === "ao" ? 1 : 3;
-    return this.#current(() => this.library.readFloats(numbers * count, out, (address) =>
+    return this.#current("nook_gl_scene_read", () => this.library.readFloats("nook_gl_scene_read", numbers * count, out, (address) =>
       this.library.module._nook_gl_scene_read(this.handle, scene.handle, instance, this.#channel(channel), address, count)));
   }
 
   // { maxWidth, maxHeight, preset, taps, halfResolution, blur, blurSharpness, network }.
   createNnao({ network, ...options }) {
     const { library } = this;
-    return makeOnSurface(Nnao, library, this.surface, (out) => {
+    return makeOnSurface(Nnao, library, this.surface, "nook_nnao_create", (out) => {
       const bytes = network ? library.bytes(network) : { address: 0, size: 0 };
       return library.module._nook_nnao_create(this.handle,
         library.descriptor("nook_nnao_desc", { ...options, network: bytes.address, networkSize: bytes.size }), out);
@@ -89,12 +89,12 @@ export class Gl extends OnSurface {
     const { library } = this;
     const { numbers } = library.layouts.constants.get("nook_gl_probe_form");
     const number = library.layouts.number(numbers, form, "the form");
-    return makeOnSurface(Upload, library, this.surface, (out) =>
+    return makeOnSurface(Upload, library, this.surface, "nook_gl_upload_probe", (out) =>
       library.module._nook_gl_upload_probe(this.handle, probe.handle, number, out));
   }
   uploadMaterial(material) {
     const { library } = this;
-    return makeOnSurface(Upload, library, this.surface, (out) =>
+    return makeOnSurface(Upload, library, this.surface, "nook_gl_upload_material", (out) =>
       library.module._nook_gl_upload_material(this.handle, material.handle, out));
   }
 }
@@ -111,7 +111,7 @@ export class Upload extends OnSurface {
   }
   // { textures: { target, texture, uniform } each, bytes, glsl, constant, constantValues, constantVec4s, walls }.
   get info() {
-    const info = this.library.info("nook_gl_upload_info", (at) => this.library.module._nook_gl_upload_describe(this.handle, at));
+    const info = this.library.info("nook_gl_upload_describe", "nook_gl_upload_info", (at) => this.library.module._nook_gl_upload_describe(this.handle, at));
     const textures = info.textures.slice(0, info.textureCount)
       .map((each) => ({ ...each, texture: this.surface.object("textures", each.texture) }));
     return { ...info, textures };

@@ -2,29 +2,42 @@
 import { NookError } from "./error.js";
 import { Layouts } from "./layouts.js";
 
-const alignment = 16;
+const alignment = 16, firstCapacity = 1 << 16, maxBytes = 2 ** 32 - 1 - alignment;
 
 // Room for the arguments of one call after another. Its addresses are valid until the end of the outermost `call`.
 class Room {
   constructor(module) {
     this.module = module;
-    this.capacity = 1 << 16;
-    this.block = module._malloc(this.capacity);
+    this.reserve(firstCapacity);
     this.used = 0;
     this.missing = 0;
     this.extra = [];
     this.depth = 0;
+    this.call = "nook-web";  // the outermost call, for messages
+  }
+
+  // Without memory there is no block; each argument then asks for its own.
+  reserve(capacity) {
+    this.block = this.module._malloc(capacity);
+    this.capacity = this.block ? capacity : 0;
+    return this.block !== 0;
   }
 
   take(bytes) {
-    const size = Math.max(alignment, (bytes + alignment - 1) & -alignment);
+    if (!Number.isSafeInteger(bytes) || bytes < 0)
+      throw new NookError(`${this.call}: an argument has no size (got ${bytes} bytes); give an array`,
+        "NOOK_ERROR_INVALID_ARGUMENT");
+    const size = Math.max(alignment, Math.ceil(bytes / alignment) * alignment);
     if (this.used + size <= this.capacity) {
       this.used += size;
       return this.block + this.used - size;
     }
+    // The module has addresses of 32 bits, which _malloc would take modulo.
+    const address = size <= maxBytes ? this.module._malloc(size) : 0;
+    if (!address)
+      throw new NookError(`${this.call}: no memory for ${bytes} bytes of arguments or results (the module has ` +
+        `${this.module.HEAPU8.length}); destroy what you no longer use, or pass less at once`, "NOOK_ERROR_OUT_OF_MEMORY");
     this.missing += size;
-    const address = this.module._malloc(size);
-    if (!address) throw new NookError(`nook: no memory for ${size} bytes`, "NOOK_ERROR_OUT_OF_MEMORY");
     this.extra.push(address);
     return address;
   }
@@ -34,10 +47,10 @@ class Room {
     if (this.missing === 0) return;
     for (const address of this.extra) this.module._free(address);
     this.extra.length = 0;
-    this.module._free(this.block);
-    this.capacity += this.missing;
+    const before = this.capacity, wanted = before + this.missing;
     this.missing = 0;
-    this.block = this.module._malloc(this.capacity);
+    if (this.block) this.module._free(this.block);
+    if (!this.reserve(wanted)) this.reserve(Math.max(before, firstCapacity));
   }
 }
 
@@ -50,9 +63,9 @@ export class Library {
     this.lastMessage = "";
   }
 
-  // Runs body, whose rooms for arguments end with it.
-  call(body) {
-    ++this.room.depth;
+  // Runs body, whose rooms for arguments end with it. name: the function that it calls.
+  call(name, body) {
+    if (this.room.depth++ === 0) this.room.call = name;
     try {
       return body();
     } finally {
@@ -91,12 +104,12 @@ export class Library {
     return this.layouts.read(this.layouts.struct(name), address);
   }
 
-  // What a function of the form (handle, ..., info*) writes.
-  info(name, call, values) {
-    return this.call(() => {
-      const address = this.struct(name, values);
+  // What a function of the form (handle, ..., info*) writes. struct: the name of the info.
+  info(name, struct, call, values) {
+    return this.call(name, () => {
+      const address = this.struct(struct, values);
       this.check(call(address));
-      return this.read(name, address);
+      return this.read(struct, address);
     });
   }
 
@@ -110,7 +123,7 @@ export class Library {
 
   // Calls a function of the form (handle*).
   destroy(name, handle) {
-    this.call(() => {
+    this.call(name, () => {
       const address = this.room.take(4);
       this.module.HEAPU32[address >> 2] = handle;
       this.module[`_${name}`](address);
@@ -147,8 +160,8 @@ export class Library {
   }
 
   // Calls a function of the form (..., float* out, count): `out` takes the numbers, or a new array does.
-  readFloats(count, out, call) {
-    return this.call(() => {
+  readFloats(name, count, out, call) {
+    return this.call(name, () => {
       const address = this.room32(count);
       this.check(call(address));
       const numbers = this.module.HEAPF32.subarray(address >> 2, (address >> 2) + count);

@@ -8,7 +8,7 @@ export class Nnao extends OnSurface {
 
   // { texture, textureBytes, taps, ... }; texture is the result where the target is the pass's own.
   get info() {
-    const info = this.library.info("nook_nnao_info", (at) => this.library.module._nook_nnao_describe(this.handle, at));
+    const info = this.library.info("nook_nnao_describe", "nook_nnao_info", (at) => this.library.module._nook_nnao_describe(this.handle, at));
     return { ...info, texture: this.surface.object("textures", info.texture) };
   }
   get texture() {
@@ -25,7 +25,7 @@ export class Nnao extends OnSurface {
     const table = kind === "texture" ? "textures" : "framebuffers";
     surface.lend([["textures", depthTexture], ["textures", normalTexture], ["textures", gbufferAoTexture], ["textures", motionVectors],
       [table, target]],
-      (depth, normal, layer, motion, name) => surface.current(() => library.call(() => library.check(library.module._nook_nnao_render(
+      (depth, normal, layer, motion, name) => surface.current(() => library.call("nook_nnao_render", () => library.check(library.module._nook_nnao_render(
         this.handle, library.descriptor("nook_gl_frame_desc", {
           ...frame, depthTexture: depth, normalTexture: normal, gbufferAoTexture: layer, target: kind, targetName: name,
         }), library.descriptor("nook_nnao_frame_desc", {

@@ -14,11 +14,11 @@ export class OnSurface extends Owned {
   }
 }
 
-// Makes an object of class Kind by call(out) on a surface.
-export function makeOnSurface(Kind, library, surface, call) {
+// Makes an object of class Kind on a surface by call(out), which calls the function `name`.
+export function makeOnSurface(Kind, library, surface, name, call) {
   surface.addUser();
   try {
-    return new Kind(library, surface.current(() => library.call(() => library.made(call))), surface);
+    return new Kind(library, surface.current(() => library.call(name, () => library.made(call))), surface);
   } finally {
     surface.removeUser();
   }

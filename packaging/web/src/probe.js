@@ -22,14 +22,14 @@ export class Probe extends Owned {
     super(library, handle, "nook_probe_destroy");
   }
   get info() {
-    return this.library.info("nook_probe_info", (info) => this.library.module._nook_probe_describe(this.handle, info));
+    return this.library.info("nook_probe_describe", "nook_probe_info", (info) => this.library.module._nook_probe_describe(this.handle, info));
   }
 
   // The lobes at a point, or those of the first probe: { axis, sharpness, amplitude } each.
   lobes(position) {
     const { library } = this;
     const count = this.info.functionCount;
-    return library.call(() => {
+    return library.call("nook_probe_read_lobes", () => {
       const { size } = library.layouts.struct("nook_lobe");
       const address = library.room.take(size * count);
       library.check(library.module._nook_probe_read_lobes(this.handle, library.floats(position), address, count));
@@ -41,19 +41,19 @@ export class Probe extends Owned {
   coefficients(index = 0) {
     const { library } = this;
     const count = this.info.functionCount;
-    return library.call(() => library.readFloats(3 * count, undefined, (address) =>
+    return library.call("nook_probe_read_coefficients", () => library.readFloats("nook_probe_read_coefficients", 3 * count, undefined, (address) =>
       library.module._nook_probe_read_coefficients(this.handle, index, address, count)));
   }
 
   // Three floats for each direction or normal. The position is one for all, or one for each.
   radiance(directions, position) {
     const { library } = this;
-    return library.call(() => library.readFloats(directions.length, undefined, (address) => library.module._nook_probe_radiance(
+    return library.call("nook_probe_radiance", () => library.readFloats("nook_probe_radiance", directions.length, undefined, (address) => library.module._nook_probe_radiance(
       this.handle, library.floats(forEach(position, directions)), library.floats(directions), address, directions.length / 3)));
   }
   irradiance(normals, position) {
     const { library } = this;
-    return library.call(() => library.readFloats(normals.length, undefined, (address) => library.module._nook_probe_irradiance(
+    return library.call("nook_probe_irradiance", () => library.readFloats("nook_probe_irradiance", normals.length, undefined, (address) => library.module._nook_probe_irradiance(
       this.handle, library.floats(forEach(position, normals)), library.floats(normals), address, normals.length / 3)));
   }
 }
@@ -65,7 +65,7 @@ export class ProbeFit extends Owned {
   }
   addSamples(directions, radiance, weights) {
     const { library } = this;
-    library.call(() => library.check(library.module._nook_probe_fit_add_samples(this.handle, library.floats(directions),
+    library.call("nook_probe_fit_add_samples", () => library.check(library.module._nook_probe_fit_add_samples(this.handle, library.floats(directions),
       library.floats(radiance), library.floats(weights), directions.length / 3)));
   }
   // Adds the samples of another fit with the same options.
@@ -76,12 +76,12 @@ export class ProbeFit extends Owned {
     this.library.check(this.library.module._nook_probe_fit_reset(this.handle));
   }
   get info() {
-    return this.library.info("nook_probe_fit_info", (info) => this.library.module._nook_probe_fit_describe(this.handle, info));
+    return this.library.info("nook_probe_fit_describe", "nook_probe_fit_info", (info) => this.library.module._nook_probe_fit_describe(this.handle, info));
   }
   // The probe of the samples so far.
   solve() {
     const { library } = this;
-    return new Probe(library, library.call(() =>
+    return new Probe(library, library.call("nook_probe_fit_solve", () =>
       library.made((out) => library.module._nook_probe_fit_solve(this.handle, out))));
   }
 }

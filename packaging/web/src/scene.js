@@ -19,7 +19,7 @@ export class Scene extends Owned {
 
   addInstance(model) {
     const { library } = this;
-    const id = library.call(() =>
+    const id = library.call("nook_scene_add_instance", () =>
       library.made((out) => library.module._nook_scene_add_instance(this.handle, model.handle, out)));
     this.#vertices.set(id, model.info.fileVertexCount);
     return id;
@@ -40,7 +40,7 @@ export class Scene extends Owned {
   // The transforms that the host has, such as skinning matrices of glTF: { kind: "skinning", layout: "columns-4x4", transforms }.
   setPose(instance, pose) {
     const { library } = this;
-    library.call(() => this.#check(
+    library.call("nook_scene_set_pose", () => this.#check(
       library.module._nook_scene_set_pose(this.handle, instance, poseDescriptor(library, pose))));
   }
 
@@ -57,18 +57,18 @@ export class Scene extends Owned {
   // plane: normal and offset, or null for none.
   setGround(instance, plane) {
     const { library } = this;
-    library.call(() => this.#check(library.module._nook_scene_set_ground(this.handle, instance, library.floats(plane))));
+    library.call("nook_scene_set_ground", () => this.#check(library.module._nook_scene_set_ground(this.handle, instance, library.floats(plane))));
   }
 
   // receiver: the only instance that the sphere darkens; 0: every instance.
   addOccluder({ centre, radius, receiver = 0 }) {
     const { library } = this;
-    return library.call(() => library.made((out) => library.module._nook_scene_add_occluder(this.handle,
+    return library.call("nook_scene_add_occluder", () => library.made((out) => library.module._nook_scene_add_occluder(this.handle,
       library.struct("nook_occluder", { centreWs: centre, radius, receiver }), out)));
   }
   setOccluder(occluder, { centre, radius, receiver = 0 }) {
     const { library } = this;
-    library.call(() => this.#check(library.module._nook_scene_set_occluder(this.handle, occluder,
+    library.call("nook_scene_set_occluder", () => this.#check(library.module._nook_scene_set_occluder(this.handle, occluder,
       library.struct("nook_occluder", { centreWs: centre, radius, receiver }))));
   }
   removeOccluder(occluder) {
@@ -78,13 +78,13 @@ export class Scene extends Owned {
   // lobes: { axis, sharpness, amplitude } each, such as those of Probe.lobes(); null for no light.
   setLight(instance, lobes) {
     const { library } = this;
-    library.call(() => this.#check(library.module._nook_scene_set_light(this.handle, instance,
+    library.call("nook_scene_set_light", () => this.#check(library.module._nook_scene_set_light(this.handle, instance,
       lobes ? lobeStruct(library, lobes) : 0, lobes ? lobes.length : 0)));
   }
 
   setCamera(position) {
     const { library } = this;
-    library.call(() => this.#check(library.module._nook_scene_set_camera(this.handle, library.floats(position))));
+    library.call("nook_scene_set_camera", () => this.#check(library.module._nook_scene_set_camera(this.handle, library.floats(position))));
   }
   // terms: a list of "self", "links", "ground", "occluders", "all".
   setTerms(terms) {
@@ -98,15 +98,15 @@ export class Scene extends Owned {
   }
   readAo(instance, out) {
     const count = this.vertexCount(instance);
-    return this.library.readFloats(count, out, (address) =>
+    return this.library.readFloats("nook_scene_read", count, out, (address) =>
       this.library.module._nook_scene_read(this.handle, instance, channelAo, formatFloat, address, count, 0));
   }
   readDirectionalAo(instance, out) {
     const count = this.vertexCount(instance);
-    return this.library.readFloats(3 * count, out, (address) =>
+    return this.library.readFloats("nook_scene_read", 3 * count, out, (address) =>
       this.library.module._nook_scene_read(this.handle, instance, channelDirectionalAo, formatFloat, address, count, 0));
   }
   get info() {
-    return this.library.info("nook_scene_info", (info) => this.library.module._nook_scene_describe(this.handle, info));
+    return this.library.info("nook_scene_describe", "nook_scene_info", (info) => this.library.module._nook_scene_describe(this.handle, info));
   }
 }

@@ -1,6 +1,6 @@
 /* Nook computes ambient occlusion (AO) for OpenGL engines. This header holds the version, results, shared
- * types and the context. Lengths are in metres and spaces are right-handed. AO lies in [0, 1], where 1 is
- * open. Each function states one of three thread contracts:
+ * types and the context. Lengths are in metres, or in a unit of yours (units_per_metre), and spaces are
+ * right-handed. AO lies in [0, 1], where 1 is open. Each function states one of three thread contracts:
  *   any thread       Call it at any time from any thread.
  *   context thread   Call it only on the thread where the OpenGL context of the object is current.
  *   one at a time    Call it from any thread, but never twice at once on the same object.
@@ -257,7 +257,8 @@ typedef struct nook_context_desc {
   void* parallel_for_user;
   /* The instruction set of all objects that you create from this context; default NOOK_ISA_AUTO. */
   nook_isa isa;
-  uint32_t reserved;
+  /* Your units of length in a metre, such as 100; > 0, default 1. Defaults that are lengths follow it. */
+  float units_per_metre;
 } nook_context_desc;
 static inline nook_result nook_context_desc_init(nook_context_desc* desc) {
   return nook_desc_init(NOOK_DESC_CONTEXT, desc, sizeof *desc, NOOK_VERSION);

@@ -76,35 +76,31 @@ NOOK_API nook_result nook_bake_job_file(nook_bake_job job, const void** bytes, s
  * Any thread. Errors: those of nook_bake_job_file. */
 NOOK_API nook_result nook_bake_job_report(nook_bake_job job, const char** json);
 
-/* Destroys a job and sets *job to NULL. A running job is cancelled, and the call waits for its end. One at a
- * time. */
+/* Cancels a running job and waits for its end, destroys it and sets *job to NULL. One at a time. */
 NOOK_API void nook_bake_job_destroy(nook_bake_job* job);
 
 /* ---- Characters: immutable; jobs that use one keep it alive ----
  *
  * Matrices of poses are NOOK_POSE_REST_TO_WORLD: one 3x4 matrix for each bone, row-major, from rest space to
- * world space in metres. Vertices are in the imported file's order, the primitives one after another, which
- * is also the order of the runtime's AO. */
+ * world space in metres. Vertices are in the imported file's order, the primitives that are in one after
+ * another (`nook inspect FILE` lists them), which is also the order of the runtime's AO. */
 
 /* Where a rigged character comes from: exactly one of the path of a .glb or .gltf file, the bytes of one, or
  * arrays, from positions on, in the rest pose and in metres. The import copies what it needs. */
 typedef struct nook_bake_source_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* UTF-8. The file may name other files of its folder. */
+  /* UTF-8. The file may name other files of its folder; of any folder if allow_outside_files is not 0. */
   const char* path;
   /* All buffers must be embedded. */
   const void* bytes;
   size_t byte_count;
-  /* Metres, 3 floats for each vertex. */
+  /* Metres, 3 floats for each vertex, and 3 vertex indices for each triangle. */
   const float* positions;
-  /* 3 vertex indices for each triangle. */
   const uint32_t* indices;
-  /* `influences` bone indices for each vertex. */
+  /* `influences` bone indices and weights >= 0 for each vertex; the import normalises the weights. */
   const uint16_t* joints;
-  /* `influences` weights >= 0 for each vertex; the import normalises them. */
   const float* weights;
-  /* index_count is a multiple of 3. */
   uint32_t vertex_count, index_count;
   /* Default 4. The import keeps the 8 largest weights of each vertex. */
   uint32_t influences;
@@ -118,6 +114,11 @@ typedef struct nook_bake_source_desc {
   /* Primitives in order and without gaps. NULL: one primitive holds all vertices. */
   const nook_range* primitives;
   uint32_t primitive_count;
+  /* Node or mesh names to take, and to leave out, with * and ?. Default: all but hidden ones and LOD1, .... */
+  const char* const* meshes;
+  const char* const* without;
+  uint32_t mesh_count, without_count;
+  int32_t allow_outside_files;
 } nook_bake_source_desc;
 static inline nook_result nook_bake_source_desc_init(nook_bake_source_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_SOURCE, desc, sizeof *desc, NOOK_VERSION);
@@ -134,7 +135,7 @@ typedef struct nook_bake_character_info {
   uint32_t struct_size;
   /* Vertices after welding: those that the file splits at seams count once. */
   uint32_t vertex_count;
-  /* Vertices in the file, over all primitives. */
+  /* Vertices of the file's primitives that are in. */
   uint32_t file_vertex_count;
   /* Triangles with an area; the import drops degenerate ones. */
   uint32_t triangle_count;
@@ -159,8 +160,7 @@ enum {
 };
 typedef int32_t nook_bake_name;
 
-/* Returns a name, valid while the character lives, or NULL if the kind is unknown or the index is out of
- * range. Any thread. */
+/* Returns a name, valid while the character lives, or NULL for an unknown kind or index. Any thread. */
 NOOK_API const char* nook_bake_character_name(nook_bake_character character, nook_bake_name kind,
                                               uint32_t index);
 

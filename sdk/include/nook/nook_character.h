@@ -105,12 +105,11 @@ typedef struct nook_scene_desc {
   /* AO, root mean square, >= 0. An update uses the coarsest level whose baked error of self-shadow is below
    * lod_error * (distance to the camera / lod_distance). Default 0: full detail. */
   float lod_error;
-  /* Metres, > 0, default 10. */
+  /* Above 0, or 0 (default): 10 metres. */
   float lod_distance;
-  /* Frames, >= 1. An update may skip a distant instance, but evaluates it at least once in so many frames.
-   * Default 1. */
+  /* Frames, >= 1, default 1. An update may skip distant instances, but none for so many frames. */
   uint32_t lod_max_interval;
-  /* Metres, > 0, default 10,000: the radius of the sphere that stands for a ground plane. */
+  /* The radius of the sphere that stands for a ground. 0 (default): 11,000 bounding radii of the body. */
   float ground_radius;
   /* 0 (default): a bone that is sheared or scaled unevenly is projected to the nearest rotation with one
    * scale, as the baker does, and logged once for an instance. 1: such a pose fails. */
@@ -162,10 +161,10 @@ NOOK_API nook_result nook_scene_unlink(nook_scene scene, nook_instance_id receiv
  * call may allocate, so that the update does not. One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_link_nearest(nook_scene scene, uint32_t k, float max_distance);
 
-/* Sets the ground under an instance: the points p with dot(normal, p) = offset, in world space and metres.
- * plane_xyzd holds the normal, which points away from the ground and has unit length to 1e-3, and the offset;
- * NULL removes the ground. It acts as a sphere of ground_radius that touches the plane under the instance and
- * follows it. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+/* Sets the ground under an instance: the points p with dot(normal, p) = offset, in world space. plane_xyzd
+ * holds the normal, which points upwards and has unit length to 1e-3, and the offset; NULL removes the
+ * ground. It acts as a sphere that touches the plane under the instance.
+ * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_set_ground(nook_scene scene, nook_instance_id instance,
                                            const float* plane_xyzd);
 
@@ -241,7 +240,8 @@ typedef struct nook_scene_info {
   uint32_t instances, instances_updated;
   /* Pairs of receiver and caster that it evaluated; and casters, occluders and grounds that it skipped. */
   uint32_t links, links_culled;
-  uint32_t reserved;
+  /* Instances whose pose now has a bone that is sheared or scaled unevenly, and so was projected. */
+  uint32_t uneven_instances;
   /* Pairs of sphere and key point that the last update evaluated. */
   uint64_t evaluations;
   /* Bytes of host memory that the scene holds now, without its models. */
@@ -256,12 +256,10 @@ NOOK_API nook_result nook_scene_describe(nook_scene scene, nook_scene_info* info
  * Pass the matrices that your engine already has: those of your vertex shader (NOOK_POSE_SKINNING), or the
  * world matrices of the joints (NOOK_POSE_JOINT_TO_WORLD). Nook converts them to its own, from rest space to
  * the world. Rest space is the bind pose in metres with the node transforms of the file applied. Do not
- * convert yourself: many files have a node above the skeleton that scales by 0.01 or turns by 90 degrees, and
- * a pose that leaves it out gives wrong AO and no error. If AO looks wrong, call nook_model_check_pose.
- * docs/poses.md has the formula. */
+ * convert yourself: many files have a node above the skeleton that scales by 0.01 or turns by 90 degrees. If
+ * AO looks wrong, call nook_model_check_pose. docs/poses.md has the formula. */
 
-/* The matrices that you pass. Each maps to the space of place_3x4, which is the world if place_3x4 is
- * NULL. */
+/* The matrices that you pass. Each maps to the space of place_3x4, or to the world if that is NULL. */
 enum {
   /* From rest space: Nook's own matrices, as nook_model_convert_pose gives them, one for each bone. Models
    * without bind data take no other kind. */
@@ -297,9 +295,10 @@ enum {
   /* Bones without a transform keep their matrices. Pose a character of several skins by one call for each
    * skin with this flag. */
   NOOK_POSE_FLAG_PARTIAL = 1,
-  /* A bone that is sheared or scaled unevenly by more than 1 % fails, as with
-   * nook_scene_desc.strict_poses. */
-  NOOK_POSE_FLAG_STRICT = 2
+  /* A bone that is sheared or scaled unevenly by more than 1 % fails, as with strict_poses. */
+  NOOK_POSE_FLAG_STRICT = 2,
+  /* transform_count may be larger than needed, as with a buffer of fixed size; the first ones count. */
+  NOOK_POSE_FLAG_SURPLUS = 4
 };
 
 typedef struct nook_pose_desc {

@@ -48,8 +48,7 @@ typedef int32_t nook_gl_tier;
 enum {
   /* Each call queries the state and restores it. A query may stall a threaded driver. */
   NOOK_GL_STATE_PRESERVE = 0,
-  /* Nook reads no state, and leaves what it touched at OpenGL's defaults. The mode for WebGL, where reads
-   * stall. */
+  /* Nook reads no state, and leaves what it touched at OpenGL's defaults. For WebGL, where reads stall. */
   NOOK_GL_STATE_DEFAULTS = 1,
   /* Nook reads no state, and leaves what it touched undefined: set it again. Rasterizer discard and primitive
    * restart are left disabled. */
@@ -63,10 +62,13 @@ typedef struct nook_gl_desc {
   /* Required; get_proc_user is its first argument. */
   nook_gl_proc_fn get_proc;
   void* get_proc_user;
-  /* The highest tier to use; default NOOK_GL_TIER_BEST, the best of the OpenGL context. */
+  /* The highest tier to use; default NOOK_GL_TIER_BEST. state_mode is NOOK_GL_STATE_PRESERVE by default. */
   nook_gl_tier max_tier;
-  /* Default NOOK_GL_STATE_PRESERVE. */
   nook_gl_state_mode state_mode;
+  /* 1, for development: each call fails with NOOK_ERROR_GL unless the OpenGL context of nook_gl_create is
+   * current, and frames without a surface are logged. Both query OpenGL. 0 (default): without this context, a
+   * call may return NOOK_OK and do nothing, or change your objects. */
+  int32_t debug;
 } nook_gl_desc;
 static inline nook_result nook_gl_desc_init(nook_gl_desc* desc) {
   return nook_desc_init(NOOK_DESC_GL, desc, sizeof *desc, NOOK_VERSION);
@@ -127,8 +129,7 @@ typedef struct nook_gl_view {
   uint32_t stride;
   /* The model's file_vertex_count. */
   uint32_t count;
-  /* For NOOK_CHANNEL_DIRECTIONAL_AO, else 0: a texture buffer that Nook owns, with the lights of the
-   * scene. */
+  /* For NOOK_CHANNEL_DIRECTIONAL_AO, else 0: Nook's texture buffer with the lights of the scene. */
   uint32_t texture;
   /* For NOOK_CHANNEL_DIRECTIONAL_AO, else 0: the instance's light, the first argument of the GLSL functions;
    * valid until the next update. */
@@ -270,7 +271,7 @@ typedef int32_t nook_blend;
 
 /* One frame. Textures are 2D and single-sampled, unless the pass was made for views or samples; level 0 with
  * width x height texels is read, through the pass's own samplers. The pass queries the size and format of
- * textures and targets when a name, kind or size here differs from its last call. */
+ * textures and targets when the names, kinds and sizes here are not among the last four that it has had. */
 typedef struct nook_gl_frame_desc {
   uint32_t struct_size, type;
   const void* next;
@@ -279,9 +280,8 @@ typedef struct nook_gl_frame_desc {
   /* x, y, width and height in pixels of the part that `projection` fills, outside of which nothing is read or
    * written; all 0 (default): everything. */
   int32_t viewport[4];
-  /* Required. */
+  /* Required; depth_kind is NOOK_DEPTH_HARDWARE by default. */
   uint32_t depth_texture;
-  /* Default NOOK_DEPTH_HARDWARE. */
   nook_depth_kind depth_kind;
   /* Metres, for linear depth only: this depth and greater ones are sky, whose AO is exactly 1. 0 (default):
    * no depth is. Sky is also a depth that is not finite, or is not positive in a perspective, and the far
@@ -293,11 +293,12 @@ typedef struct nook_gl_frame_desc {
   /* 0 (default): the pass reconstructs normals from depth. */
   uint32_t normal_texture;
   /* The normal is normal_matrix * (texel * normal_scale + normal_bias), then normalised. Defaults 1 and 0;
-   * normals that are stored as (n + 1) / 2 need 2 and -1. */
+   * normals that are stored as (n + 1) / 2 need 2 and -1. The pass reconstructs a normal that is shorter than
+   * 0.001, in normalised integers 0.25: clear to n = 0. */
   float normal_scale, normal_bias;
   /* Column-major; it maps to view space. The identity by default. */
   float normal_matrix[9];
-  /* Column-major; required. Perspective, off-centre, orthographic, reversed-depth or infinite. */
+  /* Column-major; required. Perspective, off-centre, orthographic, reversed-depth, infinite or oblique. */
   float projection[16];
   /* From world space to view space, column-major: a rotation and a translation. The identity by default. The
    * world pass needs it. The screen pass with max_history_frames remembers it, and follows surfaces into the
@@ -305,9 +306,8 @@ typedef struct nook_gl_frame_desc {
   float view[16];
   /* Only hardware depth uses it. Default NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE. */
   nook_clip_space clip_space;
-  /* Default NOOK_GBUFFER_AO_NONE. */
+  /* Default NOOK_GBUFFER_AO_NONE; all other values require the texture. */
   nook_gbuffer_ao gbuffer_ao;
-  /* Required unless gbuffer_ao is NOOK_GBUFFER_AO_NONE. */
   uint32_t gbuffer_ao_texture;
   /* Default NOOK_TARGET_OWN. */
   nook_target target;
@@ -316,7 +316,7 @@ typedef struct nook_gl_frame_desc {
   uint32_t target_name;
   /* Default NOOK_BLEND_WRITE. */
   nook_blend blend;
-  /* Set 1 if you created a texture or target anew under its old name since the last call. Default 0. */
+  /* Set 1 if you created a texture or target anew under an old name since the last call. Default 0. */
   int32_t textures_changed;
   /* For passes with views: 16, 16 and 9 numbers for each view, in place of projection, view and
    * normal_matrix. NULL (default): all views have the frame's own matrix. */

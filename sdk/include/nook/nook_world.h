@@ -103,7 +103,7 @@ typedef struct nook_world_frame_desc {
    * it is 1; strength and combine leave it. Default 0 degrees: none, alpha is 1. */
   float light_axis[3];
   float light_degrees;
-  /* Metres, > 0: capsules farther from a point do not take the cone's light from it. Default 30. */
+  /* Capsules farther from a point do not take the cone's light from it. 0 (default): 30 metres. */
   float light_reach;
 } nook_world_frame_desc;
 static inline nook_result nook_world_frame_desc_init(nook_world_frame_desc* desc) {

@@ -8,6 +8,7 @@
 #include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
+#include "sdk/src/api/pose_log.h"
 #include "sdk/src/character/host_vertices.h"
 #include "sdk/src/character/pose_check.h"
 #include "sdk/src/character/pose_source.h"
@@ -29,7 +30,7 @@ Affine read_place(const float* matrix_3x4, const char* name) {
 
 PoseSource source_of(const CharacterModel& model, const nook_pose_desc* given) {
   const nook_pose_desc desc = read_descriptor(given);
-  constexpr std::uint32_t known = NOOK_POSE_FLAG_PARTIAL | NOOK_POSE_FLAG_STRICT;
+  constexpr std::uint32_t known = NOOK_POSE_FLAG_PARTIAL | NOOK_POSE_FLAG_STRICT | NOOK_POSE_FLAG_SURPLUS;
   if (desc.flags & ~known)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.flags has unknown bits (got 0x%x, need a sum of 0x%x)",
                   desc.flags, known);
@@ -47,19 +48,9 @@ PoseSource source_of(const CharacterModel& model, const nook_pose_desc* given) {
   source.transform_of_bone = {desc.transform_of_bone, desc.bone_count};
   source.is_partial = desc.flags & NOOK_POSE_FLAG_PARTIAL;
   source.is_strict = desc.flags & NOOK_POSE_FLAG_STRICT;
+  source.allows_surplus = desc.flags & NOOK_POSE_FLAG_SURPLUS;
   source.place = read_place(desc.place_3x4, "desc.place_3x4");
   return source;
-}
-
-void log_projection(nook_scene scene, nook_instance_id instance, const ProjectedBone& projected) {
-  if (!projected.found) return;
-  const CharacterModel& model = instance_of(scene->scene, instance).model->model;
-  scene->context->log(
-      NOOK_LOG_WARNING,
-      "instance %u: the matrix of bone %u (\"%s\") is sheared or scales unevenly and is projected "
-      "to the nearest rotation with one scale; nook_model_check_pose tells whether the "
-      "pose is right",
-      instance, projected.bone, model.bone_names[projected.bone].c_str());
 }
 
 // The check vertices and their places, as the caller gave them.
@@ -99,8 +90,10 @@ nook::Vector<SkinnedVertex> skinned_vertices(const CharacterModel& model, const 
 nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id instance, const nook_pose_desc* desc) {
   return api::enter("nook_scene_set_pose", [&] {
     need(scene, "scene");
-    const CharacterModel& model = instance_of(scene->scene, instance).model->model;
-    log_projection(scene, instance, set_pose(scene->scene, instance, source_of(model, desc)));
+    Instance& posed = instance_of(scene->scene, instance);
+    const CharacterModel& model = posed.model->model;
+    const PoseNotes notes = set_pose(scene->scene, instance, source_of(model, desc));
+    api::log_pose(*scene->context, posed, notes);
   });
 }
 
@@ -112,7 +105,9 @@ nook_result nook_model_convert_pose(nook_model model, const nook_pose_desc* desc
     check_bone_count(bone_count, model->model.bone_count());
     PoseSource source = source_of(model->model, desc);
     check_pose_source(model->model, source);
-    convert_pose(model->model, source, {reinterpret_cast<Mat3x4*>(bones_3x4), bone_count});
+    const PoseNotes notes =
+        convert_pose(model->model, source, {reinterpret_cast<Mat3x4*>(bones_3x4), bone_count});
+    api::log_pose(*model->context, "nook_model_convert_pose", model->model, notes, model->reported);
   });
 }
 
@@ -182,7 +177,9 @@ nook_result nook_model_check_pose(nook_model model, const nook_pose_desc* desc,
     check_pose_source(model->model, source, true);
     nook::Memory* const memory = model->context->memory();
     const auto vertices = skinned_vertices(model->model, given, memory);
-    const PoseFinding finding = find_pose_fault(model->model, source, vertices, given.tolerance, memory);
+    const Affine place = read_place(given.place_3x4, "check.place_3x4");
+    const PoseFinding finding =
+        find_pose_fault(model->model, source, vertices, place, given.tolerance, memory);
     nook_pose_check_info answer{};
     answer.fault = finding.fault;
     answer.max_error = static_cast<float>(finding.max_error);

@@ -5,33 +5,37 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
 #include "sdk/src/character/occluded_directions.h"
+#include "sdk/src/character/scene_readings.h"
 #include "sdk/src/core/checks.h"
 
 using namespace nook;
 
 namespace {
 
-SceneSettings settings_of(const nook_scene_desc& desc, nook_isa isa) {
+SceneSettings settings_of(const nook_scene_desc& desc, const Context& context) {
   constexpr float tiny = 1e-6f, huge = 1e9f;
   check_known("desc.form", desc.form, NOOK_FORM_PAPER);
   check_range("desc.cutoff_error", desc.cutoff_error, 0, 1);
   check_range("desc.far_error", desc.far_error, 0, 1);
   check_fits("desc.lod_error", desc.lod_error, desc.lod_error >= 0 && desc.lod_error <= huge, "0 or more");
-  check_fits("desc.lod_distance", desc.lod_distance, desc.lod_distance >= tiny && desc.lod_distance <= huge,
-             "metres above 0");
+  check_fits("desc.lod_distance", desc.lod_distance,
+             desc.lod_distance == 0 || (desc.lod_distance >= tiny && desc.lod_distance <= huge),
+             "a length above 0, or 0 for 10 metres");
   check_fits("desc.ground_radius", desc.ground_radius,
-             desc.ground_radius >= tiny && desc.ground_radius <= huge, "metres above 0");
+             desc.ground_radius == 0 || (desc.ground_radius >= tiny && desc.ground_radius <= huge),
+             "a length above 0, or 0 for a multiple of each body's size");
   check_fits("desc.lod_max_interval", desc.lod_max_interval, desc.lod_max_interval >= 1, "1 or more");
   check_fits("desc.strict_poses", desc.strict_poses, desc.strict_poses <= 1, "0 or 1");
-  return {desc.form,
-          isa,
-          desc.cutoff_error,
-          desc.far_error,
-          desc.lod_error,
-          desc.lod_distance,
-          desc.lod_max_interval,
-          desc.ground_radius,
-          desc.strict_poses != 0};
+  return {
+      desc.form,
+      context.isa(),
+      desc.cutoff_error,
+      desc.far_error,
+      desc.lod_error,
+      desc.lod_distance > 0 ? desc.lod_distance : SceneSettings{}.lod_distance * context.units_per_metre(),
+      desc.lod_max_interval,
+      desc.ground_radius,
+      desc.strict_poses != 0};
 }
 
 // Runs body on the scene of the handle.
@@ -97,7 +101,7 @@ nook_result nook_scene_create(nook_context context, const nook_scene_desc* desc,
     need(out, "out");
     *out = nullptr;
     need(context, "context");
-    const SceneSettings settings = settings_of(read_descriptor(desc), context->isa());
+    const SceneSettings settings = settings_of(read_descriptor(desc), *context);
     *out =
         Owned<nook_scene_s>::make(context->memory(), Ref<nook_context_s>::share(context), context, settings)
             .detach();
@@ -235,6 +239,7 @@ nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, co
 nook_result nook_scene_describe(nook_scene scene, nook_scene_info* info) {
   return with_scene("nook_scene_describe", scene, [&](const Scene& s) {
     nook_scene_info answer = s.stats;
+    answer.uneven_instances = uneven_instances(s);
     answer.memory_bytes = sizeof *scene + scene->metered.bytes();
     write_info(info, answer);
   });

@@ -10,6 +10,7 @@
 
 #include "sdk/src/api/clips_handle.h"
 #include "sdk/src/api/entry.h"
+#include "sdk/src/api/pose_log.h"
 #include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/loaded_clips.h"
 #include "sdk/src/character/pose_source.h"
@@ -97,6 +98,12 @@ Mat3x4 checked_bone(const LoadedClips& clips, const FrameMix& mix, const Mat3x4&
   const Mat3x4 matrix = decode_bone(clips.set, mix, place, bone);
   check_size(clips.model->model, bone, matrix);
   return matrix;
+}
+
+// The matrices of a clip are even, so that the place alone decides.
+void log_place(nook_clips_s& clips, const char* function, const Mat3x4& place) {
+  const CharacterModel& model = clips.model->model;
+  api::log_pose(*clips.context, function, model, notes_of_place(model, place), clips.reported);
 }
 
 nook_capsule capsule_of(const WorldCaster& caster, const Mat3x4& bone) {
@@ -202,6 +209,7 @@ nook_result nook_clips_read_pose(nook_clips clips, const nook_clip_time* time, c
     check_bone_count(bone_count, clips->set.bones.size());
     for (std::size_t b = 0; b < bone_count; ++b)
       std::copy_n(checked_bone(*clips, mix, place, b).m, 12, bones_3x4 + 12 * b);
+    log_place(*clips, "nook_clips_read_pose", place);
   });
 }
 
@@ -224,6 +232,7 @@ nook_result nook_clips_read_capsules(nook_clips clips, const nook_clip_time* tim
     const Mat3x4 place = place_of(place_3x4);
     for (std::size_t i = 0; i < casters.size(); ++i)
       out[i] = capsule_of(casters[i], checked_bone(*clips, mix, place, casters[i].bone));
+    log_place(*clips, "nook_clips_read_capsules", place);
   });
 }
 
@@ -233,7 +242,9 @@ nook_result nook_scene_set_clip(nook_scene scene, nook_instance_id instance, noo
     need(scene, "scene");
     need(clips, "clips");
     const FrameMix mix = mix_of(clips->set, time);
-    set_clip(scene->scene, instance, Ref<const LoadedClips>::share(clips), mix, place_of(place_3x4));
+    const PoseNotes notes =
+        set_clip(scene->scene, instance, Ref<const LoadedClips>::share(clips), mix, place_of(place_3x4));
+    api::log_pose(*scene->context, instance_of(scene->scene, instance), notes);
   });
 }
 

@@ -3,6 +3,8 @@
 
 #include <nook/nook_clips.h>
 
+#include <atomic>
+
 #include "sdk/src/api/handles.h"
 #include "sdk/src/character/loaded_clips.h"
 
@@ -10,5 +12,8 @@ struct nook_clips_s : Meter, nook::LoadedClips {
   // make(Memory*) returns the ClipSet, in that memory.
   template <class Make>
   nook_clips_s(nook_context_s* made_by, nook::Ref<const nook::LoadedModel> of, Make&& make)
-      : Meter(made_by->memory()), LoadedClips(make(&metered), std::move(of), &metered) {}
+      : Meter(made_by->memory()), LoadedClips(make(&metered), std::move(of), &metered), context(made_by) {}
+
+  nook_context_s* context;                 // kept alive by this object's owner reference
+  std::atomic<std::uint32_t> reported{0};  // topics of PoseNotes, of poses and capsules that were read
 };

@@ -13,6 +13,7 @@ namespace nook {
 template <>
 nook_context_desc default_desc() {
   nook_context_desc desc{};
+  desc.units_per_metre = 1;
   return desc;
 }
 
@@ -23,9 +24,7 @@ nook_scene_desc default_desc() {
   desc.form = defaults.form;
   desc.cutoff_error = defaults.cutoff_error;
   desc.lod_error = defaults.lod_error;
-  desc.lod_distance = defaults.lod_distance;
   desc.lod_max_interval = defaults.lod_max_interval;
-  desc.ground_radius = defaults.ground_radius;
   desc.strict_poses = defaults.strict_poses;
   desc.far_error = defaults.far_error;
   return desc;
@@ -105,7 +104,6 @@ nook_world_frame_desc default_desc() {
   frame.cutoff_error = SceneSettings{}.cutoff_error;
   frame.level_error = 1.0f / 256;
   frame.intensity = frame.power = 1;
-  frame.light_reach = 30;
   return frame;
 }
 

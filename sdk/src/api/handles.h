@@ -38,6 +38,8 @@ struct nook_model_s : Meter, nook::LoadedModel {
       : Meter(made_by->memory()), LoadedModel(make(&metered), &metered), context(made_by.get()) {}
 
   nook_context_s* context;  // kept alive by this object's owner reference
+  // Topics of PoseNotes that the host's log has of conversions for this model.
+  std::atomic<std::uint32_t> reported{0};
 };
 
 struct nook_scene_s : Meter, nook::RefCounted {

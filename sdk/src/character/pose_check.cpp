@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <cstring>
 
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/geometry.h"
@@ -25,59 +26,26 @@ double spread(std::span<const Point3> points) {
   return std::sqrt(squares);
 }
 
-bool best_map(std::span<const Point3> from_points, std::span<const Point3> to_points, Affine& map) {
-  Point3 from{}, to{};
-  const double share = 1 / static_cast<double>(from_points.size());
-  for (std::size_t v = 0; v < from_points.size(); ++v)
-    for (int i = 0; i < 3; ++i) {
-      from[i] += share * from_points[v][i];
-      to[i] += share * to_points[v][i];
-    }
-  Affine own, cross;  // 3x3 parts: sums of p p^T and of x p^T about the means
-  own.m.fill(0);
-  cross.m.fill(0);
-  for (std::size_t v = 0; v < from_points.size(); ++v)
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        const double p = from_points[v][j] - from[j];
-        own.m[4 * i + j] += (from_points[v][i] - from[i]) * p;
-        cross.m[4 * i + j] += (to_points[v][i] - to[i]) * p;
-      }
-  const double trace = own.m[0] + own.m[5] + own.m[10];
-  if (!(determinant(own) > 1e-7 * trace * trace * trace)) return false;
-  map = cross * inverse(own);
-  const Point3 moved = transform(map, from[0], from[1], from[2]);
-  for (int i = 0; i < 3; ++i) map.m[4 * i + 3] = to[i] - moved[i];
-  return true;
-}
-
-double scale_of_similarity(const Affine& map) {
-  const double scale = std::cbrt(std::abs(determinant(map)));
-  double difference = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      double dot = 0;
-      for (int k = 0; k < 3; ++k) dot += map.m[4 * k + i] * map.m[4 * k + j];
-      difference = std::max(difference, std::abs(dot - (i == j ? scale * scale : 0)));
-    }
-  return difference <= 0.02 * scale * scale ? scale : 0;
-}
-
-double turn_degrees(const Affine& map, double scale) {
-  const double cosine = 0.5 * ((map.m[0] + map.m[5] + map.m[10]) / scale - 1);
-  return std::acos(std::clamp(cosine, -1.0, 1.0)) * 57.29577951308232;
-}
-
-void say(PoseFinding& finding, const char* format, ...) {
+bool explain(PoseFinding& finding, nook_pose_fault fault, const char* format, ...) {
+  char text[sizeof finding.text];
   va_list arguments;
   va_start(arguments, format);
-  std::vsnprintf(finding.text, sizeof finding.text, format, arguments);
+  std::vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
+  const bool is_first = finding.text[0] == 0;
+  if (is_first) finding.fault = fault;
+  if (std::strstr(finding.text, text)) return is_first;
+  const std::size_t used = std::strlen(finding.text), more = std::strlen(text);
+  const std::size_t between = is_first ? 0 : 5;
+  if (used + between + more >= sizeof finding.text) return is_first;
+  std::memcpy(finding.text + used, "; or ", between);
+  std::memcpy(finding.text + used + between, text, more + 1);
+  return is_first;
 }
 
-// The check tries the readings of the host's transforms that mistakes turn into each other, and names the one
-// under which the model's vertices fall on the host's. Where none does, a best affine map between the two
-// sets of vertices tells a wrong unit, turn or mirror image of the whole pose.
+// The check tries the readings of the host's transforms that mistakes turn into each other, and names those
+// under which the model's vertices fall on the host's. In the bind pose several may. A best affine map
+// between the two sets of vertices tells a wrong place, unit, turn or mirror image of the whole pose.
 
 namespace {
 
@@ -90,21 +58,26 @@ struct Distances {
 struct Check {
   const CharacterModel& model;
   const PoseSource& given;
+  std::span<const SkinnedVertex> all;
+  Affine vertex_place;
   double tolerance_ws = 0;
-  Vector<const RestVertex*> vertex;  // those whose bones all have transforms
+  std::size_t least_vertices = 1;    // of a reading, so that it tells something
+  Vector<const RestVertex*> vertex;  // of the latest reading: those whose bones all have transforms
   Vector<Point3> host;               // where the host has them
+  Vector<Point3> posed;              // where that reading has them
   Vector<std::uint8_t> has_matrix;   // for each bone
-  Vector<Affine> matrix;             // for each bone, of the latest reading
-  Vector<Point3> posed;              // by the latest reading
+  Vector<Affine> matrix;             // for each bone
 
-  Check(const CharacterModel& of, const PoseSource& source, Memory* memory)
+  Check(const CharacterModel& of, const PoseSource& source, std::span<const SkinnedVertex> vertices,
+        Memory* memory)
       : model(of),
         given(source),
+        all(vertices),
         vertex(memory),
         host(memory),
+        posed(memory),
         has_matrix(of.bone_count(), std::uint8_t{0}, memory),
-        matrix(of.bone_count(), Affine{}, memory),
-        posed(memory) {}
+        matrix(of.bone_count(), Affine{}, memory) {}
 };
 
 Point3 skinned(const Check& check, const RestVertex& vertex) {
@@ -117,29 +90,46 @@ Point3 skinned(const Check& check, const RestVertex& vertex) {
   return sum;
 }
 
-// Poses the vertices by a reading. Returns false where the host's transforms cannot be read so.
+// The first of a vertex's bones without a matrix, or the vertex's bone_count.
+std::uint32_t first_missing(const Check& check, const RestVertex& vertex) {
+  std::uint32_t b = 0;
+  while (b < vertex.bone_count && check.has_matrix[vertex.bone[b]]) ++b;
+  return b;
+}
+
+// Takes the vertices that only bones with matrices move, and poses them.
+void pose_vertices(Check& check) {
+  check.vertex.clear();
+  check.host.clear();
+  check.posed.clear();
+  for (const SkinnedVertex& vertex : check.all) {
+    const RestVertex& rest = check.model.bind.vertices[vertex.rest_vertex];
+    if (first_missing(check, rest) < rest.bone_count) continue;
+    check.vertex.push_back(&rest);
+    check.host.push_back(vertex.position_ws);
+    check.posed.push_back(skinned(check, rest));
+  }
+}
+
+// Poses the vertices by a reading. Returns false where the host's transforms cannot be read so, or where too
+// few vertices are left to tell.
 bool pose(Check& check, const Reading& reading) {
-  const PoseSource& source = reading.source;
+  PoseSource source = reading.source;
+  source.is_partial = true;
+  if (!reading.map.empty()) source.transform_of_bone = {reading.map.data(), reading.map.size()};
   if (source.transform_of_bone.empty()) {
     const std::size_t expected = source.kind == NOOK_POSE_SKINNING
                                      ? check.model.bind.skins[source.skin].joint_count
                                      : check.model.bone_count();
-    if (source.transform_count != expected) return false;
+    if (source.transform_count < expected) return false;
   }
   std::fill(check.has_matrix.begin(), check.has_matrix.end(), std::uint8_t{0});
-  PoseSource partial = source;
-  partial.is_partial = true;
-  for_each_transform(check.model, partial, [&](std::size_t bone, std::uint32_t index) {
+  for_each_transform(check.model, source, [&](std::size_t bone, std::uint32_t index) {
     check.matrix[bone] = bone_matrix(check.model, source, bone, read_transform(reading, index));
     check.has_matrix[bone] = is_finite(check.matrix[bone]);
   });
-  check.posed.clear();
-  for (const RestVertex* vertex : check.vertex) {
-    for (std::uint32_t b = 0; b < vertex->bone_count; ++b)
-      if (!check.has_matrix[vertex->bone[b]]) return false;
-    check.posed.push_back(skinned(check, *vertex));
-  }
-  return true;
+  pose_vertices(check);
+  return check.vertex.size() >= check.least_vertices;
 }
 
 template <class Map>
@@ -160,36 +150,6 @@ Distances compare(const Check& check) {
   return compare(check, [](const Point3& p) { return p; });
 }
 
-bool explain_by_map(Check& check, PoseFinding& finding) {
-  Affine map;
-  if (!best_map(check.posed, check.host, map)) return false;
-  const double scale = scale_of_similarity(map);
-  if (scale == 0) return false;
-  const Distances left = compare(check, [&](const Point3& p) { return transform(map, p[0], p[1], p[2]); });
-  if (!(left.max <= check.tolerance_ws)) return false;
-  finding.scale = scale;
-  const bool is_mirrored = determinant(map) < 0;
-  if (std::abs(scale - 1) > 0.02) {
-    finding.fault = NOOK_POSE_FAULT_UNIT;
-    say(finding,
-        "the pose is in another unit than the vertices: it fits when multiplied by %.6g%s; scale "
-        "desc.place_3x4 or the vertices' place",
-        scale, is_mirrored ? " and mirrored" : "");
-    return true;
-  }
-  finding.fault = NOOK_POSE_FAULT_PLACE;
-  if (is_mirrored)
-    say(finding,
-        "the pose is a mirror image of the vertices: one of them is left-handed; put the mirroring into "
-        "desc.place_3x4 of the pose as well");
-  else
-    say(finding,
-        "the pose is right in itself, and stands elsewhere than the vertices: it fits when turned by %.3g "
-        "degrees and moved by (%.4g %.4g %.4g); one of the two places is wrong or missing",
-        turn_degrees(map, scale), map.m[3], map.m[7], map.m[11]);
-  return true;
-}
-
 // The transform under which a vertex that hangs on one bone falls on the host's, or -1.
 std::int64_t fitting_transform(const Check& check, const RestVertex& vertex, const Point3& host) {
   double nearest = 3 * check.tolerance_ws;
@@ -206,56 +166,53 @@ std::int64_t fitting_transform(const Check& check, const RestVertex& vertex, con
   return fitting;
 }
 
-// Looks for the transforms of vertices that are off and hang on one bone almost alone.
-bool explain_by_order(const Check& check, PoseFinding& finding) {
-  std::size_t off = 0, found = 0;
+// A vertex that hangs on one bone almost alone, is off, and fits under another bone's transform.
+struct Misplaced {
   std::uint32_t bone = 0;
-  std::int64_t transform_index = -1;
+  std::int64_t transform = -1;
+};
+
+std::size_t count_of_different(std::span<const Misplaced> all, std::int64_t (*key)(const Misplaced&)) {
+  std::size_t out = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    out += std::none_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(i),
+                        [&](const Misplaced& other) { return key(other) == key(all[i]); });
+  return out;
+}
+
+// Looks for the transforms of vertices that are off. Several bones that fit under one transform stand still
+// in the host's pose, such as the bones of the bind pose under the root: that is another frame. Where a part
+// of the vertices does not fit, the text names both.
+bool explain_by_order(const Check& check, PoseFinding& finding) {
+  std::size_t off = 0;
+  Vector<Misplaced> found(check.host.get_allocator());
   for (std::size_t v = 0; v < check.vertex.size(); ++v) {
     const RestVertex& vertex = *check.vertex[v];
     if (vertex.weight[0] < 0.98f || distance(check.posed[v], check.host[v]) <= check.tolerance_ws) continue;
     ++off;
     const std::int64_t fitting = fitting_transform(check, vertex, check.host[v]);
-    if (fitting < 0) continue;
-    if (found++ == 0) {
-      bone = vertex.bone[0];
-      transform_index = fitting;
-    }
+    if (fitting >= 0) found.push_back({vertex.bone[0], fitting});
   }
-  if (off == 0 || 2 * found < off) return false;
-  finding.fault = NOOK_POSE_FAULT_ORDER;
-  say(finding,
+  if (off == 0 || 2 * found.size() < off) return false;
+  const std::span<const Misplaced> all(found.data(), found.size());
+  const std::size_t bones = count_of_different(all, [](const Misplaced& m) { return std::int64_t(m.bone); });
+  const std::size_t transforms = count_of_different(all, [](const Misplaced& m) { return m.transform; });
+  if (bones > 1 && 2 * transforms <= bones) return false;
+  const std::uint32_t bone = found[0].bone;
+  explain(
+      finding, NOOK_POSE_FAULT_ORDER,
       "transforms go to the wrong bones: %zu of %zu vertices fit under the transform of another bone; bone "
       "%u (\"%s\") fits with transform %lld; map bones by name",
-      found, off, bone, check.model.bone_names[bone].c_str(), static_cast<long long>(transform_index));
+      found.size(), off, bone, check.model.bone_names[bone].c_str(),
+      static_cast<long long>(found[0].transform));
+  if (found.size() < off || transforms < bones)
+    explain(finding, NOOK_POSE_FAULT_UNKNOWN, "the pose is of another frame than the vertices");
   return true;
 }
 
-// Vertices that only bones with transforms move. The unit of the tolerance is that of the host's vertices,
-// known by their spread, because the transforms may be misread. A pose changes the spread by a few tens of
-// percent.
-void choose_vertices(Check& check, std::span<const SkinnedVertex> vertices, double tolerance) {
-  std::size_t first_missing = 0;
-  for_each_transform(check.model, check.given,
-                     [&](std::size_t bone, std::uint32_t) { check.has_matrix[bone] = 1; });
-  for (const SkinnedVertex& vertex : vertices) {
-    const RestVertex& rest = check.model.bind.vertices[vertex.rest_vertex];
-    const auto last = rest.bone.begin() + rest.bone_count;
-    const auto missing =
-        std::find_if(rest.bone.begin(), last, [&](std::uint16_t bone) { return !check.has_matrix[bone]; });
-    if (missing != last) {
-      first_missing = *missing;
-      continue;
-    }
-    check.vertex.push_back(&rest);
-    check.host.push_back(vertex.position_ws);
-  }
-  if (check.vertex.empty())
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "none of the vertices hangs on bones of this pose alone (bone %zu, \"%s\", has no transform); "
-        "check the skin that moves them",
-        first_missing, check.model.bone_names[first_missing].c_str());
+// The unit of the tolerance is that of the host's vertices, known by their spread, because the transforms may
+// be misread. A pose changes the spread by a few tens of percent.
+void set_tolerance(Check& check, double tolerance) {
   Vector<Point3> at_rest(check.host.get_allocator());
   at_rest.reserve(check.vertex.size());
   for (const RestVertex* vertex : check.vertex)
@@ -265,45 +222,89 @@ void choose_vertices(Check& check, std::span<const SkinnedVertex> vertices, doub
   check.tolerance_ws = tolerance * std::max(check.model.bounding_radius, 1e-6f) * scale;
 }
 
+[[noreturn]] void fail_without_vertices(const Check& check) {
+  const RestVertex& rest = check.model.bind.vertices[check.all[0].rest_vertex];
+  const std::size_t bone = rest.bone[std::min(first_missing(check, rest), rest.bone_count - 1)];
+  throw Failure(
+      NOOK_ERROR_INVALID_ARGUMENT,
+      "none of the vertices hangs on bones of this pose alone (bone %zu, \"%s\", has no transform); "
+      "check the skin that moves them",
+      bone, check.model.bone_names[bone].c_str());
+}
+
+bool fits(Check& check, const Reading& reading) {
+  return pose(check, reading) && compare(check).max <= check.tolerance_ws;
+}
+
+PosedPoints points_of(const Check& check) {
+  return {{check.posed.data(), check.posed.size()},
+          {check.host.data(), check.host.size()},
+          check.tolerance_ws,
+          check.given.place,
+          check.vertex_place};
+}
+
+// Mistakes that occur together, the likeliest pairs first.
+void explain_by_two_mistakes(Check& check, std::span<const Reading> single, PoseFinding& finding,
+                             Memory* memory) {
+  for (const Reading& reading : readings_of_two_mistakes(check.model, check.given, memory))
+    if (fits(check, reading)) return describe(check.model, check.given, reading, finding);
+  for (const Reading& reading : single) {
+    PoseFinding placed;
+    if (!pose(check, reading) || !explain_by_place(points_of(check), placed)) continue;
+    describe(check.model, check.given, reading, finding);
+    const std::size_t used = std::strlen(finding.text);
+    std::snprintf(finding.text + used, sizeof finding.text - used, "; besides, %.*s",
+                  static_cast<int>(sizeof finding.text - used - 12), placed.text);
+    return;
+  }
+}
+
+void explain_difference(Check& check, const Reading& as_given, PoseFinding& finding, Memory* memory) {
+  const Vector<Reading> readings = other_readings(check.model, check.given, memory);
+  for (const Reading& reading : readings)
+    if (fits(check, reading)) describe(check.model, check.given, reading, finding);
+  const bool is_readable = pose(check, as_given);
+  if (is_readable) explain_by_place(points_of(check), finding);
+  if (finding.fault == NOOK_POSE_FAULT_NONE && is_readable) explain_by_order(check, finding);
+  if (finding.fault == NOOK_POSE_FAULT_NONE)
+    explain_by_two_mistakes(check, {readings.data(), readings.size()}, finding, memory);
+  if (finding.fault == NOOK_POSE_FAULT_NONE)
+    explain(finding, NOOK_POSE_FAULT_UNKNOWN,
+            "the pose differs by up to %.3g of the bounding radius, most at bone %u (\"%s\"), and no known "
+            "mistake explains it: another clip or frame, another mesh, or vertices of another file",
+            finding.max_error, finding.worst_bone, check.model.bone_names[finding.worst_bone].c_str());
+}
+
 }  // namespace
 
 PoseFinding find_pose_fault(const CharacterModel& model, const PoseSource& source,
-                            std::span<const SkinnedVertex> vertices, double tolerance, Memory* memory) {
-  Check check(model, source, memory);
-  choose_vertices(check, vertices, tolerance);
-  const Reading as_given{source};
+                            std::span<const SkinnedVertex> vertices, const Affine& vertex_place,
+                            double tolerance, Memory* memory) {
+  Check check(model, source, vertices, memory);
+  check.vertex_place = vertex_place;
+  for_each_transform(model, source, [&](std::size_t bone, std::uint32_t) { check.has_matrix[bone] = 1; });
+  pose_vertices(check);
+  if (check.vertex.empty()) fail_without_vertices(check);
+  set_tolerance(check, tolerance);
+  const std::size_t count = check.vertex.size();
+  const RestVertex& first = *check.vertex[0];
+  check.least_vertices = std::min<std::size_t>(count, 6);
+  const Reading as_given(source, memory);
   PoseFinding finding;
-  const bool is_readable = pose(check, as_given);
+  // A vertex that the pose moves to no finite place counts as one that differs.
+  const bool is_readable = pose(check, as_given) && check.vertex.size() == count;
   const Distances distances = is_readable ? compare(check) : Distances{};
   const double unit = check.tolerance_ws / tolerance;
   finding.max_error = distances.max / unit;
   finding.rms_error = distances.rms / unit;
-  finding.worst_bone = check.vertex[distances.worst]->bone[0];
-  if (distances.max <= check.tolerance_ws) {
-    say(finding, "the pose is right: %zu vertices agree to %.2g of the bounding radius", check.vertex.size(),
-        finding.max_error);
-    return finding;
-  }
-  const Vector<Reading> readings = other_readings(model, source, memory);
-  for (const Reading& reading : readings)
-    if (pose(check, reading) && compare(check).max <= check.tolerance_ws) {
-      describe(model, source, reading, finding);
-      return finding;
-    }
-  if (is_readable && pose(check, as_given)) {
-    if (explain_by_map(check, finding)) return finding;
-    if (explain_by_order(check, finding)) return finding;
-  }
-  for (const Reading& reading : readings)
-    if (pose(check, reading) && explain_by_map(check, finding)) {
-      describe(model, source, reading, finding);
-      return finding;
-    }
-  finding.fault = NOOK_POSE_FAULT_UNKNOWN;
-  say(finding,
-      "the pose differs by up to %.3g of the bounding radius, most at bone %u (\"%s\"), and no known mistake "
-      "explains it: another clip or frame, another mesh, or vertices of another file",
-      finding.max_error, finding.worst_bone, model.bone_names[finding.worst_bone].c_str());
+  finding.worst_bone = is_readable ? check.vertex[distances.worst]->bone[0] : first.bone[0];
+  if (distances.max <= check.tolerance_ws)
+    explain(finding, NOOK_POSE_FAULT_NONE,
+            "the pose is right: %zu vertices agree to %.2g of the bounding radius", check.vertex.size(),
+            finding.max_error);
+  else
+    explain_difference(check, as_given, finding, memory);
   return finding;
 }
 

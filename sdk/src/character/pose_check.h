@@ -24,24 +24,30 @@ struct PoseFinding {
   char text[512] = {};
 };
 
-// Puts the text, which is cut where it is too long.
-void say(PoseFinding& finding, const char* format, ...) NOOK_PRINTF(2, 3);
+// Adds a fault that explains the difference. The first one is the likeliest; further ones are named in the
+// text as far as it has room. Returns whether it was the first.
+bool explain(PoseFinding& finding, nook_pose_fault fault, const char* format, ...) NOOK_PRINTF(3, 4);
 
-// The ways to read a host's transforms, of which mistakes take one for another.
-
-// One way to read the host's transforms.
+// One way to read the host's transforms, as mistakes take one for another.
 struct Reading {
   PoseSource source;
+  Vector<std::int32_t> map;     // of the bones, in place of the source's; empty: the source has it
+  bool is_transposed = false;   // the layout: rows for columns
   bool is_turned_back = false;  // the 3x3 part is transposed, the translation stays
   bool is_inverted = false;
+  int mirrored_axis = -1;  // changes its sign before and behind the transform
   double translation_scale = 1;
   nook_pose_fault fault = NOOK_POSE_FAULT_NONE;
+
+  Reading(const PoseSource& as_given, Memory* memory) : source(as_given), map(memory) {}
 };
 
 Affine read_transform(const Reading& reading, std::uint32_t index);
 
-// All but the one that the host gives, the likeliest first.
+// All but the one that the host gives, the likeliest first: those of one mistake, and those of two.
 Vector<Reading> other_readings(const CharacterModel& model, const PoseSource& given, Memory* memory);
+Vector<Reading> readings_of_two_mistakes(const CharacterModel& model, const PoseSource& given,
+                                         Memory* memory);
 
 // Says that the host's transforms are right when read so.
 void describe(const CharacterModel& model, const PoseSource& given, const Reading& reading,
@@ -56,15 +62,18 @@ double distance(const Point3& a, const Point3& b);
 // The root mean square distance of points from their mean; 0 for no points.
 double spread(std::span<const Point3> points);
 
-// The affine map from one set to another of as many points that is best in the least-squares sense. Returns
-// false where the first lie in a plane.
-bool best_map(std::span<const Point3> from, std::span<const Point3> to, Affine& map);
+// What the places of a pose and of the host's vertices may have to do with their difference.
 
-// The scale of a map that is a similarity, mirrored or not, to 1 %; else 0.
-double scale_of_similarity(const Affine& map);
+struct PosedPoints {
+  std::span<const Point3> posed;  // by the model, under the pose's place
+  std::span<const Point3> host;
+  double tolerance_ws = 0;
+  Affine pose_place, vertex_place;  // the identity where the host gave none
+};
 
-// The turn of a similarity of a known scale, degrees.
-double turn_degrees(const Affine& map, double scale);
+// Explains the difference by a wrong place, or by a turn, a mirror image or another unit of the whole pose.
+// Returns false where none of these does.
+bool explain_by_place(const PosedPoints& points, PoseFinding& finding);
 
 // A vertex of BindData::vertices and where the host's skinning puts it, in the world.
 struct SkinnedVertex {
@@ -72,10 +81,12 @@ struct SkinnedVertex {
   std::array<double, 3> position_ws{};
 };
 
-// Distances up to `tolerance`, a share of the bounding radius, count as equal.  Throws Failure if no vertex
+// vertex_place has been applied to the vertices. Distances up to `tolerance`, a share of the bounding radius,
+// count as equal.  Throws Failure if no vertex
 // hangs on bones with transforms alone, or as for_each_transform does. The source must have passed
 // check_pose_source.
 PoseFinding find_pose_fault(const CharacterModel& model, const PoseSource& source,
-                            std::span<const SkinnedVertex> vertices, double tolerance, Memory* memory);
+                            std::span<const SkinnedVertex> vertices, const Affine& vertex_place,
+                            double tolerance, Memory* memory);
 
 }  // namespace nook

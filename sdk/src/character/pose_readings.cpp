@@ -27,25 +27,62 @@ nook_transform_layout transposed(nook_transform_layout layout) {
   }
 }
 
-// The readings of another kind or skin, the likeliest first.
-void add_kinds(const CharacterModel& model, const PoseSource& given, Vector<Reading>& out) {
+// The transform of each bone where the host has them in the order of a skin's joints.
+Vector<std::int32_t> map_of_skin(const CharacterModel& model, std::uint32_t skin, Memory* memory) {
+  const SkinBind& bind = model.bind.skins[skin];
+  Vector<std::int32_t> out(model.bone_count(), std::int32_t{-1}, memory);
+  for (std::uint32_t j = 0; j < bind.joint_count; ++j)
+    out[model.bind.bone_of_joint[bind.first_joint + j]] = static_cast<std::int32_t>(j);
+  return out;
+}
+
+void add_skins(const CharacterModel& model, const PoseSource& given, Memory* memory, Vector<Reading>& out) {
   for (std::uint32_t skin = 0; skin < model.bind.skins.size(); ++skin) {
-    Reading reading{given};
+    if (given.kind == NOOK_POSE_SKINNING && skin == given.skin) continue;
+    Reading reading(given, memory);
     reading.source.kind = NOOK_POSE_SKINNING;
     reading.source.skin = skin;
-    if (given.kind == NOOK_POSE_SKINNING && skin == given.skin) continue;
     reading.fault = given.kind == NOOK_POSE_SKINNING        ? NOOK_POSE_FAULT_SKIN
                     : given.kind == NOOK_POSE_REST_TO_WORLD ? NOOK_POSE_FAULT_NO_BIND
                                                             : NOOK_POSE_FAULT_KIND;
     out.push_back(reading);
-  }
-  for (const nook_pose_kind kind : {NOOK_POSE_REST_TO_WORLD, NOOK_POSE_JOINT_TO_WORLD}) {
-    if (kind == given.kind) continue;
-    Reading reading{given};
-    reading.source.kind = kind;
-    reading.fault = NOOK_POSE_FAULT_KIND;
+    // In the order of the bones that the skin was named for.
+    if (given.kind != NOOK_POSE_SKINNING || !given.transform_of_bone.empty()) continue;
+    reading.map = map_of_skin(model, given.skin, memory);
     out.push_back(reading);
   }
+}
+
+// The readings of another kind or skin, the likeliest first. A host that mistakes the kind has the transforms
+// in the order of the bones, or in that of the skin's joints.
+void add_kinds(const CharacterModel& model, const PoseSource& given, Memory* memory, Vector<Reading>& out) {
+  add_skins(model, given, memory, out);
+  for (const nook_pose_kind kind : {NOOK_POSE_JOINT_TO_WORLD, NOOK_POSE_REST_TO_WORLD}) {
+    if (kind == given.kind) continue;
+    Reading reading(given, memory);
+    reading.source.kind = kind;
+    reading.fault = NOOK_POSE_FAULT_KIND;
+    if (given.kind == NOOK_POSE_SKINNING && given.transform_of_bone.empty())
+      reading.map = map_of_skin(model, given.skin, memory);
+    out.push_back(reading);
+    if (reading.map.empty()) continue;
+    reading.map.clear();
+    out.push_back(reading);
+  }
+}
+
+void add_transposed(const PoseSource& given, Memory* memory, Vector<Reading>& out) {
+  Reading other(given, memory);
+  other.fault = NOOK_POSE_FAULT_TRANSPOSED;
+  if (transposed(given.layout) != given.layout) {
+    other.source.layout = transposed(given.layout);
+    other.is_transposed = true;
+    out.push_back(other);
+    other = Reading(given, memory);
+    other.fault = NOOK_POSE_FAULT_TRANSPOSED;
+  }
+  other.is_turned_back = true;
+  out.push_back(other);
 }
 
 }  // namespace
@@ -58,84 +95,107 @@ Affine read_transform(const Reading& reading, std::uint32_t index) {
     std::swap(m.m[6], m.m[9]);
   }
   if (reading.is_inverted) m = inverse(m);
+  for (int i = 0; reading.mirrored_axis >= 0 && i < 12; ++i)
+    if ((i / 4 == reading.mirrored_axis) != (i % 4 == reading.mirrored_axis)) m.m[i] = -m.m[i];
   for (int i = 3; i < 12; i += 4) m.m[i] *= reading.translation_scale;
   return m;
 }
 
 Vector<Reading> other_readings(const CharacterModel& model, const PoseSource& given, Memory* memory) {
   Vector<Reading> out(memory);
-  add_kinds(model, given, out);
-  Reading other{given};
-  other.source.layout = transposed(given.layout);
-  other.fault = NOOK_POSE_FAULT_TRANSPOSED;
-  if (other.source.layout != given.layout) out.push_back(other);
-  other = Reading{given};
-  other.is_turned_back = true;
-  other.fault = NOOK_POSE_FAULT_TRANSPOSED;
-  out.push_back(other);
-  other = Reading{given};
+  add_kinds(model, given, memory, out);
+  add_transposed(given, memory, out);
+  Reading other(given, memory);
   other.is_inverted = true;
   other.fault = NOOK_POSE_FAULT_INVERTED;
   out.push_back(other);
+  for (const int axis : {2, 0, 1}) {
+    other = Reading(given, memory);
+    other.mirrored_axis = axis;
+    other.fault = NOOK_POSE_FAULT_PLACE;
+    out.push_back(other);
+  }
   // Centimetres, millimetres, inches and feet against metres, both ways round.
   for (const double unit : {100.0, 0.01, 1000.0, 0.001, 1 / 0.0254, 0.0254, 1 / 0.3048, 0.3048}) {
-    other = Reading{given};
+    other = Reading(given, memory);
     other.translation_scale = unit;
     other.fault = NOOK_POSE_FAULT_UNIT;
     out.push_back(other);
   }
-  // A layout read wrong hides the kind; the two mistakes occur together.
-  const std::size_t kinds = out.size();
-  for (std::size_t r = 0; r < kinds && transposed(given.layout) != given.layout; ++r)
-    if (out[r].source.kind != given.kind || out[r].source.skin != given.skin) {
-      Reading both = out[r];
-      both.source.layout = transposed(given.layout);
-      both.fault = NOOK_POSE_FAULT_TRANSPOSED;
-      out.push_back(both);
-    }
   return out;
 }
 
+// A layout read wrong hides the kind; the two mistakes occur together.
+Vector<Reading> readings_of_two_mistakes(const CharacterModel& model, const PoseSource& given,
+                                         Memory* memory) {
+  Vector<Reading> out(memory);
+  if (transposed(given.layout) == given.layout) return out;
+  add_kinds(model, given, memory, out);
+  for (Reading& reading : out) {
+    reading.source.layout = transposed(given.layout);
+    reading.is_transposed = true;
+    reading.fault = NOOK_POSE_FAULT_TRANSPOSED;
+  }
+  return out;
+}
+
+namespace {
+
+void describe_transposed(const PoseSource& given, const Reading& reading, PoseFinding& finding) {
+  const PoseSource& source = reading.source;
+  if (source.kind != given.kind)
+    explain(finding, NOOK_POSE_FAULT_TRANSPOSED,
+            "the transforms are transposed, and they are %s; give desc.layout and desc.kind",
+            kind_name(source.kind));
+  else if (reading.is_turned_back)
+    explain(finding, NOOK_POSE_FAULT_TRANSPOSED,
+            "the rotations are transposed, while the translations are right");
+  else
+    explain(finding, NOOK_POSE_FAULT_TRANSPOSED,
+            "the transforms are transposed: rows were given as columns or columns as rows; give desc.layout");
+}
+
+}  // namespace
+
 void describe(const CharacterModel& model, const PoseSource& given, const Reading& reading,
               PoseFinding& finding) {
-  finding.fault = reading.fault;
   const PoseSource& source = reading.source;
+  const std::uint32_t skin = source.kind == NOOK_POSE_SKINNING ? model.bind.skins[source.skin].file_index : 0;
   switch (reading.fault) {
     case NOOK_POSE_FAULT_TRANSPOSED:
-      if (source.kind != given.kind)
-        say(finding, "the transforms are transposed, and they are %s; give desc.layout and desc.kind",
-            kind_name(source.kind));
-      else if (reading.is_turned_back)
-        say(finding, "the rotations are transposed, while the translations are right");
-      else
-        say(finding,
-            "the transforms are transposed: rows were given as columns or columns as rows; give "
-            "desc.layout");
+      describe_transposed(given, reading, finding);
       break;
     case NOOK_POSE_FAULT_NO_BIND:
-      finding.fitting_skin = model.bind.skins[source.skin].file_index;
-      say(finding,
-          "skinning matrices were given as rest-to-world matrices, so that S^-1 is missing; give "
-          "NOOK_POSE_SKINNING with skin %u",
-          finding.fitting_skin);
+      if (explain(finding, reading.fault,
+                  "skinning matrices were given as rest-to-world matrices, so that S^-1 is missing; give "
+                  "NOOK_POSE_SKINNING with skin %u",
+                  skin))
+        finding.fitting_skin = skin;
       break;
     case NOOK_POSE_FAULT_SKIN:
-      finding.fitting_skin = model.bind.skins[source.skin].file_index;
-      say(finding, "the skinning matrices are those of skin %u, not of skin %u", finding.fitting_skin,
-          model.bind.skins[given.skin].file_index);
+      if (explain(finding, reading.fault, "the skinning matrices are those of skin %u, not of skin %u", skin,
+                  model.bind.skins[given.skin].file_index))
+        finding.fitting_skin = skin;
       break;
     case NOOK_POSE_FAULT_KIND:
-      say(finding, "the transforms are %s, not %s; give desc.kind", kind_name(source.kind),
-          kind_name(given.kind));
+      explain(finding, reading.fault, "the transforms are %s, not %s; give desc.kind", kind_name(source.kind),
+              kind_name(given.kind));
       break;
     case NOOK_POSE_FAULT_INVERTED:
-      say(finding,
-          "the transforms are the inverses of what is needed: they lead from the world to the joints");
+      explain(finding, reading.fault,
+              "the transforms are the inverses of what is needed: they lead from the world to the joints");
+      break;
+    case NOOK_POSE_FAULT_PLACE:
+      explain(
+          finding, reading.fault,
+          "the transforms are a mirror image in %c, as left-handed engines have them; negate what is of %c",
+          "xyz"[reading.mirrored_axis], "xyz"[reading.mirrored_axis]);
       break;
     case NOOK_POSE_FAULT_UNIT:
-      finding.scale = reading.translation_scale;
-      say(finding, "the translations are in another unit than the vertices: they fit when multiplied by %.6g",
-          reading.translation_scale);
+      if (explain(finding, reading.fault,
+                  "the translations are in another unit than the vertices: they fit when multiplied by %.6g",
+                  reading.translation_scale))
+        finding.scale = reading.translation_scale;
       break;
     default:
       break;

@@ -62,27 +62,23 @@ Affine of_trs(const float* v) {
   return to_affine(trs);
 }
 
-double squared_length(const Affine& a, int column) {
-  return a.m[column] * a.m[column] + a.m[4 + column] * a.m[4 + column] + a.m[8 + column] * a.m[8 + column];
-}
-
-// The relative deviation of the 3x3 part from a rotation with one scale: the larger one of uneven squared
-// lengths and of cosines between axes.
-double unevenness(const Affine& a) {
-  const double xx = squared_length(a, 0), yy = squared_length(a, 1), zz = squared_length(a, 2);
-  const double largest = std::max({xx, yy, zz}), smallest = std::min({xx, yy, zz});
-  if (!(smallest > 0)) return 1;
-  double shear = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    shear = std::max(shear, std::abs(a.m[i] * a.m[j] + a.m[4 + i] * a.m[4 + j] + a.m[8 + i] * a.m[8 + j]));
-  }
-  return std::max(0.5 * (largest / smallest - 1), shear / largest);
-}
-
-// More than 1 % of shear or of length.
-bool is_uneven(const Affine& matrix) {
-  return unevenness(matrix) > 0.0101;
+// Without a map of the bones the first `expected` transforms count.
+void take_surplus_off(PoseSource& source, std::size_t expected) {
+  const std::uint32_t got = source.transform_count;
+  if (got == expected) return;
+  const char* const what = source.kind == NOOK_POSE_SKINNING ? "joints of the skin" : "bones of the model";
+  if (got < expected)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.transform_count is less than the number of %s (got %u, need %zu); give "
+                  "desc.transform_of_bone for another order",
+                  what, got, expected);
+  if (!source.allows_surplus)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.transform_count is more than the number of %s (got %u, need %zu); set "
+                  "NOOK_POSE_FLAG_SURPLUS if the first %zu count, or give desc.transform_of_bone for another "
+                  "order",
+                  what, got, expected, expected);
+  source.transform_count = static_cast<std::uint32_t>(expected);
 }
 
 }  // namespace
@@ -127,15 +123,9 @@ void check_pose_source(const CharacterModel& model, PoseSource& source, bool nee
   if (needs_bind_data || source.kind != NOOK_POSE_REST_TO_WORLD) need_bind_data(model);
   const bool is_skinning = source.kind == NOOK_POSE_SKINNING;
   if (is_skinning) source.skin = find_skin(model, source.file_skin);
-  if (source.transform_of_bone.empty()) {
-    const std::size_t expected = is_skinning ? model.bind.skins[source.skin].joint_count : model.bone_count();
-    if (source.transform_count != expected)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "desc.transform_count is not the number of %s (got %u, need %zu); give "
-                    "desc.transform_of_bone for another order",
-                    is_skinning ? "joints of the skin" : "bones of the model", source.transform_count,
-                    expected);
-  }
+  source.given_count = source.transform_count;
+  if (source.transform_of_bone.empty())
+    take_surplus_off(source, is_skinning ? model.bind.skins[source.skin].joint_count : model.bone_count());
   for (std::size_t b = 0; b < source.transform_of_bone.size(); ++b)
     if (source.transform_of_bone[b] < -1 ||
         (source.transform_of_bone[b] >= 0 &&
@@ -186,8 +176,17 @@ std::array<double, 3> joint_origin(const CharacterModel& model, std::size_t bone
   return {frame.m[3], frame.m[7], frame.m[11]};
 }
 
-Affine projected(const Affine& matrix, const std::array<double, 3>& fixed) {
-  if (unevenness(matrix) <= 1e-4) return matrix;
+namespace {
+
+// Deviations of exporters and of floats that are kept.
+bool is_kept(const BoneAxes<double>& axes) {
+  constexpr double kept = 1e-4;
+  const double shortest = std::min({axes.squared[0], axes.squared[1], axes.squared[2]});
+  return shortest > 0 && 0.5 * (axes.longest_squared / shortest - 1) <= kept &&
+         axes.shear <= kept * axes.longest_squared;
+}
+
+Affine nearest_with_one_scale(const Affine& matrix, const std::array<double, 3>& fixed) {
   if (!(determinant(matrix) < 0)) return nearest_similarity(matrix, fixed).matrix;
   // The mirror image of the problem: x is turned round on both sides.
   const auto mirrored = [](Affine a) {
@@ -197,25 +196,54 @@ Affine projected(const Affine& matrix, const std::array<double, 3>& fixed) {
   return mirrored(nearest_similarity(mirrored(matrix), {-fixed[0], fixed[1], fixed[2]}).matrix);
 }
 
-namespace {
-
-// Returns whether the matrix of the bone had to be projected.
+// Returns whether the matrix of the bone is uneven.
 bool convert_bone(const CharacterModel& model, const PoseSource& source, std::size_t bone,
-                  std::uint32_t index, std::span<Mat3x4> bones) {
+                  std::uint32_t index, std::span<Mat3x4> bones, PoseNotes& notes) {
   const Affine matrix = bone_matrix(model, source, bone, read_transform(source, index));
-  check_size(model, bone, to_float(matrix));
-  const bool is_projected = is_uneven(matrix);
-  if (source.is_strict && is_projected)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "the matrix of bone %zu (\"%s\") is sheared or scales unevenly (by %.3g %%, need 1 %%); leave "
-        "NOOK_POSE_FLAG_STRICT out to have it projected",
-        bone, name_of(model, bone), 100 * unevenness(matrix));
-  bones[bone] = to_float(projected(matrix, joint_origin(model, bone)));
-  return is_projected;
+  const Mat3x4 as_given = to_float(matrix);
+  check_size(model, bone, as_given);
+  ++notes.bones;
+  const BoneAxes<double> axes = axes_of(matrix);
+  const bool is_uneven = !axes.is_even();
+  if (is_uneven && source.is_strict) fail_uneven(model, bone, axes);
+  if (is_uneven) note_uneven(notes, bone, axes);
+  bones[bone] =
+      is_kept(axes) ? as_given : to_float(nearest_with_one_scale(matrix, joint_origin(model, bone)));
+  return is_uneven;
 }
 
 }  // namespace
+
+Affine projected(const Affine& matrix, const std::array<double, 3>& fixed) {
+  return is_kept(axes_of(matrix)) ? matrix : nearest_with_one_scale(matrix, fixed);
+}
+
+void note_uneven(PoseNotes& notes, std::size_t bone, const BoneAxes<double>& axes) {
+  if (notes.uneven++ == 0) {
+    notes.first = static_cast<std::uint32_t>(bone);
+    notes.axes = axes;
+  }
+  notes.zero += axes.longest_squared == 0;
+}
+
+PoseNotes notes_of_place(const CharacterModel& model, const Mat3x4& place) {
+  PoseNotes notes;
+  notes.bones = static_cast<std::uint32_t>(model.bone_count());
+  const BoneAxes<double> axes = axes_of(to_double(place));
+  notes.is_place_uneven = !axes.is_even();
+  for (std::size_t b = 0; notes.is_place_uneven && b < model.bone_count(); ++b) note_uneven(notes, b, axes);
+  return notes;
+}
+
+void fail_uneven(const CharacterModel& model, std::size_t bone, const BoneAxes<double>& axes) {
+  throw Failure(
+      NOOK_ERROR_INVALID_ARGUMENT,
+      "the matrix of bone %zu (\"%s\") is no rotation with one scale (its axes have lengths %g %g %g, "
+      "and the largest cosine between them is %g; need equal to 1 %% and at most 0.01); check "
+      "desc.layout, a transposed matrix looks like this; without strict_poses and NOOK_POSE_FLAG_STRICT the "
+      "matrix is projected",
+      bone, name_of(model, bone), axes.length(0), axes.length(1), axes.length(2), axes.cosine());
+}
 
 void fail_without_transform(const CharacterModel& model, std::size_t bone) {
   throw Failure(
@@ -232,13 +260,17 @@ void fail_without_joint(const CharacterModel& model, const SkinBind& skin) {
   fail_without_transform(model, bone);
 }
 
-ProjectedBone convert_pose(const CharacterModel& model, const PoseSource& source, std::span<Mat3x4> bones) {
-  ProjectedBone first;
+PoseNotes convert_pose(const CharacterModel& model, const PoseSource& source, std::span<Mat3x4> bones,
+                       UnevenBones* uneven) {
+  PoseNotes notes;
+  notes.transforms_given = source.given_count;
+  notes.transforms_used = source.transform_count;
   for_each_transform(model, source, [&](std::size_t bone, std::uint32_t index) {
-    if (convert_bone(model, source, bone, index, bones) && !first.found)
-      first = {true, static_cast<std::uint32_t>(bone)};
+    const bool is_uneven = convert_bone(model, source, bone, index, bones, notes);
+    if (uneven) (*uneven)[bone] = is_uneven;
   });
-  return first;
+  if (notes.uneven > 0) notes.is_place_uneven = !axes_of(source.place).is_even();
+  return notes;
 }
 
 namespace {

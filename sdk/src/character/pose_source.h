@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <span>
 
+#include "sdk/src/character/bone_axes.h"
 #include "sdk/src/character/model.h"
 #include "sdk/src/core/affine.h"
+#include "sdk/src/core/containers.h"
 #include "sdk/src/core/memory.h"
 
 namespace nook {
@@ -17,19 +19,21 @@ struct PoseSource {
   nook_pose_kind kind = NOOK_POSE_REST_TO_WORLD;
   nook_transform_layout layout = NOOK_TRANSFORM_ROWS_3X4;
   const float* transforms = nullptr;
-  std::size_t stride = 0;  // bytes, never 0 after check_pose_source
-  std::uint32_t transform_count = 0;
+  std::size_t stride = 0;                           // bytes, never 0 after check_pose_source
+  std::uint32_t transform_count = 0;                // after check_pose_source only those that count
+  std::uint32_t given_count = 0;                    // set by check_pose_source: what the host gave
   std::uint32_t file_skin = 0;                      // of NOOK_POSE_SKINNING, as the file numbers its skins
   std::uint32_t skin = 0;                           // its position in BindData::skins
   std::span<const std::int32_t> transform_of_bone;  // empty: the order of the bones or of the skin's joints
   bool is_partial = false;
   bool is_strict = false;
+  bool allows_surplus = false;  // transforms behind those that the model needs do not count
   Affine place;
 };
 
 // Throws Failure unless every number and index is in range and the model has the bind data that the kind
-// needs, or has it for any kind. Sets the stride where it is 0, and `skin`. A map of the bones must have the
-// model's bone count.
+// needs, or has it for any kind. Sets the stride where it is 0, `skin` and given_count, and takes a surplus
+// off transform_count. A map of the bones must have the model's bone count.
 void check_pose_source(const CharacterModel& model, PoseSource& source, bool needs_bind_data = false);
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless the host's array has one entry for each bone.
@@ -83,17 +87,45 @@ std::array<double, 3> joint_origin(const CharacterModel& model, std::size_t bone
 // is a similarity to 1e-4 is returned as it is.
 Affine projected(const Affine& matrix, const std::array<double, 3>& fixed);
 
-// A bone whose matrix was uneven and had to be projected.
-struct ProjectedBone {
-  bool found = false;
-  std::uint32_t bone = 0;
+// What a host should hear about a pose that was taken. A bone is uneven if its matrix is sheared, scaled
+// unevenly or has an axis of zero; it is projected.
+struct PoseNotes {
+  std::uint32_t bones = 0;   // bones that the pose set
+  std::uint32_t uneven = 0;  // of them
+  std::uint32_t zero = 0;    // of these, without any axis
+  std::uint32_t first = 0;   // the first uneven bone
+  BoneAxes<double> axes;     // of that bone
+  bool is_place_uneven = false;
+  std::uint32_t transforms_given = 0, transforms_used = 0;  // different ones if there was a surplus
+
+  // The topics are bits, so that each is told once. In a pose of zeros alone, as in a buffer that was not
+  // filled, nothing else is worth a word.
+  enum Topic : std::uint32_t { topic_uneven = 1, topic_zero = 2, topic_surplus = 4 };
+  std::uint32_t topics() const {
+    const bool is_all_zero = bones > 0 && zero == bones;
+    return (is_all_zero  ? topic_zero
+            : uneven > 0 ? topic_uneven
+                         : 0u) |
+           (transforms_given > transforms_used ? topic_surplus : 0u);
+  }
 };
 
-// Converts all bones and returns the first that had to be projected. Throws Failure for a transform that is
-// not finite or far too large, for a bone without a transform unless the source is partial, and, if it is
-// strict, for an uneven one. bones has the model's bone count and may hold a part of the answer after a
-// failure.
-ProjectedBone convert_pose(const CharacterModel& model, const PoseSource& source, std::span<Mat3x4> bones);
+void note_uneven(PoseNotes& notes, std::size_t bone, const BoneAxes<double>& axes);
+// Of a pose whose matrices are even but for a place that is put before all of them.
+PoseNotes notes_of_place(const CharacterModel& model, const Mat3x4& place);
+
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT): the axes of a bone are uneven and the pose is strict.
+[[noreturn]] void fail_uneven(const CharacterModel& model, std::size_t bone, const BoneAxes<double>& axes);
+
+// A bit for each bone of an instance: its matrix was projected.
+using UnevenBones = Vector<bool>;
+
+// Converts all bones. Throws Failure for a transform that is not finite or far too large, for a bone without
+// a transform unless the source is partial, and, if it is strict, for an uneven one. bones, and uneven unless
+// it is null, have the model's bone count; they change for bones with a transform alone, and may hold a part
+// of the answer after a failure.
+PoseNotes convert_pose(const CharacterModel& model, const PoseSource& source, std::span<Mat3x4> bones,
+                       UnevenBones* uneven = nullptr);
 
 // Finds a host's transforms by the names of bones.
 

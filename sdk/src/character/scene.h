@@ -117,11 +117,13 @@ struct InstanceClip {
 
 // The host's part of an instance, and what follows from it alone.
 struct InstanceInput {
-  explicit InstanceInput(Memory* memory) : bones(memory), linked(memory), receivers(memory), clip(memory) {}
+  explicit InstanceInput(Memory* memory)
+      : bones(memory), uneven(memory), linked(memory), receivers(memory), clip(memory) {}
 
   Vector<Mat3x4> bones;             // rest space to world, one for each bone of the model
   std::uint64_t pose_revision = 0;  // rises with every set_pose; never 0 for a living instance
-  bool was_projected = false;       // a pose had an uneven matrix
+  UnevenBones uneven;               // of the present pose
+  std::uint32_t reported = 0;       // topics of PoseNotes that the host's log has of this instance
   bool has_ground = false;
   Plane ground;
   Vector<std::uint32_t> linked;  // slots that the host linked as casters, ascending
@@ -132,7 +134,16 @@ struct InstanceInput {
   // proxy spheres of the pose, and an upper bound of the scale of its bones.
   Sphere bound;
   float scale = 1;
+  // The largest scale of its bones, which is that of the body's place.
+  float largest_scale() const { return scale / scale_margin; }
+  // The admitted unevenness and shear can lengthen a vector by less than 2 % more than the longest axis.
+  static constexpr float scale_margin = 1.02f;
 };
+
+// The radius of the sphere that stands for the ground, over the bounding radius of the body. The ends of the
+// sphere's horizon lie 0.0135 rad below it for a point at one bounding radius above the ground, and float
+// places the sphere to 1e-3 bounding radii.
+inline constexpr float default_ground_radii = 11'000;
 
 // The decisions of resolve_casters for an update. The lists of an instance that is not due are those of an
 // earlier update; they may name free slots and must not be read.
@@ -200,8 +211,8 @@ struct SceneSettings {
   float lod_error = 0;               // AO, rms at lod_distance
   float lod_distance = 10;           // metres
   std::uint32_t lod_max_interval = 1;
-  float ground_radius = 10'000;  // metres
-  bool strict_poses = false;     // uneven matrices of set_pose fail instead of being projected
+  float ground_radius = 0;    // metres; 0: default_ground_radii of the body
+  bool strict_poses = false;  // uneven matrices of set_pose fail instead of being projected
 };
 
 struct Scene {
@@ -230,6 +241,7 @@ struct Scene {
 
   // Room for the bones of one instance, so that a pose is converted as a whole before it is set.
   Vector<Mat3x4> converted;
+  UnevenBones converted_uneven;
 
   std::uint64_t frame = 0;  // updates so far
   nook_scene_info stats{};  // without memory_bytes
@@ -242,13 +254,13 @@ Instance& instance_of(Scene& scene, nook_instance_id id);
 const Instance& instance_of(const Scene& scene, nook_instance_id id);
 // Keeps the pose, links, ground and light; the bone counts must be equal.
 void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model);
-// Uneven matrices are projected unless settings.strict_poses is set. Both return the first bone of an
-// instance, ever, whose matrix had to be projected.
-ProjectedBone set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones);
-ProjectedBone set_pose(Scene& scene, nook_instance_id id, PoseSource source);
-// Sets the pose of a clip, and the AO of the clip in place of self-shadow until the next set_pose.
-ProjectedBone set_clip(Scene& scene, nook_instance_id id, Ref<const LoadedClips> clips, const FrameMix& mix,
-                       const Mat3x4& place);
+// Uneven matrices are projected unless settings.strict_poses is set.
+PoseNotes set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones);
+PoseNotes set_pose(Scene& scene, nook_instance_id id, PoseSource source);
+// Sets the pose of a clip, and the AO of the clip in place of self-shadow until the next set_pose. Of its
+// matrices only the place can be uneven.
+PoseNotes set_clip(Scene& scene, nook_instance_id id, Ref<const LoadedClips> clips, const FrameMix& mix,
+                   const Mat3x4& place);
 void link(Scene& scene, nook_instance_id receiver, nook_instance_id caster);
 void unlink(Scene& scene, nook_instance_id receiver, nook_instance_id caster);
 void link_nearest(Scene& scene, std::uint32_t k, float max_distance);

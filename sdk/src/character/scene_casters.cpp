@@ -147,14 +147,22 @@ void gather_occluders(const Scene& scene, Instance& receiver) {
   }
 }
 
+// A bone without geometry may have any scale, so that the posed body limits the radius.
+float ground_radius(const Scene& scene, const Instance& receiver) {
+  if (scene.settings.ground_radius > 0) return scene.settings.ground_radius;
+  const float in_rest = receiver.model->model.bounding_radius * receiver.input.largest_scale();
+  const float posed = receiver.input.bound.radius;
+  return default_ground_radii * (in_rest > 0 ? std::min(in_rest, 2 * posed) : posed);
+}
+
 // Tangent to the plane at the foot of the bound's centre, on the other side of the plane than its normal.
 void place_ground(const Scene& scene, Instance& receiver) {
   receiver.plan.ground_sphere = {};
   if (!receiver.input.has_ground || !(scene.terms & NOOK_TERM_GROUND)) return;
   const Plane& plane = receiver.input.ground;
   const float height = dot(plane.normal, receiver.input.bound.centre) - plane.offset;
-  const Sphere ground{receiver.input.bound.centre - plane.normal * (height + scene.settings.ground_radius),
-                      scene.settings.ground_radius};
+  const float radius = ground_radius(scene, receiver);
+  const Sphere ground{receiver.input.bound.centre - plane.normal * (height + radius), radius};
   if (matters(scene, receiver, ground))
     receiver.plan.ground_sphere = ground;
   else

@@ -2,6 +2,7 @@
 #include <bit>
 #include <cmath>
 
+#include "sdk/src/character/bone_axes.h"
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
@@ -35,40 +36,6 @@ auto& find(Objects& objects, std::uint32_t id, const char* what) {
   return objects[slot];
 }
 
-// The shape of a rest-to-world matrix by its axes.
-struct Axes {
-  Vec3 squared;      // length of each axis
-  float cosine = 0;  // the largest one between two axes, relative to the longest axis
-  float longest_squared = 0;
-  bool is_even = false;  // a rotation with one scale, to 1 %
-};
-
-Axes axes_of(const Mat3x4& matrix) {
-  const float* m = matrix.m;
-  const Vec3 x{m[0], m[4], m[8]}, y{m[1], m[5], m[9]}, z{m[2], m[6], m[10]};
-  const float xx = dot(x, x), yy = dot(y, y), zz = dot(z, z);
-  const float longest = std::max({xx, yy, zz}), shortest = std::min({xx, yy, zz});
-  const float shear = std::max({std::abs(dot(x, y)), std::abs(dot(y, z)), std::abs(dot(z, x))});
-  // 1 % of length is 2 % of its square; 1 % of shear is a cosine of 0.01. The last digit is for rounding.
-  return {{xx, yy, zz},
-          longest > 0 ? shear / longest : 0,
-          longest,
-          longest > 0 && longest <= shortest * 1.0205f && shear <= longest * 0.0101f};
-}
-
-void fail_unless_even(const CharacterModel& model, const Mat3x4& matrix, std::size_t bone) {
-  const Axes axes = axes_of(matrix);
-  if (axes.is_even) return;
-  throw Failure(
-      NOOK_ERROR_INVALID_ARGUMENT,
-      "the matrix of bone %zu (\"%s\") is no rotation with one scale (its axes have lengths %g %g %g, "
-      "and the largest cosine between them is %g; need equal to 1 %% and at most 0.01); check "
-      "desc.layout, a transposed matrix looks like this; without strict_poses and NOOK_POSE_FLAG_STRICT the "
-      "matrix is projected",
-      bone, model.bone_names[bone].c_str(), std::sqrt(double(axes.squared.x)),
-      std::sqrt(double(axes.squared.y)), std::sqrt(double(axes.squared.z)), double(axes.cosine));
-}
-
 // The nearest matrix with one scale.
 Mat3x4 evened(const CharacterModel& model, const Mat3x4& matrix, std::size_t bone) {
   return to_float(projected(to_double(matrix), joint_origin(model, bone)));
@@ -76,8 +43,7 @@ Mat3x4 evened(const CharacterModel& model, const Mat3x4& matrix, std::size_t bon
 
 void derive_bound(Instance& instance, float largest_scale_squared) {
   const LoadedModel& loaded = *instance.model;
-  // The admitted unevenness and shear can lengthen a vector by less than 2 % more than the longest axis.
-  const float stretch = std::sqrt(largest_scale_squared) * 1.02f;
+  const float stretch = std::sqrt(largest_scale_squared) * InstanceInput::scale_margin;
   instance.input.bound.centre =
       transform_point(instance.input.bones[loaded.model.root_bone], loaded.model.bounding_centre);
   instance.input.bound.radius = 0;
@@ -165,7 +131,8 @@ Scene::Scene(const SceneSettings& scene_settings, const Parallel& host_parallel,
       occluders(memory),
       free_occluders(memory),
       neighbours(memory),
-      converted(memory) {}
+      converted(memory),
+      converted_uneven(memory) {}
 
 Instance& instance_of(Scene& scene, nook_instance_id id) {
   return find(scene.instances, id, "instance");
@@ -181,7 +148,11 @@ nook_instance_id add_instance(Scene& scene, Ref<const LoadedModel> model) {
   added.generation = fresh ? 0 : scene.instances[slot].generation;
   added.id = added.generation << id_slot_bits | (slot + 1);
   added.input.bones.resize(model->model.bone_count());
-  if (scene.converted.size() < added.input.bones.size()) scene.converted.resize(added.input.bones.size());
+  added.input.uneven.resize(model->model.bone_count());
+  if (scene.converted.size() < added.input.bones.size()) {
+    scene.converted.resize(added.input.bones.size());
+    scene.converted_uneven.resize(added.input.bones.size());
+  }
   added.result.arrays = make_instance_arrays(*model, scene.memory);
   added.casters.posed.resize(model->model.world_casters.size());
   added.plan.casters.reserve(scene.nearest);
@@ -220,24 +191,31 @@ void remove_instance(Scene& scene, nook_instance_id id) {
 
 namespace {
 
-ProjectedBone take_pose(Instance& instance, std::span<const Mat3x4> bones) {
+// What follows from new matrices, all of which are even.
+void finish_pose(Instance& instance, float longest_squared) {
+  derive_bound(instance, longest_squared);
+  ++instance.input.pose_revision;
+}
+
+PoseNotes take_pose(Instance& instance, std::span<const Mat3x4> bones) {
   const CharacterModel& model = instance.model->model;
-  ProjectedBone first;
+  PoseNotes notes;
+  notes.bones = static_cast<std::uint32_t>(bones.size());
   float longest_squared = 0;
   for (std::size_t b = 0; b < bones.size(); ++b) {
-    Axes axes = axes_of(bones[b]);
+    BoneAxes<float> axes = axes_of(bones[b]);
+    const bool is_uneven = !axes.is_even();
     instance.input.bones[b] = bones[b];
-    if (!axes.is_even) {
-      if (!instance.input.was_projected) first = {true, static_cast<std::uint32_t>(b)};
-      instance.input.was_projected = true;
+    instance.input.uneven[b] = is_uneven;
+    if (is_uneven) {
+      note_uneven(notes, b, axes_of(to_double(bones[b])));
       instance.input.bones[b] = evened(model, bones[b], b);
       axes = axes_of(instance.input.bones[b]);
     }
     longest_squared = std::max(longest_squared, axes.longest_squared);
   }
-  derive_bound(instance, longest_squared);
-  ++instance.input.pose_revision;
-  return first;
+  finish_pose(instance, longest_squared);
+  return notes;
 }
 
 // The transforms are rest-to-world matrices in this library's own layout. They are taken as they are, because
@@ -248,11 +226,11 @@ bool holds_bone_matrices(const PoseSource& source) {
 }
 
 // bones has the model's bone count.
-ProjectedBone set_bones(Instance& instance, std::span<const Mat3x4> bones, bool is_strict) {
+PoseNotes set_bones(Instance& instance, std::span<const Mat3x4> bones, bool is_strict) {
   const CharacterModel& model = instance.model->model;
   for (std::size_t b = 0; b < bones.size(); ++b) {
     check_size(model, b, bones[b]);
-    if (is_strict) fail_unless_even(model, bones[b], b);
+    if (is_strict && !axes_of(bones[b]).is_even()) fail_uneven(model, b, axes_of(to_double(bones[b])));
   }
   instance.input.clip.clips = {};
   return take_pose(instance, bones);
@@ -287,7 +265,7 @@ void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) 
   ++scene.structure_revision;
 }
 
-ProjectedBone set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones) {
+PoseNotes set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones) {
   Instance& instance = instance_of(scene, id);
   if (bones.size() != instance.input.bones.size())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -296,44 +274,57 @@ ProjectedBone set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4
   return set_bones(instance, bones, scene.settings.strict_poses);
 }
 
-ProjectedBone set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
+PoseNotes set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
   Instance& instance = instance_of(scene, id);
   const CharacterModel& model = instance.model->model;
   source.is_strict = source.is_strict || scene.settings.strict_poses;
   check_pose_source(model, source);
   static_assert(sizeof(Mat3x4) == 12 * sizeof(float) && alignof(Mat3x4) == alignof(float));
-  if (holds_bone_matrices(source))
-    return set_bones(instance, {reinterpret_cast<const Mat3x4*>(source.transforms), source.transform_count},
-                     source.is_strict);
+  if (holds_bone_matrices(source)) {
+    PoseNotes notes =
+        set_bones(instance, {reinterpret_cast<const Mat3x4*>(source.transforms), source.transform_count},
+                  source.is_strict);
+    notes.transforms_given = source.given_count;
+    notes.transforms_used = source.transform_count;
+    return notes;
+  }
   const std::span<Mat3x4> converted(scene.converted.data(), instance.input.bones.size());
   std::copy(instance.input.bones.begin(), instance.input.bones.end(), converted.begin());
-  ProjectedBone projected = convert_pose(model, source, converted);
+  std::copy(instance.input.uneven.begin(), instance.input.uneven.end(), scene.converted_uneven.begin());
+  const PoseNotes notes = convert_pose(model, source, converted, &scene.converted_uneven);
   instance.input.clip.clips = {};
-  if (instance.input.was_projected) projected = {};
-  if (projected.found) instance.input.was_projected = true;
-  const ProjectedBone left = take_pose(instance, converted);
-  return projected.found ? projected : left;
+  std::copy_n(scene.converted_uneven.begin(), converted.size(), instance.input.uneven.begin());
+  float longest_squared = 0;
+  for (std::size_t b = 0; b < converted.size(); ++b) {
+    instance.input.bones[b] = converted[b];
+    longest_squared = std::max(longest_squared, axes_of(converted[b]).longest_squared);
+  }
+  finish_pose(instance, longest_squared);
+  return notes;
 }
 
-ProjectedBone set_clip(Scene& scene, nook_instance_id id, Ref<const LoadedClips> clips, const FrameMix& mix,
-                       const Mat3x4& place) {
+PoseNotes set_clip(Scene& scene, nook_instance_id id, Ref<const LoadedClips> clips, const FrameMix& mix,
+                   const Mat3x4& place) {
   Instance& instance = instance_of(scene, id);
   const CharacterModel& model = instance.model->model;
   if (clips->model.get() != instance.model.get())
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
         "the clips were loaded for another model than that of instance %u; load them with its model", id);
+  const PoseNotes notes = notes_of_place(model, place);
+  if (notes.is_place_uneven && scene.settings.strict_poses) fail_uneven(model, notes.first, notes.axes);
   const std::span<Mat3x4> posed(scene.converted.data(), instance.input.bones.size());
   for (std::size_t b = 0; b < posed.size(); ++b) {
     posed[b] = decode_bone(clips->set, mix, place, b);
     check_size(model, b, posed[b]);
-    if (scene.settings.strict_poses) fail_unless_even(model, posed[b], b);
   }
   InstanceClip& clip = instance.input.clip;
   clip.weights.resize(clips->set.ao.modes);
   mix_ao_weights(clips->set, mix, clip.weights.data());
   clip.clips = std::move(clips);
-  return take_pose(instance, posed);
+  take_pose(instance, posed);
+  std::fill(instance.input.uneven.begin(), instance.input.uneven.end(), notes.is_place_uneven);
+  return notes;
 }
 
 void link(Scene& scene, nook_instance_id receiver, nook_instance_id caster) {

@@ -132,8 +132,8 @@ void transform_key_points(const Scene& scene, Instance& instance) noexcept {
                                  is_surface_felt ? &surface : nullptr);
   if (may_group(scene) && !instance.plan.casters.empty()) {
     const PointLanes points = evaluated_points(instance);
-    instance.result.receiver =
-        receiver_of(points.surface_x, points.surface_y, points.surface_z, points.count);
+    instance.result.receiver = receiver_of(points.surface_x, points.surface_y, points.surface_z, points.count,
+                                           instance.input.largest_scale());
   }
 }
 

@@ -16,12 +16,21 @@ std::uint64_t instance_bytes(const LoadedModel& model) {
   for (std::uint32_t t = 0; t < group_tiers; ++t)
     words += group_lanes * padded_count(model.groups.tier(t).count());
   return sizeof(Instance) + words * sizeof(float) + model.model.bone_count() * sizeof(Mat3x4) +
-         model.model.world_casters.size() * sizeof(PosedCaster);
+         model.model.world_casters.size() * sizeof(PosedCaster) + (model.model.bone_count() + 7) / 8;
 }
 
 std::uint64_t light_bytes(const LoadedModel& model) {
   return light_lanes * model.rest_key_points.padded_count() * sizeof(float) +
          max_light_lobes * (sizeof(LightLobe) + sizeof(LobeBands));
+}
+
+std::uint32_t uneven_instances(const Scene& scene) noexcept {
+  std::uint32_t count = 0;
+  for (const Instance& instance : scene.instances) {
+    const UnevenBones& uneven = instance.input.uneven;
+    count += instance.id && std::find(uneven.begin(), uneven.end(), true) != uneven.end();
+  }
+  return count;
 }
 
 namespace {

@@ -16,6 +16,9 @@ std::uint64_t instance_bytes(const LoadedModel& model);
 // The bytes that a light adds.
 std::uint64_t light_bytes(const LoadedModel& model);
 
+// Instances whose pose has a bone that was projected.
+std::uint32_t uneven_instances(const Scene& scene) noexcept;
+
 // The shapes that a scene evaluates, one by one in world space, for debug drawing. The kernels of an update
 // pose the same shapes in lanes (shadow_kernels.h).
 

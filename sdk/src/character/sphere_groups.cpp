@@ -16,7 +16,7 @@ struct Group {
 
 // So that spheres that darken nothing are split as well.
 constexpr float least_mass = 1e-12f;
-constexpr float least_squared_distance = 1e-6f;  // square metres, so that quotients stay finite
+constexpr float least_squared_distance = 1e-6f;  // of a scale of 1, so that quotients stay finite
 
 float mass_of(const ProxySphere& sphere) {
   return std::max(sphere.caster_weight * sphere.radius * sphere.radius, least_mass);
@@ -97,8 +97,9 @@ SphereGroups::SphereGroups(const CharacterModel& model, Memory* memory) {
   }
 }
 
-Receiver receiver_of(const float* x, const float* y, const float* z, std::uint32_t count) {
+Receiver receiver_of(const float* x, const float* y, const float* z, std::uint32_t count, float scale) {
   Receiver out;
+  out.scale = scale;
   for (std::uint32_t k = 0; k < count; ++k) {
     out.min = {std::min(out.min.x, x[k]), std::min(out.min.y, y[k]), std::min(out.min.z, z[k])};
     out.max = {std::max(out.max.x, x[k]), std::max(out.max.y, y[k]), std::max(out.max.z, z[k])};
@@ -134,11 +135,12 @@ float nearest_group_error(const GroupLanes& groups, const Receiver& receiver) {
 
 float group_error(const GroupLanes& groups, const Receiver& receiver) {
   std::array<float, Receiver::samples> at{};
+  const float least = least_squared_distance * receiver.scale * receiver.scale;
   for (std::uint32_t g = 0; g < groups.count; ++g)
     for (std::uint32_t s = 0; s < Receiver::samples; ++s) {
       const float x = groups.x[g] - receiver.x[s], y = groups.y[g] - receiver.y[s],
                   z = groups.z[g] - receiver.z[s];
-      const float squared = x * x + y * y + z * z + least_squared_distance;
+      const float squared = x * x + y * y + z * z + least;
       at[s] += groups.moment[g] / (squared * squared);
     }
   float squares = 0;

@@ -58,9 +58,10 @@ struct Receiver {
 
   Vec3 min{INFINITY, INFINITY, INFINITY}, max{-INFINITY, -INFINITY, -INFINITY};
   float x[samples] = {}, y[samples] = {}, z[samples] = {};
+  float scale = 1;  // of the body's place
 };
 // Samples are picked evenly from places that are in the order of with_near_key_points_together.
-Receiver receiver_of(const float* x, const float* y, const float* z, std::uint32_t count);
+Receiver receiver_of(const float* x, const float* y, const float* z, std::uint32_t count, float scale);
 
 // Merges `parts`, the spheres of a pose or the groups of the tier before, into the groups of a tier. A group
 // has the mass and the centre of its parts, and a radius that has their spread: that of a disc is a quarter

@@ -18,12 +18,15 @@ class Context : public RefCounted {
         log_(desc.log),
         log_user_(desc.log_user),
         parallel_{desc.parallel_for, desc.parallel_for_user},
-        isa_(desc.isa) {}
+        isa_(desc.isa),
+        units_per_metre_(desc.units_per_metre) {}
 
   Memory* memory() noexcept { return &memory_; }
   const Parallel& parallel() const noexcept { return parallel_; }
   // The set that the host chose, which is available, or NOOK_ISA_AUTO.
   nook_isa isa() const noexcept { return isa_; }
+  // Lengths of the host for each metre.
+  float units_per_metre() const noexcept { return units_per_metre_; }
   // Logs a printf-style text, which is cut at 512 characters. Does nothing if the host set no log.
   void log(nook_log_severity severity, const char* format, ...) const noexcept NOOK_PRINTF(3, 4);
 
@@ -36,6 +39,7 @@ class Context : public RefCounted {
   void* log_user_;
   Parallel parallel_;
   nook_isa isa_;
+  float units_per_metre_;
 };
 
 }  // namespace nook

@@ -10,8 +10,18 @@ namespace nook::gl {
 Device::Device(Context& host, const nook_gl_desc& desc)
     : context(host),
       memory(host.memory()),
-      gl(load_functions(desc.get_proc, desc.get_proc_user, desc.max_tier)),
-      state_mode(desc.state_mode) {
+      gl(load_functions(desc.get_proc, desc.get_proc_user, desc.max_tier, desc.debug != 0)),
+      state_mode(desc.state_mode),
+      debug(desc.debug != 0) {
+  read_limits();
+  if (debug) mark_context();
+}
+
+Device::~Device() {
+  if (marked_array_ != 0 && may_delete()) gl.DeleteVertexArrays(1, &marked_array_);
+}
+
+void Device::read_limits() {
   GLint value = 0;
   if (gl.can.texture_buffers) {
     gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &value);
@@ -50,6 +60,64 @@ void Device::need_alive() const {
   if (lost)
     throw Failure(NOOK_ERROR_GL,
                   "the OpenGL context was lost; destroy this nook_gl and create one on the new context");
+  need_current();
+}
+
+namespace {
+
+// The state of a vertex array that carries the mark: Nook draws with no attribute of this number.
+constexpr GLuint marked_attribute = 3;
+
+}  // namespace
+
+GLuint Device::mark() const {
+  // Two objects that live at once have different addresses. The number must fit what queries of integers
+  // give.
+  return static_cast<GLuint>((reinterpret_cast<std::uintptr_t>(this) >> 3) & 0x3fffffff) + 1;
+}
+
+void Device::mark_context() {
+  const GLint bound = integer(gl, GL_VERTEX_ARRAY_BINDING);
+  gl.GenVertexArrays(1, &marked_array_);
+  gl.BindVertexArray(marked_array_);
+  gl.VertexAttribDivisor(marked_attribute, mark());
+  gl.BindVertexArray(static_cast<GLuint>(bound));
+}
+
+const char* Device::context_fault() const {
+  if (!gl.GetString(GL_VERSION)) return "no OpenGL context is current on this thread";
+  constexpr const char* other = "another OpenGL context is current on this thread";
+  if (!gl.IsVertexArray(marked_array_)) return other;
+  const GLint bound = integer(gl, GL_VERTEX_ARRAY_BINDING);
+  GLint found = 0;
+  gl.BindVertexArray(marked_array_);
+  gl.GetVertexAttribiv(marked_attribute, GL_VERTEX_ATTRIB_ARRAY_DIVISOR, &found);
+  gl.BindVertexArray(static_cast<GLuint>(bound));
+  return static_cast<GLuint>(found) == mark() ? nullptr : other;
+}
+
+void Device::need_current() const {
+  if (!debug || lost) return;
+  if (const char* const fault = context_fault())
+    throw Failure(
+        NOOK_ERROR_GL,
+        "%s (need the context of nook_gl_create, also where contexts share objects); make it current "
+        "before the call",
+        fault);
+}
+
+bool Device::may_delete() const {
+  if (lost) return false;
+  if (!debug) return true;
+  const char* const fault = context_fault();
+  if (!fault) return true;
+  if (!told_objects_left_)
+    context.log(NOOK_LOG_ERROR,
+                "nook_gl: %s, so that OpenGL objects of Nook cannot be deleted (need the context of "
+                "nook_gl_create); make it current before you destroy handles",
+                fault);
+  told_objects_left_ = true;
+  return false;
 }
 
 }  // namespace nook::gl

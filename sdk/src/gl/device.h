@@ -15,13 +15,19 @@ struct Device {
   Device(Context& host, const nook_gl_desc& desc);
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
+  ~Device();
 
   // Moves errors that the host left to the log, so that later errors are those of Nook.
   void report_host_errors() const;
   // Throws Failure if OpenGL has reported an error; `what` is the action for the message.
   void check(const char* what) const;
-  // Throws Failure after the OpenGL context was lost.
+  // Throws Failure after the OpenGL context was lost, and as need_current.
   void need_alive() const;
+  // With nook_gl_desc.debug, throws Failure unless the OpenGL context of nook_gl_create is current.
+  void need_current() const;
+  // Returns whether objects may be deleted. What must not be deleted in another context stays behind, which
+  // the log says once.
+  bool may_delete() const;
   void label(GLenum kind, GLuint name, const char* text) const {
     if (gl.ObjectLabel) gl.ObjectLabel(kind, name, -1, text);
   }
@@ -30,6 +36,7 @@ struct Device {
   Memory* const memory;
   const Functions gl;
   const nook_gl_state_mode state_mode;
+  const bool debug;
   bool lost = false;  // no OpenGL call may be made any more
   std::uint64_t buffer_bytes = 0;
   std::uint64_t ao_bytes = 0;
@@ -39,6 +46,17 @@ struct Device {
   std::uint64_t max_piece_bytes = std::uint64_t{128} << 20;
   std::uint64_t storage_alignment = 256;  // bytes
   std::uint32_t max_texels = 65536;       // of a table of texels
+
+ private:
+  void read_limits();
+  void mark_context();
+  // Returns what is wrong with the current context, or null.
+  const char* context_fault() const;
+  GLuint mark() const;
+
+  // A vertex array with a number of its own in it, for no contexts share vertex arrays.
+  GLuint marked_array_ = 0;
+  mutable bool told_objects_left_ = false;
 };
 
 }  // namespace nook::gl

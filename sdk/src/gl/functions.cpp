@@ -114,6 +114,13 @@ void load_common(Functions& gl, const Loader& loader) {
 #undef NOOK_X
 }
 
+void load_debug(Functions& gl, const Loader& loader) {
+  const char* const version = gl.profile == Profile::desktop ? "OpenGL 3.3" : "OpenGL ES 3.0";
+#define NOOK_X(name) loader.required(gl.name, "gl" #name, version);
+  NOOK_GL_FUNCTIONS_DEBUG(NOOK_X)
+#undef NOOK_X
+}
+
 void load_compute(Functions& gl, const Loader& loader, int max_tier) {
   const bool desktop = gl.profile == Profile::desktop;
   const bool has_compute = desktop ? gl.version >= 43 : gl.profile == Profile::es && gl.version >= 31;
@@ -219,7 +226,7 @@ const char* api_name(const Functions& gl) {
   return gl.profile == Profile::desktop ? "OpenGL" : "OpenGL ES";
 }
 
-Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier) {
+Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier, bool debug) {
   const Loader loader(get_proc, user);
   Functions gl;
   loader.required(gl.GetString, "glGetString", "OpenGL 3.3");
@@ -232,6 +239,7 @@ Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier) {
     load_desktop_options(gl, loader);
   else
     load_es_options(gl, loader);
+  if (debug) load_debug(gl, loader);
   return gl;
 }
 

@@ -146,12 +146,22 @@ namespace nook::gl {
   X(ObjectLabel)                      \
   X(ViewportIndexedf)
 
+// The functions that nook_gl_desc.debug needs; every context has them.
+#define NOOK_GL_FUNCTIONS_DEBUG(X) \
+  X(BeginQuery)                    \
+  X(EndQuery)                      \
+  X(GetQueryObjectuiv)             \
+  X(GetVertexAttribiv)             \
+  X(IsVertexArray)                 \
+  X(VertexAttribDivisor)
+
 #define NOOK_GL_FUNCTIONS_ALL(X) \
   NOOK_GL_FUNCTIONS_COMMON(X)    \
   NOOK_GL_FUNCTIONS_33(X)        \
   NOOK_GL_FUNCTIONS_ES30(X)      \
   NOOK_GL_FUNCTIONS_MAPS(X)      \
   NOOK_GL_FUNCTIONS_COMPUTE(X)   \
+  NOOK_GL_FUNCTIONS_DEBUG(X)     \
   NOOK_GL_FUNCTIONS_OPTIONAL(X)
 
 // The three dialects of OpenGL. They differ in what a context promises, and in the version line of shaders.
@@ -198,8 +208,8 @@ int tier_of(const Functions& gl);
 const char* api_name(const Functions& gl);
 
 // Throws Failure: UNSUPPORTED names the function that get_proc did not return, or the version that is too
-// low.
-Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier);
+// low. debug: with the functions of nook_gl_desc.debug.
+Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier, bool debug);
 
 // Reads and sets single pieces of OpenGL state for the guard.
 

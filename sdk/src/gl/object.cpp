@@ -28,7 +28,7 @@ Buffer::~Buffer() {
   if (!device_) return;
   device_->buffer_bytes -= bytes_;
   if (use_ == BufferUse::ao) device_->ao_bytes -= bytes_;
-  if (!device_->lost) device_->gl.DeleteBuffers(1, &name_);
+  if (device_->may_delete()) device_->gl.DeleteBuffers(1, &name_);
 }
 
 // Gives the buffer a new store of at least so many bytes.
@@ -148,7 +148,7 @@ Object Object::make(Device& device, Kind kind) {
 }
 
 Object::~Object() {
-  if (!device_ || device_->lost || name_ == 0) return;
+  if (!device_ || name_ == 0 || !device_->may_delete()) return;
   const Functions& gl = device_->gl;
   switch (kind_) {
     case Kind::framebuffer:

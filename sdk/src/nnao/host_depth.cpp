@@ -43,6 +43,24 @@ ScreenRays projection_rays(const float (&projection)[16], std::uint32_t width, s
   return screen_rays(scaled, width, height);
 }
 
+namespace {
+
+// An oblique projection adds [2] x + [6] y to clip z. Over w these are multiples of the ray through the
+// pixel, which are taken away from the stored value. The multiples at pixel (0, 0) go into the constants.
+void add_slope(DepthDecode& decode, const DepthSource& source, double stored_scale) {
+  const auto& m = source.projection;
+  const ScreenRays rays = projection_rays(m, source.width, source.height);
+  const double per_x = m[2] * factor(m) / stored_scale, per_y = m[6] * factor(m) / stored_scale;
+  decode.slope_x = float(-per_x * rays.x_scale);
+  decode.slope_y = float(-per_y * rays.y_scale);
+  const double first =
+      -per_x * (rays.x_offset + 0.5 * rays.x_scale) - per_y * (rays.y_offset + 0.5 * rays.y_scale);
+  decode.x = float(decode.x + decode.y * first);
+  decode.z = float(decode.z + decode.w * first);
+}
+
+}  // namespace
+
 DepthDecode depth_decode(const DepthSource& source) {
   DepthDecode decode;
   if (source.kind == DepthKind::linear) {
@@ -76,65 +94,36 @@ DepthDecode depth_decode(const DepthSource& source) {
   }
   decode.far_stored = grows ? 1 : 0;
   decode.far_sign = grows ? 1 : -1;
+  if (m[2] != 0 || m[6] != 0) add_slope(decode, source, scale);
   return decode;
 }
 
-float view_depth(const DepthDecode& decode, bool perspective, float stored) {
+float view_depth(const DepthDecode& decode, bool perspective, float stored, Pixel pixel) {
   constexpr float none = std::numeric_limits<float>::infinity();
   if ((stored - decode.far_stored) * decode.far_sign >= 0) return none;
+  stored += decode.slope_x * float(pixel.x) + decode.slope_y * float(pixel.y);
   if (decode.log_rate != 0) stored = std::exp2(decode.log_rate * stored);
   const float depth = (decode.x + decode.y * stored) / (decode.z + decode.w * stored);
   // Comparisons with NaN are false.
   return depth > min_surface_depth(perspective) && depth < no_surface ? depth : none;
 }
 
-void check_projection(const float (&m)[16], DepthKind kind) {
-  float largest = 0;
-  for (int i = 0; i < 16; ++i) {
-    if (!std::isfinite(m[i]))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "frame.projection[%d] is not finite (got %g, need a projection matrix)", i,
-                    static_cast<double>(m[i]));
-    largest = std::max(largest, std::abs(m[i]));
-  }
-  const auto zero = [&](int i) { return std::abs(m[i]) <= 1e-6f * largest; };
-  const bool hardware = kind == DepthKind::hardware;
-  const bool perspective = !zero(11);
-  if (zero(0) || zero(5) || (perspective ? m[11] > 0 : !(m[15] > 0)))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.projection is no projection of a camera that looks along -z, or singular (got [0] "
-                  "%g, [5] %g, [11] %g, [15] %g; need [0] and [5] other than 0, and [11] below 0 or [15] "
-                  "above 0)",
-                  double(m[0]), double(m[5]), double(m[11]), double(m[15]));
-  // Clip x depends on x and z, clip y on y and z, and depth on z alone: there is no roll, no shear and no
-  // oblique clip plane.
-  for (const int i : {1, 3, 4, 7, perspective ? 12 : 8, perspective ? 13 : 9, perspective ? 15 : 11})
-    if (!zero(i))
-      throw Failure(
-          NOOK_ERROR_INVALID_ARGUMENT,
-          "frame.projection[%d] is %g, need 0; give the projection alone, not multiplied by a view matrix", i,
-          double(m[i]));
-  if (kind == DepthKind::logarithmic && !perspective)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.depth_kind %d needs a perspective (got frame.projection[11] %g, need less than 0); "
-                  "give the depth that OpenGL wrote",
-                  int(kind), double(m[11]));
-  if (!hardware) return;
-  for (const int i : {2, 6})
-    if (!zero(i))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "frame.projection[%d] is %g, need 0; with an oblique clip plane give linear depth", i,
-                    double(m[i]));
-  if (m[perspective ? 14 : 10] == 0)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.projection is singular: depth does not depend on the distance (got [%d] 0)",
-                  perspective ? 14 : 10);
+namespace {
+
+double determinant_of(const float (&m)[9]) {
+  return double(m[0]) * (double(m[4]) * m[8] - double(m[7]) * m[5]) -
+         double(m[3]) * (double(m[1]) * m[8] - double(m[7]) * m[2]) +
+         double(m[6]) * (double(m[1]) * m[5] - double(m[4]) * m[2]);
+}
+
+}  // namespace
+
+float mean_scale(const float (&m)[9]) {
+  return float(std::cbrt(std::abs(determinant_of(m))));
 }
 
 void check_normal_matrix(const float (&m)[9]) {
-  const double determinant = double(m[0]) * (double(m[4]) * m[8] - double(m[7]) * m[5]) -
-                             double(m[3]) * (double(m[1]) * m[8] - double(m[7]) * m[2]) +
-                             double(m[6]) * (double(m[1]) * m[5] - double(m[4]) * m[2]);
+  const double determinant = determinant_of(m);
   if (!std::isfinite(determinant) || std::abs(determinant) < 1e-12)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,

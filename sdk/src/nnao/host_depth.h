@@ -17,6 +17,7 @@ struct DepthSource {
   float sky_depth = 0;  // metres, of linear depth: this depth and greater ones are sky; 0: no depth is
   // Of logarithmic depth, as the C interface defines it: C, n, f.
   float log_scale = 1, log_near = 0, log_far = 0;
+  std::uint32_t width = 1, height = 1;  // of the image; only an oblique projection reads them
 };
 
 // The values are those of nook_nnao_sample.
@@ -32,13 +33,15 @@ bool is_perspective(const float (&projection)[16]);
 // As screen_rays, for a matrix that may be multiplied by any factor above 0.
 ScreenRays projection_rays(const float (&projection)[16], std::uint32_t width, std::uint32_t height);
 
-// Depth = (x + y s) / (z + w s), where s is the stored value, or exp2(log_rate * stored) if log_rate is not
-// 0, and the stored value of the far plane.
+// Depth = (x + y s) / (z + w s), and the stored value of the far plane. s is the stored value plus slope_x
+// and slope_y times the number of the pixel, which only an oblique projection has, or exp2(log_rate * stored)
+// if log_rate is not 0.
 struct DepthDecode {
   float x = 0, y = 1, z = 1, w = 0;
   float log_rate = 0;
   float far_stored = 1e30f;  // values from here on are no surface
   float far_sign = 1;        // 1: stored values grow with the distance; -1: they fall
+  float slope_x = 0, slope_y = 0;
 };
 DepthDecode depth_decode(const DepthSource& source);
 
@@ -47,14 +50,22 @@ constexpr float min_surface_depth(bool perspective) {
   return perspective ? 0 : -1e15f;
 }
 
+struct Pixel {
+  std::uint32_t x = 0, y = 0;
+};
+
 // Returns the view depth of a stored value in metres, or infinity where there is no surface. It is the
 // reference of host_depth.glsl.
-float view_depth(const DepthDecode& decode, bool perspective, float stored);
+float view_depth(const DepthDecode& decode, bool perspective, float stored, Pixel pixel = {});
 
-// Throw Failure(NOOK_ERROR_INVALID_ARGUMENT) with the name of the descriptor's field. The projection is that
-// of a camera that looks along -z, without roll and shear, with hardware depth also without an oblique clip
-// plane.
-void check_projection(const float (&projection)[16], DepthKind kind);
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) that names the descriptor's field.
 void check_normal_matrix(const float (&matrix)[9]);
+
+// Shorter texels are not normals: nothing was drawn there. A target of normalised integers that is cleared to
+// 1/2 holds 128 / 255 or 512 / 1023, which are lengths of 0.007 and 0.002 once they are doubled.
+inline constexpr float shortest_float_normal = 1e-3f, shortest_normalised_normal = 0.25f;
+
+// The factor by which a matrix scales lengths in the mean: the cubic root of its determinant.
+float mean_scale(const float (&matrix)[9]);
 
 }  // namespace nook::nnao

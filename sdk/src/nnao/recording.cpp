@@ -8,6 +8,7 @@
 #include "sdk/src/nnao/filter.h"
 #include "sdk/src/nnao/frame_radius.h"
 #include "sdk/src/nnao/network_file.h"
+#include "sdk/src/nnao/projection_check.h"
 
 namespace nook::nnao {
 namespace {
@@ -29,7 +30,7 @@ void check_frame(const RecordedFrame& frame) {
   check_fits("normal_scale", frame.normal_scale, frame.normal_scale != 0, "a number other than 0");
   check_fits("normal_bias", frame.normal_bias, true, "a number");
   check_normal_matrix(frame.normal_matrix);
-  check_projection(frame.projection, DepthKind(frame.depth_kind));
+  check_projection(frame.projection, DepthKind(frame.depth_kind), ClipRange(frame.clip));
 }
 
 void check_pass(const RecordedPass& pass) {
@@ -78,7 +79,7 @@ Vec3 host_normal(const Recording& recording, std::size_t pixel) {
   const Vec3 turned{m[0] * n[0] + m[3] * n[1] + m[6] * n[2], m[1] * n[0] + m[4] * n[1] + m[7] * n[2],
                     m[2] * n[0] + m[5] * n[1] + m[8] * n[2]};
   const float size = length(turned);
-  return size > 1e-3f && size < 1e6f ? turned * (1 / size) : Vec3{};
+  return size > shortest_float_normal && size < 1e6f ? turned * (1 / size) : Vec3{};
 }
 
 }  // namespace
@@ -126,7 +127,10 @@ std::vector<float> view_depths(const Recording& recording) {
   const bool perspective = is_perspective(recording.frame.projection);
   std::vector<float> depths;
   depths.reserve(recording.depth.size());
-  for (const float stored : recording.depth) depths.push_back(view_depth(decode, perspective, stored));
+  for (std::size_t i = 0; i < recording.depth.size(); ++i) {
+    const Pixel pixel{std::uint32_t(i % recording.width), std::uint32_t(i / recording.width)};
+    depths.push_back(view_depth(decode, perspective, recording.depth[i], pixel));
+  }
   return depths;
 }
 

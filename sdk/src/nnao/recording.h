@@ -77,7 +77,10 @@ struct Recording {
 
   std::size_t pixels() const { return std::size_t(width) * height; }
   DepthSource depth_source() const {
-    return {frame.projection, DepthKind(frame.depth_kind), ClipRange(frame.clip), frame.sky_depth};
+    DepthSource source{frame.projection, DepthKind(frame.depth_kind), ClipRange(frame.clip), frame.sky_depth};
+    source.width = width;
+    source.height = height;
+    return source;
   }
 
   std::uint32_t width = 0, height = 0;

@@ -36,7 +36,7 @@ NOOK_AT(nook_scene_info, instances, 4);
 NOOK_AT(nook_scene_info, instances_updated, 8);
 NOOK_AT(nook_scene_info, links, 12);
 NOOK_AT(nook_scene_info, links_culled, 16);
-NOOK_AT(nook_scene_info, reserved, 20);
+NOOK_AT(nook_scene_info, uneven_instances, 20);
 NOOK_AT(nook_scene_info, evaluations, 24);
 NOOK_AT(nook_scene_info, memory_bytes, 32);
 

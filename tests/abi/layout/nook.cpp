@@ -17,4 +17,4 @@ NOOK_AT(nook_context_desc, log_user, 48);
 NOOK_AT(nook_context_desc, parallel_for, 56);
 NOOK_AT(nook_context_desc, parallel_for_user, 64);
 NOOK_AT(nook_context_desc, isa, 72);
-NOOK_AT(nook_context_desc, reserved, 76);
+NOOK_AT(nook_context_desc, units_per_metre, 76);

@@ -315,3 +315,48 @@ TEST_CASE("NULL handles and wrong counts are refused") {
   CHECK(nook_bake_character_create(&source, nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   nook_bake_character_destroy(nullptr);
 }
+
+TEST_CASE("the meshes of a file are chosen by name") {
+  // A triangle that two nodes show.
+  const std::string file =
+      R"({"asset": {"version": "2.0"}, "nodes": [{"name": "Body", "mesh": 0}, {"name": "Sword", "mesh": 0}],
+          "meshes": [{"name": "blade", "primitives": [{"attributes": {"POSITION": 0}}]}],
+          "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+          "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri":
+          "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+  nook_bake_source_desc desc;
+  REQUIRE(nook_bake_source_desc_init(&desc) == NOOK_OK);
+  desc.bytes = file.data();
+  desc.byte_count = file.size();
+  const auto triangles = [&](nook_result expected) {
+    nook_bake_character c = nullptr;
+    CHECK(nook_bake_character_create(&desc, &c) == expected);
+    nook_bake_character_info info{};
+    info.struct_size = sizeof info;
+    if (c) nook_bake_character_describe(c, &info);
+    nook_bake_character_destroy(&c);
+    return info.triangle_count;
+  };
+  CHECK(triangles(NOOK_OK) == 2);
+  const char* const names[] = {"S?ord", "Axe"};
+  desc.without = names;
+  desc.without_count = 1;
+  CHECK(triangles(NOOK_OK) == 1);
+  desc.without_count = 2;
+  triangles(NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("is named \"Axe\""));
+  CHECK(message_has("the file has \"Body\", \"Sword\", \"blade\""));
+  desc.without_count = 0;
+  desc.meshes = names;
+  desc.mesh_count = 1;
+  CHECK(triangles(NOOK_OK) == 1);
+  desc.meshes = nullptr;
+  triangles(NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("desc.meshes is NULL"));
+
+  TubeDesc arrays;
+  arrays.desc.meshes = names;
+  arrays.desc.mesh_count = 1;
+  CHECK(arrays.create() == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("desc.meshes and desc.without choose meshes of a file"));
+}

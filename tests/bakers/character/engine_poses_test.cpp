@@ -13,6 +13,7 @@
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/character/model_file.h"
 #include "tests/bakers/character/engine.h"
+#include "tests/bakers/character/unfitted_model.h"
 #include "tests/catch.h"
 #include "tests/pose_of_rows.h"
 
@@ -35,56 +36,6 @@ std::filesystem::path character_path(const char* file) {
   return std::filesystem::path(assets ? assets : NOOK_ASSETS_DIR) / "characters" / file;
 }
 
-// A model that was not fitted, with spheres and key points at random vertices of the body: its AO depends on
-// every bone, which is all that poses need.
-CharacterModel model_of(const ImportedCharacter& character) {
-  const SkinnedMesh& mesh = character.mesh;
-  std::vector<Vec3> normal;
-  vertex_normals(mesh.triangle, mesh.position, normal);
-  CharacterModel model;
-  for (const Bone& bone : mesh.bones) model.bone_names.emplace_back(bone.name);
-  Vec3 low = mesh.position[0], high = low;
-  for (const Vec3 p : mesh.position) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  model.bounding_centre = 0.5f * (low + high);
-  model.bounding_radius = 0.5f * length(high - low);
-  std::mt19937 random(7);
-  const auto vertex = [&] { return random() % mesh.vertex_count(); };
-  for (int s = 0; s < 100; ++s) {
-    const std::size_t v = vertex();
-    model.spheres.push_back({mesh.position[v] - normal[v] * (0.04f * model.bounding_radius),
-                             0.05f * model.bounding_radius, mesh.weights[v].bone[0], 0.5f});
-  }
-  constexpr std::uint32_t key_points = 300;
-  for (std::uint32_t k = 0; k < key_points; ++k) {
-    const std::size_t v = vertex();
-    KeyPoint point;
-    point.position = point.surface_position = mesh.position[v];
-    point.normal = point.surface_normal = normal[v];
-    float sum = 0;
-    for (int b = 0; b < KeyPoint::max_bones; ++b) {
-      point.bone[b] = mesh.weights[v].bone[b];
-      sum += point.weight[b] = mesh.weights[v].weight[b];
-    }
-    for (float& weight : point.weight) weight /= sum;
-    model.key_points.push_back(point);
-  }
-  model.influences = 1;
-  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-    model.influence.push_back(static_cast<std::uint16_t>(v % key_points));
-    model.alpha.push_back(0.5f);
-    model.blend.push_back(1);
-    model.bias.push_back(0);
-  }
-  model.file_to_welded.assign(mesh.file_to_welded.begin(), mesh.file_to_welded.end());
-  for (const Primitive& p : mesh.primitives) model.primitives.push_back({p.first_vertex, p.vertex_count});
-  model.bind = bind_data_of(character);
-  model.rest = rest_surface_of(mesh);
-  return model;
-}
-
 // The engine's character, the model and a scene of one instance, through the C interface.
 struct Host {
   Engine engine;
@@ -98,7 +49,7 @@ struct Host {
   explicit Host(const std::filesystem::path& path) : Host(path, {}) {}
   // Without bytes of a model, an unfitted one is made.
   Host(const std::filesystem::path& path, std::vector<std::byte> bytes) : engine(path) {
-    if (bytes.empty()) bytes = write_character_model(model_of(engine.imported));
+    if (bytes.empty()) bytes = write_character_model(test::unfitted_model(engine.imported));
     nook_context_desc desc;
     nook_context_desc_init(&desc);
     desc.isa = NOOK_ISA_SCALAR;

@@ -86,7 +86,7 @@ TEST_CASE("faults of the mesh") {
   }
   SECTION("weights that are all zero") {
     for (int k = 0; k < 4; ++k) tube.weight[4 * 5 + k] = 0;
-    check_refused(tube_file(tube), "weights are all zero: 1 of 47, the first is number 5");
+    check_refused(tube_file(tube), "1 of 47 skinned vertices have no weights (need at most 1 %)");
   }
   SECTION("a weight that is not finite") {
     tube.weight[6] = NAN;
@@ -271,10 +271,6 @@ TEST_CASE("faults of skins") {
   SECTION("a joint that is not there") {
     skin["joints"] = {1, 12};
     check_refused(file, "joint node 12");
-  }
-  SECTION("a joint twice") {
-    skin["joints"] = {1, 1};
-    check_refused(file, "lists joint node 1 twice");
   }
   SECTION("too few inverse bind matrices") {
     file.document["accessors"][4]["count"] = 1;

@@ -18,6 +18,8 @@ class GltfBuilder {
                    {"scene", 0},
                    {"scenes", Json::array({{{"nodes", Json::array({0})}}})}};
 
+  Json room;  // a second buffer; null: none
+
   // One buffer view and one accessor of any component type; returns the accessor's index.
   template <typename T>
   int add(const std::vector<T>& values, const char* type, int component_type, bool normalised = false) {
@@ -101,6 +103,7 @@ class GltfBuilder {
     Json buffer = {{"byteLength", buffer_.size()}};
     if (!uri.empty()) buffer["uri"] = uri;
     if (!buffer_.empty()) out["buffers"] = Json::array({buffer});
+    if (!room.is_null()) out["buffers"].push_back(room);
     return out;
   }
 

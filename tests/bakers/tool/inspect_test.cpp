@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "tests/bakers/import/gltf_builder.h"
 #include "tests/bakers/tool/glb_tube.h"
+#include "tests/bakers/tool/rgbe_map.h"
 #include "tests/bakers/tool/tool_run.h"
 #include "tests/catch.h"
 
@@ -88,5 +90,77 @@ TEST_CASE("inspect names every layer that a recording may have") {
     CHECK(row.at("layer") == names[layer]);
     CHECK(row.at("view") == "result");
     CHECK(row.at("path") == "unknown");
+  }
+}
+
+namespace {
+
+// A prop of a box's two sides: a body, a spare sword, a hidden hull, a lower level, and lines.
+std::string glb_of_parts() {
+  nook::test::GltfBuilder file;
+  const int position = file.add_floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, "VEC3");
+  const int index = file.add(std::vector<unsigned short>{0, 1, 2, 2, 1, 3}, "SCALAR", 5123);
+  const nlohmann::json primitive = {{"attributes", {{"POSITION", position}}}, {"indices", index}};
+  nlohmann::json lines = primitive;
+  lines["mode"] = 1;
+  file.document["meshes"] = {{{"name", "panel"}, {"primitives", {primitive, lines, primitive}}},
+                             {{"name", "blade"}, {"primitives", nlohmann::json::array({primitive})}}};
+  file.document["meshes"][0]["primitives"][2]["attributes"]["POSITION"] =
+      file.add_floats({0, 0, 3, 1, 0, 3, 0, 1, 3, 1, 1, 3}, "VEC3");
+  file.document["nodes"] = {
+      {{"name", "root"}, {"children", {1, 2, 3, 4}}},
+      {{"name", "hull"}, {"mesh", 1}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}},
+      {{"name", "Body_LOD1"}, {"mesh", 1}},
+      {{"name", "Body"}, {"mesh", 0}},
+      {{"name", "Sword"}, {"mesh", 1}, {"translation", {3, 0, 0}}}};
+  const std::vector<std::byte> bytes = file.glb();
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+}  // namespace
+
+TEST_CASE("inspect lists what a bake takes of a glTF file") {
+  const TestFolder folder;
+  const std::string file = folder.path("hero.glb"), report = folder.path("r.json");
+  write_text(file, glb_of_parts());
+  const auto inspect = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"inspect", file, "--report", report});
+    const ToolRun run = folder.run(options);
+    REQUIRE(run.exit_code == 0);
+    CHECK(run.out.find("Body_LOD1") != std::string::npos);
+    std::string text;
+    for (const auto& row : nlohmann::json::parse(read_text(report)).at("rows"))
+      text += row.at("node").get<std::string>() + " " + row.at("primitive").dump() + " " +
+              row.at("triangles").dump() + " " + row.at("state").get<std::string>() + "\n";
+    return text;
+  };
+  CHECK(inspect({}) ==
+        "hull null 2 out: hidden\nBody_LOD1 null 2 out: lower level of detail\nBody 0 2 in\n"
+        "Body null 0 out: no triangles\nBody 1 2 in\nSword 2 2 in\n");
+  CHECK(inspect({"--without", "S*"}).find("Sword null 2 out: left out by name\n") != std::string::npos);
+  CHECK(inspect({"--mesh", "Sword", "--mesh", "*_LOD1"}).find("Body_LOD1 0 2 in\n") != std::string::npos);
+
+  const ToolRun none = folder.run({"inspect", file, "--mesh", "Axe"});
+  CHECK(none.exit_code == 2);
+  CHECK(none.error.find("hero.glb: no node with a mesh and no mesh is named \"Axe\"") != std::string::npos);
+}
+
+TEST_CASE("every command that bakes a glTF file names what it leaves out, and takes the choice") {
+  const TestFolder folder;
+  const std::string file = folder.path("hero.glb"), out = folder.path("out.nook");
+  write_text(file, glb_of_parts());
+  write_text(folder.path("sky.hdr"), rgbe_map(16, 8));
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"bake", "character", file, "-o", out},
+        {"bake", "probe", file, "--light", folder.path("sky.hdr"), "-o", out},
+        {"bake", "transfer", file, "-o", out},
+        {"bake", "material", "--meso", file, "-o", out}}) {
+    CAPTURE(command[1]);
+    std::vector<std::string> refused = command;
+    refused.insert(refused.end(), {"--without", "*"});
+    const ToolRun run = folder.run(refused);
+    CHECK(run.exit_code == 3);
+    CHECK(run.error.find("1 hidden by KHR_node_visibility (\"hull\")") != std::string::npos);
+    CHECK(run.error.find("left out by name (--without) (") != std::string::npos);
   }
 }

@@ -73,3 +73,23 @@ TEST_CASE("sample gltf_viewer: its skinning is what Nook expects of the same mat
     CHECK(check.fault == NOOK_POSE_FAULT_NONE);
   }
 }
+
+TEST_CASE("sample gltf_viewer: it leaves out what a bake leaves out") {
+  // A triangle that the nodes below a moving root show.
+  const Folder folder;
+  const std::filesystem::path path = folder.path / "parts.gltf";
+  std::ofstream(path) << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [
+      {"name": "root", "children": [1, 2, 3, 4]}, {"name": "Body", "mesh": 0},
+      {"name": "Hull", "mesh": 0, "extensions": {"KHR_node_visibility": {"visible": false}}},
+      {"name": "Body_LOD1", "mesh": 0}, {"name": "Sword", "mesh": 0}],
+      "meshes": [{"name": "panel", "primitives": [{"attributes": {"POSITION": 0}}]}],
+      "animations": [{"name": "turn", "samplers": [{"input": 1, "output": 2}],
+                      "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}],
+      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                    {"bufferView": 0, "byteOffset": 36, "componentType": 5126, "count": 2, "type": "SCALAR"},
+                    {"bufferView": 0, "byteOffset": 44, "componentType": 5126, "count": 2, "type": "VEC3"}],
+      "bufferViews": [{"buffer": 0, "byteLength": 68}], "buffers": [{"byteLength": 68, "uri":
+      "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA="}]})";
+  CHECK(viewer::CharacterFile(path).vertices.size() == 6);
+  CHECK(viewer::CharacterFile(path, {"Sword"}).vertices.size() == 3);
+}

@@ -21,6 +21,7 @@ void check(const nook_gl_desc& desc) {
                     "desc.max_tier is unknown (got %d, need 0, 33, 43, 300 or 310)", desc.max_tier);
   }
   check_known("desc.state_mode", desc.state_mode, NOOK_GL_STATE_HOST);
+  check_switch("desc.debug", desc.debug);
 }
 
 const char* text_of(const GLubyte* text) {

@@ -78,7 +78,9 @@ nook_world_view shown(const void* next) {
 }
 
 // The light of a coloured pass: lobes in view space, the cone in world space. The view has passed its check.
-void put_light(gl::WorldFrame& drawn, const nook_world_frame_desc& desc, bool coloured) {
+void put_light(gl::WorldFrame& drawn, const nook_world_frame_desc& desc, bool coloured,
+               float units_per_metre) {
+  constexpr float default_reach_m = 30;
   if (!coloured && (desc.lobe_count > 0 || desc.light_degrees != 0))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.%s needs a coloured pass, and this one is not; create a coloured pass",
@@ -86,9 +88,10 @@ void put_light(gl::WorldFrame& drawn, const nook_world_frame_desc& desc, bool co
   drawn.light = api::terms_of_lobes("desc", desc.lobes, desc.lobe_count, drawn.screen.view);
   if (desc.light_degrees == 0) return;
   const Vec3 axis = api::checked_light("desc", desc.light_axis, desc.light_degrees);
-  check_fits("desc.light_reach", desc.light_reach, desc.light_reach > 0 && desc.light_reach <= max_metres,
-             "metres above 0");
-  drawn.cone = gl::LightCone{axis, api::half_angle_radians(desc.light_degrees), desc.light_reach};
+  check_fits("desc.light_reach", desc.light_reach, desc.light_reach >= 0 && desc.light_reach <= max_metres,
+             "a length above 0, or 0 for 30 metres");
+  const float reach = desc.light_reach > 0 ? desc.light_reach : default_reach_m * units_per_metre;
+  drawn.cone = gl::LightCone{axis, api::half_angle_radians(desc.light_degrees), reach};
 }
 
 // The groups of the scene with their reach.
@@ -135,7 +138,7 @@ nook_result nook_world_render(nook_world pass, const nook_gl_frame_desc* frame,
   return api::enter("nook_world_render", [&] {
     need(pass, "pass");
     const auto known = read_descriptor<nook_world_frame_desc, nook_world_frame_debug_desc>(desc);
-    const gl::NnaoFrame screen = screen_of(frame, known, pass->desc);
+    gl::NnaoFrame screen = screen_of(frame, known, pass->desc);
     api::check_props("desc", known.capsules, known.capsule_count);
     check_numbers(known);
     const api::Casting casting(known.scene ? &known.scene->scene : nullptr, 0, known.capsules,
@@ -144,7 +147,7 @@ nook_result nook_world_render(nook_world pass, const nook_gl_frame_desc* frame,
     const gl::ReachingGroups groups{casting.group_count(), &reaching, reaching_group};
     gl::WorldFrame drawn{
         screen, screen.view, known.ao_texture, known.combine, known.level_error, shown(known.next), {}, {}};
-    put_light(drawn, known, pass->desc.coloured != 0);
+    put_light(drawn, known, pass->desc.coloured != 0, pass->gl->device.context.units_per_metre());
     pass->gl->guarded(world_users(pass->gl->device.gl, pass->pass->computes()),
                       [&] { pass->pass->render(drawn, groups); });
   });
@@ -153,6 +156,7 @@ nook_result nook_world_render(nook_world pass, const nook_gl_frame_desc* frame,
 nook_result nook_world_describe(nook_world pass, nook_world_info* info) {
   return api::enter("nook_world_describe", [&] {
     need(pass, "pass");
+    pass->gl->device.need_current();
     nook_world_info known{};
     known.texture = pass->pass->ao_texture();
     known.caster_texture = pass->pass->casters().table().texture();

@@ -100,7 +100,7 @@ void nook_nnao_destroy(nook_nnao* pass) {
 nook_result nook_nnao_render(nook_nnao pass, const nook_gl_frame_desc* frame,
                              const nook_nnao_frame_desc* desc) {
   return with_pass("nook_nnao_render", pass, [&] {
-    const gl::NnaoFrame known = read_nnao_frame(frame, desc);
+    gl::NnaoFrame known = read_nnao_frame(frame, desc);
     gl::check_frame(known, pass->desc);
     pass->gl->guarded(pass->users(), [&] { pass->pass->render(known); });
   });
@@ -108,6 +108,7 @@ nook_result nook_nnao_render(nook_nnao pass, const nook_gl_frame_desc* frame,
 
 nook_result nook_nnao_describe(nook_nnao pass, nook_nnao_info* info) {
   return with_pass("nook_nnao_describe", pass, [&] {
+    pass->gl->device.need_current();
     nook_nnao_info known{};
     known.texture = pass->pass->ao_texture();
     known.texture_bytes = gl::texture_bytes(pass->desc, pass->form);

@@ -46,6 +46,8 @@ gl::NnaoFrame checked_frame(const nook_gl_frame_desc* given, const nook_nnao_fra
         "debug.show %d does not go with the pass's max_history_frames %d here; read NOOK_NNAO_IMAGE_AO",
         frame.show, desc.max_history_frames);
   frame.blend = blend;
+  // The host's format is unknown. Where 0 is stored as another number, the format has integers.
+  frame.normalised_normals = frame.normal_bias != 0;
   return frame;
 }
 

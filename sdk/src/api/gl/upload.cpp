@@ -224,6 +224,7 @@ nook_result nook_gl_upload_clips(nook_gl gl, nook_clips clips, nook_gl_upload* o
 nook_result nook_gl_upload_describe(nook_gl_upload upload, nook_gl_upload_info* info) {
   return api::enter("nook_gl_upload_describe", [&] {
     need(upload, "upload");
+    upload->gl->device.need_current();
     write_info(info, info_of(*upload));
   });
 }

@@ -6,6 +6,7 @@
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/vec.h"
 #include "sdk/src/nnao/host_depth.h"
+#include "sdk/src/nnao/projection_check.h"
 
 namespace nook::gl {
 namespace {
@@ -104,7 +105,8 @@ void check_motion(const NnaoFrame& frame) {
 void check_matrices(const NnaoFrame& frame, const nook_nnao_desc& pass) {
   check_normals(frame);
   if (pass.max_history_frames) check_motion(frame);
-  nnao::check_projection(frame.projection, nnao::DepthKind(frame.depth_kind));
+  nnao::check_projection(frame.projection, nnao::DepthKind(frame.depth_kind),
+                         nnao::ClipRange(frame.clip_space));
 }
 
 void check_textures_changed(const NnaoFrame& frame) {

@@ -20,6 +20,14 @@ nnao::ScreenRays half_rays(nnao::ScreenRays rays) {
   return rays;
 }
 
+// The length from which on a texel of the host is a normal; 0: there are no normals. A matrix that scales,
+// scales the bound as well.
+float shortest_normal(const NnaoFrame& frame) {
+  if (frame.normal_texture == 0) return 0;
+  if (!frame.normalised_normals) return nnao::shortest_float_normal;
+  return nnao::shortest_normalised_normal * nnao::mean_scale(frame.normal_matrix);
+}
+
 }  // namespace
 
 Viewport viewport_of(const NnaoFrame& frame) {
@@ -59,7 +67,8 @@ FrameConstants frame_constants(const NnaoFrame& frame, const nook_nnao_desc& pas
   const bool perspective = nnao::is_perspective(frame.projection);
   const nnao::DepthDecode decode = nnao::depth_decode(
       {frame.projection, nnao::DepthKind(frame.depth_kind), nnao::ClipRange(frame.clip_space),
-       frame.sky_depth, frame.depth_log_scale, frame.depth_log_near, frame.depth_log_far});
+       frame.sky_depth, frame.depth_log_scale, frame.depth_log_near, frame.depth_log_far,
+       std::uint32_t(viewport.width), std::uint32_t(viewport.height)});
   const nnao::FrameRadius radius = nnao::frame_radius(
       {nnao::RadiusKind(frame.radius_kind), frame.radius, frame.scene_size, frame.max_radius_px},
       float(viewport.height));
@@ -78,12 +87,12 @@ FrameConstants frame_constants(const NnaoFrame& frame, const nook_nnao_desc& pas
       nnao::filter_range_sharpness(std::uint32_t(pass.taps)));
   set(NOOK_FRAME_RADIUS, radius.metres, std::max(half ? 0.5f * radius.max_px : radius.max_px, 1.0f),
       strengthened ? frame.intensity : 1, strengthened ? frame.power : 1);
-  set(NOOK_FRAME_NORMAL, frame.normal_scale, frame.normal_bias, frame.normal_texture != 0,
+  set(NOOK_FRAME_NORMAL, frame.normal_scale, frame.normal_bias, shortest_normal(frame),
       strengthened ? float(frame.gbuffer_ao) : 0);
   set(NOOK_FRAME_VIEWPORT, float(viewport.x), float(viewport.y), float(viewport.width),
       float(viewport.height));
-  set(NOOK_FRAME_SURFACE, float(surface_width - 1), float(surface_height - 1), float(surface_width),
-      float(surface_height));
+  set(NOOK_FRAME_SURFACE, float(surface_width - 1), float(surface_height - 1), decode.slope_x,
+      decode.slope_y);
   set(NOOK_FRAME_INPUT, decode.log_rate, radius.in_pixels ? pass.blur_sharpness / radius_extent : 0,
       float(layer), 0);
   const nnao::TapNoise shift = nnao::frame_noise_step(count);
@@ -101,8 +110,8 @@ const float* row(const FrameConstants& constants, int index) {
 
 bool is_cut(const NnaoFrame& frame, const FrameConstants& constants, const EarlierFrame& earlier) {
   const float* surface = row(constants, NOOK_FRAME_SURFACE);
-  return frame.reset || !earlier.drawn || float(earlier.width) != surface[2] ||
-         float(earlier.height) != surface[3] ||
+  return frame.reset || !earlier.drawn || float(earlier.width - 1) != surface[0] ||
+         float(earlier.height - 1) != surface[1] ||
          row(earlier.constants, NOOK_FRAME_SPREAD)[0] != row(constants, NOOK_FRAME_SPREAD)[0];
 }
 

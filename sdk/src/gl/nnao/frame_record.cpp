@@ -9,6 +9,7 @@
 #include "sdk/src/core/floats.h"
 #include "sdk/src/gl/shader_program.h"
 #include "sdk/src/gl/state_guard.h"
+#include "sdk/src/nnao/host_depth.h"
 
 namespace nook::gl {
 
@@ -117,6 +118,23 @@ void simplify(nnao::Recording& recording, const NnaoFrame& frame) {
   recording.frame.sky_depth = 0;
 }
 
+// Texels of normalised integers that are too short for a normal become those of a zero vector, which has no
+// normal in any format: a recording does not keep the host's format.
+void zero_short_normals(const NnaoFrame& frame, Vector<float>& texels) {
+  const double shortest = double(nnao::shortest_normalised_normal) * nnao::mean_scale(frame.normal_matrix);
+  const float* const m = frame.normal_matrix;
+  for (std::size_t i = 0; i + 2 < texels.size(); i += 3) {
+    double n[3], square = 0;
+    for (std::size_t k = 0; k < 3; ++k) n[k] = texels[i + k] * frame.normal_scale + frame.normal_bias;
+    for (int row = 0; row < 3; ++row) {
+      const double turned = m[row] * n[0] + m[3 + row] * n[1] + m[6 + row] * n[2];
+      square += turned * turned;
+    }
+    if (square > shortest * shortest) continue;
+    for (std::size_t k = 0; k < 3; ++k) texels[i + k] = -frame.normal_bias / frame.normal_scale;
+  }
+}
+
 // AO is in red, or in alpha beside bent normals.
 Vector<float> ao_of(TexelReader& reader, const NnaoPass& pass, const nook_nnao_desc& made_with,
                     const Viewport& viewport) {
@@ -131,14 +149,17 @@ Vector<float> ao_of(TexelReader& reader, const NnaoPass& pass, const nook_nnao_d
 
 nnao::Recording record_frame(Device& device, NnaoPass& pass, const nook_nnao_desc& made_with,
                              std::span<const std::byte> network, const NnaoFrame& frame, const char* note) {
-  const NnaoFrame drawn = own_target(frame);
+  NnaoFrame drawn = own_target(frame);
   const Viewport viewport = viewport_of(frame);
   nnao::Recording recording(device.memory);
   copy_note(note, recording.note);
   pass.render(drawn);
   TexelReader reader(device, viewport.width);
   recording.depth = reader.read(frame.depth_texture, viewport, 1);
-  if (frame.normal_texture) recording.normals = reader.read(frame.normal_texture, viewport, 3);
+  if (frame.normal_texture) {
+    recording.normals = reader.read(frame.normal_texture, viewport, 3);
+    if (drawn.normalised_normals) zero_short_normals(drawn, recording.normals);
+  }
   if (frame.gbuffer_ao != NOOK_GBUFFER_AO_NONE)
     recording.layer = reader.read(frame.gbuffer_ao_texture, viewport, 2);
   recording.ao = ao_of(reader, pass, made_with, viewport);

@@ -45,23 +45,45 @@ bool has_samples(const TextureKind& kind) {
   return kind.target == GL_TEXTURE_2D_MULTISAMPLE || kind.target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
 }
 
-// A texture that is bound.
+// A texture that is bound. What it answers goes into the sum of answers.
 struct BoundTexture {
   const Functions& gl;
   GLenum target;
+  std::uint32_t name;
+  std::uint32_t& answers;
 
   GLint level(GLenum what) const {
     GLint value = 0;
     gl.GetTexLevelParameteriv(target, 0, what, &value);
+    answers = 31 * answers + static_cast<std::uint32_t>(value);
     return value;
   }
 };
 
+// OpenGL ES 3.0 and WebGL tell nothing of a texture, but something of what is attached to a framebuffer.
+// framebuffer: without attachments. Binds it.
+GLint ask_attached(const BoundTexture& texture, GLuint framebuffer, GLenum attachment, GLenum what) {
+  const Functions& gl = texture.gl;
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  const auto attach = [&](GLuint name) {
+    if (texture.target == GL_TEXTURE_2D_ARRAY)
+      gl.FramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, attachment, name, 0, 0);
+    else
+      gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, attachment, texture.target, name, 0);
+  };
+  attach(texture.name);
+  GLint value = 0;
+  gl.GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, what, &value);
+  attach(0);
+  texture.answers = 31 * texture.answers + static_cast<std::uint32_t>(value);
+  return value;
+}
+
 // Leaves the texture bound.
-BoundTexture bind_checked(const Device& device, const HostImages& images, const TextureKind& kind,
-                          std::uint32_t name, const char* field) {
+BoundTexture bind_checked(const Device& device, const HostImages& images, ImageFacts& facts,
+                          const TextureKind& kind, std::uint32_t name, const char* field) {
   const Functions& gl = device.gl;
-  const BoundTexture texture{gl, kind.target};
+  const BoundTexture texture{gl, kind.target, name, facts.answers};
   if (!gl.IsTexture(name))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "%s is no texture of this OpenGL context (got %u, need the name of a 2D texture)", field,
@@ -105,10 +127,13 @@ bool is_float_or_normalised(GLint type) {
                 static_cast<unsigned>(texture.level(GL_TEXTURE_INTERNAL_FORMAT)), need);
 }
 
-void check_depth(const BoundTexture& texture, nook_depth_kind kind) {
+// Returns the bits of a depth format, 0 for colours. framebuffer: see ask_attached.
+int check_depth(const BoundTexture& texture, nook_depth_kind kind, GLuint framebuffer) {
   const Functions& gl = texture.gl;
-  if (!gl.can.texture_sizes) return;
-  const bool depth_format = texture.level(GL_TEXTURE_DEPTH_SIZE) > 0;
+  if (!gl.can.texture_sizes)
+    return ask_attached(texture, framebuffer, GL_DEPTH_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
+  const GLint depth_bits = texture.level(GL_TEXTURE_DEPTH_SIZE);
+  const bool depth_format = depth_bits > 0;
   const GLint red_bits = texture.level(GL_TEXTURE_RED_SIZE);
   const bool red_float = red_bits > 0 && texture.level(GL_TEXTURE_RED_TYPE) == GL_FLOAT;
   if (kind == NOOK_DEPTH_LINEAR) {
@@ -119,7 +144,7 @@ void check_depth(const BoundTexture& texture, nook_depth_kind kind) {
                   kind == NOOK_DEPTH_HARDWARE ? "a depth format or GL_R32F for NOOK_DEPTH_HARDWARE"
                                               : "a depth format or GL_R32F for NOOK_DEPTH_LOGARITHMIC");
   }
-  if (!depth_format || !gl.can.stencil_textures) return;
+  if (!depth_format || !gl.can.stencil_textures) return depth_bits;
   GLint mode = GL_DEPTH_COMPONENT;
   gl.GetTexParameteriv(texture.target, GL_DEPTH_STENCIL_TEXTURE_MODE, &mode);
   if (mode != GL_DEPTH_COMPONENT)
@@ -127,13 +152,24 @@ void check_depth(const BoundTexture& texture, nook_depth_kind kind) {
                   "frame.depth_texture shows its stencil (GL_DEPTH_STENCIL_TEXTURE_MODE is 0x%04x, need "
                   "GL_DEPTH_COMPONENT)",
                   static_cast<unsigned>(mode));
+  return depth_bits;
 }
 
-void check_normal(const BoundTexture& texture) {
-  if (!texture.gl.can.texture_sizes) return;
-  for (const GLenum channel : {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE, GL_TEXTURE_BLUE_TYPE})
-    if (!is_float_or_normalised(texture.level(channel)))
+// Returns whether the format has normalised integers. framebuffer: see ask_attached.
+bool check_normal(const BoundTexture& texture, GLuint framebuffer) {
+  if (!texture.gl.can.texture_sizes) {
+    const auto type = static_cast<GLenum>(
+        ask_attached(texture, framebuffer, GL_COLOR_ATTACHMENT0, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE));
+    return type == GL_UNSIGNED_NORMALIZED || type == GL_SIGNED_NORMALIZED;
+  }
+  bool normalised = false;
+  for (const GLenum channel : {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE, GL_TEXTURE_BLUE_TYPE}) {
+    const GLint type = texture.level(channel);
+    if (!is_float_or_normalised(type))
       refuse_format(texture, "frame.normal_texture", "red, green and blue in floats or normalised integers");
+    normalised = normalised || type != GL_FLOAT;
+  }
+  return normalised;
 }
 
 void check_layer(const BoundTexture& texture, nook_gbuffer_ao layer) {
@@ -232,13 +268,14 @@ void check_renderable(const Functions& gl, const HostImages& images, std::uint32
                   texture, status);
 }
 
-void check_target_texture(const Device& device, const HostImages& images, std::uint32_t own_texture) {
+void check_target_texture(const Device& device, const HostImages& images, ImageFacts& facts,
+                          std::uint32_t own_texture) {
   if (images.target_name == own_texture)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.target_name is the pass's own texture (got %u); use NOOK_TARGET_OWN", own_texture);
   check_apart(images, images.target_name, "frame.target_name");
   const BoundTexture texture =
-      bind_checked(device, images, kind_of(images), images.target_name, "frame.target_name");
+      bind_checked(device, images, facts, kind_of(images), images.target_name, "frame.target_name");
   if (device.gl.can.texture_sizes && !is_float_or_normalised(texture.level(GL_TEXTURE_RED_TYPE)))
     refuse_format(texture, "frame.target_name", "a colour format in floats or normalised integers");
 }
@@ -278,26 +315,33 @@ void check_images_of(const Functions& gl, const nook_nnao_desc& pass) {
                   api_name(gl), major, minor);
 }
 
-void check_images(const Device& device, const HostImages& images, std::uint32_t own_texture,
-                  std::uint32_t target_framebuffer) {
+ImageFacts check_images(const Device& device, const HostImages& images, std::uint32_t own_texture,
+                        std::uint32_t target_framebuffer) {
+  ImageFacts facts;
   const TextureKind kind = kind_of(images);
   check_apart(images, own_texture, "the pass's own texture");
-  const TextureKind depth_kind = sampled_kind_of(images, images.samples),
-                    normal_kind = sampled_kind_of(images, images.normal_samples);
-  check_depth(bind_checked(device, images, depth_kind, images.depth, "frame.depth_texture"),
-              images.depth_kind);
+  const auto bind = [&](const TextureKind& of, std::uint32_t name, const char* field) {
+    return bind_checked(device, images, facts, of, name, field);
+  };
+  facts.depth_bits =
+      check_depth(bind(sampled_kind_of(images, images.samples), images.depth, "frame.depth_texture"),
+                  images.depth_kind, target_framebuffer);
   if (images.normal)
-    check_normal(bind_checked(device, images, normal_kind, images.normal, "frame.normal_texture"));
+    facts.normalised_normals = check_normal(
+        bind(sampled_kind_of(images, images.normal_samples), images.normal, "frame.normal_texture"),
+        target_framebuffer);
+  // A driver may refuse to attach colours as depth.
+  if (!device.gl.can.texture_sizes) clear_refusal(device);
   if (images.layer_texture)
-    check_layer(bind_checked(device, images, kind, images.layer_texture, "frame.gbuffer_ao_texture"),
-                images.layer);
-  if (images.motion) check_motion(bind_checked(device, images, kind, images.motion, "desc.motion_vectors"));
-  if (images.ao) check_ao(bind_checked(device, images, kind, images.ao, "desc.ao_texture"));
+    check_layer(bind(kind, images.layer_texture, "frame.gbuffer_ao_texture"), images.layer);
+  if (images.motion) check_motion(bind(kind, images.motion, "desc.motion_vectors"));
+  if (images.ao) check_ao(bind(kind, images.ao, "desc.ao_texture"));
   if (images.target == NOOK_TARGET_TEXTURE) {
-    check_target_texture(device, images, own_texture);
+    check_target_texture(device, images, facts, own_texture);
     check_renderable(device.gl, images, target_framebuffer);
   }
   if (images.target == NOOK_TARGET_FRAMEBUFFER) check_framebuffer(device, images);
+  return facts;
 }
 
 }  // namespace nook::gl

@@ -27,11 +27,20 @@ HostImages images_of(const NnaoFrame& frame, const nook_nnao_desc& pass);
 // Throws Failure(NOOK_ERROR_UNSUPPORTED) unless this OpenGL has the kinds of images of a pass.
 void check_images_of(const Functions& gl, const nook_nnao_desc& pass);
 
+// What OpenGL has answered about the images of a frame.
+struct ImageFacts {
+  std::uint32_t answers = 0;  // a sum that differs where sizes or formats do
+  int depth_bits = 0;         // of a depth format
+  bool normalised_normals = false;
+
+  bool operator==(const ImageFacts&) const = default;
+};
+
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless every image exists and has a suitable size and format,
 // and no input is the target. own_texture is that of the pass, and target_framebuffer one without
 // attachments, which a target texture is tried in. Binds 2D textures to unit 0, arrays and multisample
 // textures to unit 1, and the draw framebuffer; leaves no OpenGL error.
-void check_images(const Device& device, const HostImages& images, std::uint32_t own_texture,
-                  std::uint32_t target_framebuffer);
+ImageFacts check_images(const Device& device, const HostImages& images, std::uint32_t own_texture,
+                        std::uint32_t target_framebuffer);
 
 }  // namespace nook::gl

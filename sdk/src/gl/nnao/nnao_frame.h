@@ -15,6 +15,7 @@ namespace nook::gl {
 
 struct NnaoFrame : nook_gl_frame_desc, nook_nnao_frame_desc {
   nook_nnao_view show = NOOK_NNAO_VIEW_AO;
+  bool normalised_normals = false;  // normal_texture has normalised integers
 };
 
 // The settings of a pass, with the preset's numbers in place of -1.

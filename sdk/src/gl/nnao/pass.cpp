@@ -58,9 +58,10 @@ GLuint NnaoPass::accumulate(const NnaoFrame& frame, const FrameConstants& consta
   return kept.history[now].texture();
 }
 
-void NnaoPass::render(const NnaoFrame& frame) {
-  check(images_of(frame, desc_), frame.textures_changed);
+void NnaoPass::render(NnaoFrame& frame) {
+  frame.normalised_normals = check(images_of(frame, desc_), frame.textures_changed).normalised_normals;
   begin_frame();
+  watch_surfaces(frame, [&](const NnaoFrame& layer) { bind_depth(layer.depth_texture); });
   if (desc_.views == 0) {
     render_layer(frame, 0);
     return;

@@ -38,8 +38,9 @@ class NnaoPass : public ScreenPass {
   // Throws Failure.
   NnaoPass(Device& device, const NnaoSettings& desc, const nnao::Network& network);
 
-  // Draws a frame that passed check_frame. Throws Failure before anything is drawn.
-  void render(const NnaoFrame& frame);
+  // Draws a frame that passed check_frame, and sets what it learns of the images. Throws Failure before
+  // anything is drawn.
+  void render(NnaoFrame& frame);
 
   // Returns the path of the network's stage: FRAGMENT or COMPUTE.
   nook_nnao_path path() const { return path_; }

@@ -64,11 +64,32 @@ void ScreenPass::make_stage(ScreenStage& stage, Object program, std::span<const 
     device_.gl.Uniform1i(uniform_location(device_, stage.program, sampler.name), sampler.unit);
 }
 
-void ScreenPass::check(const HostImages& images, bool changed) {
-  if (checked_ == images && !changed) return;
-  checked_.reset();
-  check_images(device_, images, own_.texture(), target_framebuffer_.name());
-  checked_ = images;
+void ScreenPass::make_watch(ScreenStage stage) {
+  watch_stage_ = std::move(stage);
+  watch_.emplace(device_);
+}
+
+ImageFacts ScreenPass::check(const HostImages& images, bool changed) {
+  if (changed) checked_.clear();
+  if (const ImageFacts* const known = checked_.find(images)) return *known;
+  ImageFacts facts;
+  try {
+    facts = check_images(device_, images, own_.texture(), target_framebuffer_.name());
+  } catch (const Failure&) {
+    checked_.clear();
+    throw;
+  }
+  checked_.add(images, facts);
+  if (facts.depth_bits == 16 && !coarse_depth_told_) {
+    coarse_depth_told_ = true;
+    device_.context.log(
+        NOOK_LOG_WARNING,
+        "nook_gl: frame.depth_texture %u has 16 bits (GL_DEPTH_COMPONENT16, need 24 or more): "
+        "AO shows bands that grow with the distance; use GL_DEPTH_COMPONENT24 or "
+        "GL_DEPTH_COMPONENT32F",
+        images.depth);
+  }
+  return facts;
 }
 
 void ScreenPass::begin_frame() const {

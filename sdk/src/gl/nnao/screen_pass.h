@@ -7,9 +7,11 @@
 #include <optional>
 #include <span>
 
+#include "sdk/src/gl/nnao/checked_images.h"
 #include "sdk/src/gl/nnao/host_images.h"
 #include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/gl/nnao/render_texture.h"
+#include "sdk/src/gl/nnao/surface_watch.h"
 
 namespace nook::gl {
 
@@ -46,8 +48,24 @@ class ScreenPass {
   // Finds the frame's constants of a program and sets its samplers, of which it may lack some.
   void make_stage(ScreenStage& stage, Object program, std::span<const SamplerUnit> samplers) const;
 
-  // Throws Failure unless the images of a frame are sound, before anything is drawn.
-  void check(const HostImages& images, bool changed);
+  // Returns what is known of the images of a frame. Throws Failure unless they are sound, before anything is
+  // drawn.
+  ImageFacts check(const HostImages& images, bool changed);
+  // Makes the stage that draws a pixel for each surface. Only with nook_gl_desc.debug.
+  void make_watch(ScreenStage stage);
+  // Where the stage was made: asks whether the frame has a surface. bind_depth(frame) binds the depth of a
+  // layer. Draws into the pass's own texture, which the frame overwrites.
+  template <class BindDepth>
+  void watch_surfaces(const NnaoFrame& frame, const BindDepth& bind_depth) {
+    if (!watch_ || !watch_->begin(device_, frame)) return;
+    for (int layer = 0; layer < drawn_layers(desc_); ++layer) {
+      const NnaoFrame one = desc_.views > 0 ? layer_frame(frame, layer) : frame;
+      bind_depth(one);
+      set_frame(watch_stage_, frame_constants(one, desc_, 0, layer));
+      draw(own_.framebuffer(), viewport_of(one), false);
+    }
+    watch_->end(device_);
+  }
   // Sets the state that all draws of a frame share.
   void begin_frame() const;
   void bind_texture(GLuint unit, GLuint texture) const;
@@ -68,7 +86,10 @@ class ScreenPass {
   Object sampler_, vertex_array_, target_framebuffer_;
 
  private:
-  std::optional<HostImages> checked_;
+  CheckedImages checked_;
+  std::optional<SurfaceWatch> watch_;
+  ScreenStage watch_stage_;
+  bool coarse_depth_told_ = false;
 };
 
 }  // namespace nook::gl

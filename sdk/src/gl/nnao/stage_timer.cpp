@@ -10,7 +10,7 @@ StageTimer::StageTimer(Device& device) : device_(device) {
 }
 
 StageTimer::~StageTimer() {
-  if (device_.lost) return;
+  if (!device_.may_delete()) return;
   for (const GLsync fence : fences_) device_.gl.DeleteSync(fence);  // ignores null
 }
 

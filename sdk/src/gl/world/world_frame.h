@@ -51,7 +51,7 @@ struct LightCone {
 
 // A frame that passed its checks.
 struct WorldFrame {
-  const NnaoFrame& screen;
+  NnaoFrame& screen;  // whose images the pass learns about
   const float* view;  // column-major
   std::uint32_t ao_texture = 0;
   nook_world_combine composition = NOOK_WORLD_COMBINE_MULTIPLY;

@@ -1,0 +1,386 @@
+#include "bakers/import/coincident_surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "bakers/import/shown_nodes.h"
+#include "sdk/src/core/geometry.h"
+
+namespace nook::bake {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+constexpr std::size_t all_samples = std::size_t{1} << 16, most_of_part = 512, fewest_of_part = 16;
+constexpr std::size_t most_parts = std::size_t{1} << 16;
+// Bounds the time on files whose triangles all lie on each other: what is found until then is enough.
+constexpr std::size_t most_candidates = 256, most_tests = std::size_t{1} << 26;
+constexpr float reach_of_size = 0.01f;  // of the diagonal of a part
+constexpr float least_cosine = 0.7f;    // of surfaces that face the same way
+
+struct Box {
+  Vec3 low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
+  void add(Vec3 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  bool overlaps(const Box& o) const {
+    return low.x <= o.high.x && low.y <= o.high.y && low.z <= o.high.z && o.low.x <= high.x &&
+           o.low.y <= high.y && o.low.z <= high.z;
+  }
+};
+
+// What a sample found of one other part.
+struct Hit {
+  std::uint32_t part = 0;
+  float height = 0;  // along the sample's normal, in units of its reach
+};
+
+struct Sample {
+  Vec3 at, normal;
+  float reach = 0;
+  double area = 0;  // that it stands for
+  std::uint32_t part = 0;
+  std::vector<Hit> hits;  // one for each other part, the nearest
+};
+
+constexpr std::size_t most_hits = 16;
+
+// A tree of boxes over samples in the order of the leaves.
+class SampleTree {
+ public:
+  explicit SampleTree(std::vector<Sample>& samples) : samples_(samples) {
+    if (!samples.empty()) build(0, samples.size());
+  }
+
+  template <class Visit>
+  void visit(const Box& box, Visit visit) {
+    stack_.assign(1, 0);
+    while (!stack_.empty() && !nodes_.empty()) {
+      const Node& node = nodes_[stack_.back()];
+      stack_.pop_back();
+      if (!node.box.overlaps(box)) continue;
+      if (node.right == 0) {
+        for (std::size_t i = node.begin; i < node.end; ++i) visit(samples_[i]);
+      } else {
+        stack_.push_back(node.right);
+        stack_.push_back(std::size_t(&node - nodes_.data()) + 1);
+      }
+    }
+  }
+
+ private:
+  struct Node {
+    Box box;
+    std::size_t begin = 0, end = 0, right = 0;  // right: 0 for a leaf; the left child follows its parent
+  };
+
+  std::size_t build(std::size_t begin, std::size_t end) {
+    const std::size_t at = nodes_.size();
+    nodes_.emplace_back();
+    Box box, centres;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Sample& s = samples_[i];
+      box.add(s.at + s.normal * s.reach);
+      box.add(s.at - s.normal * s.reach);
+      centres.add(s.at);
+    }
+    std::size_t right = 0;
+    if (end - begin > 4) {
+      const Vec3 size = centres.high - centres.low;
+      const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+      const auto along = [axis](const Sample& s) { return axis == 0 ? s.at.x : axis == 1 ? s.at.y : s.at.z; };
+      const std::size_t middle = (begin + end) / 2;
+      std::nth_element(samples_.begin() + long(begin), samples_.begin() + long(middle),
+                       samples_.begin() + long(end),
+                       [&](const Sample& a, const Sample& b) { return along(a) < along(b); });
+      build(begin, middle);
+      right = build(middle, end);
+    }
+    nodes_[at] = {box, begin, end, right};
+    return at;
+  }
+
+  std::vector<Sample>& samples_;
+  std::vector<Node> nodes_;
+  std::vector<std::size_t> stack_;
+};
+
+struct Mesh {
+  const SurfaceParts& parts;
+  std::span<const Vec3> position;
+  std::span<const Triangle> triangle;
+
+  std::size_t begin(std::size_t part) const { return part == 0 ? 0 : parts.all[part - 1].end_triangle; }
+  Vec3 corner(std::size_t t, std::size_t c) const { return position[triangle[t][c]]; }
+  Vec3 face(std::size_t t) const { return cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)); }
+};
+
+// Points spread over a part by area, the same in every run.
+void add_samples(const Mesh& mesh, std::size_t part, std::size_t count, std::vector<Sample>& out) {
+  const std::size_t first = mesh.begin(part), end = mesh.parts.all[part].end_triangle;
+  Box box;
+  double area = 0;
+  for (std::size_t t = first; t < end; ++t) {
+    area += 0.5 * double(length(mesh.face(t)));
+    for (std::size_t c = 0; c < 3; ++c) box.add(mesh.corner(t, c));
+  }
+  if (!(area > 0)) return;
+  const float reach = reach_of_size * length(box.high - box.low);
+  double before = 0;
+  std::size_t made = 0;
+  for (std::size_t t = first; t < end && made < count; ++t) {
+    const Vec3 face = mesh.face(t);
+    const double own = 0.5 * double(length(face));
+    for (; made < count && (double(made) + 0.5) / double(count) * area <= before + own; ++made) {
+      if (!(own > 0)) continue;
+      // The two-dimensional sequence of the plastic number, folded into the triangle.
+      float u = float(std::fmod(0.5 + 0.7548776662466927 * double(made), 1.0));
+      float v = float(std::fmod(0.5 + 0.5698402909980532 * double(made), 1.0));
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      const Vec3 a = mesh.corner(t, 0);
+      out.push_back({a + (mesh.corner(t, 1) - a) * u + (mesh.corner(t, 2) - a) * v,
+                     normalised(face),
+                     reach,
+                     area / double(count),
+                     std::uint32_t(part),
+                     {}});
+    }
+    before += own;
+  }
+}
+
+// The parameter of a line where it goes through a triangle; not a number where it does not.
+float crossing(Vec3 at, Vec3 direction, Vec3 a, Vec3 b, Vec3 c) {
+  constexpr float slack = 1e-5f;  // for points on an edge that two triangles share
+  const Vec3 ab = b - a, ac = c - a, p = cross(direction, ac);
+  const float det = dot(ab, p);
+  if (det == 0) return NAN;
+  const Vec3 from = at - a;
+  const float u = dot(from, p) / det;
+  const Vec3 q = cross(from, ab);
+  const float v = dot(direction, q) / det;
+  if (!(u >= -slack && v >= -slack && u + v <= 1 + slack)) return NAN;
+  return dot(ac, q) / det;
+}
+
+void add_hit(Sample& sample, std::uint32_t part, float height) {
+  for (Hit& hit : sample.hits)
+    if (hit.part == part) {
+      if (std::abs(height) < std::abs(hit.height)) hit.height = height;
+      return;
+    }
+  if (sample.hits.size() < most_hits) sample.hits.push_back({part, height});
+}
+
+bool same_primitive(const SurfaceParts::Part& a, const SurfaceParts::Part& b) {
+  return a.node == b.node && a.primitive == b.primitive;
+}
+
+std::vector<Sample> sample_parts(const Mesh& mesh) {
+  std::vector<std::size_t> order(mesh.parts.all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto triangles = [&](std::size_t p) { return mesh.parts.all[p].end_triangle - mesh.begin(p); };
+  if (order.size() > most_parts) {
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return triangles(a) > triangles(b); });
+    order.resize(most_parts);
+  }
+  const std::size_t count = std::clamp(all_samples / order.size(), fewest_of_part, most_of_part);
+  std::vector<Sample> samples;
+  for (const std::size_t part : order) add_samples(mesh, part, count, samples);
+  return samples;
+}
+
+void find_hits(const Mesh& mesh, std::vector<Sample>& samples) {
+  SampleTree tree(samples);
+  std::size_t part = 0, tests = 0;
+  for (std::size_t t = 0; t < mesh.triangle.size() && tests < most_tests; ++t) {
+    while (part < mesh.parts.all.size() && t >= mesh.parts.all[part].end_triangle) ++part;
+    if (part == mesh.parts.all.size()) return;
+    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+    Box box;
+    for (const Vec3 p : {a, b, c}) box.add(p);
+    const Vec3 normal = normalised(mesh.face(t));
+    tree.visit(box, [&](Sample& sample) {
+      ++tests;
+      if (same_primitive(mesh.parts.all[sample.part], mesh.parts.all[part])) return;
+      if (!(dot(sample.normal, normal) >= least_cosine)) return;
+      const float height = crossing(sample.at, sample.normal, a, b, c) / sample.reach;
+      if (std::abs(height) <= 1) add_hit(sample, std::uint32_t(part), height);
+    });
+  }
+}
+
+// A surface of its own: a node, or a primitive where two primitives of one node are compared.
+using Surface = std::array<std::uint32_t, 2>;
+constexpr std::uint32_t whole_node = ~0u;
+
+// How one surface lies on another, seen from samples of the first. Heights are in reaches.
+struct Contact {
+  double area = 0, height = 0, height_square = 0;
+};
+
+struct Contacts {
+  std::map<Surface, double> area;  // of each surface
+  std::map<std::pair<Surface, Surface>, Contact> of;
+};
+
+Contacts add_up(const Mesh& mesh, const std::vector<Sample>& samples) {
+  Contacts sum;
+  std::map<Surface, float> nearest;
+  for (const Sample& sample : samples) {
+    const SurfaceParts::Part& own = mesh.parts.all[sample.part];
+    sum.area[{own.node, whole_node}] += sample.area;
+    sum.area[{own.node, own.primitive}] += sample.area;
+    nearest.clear();
+    for (const Hit& hit : sample.hits) {
+      const SurfaceParts::Part& other = mesh.parts.all[hit.part];
+      const Surface key{other.node, other.node == own.node ? other.primitive : whole_node};
+      const auto [at, is_new] = nearest.try_emplace(key, hit.height);
+      if (!is_new && std::abs(hit.height) < std::abs(at->second)) at->second = hit.height;
+    }
+    for (const auto& [key, height] : nearest) {
+      const Surface self{own.node, key[0] == own.node ? own.primitive : whole_node};
+      Contact& contact = sum.of[{self, key}];
+      contact.area += sample.area;
+      contact.height += sample.area * double(height);
+      contact.height_square += sample.area * double(height) * double(height);
+    }
+  }
+  return sum;
+}
+
+bool belongs_to(const SurfaceParts::Part& part, const Surface& surface) {
+  return part.node == surface[0] && (surface[1] == whole_node || part.primitive == surface[1]);
+}
+
+// The triangles of a surface.
+template <class Visit>
+void for_each_triangle(const Mesh& mesh, const Surface& surface, Visit visit) {
+  for (std::size_t p = 0; p < mesh.parts.all.size(); ++p)
+    if (belongs_to(mesh.parts.all[p], surface))
+      for (std::size_t t = mesh.begin(p); t < mesh.parts.all[p].end_triangle; ++t) visit(t);
+}
+
+std::set<std::array<float, 3>> places_of(const Mesh& mesh, const Surface& surface) {
+  std::set<std::array<float, 3>> places;
+  for_each_triangle(mesh, surface, [&](std::size_t t) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3 p = mesh.corner(t, c);
+      places.insert({p.x, p.y, p.z});
+    }
+  });
+  return places;
+}
+
+// Whether half of the vertices of one surface are vertices of the other. Levels of detail that keep a part of
+// the vertices lie inside a convex body, so that they do not go through its surface.
+bool share_vertices(const Mesh& mesh, const Surface& a, const Surface& b) {
+  std::set<std::array<float, 3>> few = places_of(mesh, a), many = places_of(mesh, b);
+  if (few.size() > many.size()) few.swap(many);
+  std::size_t shared = 0;
+  for (const auto& place : few) shared += many.count(place);
+  return 2 * shared >= few.size();
+}
+
+// What lies on a surface without being a copy of it, such as clothes on a body or a picture on a wall, is on
+// one side of it, and covers only a part.
+bool is_coincident(const Mesh& mesh, const Surface& a, const Surface& b, const Contact& from_a,
+                   const Contact& from_b, const float (&cover)[2]) {
+  constexpr double same_plane = 0.01;  // of the reach
+  const double area = from_a.area + from_b.area;
+  const double mean = std::abs(from_a.height - from_b.height) / area;
+  const double rms = std::sqrt((from_a.height_square + from_b.height_square) / area);
+  const float least = std::min(cover[0], cover[1]), most = std::max(cover[0], cover[1]);
+  // Clothes keep their distance: mean / rms is 0.96 and more. Levels of detail lie on both sides (0.05 to
+  // 0.4), or with their corners on the surface of a convex body and the rest inside (0.67 to 0.86).
+  const double one_sided = rms < same_plane ? 0 : mean / rms;
+  if (least >= 0.9f) return one_sided < 0.9 || share_vertices(mesh, a, b);
+  if (least >= 0.5f) return one_sided < 0.5 || share_vertices(mesh, a, b);
+  return most >= 0.9f && rms >= same_plane && one_sided < 0.7;
+}
+
+// The name by which a node of a pair can be chosen apart from the other.
+std::string chosen_name(const tinygltf::Model& model, const CoincidentPair& pair, std::size_t which) {
+  const std::size_t own = pair.node[which], other = pair.node[1 - which];
+  if (node_label(model, own) != node_label(model, other)) return node_label(model, own);
+  const std::string mesh = mesh_label(model, model.nodes[own].mesh);
+  return mesh != mesh_label(model, model.nodes[other].mesh) ? mesh : "";
+}
+
+std::string sentence_of(const tinygltf::Model& model, const CoincidentPair& pair) {
+  char cover[64];
+  std::snprintf(cover, sizeof cover, "%.0f %% and %.0f %%", 100 * double(pair.cover[0]),
+                100 * double(pair.cover[1]));
+  std::string what, cure;
+  if (pair.node[0] == pair.node[1]) {
+    what = "primitives " + std::to_string(pair.primitive[0]) + " and " + std::to_string(pair.primitive[1]) +
+           " of node \"" + node_label(model, pair.node[0]) + "\"";
+    cure = "remove it from the mesh";
+  } else {
+    const std::string first = chosen_name(model, pair, 0), second = chosen_name(model, pair, 1);
+    const auto label = [&](std::size_t i, const std::string& name) {
+      return "\"" + (name.empty() ? node_label(model, pair.node[i]) : name) + "\"";
+    };
+    what = "nodes " + label(0, first) + " and " + label(1, second);
+    cure = second.empty() ? "give it a name of its own and leave it out by --without"
+                          : "leave it out: --without \"" + second + "\"";
+  }
+  return what + " lie on each other over " + cover +
+         " of their surfaces, so that each darkens the other; if one is a level of detail, a spare part or a "
+         "copy, " +
+         cure;
+}
+
+}  // namespace
+
+std::vector<CoincidentPair> coincident_surfaces(const SurfaceParts& parts, std::span<const Vec3> position,
+                                                std::span<const Triangle> triangle) {
+  std::set<Surface> distinct;
+  for (const SurfaceParts::Part& part : parts.all) distinct.insert({part.node, part.primitive});
+  if (distinct.size() < 2) return {};
+  const Mesh mesh{parts, position, triangle};
+  std::vector<Sample> samples = sample_parts(mesh);
+  find_hits(mesh, samples);
+  Contacts sum = add_up(mesh, samples);
+  std::vector<CoincidentPair> out;
+  std::size_t candidates = 0;
+  for (const auto& [pair, there] : sum.of) {
+    const auto back = sum.of.find({pair.second, pair.first});
+    if (back != sum.of.end() && pair.second < pair.first) continue;
+    const Contact here = back == sum.of.end() ? Contact{} : back->second;
+    Surface a = pair.first, b = pair.second;
+    float cover[2] = {float(there.area / sum.area[a]), float(here.area / sum.area[b])};
+    if (std::max(cover[0], cover[1]) < 0.5f) continue;
+    if (++candidates > most_candidates) break;
+    if (!is_coincident(mesh, a, b, there, here, cover)) continue;
+    std::size_t of_a = 0, of_b = 0;
+    for_each_triangle(mesh, a, [&](std::size_t) { ++of_a; });
+    for_each_triangle(mesh, b, [&](std::size_t) { ++of_b; });
+    if (of_a < of_b) std::swap(a, b), std::swap(cover[0], cover[1]);
+    out.push_back({{a[0], b[0]}, {a[1], b[1]}, {cover[0], cover[1]}});
+  }
+  return out;
+}
+
+void warn_of_coincident_surfaces(const tinygltf::Model& model, const SurfaceParts& parts,
+                                 std::span<const Vec3> position, std::span<const Triangle> triangle,
+                                 std::vector<std::string>& warnings) {
+  constexpr std::size_t most = 4;
+  std::vector<CoincidentPair> pairs = coincident_surfaces(parts, position, triangle);
+  std::stable_sort(pairs.begin(), pairs.end(), [](const CoincidentPair& a, const CoincidentPair& b) {
+    return a.cover[0] + a.cover[1] > b.cover[0] + b.cover[1];
+  });
+  for (std::size_t i = 0; i < std::min(pairs.size(), most); ++i)
+    warnings.push_back(sentence_of(model, pairs[i]));
+  if (pairs.size() > most)
+    warnings.push_back(std::to_string(pairs.size() - most) +
+                       " more pairs of nodes lie on each other; `nook inspect` lists the nodes of a file");
+}
+
+}  // namespace nook::bake

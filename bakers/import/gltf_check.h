@@ -1,0 +1,23 @@
+// What is wrong in a parsed document by the specification: refused where it decides shapes or poses, warned
+// of where the import has one way to read it.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <string>
+#include <vector>
+
+namespace nook::bake {
+
+// Fails with BAD_FILE on accessors of forbidden types for positions, joints, weights, indices, inverse bind
+// matrices and animations. The time is linear in primitives, skins and channels.
+void check_types(const tinygltf::Model& model);
+
+// One sentence for each kind of fault that the import repairs or passes over: rotations that are not unit
+// quaternions, a matrix beside translation, rotation or scale, indices that mean a primitive restart, bounds
+// that do not match, attributes of forbidden types. Nothing here fails; whoever reads an accessor reports
+// what cannot be read. Looks at each accessor once, and at 2^26 elements at most: the time is linear in the
+// file.
+std::vector<std::string> document_warnings(const tinygltf::Model& model);
+
+}  // namespace nook::bake

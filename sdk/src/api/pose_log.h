@@ -1,0 +1,18 @@
+// What the host's log says about poses that were taken but are unlikely to be meant.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "sdk/src/character/scene.h"
+#include "sdk/src/core/context.h"
+
+namespace nook::api {
+
+// Both log the topics of the notes that were not reported yet, and mark them as reported.
+void log_pose(const Context& context, Instance& instance, const PoseNotes& notes);
+// subject is the object or the function whose pose it is.
+void log_pose(const Context& context, const char* subject, const CharacterModel& model,
+              const PoseNotes& notes, std::atomic<std::uint32_t>& reported);
+
+}  // namespace nook::api

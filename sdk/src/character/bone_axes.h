@@ -1,0 +1,40 @@
+// The one test of whether a matrix of a bone is a rotation with one scale, for matrices of any precision.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace nook {
+
+// The shape of a matrix's 3x3 part by its axes, which are its columns.
+template <class Real>
+struct BoneAxes {
+  std::array<Real, 3> squared{};  // length of each axis
+  Real longest_squared = 0;
+  Real shear = 0;  // the largest product of two axes; over longest_squared it is about a cosine
+
+  // A rotation with one scale, to 1 %. 1 % of length is 2 % of its square, and the last digits are for
+  // rounding. A matrix of zeros is not even.
+  bool is_even() const {
+    const Real shortest = std::min({squared[0], squared[1], squared[2]});
+    return longest_squared > 0 && longest_squared <= shortest * Real(1.0205) &&
+           shear <= longest_squared * Real(0.0101);
+  }
+  double length(int axis) const { return std::sqrt(double(squared[axis])); }
+  double cosine() const { return longest_squared > 0 ? double(shear / longest_squared) : 0; }
+};
+
+// A matrix has three rows of four in `m`.
+template <class Matrix>
+auto axes_of(const Matrix& matrix) {
+  const auto& m = matrix.m;
+  const auto product = [&](int i, int j) { return m[i] * m[j] + m[4 + i] * m[4 + j] + m[8 + i] * m[8 + j]; };
+  BoneAxes<decltype(product(0, 0))> axes;
+  for (int i = 0; i < 3; ++i) axes.squared[std::size_t(i)] = product(i, i);
+  axes.longest_squared = std::max({axes.squared[0], axes.squared[1], axes.squared[2]});
+  axes.shear = std::max({std::abs(product(0, 1)), std::abs(product(1, 2)), std::abs(product(2, 0))});
+  return axes;
+}
+
+}  // namespace nook

@@ -1,0 +1,187 @@
+// Explains a difference between a pose and a host's vertices that is the same for the whole body.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "sdk/src/character/pose_check.h"
+
+namespace nook {
+namespace {
+
+// The affine map from one set to another of as many points that is best in the least-squares sense. Returns
+// false where the first lie in a plane.
+bool best_map(std::span<const Point3> from_points, std::span<const Point3> to_points, Affine& map) {
+  Point3 from{}, to{};
+  const double share = 1 / static_cast<double>(from_points.size());
+  for (std::size_t v = 0; v < from_points.size(); ++v)
+    for (int i = 0; i < 3; ++i) {
+      from[i] += share * from_points[v][i];
+      to[i] += share * to_points[v][i];
+    }
+  Affine own, cross;  // 3x3 parts: sums of p p^T and of x p^T about the means
+  own.m.fill(0);
+  cross.m.fill(0);
+  for (std::size_t v = 0; v < from_points.size(); ++v)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        const double p = from_points[v][j] - from[j];
+        own.m[4 * i + j] += (from_points[v][i] - from[i]) * p;
+        cross.m[4 * i + j] += (to_points[v][i] - to[i]) * p;
+      }
+  const double trace = own.m[0] + own.m[5] + own.m[10];
+  if (!(determinant(own) > 1e-7 * trace * trace * trace)) return false;
+  map = cross * inverse(own);
+  const Point3 moved = transform(map, from[0], from[1], from[2]);
+  for (int i = 0; i < 3; ++i) map.m[4 * i + 3] = to[i] - moved[i];
+  return true;
+}
+
+// The scale of a map that is a similarity, mirrored or not, to 1 %; else 0.
+double scale_of_similarity(const Affine& map) {
+  const double scale = std::cbrt(std::abs(determinant(map)));
+  double difference = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      double dot = 0;
+      for (int k = 0; k < 3; ++k) dot += map.m[4 * k + i] * map.m[4 * k + j];
+      difference = std::max(difference, std::abs(dot - (i == j ? scale * scale : 0)));
+    }
+  return difference <= 0.02 * scale * scale ? scale : 0;
+}
+
+// The turn of a similarity of a known scale.
+double turn_degrees(const Affine& map, double scale) {
+  const double cosine = 0.5 * ((map.m[0] + map.m[5] + map.m[10]) / scale - 1);
+  return std::acos(std::clamp(cosine, -1.0, 1.0)) * 57.29577951308232;
+}
+
+bool is_same_turn(const Affine& a, const Affine& b) {
+  double difference = 0, size = 0;
+  for (int i = 0; i < 12; ++i) {
+    if (i % 4 == 3) continue;
+    difference = std::max(difference, std::abs(a.m[i] - b.m[i]));
+    size = std::max(size, std::abs(b.m[i]));
+  }
+  return difference <= 0.01 * size;
+}
+
+bool is_same(const Affine& a, const Affine& b, double tolerance_m) {
+  bool out = is_same_turn(a, b);
+  for (int i = 3; i < 12; i += 4) out = out && std::abs(a.m[i] - b.m[i]) <= tolerance_m;
+  return out;
+}
+
+Affine turned_back(const Affine& place) {
+  Affine out = place;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) out.m[4 * i + j] = place.m[4 * j + i];
+  return out;
+}
+
+// The place that a host gave as four columns of three numbers where three rows of four were wanted.
+Affine from_columns_4x3(const Affine& place) {
+  Affine out;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) out.m[4 * i + j] = place.m[3 * j + i];
+  return out;
+}
+
+// Whether the model's vertices are the host's under another place than the pose's.
+bool fits_under(const PosedPoints& points, const Affine& place) {
+  const Affine map = place * inverse(points.pose_place);
+  for (std::size_t v = 0; v < points.posed.size(); ++v) {
+    const Point3& p = points.posed[v];
+    if (!(distance(transform(map, p[0], p[1], p[2]), points.host[v]) <= points.tolerance_ws)) return false;
+  }
+  return true;
+}
+
+// The place that a host has and did not give, or gave in another form. true_place is the one that the
+// vertices need.
+bool explain_by_known_place(const PosedPoints& points, const Affine& true_place, PoseFinding& finding) {
+  const Affine none, &given = points.pose_place;
+  const double tolerance_m = points.tolerance_ws;
+  const bool is_given = !is_same(given, none, tolerance_m);
+  constexpr nook_pose_fault fault = NOOK_POSE_FAULT_PLACE;
+  if (is_given && fits_under(points, inverse(given))) {
+    explain(finding, fault, "desc.place_3x4 is the inverse of the place");
+    return true;
+  }
+  // Columns of a 4x4 matrix lose the translation, so that the turn alone tells.
+  if (is_given &&
+      (fits_under(points, from_columns_4x3(given)) ||
+       (!is_same_turn(given, turned_back(given)) && is_same_turn(turned_back(given), true_place)))) {
+    explain(
+        finding, fault,
+        "desc.place_3x4 is transposed: give three rows of four, each with its part of the translation last");
+    return true;
+  }
+  const bool is_of_vertices = !is_same(points.vertex_place, none, tolerance_m);
+  if (is_of_vertices && fits_under(points, points.vertex_place)) {
+    explain(finding, fault,
+            is_given
+                ? "desc.place_3x4 is not the place of the vertices: the pose stands elsewhere, and fits with "
+                  "check.place_3x4"
+                : "desc.place_3x4 is missing: the pose fits with check.place_3x4");
+    return true;
+  }
+  if (is_given && fits_under(points, none)) {
+    explain(finding, fault,
+            "the pose stands elsewhere than the vertices, and fits without desc.place_3x4: the transforms "
+            "lead to "
+            "the world already, or check.place_3x4, the place of the vertices, is missing");
+    return true;
+  }
+  return false;
+}
+
+// The axis of the character's space that a map changes the sign of, as text behind "mirror image"; empty
+// where it turns as well.
+const char* mirrored_axis(const Affine& map, double scale, const Affine& place) {
+  const Affine own = inverse(place) * map * place;
+  constexpr const char* names[] = {" in x", " in y", " in z"};
+  for (int axis = 0; axis < 3; ++axis) {
+    Affine mirror;
+    for (int i = 0; i < 3; ++i) mirror.m[5 * i] = i == axis ? -scale : scale;
+    if (is_same_turn(own, mirror)) return names[axis];
+  }
+  return "";
+}
+
+}  // namespace
+
+bool explain_by_place(const PosedPoints& points, PoseFinding& finding) {
+  Affine map;
+  if (determinant(points.pose_place) == 0 || !best_map(points.posed, points.host, map)) return false;
+  const double scale = scale_of_similarity(map);
+  if (scale == 0) return false;
+  for (std::size_t v = 0; v < points.posed.size(); ++v) {
+    const Point3& p = points.posed[v];
+    if (!(distance(transform(map, p[0], p[1], p[2]), points.host[v]) <= points.tolerance_ws)) return false;
+  }
+  if (explain_by_known_place(points, map * points.pose_place, finding)) return true;
+  const bool is_mirrored = determinant(map) < 0;
+  const char* const axis = is_mirrored ? mirrored_axis(map, scale, points.pose_place) : "";
+  if (std::abs(scale - 1) > 0.02) {
+    if (explain(finding, NOOK_POSE_FAULT_UNIT,
+                "the pose is in another unit than the vertices: it fits when multiplied by %.6g%s%s; scale "
+                "desc.place_3x4 or the vertices' place",
+                scale, is_mirrored ? " and mirrored" : "", axis))
+      finding.scale = scale;
+  } else if (is_mirrored) {
+    explain(
+        finding, NOOK_POSE_FAULT_PLACE,
+        "the pose is a mirror image of the vertices%s: one of them is left-handed; put the mirroring into "
+        "desc.place_3x4 of the pose as well",
+        axis);
+  } else {
+    explain(
+        finding, NOOK_POSE_FAULT_PLACE,
+        "the pose is right in itself, and stands elsewhere than the vertices: it fits when turned by %.3g "
+        "degrees and moved by (%.4g %.4g %.4g); one of the two places is wrong or missing",
+        turn_degrees(map, scale), map.m[3], map.m[7], map.m[11]);
+  }
+  return true;
+}
+
+}  // namespace nook

@@ -1,0 +1,28 @@
+// With nook_gl_desc.debug: tells the log of a frame whose depth shows no surface, once its answer is there.
+#pragma once
+
+#include "sdk/src/gl/nnao/nnao_frame.h"
+#include "sdk/src/gl/object.h"
+
+namespace nook::gl {
+
+class SurfaceWatch {
+ public:
+  explicit SurfaceWatch(Device& device) : query_(Object::make(device, Object::Kind::query)) {}
+
+  // Looks for the answer of an earlier frame. Returns whether to draw this frame's surfaces, after which end
+  // must be called.
+  bool begin(const Device& device, const NnaoFrame& frame);
+  void end(const Device& device);
+
+ private:
+  void report(const Device& device) const;
+
+  Object query_;
+  bool pending_ = false, told_ = false;
+  nook_depth_kind depth_kind_ = 0;  // of the frame that the query is about
+  nook_clip_space clip_space_ = 0;
+  std::uint32_t depth_texture_ = 0;
+};
+
+}  // namespace nook::gl

@@ -1,0 +1,9 @@
+// Draws a pixel where the host's depth has a surface, for a query that tells whether any was drawn.
+#include "shaders/nnao/host_depth.glsl"
+
+out vec4 nook_out;
+
+void main() {
+  if (nook_screen_depth(ivec2(gl_FragCoord.xy) - nook_origin) == nook_no_surface) discard;
+  nook_out = vec4(0.0);
+}

@@ -1,0 +1,248 @@
+// nook_gl_desc.debug: calls without the OpenGL context of nook_gl_create are refused by name, and frames
+// without a surface are logged. Without it nothing is asked.
+#include <EGL/egl.h>
+
+#include <optional>
+#include <thread>
+
+#include "tests/gl/nnao_images.h"
+#include "tests/gl/test_context.h"
+#include "tests/gl/traced_loader.h"
+#include "tests/gl/world_scene.h"
+
+using namespace nook;
+using namespace nook::test;
+
+namespace {
+
+constexpr int width = 24, height = 16;
+
+struct DebugGl {
+  DebugGl(platform::Context& made_in, nook_context host, nook_gl_proc_fn loader, void* user,
+          std::int32_t debug) {
+    (void)made_in;
+    nook_gl_desc desc;
+    NOOK_OK_OR_FAIL(nook_gl_desc_init(&desc));
+    CHECK(desc.debug == 0);
+    desc.get_proc = loader;
+    desc.get_proc_user = user;
+    desc.debug = debug;
+    NOOK_OK_OR_FAIL(nook_gl_create(host, &desc, &handle));
+  }
+  ~DebugGl() { nook_gl_destroy(&handle); }
+  DebugGl(const DebugGl&) = delete;
+  DebugGl& operator=(const DebugGl&) = delete;
+
+  nook_gl handle = nullptr;
+};
+
+std::ptrdiff_t lines_with(const CountedContext& host, const char* part) {
+  return std::count_if(host.log.begin(), host.log.end(),
+                       [&](const std::string& line) { return line.find(part) != std::string::npos; });
+}
+
+// Calls of the context thread, each of which must be refused elsewhere.
+struct Calls {
+  explicit Calls(platform::Context& context)
+      : fixture(context), gl(context, cast.context.handle, platform::Context::loader, &context, 1) {
+    crowd.emplace(cast.context.handle, cast.models, cast.bone_counts, CrowdOptions{});
+    crowd->pose(0);
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl.handle, crowd->scene));
+    pass = create_pass(gl.handle, pass_desc(width, height));
+    const nook_world_desc world_desc = world::world_desc(width, height);
+    NOOK_OK_OR_FAIL(nook_world_create(gl.handle, &world_desc, &world));
+    const Camera camera = plain_camera(float(width) / height);
+    frame = frame_desc(camera, width, height,
+                       fixture.depth_of(camera, look(camera, still_life(), width, height)), 0, 0.5f);
+  }
+  ~Calls() {
+    nook_nnao_destroy(&pass);
+    nook_world_destroy(&world);
+  }
+
+  std::vector<std::pair<const char*, nook_result>> all() {
+    DarkenedFrame darkened(frame);
+    nook_gl_view view{};
+    view.struct_size = sizeof view;
+    nook_nnao_info info{};
+    info.struct_size = sizeof info;
+    nook_nnao other = nullptr;
+    const PassDesc desc = pass_desc(width, height);
+    const nook_instance_id id = crowd->ids[0];
+    std::vector<float> values(file_vertices(cast.model_of(0)));
+    std::vector<std::pair<const char*, nook_result>> results;
+    const auto call = [&](const char* name, nook_result result) { results.emplace_back(name, result); };
+    call("nook_gl_scene_prepare", nook_gl_scene_prepare(gl.handle, crowd->scene));
+    call("nook_gl_scene_update", nook_gl_scene_update(gl.handle, crowd->scene));
+    call("nook_gl_scene_view", nook_gl_scene_view(gl.handle, crowd->scene, id, NOOK_CHANNEL_AO, &view));
+    call("nook_gl_scene_read", nook_gl_scene_read(gl.handle, crowd->scene, id, NOOK_CHANNEL_AO, values.data(),
+                                                  std::uint32_t(values.size())));
+    call("nook_nnao_create", nook_nnao_create(gl.handle, &desc, &other));
+    if (other) nook_nnao_destroy(&other);
+    call("nook_nnao_render", nook_nnao_render(pass, &frame, &frame));
+    call("nook_nnao_describe", nook_nnao_describe(pass, &info));
+    call("nook_world_render", nook_world_render(world, &darkened, &darkened));
+    return results;
+  }
+  void check_all_taken() {
+    for (const auto& [name, result] : all()) {
+      INFO(name << ": " << nook_last_message());
+      CHECK(result == NOOK_OK);
+    }
+  }
+  void check_all_refused(const char* text) {
+    for (const auto& [name, result] : all()) {
+      INFO(name);
+      CHECK(result == NOOK_ERROR_GL);
+    }
+    CHECK(std::string(nook_last_message()).find(text) != std::string::npos);
+  }
+
+  NnaoFixture fixture;
+  Cast cast;
+  DebugGl gl;
+  std::optional<Crowd> crowd;
+  nook_nnao pass = nullptr;
+  nook_world world = nullptr;
+  ScreenFrame frame;
+};
+
+constexpr const char* none = "no OpenGL context is current on this thread";
+constexpr const char* other = "another OpenGL context is current on this thread";
+
+}  // namespace
+
+TEST_CASE("debug: calls without the context of nook_gl_create are refused by name") {
+  NOOK_NEED_CONTEXT(context);
+  Calls calls(context);
+  calls.check_all_taken();
+  SECTION("on a thread that has none") {
+    std::thread([&] { calls.check_all_refused(none); }).join();
+  }
+  SECTION("after the host has cleared it") {
+    context.clear_current();
+    calls.check_all_refused(none);
+  }
+  SECTION("in another context") {
+    platform::ContextRequest request;
+    request.major = context.is_es() ? 3 : 3;
+    request.minor = context.is_es() ? 0 : 3;
+    request.es = context.is_es();
+    const auto second = platform::create_context(request);
+    calls.check_all_refused(other);
+    // Also with objects of these names, and with a nook_gl of its own.
+    GLuint arrays[64];
+    second->gl().GenVertexArrays(64, arrays);
+    for (const GLuint array : arrays) second->gl().BindVertexArray(array);
+    CountedContext host;
+    const DebugGl of_second(*second, host.handle, platform::Context::loader, second.get(), 1);
+    calls.check_all_refused(other);
+  }
+  context.make_current();
+  calls.check_all_taken();
+  for (const std::string& line : calls.cast.context.log)
+    CHECK(line.find("cannot be deleted") == std::string::npos);
+}
+
+TEST_CASE("debug: a context that shares objects is another one") {
+  NOOK_NEED_CONTEXT(context);
+  const EGLContext own = eglGetCurrentContext();
+  if (own == EGL_NO_CONTEXT) return;  // of another kind
+  Calls calls(context);
+  const EGLDisplay display = eglGetCurrentDisplay();
+  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION,
+                               context.is_es() ? 0 : 3, EGL_NONE};
+  EGLint config_id = 0;
+  eglQueryContext(display, own, EGL_CONFIG_ID, &config_id);
+  EGLConfig config = nullptr;
+  EGLint found = 0;
+  const EGLint wanted[] = {EGL_CONFIG_ID, config_id, EGL_NONE};
+  if (config_id != 0) eglChooseConfig(display, wanted, &config, 1, &found);
+  const EGLContext shared = eglCreateContext(display, config, own, attributes);
+  REQUIRE(shared != EGL_NO_CONTEXT);
+  REQUIRE(eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, shared));
+  calls.check_all_refused(other);
+  // What is destroyed here is left, and the log says so.
+  nook_nnao_destroy(&calls.pass);
+  CHECK(lines_with(calls.cast.context, "cannot be deleted") == 1);
+  context.make_current();
+  eglDestroyContext(display, shared);
+  nook_result update = nook_gl_scene_update(calls.gl.handle, calls.crowd->scene);
+  CHECK(update == NOOK_OK);
+}
+
+TEST_CASE("debug: a frame without a surface is logged by a later frame, once") {
+  NOOK_NEED_CONTEXT(context);
+  NnaoFixture fixture(context);
+  const Camera camera = plain_camera(float(width) / height);
+  const GLuint seen = fixture.depth_of(camera, look(camera, still_life(), width, height));
+  const GLuint cleared =
+      fixture.textures.floats(GL_R32F, 1, width, height, std::vector<float>(width * height, 1.0f));
+  for (const std::int32_t debug : {0, 1}) {
+    CountedContext host;
+    Trace trace(context);
+    const DebugGl gl(context, host.handle, Trace::loader, &trace, debug);
+    nook_nnao pass = create_pass(gl.handle, pass_desc(width, height));
+    nook_world_desc world_desc = world::world_desc(width, height);
+    nook_world world = nullptr;
+    NOOK_OK_OR_FAIL(nook_world_create(gl.handle, &world_desc, &world));
+    const auto reports = [&] { return lines_with(host, "an earlier frame showed no surface"); };
+    const auto render = [&](GLuint depth, int frames) {
+      for (int i = 0; i < frames; ++i) {
+        ScreenFrame frame = frame_desc(camera, width, height, depth, 0, 0.5f);
+        DarkenedFrame darkened(frame);
+        NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
+        NOOK_OK_OR_FAIL(nook_world_render(world, &darkened, &darkened));
+        context.gl().Finish();  // so that answers are there
+      }
+    };
+    render(seen, 4);
+    CHECK(reports() == 0);
+    render(cleared, 6);
+    CHECK(reports() == 2 * debug);  // of each pass
+    render(seen, 4);
+    render(cleared, 4);
+    CHECK(reports() == 4 * debug);
+    CHECK((trace.calls("glBeginQuery") > 0) == (debug == 1));
+    for (const char* forbidden : {"glReadPixels", "glGetBufferSubData", "glMapBufferRange", "glFinish"})
+      CHECK(trace.calls(forbidden) == 0);
+    nook_nnao_destroy(&pass);
+    nook_world_destroy(&world);
+  }
+}
+
+TEST_CASE("debug: AO is the same with it, also of two eyes and of samples") {
+  NOOK_NEED_CONTEXT(context);
+  NnaoFixture fixture(context);
+  const Camera camera = plain_camera(float(width) / height);
+  const Picture picture = look(camera, still_life(), width, height);
+  const std::vector<float> stored = stored_depth(camera, picture);
+  const GLuint depth = fixture.depth_of(camera, picture),
+               eyes = fixture.textures.array(GL_R32F, 1, width, height, {stored, stored});
+  for (const int views : {0, 2}) {
+    std::vector<float> found[2];
+    for (const std::int32_t debug : {0, 1}) {
+      const DebugGl gl(context, fixture.host.handle, platform::Context::loader, &context, debug);
+      PassDesc desc = pass_desc(width, height);
+      desc.views = views;
+      nook_nnao pass = create_pass(gl.handle, desc);
+      const ScreenFrame frame = frame_desc(camera, width, height, views ? eyes : depth, 0, 0.5f);
+      for (int i = 0; i < 3; ++i) NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
+      for (int layer = 0; layer < std::max(views, 1); ++layer) {
+        const std::vector<float> ao =
+            read_texture(context.gl(), info_of(pass).texture, width, height, 1, views ? layer : -1);
+        found[debug].insert(found[debug].end(), ao.begin(), ao.end());
+      }
+      nook_nnao_destroy(&pass);
+    }
+    CHECK((found[0] == found[1]));
+    CHECK(*std::min_element(found[1].begin(), found[1].end()) < 0.9f);
+  }
+  nook_gl_desc desc;
+  NOOK_OK_OR_FAIL(nook_gl_desc_init(&desc));
+  desc.get_proc = platform::Context::loader;
+  desc.get_proc_user = &context;
+  desc.debug = 2;
+  nook_gl bad = nullptr;
+  CHECK(nook_gl_create(fixture.host.handle, &desc, &bad) == NOOK_ERROR_INVALID_ARGUMENT);
+}
