@@ -39,19 +39,19 @@ def refusal(files):
 
 
 def baked_rigs():
-    """Rigs that were shown when the file was saved, and those that version 1.0 baked."""
-    found = [r.rig for r in records.every() if r.rig is not None and r.is_shown]
-    return found + [o for o in bpy.data.objects if o.type == "ARMATURE" and records.FOLDER_PROPERTY in o and records.find(o) is None]
+    """The rigs of this file that have a bake, each with whether it was shown when the file was saved; files of version 1.0 do not say."""
+    found = [(r.rig, r.is_shown) for r in records.every() if r.rig is not None and r.folder]
+    return found + [(o, True) for o in bpy.data.objects if o.type == "ARMATURE" and records.FOLDER_PROPERTY in o and records.find(o) is None]
 
 
 @bpy.app.handlers.persistent
 def after_load(*_):
     if not bpy.app.background:
         return
-    for rig in baked_rigs():
+    for rig, was_shown in baked_rigs():
         try:
             files = shown.existing_files(rig)
-            reason = refusal(files)
+            reason = refusal(files) if was_shown else "it was switched off when the file was saved; press Show and save again"
             if reason is None:
                 folders.confirm(str(files.folder))
                 shown.show(bpy.context, rig)

@@ -196,7 +196,7 @@ def show(context, armature):
         raise Fault(f"a mesh of the bake of {armature.name} is gone; bake again")
     try:
         entry = Shown(record, files, nook)
-    except nook.NookError as error:
+    except (nook.NookError, OSError) as error:
         raise Fault(str(error)) from error
     _shown[record.key], record.is_shown = entry, True
     _stopped.pop(record.key, None)
