@@ -1,15 +1,36 @@
 #!/usr/bin/env python3
-"""zip_folder.py ARCHIVE FOLDER NAME: FOLDER/NAME as a .zip file whose bytes depend on the files and SOURCE_DATE_EPOCH alone."""
+"""zip_folder.py ARCHIVE FOLDER NAME: FOLDER/NAME as a .zip file.
+
+Its bytes depend on the files and on a time alone: SOURCE_DATE_EPOCH, or without it the commit's, or else the first that .zip files know.
+"""
+import functools
 import os
 import pathlib
+import subprocess
 import sys
 import time
 import zipfile
 
 
+EARLIEST_S = 315532800  # 1980
+
+
+@functools.lru_cache(maxsize=None)
+def release_time():
+    """Seconds since 1970."""
+    given = os.environ.get("SOURCE_DATE_EPOCH")
+    if given is None:
+        command = ["git", "-C", str(pathlib.Path(__file__).resolve().parent), "log", "-1", "--format=%ct"]
+        try:
+            given = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+        except (OSError, subprocess.CalledProcessError):
+            given = ""
+    return max(int(given or EARLIEST_S), EARLIEST_S)
+
+
 def add(archive, path, name):
     """A file with the time of the release and no owner."""
-    info = zipfile.ZipInfo(name, time.gmtime(max(int(os.environ["SOURCE_DATE_EPOCH"]), 315532800))[:6])
+    info = zipfile.ZipInfo(name, time.gmtime(release_time())[:6])
     info.compress_type = zipfile.ZIP_DEFLATED
     info.external_attr = 0o644 << 16
     archive.writestr(info, path.read_bytes() if isinstance(path, pathlib.Path) else path)

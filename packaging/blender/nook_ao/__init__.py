@@ -10,9 +10,9 @@ bl_info = {
     "category": "Bake",
 }
 
-from . import folders, operators, panel, preferences, shown  # noqa: E402
+from . import background, folders, operators, panel, preferences, records, shown  # noqa: E402
 
-PARTS = (folders, preferences, operators, panel, shown)
+PARTS = (folders, preferences, records, operators, panel, shown, background)
 
 
 def register():

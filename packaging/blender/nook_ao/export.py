@@ -1,59 +1,149 @@
-"""A character as a .glb file in which each vertex has its number."""
-import bpy
+"""A character as a .glb file in which each vertex has its number.
+
+The file is written from the objects themselves, so that it depends on no selection, on no visibility, and on no exporter.
+"""
 import numpy as np
 
-from . import vertex_numbers
+from . import character, clips, glb, vertex_numbers
 from .faults import Fault
+from .poses import Y_UP
+from .surface import Surface
 
-# Colours of earlier bakes. They are no part of the character, and colours at corners would split vertices.
-OWN_COLOURS = ("Nook AO", "Nook traced")
-
-
-def _numbered_copy(mesh, first):
-    """A copy of a mesh with the numbers of its vertices as an attribute; the artist's mesh is not touched."""
-    copy = mesh.copy()
-    for name in OWN_COLOURS:
-        if name in copy.attributes:
-            copy.attributes.remove(copy.attributes[name])
-    attribute = copy.attributes.new(vertex_numbers.NAME, "FLOAT", "POINT")
-    attribute.data.foreach_set("value", np.arange(first, first + len(copy.vertices), dtype=np.float32))
-    return copy
+# The joint of vertices that no bone moves.
+NEUTRAL_BONE = "neutral_bone"
+MOST_JOINTS = 8
 
 
-def export_character(context, armature, meshes, path, with_clips):
-    """Writes armature and meshes to `path`. The selection and the meshes are afterwards as they were."""
-    count = sum(len(o.data.vertices) for o in meshes)
-    if count > vertex_numbers.LARGEST:
-        raise Fault(f"the character has {count} vertices; at most {vertex_numbers.LARGEST} can be numbered")
-    if not hasattr(bpy.types, "EXPORT_SCENE_OT_gltf"):
-        raise Fault("the exporter of glTF is switched off; switch on the add-on glTF 2.0 format in Blender's preferences")
-    selected, active = list(context.selected_objects), context.view_layer.objects.active
-    own = [o.data for o in meshes]
-    copies = []
-    try:
-        first = 0
-        for mesh in meshes:
-            copies.append(_numbered_copy(mesh.data, first))
-            first += len(mesh.data.vertices)
-        for mesh, copy in zip(meshes, copies):
-            mesh.data = copy
-        for candidate in selected:
-            candidate.select_set(False)
-        for part in (armature, *meshes):
-            part.select_set(True)
-        context.view_layer.objects.active = armature
-        bpy.ops.export_scene.gltf(filepath=path, export_format="GLB", use_selection=True, export_attributes=True, export_apply=False,
-                                  export_animations=with_clips, export_skins=True, export_morph=False, export_materials="PLACEHOLDER",
-                                  export_cameras=False, export_lights=False, export_yup=True)
-    except RuntimeError as error:
-        raise Fault(f"the exporter of glTF failed: {error}") from error
-    finally:
-        for mesh, data in zip(meshes, own):
-            mesh.data = data
-        for copy in copies:
-            bpy.data.meshes.remove(copy)
-        for candidate in context.selected_objects:
-            candidate.select_set(False)
-        for candidate in selected:
-            candidate.select_set(True)
-        context.view_layer.objects.active = active
+def mask_of(item, armature):
+    """How far the armature moves each vertex, where its modifier is limited to a group of vertices."""
+    count = len(item.data.vertices)
+    for modifier in character.armature_modifiers(item, armature):
+        group = item.vertex_groups.get(modifier.vertex_group)
+        if group is not None:
+            values = np.zeros(count)
+            for vertex in item.data.vertices:
+                values[vertex.index] = next((g.weight for g in vertex.groups if g.group == group.index), 0.0)
+            return 1 - values if modifier.invert_vertex_group else values
+    return np.ones(count)
+
+
+def weights_of(part, armature, bone_at):
+    """Joints and weights of each vertex as vertices x MOST_JOINTS; what no bone moves follows the neutral one."""
+    item, neutral = part.item, len(bone_at)
+    count = len(item.data.vertices)
+    joints, weights = np.zeros((count, MOST_JOINTS), np.uint16), np.zeros((count, MOST_JOINTS))
+    if part.bone:
+        joints[:, 0], weights[:, 0] = bone_at[part.bone], 1
+        return joints, weights
+    moving = {b.name for b in armature.data.bones if b.use_deform}
+    bone_of_group = {g.index: bone_at[g.name] for g in item.vertex_groups if g.name in moving}
+    mask = mask_of(item, armature)
+    for vertex in item.data.vertices:
+        found = sorted(((g.weight, bone_of_group[g.group]) for g in vertex.groups if g.group in bone_of_group and g.weight > 0), reverse=True)
+        found = found[:MOST_JOINTS - 1]
+        total, share = sum(w for w, _ in found), mask[vertex.index]
+        entries = [(share * w / total, bone) for w, bone in found] + ([(1 - share, neutral)] if share < 1 else []) if total > 0 else [(1.0, neutral)]
+        for at, (weight, bone) in enumerate(entries):
+            weights[vertex.index, at], joints[vertex.index, at] = weight, bone
+    return joints, weights
+
+
+class Geometry:
+    """What of a character does not move, as arrays in the space of the file's armature."""
+
+    def __init__(self, armature, parts):
+        count = sum(len(p.item.data.vertices) for p in parts)
+        if count > vertex_numbers.LARGEST:
+            raise Fault(f"the character has {count} vertices; at most {vertex_numbers.LARGEST} can be numbered")
+        bones = armature.data.bones
+        self.bone_names = [b.name for b in bones]
+        at = {name: number for number, name in enumerate(self.bone_names)}
+        self.parents = [at[b.parent.name] if b.parent is not None else -1 for b in bones]
+        world = character.matrix(armature.matrix_world)
+        if not abs(np.linalg.det(world)) > 0:
+            raise Fault(f"the armature {armature.name} has a scale of zero; give it another one")
+        # A mirrored armature becomes a mirrored body on an unmirrored one, so that no reader has to turn it around.
+        self.mirror = np.diag([-1.0, 1, 1, 1]) if np.linalg.det(world) < 0 else np.eye(4)
+        self.root = Y_UP @ world @ self.mirror
+        self.rest = self.mirror @ np.array([character.matrix(b.matrix_local) for b in bones]).reshape(-1, 4, 4) @ self.mirror
+        self.meshes, first = [], 0
+        for part in parts:
+            surface = Surface(part.item.data)
+            if not np.isfinite(surface.positions).all():
+                raise Fault(f"the mesh {part.item.name} has vertices that are at no finite place; remove them")
+            surface.move(self.mirror @ part.bind_matrix(armature))
+            slots = [m.name if m is not None else "" for m in part.item.data.materials]
+            self.meshes.append((part.item.name, surface, *weights_of(part, armature, at), first, slots))
+            first += len(surface.positions)
+
+
+def _primitive(file, surface, joints, weights, first, chosen, sets):
+    """The triangles of one material, with a vertex for each vertex, normal and UV that differ."""
+    corners = surface.corners[chosen].ravel()
+    vertices = surface.vertex_of_corner[corners]
+    keys = [vertices[:, None], np.rint(surface.normals[corners] * 1e4)]
+    if surface.uvs is not None:
+        keys.append(surface.uvs[corners])
+    _, kept, index = np.unique(np.concatenate(keys, axis=1), axis=0, return_index=True, return_inverse=True)
+    corners, vertices = corners[kept], vertices[kept]
+    attributes = {"POSITION": file.add(surface.positions[vertices].astype(np.float32), glb.ARRAY_BUFFER, bounds=True),
+                  "NORMAL": file.add(surface.normals[corners].astype(np.float32), glb.ARRAY_BUFFER),
+                  f"_{vertex_numbers.NAME}": file.add((vertices + first).astype(np.float32), glb.ARRAY_BUFFER)}
+    if surface.uvs is not None:
+        attributes["TEXCOORD_0"] = file.add((surface.uvs[corners] * (1, -1) + (0, 1)).astype(np.float32), glb.ARRAY_BUFFER)
+    for number in range(sets):
+        columns = slice(4 * number, 4 * number + 4)
+        attributes[f"JOINTS_{number}"] = file.add(joints[vertices, columns], glb.ARRAY_BUFFER)
+        attributes[f"WEIGHTS_{number}"] = file.add(weights[vertices, columns].astype(np.float32), glb.ARRAY_BUFFER)
+    indices = file.add(index.ravel().astype(np.uint32), glb.ELEMENT_ARRAY_BUFFER)
+    return {"attributes": attributes, "indices": indices, "mode": 4}
+
+
+def _add_bones(file, geometry):
+    """The armature's node, one for each bone, and their skin; the numbers of the bones' nodes."""
+    names = geometry.bone_names
+    node_of_bone = [1 + at for at in range(len(names))]
+    nodes = [{"name": "armature", "matrix": geometry.root.T.ravel().tolist(), "children": []}]
+    for at, parent in enumerate(geometry.parents):
+        local = geometry.rest[at] if parent < 0 else np.linalg.inv(geometry.rest[parent]) @ geometry.rest[at]
+        place, turn, _ = (values[0].tolist() for values in glb.to_turns(local[None]))
+        nodes.append({"name": names[at], "translation": place, "rotation": turn})
+    for at, parent in enumerate(geometry.parents):
+        nodes[0 if parent < 0 else node_of_bone[parent]].setdefault("children", []).append(node_of_bone[at])
+    inverse = np.linalg.inv(geometry.rest)
+    joints = list(node_of_bone)
+    if any((weights[joints_ == len(names)] > 0).any() for _, _, joints_, weights, _, _ in geometry.meshes):
+        joints.append(len(nodes))
+        nodes[0]["children"].append(len(nodes))
+        nodes.append({"name": NEUTRAL_BONE})
+        inverse = np.concatenate([inverse, np.eye(4)[None]])
+    file.document["nodes"] = nodes
+    file.document["skins"] = [{"joints": joints, "inverseBindMatrices": file.add(inverse.transpose(0, 2, 1).astype(np.float32))}]
+    return node_of_bone
+
+
+def to_glb(geometry, sampled, key):
+    """The bytes of a file; `key` tells whose it is."""
+    file = glb.Glb()
+    document = file.document
+    document["asset"]["extras"] = {vertex_numbers.KEY: key}
+    node_of_bone = _add_bones(file, geometry)
+    document["meshes"], document["materials"], roots = [], [], [0]
+    for name, surface, joints, weights, first, slots in geometry.meshes:
+        sets = 2 if (weights[:, 4:] > 0).any() else 1
+        primitives = []
+        for material in np.unique(surface.materials):
+            primitive = _primitive(file, surface, joints, weights, first, surface.materials == material, sets)
+            if material < len(slots) and slots[material]:
+                primitive["material"] = len(document["materials"])
+                document["materials"].append({"name": slots[material]})
+            primitives.append(primitive)
+        roots.append(len(document["nodes"]))
+        document["nodes"].append({"name": name, "mesh": len(document["meshes"]), "skin": 0})
+        document["meshes"].append({"name": name, "primitives": primitives})
+    if not document["materials"]:
+        del document["materials"]
+    for clip in sampled:
+        clips.add_to(file, clip, geometry.parents, geometry.mirror, node_of_bone)
+    document["scene"], document["scenes"] = 0, [{"nodes": roots}]
+    return file.to_bytes()

@@ -22,20 +22,32 @@ def resolved(folder, owner):
     """The whole path of a folder that a file names; a property of a file can hold anything."""
     if not isinstance(folder, str) or not folder:
         raise Fault(f"{owner} names no folder (got {folder!r}); bake again")
-    return os.path.normpath(os.path.abspath(bpy.path.abspath(folder)))
+    if is_relative(folder) and not bpy.data.filepath:
+        raise Fault(f"the folder {folder} is relative to the .blend, which is not saved; save it first, or choose a folder by its whole path")
+    return os.path.normpath(bpy.path.abspath(as_relative(folder)))
+
+
+def is_relative(folder):
+    return folder.startswith("//") or not os.path.isabs(folder)
+
+
+def as_relative(folder):
+    """A relative path as Blender writes it: from the .blend on, and not from where Blender was started."""
+    return folder if folder.startswith("//") or not is_relative(folder) else f"//{folder}"
 
 
 def confirm(folder):
-    """The user, or a script that names the folder, wants it."""
-    _confirmed.add(resolved(folder, "the call"))
+    """The user, or a script that names the folder, wants it. A relative one is meant wherever the file is saved."""
+    _confirmed.add(as_relative(folder) if is_relative(folder) else resolved(folder, "the call"))
 
 
 def is_confirmed(folder):
-    return folder in _confirmed
+    relative = [each for each in _confirmed if each.startswith("//")] if bpy.data.filepath else []
+    return folder in _confirmed or folder in [resolved(each, "the user") for each in relative]
 
 
 def require_confirmed(folder):
-    if folder not in _confirmed:
+    if not is_confirmed(folder):
         raise Fault(f"the folder {printable(folder)} was chosen by this .blend file and is not confirmed yet; press the button in the panel, "
                     "or give the folder in a script: bpy.ops.nook.confirm(folder=...)")
 

@@ -1,16 +1,19 @@
 """The operators: bake, show, ray trace a frame, open the report."""
 import contextlib
+import os
 import pathlib
+import shutil
+import tempfile
+import time
 import webbrowser
 
 import bpy
 
-from . import character, export, folders, library, preferences, shown, tool
+from . import character, clips, export, folders, library, measure, preferences, records, shown, tool
 from .faults import Fault
 
-PAGE_FILE = "report.html"
-# Of the size of the body: what is further away is another pose.
-ALLOWED_DEVIATION = 0.01
+# How long a command may work before Blender draws its window again.
+SLICE_S = 0.1
 
 
 @contextlib.contextmanager
@@ -28,8 +31,9 @@ def object_mode(context):
 
 
 def error_text(error):
+    """A message as a sentence. A first word that is a path or a function stays as it is."""
     text = str(error)
-    return text[0].upper() + text[1:]
+    return text[0].upper() + text[1:] if text.split(" ", 1)[0].isalpha() else text
 
 
 def ask(folder, then):
@@ -52,9 +56,9 @@ class NOOK_OT_confirm(bpy.types.Operator):
                                  options={"SKIP_SAVE", "HIDDEN"})
 
     # What happens to the folder, for the user who decides.
-    USES = {"bake": "Nook will write character.glb and character.nook there, over files of these names:",
-            "show": "Nook will load character.glb and character.nook from there:",
-            "report": "Nook will load the bake from there, and write report.html there:", "none": "Nook may read and write there:"}
+    USES = {"bake": "Nook will write files by the name of the armature there:",
+            "show": "Nook will load the files of the bake from there:",
+            "report": "Nook will load the bake from there, and write the report there:", "none": "Nook may read and write there:"}
 
     def invoke(self, context, _event):
         return context.window_manager.invoke_props_dialog(self, width=600)
@@ -83,40 +87,27 @@ class NOOK_OT_confirm(bpy.types.Operator):
 
 
 class CommandOperator(bpy.types.Operator):
-    """A command of the tool. From the interface it runs beside Blender and Escape ends it; from a script Blender waits."""
+    """Work in slices. From the interface it runs beside Blender and Escape ends it; from a script Blender waits."""
 
     bl_options = {"REGISTER"}
-
-    def begin(self, context):
-        """The arguments of the command."""
-        raise NotImplementedError
-
-    def finish(self, context):
-        """What happens after the command."""
-        raise NotImplementedError
-
-    then = ""  # its name behind "nook.", which the dialog calls
+    is_kept = False  # whether Escape comes too late
+    then = ""  # its name behind "nook.", which the dialog about a folder calls
 
     def folder(self, context):
         """The folder that the command reads or writes, or None for one of its own."""
         raise NotImplementedError
 
-    def abandon(self):
-        """What happens instead of finish() where the command is not started, fails or is ended."""
+    def work(self, context):
+        """Works, and yields between slices what it is at."""
+        raise NotImplementedError
 
     def execute(self, context):
         try:
-            run = tool.Run(self.begin(context))
-            run.wait()
-            run.check()
-            self.finish(context)
+            for _ in self.work(context):
+                pass
         except Fault as error:
-            self.abandon()
             self.report({"ERROR"}, error_text(error))
             return {"CANCELLED"}
-        except BaseException:
-            self.abandon()
-            raise
         return {"FINISHED"}
 
     def invoke(self, context, _event):
@@ -126,48 +117,104 @@ class CommandOperator(bpy.types.Operator):
             folder = self.folder(context)
             if folder is not None and ask(folder, self.then):
                 return {"CANCELLED"}
-            self._run = tool.Run(self.begin(context))
         except Fault as error:
-            self.abandon()
             self.report({"ERROR"}, error_text(error))
             return {"CANCELLED"}
-        except BaseException:
-            self.abandon()
-            raise
-        self._timer = context.window_manager.event_timer_add(0.2, window=context.window)
+        self._work = self.work(context)
+        first = self._go_on(context)
+        if first != {"RUNNING_MODAL"}:
+            return first
+        self._timer = context.window_manager.event_timer_add(SLICE_S, window=context.window)
         context.window_manager.modal_handler_add(self)
+        return first
+
+    def _go_on(self, context):
+        """One slice of the work."""
+        begin = time.monotonic()
+        try:
+            while time.monotonic() - begin < SLICE_S:
+                at = next(self._work)
+                if at is tool.WAITING:
+                    break
+                self._at = at or getattr(self, "_at", "")
+        except StopIteration:
+            return {"FINISHED"}
+        except Fault as error:
+            self.report({"ERROR"}, error_text(error))
+            return {"CANCELLED"}
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
         if event.type == "ESC":
-            self._run.cancel()
+            self._work.close()
             self._end(context)
-            self.abandon()
-            self.report({"INFO"}, "Nook: cancelled")
-            return {"CANCELLED"}
+            self.report({"INFO"}, "Nook: the bake is kept and was not measured" if self.is_kept else "Nook: cancelled; no file was changed")
+            return {"FINISHED"} if self.is_kept else {"CANCELLED"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
-        if not self._run.is_done():
-            context.workspace.status_text_set(f"Nook: {self._run.last_line}   (Escape ends it)")
-            return {"RUNNING_MODAL"}
-        self._end(context)
-        try:
-            self._run.check()
-            self.finish(context)
-        except Fault as error:
-            self.abandon()
-            self.report({"ERROR"}, error_text(error))
-            return {"CANCELLED"}
-        return {"FINISHED"}
+        state = self._go_on(context)
+        if state == {"RUNNING_MODAL"}:
+            context.workspace.status_text_set(f"Nook: {self.progress()}   (Escape ends it)")
+        else:
+            self._end(context)
+        return state
+
+    def progress(self):
+        run = getattr(self, "_run", None)
+        return run.last_line if run is not None and run.last_line else getattr(self, "_at", "")
 
     def cancel(self, _context):
         """Blender ends."""
-        self._run.cancel()
-        self.abandon()
+        self._work.close()
 
     def _end(self, context):
         context.window_manager.event_timer_remove(self._timer)
         context.workspace.status_text_set(None)
+
+    def run_tool(self, arguments):
+        """Runs the command; it ends with the work."""
+        self._run = tool.Run(arguments)
+        try:
+            while not self._run.is_done():
+                yield tool.WAITING
+                if bpy.app.background or not hasattr(self, "_timer"):
+                    self._run.wait()
+        finally:
+            self._run.cancel()
+        self._run.check()
+
+
+# Characters that are being baked, by the key of their record: two bakes would write the same files.
+_baking = set()
+
+
+@contextlib.contextmanager
+def alone(record_key, name):
+    if record_key in _baking:
+        raise Fault(f"the character {name} is being baked; wait for its end, or press Escape in the window to end it")
+    _baking.add(record_key)
+    try:
+        yield
+    finally:
+        _baking.discard(record_key)
+
+
+@contextlib.contextmanager
+def scratch(folder):
+    """A folder beside the final files, which are in `folder`. It goes with what is in it, so that a bake that ends early leaves nothing."""
+    made = [p for p in (folder, *folder.parents) if not p.exists()]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        temporary = pathlib.Path(tempfile.mkdtemp(prefix=".nook-", dir=folder))
+    except OSError as error:
+        raise Fault(f"the folder {folder} cannot be written ({error.strerror}); choose another one") from error
+    try:
+        yield temporary
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
+        for each in made:
+            with contextlib.suppress(OSError):
+                each.rmdir()  # only what is empty
 
 
 class NOOK_OT_bake(CommandOperator):
@@ -175,63 +222,115 @@ class NOOK_OT_bake(CommandOperator):
 
     bl_idname = "nook.bake"
     bl_label = "Bake ambient occlusion"
-
+    bl_options = {"REGISTER", "UNDO"}
     then = "bake"
-    _folder = None
 
     def folder(self, context):
-        chosen = context.scene.nook.folder
-        return folders.resolved(chosen, "the scene") if chosen else None
+        armature = character.armature_of(context)
+        chosen = records.setting(armature, context.scene, "folder")
+        return folders.resolved(chosen, f"the armature {armature.name}") if chosen else None
 
-    def abandon(self):
-        if self._folder is not None:
-            folders.remove_temporary(self._folder)
-
-    def begin(self, context):
-        settings = context.scene.nook
+    def work(self, context):
         command = tool.find(preferences.of(context).tool)
         library.load(preferences.of(context).library)  # a bake that cannot be shown is not begun
-        armature = character.armature_of(context)
-        self._armature_name = armature.name
-        folder = self.folder(context)
-        if folder is not None:
-            folders.require_confirmed(folder)
-        else:
-            folder = folders.make_temporary()
-        self._folder = pathlib.Path(folder)
-        folders.require_own_files(folder, (shown.CHARACTER_FILE, shown.MODEL_FILE))
+        armature, scene = character.armature_of(context), context.scene
+        parts, left_out = character.parts_of(armature, context.view_layer, records.setting(armature, scene, "without"))
+        character.check_paintable(armature, parts, bpy.data.scenes)
+        preset, learns_from = (records.setting(armature, scene, name) for name in ("preset", "poses"))
+        actions = clips.chosen_actions(armature, bpy.data.actions) if learns_from != "auto" else []
+        if learns_from == "clips" and not actions:
+            raise Fault(f"the armature {armature.name} has no action; give it one, tick one in the panel, or let the bake learn from generated poses")
+        chosen = self.folder(context)
+        if chosen is not None:
+            folders.require_confirmed(chosen)
+        folder = pathlib.Path(chosen or folders.make_temporary())
+        known = records.find(armature) is not None
+        key, name = records.make(scene, armature).key, armature.name
+        self.is_kept, names = False, [p.item.name for p in parts]
+        self._others = [f"Left out: {item} {reason}" for item, reason in left_out]
+        self._others += [f"Part of it: {p.item.name} is hidden in the view, but rendered" for p in parts if not p.item.visible_get()]
+        action_names = [a.name for a in actions]
         try:
-            self._folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise Fault(f"the folder {folder} cannot be made ({error.strerror}); choose another one") from error
-        shown.hide(armature)
-        glb = self._folder / shown.CHARACTER_FILE
-        with object_mode(context):
-            armature[character.WITHOUT_PROPERTY] = settings.without
-            meshes = character.meshes_of(armature, context.view_layer)
-            armature[shown.COUNTS_PROPERTY] = shown.vertex_counts(meshes)
-            export.export_character(context, armature, meshes, str(glb), settings.poses != "auto")
-        return [command, "bake", "character", str(glb), "-o", str(self._folder / shown.MODEL_FILE), "--preset", settings.preset,
-                "--poses", settings.poses]
-
-    def finish(self, context):
-        armature = bpy.data.objects.get(self._armature_name)
-        if armature is None:
-            raise Fault(f"the armature {self._armature_name} is gone; its bake is in {self._folder}")
-        entry = shown.show(context, armature, self._folder)
+            with alone(key, name), scratch(folder) as temporary:
+                yield from self._bake(context, temporary, armature, parts, actions, [command, preset, learns_from], key)
+                self._keep(context, temporary, folder, key, name, [find_again(p.item, n) for p, n in zip(parts, names)])
+        finally:
+            if not self.is_kept:
+                folders.remove_temporary(folder)
+                if not known:
+                    records.remove(key)
+        if self._others:
+            self.report({"INFO"}, "Nook: " + "; ".join(self._others))
+        entry = shown.show(context, records.find_key(key).rig)
         show_colours(context)
-        self._warn_of_other_shapes(context, entry)
+        yield from self._measure(context, entry, action_names)
 
-    def _warn_of_other_shapes(self, context, entry):
-        others = character.has_other_modifiers(entry.meshes)
-        if others:
-            self.report({"WARNING"}, f"Nook bakes what the armature deforms; these modifiers are not part of it: {', '.join(others)}")
-            return
-        deviation = entry.deviation(context.evaluated_depsgraph_get())
-        size = max(max(o.dimensions) for o in entry.meshes)
-        if deviation is not None and deviation > ALLOWED_DEVIATION * size:
-            self.report({"WARNING"}, f"The shown body differs from one that is skinned linearly with 4 bones a vertex by {deviation:.3g} m; "
-                        "look at shape keys, Preserve Volume, and vertices of many bones")
+    def _bake(self, context, temporary, armature, parts, actions, settings, key):
+        """Writes the character and its model into a temporary folder."""
+        command, preset, learns_from = settings
+        with object_mode(context):
+            geometry = export.Geometry(armature, parts)
+        rate = context.scene.render.fps / context.scene.render.fps_base
+        sampled, names = [], [a.name for a in actions]
+        for at, name in enumerate(names):
+            yield f"action {at + 1} of {len(names)}"
+            rig, action = records.find_key(key).rig if records.find_key(key) else None, bpy.data.actions.get(name)
+            if rig is None or action is None:
+                raise Fault(f"the armature or the action {name} is gone; bake again")
+            for clip in clips.sample(rig, action, rate):
+                yield None
+            sampled.append(clip)
+        yield "writing the character"
+        glb, model = temporary / "character.glb", temporary / "character.nook"
+        glb.write_bytes(export.to_glb(geometry, sampled, key))
+        yield from self.run_tool([command, "bake", "character", str(glb), "-o", str(model), "--preset", preset, "--poses", learns_from])
+
+    def _keep(self, context, temporary, folder, key, name, items):
+        """Moves both files to their names, and notes where they are."""
+        record = records.find_key(key)
+        if record is None:  # an undo took it back
+            rig = bpy.data.objects.get(name)
+            record = records.make(context.scene, rig) if rig is not None else None
+        if record is None or record.rig is None or None in items:
+            raise Fault(f"the armature {name} or a mesh of it is gone; nothing was written")
+        record.key = key
+        files = records.free_files(folder, record.rig.name, key)
+        try:
+            os.replace(temporary / "character.glb", files.character)
+            os.replace(temporary / "character.nook", files.model)
+        except OSError as error:
+            raise Fault(f"the files {files.character} and {files.model} cannot be written ({error.strerror})") from error
+        if record.folder and record.folder != str(folder):
+            folders.remove_temporary(record.folder)  # the bake that this one replaces
+        records.keep_files(record, files)
+        records.set_parts(record, items)
+        record.rig[records.FOLDER_PROPERTY] = str(folder)
+        self.is_kept = True
+
+    def _measure(self, context, entry, names):
+        """Says how right the colours are on the meshes that Blender shows."""
+        actions = [bpy.data.actions[n] for n in names if n in bpy.data.actions]
+        result = None
+        try:
+            for result in measure.after_bake(context, entry, actions):
+                yield "measuring"
+        finally:
+            entry.painted = None
+            if entry.record is not None:
+                entry.follow(context.evaluated_depsgraph_get(), records.setting(entry.armature, context.scene, "ground"))
+        lines, why = result
+        entry.record.says = "\n".join([*lines, *self._others])
+        self.report({"INFO"}, "Nook: " + " ".join(lines[:2]))
+        if why:
+            self.report({"WARNING"}, "Nook: Blender shows what the bake does not know: " + "; ".join(why))
+
+
+def find_again(item, name):
+    """An object after other work of the artist: an undo makes it anew under its name."""
+    try:
+        return item if item.users_scene else None
+    except ReferenceError:
+        return bpy.data.objects.get(name)
 
 
 class NOOK_OT_show(bpy.types.Operator):
@@ -239,12 +338,12 @@ class NOOK_OT_show(bpy.types.Operator):
 
     bl_idname = "nook.show"
     bl_label = "Show ambient occlusion"
-    bl_options = {"REGISTER"}
+    bl_options = {"REGISTER", "UNDO"}
 
     def invoke(self, context, _event):
         try:
             armature = character.armature_of(context)
-            if shown.get(armature) is None and ask(shown.folder_of(armature), "show"):
+            if shown.get(armature) is None and ask(str(shown.existing_files(armature).folder), "show"):
                 return {"CANCELLED"}
         except Fault:
             pass  # execute() says it
@@ -256,7 +355,7 @@ class NOOK_OT_show(bpy.types.Operator):
             if shown.get(armature) is not None:
                 shown.hide(armature)
                 return {"FINISHED"}
-            shown.show(context, armature, shown.folder_of(armature))
+            shown.show(context, armature)
             show_colours(context)
         except Fault as error:
             self.report({"ERROR"}, error_text(error))
@@ -269,20 +368,32 @@ class NOOK_OT_trace(bpy.types.Operator):
 
     bl_idname = "nook.trace"
     bl_label = "Ray trace this frame"
-    bl_options = {"REGISTER"}
+    bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context):
         try:
             entry = shown_of(context)
-            traced = entry.trace(context.scene.nook.rays)
-            modelled = entry.evaluate(False)
+            depsgraph = context.evaluated_depsgraph_get()
+            pose = entry.pose(depsgraph)
+            if pose is None:
+                raise Fault(f"this view does not evaluate {entry.armature.name}; show its collection")
+            rays = records.setting(entry.armature, context.scene, "rays")
+            entry.paint(shown.AO, entry.to_vertices(entry.evaluate(pose, False)))
+            entry.painted = None
+            context.view_layer.update()
+            depsgraph = context.evaluated_depsgraph_get()
+            still = measure.Still(entry, pose, [o.evaluated_get(depsgraph) for o in entry.items])
+            errors = measure.Errors()
+            for _ in measure.add_errors(errors, entry, still, rays=rays):
+                pass
         except Fault as error:
             self.report({"ERROR"}, error_text(error))
             return {"CANCELLED"}
-        entry.paint(shown.TRACED, traced)
-        seen = traced >= 0.01
-        error = float(((traced - modelled)[seen] ** 2).mean() ** 0.5) if seen.any() else 0.0
-        self.report({"INFO"}, f"Nook: the root of the mean squared error of this frame, over what is seen, is {error:.3f}")
+        entry.follow(depsgraph, records.setting(entry.armature, context.scene, "ground"))
+        entry.paint(shown.TRACED, entry.to_vertices(entry.trace(pose, rays)))
+        entry.record.says = "\n".join(measure.text_of(errors, [still], []))
+        self.report({"INFO"}, f"Nook: the root of the mean squared error of this frame, over what is seen, is {errors['bake']:.3f} with the bake's "
+                    f"normals and {errors['blender']:.3f} with Blender's")
         return {"FINISHED"}
 
 
@@ -291,27 +402,23 @@ class NOOK_OT_report(CommandOperator):
 
     bl_idname = "nook.report"
     bl_label = "Open the report"
-
     then = "report"
 
     def folder(self, context):
-        return shown.folder_of(character.armature_of(context))
+        return str(shown.existing_files(character.armature_of(context)).folder)
 
-    def begin(self, context):
+    def work(self, context):
         command = tool.find(preferences.of(context).tool)
-        folder = self.folder(context)
-        folders.require_confirmed(folder)
-        self._folder = pathlib.Path(folder)
-        if not (self._folder / shown.MODEL_FILE).is_file():
-            raise Fault(f"the armature {character.armature_of(context).name} has no bake; bake it first")
-        folders.require_own_files(folder, (PAGE_FILE,))
-        self._page = self._folder / PAGE_FILE
-        return [command, "report", str(self._folder / shown.MODEL_FILE), str(self._folder / shown.CHARACTER_FILE), "-o", str(self._page)]
-
-    def finish(self, _context):
+        armature = character.armature_of(context)
+        files = shown.existing_files(armature)
+        folders.require_confirmed(str(files.folder))
+        if not files.model.is_file():
+            raise Fault(f"the file {files.model} of the armature {armature.name} does not exist; bake it first")
+        folders.require_own_files(files.folder, (files.report.name,))
+        yield from self.run_tool([command, "report", str(files.model), str(files.character), "-o", str(files.report)])
         if not bpy.app.background:
-            webbrowser.open(self._page.as_uri())
-        self.report({"INFO"}, f"Nook: the report is {self._page}")
+            webbrowser.open(files.report.as_uri())
+        self.report({"INFO"}, f"Nook: the report is {files.report}")
 
 
 def shown_of(context):

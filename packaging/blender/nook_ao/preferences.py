@@ -1,4 +1,4 @@
-"""Where the command and the libraries are, and the settings of a scene."""
+"""Where the command and the libraries are, and the settings of a rig."""
 import bpy
 
 from . import folders
@@ -6,6 +6,7 @@ from . import folders
 PRESETS = (("draft", "Draft", "About 20 seconds"), ("standard", "Standard", "Up to 5 minutes"), ("production", "Production", "Up to half an hour"))
 POSES = (("all", "Generated and actions", "Generated poses, and those of the character's actions"), ("auto", "Generated", "Generated poses alone"),
          ("clips", "Actions", "Poses of the character's actions alone"))
+OVERRIDABLE = {"LIBRARY_OVERRIDABLE"}
 
 
 class NookPreferences(bpy.types.AddonPreferences):
@@ -27,16 +28,20 @@ def confirm_chosen(settings, _context):
 
 
 class NookSettings(bpy.types.PropertyGroup):
-    preset: bpy.props.EnumProperty(name="Preset", items=PRESETS, default="draft", description="How long the bake may take")
-    poses: bpy.props.EnumProperty(name="Poses", items=POSES, default="all", description="Poses that the bake learns from")
-    without: bpy.props.StringProperty(name="Leave out", default="",
+    """Settings of a rig, and those of a scene for rigs that have none. An override of a library keeps its own."""
+
+    preset: bpy.props.EnumProperty(name="Preset", items=PRESETS, default="draft", override=OVERRIDABLE, description="How long the bake may take")
+    poses: bpy.props.EnumProperty(name="Poses", items=POSES, default="all", override=OVERRIDABLE, description="Poses that the bake learns from")
+    without: bpy.props.StringProperty(name="Leave out", default="", override=OVERRIDABLE,
                                       description="Names of objects that are no part of the bake, such as spare weapons, separated by "
                                       "commas; * and ? stand for any text and any character. Lower levels of detail (LOD1 and so on) "
                                       "are always left out")
-    ground: bpy.props.BoolProperty(name="Ground", default=False, description="A floor at the height of zero darkens the character from below")
-    folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH", default="", update=confirm_chosen,
-                                     description="Where character.glb and character.nook are kept; empty: a temporary folder")
-    rays: bpy.props.IntProperty(name="Rays", default=256, min=16, max=16384, description="Rays for each vertex of a traced frame")
+    ground: bpy.props.BoolProperty(name="Ground", default=False, override=OVERRIDABLE,
+                                   description="A floor at the height of zero darkens the character from below")
+    folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH", default="", override=OVERRIDABLE, update=confirm_chosen,
+                                     description="Where the files of the bake are kept, by the name of the armature; empty: a temporary folder")
+    rays: bpy.props.IntProperty(name="Rays", default=256, min=16, max=16384, override=OVERRIDABLE,
+                                   description="Rays for each vertex of a traced frame")
 
 
 class Unregistered:
@@ -54,10 +59,14 @@ def of(context):
 def register():
     bpy.utils.register_class(NookPreferences)
     bpy.utils.register_class(NookSettings)
+    bpy.types.Object.nook = bpy.props.PointerProperty(type=NookSettings, override=OVERRIDABLE)
     bpy.types.Scene.nook = bpy.props.PointerProperty(type=NookSettings)
+    bpy.types.Action.nook_bake = bpy.props.BoolProperty(name="Bake", default=False, description="Nook's bakes of rigs that fit learn from this action")
 
 
 def unregister():
+    del bpy.types.Action.nook_bake
     del bpy.types.Scene.nook
+    del bpy.types.Object.nook
     bpy.utils.unregister_class(NookSettings)
     bpy.utils.unregister_class(NookPreferences)

@@ -1,119 +1,119 @@
-"""Characters whose ambient occlusion is shown: the model of each, and the handler that follows the timeline."""
-import pathlib
-
+"""Characters whose ambient occlusion is shown: the model of each, and the handlers that follow the timeline, posing and renders."""
 import bpy
 import numpy as np
 
-from . import character, folders, library, poses, preferences, vertex_numbers
+from . import character, folders, library, poses, preferences, records, stage, vertex_numbers
 from .faults import Fault
 
 AO, TRACED = "Nook AO", "Nook traced"
-# Where an armature keeps its files, so that a saved scene shows its bake again.
-FOLDER_PROPERTY = "nook_folder"
-# How many vertices each mesh had at the bake, in the order of the meshes.
+# How many vertices each mesh had at the bake, in scenes of version 1.0.
 COUNTS_PROPERTY = "nook_vertex_counts"
-MODEL_FILE, CHARACTER_FILE = "character.nook", "character.glb"
+# What they leave out, there.
+WITHOUT_PROPERTY = "nook_without"
 
 
 class Shown:
     """A baked character with what leads from its pose in Blender to colours on its meshes."""
 
-    def __init__(self, armature, meshes, folder, nook):
-        # Names: an undo replaces the objects themselves.
-        self.armature_name, self.mesh_names = armature.name, [o.name for o in meshes]
-        self.folder, self.nook, self.painted = pathlib.Path(folder), nook, None
-        data = (self.folder / CHARACTER_FILE).read_bytes()
+    def __init__(self, record, files, nook):
+        self.key, self.nook, self.painted = record.key, nook, None
+        data = files.character.read_bytes()
         self.character = nook.Character(data=data)
-        self.model = nook.CharacterModel((self.folder / MODEL_FILE).read_bytes())
+        self.model = nook.CharacterModel(files.model.read_bytes())
         if self.model.vertex_count != self.character.vertex_count:
-            raise Fault(f"{MODEL_FILE} has {self.model.vertex_count} vertices and {CHARACTER_FILE} {self.character.vertex_count}; bake again")
+            raise Fault(f"the file {files.model} has {self.model.vertex_count} vertices and {files.character} {self.character.vertex_count}; bake again")
         self.numbers = vertex_numbers.read_vertex_numbers(data)
-        counts = vertex_counts(meshes)
-        baked = baked_counts(armature, counts)
-        self.count = sum(counts)
-        if baked != counts or len(self.numbers) != self.model.vertex_count or self.numbers.max() >= self.count:
-            raise Fault(f"the meshes have {counts} vertices, and the bake is of {baked}; bake again after a change of the meshes")
+        self.counts = [p.vertices for p in record.parts]
+        self.count = sum(self.counts)
+        counts = vertex_counts(self.items)
+        if self.counts != counts or len(self.numbers) != self.model.vertex_count or self.numbers.max() >= self.count:
+            raise Fault(f"the meshes have {counts} vertices, and the bake is of {self.counts}; bake again after a change of the meshes")
         rest, _ = self.character.vertices()
-        self.rest = poses.find_rest_matrix(character.bind_points(armature, meshes)[self.numbers], rest.astype(np.float64))
+        parts = [character.Part(item, record.rig) for item in self.items]
+        self.rest = poses.find_rest_matrix(*self._bind_places(record.rig, parts, rest.astype(np.float64)))
         self.scene = nook.Scene()
         self.instance = self.scene.add_instance(self.model)
 
+    def _bind_places(self, armature, parts, rest):
+        """Vertices in armature space and in the file. What hangs on a bone by a constraint may have been moved since: left out, if
+        there are others."""
+        numbers = self.numbers
+        deformed = np.repeat([not part.bone for part in parts], self.counts)
+        chosen = deformed[numbers] if deformed.any() else np.ones(len(numbers), dtype=bool)
+        return character.bind_points(armature, parts)[numbers[chosen]], rest[chosen]
+
+    @property
+    def record(self):
+        return records.find_key(self.key)
+
     @property
     def armature(self):
-        return bpy.data.objects[self.armature_name]
+        return self.record.rig
 
     @property
-    def meshes(self):
-        return [bpy.data.objects[name] for name in self.mesh_names]
+    def items(self):
+        return [p.item for p in self.record.parts]
 
-    def pose(self):
-        """The matrices of the pose that Blender has now."""
+    def pose_of(self, evaluated):
+        """The matrices of the pose that an evaluated armature has."""
         # The order is that of the model's bones, which is that of the file.
-        skinning = character.skinning_matrices(self.armature, self.model.bone_names)
-        return poses.bone_matrices(character.matrix(self.armature.matrix_world), skinning, self.rest)
+        skinning = character.skinning_matrices(evaluated, self.model.bone_names)
+        return poses.bone_matrices(character.matrix(evaluated.matrix_world), skinning, self.rest)
 
-    def evaluate(self, ground):
-        """AO of the pose of now, one value for each vertex of the file; ground darkens from below, at the height of zero."""
-        self.instance.set_pose(self.pose())
+    def pose(self, depsgraph=None):
+        """The pose of a view or of a render; None where it does not have the armature."""
+        evaluated = self.armature.evaluated_get(depsgraph or bpy.context.evaluated_depsgraph_get())
+        return self.pose_of(evaluated) if evaluated.is_evaluated else None
+
+    def evaluate(self, pose, ground):
+        """AO of a pose, one value for each vertex of the file; ground darkens from below, at the height of zero."""
+        self.instance.set_pose(pose)
         self.instance.set_ground((0.0, 1.0, 0.0, 0.0) if ground else None)
         self.scene.update()
         return self.instance.read_ao()
 
-    def trace(self, rays):
+    @property
+    def ray_offset(self):
+        return 1e-4 * float(np.linalg.norm(self.character.bounds[1] - self.character.bounds[0]))
+
+    def trace(self, pose, rays):
         """The same by ray tracing of the body alone."""
-        positions, normals = self.character.skin(self.pose())
-        offset = 1e-4 * float(np.linalg.norm(self.character.bounds[1] - self.character.bounds[0]))
-        return self.nook.trace_ao([(positions, self.character.triangles())], positions, normals, rays=rays, origin_offset=offset)
+        positions, normals = self.character.skin(pose)
+        return self.nook.trace_ao([(positions, self.character.triangles())], positions, normals, rays=rays, origin_offset=self.ray_offset)
 
-    def deviation(self, depsgraph):
-        """The largest distance in metres between Blender's vertices and the same ones skinned by Nook; None where it has others."""
-        points = character.shown_points(self.meshes, depsgraph)
-        if points is None:
-            return None
-        positions, _ = self.character.skin(self.pose())
-        return float(np.linalg.norm(poses.moved(poses.Y_UP, points)[self.numbers] - positions, axis=1).max())
+    def to_vertices(self, values):
+        """Values of the file's vertices as those of Blender's, mesh after mesh."""
+        return poses.mean_of_copies(values, self.numbers, self.count)
 
-    def paint(self, name, values):
-        """Writes values of the file's vertices into a colour attribute of the meshes."""
-        grey = poses.mean_of_copies(values, self.numbers, self.count)
+    def paint(self, name, grey):
+        """Writes values of Blender's vertices into a colour attribute of the meshes."""
         first = 0
-        for mesh in self.meshes:
-            data = mesh.data
-            count = len(data.vertices)
-            write_colours(data, name, grey[first:first + count])
+        for item, count in zip(self.items, self.counts):
+            write_colours(item.data, name, grey[first:first + count])
             first += count
 
-    def follow(self, ground):
-        """Paints the pose of now, if it is another one than the last; meshes that are being edited wait."""
-        if any(o.data.is_editmode for o in self.meshes):
+    def follow(self, depsgraph, ground):
+        """Paints the pose of a view or of a render, if it is another one than the last; meshes that are being edited wait."""
+        if any(o.data.is_editmode for o in self.items):
             return
-        now = (ground, self.pose().tobytes())
-        if now != self.painted:
-            self.painted = now
-            self.paint(AO, self.evaluate(ground))
+        pose = self.pose(depsgraph)
+        if pose is not None and (ground, pose.tobytes()) != self.painted:
+            self.painted = (ground, pose.tobytes())
+            self.paint(AO, self.to_vertices(self.evaluate(pose, ground)))
 
-    def is_alive(self):
-        return all(name in bpy.data.objects for name in (self.armature_name, *self.mesh_names)) and \
-            (any(o.data.is_editmode for o in self.meshes) or self.count == sum(vertex_counts(self.meshes)))
-
-
-def baked_counts(armature, default):
-    """What the bake wrote; a property of a file can hold anything."""
-    try:
-        return [int(count) for count in armature.get(COUNTS_PROPERTY, default)]
-    except (TypeError, ValueError):
+    def what_is_gone(self):
+        """Why this character cannot be shown any more; None while it can."""
+        record = self.record
+        if record is None or record.rig is None or any(p.item is None for p in record.parts):
+            return "its armature or a mesh of it is gone"
+        counts = vertex_counts(self.items)
+        if counts != self.counts and not any(o.data.is_editmode for o in self.items):
+            return f"its meshes have {counts} vertices, and the bake is of {self.counts}; bake again"
         return None
 
 
-def folder_of(armature):
-    """Where the armature's bake is, as the file says; it may have to be confirmed."""
-    if FOLDER_PROPERTY not in armature:
-        raise Fault(f"the armature {armature.name} has no bake; bake it first")
-    return folders.resolved(armature[FOLDER_PROPERTY], f"the armature {armature.name}")
-
-
-def vertex_counts(meshes):
-    return [len(o.data.vertices) for o in meshes]
+def vertex_counts(items):
+    return [len(o.data.vertices) for o in items]
 
 
 def write_colours(data, name, grey):
@@ -124,84 +124,176 @@ def write_colours(data, name, grey):
         attribute = data.color_attributes.new(name, "FLOAT_COLOR", "POINT")
     colours = np.ones((len(grey), 4), dtype=np.float32)
     colours[:, :3] = grey[:, None]
-    attribute.data.foreach_set("color", colours.ravel())
-    data.color_attributes.active_color = data.color_attributes[name]
+    if data.library is None:
+        attribute.data.foreach_set("color", colours.ravel())
+    else:  # foreach_set leaves data of a library as they are, without a word
+        for element, colour in zip(attribute.data, colours.tolist()):
+            element.color = colour
+    if not is_rendering() and data.color_attributes.active_color != attribute:
+        data.color_attributes.active_color = data.color_attributes[name]
     data.update_tag()
 
 
-_shown = {}
+_shown, _stopped = {}, {}
+_renders = [False]
+
+
+def is_rendering():
+    return _renders[0] or bpy.app.is_job_running("RENDER")
 
 
 def get(armature):
     """The shown character of an armature, or None."""
-    found = _shown.get(armature.name)
-    if found is not None and not found.is_alive():
-        del _shown[armature.name]
-        return None
-    return found
+    record = records.find(armature)
+    return _shown.get(record.key) if record is not None else None
 
 
-def show(context, armature, folder):
-    """Loads the bake in a confirmed folder and paints the current pose."""
-    folders.require_confirmed(str(folder))
-    nook = library.load(preferences.of(context).library)
-    meshes = character.meshes_of(armature, context.view_layer)
-    for name in (MODEL_FILE, CHARACTER_FILE):
-        if not (pathlib.Path(folder) / name).is_file():
-            raise Fault(f"{pathlib.Path(folder) / name} does not exist; bake the character first")
+def why_stopped(armature):
+    """Why a character that was shown is not any more, or None."""
+    record = records.find(armature)
+    return _stopped.get(record.key) if record is not None else None
+
+
+def record_of_old_bake(context, armature):
+    """The record of a bake by version 1.0, which knew the meshes by their order."""
+    without = armature.get(WITHOUT_PROPERTY, "")
+    parts, _ = character.parts_of(armature, context.view_layer, without if isinstance(without, str) else "")
+    items = [p.item for p in parts if not p.bone and p.item.visible_get(view_layer=context.view_layer)]
     try:
-        entry = Shown(armature, meshes, folder, nook)
-    except nook.NookError as error:
+        counts = [int(count) for count in armature.get(COUNTS_PROPERTY, vertex_counts(items))]
+    except (TypeError, ValueError):  # a property of a file can hold anything
+        counts = []
+    if counts != vertex_counts(items):
+        raise Fault(f"the meshes have {vertex_counts(items)} vertices, and the bake is of {counts}; bake again after a change of the meshes")
+    record = records.make(context.scene, armature)
+    records.keep_files(record, records.files_of(armature))
+    records.set_parts(record, items)
+    return record
+
+
+def existing_files(armature):
+    """Where the armature's bake is, as the file says; it may have to be confirmed."""
+    files = records.files_of(armature)
+    if files is None:
+        raise Fault(f"the armature {armature.name} has no bake; bake it first")
+    return files
+
+
+def show(context, armature):
+    """Loads the bake of an armature from a confirmed folder and paints the current pose."""
+    files = existing_files(armature)
+    folders.require_confirmed(str(files.folder))
+    nook = library.load(preferences.of(context).library)
+    for path in (files.model, files.character):
+        if not path.is_file():
+            raise Fault(f"the file {path} does not exist; bake the character first")
+    record = records.find(armature)
+    if record is None or not record.folder:
+        record = record_of_old_bake(context, armature)
+    elif vertex_numbers.read_key(files.character) not in (record.key, None):
+        raise Fault(f"the file {files.character} is of another character; bake this one again")
+    if any(p.item is None for p in record.parts):
+        raise Fault(f"a mesh of the bake of {armature.name} is gone; bake again")
+    try:
+        entry = Shown(record, files, nook)
+    except (nook.NookError, OSError) as error:
         raise Fault(str(error)) from error
-    _shown[armature.name] = entry
-    before = armature.get(FOLDER_PROPERTY)
-    if isinstance(before, str) and before != str(folder):
-        folders.remove_temporary(before)  # the bake that this one replaces
-    armature[FOLDER_PROPERTY] = str(folder)
-    entry.follow(context.scene.nook.ground)
+    _shown[record.key], record.is_shown = entry, True
+    _stopped.pop(record.key, None)
+    entry.follow(context.evaluated_depsgraph_get(), records.setting(armature, context.scene, "ground"))
     return entry
 
 
 def hide(armature):
-    _shown.pop(armature.name, None)
+    record = records.find(armature)
+    if record is not None:
+        _shown.pop(record.key, None)
+        record.is_shown = False
+
+
+def _stop(key, reason):
+    entry = _shown.pop(key)
+    record = entry.record
+    name = record.rig.name if record is not None and record.rig is not None else "a character"
+    _stopped[key] = reason
+    print(f"Nook: {name} is no longer shown: {reason}")
 
 
 @bpy.app.handlers.persistent
-def follow(scene, _depsgraph=None):
-    """Paints all shown characters at a new frame, and in a new pose."""
-    for name in list(_shown):
-        entry = _shown[name]
-        if not entry.is_alive():
-            del _shown[name]
+def follow(scene, depsgraph=None):
+    """Paints all shown characters at a new frame, and in a new pose.
+
+    A render evaluates the scene by itself, and so does every view; the rig that the meshes follow is the one of that evaluation. While
+    a render runs, views do not paint.
+    """
+    if not _shown or depsgraph is None or stage.is_open() or (is_rendering() and depsgraph.mode != "RENDER"):
+        return
+    for key in list(_shown):
+        entry = _shown[key]
+        if entry.record is None:
+            continue  # an undo took the armature back; a redo brings it again
+        gone = entry.what_is_gone()
+        if gone is not None:
+            _stop(key, gone)
             continue
         try:
-            entry.follow(scene.nook.ground)
+            entry.follow(depsgraph, records.setting(entry.armature, scene, "ground"))
         except entry.nook.NookError as error:
-            del _shown[name]
-            print(f"Nook: {name} is no longer shown: {error}")
+            _stop(key, str(error))
 
 
 @bpy.app.handlers.persistent
-def follow_posing(scene, depsgraph=None):
-    """The same while an artist poses. A render reads the meshes meanwhile; it has frames of its own."""
-    if _shown and not bpy.app.is_job_running("RENDER"):
-        follow(scene, depsgraph)
+def begin_render(*_):
+    _renders[0] = True
+
+
+@bpy.app.handlers.persistent
+def end_render(*_):
+    _renders[0] = False
+
+
+_before_undo = {}
+
+
+@bpy.app.handlers.persistent
+def remember(*_):
+    """What an undo may take back although the files stay: by names, because objects are made anew."""
+    _before_undo.clear()
+    for key in _shown:
+        record = records.find_key(key)
+        if record is not None and record.rig is not None:
+            _before_undo[key] = records.to_words(record)
+
+
+@bpy.app.handlers.persistent
+def repaint(*_):
+    """After an undo a bake is still on disk, and the meshes have the colours of another time."""
+    for key, words in _before_undo.items():
+        if records.find_key(key) is None:
+            records.from_words(words)
+    for entry in _shown.values():
+        entry.painted = None
 
 
 @bpy.app.handlers.persistent
 def forget(*_):
     """Another file holds other objects."""
     _shown.clear()
+    _stopped.clear()
+    end_render()
+
+
+HANDLERS = (("frame_change_post", follow), ("depsgraph_update_post", follow), ("render_init", begin_render), ("render_complete", end_render),
+            ("render_cancel", end_render), ("undo_pre", remember), ("redo_pre", remember),
+            ("undo_post", repaint), ("redo_post", repaint), ("load_pre", forget))
 
 
 def register():
-    bpy.app.handlers.frame_change_post.append(follow)
-    bpy.app.handlers.depsgraph_update_post.append(follow_posing)
-    bpy.app.handlers.load_pre.append(forget)
+    for name, function in HANDLERS:
+        getattr(bpy.app.handlers, name).append(function)
 
 
 def unregister():
-    bpy.app.handlers.frame_change_post.remove(follow)
-    bpy.app.handlers.depsgraph_update_post.remove(follow_posing)
-    bpy.app.handlers.load_pre.remove(forget)
-    _shown.clear()
+    for name, function in HANDLERS:
+        getattr(bpy.app.handlers, name).remove(function)
+    forget()

@@ -16,6 +16,10 @@ def find(path):
     return found
 
 
+# What slices of work yield while a command runs.
+WAITING = object()
+
+
 class Run:
     """A command that runs; a thread reads what it prints, so that Blender does not wait for it."""
 
@@ -64,8 +68,9 @@ class Run:
         self.is_done()
 
     def cancel(self):
-        """Ends the command, which leaves no half file."""
-        self._process.terminate()
+        """Ends the command if it still runs; it leaves no half file."""
+        if self._process.poll() is None:
+            self._process.terminate()
         self.wait()
 
     def check(self):

@@ -1,6 +1,6 @@
 """Which of Blender's vertices each vertex of a glTF file is.
 
-The exporter splits a vertex where its corners differ in normal or UV, and puts what is left in an order of its own. Positions alone do
+A file splits a vertex where its corners differ in normal or UV, and puts what is left in an order of its own. Positions alone do
 not tell which is which: the two sides of a cloth and the shells of hair lie at one place. Each vertex therefore carries its number as
 an attribute through the file. A float holds whole numbers up to 2^24 exactly, and the attribute is the same at all corners of a
 vertex, so that it splits nothing.
@@ -13,6 +13,8 @@ import numpy as np
 from .faults import Fault
 
 NAME = "NOOK_VERTEX"
+# In the extras of the file: whose it is.
+KEY = "nook_character"
 LARGEST = 1 << 24
 GLB_MAGIC, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
 FORMATS = {5121: "u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -59,3 +61,16 @@ def read_vertex_numbers(data):
     if not numbers:
         raise Fault("the exported file has no triangles")
     return np.concatenate(numbers)
+
+
+def read_key(path):
+    """Whose file a .glb is; None where the add-on did not write it, or there is none."""
+    try:
+        with open(path, "rb") as file:
+            head = file.read(20)
+            if len(head) < 20 or struct.unpack_from("<I", head)[0] != GLB_MAGIC:
+                return None
+            extras = json.loads(file.read(struct.unpack_from("<I", head, 12)[0])).get("asset", {}).get("extras")
+    except (OSError, ValueError):
+        return None
+    return extras.get(KEY) if isinstance(extras, dict) else None

@@ -1,0 +1,69 @@
+"""Shows the bakes of a file that Blender opens without a window, as `blender -b FILE -a` does to render it.
+
+Nobody can press a button there. A bake is read unasked if it is in the folder of the .blend or below, and if Blender was told to trust
+the file; otherwise stderr says why it is not shown.
+"""
+import fnmatch
+import os
+import sys
+
+import bpy
+
+from . import folders, records, shown
+from .faults import Fault
+
+
+def is_trusted():
+    """Whether scripts of files may run: by the command line, or by the preferences."""
+    own = sys.argv[1:sys.argv.index("--")] if "--" in sys.argv else sys.argv[1:]
+    flags = [a in ("-y", "--enable-autoexec") for a in own if a in ("-y", "--enable-autoexec", "-Y", "--disable-autoexec")]
+    if flags:
+        return flags[-1]
+    preferences = bpy.context.preferences
+    if not preferences.filepaths.use_scripts_auto_execute:
+        return False
+    folder = os.path.dirname(bpy.data.filepath)
+    return not any(fnmatch.fnmatch(folder, each.path) if each.use_glob else (folder + os.sep).startswith(each.path.rstrip(os.sep) + os.sep)
+                   for each in preferences.autoexec_paths if each.path)
+
+
+def refusal(files):
+    """Why a bake is not shown unasked; None if it may be."""
+    for path in (files.model, files.character):
+        inside = records.folder_inside(path)
+        if inside is None:
+            return f"{path} is not in the folder of {bpy.data.filepath}; move it there, or show it by a script that calls bpy.ops.nook.show()"
+    if not is_trusted():
+        return "auto-execution is off; start Blender with -y (--enable-autoexec) before the file, or switch it on in the preferences"
+    return None
+
+
+def baked_rigs():
+    """The rigs of this file that have a bake, each with whether it was shown when the file was saved; files of version 1.0 do not say."""
+    found = [(r.rig, r.is_shown) for r in records.every() if r.rig is not None and r.folder]
+    return found + [(o, True) for o in bpy.data.objects if o.type == "ARMATURE" and records.FOLDER_PROPERTY in o and records.find(o) is None]
+
+
+@bpy.app.handlers.persistent
+def after_load(*_):
+    if not bpy.app.background:
+        return
+    for rig, was_shown in baked_rigs():
+        try:
+            files = shown.existing_files(rig)
+            reason = refusal(files) if was_shown else "it was switched off when the file was saved; press Show and save again"
+            if reason is None:
+                folders.confirm(str(files.folder))
+                shown.show(bpy.context, rig)
+        except Fault as error:
+            reason = str(error)
+        if reason is not None:
+            print(f"Nook: the ambient occlusion of {rig.name} is not shown: {reason}", file=sys.stderr, flush=True)
+
+
+def register():
+    bpy.app.handlers.load_post.append(after_load)
+
+
+def unregister():
+    bpy.app.handlers.load_post.remove(after_load)
