@@ -66,7 +66,7 @@ struct Sampling {
   float max_radius_px = 256;          // a radius that covers more pixels shrinks
   std::uint32_t taps = default_taps;  // horizon form: a count of horizon_grid; paper form: 1 to 961
   float min_radius_px = 0;            // a radius that covers fewer pixels grows; at most max_radius_px
-  DistanceFade fade;
+  DistanceFade fade = {};
 };
 
 // The radius of one pixel after the clamp, and the share of its darkness that counts: where the radius grows,
