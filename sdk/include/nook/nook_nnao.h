@@ -134,7 +134,7 @@ typedef struct nook_nnao_frame_desc {
   float motion_vector_scale[2];
   /* 1 at a cut: earlier frames are not used. Another viewport size or kind of projection cuts by itself. */
   int32_t reset;
-  /* Pixels that the radius covers at least, default 8; 0: no minimum. Far away the radius grows to them, and
+  /* Pixels that the radius covers at least, default 12; 0: no minimum. Far away the radius grows to them, and
    * its AO becomes weaker in return, so that AO spreads evenly where it would flicker. */
   float min_radius_px;
   /* Metres in front of the camera: AO fades from fade_begin on and is 1 from fade_end on. 0: never. */
