@@ -19,6 +19,8 @@ uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 #define nook_range_sharpness nook_frame[NOOK_FRAME_SPREAD].w  // values of AO that differ by twice its inverse are not averaged
 #define nook_radius nook_frame[NOOK_FRAME_RADIUS].x         // metres
 #define nook_max_radius_px nook_frame[NOOK_FRAME_RADIUS].y  // texels of the surface
+#define nook_min_radius_px nook_frame[NOOK_FRAME_FADE].x    // texels of the surface, at most nook_max_radius_px
+#define nook_fade nook_frame[NOOK_FRAME_FADE].yz            // the share of AO that is left is x depth + y, clamped
 #define nook_intensity nook_frame[NOOK_FRAME_RADIUS].z
 #define nook_power nook_frame[NOOK_FRAME_RADIUS].w
 #define nook_normal_scale nook_frame[NOOK_FRAME_NORMAL].x
@@ -67,9 +69,12 @@ vec2 nook_pixel_scale(float depth) {
   return 1.0 / (nook_surface_rays.xz * nook_extent(depth));
 }
 
-// Returns the radius of a pixel in metres and in texels. It shrinks where it would cover too many texels.
-vec2 nook_pixel_radius(vec2 scale) {
-  float per_metre = abs(scale.y);
-  float texels = min(nook_radius * per_metre, nook_max_radius_px);
-  return vec2(texels / per_metre, texels);
+// Returns the radius of a pixel in metres and in texels, and the share of its darkness that counts. The radius shrinks
+// where it would cover too many texels. Where it would cover too few it grows, and what is dark then spreads over more
+// texels: the share keeps its sum.
+vec3 nook_pixel_radius(vec2 scale, float depth) {
+  float per_metre = abs(scale.y), wanted = nook_radius * per_metre;
+  float texels = clamp(wanted, nook_min_radius_px, nook_max_radius_px);
+  float share = min(wanted / texels, 1.0) * clamp(nook_fade.x * depth + nook_fade.y, 0.0, 1.0);
+  return vec3(texels / per_metre, texels, share);
 }

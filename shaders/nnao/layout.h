@@ -30,7 +30,8 @@
 #define NOOK_FRAME_SURFACE 8
 #define NOOK_FRAME_NORMAL_MATRIX 9
 #define NOOK_FRAME_INPUT 12
-#define NOOK_FRAME_VEC4S 13
+#define NOOK_FRAME_FADE 13
+#define NOOK_FRAME_VEC4S 14
 
 // vec4 of the uniform array nook_earlier: the rows of the matrix to the earlier frame's view space, then
 // these.

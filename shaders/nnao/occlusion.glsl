@@ -23,10 +23,13 @@ vec4 nook_occlusion(ivec2 texel) {
 #endif
   vec2 scale = nook_pixel_scale(depth);
   vec3 position = nook_position(nook_surface_rays, vec2(texel), depth), bent;
-  float ao = nook_evaluate(texel, position, normal, scale, nook_pixel_radius(scale), bent);
+  vec3 radius = nook_pixel_radius(scale, depth);
+  float ao = nook_evaluate(texel, position, normal, scale, radius.xy, bent);
+  // Exactly AO where all of it counts.
+  ao = radius.z * ao + (1.0 - radius.z);
   vec4 found = vec4(clamp(ao, 0.0, 1.0), nook_packed_edges(around.connected), 0.0, 1.0);
 #if NOOK_BENT_NORMALS
-  found.ba = nook_coded_bent_normal(bent, nook_to_viewer(position));
+  found.ba = nook_coded_bent_normal(radius.z * bent + (1.0 - radius.z) * normal, nook_to_viewer(position));
 #endif
   return found;
 }

@@ -102,8 +102,9 @@ ScreenFrame frame_of(Script& script) {
   }
   if (settings & 32) frame.projection[script.below(16)] = script.number();
   if (settings & 64)
-    for (float* number : {&frame.radius, &frame.max_radius_px, &frame.intensity, &frame.power,
-                          &frame.normal_scale, &frame.normal_matrix[4]})
+    for (float* number :
+         {&frame.radius, &frame.max_radius_px, &frame.min_radius_px, &frame.fade_begin, &frame.fade_end,
+          &frame.intensity, &frame.power, &frame.normal_scale, &frame.normal_matrix[4]})
       *number = script.number();
   if (settings & 128)
     for (std::int32_t& number : frame.viewport) number = std::int32_t(script.below(20)) - 4;

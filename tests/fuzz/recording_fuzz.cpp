@@ -87,6 +87,9 @@ void replay(nook_gl gl, const nook_nnao_recording_desc& recorded) {
   frame.radius = recorded.radius;
   frame.radius_kind = recorded.radius_kind;
   frame.max_radius_px = recorded.max_radius_px;
+  frame.min_radius_px = recorded.min_radius_px;
+  frame.fade_begin = recorded.fade_begin;
+  frame.fade_end = recorded.fade_end;
   frame.intensity = recorded.intensity;
   frame.power = recorded.power;
   frame.gbuffer_ao = recorded.layer;
@@ -105,7 +108,8 @@ void change(nook_context context, nook_nnao_recording recording, Script& script)
   if (choice & 1) desc.projection[script.below(16)] = script.number();
   if (choice & 2) desc.normal_matrix[script.below(9)] = script.number();
   if (choice & 4)
-    for (float* number : {&desc.radius, &desc.max_radius_px, &desc.intensity, &desc.power, &desc.sky_depth})
+    for (float* number : {&desc.radius, &desc.max_radius_px, &desc.min_radius_px, &desc.fade_begin,
+                          &desc.fade_end, &desc.intensity, &desc.power, &desc.sky_depth})
       *number = script.number();
   if (choice & 8) desc.taps = 1 << script.below(10);
   if (choice & 16) desc.blur_sharpness = script.number();

@@ -282,6 +282,7 @@ ScreenFrame frame_desc(const Camera& camera, int width, int height, GLuint depth
   std::memcpy(frame.projection, camera.projection, sizeof frame.projection);
   frame.clip_space = camera.clip;
   frame.radius = radius;
+  frame.min_radius_px = 0;  // these pictures are small
   return frame;
 }
 

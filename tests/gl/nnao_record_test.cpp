@@ -77,6 +77,9 @@ std::vector<float> replayed(NnaoFixture& fixture, const nook_nnao_recording_desc
   frame.clip_space = desc.clip;
   frame.radius = desc.radius;
   frame.max_radius_px = desc.max_radius_px;
+  frame.min_radius_px = desc.min_radius_px;
+  frame.fade_begin = desc.fade_begin;
+  frame.fade_end = desc.fade_end;
   frame.intensity = desc.intensity;
   frame.power = desc.power;
   frame.gbuffer_ao = desc.layer;
@@ -206,6 +209,9 @@ TEST_CASE("nnao: frames of every setting replay to the same AO") {
          f.depth_kind = NOOK_DEPTH_LINEAR;
          f.sky_depth = 6;
          f.max_radius_px = 9;
+         f.min_radius_px = 7;
+         f.fade_begin = 1;
+         f.fade_end = 9;
        })},
   };
   for (const auto& [name, pass, frame] : settings) {

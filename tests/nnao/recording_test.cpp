@@ -208,6 +208,9 @@ TEST_CASE("a frame that no pass draws is not recorded, and the text names the nu
       {"radius", [](Recording& r) { r.frame.radius = 0; }},
       {"radius", [](Recording& r) { r.frame.radius = nan_number; }},
       {"max_radius_px", [](Recording& r) { r.frame.max_radius_px = 0.5f; }},
+      {"min_radius_px", [](Recording& r) { r.frame.min_radius_px = -1; }},
+      {"fade_begin", [](Recording& r) { r.frame.fade_begin = -1; }},
+      {"fade_end", [](Recording& r) { r.frame.fade_begin = r.frame.fade_end = 2; }},
       {"intensity", [](Recording& r) { r.frame.intensity = 17; }},
       {"power", [](Recording& r) { r.frame.power = 0; }},
       {"sky_depth", [](Recording& r) { r.frame.sky_depth = -1; }},
@@ -294,11 +297,27 @@ TEST_CASE("a recording of the first format version has its radius in metres") {
   CHECK_THROWS_AS(write_recording(recording), Failure);
   recording = sample_recording();
   std::vector<std::byte> bytes = write_recording(recording);
-  // The head is the first section, and its size stands at byte 56; version 1 ends one byte earlier.
+  // The head is the first section, and its size stands at byte 56; version 1 ends 13 bytes earlier.
   bytes[8] = std::byte{1};
-  bytes[56] = std::byte(std::to_integer<int>(bytes[56]) - 1);
+  bytes[56] = std::byte(std::to_integer<int>(bytes[56]) - 13);
   repair_checksum(bytes);
   CHECK(read_recording(bytes).frame.radius == recording.frame.radius);
+}
+
+TEST_CASE("a recording of the second format version has neither a minimum of its radius nor a fade") {
+  Recording recording = sample_recording();
+  recording.frame.min_radius_px = 12;
+  recording.frame.fade_begin = 3;
+  recording.frame.fade_end = 40;
+  std::vector<std::byte> bytes = write_recording(recording);
+  const RecordedFrame read = read_recording(bytes).frame;
+  CHECK((read.min_radius_px == 12 && read.fade_begin == 3 && read.fade_end == 40));
+  bytes[8] = std::byte{2};
+  bytes[56] = std::byte(std::to_integer<int>(bytes[56]) - 12);
+  repair_checksum(bytes);
+  const RecordedFrame old = read_recording(bytes).frame;
+  CHECK((old.min_radius_px == 0 && old.fade_begin == 0 && old.fade_end == 0));
+  CHECK(old.radius == recording.frame.radius);
 }
 
 TEST_CASE("normals of a recording are the host's in view space, and those of depth where it has none") {

@@ -84,7 +84,9 @@ int main(int argc, char** argv) {
     }
   nnao::Sampling sampling;
   sampling.radius = radius_m;
-  sampling.max_radius_px = 0.25f * height;  // the pass's default, as the number of taps is
+  // The pass's defaults, as the number of taps is.
+  sampling.max_radius_px = 0.25f * height;
+  sampling.min_radius_px = 12;
   nnao::evaluate(nnao::read_network(nnao::default_network_file()), {width, height, rays, depth, normal},
                  sampling, ao);
   std::vector<std::uint8_t> bytes;

@@ -39,6 +39,9 @@ ScreenFrame frame_of(const nook::nnao::Recording& recording) {
   frame.radius = recorded.radius;
   frame.radius_kind = recorded.radius_kind;
   frame.max_radius_px = recorded.max_radius_px;
+  frame.min_radius_px = recorded.min_radius_px;
+  frame.fade_begin = recorded.fade_begin;
+  frame.fade_end = recorded.fade_end;
   frame.intensity = recorded.intensity;
   frame.power = recorded.power;
   frame.gbuffer_ao = recorded.layer;

@@ -102,6 +102,7 @@ GLuint NetworkPass::draw(const GpuView& view, const AoRequest& request, bool blu
   ScreenFrame frame = frame_of(view);
   frame.radius = request.radius;
   frame.max_radius_px = request.max_radius_px;
+  frame.min_radius_px = request.min_radius_px;
   nook_nnao_frame_debug_desc debug;
   succeed(nook_nnao_frame_debug_desc_init(&debug));
   debug.show = blurred ? NOOK_NNAO_VIEW_BLURRED : NOOK_NNAO_VIEW_RAW;

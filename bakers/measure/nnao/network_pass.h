@@ -19,6 +19,7 @@ struct AoRequest {
   float max_radius_px = 90;   // where the radius covers more pixels, it shrinks
   float blur_sharpness = 16;  // as nook_nnao_desc's
   float intensity = 1;        // of the library's pass after its filter, as nook_nnao_frame_desc's
+  float min_radius_px = 0;    // of the library's pass; other methods have none, and rays neither
 };
 
 // Throws Failure with the text of nook_last_message.

@@ -111,6 +111,9 @@ Row describe_recording(std::span<const std::byte> bytes) {
   row["radius"] = frame.radius;
   row["radius_kind"] = frame.radius_kind == 0 ? "metres" : "share of the height";
   row["max_radius_px"] = frame.max_radius_px;
+  row["min_radius_px"] = frame.min_radius_px;
+  row["fade_begin"] = frame.fade_begin;
+  row["fade_end"] = frame.fade_end;
   row["intensity"] = frame.intensity;
   row["power"] = frame.power;
   constexpr const char* layers[] = {"none", "minimum", "remainder", "replace", "apart"};

@@ -282,6 +282,11 @@ export interface NnaoFrame {
   radiusKind?: "metres" | "screen" | "scene";
   sceneSize?: number;
   maxRadiusPx?: number;
+  /** Default 12; 0: no minimum. */
+  minRadiusPx?: number;
+  /** Metres; AO fades from fadeBegin on and is 1 from fadeEnd on. Default 0: never. */
+  fadeBegin?: number;
+  fadeEnd?: number;
   intensity?: number;
   power?: number;
   gbufferAo?: "none" | "min" | "remainder" | "replace" | "exclude";

@@ -18,7 +18,7 @@ export class Nnao extends OnSurface {
   // The members of nook_gl_frame_desc and nook_nnao_frame_desc in camelCase. depthTexture, normalTexture, gbufferAoTexture and motionVectors are
   // WebGLTextures; target is a WebGLTexture, a WebGLFramebuffer, null for the canvas, or nothing for the pass's own texture.
   render({ depthTexture, normalTexture, gbufferAoTexture, motionVectors, target, radius, radiusKind, sceneSize, maxRadiusPx, intensity, power,
-    motionVectorScale, reset, show, ...frame }) {
+    motionVectorScale, reset, minRadiusPx, fadeBegin, fadeEnd, show, ...frame }) {
     const { library, surface } = this;
     const kind = target === undefined ? "own" : target && "WebGLTexture" in globalThis && target instanceof WebGLTexture
       ? "texture" : "framebuffer";
@@ -29,7 +29,7 @@ export class Nnao extends OnSurface {
         this.handle, library.descriptor("nook_gl_frame_desc", {
           ...frame, depthTexture: depth, normalTexture: normal, gbufferAoTexture: layer, target: kind, targetName: name,
         }), library.descriptor("nook_nnao_frame_desc", {
-          radius, radiusKind, sceneSize, maxRadiusPx, intensity, power, motionVectors: motion, motionVectorScale, reset,
+          radius, radiusKind, sceneSize, maxRadiusPx, intensity, power, motionVectors: motion, motionVectorScale, reset, minRadiusPx, fadeBegin, fadeEnd,
           next: show ? library.descriptor("nook_nnao_frame_debug_desc", { show }) : undefined,
         }))))));
   }

@@ -28,8 +28,7 @@
 extern "C" {
 #endif
 
-/* Presets by cost. The cycles are those of all stages for a pixel, as compiled for one GPU family
- * (docs/gpu_cost.md). */
+/* Presets by cost. Cycles are those of all stages for a pixel on one GPU family (docs/gpu_cost.md). */
 enum {
   /* 9 taps, one filter. */
   NOOK_NNAO_PRESET_DEFAULT = 0,
@@ -53,26 +52,24 @@ typedef struct nook_nnao_desc {
   /* 1: AO is computed at half width and height, and upsampled by a joint-bilateral filter. Default -1: the
    * preset's. */
   int32_t half_resolution;
-  /* The number of times that a bilateral filter over 3 x 3 pixels follows: 0, 1 or 2. It averages the noise
-   * of the taps, and keeps edges of depth and lines in AO. The second time takes noise at edges away, and
-   * fine lines with it. Default -1: the preset's. */
+  /* How often a bilateral filter over 3 x 3 pixels follows: 0, 1 or 2. It averages the noise of the taps. The
+   * second time takes noise at edges away, and fine lines with it. Default -1: the preset's. */
   int32_t blur;
   /* > 0, default 16. The filter does not cross depths that depart from a surface by more than 1 /
    * blur_sharpness radii. */
   float blur_sharpness;
   /* 1: the pass computes bent normals as well: the mean of the open directions, weighted by their cosine.
    * nook_nnao_info.glsl lights with them. The pass's own texture is GL_RGBA8 then, and NOOK_BLEND_WRITE
-   * writes (n + 1) / 2 of the bent normal n, in view space and of unit length, into red, green and blue, and
-   * AO into alpha. Not with a network of the paper's form. Default 0. */
+   * writes (n + 1) / 2 of the unit bent normal n in view space, and AO into alpha. Not with a network of the
+   * paper's form. Default 0. */
   int32_t bent_normals;
   /* The bytes of a .nook file of `nook train nnao`, of either form. NULL (default): the embedded network. */
   const void* network;
   /* The size of network in bytes. */
   size_t network_size;
   /* 2 to 64: the pass keeps a mean of AO over at most so many frames, which flickers less. Start with 4 to 8;
-   * more frames follow changes later. It follows surfaces by nook_gl_frame_desc.view and motion_vectors, and
-   * begins anew where a surface was not seen before. 0 (default): each frame stands alone. Not with
-   * bent_normals. */
+   * more frames follow changes later. It follows surfaces by nook_gl_frame_desc.view and motion_vectors. 0
+   * (default): each frame stands alone. Not with bent_normals. */
   int32_t max_history_frames;
   /* 1 to 16: depth is GL_TEXTURE_2D_MULTISAMPLE with so many samples, which needs OpenGL 3.3 or OpenGL ES
    * 3.1, or with views GL_TEXTURE_2D_MULTISAMPLE_ARRAY, which needs OpenGL 3.3 or OpenGL ES 3.2. A pixel
@@ -122,8 +119,7 @@ typedef struct nook_nnao_frame_desc {
   float radius;
   /* Default NOOK_NNAO_RADIUS_METRES. */
   nook_nnao_radius_kind radius_kind;
-  /* Metres, > 0: a length of the scene, such as the diagonal of its box. Only NOOK_NNAO_RADIUS_SCENE reads
-   * it. */
+  /* Metres, > 0: for NOOK_NNAO_RADIUS_SCENE a length of the scene, such as the diagonal of its box. */
   float scene_size;
   /* Pixels that the radius covers at most; near the camera it shrinks. 0 (default): a quarter of the
    * viewport's height, and no maximum with NOOK_NNAO_RADIUS_SCREEN. */
@@ -136,9 +132,13 @@ typedef struct nook_nnao_frame_desc {
   uint32_t motion_vectors;
   /* 1, 1 by default: motion in pixels. For motion in texture coordinates, set width, height. */
   float motion_vector_scale[2];
-  /* Set 1 at a cut: nothing of earlier frames is used. The pass cuts by itself when the size of the viewport
-   * or the kind of projection changes. Default 0. */
+  /* 1 at a cut: earlier frames are not used. Another viewport size or kind of projection cuts by itself. */
   int32_t reset;
+  /* Pixels that the radius covers at least, default 12; 0: no minimum. Far away the radius grows to them, and
+   * its AO becomes weaker in return, so that AO spreads evenly where it would flicker. */
+  float min_radius_px;
+  /* Metres in front of the camera: AO fades from fade_begin on and is 1 from fade_end on. 0: never. */
+  float fade_begin, fade_end;
 } nook_nnao_frame_desc;
 static inline nook_result nook_nnao_frame_desc_init(nook_nnao_frame_desc* desc) {
   return nook_desc_init(NOOK_DESC_NNAO_FRAME, desc, sizeof *desc, NOOK_VERSION);

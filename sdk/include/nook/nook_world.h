@@ -25,8 +25,8 @@ extern "C" {
  * After depth, one call darkens the whole screen by the capsules of a scene, also by those that the screen
  * does not show. Pass the frame of the screen pass (nook_nnao.h), and the scene. The pass follows the state
  * contract of nook_gl_create, on every tier.
- * With the screen pass, so that both darken once: draw 1 into green of the G-buffer AO where a character is,
- * and its AO into red. The texture of the world pass is then AO of everything.
+ * With the screen pass, draw 1 into green of the G-buffer AO where a character is, and its AO into red. The
+ * texture of the world pass is then AO of everything (docs/guide/world.md has recipes without a mask):
  *     frame.gbuffer_ao = NOOK_GBUFFER_AO_EXCLUDE;  frame.gbuffer_ao_texture = characters;
  *     nook_nnao_render(nnao, &frame, &nnao_frame);
  *     world_frame.ao_texture = nnao_info.texture;

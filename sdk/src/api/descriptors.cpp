@@ -87,6 +87,7 @@ template <>
 nook_nnao_frame_desc default_desc() {
   nook_nnao_frame_desc desc{};
   desc.intensity = desc.power = 1;
+  desc.min_radius_px = 12;
   desc.motion_vector_scale[0] = desc.motion_vector_scale[1] = 1;
   return desc;
 }

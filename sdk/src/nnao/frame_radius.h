@@ -14,6 +14,7 @@ struct GivenRadius {
   float radius = 0;         // metres, or a share
   float scene_size = 0;     // metres
   float max_radius_px = 0;  // 0: the default
+  float min_radius_px = 0;  // 0: none
 };
 
 struct FrameRadius {
@@ -21,6 +22,7 @@ struct FrameRadius {
   float metres = 0;
   float max_px = 0;  // at least 1
   bool in_pixels = false;
+  float min_px = 0;  // at most max_px; 0: none
 };
 
 // No radius in metres is as large; its product with the pixels of a metre may be infinite.
@@ -31,7 +33,20 @@ inline FrameRadius frame_radius(const GivenRadius& given, float height_px) {
   const float limit = given.max_radius_px > 0 ? given.max_radius_px : (in_pixels ? 1.0f : 0.25f) * height_px;
   if (in_pixels) return {endless_radius, std::max(std::min(given.radius * height_px, limit), 1.0f), true};
   const float metres = given.kind == RadiusKind::scene ? given.radius * given.scene_size : given.radius;
-  return {metres, std::max(limit, 1.0f), false};
+  const float max_px = std::max(limit, 1.0f);
+  return {metres, max_px, false, std::min(given.min_radius_px, max_px)};
+}
+
+// The share of AO that is left at a depth is per_metre * depth + offset, clamped to [0, 1].
+struct DistanceFade {
+  float per_metre = 0, offset = 1;
+  float share(float depth) const { return std::clamp(per_metre * depth + offset, 0.0f, 1.0f); }
+};
+
+// AO fades from depth `begin` on and is gone from `end` on. end 0: it does not fade.
+inline DistanceFade distance_fade(float begin, float end) {
+  if (!(end > begin)) return {};
+  return {-1 / (end - begin), end / (end - begin)};
 }
 
 }  // namespace nook::nnao

@@ -78,7 +78,7 @@ Centre centre_of(const View& view, Vec3 normal, const Sampling& sampling, std::u
   centre.normal = normal;
   centre.viewer = to_viewer(view.rays, centre.position);
   centre.scale = pixel_scale(view.rays, depth);
-  centre.radius = pixel_radius(sampling, centre.scale);
+  centre.radius = pixel_radius(sampling, centre.scale, depth);
   return centre;
 }
 
@@ -220,18 +220,21 @@ bool paper_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 no
 
 Openness evaluate_openness(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
                            std::uint32_t x, std::uint32_t y, TapNoise noise) {
+  const float share = centre_of(view, normal, sampling, x, y).radius.share;
+  const auto shared = [&](float ao) { return share * ao + (1 - share); };
   if (network.form == NetworkForm::paper) {
     const PaperNetwork& paper = network.paper;
     const PaperUnits units = paper_units(paper, view, normal, sampling, x, y, noise);
-    return {through(paper.layer_3, through(paper.layer_2, through(paper.layer_1, units)))[0], normal};
+    return {shared(through(paper.layer_3, through(paper.layer_2, through(paper.layer_1, units)))[0]), normal};
   }
   const HorizonNetwork& horizon = network.horizon;
   const JoinInput joined = join_input(horizon, view, normal, sampling, x, y, noise);
   const auto units = through(horizon.join, joined.mean, joined.gate);
   float darkness = 0;
   for (std::size_t u = 0; u < units.size(); ++u) darkness -= horizon.out[u] * units[u];
-  const float size = length(joined.bent);
-  return {1 - std::min(darkness, joined.bound), size > 1e-6f ? joined.bent * (1 / size) : normal};
+  const Vec3 bent = joined.bent * share + normal * (1 - share);
+  const float size = length(bent);
+  return {shared(1 - std::min(darkness, joined.bound)), size > 1e-6f ? bent * (1 / size) : normal};
 }
 
 float evaluate_unclamped(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,

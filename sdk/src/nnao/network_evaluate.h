@@ -7,6 +7,7 @@
 #include <span>
 
 #include "sdk/src/core/vec.h"
+#include "sdk/src/nnao/frame_radius.h"
 #include "sdk/src/nnao/network.h"
 #include "sdk/src/nnao/taps.h"
 
@@ -64,16 +65,19 @@ struct Sampling {
   float radius = 1;                   // metres
   float max_radius_px = 256;          // a radius that covers more pixels shrinks
   std::uint32_t taps = default_taps;  // horizon form: a count of horizon_grid; paper form: 1 to 961
+  float min_radius_px = 0;            // a radius that covers fewer pixels grows; at most max_radius_px
+  DistanceFade fade = {};
 };
 
-// The radius of one pixel after the clamp.
+// The radius of one pixel after the clamp, and the share of its darkness that counts: where the radius grows,
+// what is dark spreads over more pixels, and the share keeps its sum.
 struct PixelRadius {
-  float metres = 0, px = 0;
+  float metres = 0, px = 0, share = 1;
 };
-inline PixelRadius pixel_radius(const Sampling& sampling, PixelScale scale) {
-  const float per_metre = std::abs(scale.y);
-  const float px = std::min(sampling.radius * per_metre, sampling.max_radius_px);
-  return {px / per_metre, px};
+inline PixelRadius pixel_radius(const Sampling& sampling, PixelScale scale, float depth) {
+  const float per_metre = std::abs(scale.y), wanted = sampling.radius * per_metre;
+  const float px = std::min(std::max(wanted, sampling.min_radius_px), sampling.max_radius_px);
+  return {px / per_metre, px, std::min(wanted / px, 1.0f) * sampling.fade.share(depth)};
 }
 
 // The texel at a tap.

@@ -32,7 +32,9 @@ struct RecordedFrame {
   float max_radius_px = 0;  // 0: a quarter of the height
   float intensity = 1, power = 1;
   std::int32_t layer = 0, view = 0;
-  std::int32_t radius_kind = 0;  // 0: metres; 1: a share of the height
+  std::int32_t radius_kind = 0;        // 0: metres; 1: a share of the height
+  float min_radius_px = 0;             // 0: none
+  float fade_begin = 0, fade_end = 0;  // metres; 0: no fade
 };
 
 // Copies the settings of a frame between this structure and those of the C interface, which have the same
@@ -53,6 +55,9 @@ void copy_frame_settings(const From& from, To& to) {
   to.layer = from.layer;
   to.view = from.view;
   to.radius_kind = from.radius_kind;
+  to.min_radius_px = from.min_radius_px;
+  to.fade_begin = from.fade_begin;
+  to.fade_end = from.fade_end;
 }
 
 struct RecordedPass {

@@ -37,6 +37,8 @@ void read_head(ByteReader in, std::uint32_t version, Recording& recording) {
     *choice = std::int32_t(in.u8());
   visit_numbers(frame, [&](float& value) { value = in.f32(); });
   if (version > 1) frame.radius_kind = std::int32_t(in.u8());
+  if (version > 2)
+    for (float* number : {&frame.min_radius_px, &frame.fade_begin, &frame.fade_end}) *number = in.f32();
   in.check_end();
   const std::uint32_t most = max_recorded_size_px;
   if (recording.width < 1 || recording.height < 1 || recording.width > most || recording.height > most)
@@ -73,6 +75,7 @@ std::vector<std::byte> write_recording(const Recording& recording) {
     head.u8(std::uint32_t(choice));
   visit_numbers(frame, [&](float value) { head.f32(value); });
   head.u8(std::uint32_t(frame.radius_kind));
+  for (const float number : {frame.min_radius_px, frame.fade_begin, frame.fade_end}) head.f32(number);
   sections.push_back({four_letters("HEAD"), head.bytes()});
   settings.u32(std::uint32_t(pass.taps));
   for (const std::int32_t choice : {pass.half_resolution, pass.blur, pass.path})

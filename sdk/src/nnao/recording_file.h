@@ -1,7 +1,8 @@
-// Recorded frames as .nook files. Version 2 of the kind "FRAM" has the sections
+// Recorded frames as .nook files. Version 3 of the kind "FRAM" has the sections
 //   HEAD  u32: library version, width, height
 //         u8: depth kind, clip, layer, view; f32: sky_depth, normal_scale, normal_bias, normal_matrix 9,
-//         projection 16, radius, max_radius_px, intensity, power; u8: radius kind, which version 1 has not
+//         projection 16, radius, max_radius_px, intensity, power; u8: radius kind, which version 1 has not;
+//         f32: min_radius_px, fade_begin, fade_end, which version 2 has not
 //   PASS  u32 taps; u8: half_resolution, blur, path; f32 blur_sharpness
 //   DPTH  depth, one number for each pixel; u8 bits, u8 normalisation, then the numbers (exact_packing.h)
 //   NORM  normals, three for each pixel, in the same way; only if there are any
@@ -22,7 +23,7 @@
 namespace nook::nnao {
 
 inline constexpr ContainerKind recording_kind{four_letters("FRAM"), "recorded frame of the screen-space pass",
-                                              1, 2};
+                                              1, 3};
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for what check_recording refuses.
 std::vector<std::byte> write_recording(const Recording& recording);

@@ -80,6 +80,8 @@ typedef struct nook_nnao_recording_desc {
   const char* note;
   /* 0 (default): radius is in metres; 1: it is a share of the height. */
   int32_t radius_kind;
+  /* As those of the frame; default 0: none. */
+  float min_radius_px, fade_begin, fade_end;
 } nook_nnao_recording_desc;
 static inline nook_result nook_nnao_recording_desc_init(nook_nnao_recording_desc* desc) {
   return nook_desc_init(NOOK_DESC_NNAO_RECORDING, desc, sizeof *desc, NOOK_VERSION);

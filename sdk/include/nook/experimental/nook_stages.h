@@ -85,7 +85,7 @@ enum {
   /* The most inputs of a stage. */
   NOOK_NNAO_STAGE_MAX_INPUTS = 6,
   /* Floats of nook_nnao_frame_values.constants. */
-  NOOK_NNAO_STAGE_CONSTANTS = 76
+  NOOK_NNAO_STAGE_CONSTANTS = 80
 };
 
 /* Describes the stages of a pass. path and timers of a nook_nnao_debug_desc have no effect. Not with a

@@ -69,9 +69,10 @@ FrameConstants frame_constants(const NnaoFrame& frame, const nook_nnao_desc& pas
       {frame.projection, nnao::DepthKind(frame.depth_kind), nnao::ClipRange(frame.clip_space),
        frame.sky_depth, frame.depth_log_scale, frame.depth_log_near, frame.depth_log_far,
        std::uint32_t(viewport.width), std::uint32_t(viewport.height)});
-  const nnao::FrameRadius radius = nnao::frame_radius(
-      {nnao::RadiusKind(frame.radius_kind), frame.radius, frame.scene_size, frame.max_radius_px},
-      float(viewport.height));
+  const nnao::FrameRadius radius =
+      nnao::frame_radius({nnao::RadiusKind(frame.radius_kind), frame.radius, frame.scene_size,
+                          frame.max_radius_px, frame.min_radius_px},
+                         float(viewport.height));
   // The extent of the radius in pixels at a depth is this times the extent at that depth.
   const float radius_extent = radius.max_px * std::abs(screen.y_scale);
   const int surface_width = surface_length(viewport.width, half),
@@ -95,6 +96,8 @@ FrameConstants frame_constants(const NnaoFrame& frame, const nook_nnao_desc& pas
       decode.slope_y);
   set(NOOK_FRAME_INPUT, decode.log_rate, radius.in_pixels ? pass.blur_sharpness / radius_extent : 0,
       float(layer), 0);
+  const nnao::DistanceFade fade = nnao::distance_fade(frame.fade_begin, frame.fade_end);
+  set(NOOK_FRAME_FADE, half ? 0.5f * radius.min_px : radius.min_px, fade.per_metre, fade.offset, 0);
   const nnao::TapNoise shift = nnao::frame_noise_step(count);
   const float last[] = {shift.rotation, shift.offset, float(filters)};
   for (int column = 0; column < 3; ++column)

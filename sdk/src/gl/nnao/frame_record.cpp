@@ -100,6 +100,9 @@ void copy_settings(const NnaoFrame& from, nnao::RecordedFrame& to) {
   to.layer = from.gbuffer_ao;
   to.view = from.show;
   to.radius_kind = from.radius_kind;
+  to.min_radius_px = from.min_radius_px;
+  to.fade_begin = from.fade_begin;
+  to.fade_end = from.fade_end;
 }
 
 // Puts simpler kinds in place of those that follow from them: linear depth for logarithmic depth,
