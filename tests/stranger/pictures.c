@@ -282,7 +282,7 @@ static void compare_picture(stranger* s, const pictures* p, uint32_t frame, GLui
          (unsigned)frame, (unsigned)body, (unsigned)count, error / undarkened);
   stranger_expect(s, body > 500 && wrong == 0, "%u of %u pixels of the body are not what the mask has",
                   (unsigned)wrong, (unsigned)body);
-  stranger_expect(s, count > 1000 && error <= 0.4 * undarkened,
+  stranger_expect(s, count > 1000 && error <= 0.25 * undarkened,
                   "the floor has %g of the error of no darkening", error / undarkened);
   free(mask);
   free(ao);
