@@ -121,7 +121,7 @@ def main():
     parser.add_argument("names", nargs="*")
     for option in ("--program", "--unfitted", "--tool", "--assets"):
         parser.add_argument(option, type=pathlib.Path)
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     runner = Runner()
     names = options.names or list(rigs.rigs())
