@@ -16,7 +16,7 @@ ROOMS = [("sdk/src/api", "The C interface"), ("sdk/src/core", "Files and memory"
          ("sdk/src/world", "The world"), ("sdk/src/synthesis", "Synthesis"), ("sdk/src/transfer", "Transfer"), ("sdk/src/isa", "Instruction sets"), ("sdk/src/gl", "OpenGL"),
          ("sdk/src", "The library, other"), ("bakers/import", "Import of glTF and arrays"), ("bakers/images", "Images and measured materials"),
          ("bakers/tool", "The tool"), ("bakers/api", "The bakers' C interface"), ("bakers/measure", "Measurements"), ("bakers", "Bakes")]
-CALL = re.compile(r"\b(Failure|ToolError|std::runtime_error|refuse|fault|warn|log|require|need|say|warnings\.push_back)\s*\(")
+CALL = re.compile(r"\b(Failure|ToolError|std::runtime_error|refuse|fault|warn|log|require|need|say|explain|warnings\.push_back)\s*\(")
 # Texts that are put together first.
 ASSIGNED = re.compile(r"\b(?:text|fault_?|warning)\s*\+?=(?!=)")
 # The functions of sdk/src/core/checks.h, whose messages have the name of the value in front.

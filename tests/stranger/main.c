@@ -1,8 +1,8 @@
 /* Each part takes MODEL.nook and RIG.engine, the file of flatten.py:
  *   stranger layouts MODEL RIG AO     AO in each kind, layout and place; writes it to the file AO
  *   stranger truth MODEL RIG BOUND UNIT
- *                                     its error against ray tracing, at most BOUND times a static bake's; UNIT
- *                                     units of the world are a metre
+ *                                     its error against ray tracing, at most BOUND; UNIT units of the world are a
+ *                                     metre
  *   stranger checks MODEL RIG         the check of right poses
  *   stranger mistakes MODEL RIG       the check of wrong ones
  *   stranger pictures MODEL RIG       the screen and world passes, on OpenGL

@@ -63,7 +63,8 @@ nook_pose_check_info stranger_check(const stranger* s, const nook_pose_desc* pos
 /* The parts of the program. */
 /* The AO of each frame in each kind, layout and place; writes it in the order of the file. */
 void stranger_run_layouts(stranger* s, const char* ao_path);
-/* The error against ray tracing; bound: the largest, as a share of the error of AO that was baked at rest. */
+/* The error against ray tracing, alone and beside another body on the ground; bound: the largest mse_visible.
+ */
 void stranger_run_truth(stranger* s, float bound);
 void stranger_run_checks(stranger* s);
 void stranger_run_mistakes(stranger* s);

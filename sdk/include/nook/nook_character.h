@@ -476,7 +476,7 @@ typedef struct nook_pose_check_info {
   uint32_t fitting_skin;
   /* For NOOK_POSE_FAULT_UNIT the factor from the pose's length unit to the vertices', otherwise 1. */
   float scale;
-  /* The same in words. */
+  /* The same in words, with all other faults that explain the difference as well. */
   char text[512];
 } nook_pose_check_info;
 

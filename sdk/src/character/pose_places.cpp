@@ -118,11 +118,12 @@ bool explain_by_known_place(const PosedPoints& points, const Affine& true_place,
   }
   const bool is_of_vertices = !is_same(points.vertex_place, none, tolerance_m);
   if (is_of_vertices && fits_under(points, points.vertex_place)) {
-    explain(finding, fault,
-            is_given
-                ? "desc.place_3x4 is not the place of the vertices: the pose stands elsewhere, and fits with "
-                  "check.place_3x4"
-                : "desc.place_3x4 is missing: the pose fits with check.place_3x4");
+    if (is_given)
+      explain(finding, fault,
+              "desc.place_3x4 is not the place of the vertices: the pose stands elsewhere, and fits with "
+              "check.place_3x4");
+    else
+      explain(finding, fault, "desc.place_3x4 is missing: the pose fits with check.place_3x4");
     return true;
   }
   if (is_given && fits_under(points, none)) {
