@@ -19,7 +19,7 @@ if(NOOK_BAKERS OR NOOK_SAMPLES OR NOOK_TESTS)
   find_package(TinyGLTF REQUIRED)
   find_package(glm REQUIRED)
 endif()
-# What objects of the import are linked with.
+# Programs with the objects of the import link these.
 if(NOOK_BAKERS)
   set(NOOK_DRACO_FOUND OFF)
   if(NOOK_DRACO)

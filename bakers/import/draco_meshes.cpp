@@ -26,8 +26,8 @@ bool has_bytes(const tinygltf::Model& model, int accessor) {
          model.accessors[std::size_t(accessor)].bufferView >= 0;
 }
 
-// Whether a primitive needs its compressed data: some of what it compresses is nowhere else. Draco compresses
-// meshes with indices alone, and the parser got none without bytes.
+// True where some of the primitive's data exists in compressed form only. Draco compresses only meshes with
+// indices, and the parser got no indices without bytes.
 bool needs_decoding(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                     const tinygltf::Value& extension) {
   if (!has_bytes(model, primitive.indices)) return true;

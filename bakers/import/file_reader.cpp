@@ -128,7 +128,8 @@ void check_version(const Json& document) {
         written("minVersion").c_str());
 }
 
-// What the parser makes of a URI: it takes any two characters after % for digits, and + for a space.
+// True where the parser decodes a URI as we do. It takes any two characters after % for digits, and + for a
+// space.
 bool is_decoded_alike(const std::string& uri) {
   for (std::size_t i = 0; i < uri.size(); ++i) {
     if (uri[i] == '+') return false;

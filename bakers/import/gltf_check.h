@@ -1,5 +1,5 @@
-// What is wrong in a parsed document by the specification: refused where it decides shapes or poses, warned
-// of where the import has one way to read it.
+// Checks a parsed document against the specification. Faults that decide shapes or poses are refused;
+// faults that leave one way to read the file give a warning.
 #pragma once
 
 #include <tiny_gltf.h>

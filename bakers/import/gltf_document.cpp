@@ -126,9 +126,9 @@ std::vector<std::byte> with_json(std::span<const std::byte> bytes, std::string j
   return out;
 }
 
-// What the parser dropped or got replaced. URIs are as the file has them, decoded; what was only room for
-// decompressed views has neither name nor bytes. Of two transforms a node's matrix counts, and a translation
-// beside it tells that there were two.
+// Brings back names that the parser got in another form. URIs become those of the file, decoded; buffers
+// that were only room for decompressed views lose name and bytes. Where a node has two transforms, its
+// matrix counts, and a translation beside the matrix tells the checks that there were two.
 void restore(const GltfPreflight& preflight, tinygltf::Model& model) {
   const auto restore_uri = [&](std::string& uri) {
     const auto name = preflight.names.find(uri);

@@ -42,7 +42,7 @@ struct MeshRepairs {
 
 // Appends all triangle primitives of a node's mesh, which is there. Where the node has a skin, joints and
 // weights are read; else everything rides on binding.bone[0]. Fails with BAD_FILE. The time is linear in the
-// vertices and indices that come out of it and in the primitives, of which a file may show 2^20.
+// vertices and indices that it appends, and in the primitives: a file may show 2^20.
 void append_mesh(const tinygltf::Model& model, const tinygltf::Node& node, const MeshBinding& binding,
                  FileMesh& out, MeshRepairs& repairs);
 

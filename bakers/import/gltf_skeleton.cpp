@@ -21,7 +21,7 @@ struct Builder {
   std::vector<std::uint32_t> depth;
   // Frame of each joint in rest space, with its scale; of other nodes only once they became bones.
   std::vector<std::optional<Affine>> bind_rest;
-  // What implied_bind gives for nodes without a bind pose, once the skins are in; empty before.
+  // The results of implied_bind, once the skins are in; empty before.
   std::vector<Affine> implied;
   std::vector<std::int32_t> anchor;  // with them: the nearest node upwards that has a bone or moves, -1: none
   std::vector<std::int32_t> bone_of_node;  // the first bone of a node, -1: none

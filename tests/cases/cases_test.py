@@ -180,7 +180,7 @@ CASES = [
     # Weights.
     ("weights_zero_one", zero_weights(1), [], 0, ["1 of 160 skinned vertices have no weights"]),
     ("weights_zero_two", zero_weights(2), [], 3, ["2 of 160 skinned vertices have no weights (need at most 1 %)"]),
-    # What has one reading.
+    # Faults that leave one way to read the file.
     *[(f"restart_{mode}_{component}", restart(mode, component), [], 0, ["restarts primitives"])
       for mode in (4, 5, 6) for component in (U8, U16)],
     *[(f"restart_{mode}_{component}", restart(mode, component), [], 3, ["no triangles"])
@@ -221,7 +221,7 @@ CASES = [
 
 
 def refused(text):
-    """`nook inspect` lists files that are no character, and says so."""
+    """`nook inspect` also lists files that a bake of a character refuses, and tells why."""
     return "cannot be baked as a character: " in text
 
 

@@ -1,5 +1,9 @@
+#include <unistd.h>
+
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <string>
 #include <vector>
@@ -209,6 +213,31 @@ TEST_CASE("generated poses are rigid and the same for the same seed") {
         NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_bake_character_single_joint_poses(character.get(), 3, nan_value, &count, nullptr, 2) ==
         NOOK_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_CASE("a file names others outside of its folder only where that is allowed") {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("nook_outside_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder / "inner");
+  const float position[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  std::ofstream(folder / "outside.bin", std::ios::binary)
+      .write(reinterpret_cast<const char*>(position), sizeof position);
+  std::ofstream(folder / "inner/file.gltf")
+      << R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"../outside.bin"}],)"
+      << R"("bufferViews":[{"buffer":0,"byteLength":36}],"nodes":[{"mesh":0}],)"
+      << R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)"
+      << R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})";
+  const std::string path = (folder / "inner/file.gltf").string();
+  nook_bake_source_desc desc;
+  REQUIRE(nook_bake_source_desc_init(&desc) == NOOK_OK);
+  desc.path = path.c_str();
+  nook_bake_character character = nullptr;
+  CHECK(nook_bake_character_create(&desc, &character) == NOOK_ERROR_BAD_FILE);
+  CHECK(message_has("outside of its own folder"));
+  desc.allow_outside_files = 1;
+  CHECK(nook_bake_character_create(&desc, &character) == NOOK_OK);
+  nook_bake_character_destroy(&character);
+  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("faults of a mesh in memory are named") {

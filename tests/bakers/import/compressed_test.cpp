@@ -55,7 +55,7 @@ class MeshoptBuilder {
     return add(extension(bytes, 2, index.size(), mode), "SCALAR", 5123, index.size(), false, false);
   }
 
-  // With the room as the second buffer.
+  // The second buffer is the room.
   GltfBuilder with_room() const {
     GltfBuilder out = file;
     out.add_view(std::vector<float>{});

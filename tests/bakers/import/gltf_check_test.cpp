@@ -1,4 +1,4 @@
-// What the specification forbids: refused by name, or repaired with a warning.
+// Faults by the specification are refused by name, or repaired with a warning.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -39,7 +39,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// How often a part is in the warnings.
+// The number of warnings that contain a part.
 std::size_t warnings_with(const GltfBuilder& file, const std::string& part) {
   const std::vector<std::string> warnings = load(file).warnings;
   return std::size_t(std::count_if(warnings.begin(), warnings.end(), [&](const std::string& text) {

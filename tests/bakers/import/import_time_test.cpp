@@ -47,7 +47,7 @@ void check_growth(const char* kind, std::size_t n, const Make& make, bool is_sce
         import_gltf(bytes);
     });
   };
-  // Less than this is dominated by what does not grow.
+  // Below this time, work that does not grow dominates.
   const double once = std::max(seconds(n), 0.01), four_times = seconds(4 * n);
   CAPTURE(once, four_times);
   CHECK(four_times < 9 * once);

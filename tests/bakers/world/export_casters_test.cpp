@@ -120,7 +120,7 @@ TEST_CASE("export: Source 2's list has the capsules") {
 TEST_CASE("export: glTF's extras are the casters themselves") {
   const CharacterModel model = model_with_joints();
   const auto json = nlohmann::json::parse(export_casters(model, CasterFormat::gltf, CasterRadii::ao));
-  // What the specification asks of every file, and no member at the top that it does not know.
+  // Every file needs its asset. These are the members that the specification knows at the top and we write.
   CHECK(json.at("asset").at("version") == "2.0");
   for (const auto& [name, value] : json.items()) CHECK((name == "asset" || name == "extras"));
   std::vector<Written> written;
