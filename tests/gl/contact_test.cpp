@@ -64,7 +64,7 @@ struct Seen {
   std::vector<std::uint8_t> is_character;
 };
 
-// By marching along each pixel's ray.
+// Marches along the ray of each pixel.
 Seen seen_by(const Camera& camera, const View& view, const Contact& contact) {
   Seen seen{look(camera, {}, columns, rows), {}};
   for (int y = 0; y < rows; ++y)
@@ -134,7 +134,7 @@ std::vector<Contact> contacts() {
 
 namespace {
 
-// What the passes leave of a view by the recipe of nook_world.h.
+// The AO of a view that the passes give by the recipe of nook_world.h.
 struct Composed {
   std::vector<float> room, alone, both;  // the screen pass, the world pass without it and with it
 };

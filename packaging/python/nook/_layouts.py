@@ -134,6 +134,7 @@ NOOK_POSE_FAULT_UNIT = 6
 NOOK_POSE_FAULT_UNKNOWN = 9
 NOOK_POSE_FLAG_PARTIAL = 1
 NOOK_POSE_FLAG_STRICT = 2
+NOOK_POSE_FLAG_SURPLUS = 4
 NOOK_POSE_JOINT_TO_WORLD = 1
 NOOK_POSE_REST_TO_WORLD = 0
 NOOK_POSE_SKINNING = 2
@@ -288,7 +289,7 @@ class nook_context_desc(ctypes.Structure):
         ("parallel_for", nook_parallel_for_fn),
         ("parallel_for_user", ctypes.c_void_p),
         ("isa", nook_isa),
-        ("reserved", ctypes.c_uint32),
+        ("units_per_metre", ctypes.c_float),
     ]
 
 
@@ -429,7 +430,7 @@ class nook_scene_info(ctypes.Structure):
         ("instances_updated", ctypes.c_uint32),
         ("links", ctypes.c_uint32),
         ("links_culled", ctypes.c_uint32),
-        ("reserved", ctypes.c_uint32),
+        ("uneven_instances", ctypes.c_uint32),
         ("evaluations", ctypes.c_uint64),
         ("memory_bytes", ctypes.c_uint64),
     ]
@@ -656,6 +657,11 @@ class nook_bake_source_desc(ctypes.Structure):
         ("bone_frames_3x4", ctypes.POINTER(ctypes.c_float)),
         ("primitives", ctypes.POINTER(nook_range)),
         ("primitive_count", ctypes.c_uint32),
+        ("meshes", ctypes.POINTER(ctypes.c_char_p)),
+        ("without", ctypes.POINTER(ctypes.c_char_p)),
+        ("mesh_count", ctypes.c_uint32),
+        ("without_count", ctypes.c_uint32),
+        ("allow_outside_files", ctypes.c_int32),
     ]
 
 

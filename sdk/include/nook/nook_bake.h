@@ -114,7 +114,7 @@ typedef struct nook_bake_source_desc {
   /* Primitives in order and without gaps. NULL: one primitive holds all vertices. */
   const nook_range* primitives;
   uint32_t primitive_count;
-  /* Node or mesh names to take, and to leave out, with * and ?. Default: all but hidden ones and LOD1, .... */
+  /* Names of nodes or meshes to take, and to leave out, with * and ?. Default: all shown but LOD1, LOD2... */
   const char* const* meshes;
   const char* const* without;
   uint32_t mesh_count, without_count;

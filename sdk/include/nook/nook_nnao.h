@@ -52,8 +52,8 @@ typedef struct nook_nnao_desc {
   /* 1: AO is computed at half width and height, and upsampled by a joint-bilateral filter. Default -1: the
    * preset's. */
   int32_t half_resolution;
-  /* How often a bilateral filter over 3 x 3 pixels follows: 0, 1 or 2. It averages the noise of the taps. The
-   * second time takes noise at edges away, and fine lines with it. Default -1: the preset's. */
+  /* The number of bilateral filters over 3 x 3 pixels: 0, 1 or 2. A filter averages the noise of the taps.
+   * The second time takes noise at edges away, and fine lines with it. Default -1: the preset's. */
   int32_t blur;
   /* > 0, default 16. The filter does not cross depths that depart from a surface by more than 1 /
    * blur_sharpness radii. */
