@@ -33,6 +33,9 @@ if(NOOK_BAKERS)
   set(NOOK_IMPORT_LIBRARIES TinyGLTF::TinyGLTF meshoptimizer::meshoptimizer)
   if(NOOK_DRACO_FOUND)
     list(APPEND NOOK_IMPORT_LIBRARIES draco::draco)
+    # Debian's libdraco.so exports another version of tinygltf. Programs must link tinygltf before it, or the
+    # import calls that version with structs of another layout and crashes.
+    target_link_libraries(TinyGLTF::TinyGLTF INTERFACE draco::draco)
   endif()
 endif()
 if(NOOK_CPU_TESTS AND CMAKE_CROSSCOMPILING)

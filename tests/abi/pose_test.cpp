@@ -261,7 +261,7 @@ TEST_CASE("checks and matches refuse what they cannot compare") {
   const float not_finite[6] = {0, 0, 0, 0, NAN, 0};
   no_match([](nook_vertex_match_desc& m) { m.struct_size = 8; }, "nook_vertex_match_desc_init");
   no_match([](nook_vertex_match_desc& m) { m.positions = nullptr; }, "desc.positions");
-  no_match([](nook_vertex_match_desc& m) { m.position_stride = 8; }, "positions");
+  no_match([](nook_vertex_match_desc& m) { m.position_stride = 8; }, "desc.position_stride");
   no_match([&](nook_vertex_match_desc& m) { m.normals = not_finite; }, "desc.normals[1]");
   no_match([](nook_vertex_match_desc& m) { m.primitive = 2; }, "desc.primitive");
   no_match([](nook_vertex_match_desc& m) { m.tolerance = 2; }, "desc.tolerance");

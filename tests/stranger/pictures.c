@@ -200,7 +200,8 @@ static void compare_buffer(stranger* s, const pictures* p) {
                        on_gpu + v);
   for (size_t v = 0; v < count; ++v)
     sum += ((double)on_cpu[v] - (double)on_gpu[v]) * ((double)on_cpu[v] - (double)on_gpu[v]);
-  stranger_expect(s, sqrt(sum / (double)count) <= 5e-4, "AO on OpenGL differs from that on the CPU by %g rms",
+  /* nook_gl_scene_update promises 2e-3 for each value. */
+  stranger_expect(s, sqrt(sum / (double)count) <= 1e-3, "AO on OpenGL differs from that on the CPU by %g rms",
                   sqrt(sum / (double)count));
   free(on_cpu);
   free(on_gpu);

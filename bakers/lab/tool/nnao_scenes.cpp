@@ -182,7 +182,7 @@ ViewsFile read_document(const Json& document, const std::filesystem::path& folde
 
 // folder: where the scenes lie, each as NAME.glb.
 ViewsFile read_views_file(const std::filesystem::path& path, const std::filesystem::path& folder) {
-  const std::vector<std::byte> bytes = read_file(path);
+  const std::vector<std::byte> bytes = read_any_file(path);
   const auto* const text = reinterpret_cast<const char*>(bytes.data());
   try {
     return read_document(Json::parse(text, text + bytes.size()), folder);

@@ -6,7 +6,7 @@ NOOK_SIZE(nook_range, 8);
 NOOK_AT(nook_range, first, 0);
 NOOK_AT(nook_range, count, 4);
 
-NOOK_SIZE(nook_bake_source_desc, 128);
+NOOK_SIZE(nook_bake_source_desc, 160);
 NOOK_AT(nook_bake_source_desc, struct_size, 0);
 NOOK_AT(nook_bake_source_desc, type, 4);
 NOOK_AT(nook_bake_source_desc, next, 8);
@@ -26,6 +26,11 @@ NOOK_AT(nook_bake_source_desc, bone_parents, 96);
 NOOK_AT(nook_bake_source_desc, bone_frames_3x4, 104);
 NOOK_AT(nook_bake_source_desc, primitives, 112);
 NOOK_AT(nook_bake_source_desc, primitive_count, 120);
+NOOK_AT(nook_bake_source_desc, meshes, 128);
+NOOK_AT(nook_bake_source_desc, without, 136);
+NOOK_AT(nook_bake_source_desc, mesh_count, 144);
+NOOK_AT(nook_bake_source_desc, without_count, 148);
+NOOK_AT(nook_bake_source_desc, allow_outside_files, 152);
 
 NOOK_SIZE(nook_bake_character_info, 56);
 NOOK_AT(nook_bake_character_info, struct_size, 0);

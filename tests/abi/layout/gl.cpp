@@ -3,7 +3,7 @@
 
 #include "tests/abi/layout/layout.h"
 
-NOOK_SIZE(nook_gl_desc, 40);
+NOOK_SIZE(nook_gl_desc, 48);
 NOOK_AT(nook_gl_desc, struct_size, 0);
 NOOK_AT(nook_gl_desc, type, 4);
 NOOK_AT(nook_gl_desc, next, 8);
@@ -11,6 +11,7 @@ NOOK_AT(nook_gl_desc, get_proc, 16);
 NOOK_AT(nook_gl_desc, get_proc_user, 24);
 NOOK_AT(nook_gl_desc, max_tier, 32);
 NOOK_AT(nook_gl_desc, state_mode, 36);
+NOOK_AT(nook_gl_desc, debug, 40);
 
 NOOK_SIZE(nook_gl_info, 40);
 NOOK_AT(nook_gl_info, struct_size, 0);

@@ -22,7 +22,7 @@ NOOK_AT(nook_nnao_desc, depth_samples, 68);
 NOOK_AT(nook_nnao_desc, views, 72);
 NOOK_AT(nook_nnao_desc, normal_samples, 76);
 
-NOOK_SIZE(nook_nnao_frame_desc, 56);
+NOOK_SIZE(nook_nnao_frame_desc, 72);
 NOOK_AT(nook_nnao_frame_desc, struct_size, 0);
 NOOK_AT(nook_nnao_frame_desc, type, 4);
 NOOK_AT(nook_nnao_frame_desc, next, 8);
@@ -35,6 +35,9 @@ NOOK_AT(nook_nnao_frame_desc, power, 36);
 NOOK_AT(nook_nnao_frame_desc, motion_vectors, 40);
 NOOK_AT(nook_nnao_frame_desc, motion_vector_scale, 44);
 NOOK_AT(nook_nnao_frame_desc, reset, 52);
+NOOK_AT(nook_nnao_frame_desc, min_radius_px, 56);
+NOOK_AT(nook_nnao_frame_desc, fade_begin, 60);
+NOOK_AT(nook_nnao_frame_desc, fade_end, 64);
 
 NOOK_SIZE(nook_nnao_info, 48);
 NOOK_AT(nook_nnao_info, texture, 4);

@@ -2,7 +2,7 @@
 
 #include "tests/abi/layout/layout.h"
 
-NOOK_SIZE(nook_nnao_recording_desc, 280);
+NOOK_SIZE(nook_nnao_recording_desc, 288);
 NOOK_AT(nook_nnao_recording_desc, struct_size, 0);
 NOOK_AT(nook_nnao_recording_desc, type, 4);
 NOOK_AT(nook_nnao_recording_desc, next, 8);
@@ -38,3 +38,6 @@ NOOK_AT(nook_nnao_recording_desc, renderer, 248);
 NOOK_AT(nook_nnao_recording_desc, driver_version, 256);
 NOOK_AT(nook_nnao_recording_desc, note, 264);
 NOOK_AT(nook_nnao_recording_desc, radius_kind, 272);
+NOOK_AT(nook_nnao_recording_desc, min_radius_px, 276);
+NOOK_AT(nook_nnao_recording_desc, fade_begin, 280);
+NOOK_AT(nook_nnao_recording_desc, fade_end, 284);

@@ -24,8 +24,8 @@ NOOK_AT(nook_nnao_stage_info, reads_network, 28);
 NOOK_AT(nook_nnao_stage_info, input_count, 32);
 NOOK_AT(nook_nnao_stage_info, inputs, 36);
 
-NOOK_SIZE(nook_nnao_frame_values, 336);
+NOOK_SIZE(nook_nnao_frame_values, 352);
 NOOK_AT(nook_nnao_frame_values, surface_width, 4);
 NOOK_AT(nook_nnao_frame_values, viewport, 12);
 NOOK_AT(nook_nnao_frame_values, constants, 28);
-NOOK_AT(nook_nnao_frame_values, drawn_stages, 332);
+NOOK_AT(nook_nnao_frame_values, drawn_stages, 348);

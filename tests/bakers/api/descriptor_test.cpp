@@ -20,7 +20,7 @@ TEST_CASE("init functions fill what fits into the caller's struct, of every rele
   CHECK(nook_bake_source_desc_init(nullptr) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(message_has("nook_bake_source_desc_init: desc is NULL"));
   CHECK(nook_bake_desc_init(NOOK_DESC_BAKE_SOURCE, &desc, 8, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(message_has("size is out of range (got 8, need at least 128)"));
+  CHECK(message_has("size is out of range (got 8, need at least 160)"));
 }
 
 TEST_CASE("descriptors of every release are read, and what a newer one adds is refused unless 0") {

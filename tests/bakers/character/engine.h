@@ -14,6 +14,7 @@
 #include "bakers/import/clip.h"
 #include "bakers/import/gltf.h"
 #include "bakers/import/gltf_document.h"
+#include "bakers/import/shown_nodes.h"
 
 namespace nook::test {
 
@@ -51,9 +52,9 @@ struct Engine {
       }
       skins.push_back(std::move(skin));
     }
-    const auto shown = bake::shown_meshes(model, imported.nodes);
+    const bake::ShownNodes shown = bake::choose_nodes(model, imported.nodes, {});
     for (std::size_t n = 0; n < model.nodes.size(); ++n)
-      if (shown[n] >= 0) add_mesh(model, static_cast<int>(n));
+      if (shown.shows(n)) add_mesh(model, static_cast<int>(n));
   }
 
   // Global matrices of all nodes in a clip.

@@ -109,7 +109,7 @@ TEST_CASE("bad arguments exit with 2, name the fault and write nothing") {
   std::string expected;
   SECTION("nothing") {
     run = folder.run({});
-    expected = "subcommand";
+    expected = "a command is missing";
   }
   SECTION("no output") {
     run = folder.run({"bake", "character", in});

@@ -129,7 +129,8 @@ TEST_CASE("inspect lists what a bake takes of a glTF file") {
     REQUIRE(run.exit_code == 0);
     CHECK(run.out.find("Body_LOD1") != std::string::npos);
     std::string text;
-    for (const auto& row : nlohmann::json::parse(read_text(report)).at("rows"))
+    const auto all = nlohmann::json::parse(read_text(report));
+    for (const auto& row : all.at("rows"))
       text += row.at("node").get<std::string>() + " " + row.at("primitive").dump() + " " +
               row.at("triangles").dump() + " " + row.at("state").get<std::string>() + "\n";
     return text;
