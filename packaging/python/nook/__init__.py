@@ -10,7 +10,7 @@
     ao = nook.evaluate_pose(model, character.sample_clip(0, 0.5))   # one value for each vertex of the file
 
 The module calls the C interface of the shared libraries libnook and libnook_bake. A call that fails raises NookError with the
-library's message; arrays of a wrong shape raise ValueError before the call.
+library's message; arrays of a wrong shape and numbers out of range raise ValueError before the call.
 """
 from ._layouts import NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR, NOOK_VERSION_PATCH, NOOK_VERSION_SUFFIX
 from ._library import Cancelled, MissingLibrary, NookError
@@ -24,6 +24,6 @@ from .traces import ModelError, model_error, trace_ao
 __version__ = f"{NOOK_VERSION_MAJOR}.{NOOK_VERSION_MINOR}.{NOOK_VERSION_PATCH}{NOOK_VERSION_SUFFIX.replace('-', '')}"
 __all__ = [
     "Cancelled", "Character", "CharacterModel", "Context", "Instance", "Job", "Material", "MaterialValues", "MissingLibrary", "ModelError",
-    "NookError", "Probe", "ProbeFit", "Progress", "Scene", "bake_character", "bake_material", "bake_transfer", "evaluate_pose",
-    "model_error", "trace_ao",
+    "NookError", "Probe", "ProbeFit", "Progress", "Scene", "bake_character", "bake_material",
+    "bake_transfer", "evaluate_pose", "model_error", "trace_ao",
 ]

@@ -1,9 +1,11 @@
-"""The shared library, the results of its calls, and numpy arrays as its pointers."""
+"""The shared library, the results of its calls, and what Python gives as the arguments of C: numbers, names, bytes, arrays."""
 import ctypes
 import ctypes.util
+import math
+import operator
 import os
 import pathlib
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, Iterable, List, Optional, Tuple, Type, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -78,9 +80,81 @@ _library = _Library()
 _RESULTS = {value: name.removeprefix("NOOK_ERROR_") for name, value in vars(c).items() if name.startswith("NOOK_ERROR_")}
 
 
+# The range of each integer type of C that the headers use.
+_RANGES: Dict[Any, Tuple[int, int]] = {}
+for _kind in (ctypes.c_int32, ctypes.c_uint16, ctypes.c_uint32, ctypes.c_uint64, ctypes.c_size_t):
+    _bits = 8 * ctypes.sizeof(_kind)
+    _RANGES[_kind] = (-(2 ** (_bits - 1)), 2 ** (_bits - 1) - 1) if _kind(-1).value < 0 else (0, 2**_bits - 1)
+
+
+def came(value: Any) -> str:
+    """What came, in a few words for a message: its type, and its value if that is short."""
+    kind, said = type(value).__name__, repr(value)
+    return f"{kind} {said}" if len(said) <= 60 and not said.startswith("<") else kind
+
+
+def integer(value: Any, kind: Any, what: str) -> int:
+    """A whole number that an integer type of C holds. Raises ValueError for others, and TypeError for what is not a whole number.
+
+    ctypes itself would keep the lower bits without a word.
+    """
+    try:
+        found = int(value) if isinstance(value, np.bool_) else operator.index(value)
+    except TypeError:
+        raise TypeError(f"{what}: need a whole number, got {came(value)}") from None
+    low, high = _RANGES[kind]
+    if not low <= found <= high:
+        raise ValueError(f"{what}: need a whole number of {low} to {high}, got {found}")
+    return found
+
+
+def number(value: Any, kind: Any, what: str) -> float:
+    """A number that a floating-point type of C holds. Raises ValueError for a finite one that would become infinite."""
+    try:
+        if isinstance(value, (str, bytes, bytearray)):
+            raise TypeError
+        found = float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{what}: need a number, got {came(value)}") from None
+    except OverflowError:
+        raise ValueError(f"{what}: the number is too large") from None
+    if math.isfinite(found) and not math.isfinite(kind(found).value):
+        raise ValueError(f"{what}: {found} is too large for a float")
+    return found
+
+
+def checked(value: Any, kind: Any, what: str) -> Any:
+    """A value for a field or an argument of a type of C; numbers are checked, and all else goes to ctypes."""
+    if isinstance(value, ctypes._SimpleCData):
+        return value
+    if kind in _RANGES:
+        return integer(value, kind, what)
+    return number(value, kind, what) if kind in (ctypes.c_float, ctypes.c_double) else value
+
+
+def put(structure: Any, **values: Any) -> None:
+    """Sets fields of a structure; what they do not hold raises ValueError or TypeError that names the field."""
+    kinds = {name: kind for name, kind, *_ in structure._fields_}
+    for name, value in values.items():
+        setattr(structure, name, checked(value, kinds[name], name))
+
+
+def put_settings(structure: Any, settings: Dict[str, Any], names: Iterable[str], of: str) -> None:
+    """Sets plain fields that a user gave by their names in the C header. A field with words, such as form, takes its words too."""
+    allowed = sorted(names)
+    for name, value in settings.items():
+        if name not in allowed:
+            raise TypeError(f"{name!r} is no setting of {of}; there are {', '.join(allowed)}")
+        if name == "form" and isinstance(value, str):
+            value = choice("NOOK_FORM_", value, name)
+        put(structure, **{name: value})
+
+
 def call(name: str, *arguments: Any) -> Any:
     """Calls a function; a result that is an error becomes NookError with the library's message."""
-    result = _library.function(name)(*arguments)
+    kinds = c.FUNCTIONS[name][1]
+    checks = [checked(value, kind, f"{name}, argument {at}") for at, (value, kind) in enumerate(zip(arguments, kinds), 1)]
+    result = _library.function(name)(*checks)
     if c.FUNCTIONS[name][0] is c.nook_result and result != c.NOOK_OK:
         part = "nook_bake_last_message" if name.startswith("nook_bake_") else "nook_last_message"
         message = _library.function(part)().decode("utf-8", "replace")
@@ -141,23 +215,104 @@ class Handle:
             pass
 
 
+def need(value: Any, kind: Type[Any], what: str) -> Any:
+    """The value, if it is of the class. Raises TypeError, which names what came."""
+    if not isinstance(value, kind):
+        raise TypeError(f"{what}: need a nook.{kind.__name__}, got {came(value)}")
+    return value
+
+
+def encoded(value: Any, what: str) -> bytes:
+    """A name or a path for C, which ends a text at its first NUL."""
+    if not isinstance(value, str):
+        raise TypeError(f"{what}: need a str, got {came(value)}")
+    if "\0" in value:
+        raise ValueError(f"{what}: {value!r} has a NUL character")
+    # surrogateescape is how Python keeps the bytes of a file name that is not UTF-8.
+    return value.encode("utf-8", "surrogateescape")
+
+
+def names(values: Any, what: str) -> List[bytes]:
+    """Names for C: one str is one name, and None is no name."""
+    if values is None:
+        return []
+    if isinstance(values, str):
+        values = [values]
+    if isinstance(values, (bytes, bytearray, memoryview)) or not isinstance(values, Iterable):
+        raise TypeError(f"{what}: need a name or a list of names, got {came(values)}")
+    return [encoded(value, f"{what}: each name") for value in values]
+
+
+def name_array(found: List[bytes]) -> Any:
+    return (ctypes.c_char_p * len(found))(*found) if found else None
+
+
+def path_or_bytes(value: Any, what: str) -> Union[str, bytes]:
+    """What stands for a file: a path (str, os.PathLike) stays a str; a buffer or a binary file that is open becomes its bytes."""
+    if isinstance(value, (str, os.PathLike)):
+        path = os.fsdecode(value)
+        encoded(path, what)
+        return path
+    if isinstance(value, bytes):
+        return bytes(value)
+    try:
+        view = memoryview(value)
+    except TypeError:
+        view = None
+    if view is not None:
+        if "O" in view.format:
+            raise TypeError(f"{what}: need the bytes of a file, got an array of Python objects")
+        return view.tobytes()
+    data = value.read() if callable(getattr(value, "read", None)) else None
+    if isinstance(data, bytes):
+        return data
+    if isinstance(data, str):
+        raise TypeError(f"{what}: the file is open as text; open it with mode \"rb\"")
+    raise TypeError(f"{what}: need a path (str or os.PathLike) or bytes (bytes, bytearray, memoryview, numpy array), got {came(value)}")
+
+
+def file_bytes(value: Any, what: str) -> bytes:
+    """The bytes of a file that a path or a buffer stands for. Raises OSError for a path that cannot be read."""
+    found = path_or_bytes(value, what)
+    return pathlib.Path(found).read_bytes() if isinstance(found, str) else found
+
+
+def _shaped(array: npt.NDArray[Any], shape: Tuple[Optional[int], ...], what: str) -> None:
+    if array.ndim != len(shape) or any(wanted is not None and have != wanted for have, wanted in zip(array.shape, shape)):
+        sides = " x ".join("any" if n is None else str(n) for n in shape)
+        raise ValueError(f"{what}: has the shape {array.shape}, need {sides}")
+
+
+def _array(values: Any, what: str) -> npt.NDArray[Any]:
+    try:
+        return np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"{what}: its rows have different lengths ({error})") from None
+
+
 def floats(values: Any, shape: Tuple[Optional[int], ...], what: str) -> FloatArray:
     """Values as packed floats of a shape, in which None is any length. Raises ValueError, which names what came."""
-    array = np.ascontiguousarray(values, dtype=np.float32)
-    if array.ndim != len(shape) or any(need is not None and have != need for have, need in zip(array.shape, shape)):
-        wanted = " x ".join("any" if n is None else str(n) for n in shape)
-        raise ValueError(f"{what}: has the shape {array.shape}, need {wanted}")
-    return array
+    array = _array(values, what)
+    if array.dtype.kind not in "biufO":
+        raise ValueError(f"{what}: need numbers, got an array of {array.dtype}")
+    _shaped(array, shape, what)
+    try:
+        with np.errstate(over="ignore"):
+            return np.ascontiguousarray(array, dtype=np.float32)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{what}: need numbers, got {came(values)}") from None
 
 
 def integers(values: Any, kind: Any, shape: Tuple[Optional[int], ...], what: str) -> npt.NDArray[Any]:
     """The same for integers. Raises ValueError for values that the type does not hold."""
-    array = np.asarray(values)
+    array = _array(values, what)
     info = np.iinfo(kind)
-    if array.size and (not np.issubdtype(array.dtype, np.integer) or array.min() < info.min or array.max() > info.max):
-        raise ValueError(f"{what}: need whole numbers of {info.min} to {info.max}")
-    if array.ndim != len(shape) or any(need is not None and have != need for have, need in zip(array.shape, shape)):
-        raise ValueError(f"{what}: has the shape {array.shape}")
+    if array.size:
+        if not np.issubdtype(array.dtype, np.integer):
+            raise ValueError(f"{what}: need whole numbers of {info.min} to {info.max}, got an array of {array.dtype}")
+        if int(array.min()) < info.min or int(array.max()) > info.max:
+            raise ValueError(f"{what}: need whole numbers of {info.min} to {info.max}, got {int(array.min())} to {int(array.max())}")
+    _shaped(array, shape, what)
     return np.ascontiguousarray(array, dtype=kind)
 
 
@@ -173,6 +328,8 @@ def pointer(array: Optional[npt.NDArray[Any]]) -> Any:
 def choice(beginning: str, name: str, what: str) -> int:
     """The constant that a word stands for: "standard" is NOOK_BAKE_PRESET_STANDARD. Raises ValueError with all words."""
     words = {key.removeprefix(beginning).lower(): value for key, value in vars(c).items() if key.startswith(beginning)}
+    if not isinstance(name, str):
+        raise TypeError(f"{what}: need one of the words {', '.join(sorted(words))}, got {came(name)}")
     if name not in words:
         raise ValueError(f"{what}: {name!r} is none of {', '.join(sorted(words))}")
     return int(words[name])

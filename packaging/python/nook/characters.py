@@ -1,19 +1,17 @@
 """Characters of the bakers: import, poses, skinning."""
 import ctypes
+import operator
 import os
-from typing import Any, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _layouts as c
-from ._library import FloatArray, Handle, call, described, descriptor, floats, integers, pointer, text
-
-
-def _patterns(names: Sequence[str], argument: str) -> Any:
-    if isinstance(names, str):
-        raise TypeError(f"Character: {argument} is a list of names, not one text")
-    return (ctypes.c_char_p * len(names))(*[name.encode("utf-8") for name in names]) if names else None
+from ._library import (
+    FloatArray, Handle, came, call, described, descriptor, floats, integer, integers, name_array, names, number, path_or_bytes, pointer, put,
+    text,
+)
 
 
 class Character(Handle):
@@ -25,54 +23,64 @@ class Character(Handle):
     _kind = c.nook_bake_character
     _destroy = "nook_bake_character_destroy"
 
-    def __init__(self, path: Union[str, "os.PathLike[str]", None] = None, *, data: Optional[bytes] = None, meshes: Sequence[str] = (),
-                 without: Sequence[str] = (), allow_outside_files: bool = False) -> None:
-        """Imports a .glb or .gltf file, or the bytes of one whose buffers are embedded.
+    def __init__(self, path: Any = None, *, data: Any = None, meshes: Union[str, Sequence[str]] = (),
+                 without: Union[str, Sequence[str]] = (), allow_outside_files: bool = False) -> None:
+        """Imports a .glb or .gltf file from its path, or from its bytes if its buffers are embedded.
 
-        meshes and without are names of its nodes or meshes to take and to leave out, in which * and ? stand for any text and any
-        character. Without meshes it takes all that the file shows but lower levels of detail. The file may name other files
-        of its own folder; with allow_outside_files, of any folder.
+        path is a str, an os.PathLike, or bytes in any form: bytes, bytearray, memoryview, a numpy array, a binary file that is open.
+        data is another name for it. meshes and without are names of nodes or meshes to take and to leave out; one str is one name,
+        and * and ? stand for any text and any character. Without meshes you get all that the file shows, except lower levels of
+        detail. The file may name other files of its own folder; with allow_outside_files, of any folder.
         """
         super().__init__()
         if (path is None) == (data is None):
             raise TypeError("Character: give either a path or data")
-        desc = descriptor(c.nook_bake_source_desc)
-        if path is not None:
-            desc.path = os.fspath(path).encode("utf-8")
-        else:
-            assert data is not None
-            # A buffer, because ctypes makes NULL of empty bytes.
-            held = ctypes.create_string_buffer(data, max(len(data), 1))
-            desc.bytes, desc.byte_count = ctypes.cast(held, ctypes.c_void_p), len(data)
-        desc.meshes, desc.mesh_count = _patterns(meshes, "meshes"), len(meshes)
-        desc.without, desc.without_count = _patterns(without, "without"), len(without)
-        desc.allow_outside_files = int(allow_outside_files)
-        call("nook_bake_character_create", ctypes.byref(desc), ctypes.byref(self._handle))
-        self._describe()
+        source = path_or_bytes(data if path is None else path, "Character")
+        if isinstance(source, str):
+            source = os.path.abspath(source)  # so that a copy finds the file from any working folder
+        self._import({"source": source, "meshes": names(meshes, "meshes"), "without": names(without, "without"),
+                      "allow_outside_files": bool(allow_outside_files)})
 
     @classmethod
     def from_arrays(cls, positions: Any, triangles: Any, joints: Any, weights: Any, bone_parents: Sequence[int], bone_frames: Any,
                     bone_names: Optional[Sequence[str]] = None) -> "Character":
         """A character without a file: joints and weights are vertices x influences, bone_frames bones x 3 x 4 in rest space."""
-        made = cls.__new__(cls)
-        Handle.__init__(made)
         p = floats(positions, (None, 3), "positions")
-        indices = integers(triangles, np.uint32, (None, 3), "triangles")
         bones = integers(joints, np.uint16, (len(p), None), "joints")
-        w = floats(weights, bones.shape, "weights")
         parents = integers(bone_parents, np.int32, (None,), "bone_parents")
-        frames = floats(bone_frames, (len(parents), 3, 4), "bone_frames")
+        found = None if bone_names is None else names(bone_names, "bone_names")
+        if found is not None and len(found) != len(parents):
+            raise ValueError(f"bone_names: has {len(found)}, need {len(parents)}")
+        arrays = {"positions": p, "triangles": integers(triangles, np.uint32, (None, 3), "triangles"), "joints": bones,
+                  "weights": floats(weights, bones.shape, "weights"), "bone_parents": parents,
+                  "bone_frames": floats(bone_frames, (len(parents), 3, 4), "bone_frames"), "bone_names": found}
+        # A copy must stay as the character is, whatever becomes of the caller's arrays.
+        return _character(cls, {name: value.copy() if isinstance(value, np.ndarray) else value for name, value in arrays.items()})
+
+    def _import(self, origin: Dict[str, Any]) -> None:
+        """Creates the character from its file or its arrays."""
         desc = descriptor(c.nook_bake_source_desc)
-        desc.positions, desc.indices, desc.joints, desc.weights = pointer(p), pointer(indices), pointer(bones), pointer(w)
-        desc.vertex_count, desc.index_count, desc.influences = len(p), indices.size, bones.shape[1]
-        desc.bone_parents, desc.bone_frames_3x4, desc.bone_count = pointer(parents), pointer(frames), len(parents)
-        if bone_names is not None:
-            if len(bone_names) != len(parents):
-                raise ValueError(f"bone_names: has {len(bone_names)}, need {len(parents)}")
-            desc.bone_names = (ctypes.c_char_p * len(parents))(*[name.encode("utf-8") for name in bone_names])
-        call("nook_bake_character_create", ctypes.byref(desc), ctypes.byref(made._handle))
-        made._describe()
-        return made
+        held: Any = None
+        if "source" in origin:
+            source = origin["source"]
+            if isinstance(source, str):
+                desc.path = source.encode("utf-8", "surrogateescape")
+            else:
+                # A buffer, because ctypes makes NULL of empty bytes.
+                held = ctypes.create_string_buffer(source, max(len(source), 1))
+                put(desc, bytes=ctypes.cast(held, ctypes.c_void_p), byte_count=len(source))
+            put(desc, meshes=name_array(origin["meshes"]), mesh_count=len(origin["meshes"]), without=name_array(origin["without"]),
+                without_count=len(origin["without"]), allow_outside_files=origin["allow_outside_files"])
+        else:
+            p, triangles, joints, parents = (origin[name] for name in ("positions", "triangles", "joints", "bone_parents"))
+            put(desc, positions=pointer(p), indices=pointer(triangles), joints=pointer(joints), weights=pointer(origin["weights"]),
+                vertex_count=len(p), index_count=triangles.size, influences=joints.shape[1], bone_parents=pointer(parents),
+                bone_frames_3x4=pointer(origin["bone_frames"]), bone_count=len(parents))
+            if origin["bone_names"] is not None:
+                desc.bone_names = name_array(origin["bone_names"])
+        call("nook_bake_character_create", ctypes.byref(desc), ctypes.byref(self._handle))
+        self._origin = origin
+        self._describe()
 
     def _describe(self) -> None:
         info = described(c.nook_bake_character_info, "nook_bake_character_describe", self.handle)
@@ -89,11 +97,20 @@ class Character(Handle):
         return [text(call("nook_bake_character_name", self.handle, kind, i)) for i in range(count)]
 
     def _clip(self, clip: Union[int, str]) -> int:
-        if isinstance(clip, int):
-            return clip
-        if clip not in self.clip_names:
-            raise ValueError(f"clip {clip!r} is none of {', '.join(self.clip_names) or 'none: the file has no clip'}")
-        return self.clip_names.index(clip)
+        if not self.clip_names:
+            raise ValueError(f"clip {clip!r}: the character has no clip")
+        said = ", ".join(repr(name) for name in self.clip_names)
+        if isinstance(clip, str):
+            if clip not in self.clip_names:
+                raise ValueError(f"clip {clip!r} is none of {said}")
+            return self.clip_names.index(clip)
+        try:
+            index = operator.index(clip)
+        except TypeError:
+            raise TypeError(f"clip: need a name or a number, got {came(clip)}; there are {said}") from None
+        if not 0 <= index < len(self.clip_names):
+            raise ValueError(f"clip {index} is none of 0 to {len(self.clip_names) - 1}: {said}")
+        return index
 
     def clip_duration(self, clip: Union[int, str]) -> float:
         """Seconds."""
@@ -104,7 +121,8 @@ class Character(Handle):
     def sample_clip(self, clip: Union[int, str], time_s: float) -> FloatArray:
         """The pose of a clip at a time in seconds from its first key."""
         bones = np.empty((self.bone_count, 3, 4), np.float32)
-        call("nook_bake_character_sample_clip", self.handle, self._clip(clip), time_s, pointer(bones), self.bone_count)
+        at = number(time_s, ctypes.c_float, "time_s")
+        call("nook_bake_character_sample_clip", self.handle, self._clip(clip), at, pointer(bones), self.bone_count)
         return bones
 
     def rest_pose(self) -> FloatArray:
@@ -113,6 +131,7 @@ class Character(Handle):
 
     def auto_poses(self, count: int, seed: int = 1) -> FloatArray:
         """Generated whole-body poses, count x bones x 3 x 4."""
+        count, seed = integer(count, ctypes.c_uint32, "count"), integer(seed, ctypes.c_uint64, "seed")
         bones = np.empty((count, self.bone_count, 3, 4), np.float32)
         call("nook_bake_character_auto_poses", self.handle, seed, count, pointer(bones), self.bone_count)
         return bones
@@ -136,3 +155,11 @@ class Character(Handle):
         positions, normals = (np.empty((self.vertex_count, 3), np.float32) for _ in range(2))
         call("nook_bake_character_skin", self.handle, pointer(bones), self.bone_count, pointer(positions), pointer(normals), self.vertex_count)
         return positions, normals
+
+
+def _character(kind: Any, origin: Dict[str, Any]) -> Character:
+    """Makes a character of what it came from."""
+    made: Character = kind.__new__(kind)
+    Handle.__init__(made)
+    made._import(origin)
+    return made

@@ -2,13 +2,17 @@
 import ctypes
 import json
 import time
-from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _layouts as c
-from ._library import Handle, call, choice, described, descriptor, floats, integers, pointer, text
+from ._library import (
+    Handle, NookError, came, call, choice, described, descriptor, encoded, file_bytes, floats, integers, name_array, names, need, pointer,
+    put, put_settings, text,
+)
 from .characters import Character
+from .materials import Material
 
 
 class Progress(NamedTuple):
@@ -31,6 +35,8 @@ class Job(Handle):
 
     def __init__(self, desc: Any, progress: Optional[ProgressFunction]) -> None:
         super().__init__()
+        if progress is not None and not callable(progress):
+            raise TypeError(f"progress: need a function, got {came(progress)}")
         self._error: Optional[BaseException] = None
 
         def report(_user: Any, at: Any) -> int:
@@ -87,26 +93,18 @@ def _progress(at: Any) -> Progress:
     return Progress(text(at.stage), int(at.done), int(at.total), at.state == c.NOOK_BAKE_DONE)
 
 
-def _set(desc: Any, settings: Dict[str, Any], names: Sequence[str]) -> None:
-    """Sets plain fields by their names in the C header."""
-    for name, value in settings.items():
-        if name not in names:
-            raise TypeError(f"{name!r} is no setting; there are {', '.join(sorted(names))}")
-        setattr(desc, name, value)
-
-
-def bake_character(character: Character, *, preset: str = "standard", poses: Optional[str] = None, clips: Sequence[str] = (),
+def bake_character(character: Character, *, preset: str = "standard", poses: Optional[str] = None, clips: Union[str, Sequence[str]] = (),
                    clip_split: Optional[str] = None, extra_poses: Any = None, form: Optional[str] = None,
                    progress: Optional[ProgressFunction] = None, **settings: Any) -> Job:
     """Starts to bake a character model and returns at once.
 
     preset: draft, standard or production. poses: auto, single_joint, clips, all or extra. form: default, or paper: Le et al. 2019.
-    clip_split: all, half or families, for comparisons.
+    clips: names of the clips to take poses from; one str is one name. clip_split: all, half or families, for comparisons.
     settings: spheres, key_points, rays, steps, auto_pose_count, samples_per_clip, seed, threads, gamma, saturation, time_limit_s, as
     nook_bake_character_desc has them. progress is called on threads of the job; it returns False to cancel.
     """
     desc = descriptor(c.nook_bake_character_desc)
-    desc.character = character.handle
+    desc.character = need(character, Character, "character").handle
     desc.preset = choice("NOOK_BAKE_PRESET_", preset, "preset")
     if poses is not None:
         desc.pose_mode = choice("NOOK_BAKE_POSES_", poses, "poses")
@@ -116,15 +114,14 @@ def bake_character(character: Character, *, preset: str = "standard", poses: Opt
         desc.next = ctypes.cast(ctypes.pointer(study), ctypes.c_void_p)
     if form is not None:
         desc.form = choice("NOOK_FORM_", form, "form")
-    if clips:
-        desc.clip_count = len(clips)
-        desc.clip_names = (ctypes.c_char_p * len(clips))(*[name.encode("utf-8") for name in clips])
+    taken = names(clips, "clips")
+    put(desc, clip_count=len(taken), clip_names=name_array(taken))
     extra = None
     if extra_poses is not None:
         extra = floats(extra_poses, (None, character.bone_count, 3, 4), "extra_poses")
-        desc.extra_poses_3x4, desc.extra_pose_count = pointer(extra), len(extra)
-    _set(desc, settings, ("spheres", "key_points", "rays", "steps", "auto_pose_count", "samples_per_clip", "seed", "threads", "gamma",
-                          "saturation", "time_limit_s"))
+        put(desc, extra_poses_3x4=pointer(extra), extra_pose_count=len(extra))
+    put_settings(desc, settings, ("spheres", "key_points", "rays", "steps", "auto_pose_count", "samples_per_clip", "seed", "threads",
+                                  "gamma", "saturation", "time_limit_s"), "a character's bake")
     return Job(desc, progress)
 
 
@@ -140,6 +137,13 @@ def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any 
     """
     desc = descriptor(c.nook_bake_material_desc)
     kept: List[Any] = []
+    own = {"struct_size", "type", "next", "meso", "btf", "coverage", "lights", "views", "method", "form", "relief", "heights",
+           "progress", "progress_user"}
+    # An array gives its own size, which a setting must not contradict.
+    own |= {"light_count"} if lights is not None else set()
+    own |= {"view_count"} if views is not None else set()
+    own |= {"width", "height"} if btf is not None else set()
+    put_settings(desc, settings, [name for name, *_ in c.nook_bake_material_desc._fields_ if name not in own], "this bake of a material")
 
     def give(field: str, values: Any, shape: Any) -> Any:
         array = floats(values, shape, field)
@@ -148,15 +152,16 @@ def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any 
         return array
 
     if meso is not None:
-        desc.meso = meso.encode("utf-8")
+        desc.meso = encoded(meso, "meso")
     if lights is not None:
-        desc.light_count = len(give("lights", lights, (None, 3)))
+        put(desc, light_count=len(give("lights", lights, (None, 3))))
     if views is not None:
-        desc.view_count = len(give("views", views, (None, 3)))
+        put(desc, view_count=len(give("views", views, (None, 3))))
     if btf is not None:
         if lights is None or views is None:
             raise ValueError("btf: needs lights and views, the directions of its first two axes")
-        desc.height, desc.width = give("btf", btf, (desc.light_count, desc.view_count, None, None, 3)).shape[2:4]
+        height, width = give("btf", btf, (desc.light_count, desc.view_count, None, None, 3)).shape[2:4]
+        put(desc, height=height, width=width)
     if coverage is not None:
         give("coverage", coverage, (desc.view_count, desc.height, desc.width))
     if method is not None:
@@ -166,17 +171,15 @@ def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any 
     desc.relief = 1 if relief else 0
     if heights is not None:
         give("heights", heights, (desc.height, desc.width))
-    own = {"struct_size", "type", "next", "meso", "btf", "coverage", "lights", "views", "method", "form", "relief", "heights",
-           "progress", "progress_user"}
-    _set(desc, settings, [name for name, *_ in c.nook_bake_material_desc._fields_ if name not in own])
     return Job(desc, progress)
 
 
-def bake_transfer(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tangents: Any = None, holes_of: Optional[bytes] = None,
+def bake_transfer(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tangents: Any = None, holes_of: Any = None,
                   progress: Optional[ProgressFunction] = None, **settings: Any) -> Job:
     """Starts to bake radiance transfer of a static shape and returns at once.
 
-    holes_of: the .nook file of the material through whose holes light falls. settings: lobes, ray_side, threads, bounces, tiles.
+    holes_of: the material through whose holes light falls, a Material or its .nook file as a path or bytes. settings: lobes,
+    ray_side, threads, bounces, tiles.
     """
     desc = descriptor(c.nook_bake_transfer_desc)
     p = floats(positions, (None, 3), "positions")
@@ -185,8 +188,9 @@ def bake_transfer(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tan
     tangent = None if tangents is None else floats(tangents, (len(p), 4), "tangents")
     indices = integers(triangles, np.uint32, (None, 3), "triangles")
     desc.positions, desc.normals, desc.uvs, desc.tangents = pointer(p), pointer(n), pointer(uv), pointer(tangent)
-    desc.indices, desc.vertex_count, desc.index_count = pointer(indices), len(p), indices.size
+    put(desc, indices=pointer(indices), vertex_count=len(p), index_count=indices.size)
     if holes_of is not None:
-        desc.votf, desc.votf_size = ctypes.cast(ctypes.c_char_p(holes_of), ctypes.c_void_p), len(holes_of)
-    _set(desc, settings, ("lobes", "ray_side", "threads", "bounces", "tiles"))
+        holes = holes_of.data if isinstance(holes_of, Material) else file_bytes(holes_of, "holes_of")
+        put(desc, votf=ctypes.cast(ctypes.c_char_p(holes), ctypes.c_void_p), votf_size=len(holes))
+    put_settings(desc, settings, ("lobes", "ray_side", "threads", "bounces", "tiles"), "a transfer's bake")
     return Job(desc, progress)

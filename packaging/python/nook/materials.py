@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _layouts as c
-from ._library import FloatArray, Handle, call, described, floats, word
+from ._library import FloatArray, Handle, call, described, file_bytes, floats, integer, word
 from .scenes import shared_context
 
 
@@ -18,14 +18,15 @@ class MaterialValues(NamedTuple):
 
 
 class Material(Handle):
-    """The bytes of a .nook file of a material."""
+    """A baked material: its .nook file as a path, or as bytes in any form."""
 
     _kind = c.nook_material
     _destroy = "nook_material_destroy"
 
-    def __init__(self, data: bytes) -> None:
+    def __init__(self, data: Any) -> None:
         super().__init__()
-        call("nook_material_load", shared_context().handle, data, len(data), None, ctypes.byref(self._handle))
+        self.data: bytes = file_bytes(data, "Material")
+        call("nook_material_load", shared_context().handle, self.data, len(self.data), None, ctypes.byref(self._handle))
         info = described(c.nook_material_info, "nook_material_describe", self.handle)
         self.width: int = info.width
         self.height: int = info.height
@@ -37,6 +38,7 @@ class Material(Handle):
         """The material in n pixels: uv is n x 2, view and light are n x 3 unit vectors in tangent space, away from the surface. dx and dy
         are n x 2, the changes of uv to the neighbours to the right and above; None is a pixel without a size. Each value is the mean
         over that many places along the longer side of the pixel, 1 to NOOK_MATERIAL_MAX_FETCHES."""
+        fetches = integer(fetches, ctypes.c_uint32, "fetches")
         points = floats(uv, (None, 2), "uv")
         sides = [floats(np.zeros_like(points) if side is None else side, (len(points), 2), name) for side, name in ((dx, "dx"), (dy, "dy"))]
         views, lights = floats(view, (len(points), 3), "view"), floats(light, (len(points), 3), "light")

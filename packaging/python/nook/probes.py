@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from . import _layouts as c
-from ._library import FloatArray, Handle, call, choice, described, descriptor, floats, pointer
+from ._library import FloatArray, Handle, call, choice, described, descriptor, file_bytes, floats, integer, need, pointer, put
 from .scenes import shared_context
 
 
@@ -15,14 +15,18 @@ _STUDIES = ("naive", "running_average_original", "moments")
 
 
 class Probe(Handle):
-    """One probe, or a grid of them: the bytes of a .nook file. Directions are n x 3 unit vectors, light is n x 3 linear RGB."""
+    """One probe, or a grid of them: a .nook file as a path, or as bytes in any form.
+
+    Directions are n x 3 unit vectors, light is n x 3 linear RGB.
+    """
 
     _kind = c.nook_probe
     _destroy = "nook_probe_destroy"
 
-    def __init__(self, data: bytes) -> None:
+    def __init__(self, data: Any) -> None:
         super().__init__()
-        call("nook_probe_load", shared_context().handle, data, len(data), ctypes.byref(self._handle))
+        found = file_bytes(data, "Probe")
+        call("nook_probe_load", shared_context().handle, found, len(found), ctypes.byref(self._handle))
         self._describe()
 
     def _describe(self) -> None:
@@ -53,7 +57,7 @@ class Probe(Handle):
     def coefficients(self, index: int = 0) -> FloatArray:
         """The coefficients of one probe of the grid: function_count x 3, for tools that edit or plot them."""
         rgb = np.empty((self.function_count, 3), dtype=np.float32)
-        call("nook_probe_read_coefficients", self.handle, index, pointer(rgb), self.function_count)
+        call("nook_probe_read_coefficients", self.handle, integer(index, ctypes.c_uint32, "index"), pointer(rgb), self.function_count)
         return rgb
 
     def save(self, packing: str = "half") -> bytes:
@@ -75,7 +79,8 @@ class ProbeFit(Handle):
         """form is default, or paper for the published method, which needs the default method."""
         super().__init__()
         desc, study = descriptor(c.nook_probe_fit_desc), descriptor(c.nook_probe_fit_study_desc)
-        desc.lobe_count, desc.ambient, desc.form = lobes, int(ambient), choice("NOOK_FORM_", form, "form")
+        desc.lobe_count = integer(lobes, ctypes.c_uint32, "lobes")
+        put(desc, ambient=bool(ambient), form=choice("NOOK_FORM_", form, "form"))
         if method in _STUDIES:
             study.method = choice("NOOK_PROBE_FIT_STUDY_", method, "method")
         elif method in _METHODS:
@@ -94,7 +99,7 @@ class ProbeFit(Handle):
 
     def merge(self, other: "ProbeFit") -> None:
         """Adds the samples of another fit with the same settings, such as one that another thread filled."""
-        call("nook_probe_fit_merge", self.handle, other.handle)
+        call("nook_probe_fit_merge", self.handle, need(other, ProbeFit, "other").handle)
 
     def solve(self) -> Probe:
         """A probe of the samples so far; more may follow."""

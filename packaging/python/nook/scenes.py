@@ -6,7 +6,10 @@ from typing import Any, List, Optional, Sequence
 import numpy as np
 
 from . import _layouts as c
-from ._library import FloatArray, Handle, call, described, descriptor, floats, pointer, text
+from ._library import (
+    FloatArray, Handle, call, described, descriptor, file_bytes, floats, integer, need, pointer, put,
+    put_settings, text,
+)
 
 
 _log = logging.getLogger("nook")
@@ -44,14 +47,18 @@ def shared_context() -> Context:
 
 
 class CharacterModel(Handle):
-    """A baked character: the bytes of a .nook file."""
+    """A baked character: its .nook file as a path, or as bytes in any form."""
 
     _kind = c.nook_model
     _destroy = "nook_model_destroy"
 
-    def __init__(self, data: bytes) -> None:
+    def __init__(self, data: Any) -> None:
         super().__init__()
-        call("nook_model_load", shared_context().handle, data, len(data), ctypes.byref(self._handle))
+        found = file_bytes(data, "CharacterModel")
+        call("nook_model_load", shared_context().handle, found, len(found), ctypes.byref(self._handle))
+        self._describe()
+
+    def _describe(self) -> None:
         info = described(c.nook_model_info, "nook_model_describe", self.handle)
         self.bone_count: int = info.bone_count
         self.sphere_count: int = info.sphere_count
@@ -76,8 +83,7 @@ class Instance:
         """bones x 3 x 4, from rest space to the world."""
         bones = floats(pose, (self.model.bone_count, 3, 4), "pose")
         desc = descriptor(c.nook_pose_desc)
-        desc.kind, desc.layout = c.NOOK_POSE_REST_TO_WORLD, c.NOOK_TRANSFORM_ROWS_3X4
-        desc.transforms, desc.transform_count = pointer(bones), self.model.bone_count
+        put(desc, kind=c.NOOK_POSE_REST_TO_WORLD, layout=c.NOOK_TRANSFORM_ROWS_3X4, transforms=pointer(bones), transform_count=len(bones))
         call("nook_scene_set_pose", self.scene.handle, self.number, ctypes.byref(desc))
 
     def set_ground(self, plane: Optional[Sequence[float]]) -> None:
@@ -107,15 +113,12 @@ class Scene(Handle):
         """settings: numbers of nook_scene_desc, such as cutoff_error."""
         super().__init__()
         desc = descriptor(c.nook_scene_desc)
-        for name, value in settings.items():
-            if name not in [field for field, *_ in c.nook_scene_desc._fields_[3:]]:
-                raise TypeError(f"{name!r} is no setting of a scene")
-            setattr(desc, name, value)
+        put_settings(desc, settings, [field for field, *_ in c.nook_scene_desc._fields_[3:]], "a scene")
         call("nook_scene_create", shared_context().handle, ctypes.byref(desc), ctypes.byref(self._handle))
 
     def add_instance(self, model: CharacterModel) -> Instance:
         number = c.nook_instance_id()
-        call("nook_scene_add_instance", self.handle, model.handle, ctypes.byref(number))
+        call("nook_scene_add_instance", self.handle, need(model, CharacterModel, "model").handle, ctypes.byref(number))
         return Instance(self, model, int(number.value))
 
     def add_sphere(self, centre: Sequence[float], radius: float) -> int:
@@ -123,12 +126,12 @@ class Scene(Handle):
         number = c.nook_occluder_id()
         ball = c.nook_occluder()
         ball.centre_ws[:] = floats(centre, (3,), "centre").tolist()
-        ball.radius = radius
+        put(ball, radius=radius)
         call("nook_scene_add_occluder", self.handle, ctypes.byref(ball), ctypes.byref(number))
         return int(number.value)
 
     def remove_sphere(self, number: int) -> None:
-        call("nook_scene_remove_occluder", self.handle, number)
+        call("nook_scene_remove_occluder", self.handle, integer(number, ctypes.c_uint32, "number"))
 
     @property
     def uneven_instances(self) -> int:
@@ -141,7 +144,8 @@ class Scene(Handle):
 
 
 def evaluate_pose(model: CharacterModel, pose: Any, *, ground: Optional[Sequence[float]] = None) -> FloatArray:
-    """AO of one character in one pose."""
+    """AO of one character in one pose. For many poses, keep a Scene with an instance and call set_pose(), update() and read_ao() for
+    each."""
     with Scene() as scene:
         instance = scene.add_instance(model)
         instance.set_pose(pose)

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple, Sequence, Tuple
 import numpy as np
 
 from . import _layouts as c
-from ._library import FloatArray, call, descriptor, floats, integers, pointer
+from ._library import FloatArray, call, descriptor, floats, integers, need, pointer, put
 from .characters import Character
 from .scenes import CharacterModel, evaluate_pose
 
@@ -18,13 +18,12 @@ def trace_ao(meshes: Sequence[Tuple[Any, Any]], positions: Any, normals: Any, *,
     kept = [(floats(p, (None, 3), "positions of a mesh"), integers(t, np.uint32, (None, 3), "triangles of a mesh")) for p, t in meshes]
     occluders = (c.nook_bake_occluder_mesh * max(len(kept), 1))()
     for mesh, (p, t) in zip(occluders, kept):
-        mesh.positions, mesh.indices, mesh.vertex_count, mesh.index_count = pointer(p), pointer(t), len(p), t.size
+        put(mesh, positions=pointer(p), indices=pointer(t), vertex_count=len(p), index_count=t.size)
     at = floats(positions, (None, 3), "positions")
     facing = floats(normals, (len(at), 3), "normals")
     desc = descriptor(c.nook_bake_trace_desc)
-    desc.meshes, desc.mesh_count = occluders, len(kept)
-    desc.positions, desc.normals, desc.point_count = pointer(at), pointer(facing), len(at)
-    desc.rays, desc.seed, desc.threads, desc.radius, desc.origin_offset = rays, seed, threads, radius, origin_offset
+    put(desc, meshes=occluders, mesh_count=len(kept), positions=pointer(at), normals=pointer(facing), point_count=len(at), rays=rays,
+        seed=seed, threads=threads, radius=radius, origin_offset=origin_offset)
     ao = np.empty(len(at), np.float32)
     call("nook_bake_trace_ao", ctypes.byref(desc), pointer(ao), len(at))
     return ao
@@ -45,6 +44,10 @@ def model_error(character: Character, model: CharacterModel, poses: Any, *, rays
     `nook evaluate character` weighs welded vertices alike; this function weighs those of the file, so that its numbers differ where
     a file splits vertices.
     """
+    need(character, Character, "character")
+    need(model, CharacterModel, "model")
+    if character.vertex_count != model.vertex_count:
+        raise ValueError(f"model: has {model.vertex_count} vertices, and the character has {character.vertex_count}")
     each = floats(poses, (None, character.bone_count, 3, 4), "poses")
     triangles, static = character.triangles(), model.static_ao()
     offset = 1e-4 * float(np.linalg.norm(character.bounds[1] - character.bounds[0]))
