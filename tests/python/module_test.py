@@ -343,6 +343,19 @@ class Arguments(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "preset: need one of the words"):
             nook.bake_character(self.character, preset=["draft"])
 
+    def test_instances_and_spheres_of_two_scenes_do_not_mix(self):
+        with nook.Scene() as one, nook.Scene() as two:
+            a, b, other = one.add_instance(self.model), two.add_instance(self.model), one.add_instance(self.model)
+            with self.assertRaisesRegex(ValueError, "caster: it is in another scene"):
+                a.link(b)
+            with self.assertRaisesRegex(TypeError, "caster: need a nook.Instance, got int"):
+                a.link(other.number)
+            a.link(other)
+            sphere = two.add_sphere((0, 0, 0), 1)
+            one.add_sphere((0, 0, 0), 1)
+            with self.assertRaisesRegex(ValueError, "another scene"):
+                one.remove_sphere(sphere)
+            two.remove_sphere(int(sphere))
 
 
 

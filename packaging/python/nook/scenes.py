@@ -1,6 +1,7 @@
 """What the runtime does with baked characters: models, scenes, ambient occlusion of poses."""
 import ctypes
 import logging
+import weakref
 from typing import Any, List, Optional, Sequence
 
 import numpy as np
@@ -92,7 +93,10 @@ class Instance:
         call("nook_scene_set_ground", self.scene.handle, self.number, pointer(values))
 
     def link(self, caster: "Instance") -> None:
-        """The other instance darkens this one."""
+        """The other instance, which is in the same scene, darkens this one."""
+        if need(caster, Instance, "caster").scene is not self.scene:
+            # The library knows an instance by its number, which another scene has given to another one.
+            raise ValueError("caster: it is in another scene; add its model to this scene and link that instance")
         call("nook_scene_link", self.scene.handle, self.number, caster.number)
 
     def read_ao(self) -> FloatArray:
@@ -101,6 +105,12 @@ class Instance:
         call("nook_scene_read", self.scene.handle, self.number, c.NOOK_CHANNEL_AO, c.NOOK_FORMAT_FLOAT, pointer(ao),
              self.model.vertex_count, 0)
         return ao
+
+
+class Sphere(int):
+    """The number of an occluder, which belongs to one scene."""
+
+    _scene: Any = None
 
 
 class Scene(Handle):
@@ -128,9 +138,13 @@ class Scene(Handle):
         ball.centre_ws[:] = floats(centre, (3,), "centre").tolist()
         put(ball, radius=radius)
         call("nook_scene_add_occluder", self.handle, ctypes.byref(ball), ctypes.byref(number))
-        return int(number.value)
+        sphere = Sphere(number.value)
+        sphere._scene = weakref.ref(self)
+        return sphere
 
     def remove_sphere(self, number: int) -> None:
+        if isinstance(number, Sphere) and number._scene() is not self:
+            raise ValueError("number: this sphere is in another scene")
         call("nook_scene_remove_occluder", self.handle, integer(number, ctypes.c_uint32, "number"))
 
     @property
