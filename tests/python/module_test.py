@@ -297,6 +297,9 @@ class Arguments(unittest.TestCase):
             "auto_poses": self.character.auto_poses, "auto_poses seed": lambda value: self.character.auto_poses(1, value),
             "coefficients": lambda value: self.probe.coefficients(value), "lobes": lambda value: nook.ProbeFit(value),
             "remove_sphere": scene.remove_sphere, "clip": lambda value: self.character.sample_clip(value, 0),
+            "skin": lambda value: nook.evaluate_pose(self.model, bent(0), kind="skinning", skin=value),
+            "primitive": lambda value: self.model.match_vertices(no_light, primitive=value),
+            "remap": lambda value: self.model.remap([value]),
             "parents": lambda value: nook.Character.from_arrays(box[0], box[3], [[0]] * 3, [[1]] * 3, [value], np.eye(3, 4)[None]),
             "joints": lambda value: nook.Character.from_arrays(box[0], box[3], [[value]] * 3, [[1]] * 3, [-1], np.eye(3, 4)[None])})
         for name, function in calls.items():
@@ -357,6 +360,45 @@ class Arguments(unittest.TestCase):
                 one.remove_sphere(sphere)
             two.remove_sphere(int(sphere))
 
+    def test_joint_and_skinning_poses(self):
+        pose = self.character.sample_clip("Survey", 0.5)
+        whole = np.concatenate([pose, np.tile([[[0, 0, 0, 1]]], (2, 1, 1))], axis=1)
+        joint_rest = np.tile(np.diag([0.01, 0.01, 0.01, 1.0]), (2, 1, 1))
+        joint_rest[1, 0, 3] = 0.5
+        joints = whole @ joint_rest
+        skinning = whole @ np.diag([0.01, 0.01, 0.01, 1.0])
+        for kind, given in (("rest_to_world", whole), ("joint_to_world", joints), ("skinning", skinning)):
+            for form, options in ((given[:, :3], {}), (given, {}), (given.transpose(0, 2, 1), {"layout": "columns_4x4"}),
+                                  (given[::-1], {"transform_of_bone": self.model.map_bones(["tip", "root"])})):
+                if kind == "skinning" and options.get("transform_of_bone") is not None:
+                    continue
+                np.testing.assert_allclose(self.model.convert_pose(form, kind, **options), pose, atol=1e-5, err_msg=f"{kind} {options}")
+            np.testing.assert_allclose(nook.evaluate_pose(self.model, given, kind=kind), nook.evaluate_pose(self.model, pose), atol=1e-4)
+        self.assertEqual(self.model.skins, [nook.Skin(0, 2)])
+        moved = self.model.convert_pose(pose, place=[[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 0]])
+        np.testing.assert_allclose(moved[:, 0, 3], pose[:, 0, 3] + 2, atol=1e-6)
+        with self.assertRaisesRegex(ValueError, "kind: 'joints' is none of rest_to_world, joint_to_world, skinning"):
+            self.model.convert_pose(pose, "joints")
+        with self.assertRaisesRegex(ValueError, "pose: has the shape"):
+            self.model.convert_pose(skinning[:1], "skinning")
+        with self.assertRaisesRegex(ValueError, "skin: 1 is none of 0"):
+            self.model.convert_pose(skinning, "skinning", skin=1)
+
+    def test_a_mesh_in_another_order_gets_its_own_ao(self):
+        positions, normals = self.character.vertices()
+        order = np.random.default_rng(5).permutation(len(positions))
+        match = self.model.match_vertices(100 * positions[order], normals[order])
+        self.assertEqual(match.unmatched, 0)
+        np.testing.assert_array_equal(match.vertices, order)
+        np.testing.assert_array_equal(self.model.match_vertices(positions, in_rest_space=True, primitive=0).vertices, np.arange(len(order)))
+        for mine in (self.model.remap(match), self.model.remap(order)):
+            np.testing.assert_array_equal(nook.evaluate_pose(mine, bent(1)), self.ao[order])
+        twice = self.model.remap(order).remap([3, 1])
+        np.testing.assert_array_equal(nook.evaluate_pose(twice, bent(1)), self.ao[order][[3, 1]])
+        far = self.model.match_vertices([[1e4, 0, 0]])
+        self.assertEqual((far.unmatched, far.vertices.tolist()), (1, [nook.NO_VERTEX]))
+        with self.assertRaises(nook.NookError):
+            self.model.remap(far)
 
 
 class Traces(unittest.TestCase):

@@ -2,13 +2,14 @@
 import ctypes
 import logging
 import weakref
-from typing import Any, List, Optional, Sequence
+from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _layouts as c
 from ._library import (
-    FloatArray, Handle, call, described, descriptor, file_bytes, floats, integer, need, pointer, put,
+    FloatArray, Handle, call, choice, described, descriptor, file_bytes, floats, integer, integers, name_array, names, need, pointer, put,
     put_settings, text,
 )
 
@@ -47,6 +48,26 @@ def shared_context() -> Context:
     return _shared
 
 
+class Skin(NamedTuple):
+    """file_index is what a skinning pose takes as skin; joint_count is the number of its matrices."""
+
+    file_index: int
+    joint_count: int
+
+
+class VertexMatch(NamedTuple):
+    """vertices has the model's vertex for each of yours, or NO_VERTEX for the unmatched ones, which are counted."""
+
+    vertices: npt.NDArray[np.uint32]
+    unmatched: int
+
+
+NO_VERTEX = 0xFFFFFFFF
+# The shape of one transform in each layout of nook_character.h.
+_LAYOUTS = {"rows_3x4": (3, 4), "rows_4x4": (4, 4), "columns_4x4": (4, 4), "columns_4x3": (4, 3), "dual_quaternion": (2, 4), "trs": (10,)}
+_KINDS = ("rest_to_world", "joint_to_world", "skinning")
+
+
 class CharacterModel(Handle):
     """A baked character: its .nook file as a path, or as bytes in any form."""
 
@@ -66,12 +87,91 @@ class CharacterModel(Handle):
         self.key_point_count: int = info.key_point_count
         self.vertex_count: int = info.file_vertex_count
         self.bone_names: List[str] = [text(call("nook_model_bone_name", self.handle, i)) for i in range(info.bone_count)]
+        skins = [described(c.nook_skin_info, "nook_model_describe_skin", self.handle, i) for i in range(info.skin_count)]
+        self.skins: List[Skin] = [Skin(skin.file_index, skin.joint_count) for skin in skins]
 
     def static_ao(self) -> FloatArray:
         """AO of the rest pose as a static bake has it, one value for each vertex of the file."""
         ao = np.empty(self.vertex_count, np.float32)
         call("nook_model_read", self.handle, c.NOOK_MODEL_STATIC_AO, pointer(ao), self.vertex_count, 0)
         return ao
+
+    def match_vertices(self, positions: Any, normals: Any = None, *, primitive: Optional[int] = None, in_rest_space: bool = False,
+                       tolerance: float = 0.0) -> VertexMatch:
+        """Finds the model's vertex for each vertex of your mesh, for remap().
+
+        positions are n x 3, as the file's POSITION has them; with in_rest_space, in rest space and metres. normals are n x 3 and tell
+        the two sides of a card apart. primitive is the one of the file that your vertices come from; None is all of them. tolerance is
+        the largest distance as a share of the diagonal of the model's box; 0 is 1e-4.
+        """
+        desc = descriptor(c.nook_vertex_match_desc)
+        p = floats(positions, (None, 3), "positions")
+        n = None if normals is None else floats(normals, (len(p), 3), "normals")
+        put(desc, positions=pointer(p), normals=pointer(n), vertex_count=len(p), in_rest_space=bool(in_rest_space), tolerance=tolerance,
+            primitive=c.NOOK_ALL_PRIMITIVES if primitive is None else primitive)
+        vertices, unmatched = np.empty(len(p), np.uint32), ctypes.c_uint32()
+        call("nook_model_match_vertices", self.handle, ctypes.byref(desc), pointer(vertices), ctypes.byref(unmatched))
+        return VertexMatch(vertices, int(unmatched.value))
+
+    def remap(self, vertices: Any) -> "CharacterModel":
+        """A model whose vertex i is this model's vertex vertices[i], so that AO comes in the order of your mesh. It takes the answer of
+        match_vertices() too."""
+        if isinstance(vertices, VertexMatch):
+            vertices = vertices.vertices
+        indices = integers(vertices, np.uint32, (None,), "vertices").copy()
+        made: CharacterModel = type(self).__new__(type(self))
+        Handle.__init__(made)
+        call("nook_model_remap", self.handle, pointer(indices), len(indices), ctypes.byref(made._handle))
+        made._describe()
+        return made
+
+    def map_bones(self, names_of_transforms: Union[str, Sequence[str]], *, loose: bool = False,
+                  drop_shared_prefix: bool = False) -> npt.NDArray[np.int32]:
+        """The index of the transform of each bone by its name, or -1, for transform_of_bone of a pose. loose compares letters without
+        their case and skips the characters space . _ - : |. drop_shared_prefix removes what all names have in common at their
+        beginning, such as "mixamorig:"."""
+        desc = descriptor(c.nook_bone_map_desc)
+        found = names(names_of_transforms, "names_of_transforms")
+        flags = (c.NOOK_BONE_MAP_LOOSE if loose else 0) | (c.NOOK_BONE_MAP_DROP_SHARED_PREFIX if drop_shared_prefix else 0)
+        put(desc, names=name_array(found), name_count=len(found), flags=flags)
+        transforms = np.empty(self.bone_count, np.int32)
+        call("nook_model_map_bones", self.handle, ctypes.byref(desc), pointer(transforms), self.bone_count, None)
+        return transforms
+
+    def convert_pose(self, pose: Any, kind: str = "rest_to_world", **options: Any) -> FloatArray:
+        """A pose of any kind as bones x 3 x 4, from rest space to the world. The options are those of Instance.set_pose()."""
+        bones = np.empty((self.bone_count, 3, 4), np.float32)
+        desc, _kept = _pose(self, pose, kind, **options)
+        call("nook_model_convert_pose", self.handle, ctypes.byref(desc), pointer(bones), self.bone_count)
+        return bones
+
+
+def _pose(model: CharacterModel, pose: Any, kind: str, *, layout: Optional[str] = None, skin: int = 0, transform_of_bone: Any = None,
+          place: Any = None, strict: bool = False) -> Tuple[Any, List[Any]]:
+    """A pose for C, and the arrays that it points to."""
+    if not isinstance(kind, str) or kind not in _KINDS:
+        raise ValueError(f"kind: {kind!r} is none of {', '.join(_KINDS)}")
+    if layout is None:
+        layout = "rows_4x4" if np.shape(pose)[1:] == (4, 4) else "rows_3x4"
+    number = choice("NOOK_TRANSFORM_", layout, "layout")
+    skin = integer(skin, ctypes.c_uint32, "skin")
+    count: Optional[int] = model.bone_count
+    if kind == "skinning":
+        joints = {each.file_index: each.joint_count for each in model.skins}
+        if joints and skin not in joints:
+            raise ValueError(f"skin: {skin} is none of {', '.join(str(each) for each in joints)}")
+        count = joints.get(skin)
+    bones = None
+    if transform_of_bone is not None:
+        bones, count = integers(transform_of_bone, np.int32, (model.bone_count,), "transform_of_bone"), None
+    transforms = floats(pose, (count,) + _LAYOUTS[layout], "pose")
+    at = None if place is None else floats(place, (3, 4), "place")
+    desc = descriptor(c.nook_pose_desc)
+    put(desc, kind=choice("NOOK_POSE_", kind, "kind"), layout=number, transforms=pointer(transforms), transform_count=len(transforms),
+        skin=skin, place_3x4=pointer(at), flags=c.NOOK_POSE_FLAG_STRICT if strict else 0)
+    if bones is not None:
+        put(desc, transform_of_bone=pointer(bones), bone_count=len(bones))
+    return desc, [transforms, bones, at]
 
 
 class Instance:
@@ -80,11 +180,18 @@ class Instance:
     def __init__(self, scene: "Scene", model: CharacterModel, number: int) -> None:
         self.scene, self.model, self.number = scene, model, number
 
-    def set_pose(self, pose: Any) -> None:
-        """bones x 3 x 4, from rest space to the world."""
-        bones = floats(pose, (self.model.bone_count, 3, 4), "pose")
-        desc = descriptor(c.nook_pose_desc)
-        put(desc, kind=c.NOOK_POSE_REST_TO_WORLD, layout=c.NOOK_TRANSFORM_ROWS_3X4, transforms=pointer(bones), transform_count=len(bones))
+    def set_pose(self, pose: Any, kind: str = "rest_to_world", **options: Any) -> None:
+        """The pose of the next update.
+
+        kind says what the matrices are. rest_to_world: bones x 3 x 4, from rest space to the world. joint_to_world: the world matrices
+        of the joints, one for each bone. skinning: joint matrix times inverse bind matrix, one for each joint of the file's skin.
+        Matrices are n x 3 x 4, or n x 4 x 4 for column vectors, with the translation in the last column.
+
+        options: layout (rows_3x4, rows_4x4, columns_4x4, columns_4x3, dual_quaternion, trs) for other forms of a transform; skin, the
+        file's index of the skin; transform_of_bone, the answer of CharacterModel.map_bones(); place, a 3 x 4 matrix that is applied
+        after every transform; strict, which makes a sheared bone an error.
+        """
+        desc, _kept = _pose(self.model, pose, kind, **options)
         call("nook_scene_set_pose", self.scene.handle, self.number, ctypes.byref(desc))
 
     def set_ground(self, plane: Optional[Sequence[float]]) -> None:
@@ -157,12 +264,13 @@ class Scene(Handle):
         call("nook_scene_update", self.handle)
 
 
-def evaluate_pose(model: CharacterModel, pose: Any, *, ground: Optional[Sequence[float]] = None) -> FloatArray:
-    """AO of one character in one pose. For many poses, keep a Scene with an instance and call set_pose(), update() and read_ao() for
-    each."""
+def evaluate_pose(model: CharacterModel, pose: Any, *, ground: Optional[Sequence[float]] = None, kind: str = "rest_to_world",
+                  **options: Any) -> FloatArray:
+    """AO of one character in one pose. kind and options are those of Instance.set_pose(). For many poses, keep a Scene with an instance
+    and call set_pose(), update() and read_ao() for each."""
     with Scene() as scene:
         instance = scene.add_instance(model)
-        instance.set_pose(pose)
+        instance.set_pose(pose, kind, **options)
         if ground is not None:
             instance.set_ground(ground)
         scene.update()
