@@ -1,12 +1,16 @@
 """The Python module: bakes with progress and cancel, AO of poses, probes and materials, faults of callers."""
 import array
 import base64
+import copy
 import ctypes
 import io
 import json
 import math
+import multiprocessing
 import os
 import pathlib
+import pickle
+import signal
 import subprocess
 import sys
 import tempfile
@@ -204,6 +208,12 @@ def forms(data):
             array.array("B", data), ctypes.create_string_buffer(data, len(data)), io.BytesIO(data)]
 
 
+def worker(task):
+    """Runs in another process."""
+    model, character = task
+    return nook.evaluate_pose(model, bent(1)), character.skin(bent(1))[0]
+
+
 class Arguments(unittest.TestCase):
     """What Python programs pass, and what they copy."""
 
@@ -346,6 +356,65 @@ class Arguments(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "preset: need one of the words"):
             nook.bake_character(self.character, preset=["draft"])
 
+    def test_models_and_characters_are_copied(self):
+        for again in (pickle.loads(pickle.dumps(self.model)), copy.copy(self.model), copy.deepcopy({"model": self.model})["model"]):
+            np.testing.assert_array_equal(nook.evaluate_pose(again, bent(1)), self.ao)
+            again.close()
+        np.testing.assert_array_equal(nook.evaluate_pose(self.model, bent(1)), self.ao)
+        positions, _ = self.character.skin(bent(1))
+        for one in (self.character, nook.Character(self.file), tube()):
+            for again in (pickle.loads(pickle.dumps(one)), copy.copy(one), copy.deepcopy(one)):
+                np.testing.assert_array_equal(again.skin(bent(1))[0], one.skin(bent(1))[0])
+                self.assertEqual((again.bone_names, again.clip_names), (one.bone_names, one.clip_names))
+        self.assertNotIn(self.file[:200], pickle.dumps(self.character))  # by its path
+        probe = pickle.loads(pickle.dumps(self.probe))
+        np.testing.assert_array_equal(probe.coefficients(), self.probe.coefficients())
+
+    def test_a_pool_gives_the_results_of_one_process(self):
+        skinned = self.character.skin(bent(1))[0]
+        for start in [each for each in ("fork", "spawn") if each in multiprocessing.get_all_start_methods()]:
+            with multiprocessing.get_context(start).Pool(1) as pool:
+                for ao, positions in pool.map_async(worker, [(self.model, self.character)] * 2).get(300):
+                    np.testing.assert_array_equal(ao, self.ao)
+                    np.testing.assert_array_equal(positions, skinned)
+
+    def test_what_cannot_be_copied_says_why(self):
+        scene = nook.Scene()
+        with nook.bake_character(self.character, **SMALL) as job:
+            for one, said in ((scene, "models and poses"), (scene.add_instance(self.model), "its scene"), (job, r"wait\(\)"),
+                              (nook.ProbeFit(), r"solve\(\)"), (nook.Context(), "makes its own")):
+                for function in (pickle.dumps, copy.copy, copy.deepcopy, lambda x: copy.deepcopy([x])):
+                    with self.assertRaisesRegex(TypeError, f"cannot be pickled or copied: .*{said}"):
+                        function(one)
+        closed = nook.CharacterModel(self.data)
+        closed.close()
+        with self.assertRaisesRegex(nook.NookError, "closed"):
+            pickle.dumps(closed)
+
+    @unittest.skipUnless(hasattr(os, "fork"), "needs fork")
+    def test_a_job_does_not_hold_up_a_process_that_was_forked(self):
+        with nook.bake_character(self.character, **dict(SMALL, steps=1_000_000, threads=1)) as job:
+            child = os.fork()
+            if not child:
+                code = 1
+                try:
+                    job.poll()
+                except nook.NookError:
+                    job.close()
+                    code = 0
+                finally:
+                    os._exit(code)
+            end = time.monotonic() + 60
+            done, status = os.waitpid(child, os.WNOHANG)
+            while not done and time.monotonic() < end:
+                time.sleep(0.02)
+                done, status = os.waitpid(child, os.WNOHANG)
+            if not done:
+                os.kill(child, signal.SIGKILL)
+                os.waitpid(child, 0)
+            self.assertTrue(done)
+            self.assertEqual(status, 0)
+
     def test_instances_and_spheres_of_two_scenes_do_not_mix(self):
         with nook.Scene() as one, nook.Scene() as two:
             a, b, other = one.add_instance(self.model), two.add_instance(self.model), one.add_instance(self.model)
@@ -391,9 +460,9 @@ class Arguments(unittest.TestCase):
         self.assertEqual(match.unmatched, 0)
         np.testing.assert_array_equal(match.vertices, order)
         np.testing.assert_array_equal(self.model.match_vertices(positions, in_rest_space=True, primitive=0).vertices, np.arange(len(order)))
-        for mine in (self.model.remap(match), self.model.remap(order)):
+        for mine in (self.model.remap(match), self.model.remap(order), pickle.loads(pickle.dumps(self.model.remap(match)))):
             np.testing.assert_array_equal(nook.evaluate_pose(mine, bent(1)), self.ao[order])
-        twice = self.model.remap(order).remap([3, 1])
+        twice = copy.deepcopy(self.model.remap(order).remap([3, 1]))
         np.testing.assert_array_equal(nook.evaluate_pose(twice, bent(1)), self.ao[order][[3, 1]])
         far = self.model.match_vertices([[1e4, 0, 0]])
         self.assertEqual((far.unmatched, far.vertices.tolist()), (1, [nook.NO_VERTEX]))

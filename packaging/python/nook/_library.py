@@ -185,6 +185,8 @@ class Handle:
 
     _kind: Any = None
     _destroy = ""
+    # Why pickle and copy cannot have it, and what to do.
+    _no_copy = "it belongs to this process"
 
     def __init__(self) -> None:
         self._handle = self._kind()
@@ -201,6 +203,10 @@ class Handle:
         if getattr(self, "_handle", None):
             call(self._destroy, ctypes.byref(self._handle))
             self._handle = self._kind()
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        # A copied handle would name an object that another process has not, or that is destroyed twice.
+        raise TypeError(f"a nook.{type(self).__name__} cannot be pickled or copied: {self._no_copy}")
 
     def __enter__(self) -> Any:
         return self

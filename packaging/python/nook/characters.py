@@ -2,7 +2,7 @@
 import ctypes
 import operator
 import os
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -58,7 +58,7 @@ class Character(Handle):
         return _character(cls, {name: value.copy() if isinstance(value, np.ndarray) else value for name, value in arrays.items()})
 
     def _import(self, origin: Dict[str, Any]) -> None:
-        """Creates the character from its file or its arrays."""
+        """Creates the character from its file or its arrays, which a pickle has as well."""
         desc = descriptor(c.nook_bake_source_desc)
         held: Any = None
         if "source" in origin:
@@ -81,6 +81,11 @@ class Character(Handle):
         call("nook_bake_character_create", ctypes.byref(desc), ctypes.byref(self._handle))
         self._origin = origin
         self._describe()
+
+    def __reduce_ex__(self, protocol: Any) -> Tuple[Callable[..., "Character"], Tuple[Any, ...]]:
+        """A copy imports the same path, bytes or arrays again."""
+        self.handle  # raises if it is closed
+        return _character, (type(self), self._origin, (self.vertex_count, self.triangle_count, self.bone_names))
 
     def _describe(self) -> None:
         info = described(c.nook_bake_character_info, "nook_bake_character_describe", self.handle)
@@ -157,9 +162,11 @@ class Character(Handle):
         return positions, normals
 
 
-def _character(kind: Any, origin: Dict[str, Any]) -> Character:
-    """Makes a character of what it came from."""
+def _character(kind: Any, origin: Dict[str, Any], expected: Any = None) -> Character:
+    """Makes a character of what it came from; copies and pickles call it."""
     made: Character = kind.__new__(kind)
     Handle.__init__(made)
     made._import(origin)
+    if expected is not None and expected != (made.vertex_count, made.triangle_count, made.bone_names):
+        raise ValueError(f"Character: {origin.get('source')!r} has changed since the character was pickled; import it again")
     return made

@@ -1,6 +1,7 @@
 """Bakes as jobs on threads of their own, with progress and cancel."""
 import ctypes
 import json
+import os
 import time
 from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Union
 
@@ -32,11 +33,13 @@ class Job(Handle):
 
     _kind = c.nook_bake_job
     _destroy = "nook_bake_job_destroy"
+    _no_copy = "it runs on threads of this process; call wait() and pass on the bytes that it returns"
 
     def __init__(self, desc: Any, progress: Optional[ProgressFunction]) -> None:
         super().__init__()
         if progress is not None and not callable(progress):
             raise TypeError(f"progress: need a function, got {came(progress)}")
+        self._process = os.getpid()
         self._error: Optional[BaseException] = None
 
         def report(_user: Any, at: Any) -> int:
@@ -51,6 +54,18 @@ class Job(Handle):
         self._report = c.nook_bake_progress_fn(report if progress else 0)
         desc.progress = self._report
         call("nook_bake_start", ctypes.byref(desc), ctypes.byref(self._handle))
+
+    @property
+    def handle(self) -> Any:
+        if self._process != os.getpid():
+            raise NookError("INVALID_HANDLE", "Job: it belongs to the process that started it; wait for it there, and pass on its bytes")
+        return super().handle
+
+    def close(self) -> None:
+        """Cancels the job if it runs, waits until it has stopped, and destroys it; a second call does nothing."""
+        if getattr(self, "_process", None) not in (None, os.getpid()):
+            self._handle = self._kind()  # a process that was forked has no thread of the job, and would wait for ever
+        super().close()
 
     def poll(self) -> Progress:
         """The stage that the job is in; it does not wait."""

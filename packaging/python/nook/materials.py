@@ -1,6 +1,6 @@
 """Compressed materials, decoded on the processor."""
 import ctypes
-from typing import Any, NamedTuple
+from typing import Any, Callable, NamedTuple, Tuple
 
 import numpy as np
 
@@ -33,6 +33,11 @@ class Material(Handle):
         self.light_count: int = info.light_count
         self.view_count: int = info.view_count
         self.visibility: str = word("NOOK_MATERIAL_VISIBILITY_", info.visibility)
+
+    def __reduce_ex__(self, protocol: Any) -> Tuple[Callable[..., "Material"], Tuple[Any, ...]]:
+        """A copy loads the same bytes."""
+        self.handle  # raises if it is closed
+        return type(self), (self.data,)
 
     def evaluate(self, uv: Any, view: Any, light: Any, dx: Any = None, dy: Any = None, fetches: int = 1) -> MaterialValues:
         """The material in n pixels: uv is n x 2, view and light are n x 3 unit vectors in tangent space, away from the surface. dx and dy

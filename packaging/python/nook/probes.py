@@ -1,6 +1,6 @@
 """Light probes: fits, files, radiance and irradiance."""
 import ctypes
-from typing import Any
+from typing import Any, Callable, Tuple
 
 import numpy as np
 
@@ -28,6 +28,10 @@ class Probe(Handle):
         found = file_bytes(data, "Probe")
         call("nook_probe_load", shared_context().handle, found, len(found), ctypes.byref(self._handle))
         self._describe()
+
+    def __reduce_ex__(self, protocol: Any) -> Tuple[Callable[..., "Probe"], Tuple[Any, ...]]:
+        """A copy loads the file that save("float") makes, which has all numbers as they are."""
+        return type(self), (self.save("float"),)
 
     def _describe(self) -> None:
         info = described(c.nook_probe_info, "nook_probe_describe", self.handle)
@@ -74,6 +78,7 @@ class ProbeFit(Handle):
 
     _kind = c.nook_probe_fit
     _destroy = "nook_probe_fit_destroy"
+    _no_copy = "its sums stay in the library; call solve() and pass on the probe, or fill a fit for each thread and merge() them"
 
     def __init__(self, lobes: int = 12, *, method: str = "least_squares", ambient: bool = False, form: str = "default") -> None:
         """form is default, or paper for the published method, which needs the default method."""

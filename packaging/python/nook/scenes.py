@@ -2,7 +2,7 @@
 import ctypes
 import logging
 import weakref
-from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -29,6 +29,7 @@ class Context(Handle):
 
     _kind = c.nook_context
     _destroy = "nook_context_destroy"
+    _no_copy = "each process makes its own"
 
     def __init__(self) -> None:
         super().__init__()
@@ -76,8 +77,10 @@ class CharacterModel(Handle):
 
     def __init__(self, data: Any) -> None:
         super().__init__()
-        found = file_bytes(data, "CharacterModel")
-        call("nook_model_load", shared_context().handle, found, len(found), ctypes.byref(self._handle))
+        # A pickle has the bytes, and the maps of remap() that followed.
+        self._data = file_bytes(data, "CharacterModel")
+        self._maps: Tuple[npt.NDArray[np.uint32], ...] = ()
+        call("nook_model_load", shared_context().handle, self._data, len(self._data), ctypes.byref(self._handle))
         self._describe()
 
     def _describe(self) -> None:
@@ -89,6 +92,11 @@ class CharacterModel(Handle):
         self.bone_names: List[str] = [text(call("nook_model_bone_name", self.handle, i)) for i in range(info.bone_count)]
         skins = [described(c.nook_skin_info, "nook_model_describe_skin", self.handle, i) for i in range(info.skin_count)]
         self.skins: List[Skin] = [Skin(skin.file_index, skin.joint_count) for skin in skins]
+
+    def __reduce_ex__(self, protocol: Any) -> Tuple[Callable[..., "CharacterModel"], Tuple[Any, ...]]:
+        """A copy loads the same bytes."""
+        self.handle  # raises if it is closed
+        return _model, (type(self), self._data, self._maps)
 
     def static_ao(self) -> FloatArray:
         """AO of the rest pose as a static bake has it, one value for each vertex of the file."""
@@ -121,6 +129,7 @@ class CharacterModel(Handle):
         indices = integers(vertices, np.uint32, (None,), "vertices").copy()
         made: CharacterModel = type(self).__new__(type(self))
         Handle.__init__(made)
+        made._data, made._maps = self._data, self._maps + (indices,)
         call("nook_model_remap", self.handle, pointer(indices), len(indices), ctypes.byref(made._handle))
         made._describe()
         return made
@@ -144,6 +153,14 @@ class CharacterModel(Handle):
         desc, _kept = _pose(self, pose, kind, **options)
         call("nook_model_convert_pose", self.handle, ctypes.byref(desc), pointer(bones), self.bone_count)
         return bones
+
+
+def _model(kind: Any, data: bytes, maps: Tuple[Any, ...]) -> CharacterModel:
+    """Makes a model of its bytes and its maps; copies and pickles call it."""
+    made: CharacterModel = kind(data)
+    for indices in maps:
+        made = made.remap(indices)
+    return made
 
 
 def _pose(model: CharacterModel, pose: Any, kind: str, *, layout: Optional[str] = None, skin: int = 0, transform_of_bone: Any = None,
@@ -179,6 +196,9 @@ class Instance:
 
     def __init__(self, scene: "Scene", model: CharacterModel, number: int) -> None:
         self.scene, self.model, self.number = scene, model, number
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        raise TypeError("a nook.Instance cannot be pickled or copied: it belongs to its scene; pass on its model and its pose")
 
     def set_pose(self, pose: Any, kind: str = "rest_to_world", **options: Any) -> None:
         """The pose of the next update.
@@ -219,12 +239,16 @@ class Sphere(int):
 
     _scene: Any = None
 
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        return int, (int(self),)
+
 
 class Scene(Handle):
     """Instances that may darken each other."""
 
     _kind = c.nook_scene
     _destroy = "nook_scene_destroy"
+    _no_copy = "it belongs to this process; pass on the models and poses, and make a scene of them there"
 
     def __init__(self, **settings: Any) -> None:
         """settings: numbers of nook_scene_desc, such as cutoff_error."""
