@@ -14,6 +14,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -414,6 +415,23 @@ class Arguments(unittest.TestCase):
                 os.waitpid(child, 0)
             self.assertTrue(done)
             self.assertEqual(status, 0)
+
+    def test_ctrl_c_ends_a_wait_and_cancels_the_job(self):
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
+        for wait in (nook.Job.wait, list):
+            # Without Ctrl+C the bake would go on for a minute.
+            with nook.bake_character(self.character, **dict(SMALL, steps=10_000_000, time_limit_s=60, threads=1)) as job:
+                sent = []
+                timer = threading.Timer(0.5, lambda: (sent.append(time.monotonic()), signal.raise_signal(signal.SIGINT)
+                                                      if os.name == "nt" else os.kill(os.getpid(), signal.SIGINT)))
+                timer.start()
+                with self.assertRaises(KeyboardInterrupt):
+                    wait(job)
+                timer.join()
+                self.assertRaises(nook.Cancelled, job.wait)
+            # Half a second on a free machine, with the end of the job's threads; a busy one gets ten times that.
+            self.assertLess(time.monotonic() - sent[0], 5)
 
     def test_instances_and_spheres_of_two_scenes_do_not_mix(self):
         with nook.Scene() as one, nook.Scene() as two:

@@ -1,4 +1,5 @@
 """Bakes as jobs on threads of their own, with progress and cancel."""
+import contextlib
 import ctypes
 import json
 import os
@@ -77,7 +78,18 @@ class Job(Handle):
             yield progress
             if progress.is_done:
                 return
-            time.sleep(0.1)
+            with self._cancelled_by_ctrl_c():
+                time.sleep(0.1)
+
+    @contextlib.contextmanager
+    def _cancelled_by_ctrl_c(self) -> Iterator[None]:
+        try:
+            yield
+        except NookError:
+            raise
+        except BaseException:  # Ctrl+C, or what another handler of a signal raises
+            self.cancel()
+            raise
 
     def cancel(self) -> None:
         """Requests that the job stop soon. wait() then raises Cancelled."""
@@ -85,7 +97,13 @@ class Job(Handle):
 
     def wait(self) -> bytes:
         """Waits for the end and returns the bytes of the .nook file. Raises what the progress function raised, Cancelled,
-        or NookError."""
+        or NookError. Ctrl+C cancels the job and raises KeyboardInterrupt."""
+        # A call of C would hold back Ctrl+C until the bake has ended.
+        with self._cancelled_by_ctrl_c():
+            pause = 0.001
+            while not self.poll().is_done:
+                time.sleep(pause)
+                pause = min(2 * pause, 0.05)
         try:
             call("nook_bake_job_wait", self.handle)
         except Exception:
