@@ -1,6 +1,7 @@
 """The shared library, the results of its calls, and what Python gives as the arguments of C: numbers, names, bytes, arrays."""
 import ctypes
 import ctypes.util
+import functools
 import math
 import operator
 import os
@@ -125,16 +126,22 @@ def number(value: Any, kind: Any, what: str) -> float:
 
 def checked(value: Any, kind: Any, what: str) -> Any:
     """A value for a field or an argument of a type of C; numbers are checked, and all else goes to ctypes."""
-    if isinstance(value, ctypes._SimpleCData):
-        return value
-    if kind in _RANGES:
-        return integer(value, kind, what)
+    limits = _RANGES.get(kind)
+    if limits is not None:
+        # The first condition is for speed: most values are ints that fit.
+        return value if type(value) is int and limits[0] <= value <= limits[1] else integer(value, kind, what)
     return number(value, kind, what) if kind in (ctypes.c_float, ctypes.c_double) else value
+
+
+@functools.lru_cache(maxsize=None)
+def _fields(structure: Any) -> Dict[str, Any]:
+    """The types of a structure's fields."""
+    return {name: kind for name, kind, *_ in structure._fields_}
 
 
 def put(structure: Any, **values: Any) -> None:
     """Sets fields of a structure; what they do not hold raises ValueError or TypeError that names the field."""
-    kinds = {name: kind for name, kind, *_ in structure._fields_}
+    kinds = _fields(type(structure))
     for name, value in values.items():
         setattr(structure, name, checked(value, kinds[name], name))
 
@@ -150,10 +157,18 @@ def put_settings(structure: Any, settings: Dict[str, Any], names: Iterable[str],
         put(structure, **{name: value})
 
 
+@functools.lru_cache(maxsize=None)
+def _numbers(name: str) -> Tuple[Tuple[int, Any, str], ...]:
+    """The arguments of a function that are numbers: place, type, and words for a message."""
+    kinds = enumerate(c.FUNCTIONS[name][1])
+    return tuple((at, kind, f"{name}, argument {at + 1}") for at, kind in kinds if kind in _RANGES or kind in (ctypes.c_float, ctypes.c_double))
+
+
 def call(name: str, *arguments: Any) -> Any:
     """Calls a function; a result that is an error becomes NookError with the library's message."""
-    kinds = c.FUNCTIONS[name][1]
-    checks = [checked(value, kind, f"{name}, argument {at}") for at, (value, kind) in enumerate(zip(arguments, kinds), 1)]
+    checks = list(arguments)
+    for at, kind, what in _numbers(name):
+        checks[at] = checked(checks[at], kind, what)
     result = _library.function(name)(*checks)
     if c.FUNCTIONS[name][0] is c.nook_result and result != c.NOOK_OK:
         part = "nook_bake_last_message" if name.startswith("nook_bake_") else "nook_last_message"
@@ -261,10 +276,11 @@ def path_or_bytes(value: Any, what: str) -> Union[str, bytes]:
         return path
     if isinstance(value, bytes):
         return bytes(value)
+    view: Optional[memoryview] = None
     try:
         view = memoryview(value)
     except TypeError:
-        view = None
+        pass
     if view is not None:
         if "O" in view.format:
             raise TypeError(f"{what}: need the bytes of a file, got an array of Python objects")
@@ -302,6 +318,8 @@ def floats(values: Any, shape: Tuple[Optional[int], ...], what: str) -> FloatArr
     if array.dtype.kind not in "biufO":
         raise ValueError(f"{what}: need numbers, got an array of {array.dtype}")
     _shaped(array, shape, what)
+    if array.dtype == np.float32:
+        return np.ascontiguousarray(array)
     try:
         with np.errstate(over="ignore"):
             return np.ascontiguousarray(array, dtype=np.float32)
@@ -331,9 +349,14 @@ def pointer(array: Optional[npt.NDArray[Any]]) -> Any:
     return array.ctypes.data_as(ctypes.POINTER(kinds[key]))
 
 
+@functools.lru_cache(maxsize=None)
+def _words(beginning: str) -> Dict[str, Any]:
+    return {key.removeprefix(beginning).lower(): value for key, value in vars(c).items() if key.startswith(beginning)}
+
+
 def choice(beginning: str, name: str, what: str) -> int:
     """The constant that a word stands for: "standard" is NOOK_BAKE_PRESET_STANDARD. Raises ValueError with all words."""
-    words = {key.removeprefix(beginning).lower(): value for key, value in vars(c).items() if key.startswith(beginning)}
+    words = _words(beginning)
     if not isinstance(name, str):
         raise TypeError(f"{what}: need one of the words {', '.join(sorted(words))}, got {came(name)}")
     if name not in words:
