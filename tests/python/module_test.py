@@ -354,6 +354,9 @@ class Arguments(unittest.TestCase):
             nook.bake_character(self.model)
         with self.assertRaisesRegex(TypeError, "progress: need a function"):
             nook.bake_character(self.character, progress=3)
+        for wrong in ((np.zeros((3, 3)), [[0, 1, 2]]), [np.zeros((3, 3))], [3]):
+            with self.assertRaisesRegex(TypeError, "meshes: need a list of pairs"):
+                nook.trace_ao(wrong, np.zeros((1, 3)), [[0, 1, 0]])
         with self.assertRaisesRegex(TypeError, "preset: need one of the words"):
             nook.bake_character(self.character, preset=["draft"])
 

@@ -15,10 +15,13 @@ VISIBLE = 0.01  # vertex-poses whose traced AO is smaller are inside the body
 def trace_ao(meshes: Sequence[Tuple[Any, Any]], positions: Any, normals: Any, *, rays: int = 64, seed: int = 1, threads: int = 0,
              radius: float = float("inf"), origin_offset: float = 1e-4) -> FloatArray:
     """Cosine-weighted visibility of points against meshes, each (positions, triangles) in world space and metres."""
+    for mesh in meshes:
+        if not isinstance(mesh, (tuple, list)) or len(mesh) != 2:
+            raise TypeError("meshes: need a list of pairs (positions, triangles)")
     kept = [(floats(p, (None, 3), "positions of a mesh"), integers(t, np.uint32, (None, 3), "triangles of a mesh")) for p, t in meshes]
     occluders = (c.nook_bake_occluder_mesh * max(len(kept), 1))()
-    for mesh, (p, t) in zip(occluders, kept):
-        put(mesh, positions=pointer(p), indices=pointer(t), vertex_count=len(p), index_count=t.size)
+    for occluder, (p, t) in zip(occluders, kept):
+        put(occluder, positions=pointer(p), indices=pointer(t), vertex_count=len(p), index_count=t.size)
     at = floats(positions, (None, 3), "positions")
     facing = floats(normals, (len(at), 3), "normals")
     desc = descriptor(c.nook_bake_trace_desc)
