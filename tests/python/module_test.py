@@ -17,6 +17,7 @@ import tempfile
 import threading
 import time
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -577,6 +578,21 @@ class Materials(unittest.TestCase):
 
 
 class Module(unittest.TestCase):
+    def test_threads_that_come_at_once_share_one_context(self):
+        def slow(make=nook.Context):
+            made = make()
+            time.sleep(0.2)
+            return made
+
+        found = []
+        with mock.patch.dict(nook.scenes._shared, clear=True), mock.patch.object(nook.scenes, "Context", slow):
+            threads = [threading.Thread(target=lambda: found.append(nook.scenes.shared_context())) for _ in range(4)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+        self.assertEqual(len({id(context) for context in found}), 1)
+
     def test_a_missing_library_is_an_error_that_names_the_cure(self):
         code = "import nook\ntry:\n  nook.Context()\nexcept ImportError as e:\n  print(e)"
         with tempfile.TemporaryDirectory() as folder:

@@ -2,7 +2,7 @@
 import ctypes
 import logging
 import weakref
-from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -38,15 +38,13 @@ class Context(Handle):
         call("nook_context_create", ctypes.byref(desc), ctypes.byref(self._handle))
 
 
-_shared: Optional[Context] = None
+_shared: Dict[str, Context] = {}
 
 
 def shared_context() -> Context:
     """The context of this module, which any thread may use."""
-    global _shared
-    if _shared is None:
-        _shared = Context()
-    return _shared
+    # Of two threads that come at once, setdefault takes one context, and nobody uses the other.
+    return _shared.get("context") or _shared.setdefault("context", Context())
 
 
 class Skin(NamedTuple):
