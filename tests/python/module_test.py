@@ -257,8 +257,9 @@ class Arguments(unittest.TestCase):
             for wrong, said in ((3, "int 3"), ([1, 2], r"list \[1, 2\]"), (io.StringIO("x"), "rb"), (np.array([None]), "objects")):
                 with self.assertRaisesRegex(TypeError, f"{kind.__name__}: .*{said}"):
                     kind(wrong)
-            with self.assertRaisesRegex(ValueError, "NUL"):
-                kind("a\0b")
+            for path, said in (("a\0b", "NUL"), ("", "empty"), ("\ud800", "surrogate")):
+                with self.assertRaisesRegex(ValueError, f"{kind.__name__}: .*{said}"):
+                    kind(path)
         with self.assertRaisesRegex(FileNotFoundError, "none.nook"):
             nook.CharacterModel("none.nook")
         for kind in (nook.CharacterModel, nook.Probe, nook.Material, nook.Character):
@@ -341,6 +342,8 @@ class Arguments(unittest.TestCase):
         for wrong in ([["a", "b", "c"]], [[1j, 0, 0]], [[1, 2], [3]]):
             with self.assertRaisesRegex(ValueError, "positions: "):
                 nook.trace_ao([], wrong, [[0, 1, 0]])
+            with self.assertRaisesRegex(ValueError, "pose: "):
+                nook.evaluate_pose(self.model, wrong)
 
     def test_a_setting_cannot_contradict_the_size_of_an_array(self):
         up = [[0, 0, 1]]

@@ -249,8 +249,11 @@ def encoded(value: Any, what: str) -> bytes:
         raise TypeError(f"{what}: need a str, got {came(value)}")
     if "\0" in value:
         raise ValueError(f"{what}: {value!r} has a NUL character")
-    # surrogateescape is how Python keeps the bytes of a file name that is not UTF-8.
-    return value.encode("utf-8", "surrogateescape")
+    try:
+        # surrogateescape is how Python keeps the bytes of a file name that is not UTF-8.
+        return value.encode("utf-8", "surrogateescape")
+    except UnicodeEncodeError:
+        raise ValueError(f"{what}: {value!r} has half of a surrogate pair, which UTF-8 does not have") from None
 
 
 def names(values: Any, what: str) -> List[bytes]:
@@ -272,6 +275,8 @@ def path_or_bytes(value: Any, what: str) -> Union[str, bytes]:
     """What stands for a file: a path (str, os.PathLike) stays a str; a buffer or a binary file that is open becomes its bytes."""
     if isinstance(value, (str, os.PathLike)):
         path = os.fsdecode(value)
+        if not path:
+            raise ValueError(f"{what}: the path is empty")
         encoded(path, what)
         return path
     if isinstance(value, bytes):
@@ -305,7 +310,8 @@ def _shaped(array: npt.NDArray[Any], shape: Tuple[Optional[int], ...], what: str
         raise ValueError(f"{what}: has the shape {array.shape}, need {sides}")
 
 
-def _array(values: Any, what: str) -> npt.NDArray[Any]:
+def numbers(values: Any, what: str) -> npt.NDArray[Any]:
+    """Values as an array of any shape. Raises ValueError for lists of different lengths."""
     try:
         return np.asarray(values)
     except ValueError as error:
@@ -314,7 +320,7 @@ def _array(values: Any, what: str) -> npt.NDArray[Any]:
 
 def floats(values: Any, shape: Tuple[Optional[int], ...], what: str) -> FloatArray:
     """Values as packed floats of a shape, in which None is any length. Raises ValueError, which names what came."""
-    array = _array(values, what)
+    array = numbers(values, what)
     if array.dtype.kind not in "biufO":
         raise ValueError(f"{what}: need numbers, got an array of {array.dtype}")
     _shaped(array, shape, what)
@@ -329,7 +335,7 @@ def floats(values: Any, shape: Tuple[Optional[int], ...], what: str) -> FloatArr
 
 def integers(values: Any, kind: Any, shape: Tuple[Optional[int], ...], what: str) -> npt.NDArray[Any]:
     """The same for integers. Raises ValueError for values that the type does not hold."""
-    array = _array(values, what)
+    array = numbers(values, what)
     info = np.iinfo(kind)
     if array.size:
         if not np.issubdtype(array.dtype, np.integer):

@@ -9,8 +9,8 @@ import numpy.typing as npt
 
 from . import _layouts as c
 from ._library import (
-    FloatArray, Handle, call, choice, described, descriptor, file_bytes, floats, integer, integers, name_array, names, need, pointer, put,
-    put_settings, text,
+    FloatArray, Handle, call, choice, described, descriptor, file_bytes, floats, integer, integers, name_array, names, need, numbers, pointer,
+    put, put_settings, text,
 )
 
 
@@ -167,7 +167,8 @@ def _pose(model: CharacterModel, pose: Any, kind: str, *, layout: Optional[str] 
     if not isinstance(kind, str) or kind not in _KINDS:
         raise ValueError(f"kind: {kind!r} is none of {', '.join(_KINDS)}")
     if layout is None:
-        layout = "rows_4x4" if np.shape(pose)[1:] == (4, 4) else "rows_3x4"
+        pose = numbers(pose, "pose")
+        layout = "rows_4x4" if pose.shape[1:] == (4, 4) else "rows_3x4"
     number = choice("NOOK_TRANSFORM_", layout, "layout")
     skin = integer(skin, ctypes.c_uint32, "skin")
     count: Optional[int] = model.bone_count
