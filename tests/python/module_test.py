@@ -213,6 +213,8 @@ def forms(data):
 def worker(task):
     """Runs in another process."""
     model, character = task
+    if character is None:
+        return nook.evaluate_pose(model, np.full((2, 3, 4), np.nan))
     return nook.evaluate_pose(model, bent(1)), character.skin(bent(1))[0]
 
 
@@ -385,6 +387,15 @@ class Arguments(unittest.TestCase):
                 for ao, positions in pool.map_async(worker, [(self.model, self.character)] * 2).get(300):
                     np.testing.assert_array_equal(ao, self.ao)
                     np.testing.assert_array_equal(positions, skinned)
+                with self.assertRaises(nook.NookError) as caught:
+                    pool.map_async(worker, [(self.model, None)]).get(60)
+                self.assertEqual(caught.exception.code, "INVALID_ARGUMENT")
+                self.assertIn("nook_scene_set_pose", str(caught.exception))
+
+    def test_errors_are_copied(self):
+        for kind in (nook.NookError, nook.Cancelled, nook.MissingLibrary):
+            again = pickle.loads(pickle.dumps(kind("BAD_FILE", "the words")))
+            self.assertEqual((type(again), again.code, str(again)), (kind, "BAD_FILE", "the words"))
 
     def test_what_cannot_be_copied_says_why(self):
         scene = nook.Scene()

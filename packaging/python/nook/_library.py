@@ -23,6 +23,10 @@ class NookError(Exception):
         super().__init__(message)
         self.code = code
 
+    def __reduce__(self) -> Tuple[Any, ...]:
+        # Without both arguments a Pool could not make the error again, and would wait for ever.
+        return type(self), (self.code, str(self))
+
 
 class Cancelled(NookError):
     """A job that was stopped, by cancel() or by its progress function."""
