@@ -16,7 +16,7 @@ export function preparedPose(library, pose) {
   const why = `(${floats} for each transform of the layout "${layout}")`;
   checkNumber(call, "stride", stride, { whole: true, least: 0, optional: true });
   checkNumber(call, "transformCount", transformCount, { whole: true, least: 0, optional: true });
-  checkNumbers(call, "transforms", transforms, { anyValue, why, ...(stride || transformCount !== undefined ? {} : { groupsOf: floats }) });
+  checkNumbers(call, "transforms", transforms, { anyValue, why, least: floats, ...(stride || transformCount !== undefined ? {} : { groupsOf: floats }) });
   const step = stride ? stride / 4 : floats;
   const count = transformCount ?? (transforms.length < floats ? 0 : Math.floor((transforms.length - floats) / step) + 1);
   checkNumbers(call, "transforms", transforms, { anyValue: true, least: count > 0 ? Math.ceil((count - 1) * step) + floats : 0,

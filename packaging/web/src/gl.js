@@ -70,9 +70,9 @@ export class Gl extends OnSurface {
     const name = "nook_gl_scene_view";
     this.surface.alive(name);
     checkIndex(name, "instance", instance);
-    const number = this.#channel(name, channel);
+    const handle = this.library.call(name, () => this.#sceneOf(scene)), number = this.#channel(name, channel);
     const view = this.library.info(name, "nook_gl_view", (at) =>
-      this.library.module._nook_gl_scene_view(this.handle, this.#sceneOf(scene), instance, number, at));
+      this.library.module._nook_gl_scene_view(this.handle, handle, instance, number, at));
     return { ...view, buffer: this.surface.object("buffers", view.buffer), texture: this.surface.object("textures", view.texture) };
   }
   #channel(call, name) {

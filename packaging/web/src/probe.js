@@ -42,9 +42,9 @@ export class Probe extends Owned {
   // The lobes at a point, or those of the first probe: { axis, sharpness, amplitude } each.
   lobes(position) {
     const { library } = this;
+    checkNumbers("nook_probe_read_lobes", "position", position, { count: 3, optional: true });
     const count = this.info.functionCount;
     return library.call("nook_probe_read_lobes", () => {
-      checkNumbers(library.name, "position", position, { count: 3, optional: true });
       const { size } = library.layouts.struct("nook_lobe");
       const address = library.room.take(size * count);
       library.check(library.module._nook_probe_read_lobes(this.handle, library.floats(position), address, count));

@@ -128,8 +128,10 @@ export class Scene extends Owned {
   }
   // terms: a list of "self", "links", "ground", "occluders", "all".
   setTerms(terms) {
-    const { library } = this;
-    this.#check(library.module._nook_scene_set_terms(this.handle, library.layouts.bits("NOOK_TERM_SELF", terms)));
+    const { library } = this, name = "nook_scene_set_terms";
+    checkList(name, "terms", terms, "words", () => {});
+    const bits = library.layouts.bits("NOOK_TERM_SELF", terms, name);
+    this.#check(library.module._nook_scene_set_terms(this.handle, bits));
   }
 
   // Evaluates everything on the CPU; Gl.update does it on the GPU instead.
