@@ -4,8 +4,7 @@ const switches = new Map([["true", true], ["1", true], ["on", true], ["false", f
 
 // The number nearest to `value` that the limits allow.
 function clamp(value, { min, max, step, wraps }) {
-  if (wraps) return ((value % max) + max) % max;
-  const near = step ? min + Math.round((value - min) / step) * step : value;
+  const near = wraps ? ((value % max) + max) % max : step ? min + Math.round((value - min) / step) * step : value;
   return Number(Math.min(max, Math.max(min, near)).toFixed(6));
 }
 function numberOf(text) {

@@ -12,7 +12,8 @@
     clear: () => show("", false),
     report(error) {
       const reason = error?.message ?? String(error);
-      show(/dynamically imported module|module script|Failed to resolve module|error loading/i.test(reason)
+      // A script that is cut off, or a page of the server in its place, is a SyntaxError.
+      show(error instanceof SyntaxError || /dynamically imported module|module script|Failed to resolve module|error loading/i.test(reason)
         ? `A script of the page cannot be loaded (${reason}). Is the folder complete, and does the server's content security policy allow its own scripts?`
         : reason, true);
       console.error(error);
