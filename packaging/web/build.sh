@@ -20,7 +20,6 @@ cmake --build "$folder/wasm" -j "${NOOK_JOBS:-$(nproc)}" --target nook_module
 rm -rf "$folder/package" "$folder"/nook-web-*.tgz
 mkdir -p "$folder/package"
 cp "$here"/src/*.js "$here"/src/*.d.ts "$here/README.md" "$root/LICENSE" "$root/NOTICE" "$folder/wasm/package.json" \
-  "$folder/wasm/nook_module.mjs" "$folder/package/"
-cp "$folder/wasm/nook_module.wasm" "$folder/package/nook.wasm"
+  "$folder/wasm/nook.mjs" "$folder/wasm/nook.wasm" "$folder/package/"
 chmod 644 "$folder/package/nook.wasm"
 (cd "$folder" && npm pack --silent ./package)

@@ -8,6 +8,12 @@ import { NookError, load } from "nook-web";
 const data = process.argv[2];
 const folder = dirname(createRequire(import.meta.url).resolve("nook-web/package.json"));
 const wasm = readFileSync(join(folder, "nook.wasm"));
+// Without a server, from its own folder; from bytes; and what is told where that fails.
+assert.equal((await load()).version, (await load({ wasm })).version);
+await assert.rejects(load({ wasm: new URL("missing.wasm", import.meta.url) }), /nook-web: .*missing\.wasm .*load\(\{ wasm \}\)/);
+await assert.rejects(load({ wasm: wasm.subarray(0, 1000) }), /nook-web: the module of WebAssembly cannot be loaded \(/);
+// The glue names the file that the package has, so that bundlers find it.
+for (const [, name] of readFileSync(join(folder, "nook.mjs"), "utf8").matchAll(/["'`]([\w.]+\.wasm)["'`]/g)) assert.equal(name, "nook.wasm");
 const nook = await load({ wasm });
 const { version } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
 assert.equal(nook.version, version);

@@ -31,7 +31,7 @@ const chromium = new Chromium(width, height);
 const call = (name, ...values) => chromium.evaluate(`nookPage.checks.${name}(${values.map((value) => JSON.stringify(value)).join(", ")})`);
 try {
   await chromium.open(`${url}/?check`, width, height);
-  await chromium.until("!!window.nookPage || !document.getElementById('message').hidden", 120);
+  await chromium.until("!!window.nookPage || document.getElementById('message').classList.contains('error')", 120);
   check("GL_VERSION", await chromium.evaluate("nookPage.page.renderer.ao.info.version"), true);
 
   const characters = await call("characters");

@@ -29,3 +29,4 @@ cmake --build "$build" -j "${NOOK_JOBS:-$(nproc)}" --target web_screen web_pictu
 "$build/tests/web/web_picture" "$folder/site/data"
 mkdir -p "$folder/test"
 node "$here/test.mjs" "$folder/site" "$folder/test" "$seconds"
+node "$here/faults_test.mjs" "$folder/site"

@@ -1,22 +1,38 @@
+import { checkIndex, checkList, checkNumbers, checkNumber, checkObject, checkOut, described, refuse } from "./arguments.js";
 import { Owned } from "./library.js";
 
 const floatsOfLayout = { "rows-3x4": 12, "rows-4x4": 16, "columns-4x4": 16, "columns-4x3": 12, "dual-quaternion": 8, trs: 10 };
 
-// The address of a nook_pose_desc for an object such as
-//   { kind: "skinning", layout: "columns-4x4", transforms, skin, transformOfBone, place3x4, partial, strict, surplus }.
-export function poseDescriptor(library, pose) {
+// Checks a pose such as { kind: "skinning", layout: "columns-4x4", transforms, skin, transformOfBone, place3x4, partial, strict,
+// surplus }, and gives a function that makes a nook_pose_desc of it.
+export function preparedPose(library, pose) {
+  const call = library.name;
+  checkObject(call, "pose", pose, "an object such as { transforms }");
   const { transforms, transformOfBone, place3x4, partial, strict, surplus, ...others } = pose;
-  const floats = floatsOfLayout[pose.layout ?? "columns-4x4"] ?? 16;
+  const { layout = "columns-4x4", stride, transformCount } = pose;
+  const floats = floatsOfLayout[layout] ?? 16;
+  // Transforms that no bone takes may hold anything.
+  const anyValue = Boolean(transformOfBone || surplus || stride || transformCount !== undefined);
+  const why = `(${floats} for each transform of the layout "${layout}")`;
+  checkNumber(call, "stride", stride, { whole: true, least: 0, optional: true });
+  checkNumber(call, "transformCount", transformCount, { whole: true, least: 0, optional: true });
+  checkNumbers(call, "transforms", transforms, { anyValue, why, least: floats, ...(stride || transformCount !== undefined ? {} : { groupsOf: floats }) });
+  const step = stride ? stride / 4 : floats;
+  const count = transformCount ?? (transforms.length < floats ? 0 : Math.floor((transforms.length - floats) / step) + 1);
+  checkNumbers(call, "transforms", transforms, { anyValue: true, least: count > 0 ? Math.ceil((count - 1) * step) + floats : 0,
+    why: `for ${count} transforms` });
+  checkNumbers(call, "transformOfBone", transformOfBone, { whole: true, optional: true });
+  checkNumbers(call, "place3x4", place3x4, { count: 12, why: "(3 rows of 4)", optional: true });
   const flags = library.layouts.bits("NOOK_POSE_FLAG_PARTIAL",
     Object.entries({ partial, strict, surplus }).filter(([, isSet]) => isSet).map(([word]) => word));
-  return library.descriptor("nook_pose_desc", {
-    transformCount: Math.floor(transforms.length / floats),
+  return library.prepared("nook_pose_desc", {
     ...others,
+    transformCount: count,
     flags,
-    transforms: library.floats(transforms),
-    transformOfBone: library.integers(transformOfBone),
+    transforms: () => library.floats(transforms),
+    transformOfBone: () => library.integers(transformOfBone),
     boneCount: transformOfBone ? transformOfBone.length : 0,
-    place3x4: library.floats(place3x4),
+    place3x4: () => library.floats(place3x4),
   });
 }
 
@@ -34,6 +50,7 @@ export class CharacterModel extends Owned {
   }
 
   boneName(bone) {
+    checkIndex("nook_model_bone_name", "bone", bone);
     const text = this.library.module._nook_model_bone_name(this.handle, bone);
     return text ? this.library.module.UTF8ToString(text) : null;
   }
@@ -44,6 +61,7 @@ export class CharacterModel extends Owned {
   // The first AO value and the number of AO values of a primitive of the file.
   primitive(index) {
     const { library } = this;
+    checkIndex("nook_model_describe_primitive", "index", index);
     return library.call("nook_model_describe_primitive", () => {
       const range = library.struct("nook_range");
       library.check(library.module._nook_model_describe_primitive(this.handle, index, range));
@@ -59,10 +77,12 @@ export class CharacterModel extends Owned {
 
   // The joint count and rest space of skin number `index`, one of info.skinCount.
   skin(index) {
+    checkIndex("nook_model_describe_skin", "index", index);
     return this.library.info("nook_model_describe_skin", "nook_skin_info", (info) => this.library.module._nook_model_describe_skin(this.handle, index, info));
   }
   // Vertex number `index` of checkPose, one of info.checkVertexCount.
   checkVertex(index) {
+    checkIndex("nook_model_describe_check_vertex", "index", index);
     return this.library.info("nook_model_describe_check_vertex", "nook_check_vertex_info", (info) =>
       this.library.module._nook_model_describe_check_vertex(this.handle, index, info));
   }
@@ -70,6 +90,8 @@ export class CharacterModel extends Owned {
   // Finds the host's transform of each bone by name: { transformOfBone, unmatched }.
   mapBones(names, { loose, dropSharedPrefix } = {}) {
     const { library } = this;
+    checkList("nook_model_map_bones", "names", names, "texts", (name, argument) => name === null || typeof name === "string" ||
+      refuse("nook_model_map_bones", `${argument} needs a text or null (got ${described(name)})`));
     return library.call("nook_model_map_bones", () => {
       const flags = library.layouts.bits("NOOK_BONE_MAP_LOOSE",
         [...(loose ? ["loose"] : []), ...(dropSharedPrefix ? ["drop-shared-prefix"] : [])]);
@@ -88,42 +110,54 @@ export class CharacterModel extends Owned {
   convertPose(pose, out) {
     const { library } = this;
     return library.call("nook_model_convert_pose", () => {
-      const description = poseDescriptor(library, pose);
-      return library.readFloats("nook_model_convert_pose", 12 * this.#info.boneCount, out, (address) => {
-        if (out) library.module.HEAPF32.set(out, address >> 2);
-        return library.module._nook_model_convert_pose(this.handle, description, address, this.#info.boneCount);
+      const count = 12 * this.#info.boneCount;
+      checkOut(library.name, out, count);
+      const description = preparedPose(library, pose);
+      return library.readFloats("nook_model_convert_pose", count, out, (address) => {
+        if (out) library.module.HEAPF32.set(out.subarray(0, count), address >> 2);
+        return library.module._nook_model_convert_pose(this.handle, description(), address, this.#info.boneCount);
       });
     });
   }
 
   // Compares a pose with vertices that the host skinned itself: { fault, maxError, rmsError, worstBone, text, ... }.
-  checkPose(pose, { positions, checkVertices, place3x4, tolerance }) {
+  checkPose(pose, vertices) {
     const { library } = this;
     return library.call("nook_model_check_pose", () => {
-      const description = poseDescriptor(library, pose);
-      const check = library.descriptor("nook_pose_check_desc", {
-        vertexCount: positions.length / 3,
-        positions: library.floats(positions),
-        checkVertices: library.integers(checkVertices),
-        place3x4: library.floats(place3x4),
+      checkObject(library.name, "vertices", vertices, "an object such as { positions }");
+      const { positions, checkVertices, place3x4, tolerance } = vertices;
+      checkNumbers(library.name, "positions", positions, { groupsOf: 3 });
+      const count = positions.length / 3;
+      checkNumbers(library.name, "checkVertices", checkVertices, { count, why: "(one for each position)", whole: true, optional: true });
+      checkNumbers(library.name, "place3x4", place3x4, { count: 12, why: "(3 rows of 4)", optional: true });
+      const description = preparedPose(library, pose);
+      const check = library.prepared("nook_pose_check_desc", {
+        vertexCount: count,
+        positions: () => library.floats(positions),
+        checkVertices: () => library.integers(checkVertices),
+        place3x4: () => library.floats(place3x4),
         tolerance,
       });
       return library.info("nook_model_check_pose", "nook_pose_check_info",
-        (info) => library.module._nook_model_check_pose(this.handle, description, check, info));
+        (info) => library.module._nook_model_check_pose(this.handle, description(), check(), info));
     });
   }
 
   // Finds the model's vertex for each vertex of a host's mesh by rest position: { vertices, unmatched }.
-  matchVertices({ positions, normals, primitive, inRestSpace, tolerance }) {
+  matchVertices(match) {
     const { library } = this;
     return library.call("nook_model_match_vertices", () => {
+      checkObject(library.name, "match", match, "an object such as { positions, normals }");
+      const { positions, normals, inRestSpace, ...others } = match;
+      checkNumbers(library.name, "positions", positions, { groupsOf: 3 });
+      checkNumbers(library.name, "normals", normals, { count: positions.length, why: "(as many as positions)", optional: true });
       const count = positions.length / 3;
-      const match = library.descriptor("nook_vertex_match_desc", {
-        vertexCount: count, positions: library.floats(positions), normals: library.floats(normals),
-        primitive, inRestSpace: inRestSpace ? 1 : 0, tolerance,
+      const description = library.descriptor("nook_vertex_match_desc", {
+        ...others, vertexCount: count, positions: () => library.floats(positions), normals: () => library.floats(normals),
+        inRestSpace: inRestSpace ? 1 : 0,
       });
       const vertices = library.room32(count), unmatched = library.room32(1);
-      library.check(library.module._nook_model_match_vertices(this.handle, match, vertices, unmatched));
+      library.check(library.module._nook_model_match_vertices(this.handle, description, vertices, unmatched));
       return {
         vertices: library.module.HEAPU32.slice(vertices >> 2, (vertices >> 2) + count),
         unmatched: library.module.HEAPU32[unmatched >> 2],
@@ -134,8 +168,10 @@ export class CharacterModel extends Owned {
   // A model whose vertices are those of a host's mesh, by the answer of matchVertices.
   remap(vertices) {
     const { library } = this;
-    const handle = library.call("nook_model_remap", () => library.made((out) =>
-      library.module._nook_model_remap(this.handle, library.integers(vertices), vertices.length, out)));
+    const handle = library.call("nook_model_remap", () => {
+      checkNumbers(library.name, "vertices", vertices, { whole: true });
+      return library.made((out) => library.module._nook_model_remap(this.handle, library.integers(vertices), vertices.length, out));
+    });
     return new CharacterModel(library, handle);
   }
 }

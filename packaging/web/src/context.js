@@ -1,3 +1,4 @@
+import { checkBytes, checkNumbers, checkObject, refuse } from "./arguments.js";
 import { CharacterModel } from "./character.js";
 import { Gl } from "./gl.js";
 import { Owned } from "./library.js";
@@ -11,9 +12,12 @@ export class Context extends Owned {
   static make(library, log, isa = "auto", unitsPerMetre = 1) {
     const { module } = library;
     const severities = ["info", "warning", "error"];
+    if (log !== undefined && log !== null && typeof log !== "function") refuse("nook_context_create", "log needs a function");
     module.nookLog = log ? (severity, text) => log(severities[severity], text) : () => {};
-    return new Context(library, library.call("nook_context_create", () => library.made((out) => module._nook_context_create(
-      library.descriptor("nook_context_desc", { log: log ? module._nook_web_log() : 0, isa, unitsPerMetre }), out))));
+    return new Context(library, library.call("nook_context_create", () => {
+      const description = library.prepared("nook_context_desc", { log: log ? module._nook_web_log() : 0, isa, unitsPerMetre });
+      return library.made((out) => module._nook_context_create(description(), out));
+    }));
   }
   constructor(library, handle) {
     super(library, handle, "nook_context_destroy");
@@ -31,10 +35,13 @@ export class Context extends Owned {
 
   #load(name, bytes, call) {
     const { library } = this;
-    return library.call(name, () => library.made((out) => {
-      const copy = library.bytes(bytes);
-      return call(this.handle, copy.address, copy.size, out);
-    }));
+    return library.call(name, () => {
+      checkBytes(name, "bytes", bytes);
+      return library.made((out) => {
+        const copy = library.bytes(bytes);
+        return call(this.handle, copy.address, copy.size, out);
+      });
+    });
   }
   // The bytes of .nook files.
   loadCharacter(bytes) {
@@ -51,15 +58,27 @@ export class Context extends Owned {
   // The members of nook_scene_desc in camelCase.
   createScene(options = {}) {
     const { library } = this;
-    return new Scene(library, library.call("nook_scene_create", () => library.made((out) =>
-      library.module._nook_scene_create(this.handle, library.descriptor("nook_scene_desc", options), out))));
+    return new Scene(library, library.call("nook_scene_create", () => {
+      checkObject(library.name, "options", options);
+      const description = library.prepared("nook_scene_desc", options);
+      return library.made((out) => library.module._nook_scene_create(this.handle, description(), out));
+    }));
   }
-  // The members of nook_probe_fit_desc in camelCase.
-  createProbeFit({ axes, sharpnesses, ...options } = {}) {
+  // The members of nook_probe_fit_desc in camelCase. The number of axes or sharpnesses is lobeCount, unless that is given.
+  createProbeFit(options = {}) {
     const { library } = this;
-    return new ProbeFit(library, library.call("nook_probe_fit_create", () => library.made((out) => library.module._nook_probe_fit_create(this.handle,
-      library.descriptor("nook_probe_fit_desc",
-        { ...options, axes: library.floats(axes), sharpnesses: library.floats(sharpnesses) }), out))));
+    return new ProbeFit(library, library.call("nook_probe_fit_create", () => {
+      checkObject(library.name, "options", options);
+      const { axes, sharpnesses, ...others } = options;
+      checkNumbers(library.name, "axes", axes, { groupsOf: 3, optional: true });
+      checkNumbers(library.name, "sharpnesses", sharpnesses, { optional: true });
+      const lobeCount = options.lobeCount ?? (axes ? axes.length / 3 : sharpnesses?.length);
+      if (axes) checkNumbers(library.name, "axes", axes, { count: 3 * lobeCount, why: `for ${lobeCount} lobes` });
+      if (sharpnesses) checkNumbers(library.name, "sharpnesses", sharpnesses, { count: lobeCount, why: `for ${lobeCount} lobes` });
+      const description = library.prepared("nook_probe_fit_desc",
+        { ...others, lobeCount, axes: () => library.floats(axes), sharpnesses: () => library.floats(sharpnesses) });
+      return library.made((out) => library.module._nook_probe_fit_create(this.handle, description(), out));
+    }));
   }
   // Adopts a WebGL 2 context of the host. { stateMode: "defaults" (default), "preserve" or "host" }.
   createGl(webgl, options = {}) {

@@ -1,6 +1,10 @@
+import { checkBytes, checkIndex, checkNumbers, checkObject, checkWebGL } from "./arguments.js";
 import { NookError } from "./error.js";
+import { Material } from "./material.js";
 import { Nnao } from "./nnao.js";
 import { OnSurface, makeOnSurface } from "./on_surface.js";
+import { Probe } from "./probe.js";
+import { Scene } from "./scene.js";
 import { Surface } from "./surface.js";
 
 // A WebGL 2 context that the library draws in; see nook_gl.h.
@@ -9,16 +13,21 @@ export class Gl extends OnSurface {
     if (!webgl || typeof webgl.createTransformFeedback !== "function")
       throw new NookError("Context.createGl: webgl is no WebGL2RenderingContext; call canvas.getContext(\"webgl2\")",
         "NOOK_ERROR_UNSUPPORTED");
+    if (webgl.isContextLost?.())
+      throw new NookError("Context.createGl: the WebGL context is lost; call it after \"webglcontextrestored\"", "NOOK_ERROR_GL");
     const surface = Surface.of(library.module.GL, webgl);
-    return makeOnSurface(Gl, library, surface, "nook_gl_create", (out) => library.module._nook_gl_create(context,
-      library.descriptor("nook_gl_desc", { stateMode: "defaults", ...options, getProc: library.module._nook_web_get_proc() }), out));
+    return makeOnSurface(Gl, library, surface, "nook_gl_create", () => {
+      checkObject(library.name, "options", options);
+      const description = library.prepared("nook_gl_desc", { stateMode: "defaults", ...options, getProc: library.module._nook_web_get_proc() });
+      return (out) => library.module._nook_gl_create(context, description(), out);
+    });
   }
   constructor(library, handle, surface) {
     super(library, handle, "nook_gl_destroy", surface);
   }
 
   #current(name, body) {
-    return this.surface.current(() => this.library.call(name, body));
+    return this.surface.current(name, () => this.library.call(name, body));
   }
 
   // tier, version, renderer, bufferBytes, aoBytes.
@@ -33,69 +42,104 @@ export class Gl extends OnSurface {
   // Call it on "webglcontextlost"; afterwards destroy everything, and make it anew on "webglcontextrestored".
   contextLost() {
     this.library.check(this.library.module._nook_gl_context_lost(this.handle));
-    this.surface.forget();
+    this.surface.lose();
+  }
+  destroy() {
+    // After a loss that the host has not told, the library would delete objects that are gone.
+    if (this.address && this.surface.isLost) this.contextLost();
+    super.destroy();
+  }
+  #sceneOf(scene) {
+    return this.library.handleOf(scene, "scene", Scene, "Scene");
   }
 
   prepare(scene) {
-    this.#current("nook_gl_scene_prepare", () => this.library.check(this.library.module._nook_gl_scene_prepare(this.handle, scene.handle)));
+    this.#current("nook_gl_scene_prepare", () => this.library.check(this.library.module._nook_gl_scene_prepare(this.handle, this.#sceneOf(scene))));
   }
   // Evaluates the AO of all instances of a scene.
   update(scene) {
-    this.#current("nook_gl_scene_update", () => this.library.check(this.library.module._nook_gl_scene_update(this.handle, scene.handle)));
+    this.#current("nook_gl_scene_update", () => this.library.check(this.library.module._nook_gl_scene_update(this.handle, this.#sceneOf(scene))));
   }
   release(scene) {
-    this.#current("nook_gl_scene_release", () => this.library.check(this.library.module._nook_gl_scene_release(this.handle, scene.handle)));
+    this.#current("nook_gl_scene_release", () => this.library.check(this.library.module._nook_gl_scene_release(this.handle, this.#sceneOf(scene))));
   }
 
   // The place of an instance's values, for vertexAttribPointer: { buffer, offset, stride, count, texture, light, glsl }. channel: "ao",
   // or "directional-ao" of an instance with a light; texture and light are for the latter.
   view(scene, instance, channel = "ao") {
-    const view = this.library.info("nook_gl_scene_view", "nook_gl_view", (at) =>
-      this.library.module._nook_gl_scene_view(this.handle, scene.handle, instance, this.#channel(channel), at));
+    const name = "nook_gl_scene_view";
+    this.surface.alive(name);
+    checkIndex(name, "instance", instance);
+    const handle = this.library.call(name, () => this.#sceneOf(scene)), number = this.#channel(name, channel);
+    const view = this.library.info(name, "nook_gl_view", (at) =>
+      this.library.module._nook_gl_scene_view(this.handle, handle, instance, number, at));
     return { ...view, buffer: this.surface.object("buffers", view.buffer), texture: this.surface.object("textures", view.texture) };
   }
-  #channel(name) {
+  #channel(call, name) {
     const { layouts } = this.library;
-    return layouts.number(layouts.constants.get("nook_channel").numbers, name, "the channel");
+    return layouts.number(layouts.constants.get("nook_channel").numbers, name, "the channel", call);
   }
 
   // Copies the AO of the last update to a buffer or texture of the host: { buffer or texture, format, offset, instanceStride,
   // textureWidth }.
-  writeAo(scene, instances, { buffer, texture, ...target }) {
-    const { library } = this;
-    this.surface.lend([["buffers", buffer], ["textures", texture]], (bufferName, textureName) => this.#current("nook_gl_scene_write", () =>
-      library.check(library.module._nook_gl_scene_write(this.handle, scene.handle, library.integers(instances), instances.length,
-        library.struct("nook_gl_ao_target", { ...target, buffer: bufferName, texture: textureName })))));
+  writeAo(scene, instances, to) {
+    const { library } = this, name = "nook_gl_scene_write";
+    this.surface.alive(name);
+    checkNumbers(name, "instances", instances, { whole: true });
+    checkObject(name, "target", to, "an object such as { buffer }");
+    const { buffer, texture, ...target } = to;
+    checkWebGL(name, "buffer", buffer, ["WebGLBuffer"]);
+    checkWebGL(name, "texture", texture, ["WebGLTexture"]);
+    this.surface.lend([["buffers", buffer], ["textures", texture]], (bufferName, textureName) => this.#current(name, () => {
+      const handle = this.#sceneOf(scene);
+      const description = library.struct("nook_gl_ao_target", { ...target, buffer: bufferName, texture: textureName });
+      library.check(library.module._nook_gl_scene_write(this.handle, handle, library.integers(instances), instances.length, description));
+    }));
   }
 
   // For tests: waits for the GPU. One number for each vertex, three for "directional-ao".
   read(scene, instance, channel = "ao", out) {
-    const count = scene.vertexCount(instance), numbers = channel === "ao" ? 1 : 3;
-    return this.#current("nook_gl_scene_read", () => this.library.readFloats("nook_gl_scene_read", numbers * count, out, (address) =>
-      this.library.module._nook_gl_scene_read(this.handle, scene.handle, instance, this.#channel(channel), address, count)));
+    const name = "nook_gl_scene_read";
+    return this.#current(name, () => {
+      const handle = this.#sceneOf(scene), number = this.#channel(name, channel);
+      checkIndex(name, "instance", instance);
+      const count = scene.vertexCount(instance), numbers = channel === "ao" ? 1 : 3;
+      return this.library.readFloats(name, numbers * count, out, (address) =>
+        this.library.module._nook_gl_scene_read(this.handle, handle, instance, number, address, count));
+    });
   }
 
   // { maxWidth, maxHeight, preset, taps, halfResolution, blur, blurSharpness, network }.
-  createNnao({ network, ...options }) {
+  createNnao(options) {
     const { library } = this;
-    return makeOnSurface(Nnao, library, this.surface, "nook_nnao_create", (out) => {
-      const bytes = network ? library.bytes(network) : { address: 0, size: 0 };
-      return library.module._nook_nnao_create(this.handle,
-        library.descriptor("nook_nnao_desc", { ...options, network: bytes.address, networkSize: bytes.size }), out);
+    return makeOnSurface(Nnao, library, this.surface, "nook_nnao_create", () => {
+      checkObject(library.name, "options", options, "an object such as { maxWidth, maxHeight }");
+      const { network, ...others } = options;
+      if (network !== undefined && network !== null) checkBytes(library.name, "network", network);
+      library.layouts.check(library.layouts.struct("nook_nnao_desc"), others, library.name);
+      return (out) => {
+        const bytes = network ? library.bytes(network) : { address: 0, size: 0 };
+        return library.module._nook_nnao_create(this.handle,
+          library.descriptor("nook_nnao_desc", { ...others, network: bytes.address, networkSize: bytes.size }), out);
+      };
     });
   }
   // A probe or a grid in a form: "lobes" (default), "sh" or "zh3".
   uploadProbe(probe, form = "lobes") {
     const { library } = this;
-    const { numbers } = library.layouts.constants.get("nook_gl_probe_form");
-    const number = library.layouts.number(numbers, form, "the form");
-    return makeOnSurface(Upload, library, this.surface, "nook_gl_upload_probe", (out) =>
-      library.module._nook_gl_upload_probe(this.handle, probe.handle, number, out));
+    return makeOnSurface(Upload, library, this.surface, "nook_gl_upload_probe", () => {
+      const { numbers } = library.layouts.constants.get("nook_gl_probe_form");
+      const number = library.layouts.number(numbers, form, "the form", library.name);
+      const handle = library.handleOf(probe, "probe", Probe, "Probe");
+      return (out) => library.module._nook_gl_upload_probe(this.handle, handle, number, out);
+    });
   }
   uploadMaterial(material) {
     const { library } = this;
-    return makeOnSurface(Upload, library, this.surface, "nook_gl_upload_material", (out) =>
-      library.module._nook_gl_upload_material(this.handle, material.handle, out));
+    return makeOnSurface(Upload, library, this.surface, "nook_gl_upload_material", () => {
+      const handle = library.handleOf(material, "material", Material, "Material");
+      return (out) => library.module._nook_gl_upload_material(this.handle, handle, out);
+    });
   }
 }
 
@@ -107,10 +151,13 @@ export class Upload extends OnSurface {
   // Replaces the probe of an upload of a probe.
   update(probe) {
     const { library } = this;
-    this.surface.current(() => library.check(library.module._nook_gl_update_probe(this.handle, probe.handle)));
+    const name = "nook_gl_update_probe";
+    this.surface.current(name, () => library.call(name, () => library.check(
+      library.module._nook_gl_update_probe(this.handle, library.handleOf(probe, "probe", Probe, "Probe")))));
   }
   // { textures: { target, texture, uniform } each, bytes, glsl, constant, constantValues, constantVec4s, walls }.
   get info() {
+    this.surface.alive("nook_gl_upload_describe");
     const info = this.library.info("nook_gl_upload_describe", "nook_gl_upload_info", (at) => this.library.module._nook_gl_upload_describe(this.handle, at));
     const textures = info.textures.slice(0, info.textureCount)
       .map((each) => ({ ...each, texture: this.surface.object("textures", each.texture) }));
@@ -118,6 +165,9 @@ export class Upload extends OnSurface {
   }
   // Prepares a draw with a program of the host: leaves the program in use, and the textures bound from unit firstUnit on.
   bind(program, firstUnit = 0) {
+    this.surface.alive("nook_gl_upload_bind");
+    checkWebGL("nook_gl_upload_bind", "program", program, ["WebGLProgram"]);
+    checkIndex("nook_gl_upload_bind", "firstUnit", firstUnit);
     const gl = this.surface.context;
     const { textures, constant, constantValues, constantVec4s } = this.info;
     gl.useProgram(program);

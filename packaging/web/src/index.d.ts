@@ -1,5 +1,6 @@
 // nook-web: ambient occlusion for WebGL 2. The names of options are those of the C headers in camelCase, constants are words;
-// the headers in sdk/include/nook describe each of them. Lengths are in metres. Every call that fails throws NookError.
+// the headers in sdk/include/nook describe each of them. Lengths are in metres. Every call that fails throws NookError. Lists of
+// numbers that are too short, too long or no numbers are refused by name.
 
 export class NookError extends Error {
   /** The name of the result, such as "NOOK_ERROR_BAD_FILE". */
@@ -12,7 +13,7 @@ export type Instance = number;
 export type Occluder = number;
 
 export interface LoadOptions {
-  /** Where nook.wasm is, if it does not lie beside this file; or its bytes or module. */
+  /** Where nook.wasm is, if it does not lie beside this file; or its bytes or module. Node reads file: addresses and paths itself. */
   wasm?: string | URL | Response | Bytes | WebAssembly.Module | Promise<Response | Bytes | WebAssembly.Module>;
   /** Takes the lines of the library's log. */
   log?: (severity: "info" | "warning" | "error", text: string) => void;
@@ -85,7 +86,7 @@ export interface Pose {
   /** Bones without a transform keep their matrices. */
   partial?: boolean;
   strict?: boolean;
-  /** There may be more transforms than needed; the first ones count. */
+  /** There may be more transforms than needed, as in three.js's Skeleton.boneMatrices; the first ones count. */
   surplus?: boolean;
 }
 export interface SkinInfo {
@@ -225,7 +226,8 @@ export class Gl extends Owned {
   readonly info: GlInfo;
   /** The number of WebGL objects that the library holds in this context. */
   readonly objectCount: number;
-  /** Call it on "webglcontextlost"; then destroy everything, and make it anew on "webglcontextrestored". */
+  /** Call it on "webglcontextlost"; then destroy everything, and make it anew on "webglcontextrestored". Other calls into WebGL throw
+   *  between the loss and that. */
   contextLost(): void;
   prepare(scene: Scene): void;
   /** Evaluates the AO of all instances. */
@@ -350,6 +352,7 @@ export interface ProbeFitOptions {
   basis?: "lobes" | "sh";
   domain?: "sphere" | "hemisphere";
   up?: Numbers;
+  /** Default: the number of axes or sharpnesses, or 12. */
   lobeCount?: number;
   sharpness?: number;
   axes?: Numbers;

@@ -1,5 +1,5 @@
 // Nook for WebGL 2: see README.md, and index.d.ts for the types.
-import makeModule from "./nook_module.mjs";
+import makeModule from "./nook.mjs";
 import { Context } from "./context.js";
 import { Library } from "./library.js";
 
@@ -12,16 +12,45 @@ export { Nnao } from "./nnao.js";
 export { Probe, ProbeFit } from "./probe.js";
 export { Material } from "./material.js";
 
-async function instantiate(wasm, imports) {
+// The bytes of a file: node's fetch takes no file: addresses. Bundlers for browsers must not follow the name of node's module.
+async function readFile(url) {
+  const name = "node:fs/promises";
+  const files = globalThis.process?.getBuiltinModule?.(name) ?? await import(/* webpackIgnore: true */ /* @vite-ignore */ name);
+  return files.readFile(url);
+}
+
+const isBytes = (value) => ArrayBuffer.isView(value) || Object.prototype.toString.call(value) === "[object ArrayBuffer]";
+
+// The module and an instance of it.
+async function compile(wasm, imports) {
   const source = await (wasm ?? new URL("./nook.wasm", import.meta.url));
   if (source instanceof WebAssembly.Module) return { module: source, instance: await WebAssembly.instantiate(source, imports) };
-  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.instantiate(source, imports);
-  const response = await (typeof Response !== "undefined" && source instanceof Response ? source : fetch(source));
-  if (!response.ok) throw new Error(`nook-web: ${response.url} cannot be fetched (status ${response.status}); give load({ wasm })`);
+  if (isBytes(source)) return WebAssembly.instantiate(source, imports);
+  const isResponse = typeof Response !== "undefined" && source instanceof Response;
+  if (!isResponse && typeof source !== "string" && !(source instanceof URL))
+    throw new Error("wasm needs an address, a Response, bytes or a WebAssembly.Module");
+  if (!isResponse && globalThis.process?.versions?.node) {
+    const url = new URL(source, `file://${globalThis.process.cwd()}/`);
+    if (url.protocol === "file:") return WebAssembly.instantiate(await readFile(url), imports);
+  }
+  const response = isResponse ? source : await fetch(source);
+  if (!response.ok) throw new Error(`the server answered with status ${response.status}`);
   // Servers that do not know the type application/wasm are common.
   if ((response.headers.get("Content-Type") ?? "").startsWith("application/wasm"))
     return WebAssembly.instantiateStreaming(response, imports);
   return WebAssembly.instantiate(await response.arrayBuffer(), imports);
+}
+async function instantiate(wasm, imports) {
+  try {
+    return await compile(wasm, imports);
+  } catch (error) {
+    const isPlace = wasm === undefined || typeof wasm === "string" || wasm instanceof URL;
+    const from = isPlace ? ` from ${wasm ?? new URL("./nook.wasm", import.meta.url)}` : "";
+    const cure = /unsafe-eval|Content Security Policy/i.test(error.message)
+      ? "the page's content security policy must allow 'wasm-unsafe-eval' in script-src"
+      : "nook.wasm of the package must lie beside its index.js, or give load({ wasm })";
+    throw new Error(`nook-web: the module of WebAssembly cannot be loaded${from} (${error.message}); ${cure}`, { cause: error });
+  }
 }
 
 // Loads the module of WebAssembly and makes a context in it. wasm: where nook.wasm is, if it does not lie beside this file, or

@@ -1,5 +1,6 @@
 // The layouts of the library's structs and its constants, as the module's own tables tell them: objects with names in
 // camelCase become structs in memory, and structs become objects. Constants are words: NOOK_POSE_SKINNING is "skinning".
+import { checkNumber, checkNumbers, described, refuse } from "./arguments.js";
 
 const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
 const word = (name) => name.toLowerCase().replaceAll("_", "-");
@@ -55,28 +56,41 @@ export class Layouts {
   }
 
   // The number of a constant of a group of bits, such as that of NOOK_TERM_SELF.
-  bits(first, names) {
+  bits(first, names, call) {
     const { numbers } = this.constants.get(`bits ${first}`);
-    return names.reduce((sum, name) => sum | this.number(numbers, name, "a bit"), 0);
+    return names.reduce((sum, name) => sum | this.number(numbers, name, "a bit", call), 0);
   }
 
-  number(numbers, name, of) {
+  number(numbers, name, of, call = "nook-web") {
     const value = numbers.get(name);
-    if (value === undefined) throw new TypeError(`nook: ${of} is unknown (got "${name}", need ${[...numbers.keys()].join(", ")})`);
+    if (value === undefined) refuse(call, `${of} is unknown (got ${described(name)}, need ${[...numbers.keys()].join(", ")})`);
     return value;
   }
 
-  // Writes the members that `values` has and are not undefined. Addresses are numbers here.
-  write(struct, address, values) {
-    const { module } = this;
+  // Checks the members that `values` has and are not undefined, for the function `call`: the fields with what is written to them.
+  // Addresses are numbers here; a function gives its address when it is written.
+  check(struct, values, call = "nook-web") {
+    const checked = [];
     for (const [name, given] of Object.entries(values)) {
       if (given === undefined) continue;
       const field = struct.fields.get(name);
-      if (!field) throw new TypeError(`nook: ${struct.name} has no ${name}; it has ${[...struct.fields.keys()].join(", ")}`);
-      const value = typeof given === "string" && field.constants ? this.number(field.constants.numbers, given, name) : given;
-      const got = typeof value === "string" ? `"${value}"` : value;
-      if (field.count > 1 ? typeof value === "string" || value?.length !== field.count : typeof value === "string")
-        throw new TypeError(`nook: ${struct.name}: ${name} needs ${field.count > 1 ? `${field.count} numbers` : "a number"} (got ${got})`);
+      if (!field) refuse(call, `${struct.name} has no ${name}; it has ${[...struct.fields.keys()].join(", ")}`);
+      const value = typeof given === "string" && field.constants ? this.number(field.constants.numbers, given, name, call) : given;
+      checked.push([field, value]);
+      if (typeof value === "function" && field.type === "p") continue;
+      const argument = `${struct.name}: ${name}`, whole = !["f", "d"].includes(field.type);
+      if (field.count > 1) checkNumbers(call, argument, value, { count: field.count, whole });
+      else if (typeof value !== "boolean" || !whole)
+        checkNumber(call, argument, value, field.type === "p" || field.type === "w" ? {} : { whole, least: whole && field.type === "u" ? 0 : whole ? -(2 ** 31) : -Infinity });
+    }
+    return checked;
+  }
+
+  // Writes what `check` gave.
+  store(address, checked) {
+    const { module } = this;
+    for (const [field, given] of checked) {
+      const value = typeof given === "function" ? given() : given;
       const at = (address + field.offset) >> 2;
       if (field.type === "f") {
         if (field.count > 1) module.HEAPF32.set(value, at);
@@ -88,6 +102,9 @@ export class Layouts {
         if (field.type === "w") module.HEAPU32[at + 1] = Number(value) / 2 ** 32;
       }
     }
+  }
+  write(struct, address, values, call) {
+    this.store(address, this.check(struct, values, call));
   }
 
   read(struct, address) {

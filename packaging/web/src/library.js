@@ -1,4 +1,5 @@
 // The module of WebAssembly with its memory: calls with checked results, and room for their arguments.
+import { checkBytes, checkOut, described, refuse } from "./arguments.js";
 import { NookError } from "./error.js";
 import { Layouts } from "./layouts.js";
 
@@ -69,7 +70,10 @@ export class Library {
     try {
       return body();
     } finally {
-      if (--this.room.depth === 0) this.room.end();
+      if (--this.room.depth === 0) {
+        this.room.end();
+        this.room.call = "nook-web";
+      }
     }
   }
 
@@ -80,28 +84,49 @@ export class Library {
     throw new NookError(module.UTF8ToString(module._nook_last_message()), module.UTF8ToString(module._nook_result_name(result)));
   }
 
-  // A descriptor with the library's defaults, then with `values`.
-  descriptor(name, values = {}) {
+  // The outermost call, for messages.
+  get name() {
+    return this.room.call;
+  }
+
+  // Checks `values`, and gives a function that makes a descriptor of them: the library's defaults, then `values`. A call prepares
+  // all that it takes before it makes the first of it.
+  prepared(name, values = {}) {
     const struct = this.layouts.struct(name);
-    const address = this.room.take(struct.size);
-    const type = this.layouts.bits("NOOK_DESC_CONTEXT", [name.slice("nook_".length, -"_desc".length).replaceAll("_", "-")]);
-    this.check(this.module._nook_desc_init(type, address, struct.size, this.version));
-    this.layouts.write(struct, address, values);
-    return address;
+    const checked = this.layouts.check(struct, values, this.name);
+    return () => {
+      const address = this.room.take(struct.size);
+      const type = this.layouts.bits("NOOK_DESC_CONTEXT", [name.slice("nook_".length, -"_desc".length).replaceAll("_", "-")]);
+      this.check(this.module._nook_desc_init(type, address, struct.size, this.version));
+      this.layouts.store(address, checked);
+      return address;
+    };
+  }
+  descriptor(name, values) {
+    return this.prepared(name, values)();
   }
 
   // A struct of zeros, whose size stands in struct_size if it has one, then with `values`.
   struct(name, values = {}) {
     const struct = this.layouts.struct(name);
+    const checked = this.layouts.check(struct, values, this.name);
     const address = this.room.take(struct.size);
     this.module.HEAPU8.fill(0, address, address + struct.size);
     if (struct.fields.has("structSize")) this.layouts.write(struct, address, { structSize: struct.size });
-    this.layouts.write(struct, address, values);
+    this.layouts.store(address, checked);
     return address;
   }
 
   read(name, address) {
     return this.layouts.read(this.layouts.struct(name), address);
+  }
+
+  // The handle of an object that a call takes. Kind is its class, word the class's name, which bundlers may change.
+  handleOf(value, argument, Kind, word) {
+    const call = this.name;
+    if (!(value instanceof Kind)) refuse(call, `${argument} needs a ${word} (got ${described(value)})`);
+    if (value.library !== this) refuse(call, `${argument} was made by another load(); objects of two modules cannot be combined`);
+    return value.handle;
   }
 
   // What a function of the form (handle, ..., info*) writes. struct: the name of the info.
@@ -134,7 +159,7 @@ export class Library {
     return this.room.take(4 * count);
   }
 
-  // Copies of numbers in memory; 0 for null and undefined.
+  // Copies of numbers in memory, which the caller has checked; 0 for null and undefined.
   floats(values) {
     if (!values) return 0;
     const address = this.room32(values.length);
@@ -148,7 +173,8 @@ export class Library {
     return address;
   }
   bytes(values) {
-    const view = values instanceof ArrayBuffer ? new Uint8Array(values)
+    checkBytes(this.name, "bytes", values);
+    const view = !ArrayBuffer.isView(values) ? new Uint8Array(values)
       : new Uint8Array(values.buffer, values.byteOffset, values.byteLength);
     const address = this.room.take(view.length);
     this.module.HEAPU8.set(view, address);
@@ -162,6 +188,7 @@ export class Library {
   // Calls a function of the form (..., float* out, count): `out` takes the numbers, or a new array does.
   readFloats(name, count, out, call) {
     return this.call(name, () => {
+      checkOut(this.name, out, count);
       const address = this.room32(count);
       this.check(call(address));
       const numbers = this.module.HEAPF32.subarray(address >> 2, (address >> 2) + count);

@@ -9,16 +9,21 @@ export class OnSurface extends Owned {
   }
   destroy() {
     if (!this.address) return;
-    this.surface.current(() => super.destroy());
+    this.surface.leave(() => super.destroy());
     this.surface.removeUser();
   }
 }
 
-// Makes an object of class Kind on a surface by call(out), which calls the function `name`.
-export function makeOnSurface(Kind, library, surface, name, call) {
+// Makes an object of class Kind on a surface. prepare() checks the arguments, and gives call(out), which calls the function `name`.
+export function makeOnSurface(Kind, library, surface, name, prepare) {
   surface.addUser();
   try {
-    return new Kind(library, surface.current(() => library.call(name, () => library.made(call))), surface);
+    surface.alive(name);
+    const make = () => {
+      const call = prepare();
+      return library.made(call);
+    };
+    return new Kind(library, surface.current(name, () => library.call(name, make)), surface);
   } finally {
     surface.removeUser();
   }

@@ -1,17 +1,31 @@
+import { checkIndex, checkList, checkNumber, checkNumbers, checkObject } from "./arguments.js";
 import { Owned } from "./library.js";
 
-// The address of an array of nook_lobe.
-export function lobeStruct(library, lobes) {
-  const { layouts } = library;
+// Checks lobes, and gives a function that makes an array of nook_lobe of them.
+export function preparedLobes(library, lobes) {
+  const { layouts, name: call } = library;
   const struct = layouts.struct("nook_lobe");
-  const address = library.room.take(struct.size * lobes.length);
-  library.module.HEAPU8.fill(0, address, address + struct.size * lobes.length);
-  lobes.forEach((lobe, i) => layouts.write(struct, address + i * struct.size, lobe));
-  return address;
+  const checked = [];
+  checkList(call, "lobes", lobes, "{ axis, sharpness, amplitude }", (lobe, argument) => {
+    checkObject(call, argument, lobe, "an object { axis, sharpness, amplitude }");
+    for (const member of ["axis", "amplitude"]) checkNumbers(call, `${argument}.${member}`, lobe[member], { count: 3 });
+    checkNumber(call, `${argument}.sharpness`, lobe.sharpness);
+    checked.push(layouts.check(struct, lobe, call));
+  });
+  return () => {
+    const address = library.room.take(struct.size * checked.length);
+    library.module.HEAPU8.fill(0, address, address + struct.size * checked.length);
+    checked.forEach((lobe, i) => layouts.store(address + i * struct.size, lobe));
+    return address;
+  };
 }
 
 // A position for each direction, of one that is for all; undefined stays so.
-function forEach(position, directions) {
+function forEach(call, position, argument, directions) {
+  checkNumbers(call, argument, directions, { groupsOf: 3 });
+  if (position?.length !== 3)
+    checkNumbers(call, "position", position, { count: directions.length, why: `(3 for all, or as many as ${argument})`, optional: true });
+  else checkNumbers(call, "position", position);
   if (position?.length !== 3) return position;
   return Float32Array.from(directions, (_, i) => position[i % 3]);
 }
@@ -28,6 +42,7 @@ export class Probe extends Owned {
   // The lobes at a point, or those of the first probe: { axis, sharpness, amplitude } each.
   lobes(position) {
     const { library } = this;
+    checkNumbers("nook_probe_read_lobes", "position", position, { count: 3, optional: true });
     const count = this.info.functionCount;
     return library.call("nook_probe_read_lobes", () => {
       const { size } = library.layouts.struct("nook_lobe");
@@ -39,6 +54,7 @@ export class Probe extends Owned {
 
   // Three floats for each function of a probe of the grid.
   coefficients(index = 0) {
+    checkIndex("nook_probe_read_coefficients", "index", index);
     const { library } = this;
     const count = this.info.functionCount;
     return library.call("nook_probe_read_coefficients", () => library.readFloats("nook_probe_read_coefficients", 3 * count, undefined, (address) =>
@@ -47,14 +63,18 @@ export class Probe extends Owned {
 
   // Three floats for each direction or normal. The position is one for all, or one for each.
   radiance(directions, position) {
-    const { library } = this;
-    return library.call("nook_probe_radiance", () => library.readFloats("nook_probe_radiance", directions.length, undefined, (address) => library.module._nook_probe_radiance(
-      this.handle, library.floats(forEach(position, directions)), library.floats(directions), address, directions.length / 3)));
+    return this.#evaluate("nook_probe_radiance", "directions", directions, position);
   }
   irradiance(normals, position) {
+    return this.#evaluate("nook_probe_irradiance", "normals", normals, position);
+  }
+  #evaluate(name, argument, directions, position) {
     const { library } = this;
-    return library.call("nook_probe_irradiance", () => library.readFloats("nook_probe_irradiance", normals.length, undefined, (address) => library.module._nook_probe_irradiance(
-      this.handle, library.floats(forEach(position, normals)), library.floats(normals), address, normals.length / 3)));
+    return library.call(name, () => {
+      const positions = forEach(name, position, argument, directions);
+      return library.readFloats(name, directions.length, undefined, (address) => library.module[`_${name}`](
+        this.handle, library.floats(positions), library.floats(directions), address, directions.length / 3));
+    });
   }
 }
 
@@ -65,12 +85,21 @@ export class ProbeFit extends Owned {
   }
   addSamples(directions, radiance, weights) {
     const { library } = this;
-    library.call("nook_probe_fit_add_samples", () => library.check(library.module._nook_probe_fit_add_samples(this.handle, library.floats(directions),
-      library.floats(radiance), library.floats(weights), directions.length / 3)));
+    library.call("nook_probe_fit_add_samples", () => {
+      // The fit skips samples that are not finite, and counts them.
+      checkNumbers(library.name, "directions", directions, { groupsOf: 3, anyValue: true });
+      checkNumbers(library.name, "radiance", radiance, { count: directions.length, why: "(as many as directions)", anyValue: true });
+      checkNumbers(library.name, "weights", weights,
+        { count: directions.length / 3, why: "(one for each direction)", anyValue: true, optional: true });
+      library.check(library.module._nook_probe_fit_add_samples(this.handle, library.floats(directions), library.floats(radiance),
+        library.floats(weights), directions.length / 3));
+    });
   }
   // Adds the samples of another fit with the same options.
   merge(other) {
-    this.library.check(this.library.module._nook_probe_fit_merge(this.handle, other.handle));
+    const { library } = this;
+    library.call("nook_probe_fit_merge", () => library.check(
+      library.module._nook_probe_fit_merge(this.handle, library.handleOf(other, "other", ProbeFit, "ProbeFit"))));
   }
   reset() {
     this.library.check(this.library.module._nook_probe_fit_reset(this.handle));

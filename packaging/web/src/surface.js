@@ -1,6 +1,8 @@
 // A WebGL 2 context of the host, as the module sees it. The module knows objects of WebGL by numbers, in tables of its own; each
 // context has tables of its own here, so that a lost context leaves nothing behind, and objects of the host are in them only
 // during a call.
+import { NookError } from "./error.js";
+
 const tables = ["buffers", "programs", "framebuffers", "renderbuffers", "textures", "shaders", "vaos", "samplers",
   "transformFeedbacks", "syncs", "queries"];
 
@@ -11,10 +13,11 @@ export class Surface {
   #names = new WeakMap();
   #users = 0;
   #handle;
+  #isLost = false;
 
   static of(GL, context) {
     const known = Surface.#known.get(context);
-    if (known && known.#GL === GL && known.#users > 0) return known;
+    if (known && known.#GL === GL && known.#users > 0 && !known.isLost) return known;
     const surface = new Surface(GL, context);
     Surface.#known.set(context, surface);
     return surface;
@@ -28,9 +31,27 @@ export class Surface {
     const canvas = context.canvas, before = canvas?.GLctxObject;
     this.#handle = GL.registerContext(context, { majorVersion: 2, minorVersion: 0, enableExtensionsByDefault: false });
     if (canvas) canvas.GLctxObject = before;
+    // A context that came back has no object of before, and isContextLost() no longer tells.
+    canvas?.addEventListener?.("webglcontextlost", () => (this.#isLost = true), { once: true });
   }
 
-  // Empties the tables: a lost context has no objects any more.
+  // Whether the context was lost since the surface was made.
+  get isLost() {
+    this.#isLost ||= this.#context.isContextLost?.() === true;
+    return this.#isLost;
+  }
+  // Throws where the context is lost: WebGL then ignores calls, and reads give what was in memory. name: the function that is called.
+  alive(name) {
+    if (!this.isLost) return;
+    throw new NookError(`${name}: the WebGL context was lost; draw nothing until "webglcontextrestored", then destroy the Gl and ` +
+      "everything that it made, and make them anew with createGl", "NOOK_ERROR_GL");
+  }
+
+  // The context is lost, and has no objects any more.
+  lose() {
+    this.#isLost = true;
+    this.forget();
+  }
   forget() {
     for (const table of tables) if (this.#GL[table]) this.#own[table] = [];
   }
@@ -47,8 +68,17 @@ export class Surface {
     if (--this.#users === 0) this.#GL.contexts[this.#handle] = null;
   }
 
-  // Runs body while the module's functions draw to this context.
-  current(body) {
+  // Runs body, which destroys an object. In a lost context there is nothing to delete.
+  leave(body) {
+    if (this.isLost) this.forget();
+    return this.#run(body);
+  }
+  // Runs body while the module's functions draw to this context. name: the function that body calls.
+  current(name, body) {
+    this.alive(name);
+    return this.#run(body);
+  }
+  #run(body) {
     const GL = this.#GL;
     const before = {};
     for (const table of Object.keys(this.#own)) {

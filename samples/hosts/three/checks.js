@@ -230,6 +230,46 @@ export function makeChecks(page) {
       return { most: largest(before, picture(1, true)) };
     },
 
+    // Frames in a lost context are skipped without an error; a character that is removed looks as without Nook, and comes back;
+    // options of the pass reach it.
+    async life() {
+      const { host, model, pass } = nook;
+      const before = picture(1, true);
+      const extension = webgl.getExtension("WEBGL_lose_context");
+      const event = (name) => new Promise((resolve) => renderer.domElement.addEventListener(name, resolve, { once: true }));
+      const lost = event("webglcontextlost");
+      extension.loseContext();
+      host.update(page.world);
+      await lost;
+      page.draw(seconds);
+      await new Promise((resolve) => setTimeout(resolve, 50));
+      const back = event("webglcontextrestored");
+      extension.restoreContext();
+      await back;
+      const restored = largest(before, picture(1, true));
+      const actor = actors[0], material = actor.meshes[0].material, geometry = actor.meshes[0].geometry;
+      host.remove(actor.character);
+      const isOwn = actor.meshes[0].material !== material && actor.meshes[0].geometry !== geometry && !actor.meshes[0].geometry.attributes.nookAo;
+      const removed = largest(before, picture(1, true));
+      actor.character = host.add(model, ...actor.meshes);
+      host.scene.linkNearest(2, 2);
+      const added = largest(before, picture(1, true));
+      pass.options = { preset: "best" };
+      const best = largest(before, picture(1, true)), taps = pass.nnao.info.taps;
+      pass.options = {};
+      const same = largest(before, picture(1, true));
+      return { restored, isOwn, removed, added, best, taps, same };
+    },
+    // The last check: nothing of Nook is left.
+    end() {
+      nook.pass.dispose();
+      nook.pass.enabled = false;
+      const { gl } = nook.host;
+      nook.host.dispose();
+      page.draw(seconds);
+      return { objects: gl.objectCount, characters: nook.host.characters.length };
+    },
+
     // Two pictures side by side as the bytes of a PNG file in base64: without AO, and with both kinds.
     pair() {
       const { width, height } = renderer.domElement;

@@ -68,6 +68,7 @@ async function addNook() {
 
 let nook = null;
 function draw(seconds) {
+  if (renderer.getContext().isContextLost()) return;
   for (const { mixer } of actors) mixer.setTime(seconds);
   nook?.host.update(world);
   composer.render();

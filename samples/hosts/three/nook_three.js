@@ -24,22 +24,32 @@ const values = (meshes, name) => meshes.flatMap(({ geometry: { attributes: { [na
 export class NookThree {
   share = { value: 1 };
   characters = [];
+  #lose = () => {
+    this.gl?.contextLost();
+    this.gl?.destroy();
+    this.gl = null;
+  };
+  #adopt = () => {
+    // A loss that comes while another one is restored ends in another event.
+    if (this.webgl.isContextLost()) return;
+    this.gl = this.nook.createGl(this.webgl);
+    this.characters.forEach(({ parts }) => parts.forEach((part) => this.#makeBuffer(part)));
+    this.renderer.resetState();
+  };
   constructor(nook, renderer) {
-    Object.assign(this, { renderer, webgl: renderer.getContext(), scene: nook.createScene() });
-    const adopt = () => {
-      this.gl = nook.createGl(this.webgl);
-      this.characters.forEach(({ parts }) => parts.forEach((part) => this.#makeBuffer(part)));
-      renderer.resetState();
-    };
-    adopt();
-    renderer.domElement.addEventListener("webglcontextlost", () => {
-      this.gl.contextLost();
-      this.gl.destroy();
-    });
-    renderer.domElement.addEventListener("webglcontextrestored", adopt);
+    Object.assign(this, { nook, renderer, webgl: renderer.getContext(), scene: nook.createScene(), gl: null });
+    this.#adopt();
+    renderer.domElement.addEventListener("webglcontextlost", this.#lose);
+    renderer.domElement.addEventListener("webglcontextrestored", this.#adopt);
+  }
+
+  // False in a lost context: frames are skipped until it is back.
+  get isAlive() {
+    return this.gl !== null && !this.webgl.isContextLost();
   }
 
   #makeBuffer({ attribute }) {
+    if (!this.isAlive) return;
     this.webgl.bindBuffer(this.webgl.ARRAY_BUFFER, attribute.setBuffer(this.webgl.createBuffer()).buffer);
     this.webgl.bufferData(this.webgl.ARRAY_BUFFER, new Float32Array(attribute.count).fill(1), this.webgl.DYNAMIC_COPY);
   }
@@ -47,7 +57,10 @@ export class NookThree {
   // Gives the skinned meshes of one character AO; they share a skeleton, and model is the bake of their file. The result's
   // `instance` is the character's number in `scene`.
   add(model, ...meshes) {
+    if (!meshes.length || meshes.some((mesh) => !mesh?.geometry?.attributes?.position))
+      throw new Error("NookThree.add: give the model, then the skinned meshes of one character");
     const { vertices, unmatched } = model.matchVertices({ positions: values(meshes, "position"), normals: values(meshes, "normal") });
+    if (meshes.some((mesh) => mesh.geometry.attributes.nookAo)) throw new Error("NookThree.add: a mesh has been added before; remove its character first");
     if (unmatched) throw new Error(`NookThree.add: ${unmatched} of ${vertices.length} vertices are not in the model; bake the file again`);
     const own = model.remap(vertices), instance = this.scene.addInstance(own);
     own.destroy();
@@ -55,20 +68,47 @@ export class NookThree {
     const parts = meshes.map((mesh) => {
       const { count } = mesh.geometry.attributes.position;
       const attribute = new GLBufferAttribute(null, this.webgl.FLOAT, 1, 4, count);
+      const before = { geometry: mesh.geometry, material: mesh.material };
       // Instances of a character may share a geometry, but not its AO.
       const { index, attributes, groups, drawRange, morphAttributes, morphTargetsRelative } = mesh.geometry;
       mesh.geometry = Object.assign(new BufferGeometry(),
         { index, groups, drawRange, morphAttributes, morphTargetsRelative, attributes: { ...attributes, nookAo: attribute } });
-      mesh.material = occluded(mesh.material, this.share);
+      mesh.material = Array.isArray(mesh.material) ? mesh.material.map((each) => occluded(each, this.share)) : occluded(mesh.material, this.share);
       first += count;
-      return { attribute, offset: 4 * (first - count) };
+      return { mesh, before, attribute, offset: 4 * (first - count) };
     });
     parts.forEach((part) => this.#makeBuffer(part));
     const character = { mesh: meshes[0], instance, parts, transforms: new Float32Array(16 * meshes[0].skeleton.bones.length) };
     return this.characters[this.characters.push(character) - 1];
   }
 
-  // The pose of a character as Nook takes it: the matrices that three.js skins with, to the world.
+  // Takes a character of add() out: its meshes have their own geometry and materials again.
+  remove(character) {
+    const at = this.characters.indexOf(character);
+    if (at < 0) throw new Error("NookThree.remove: this character is not in the host; pass the result of add()");
+    this.characters.splice(at, 1);
+    this.scene.removeInstance(character.instance);
+    for (const { mesh, before, attribute } of character.parts) {
+      for (const material of [mesh.material].flat()) material.dispose();
+      // The copy shares all but the AO with the geometry before, whose buffers three.js keeps in use.
+      mesh.geometry.deleteAttribute("nookAo");
+      Object.assign(mesh, before);
+      if (this.isAlive) this.webgl.deleteBuffer(attribute.buffer);
+    }
+    this.renderer.resetState();
+  }
+  // Removes all characters, and releases the scene and what lives in the renderer's context. Dispose the passes before.
+  dispose() {
+    while (this.characters.length) this.remove(this.characters.at(-1));
+    this.renderer.domElement.removeEventListener("webglcontextlost", this.#lose);
+    this.renderer.domElement.removeEventListener("webglcontextrestored", this.#adopt);
+    this.gl?.destroy();
+    this.gl = null;
+    this.scene.destroy();
+  }
+
+  // The pose of a character as Nook takes it: the matrices that three.js skins with, to the world. three.js makes boneMatrices
+  // longer than the bones need, so that they fill a texture.
   pose({ mesh, transforms }) {
     const place = new Matrix4().multiplyMatrices(mesh.matrixWorld, mesh.bindMatrixInverse), matrix = new Matrix4();
     mesh.skeleton.update();
@@ -79,6 +119,7 @@ export class NookThree {
 
   // Once a frame, when the animations have moved and before the renderer draws.
   update(scene) {
+    if (!this.isAlive) return;
     const { gl, webgl } = this;
     scene.updateMatrixWorld();
     for (const character of this.characters) this.scene.setPose(character.instance, this.pose(character));
@@ -97,22 +138,46 @@ export class NookThree {
   }
 }
 
-// Stands after the RenderPass. The composer's render target needs a depthTexture; the pass multiplies its colour.
+// Stands after the RenderPass. The composer's render target needs a depthTexture; the pass multiplies its colour. frame: what changes
+// from frame to frame, such as radius and intensity. options: what the pass is made with: preset, taps, blur, halfResolution,
+// maxHistoryFrames and others of createNnao; set `options` anew to change them.
 export class NookPass extends Pass {
   needsSwap = false;
-  constructor(host, camera, frame) {
+  constructor(host, camera, frame = {}, options = {}) {
     super();
-    Object.assign(this, { host, camera, frame });
+    Object.assign(this, { host, camera, frame, options, nnao: null });
+  }
+  // The WebGLTexture of a texture or a render target of three.js.
+  #webglOf(renderer, of, what) {
+    if (!of?.isTexture) throw new Error(`NookPass: ${what} needs a THREE.Texture (got ${of?.constructor?.name ?? of})`);
+    const { __webglTexture: texture } = renderer.properties.get(of);
+    if (!texture) throw new Error(`NookPass: three.js has not drawn to ${what} yet; the pass stands after the RenderPass`);
+    return texture;
   }
   render(renderer, _, { width, height, texture, depthTexture }) {
-    const { gl } = this.host, webglOf = (of) => renderer.properties.get(of).__webglTexture;
+    if (!this.host.isAlive) return;
+    const { gl } = this.host, { camera, options } = this;
     if (!depthTexture) throw new Error("NookPass: the composer's render target has no depthTexture; give EffectComposer one that has");
-    if (this.gl !== gl || this.width !== width || this.height !== height) {
+    // Textures of the host may be three.js's own, such as a normalTexture.
+    const frame = { ...this.frame };
+    for (const [name, value] of Object.entries(frame)) if (value?.isTexture) frame[name] = this.#webglOf(renderer, value, name);
+    if (renderer.capabilities.logarithmicDepthBuffer && frame.depthKind === undefined)
+      throw new Error("NookPass: the renderer's depth is logarithmic; leave logarithmicDepthBuffer out, or give depthKind and the members of nook_nnao.h beside it");
+    const depth = this.#webglOf(renderer, depthTexture, "the depthTexture"), colour = this.#webglOf(renderer, texture, "the colour");
+    if (this.gl !== gl || this.width !== width || this.height !== height || this.made !== options) {
       this.nnao?.destroy();
-      Object.assign(this, { gl, width, height, nnao: gl.createNnao({ maxWidth: width, maxHeight: height }) });
+      this.nnao = null;
+      const nnao = gl.createNnao({ ...options, maxWidth: width, maxHeight: height });
+      Object.assign(this, { gl, width, height, made: options, nnao });
     }
-    this.nnao.render({ width, height, depthTexture: webglOf(depthTexture), projection: this.camera.projectionMatrix.elements,
-      target: webglOf(texture), blend: "multiply", ...this.frame });
+    this.nnao.render({ width, height, depthTexture: depth, projection: camera.projectionMatrix.elements, view: camera.matrixWorldInverse.elements,
+      target: colour, blend: "multiply", ...frame });
     renderer.resetState();
+  }
+  dispose() {
+    this.nnao?.destroy();
+    this.nnao = null;
+    this.made = null;
+    this.gl = null;
   }
 }

@@ -59,6 +59,13 @@ try {
   expect(resize.most === 0, `the same picture after other sizes: ${resize.most} of 255`);
   const loss = await run("loss");
   expect(loss.most === 0, `the same picture after a lost context: ${loss.most} of 255`);
+  const life = await run("life");
+  expect(life.restored === 0, `the same picture after frames in a lost context: ${life.restored} of 255`);
+  expect(life.isOwn && life.removed > 0, `a removed character has its own geometry and material: ${life.removed} of 255`);
+  expect(life.added === 0, `the same picture after it is added again: ${life.added} of 255`);
+  expect(life.best > 0 && life.same === 0, `options reach the pass: ${life.best} of 255 with ${life.taps} taps, ${life.same} without them again`);
+  const end = await run("end");
+  expect(end.objects === 0 && end.characters === 0, `WebGL objects after dispose(): ${end.objects}`);
 
   await chromium.open(`${url}/`, width, height);
   await chromium.until("document.querySelector('canvas') !== null", 60);

@@ -1,25 +1,57 @@
 // The baked data: geometry and clips of the character, and its .nook file.
 const types = { float32: Float32Array, uint32: Uint32Array, uint16: Uint16Array, uint8: Uint8Array };
 
-async function fetched(url) {
-  const response = await fetch(url);
+// The bytes of a file; progress(received, all) is told as they come, all 0 where the server does not say it.
+export async function fetchBytes(url, progress = () => {}) {
+  const response = await fetch(url).catch((error) => {
+    throw new Error(`${url} cannot be fetched (${error.message}); check the connection and the page's content security policy`);
+  });
   if (!response.ok) throw new Error(`${url} cannot be fetched (status ${response.status}); samples/web/build.sh makes it`);
-  return response;
+  // Behind a compression the length is that of the compressed bytes.
+  const all = response.headers.get("Content-Encoding") ? 0 : Number(response.headers.get("Content-Length") ?? 0);
+  const parts = [];
+  let received = 0;
+  try {
+    for (let reader = response.body.getReader(), part = await reader.read(); !part.done; part = await reader.read()) {
+      parts.push(part.value);
+      progress(received += part.value.length, all);
+    }
+  } catch (error) {
+    throw new Error(`${url} broke off after ${received} bytes (${error.message}); load the page again`);
+  }
+  const bytes = new Uint8Array(received);
+  let at = 0;
+  for (const part of parts) bytes.set(part, at), (at += part.length);
+  return bytes.buffer;
 }
 
-export async function fetchBytes(url) {
-  return (await fetched(url)).arrayBuffer();
-}
-
-export async function fetchCharacter(folder) {
-  const [description, bytes, nook] = await Promise.all([
-    fetched(`${folder}/character.json`).then((response) => response.json()),
-    fetchBytes(`${folder}/character.bin`),
-    fetchBytes(`${folder}/character.nook`),
-  ]);
+const needed = ["positions", "normals", "joints", "weights", "indices", "references", "frames"];
+function arraysOf(description, bytes, url) {
   const arrays = {};
-  for (const [name, { type, offset, length }] of Object.entries(description.arrays)) arrays[name] = new types[type](bytes, offset, length);
-  return { ...description, arrays, nook };
+  for (const [name, { type, offset, length }] of Object.entries(description.arrays)) {
+    const end = offset + length * types[type].BYTES_PER_ELEMENT;
+    if (end > bytes.byteLength)
+      throw new Error(`${url} is incomplete (it has ${bytes.byteLength} bytes, and its array ${name} ends at ${end}); ` +
+        "load the page again, or make the file anew by samples/web/build.sh");
+    arrays[name] = new types[type](bytes, offset, length);
+  }
+  return arrays;
+}
+
+// progress(name of the file, received, all).
+export async function fetchCharacter(folder, progress = () => {}) {
+  const [text, bytes, nook] = await Promise.all(["json", "bin", "nook"].map((ending) => {
+    const url = `${folder}/character.${ending}`;
+    return fetchBytes(url, (received, all) => progress(url, received, all));
+  }));
+  let description = null;
+  try {
+    description = JSON.parse(new TextDecoder().decode(text));
+  } catch {}
+  const lacks = needed.find((name) => !types[description?.arrays?.[name]?.type]);
+  if (lacks || !Array.isArray(description.clips))
+    throw new Error(`${folder}/character.json is damaged or another file (it describes no array ${lacks ?? "of clips"}); samples/web/build.sh makes it`);
+  return { ...description, arrays: arraysOf(description, bytes, `${folder}/character.bin`), nook };
 }
 
 // The matrices of a clip at a time, 12 floats for each bone, between the two nearest frames.

@@ -1,6 +1,8 @@
 // The page: loads the data, holds the state that the panel changes, and draws frames. Read it first, then crowd.js (a scene of
 // Nook) and renderer.js (Nook beside a host's own WebGL).
-import { load } from "nook-web";
+// By its place: a map of names would stand in the page itself, where strict policies forbid scripts.
+import { load } from "./node_modules/nook-web/index.js";
+import { readAddress, readTime, writeAddress } from "./address.js";
 import { fetchBytes, fetchCharacter } from "./character.js";
 import { makeChecks } from "./checks.js";
 import { Crowd } from "./crowd.js";
@@ -8,10 +10,11 @@ import { makePanel } from "./panel.js";
 import { Renderer } from "./renderer.js";
 import { fitProbe, lampDirection } from "./sky.js";
 
-const state = {
-  view: "lit", count: 12, neighbours: 4, ground: true, characterAo: true, screenAo: true, radius: 0.45, light: "lobes", azimuth: 40,
+const initial = {
+  on: true, view: "lit", count: 12, neighbours: 4, ground: true, characterAo: true, screenAo: true, radius: 0.45, light: "lobes", azimuth: 40,
   height: 48, lamp: 0.8, exposure: 1.3, material: false, moving: true, turn: 28, tilt: 15, distance: 7.8,
 };
+const first = [["check", "on", "Ambient occlusion off / on"]];
 const entries = [
   ["choice", "view", "Picture", { choices: [["lit", "light and occlusion"], ["ao", "occlusion alone"], ["screen", "screen-space pass alone"], ["error", "error against ray tracing"]] }],
   "Crowd",
@@ -37,17 +40,20 @@ const ballRadius = 0.62;
 const degrees = Math.PI / 180;
 const canvas = document.getElementById("canvas");
 const query = new URLSearchParams(location.search);
-for (const [name, text] of query) {
-  if (!(name in state)) continue;
-  state[name] = typeof state[name] === "number" ? Number(text) : typeof state[name] === "boolean" ? text === "true" : text;
-}
-const fixedTime = query.has("time") ? Number(query.get("time")) : null;
+const fixedTime = readTime(location.search);
+const limits = { turn: { min: 0, max: 360, wraps: true }, tilt: { min: 2, max: 80 }, distance: { min: 1.5, max: 20 } };
+for (const entry of entries) if (Array.isArray(entry) && entry[3]) limits[entry[1]] = entry[3];
+const stillness = matchMedia("(prefers-reduced-motion: reduce)");
+initial.moving = !stillness.matches;
+const state = { ...initial };
+readAddress(location.search, state, limits);
+const { report, progress, clear } = globalThis.nookMessage;
 
-function report(error) {
-  const message = document.getElementById("message");
-  message.textContent = error.message ?? String(error);
-  message.hidden = false;
-  console.error(error);
+// Browsers bound how often the address may be written.
+let writing = 0;
+function keepAddress() {
+  clearTimeout(writing);
+  writing = setTimeout(() => history.replaceState(null, "", location.pathname + writeAddress(location.search, state, initial) + location.hash), 300);
 }
 
 class Page {
@@ -56,16 +62,36 @@ class Page {
     this.probe = null;
     this.ball = null;
     this.ballOccluder = 0;
+    this.renderer = null;
     this.crowd = new Crowd(nook, model, character);
     this.makeLight();
     this.makeRenderer();
     this.arrange();
     this.seconds = 0;
     this.frames = 0;
+    this.paused = false;
+    this.failed = false;  // until the context is made anew
   }
 
+  // In a lost context there is none until it is restored.
   makeRenderer() {
-    this.renderer = new Renderer(this.webgl, this.nook, this.character, this.probe, this.material);
+    if (this.webgl.isContextLost()) return;
+    try {
+      this.renderer = new Renderer(this.webgl, this.nook, this.character, this.probe, this.material);
+      this.failed = false;
+    } catch (error) {
+      if (!this.webgl.isContextLost()) throw error;
+    }
+  }
+  loseRenderer() {
+    this.renderer?.ao.contextLost();
+    this.renderer?.destroy();
+    this.renderer = null;
+  }
+  addMaterial(material) {
+    this.material = material;
+    if (this.renderer && !this.webgl.isContextLost()) this.renderer.addMaterial(material);
+    this.arrange();
   }
 
   // The probe of the sky, its lobes for the characters, and its mean irradiance for comparison.
@@ -79,7 +105,8 @@ class Page {
     this.irradiance = [0, 1, 2].map((i) => (irradiance[i] + irradiance[3 + i] + irradiance[6 + i] + irradiance[9 + i] + irradiance[12 + i] + irradiance[15 + i]) / 6);
     this.irradianceUp = irradiance.slice(6, 9);
     before?.destroy();
-    this.renderer?.probe.update(this.probe);
+    // A renderer that is made after a loss takes the probe of then.
+    if (this.renderer && !this.webgl.isContextLost()) this.renderer.probe.update(this.probe);
   }
 
   // The crowd and its links, after a change of the state.
@@ -88,7 +115,7 @@ class Page {
     if (error) this.crowd.lineUp();
     else this.crowd.scatter(state.count);
     this.crowd.configure({ neighbours: error ? 0 : state.neighbours, ground: error || state.ground });
-    this.crowd.light(this.lobes, state.light === "lobes" && !error);
+    this.crowd.light(this.lobes, state.on && state.light === "lobes" && !error);
     const ball = state.material && this.material && !error;
     this.ball = ball ? [1.15, ballRadius, 1.75, ballRadius] : null;
     if (ball && !this.ballOccluder) this.ballOccluder = this.crowd.scene.addOccluder({ centre: this.ball.slice(0, 3), radius: ballRadius });
@@ -102,11 +129,15 @@ class Page {
   changed(member) {
     if (["azimuth", "height", "lamp"].includes(member)) this.makeLight();
     this.arrange();
+    keepAddress();
   }
 
+  // Draws a frame; false where there is nothing to draw on: a lost context, or a canvas without a size.
   draw(seconds) {
+    if (!this.renderer || this.webgl.isContextLost()) return false;
     const scale = Math.min(devicePixelRatio, 2);
     const width = Math.round(canvas.clientWidth * scale), height = Math.round(canvas.clientHeight * scale);
+    if (width === 0 || height === 0) return false;
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     const error = state.view === "error";
     this.crowd.animate(seconds, error);
@@ -114,10 +145,11 @@ class Page {
     const target = error ? [1.45, 0.8, 0] : [0.45, 0.82, 0];
     const eye = [target[0] + away * Math.sin(turn) * Math.cos(tilt), target[1] + away * Math.sin(tilt), target[2] + away * Math.cos(turn) * Math.cos(tilt)];
     this.renderer.draw(this.crowd, {
-      ...state, light: error ? "probe" : state.light, lampDirection: this.lamp, irradiance: this.irradiance, irradianceUp: this.irradianceUp, eye, target, ball: this.ball,
-      screenAo: state.screenAo && !error,
+      ...state, light: error || (!state.on && state.light === "lobes") ? "probe" : state.light, characterAo: state.characterAo && state.on, lampDirection: this.lamp, irradiance: this.irradiance, irradianceUp: this.irradianceUp, eye, target, ball: this.ball,
+      screenAo: state.screenAo && state.on && !error,
     });
     ++this.frames;
+    return true;
   }
 
   // The mean squared error of what the error picture shows.
@@ -133,32 +165,82 @@ class Page {
   }
 }
 
+// Moves the camera: turn and tilt in degrees, zoom as a factor of the distance.
+function moveCamera(turn, tilt, zoom) {
+  state.turn = (((state.turn + turn) % 360) + 360) % 360;
+  state.tilt = Math.min(limits.tilt.max, Math.max(limits.tilt.min, state.tilt + tilt));
+  state.distance = Math.min(limits.distance.max, Math.max(limits.distance.min, state.distance * zoom));
+  keepAddress();
+}
+const keys = {
+  ArrowLeft: () => moveCamera(-5, 0, 1), ArrowRight: () => moveCamera(5, 0, 1), ArrowUp: () => moveCamera(0, 3, 1),
+  ArrowDown: () => moveCamera(0, -3, 1), "+": () => moveCamera(0, 0, 1 / 1.1), "=": () => moveCamera(0, 0, 1 / 1.1),
+  "-": () => moveCamera(0, 0, 1.1), PageUp: () => moveCamera(0, 0, 1 / 1.3), PageDown: () => moveCamera(0, 0, 1.3),
+  Home: () => Object.assign(state, { turn: initial.turn, tilt: initial.tilt, distance: initial.distance }) && keepAddress(),
+};
+
 function steer(page) {
-  let from = null;
+  // The pointers that are down: one turns the camera, two change its distance.
+  const pointers = new Map();
+  const spread = () => {
+    const [a, b] = [...pointers.values()];
+    return Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
+  };
   canvas.addEventListener("pointerdown", (event) => {
-    from = event;
+    pointers.set(event.pointerId, event);
     canvas.setPointerCapture(event.pointerId);
   });
-  canvas.addEventListener("pointerup", () => (from = null));
+  for (const name of ["pointerup", "pointercancel", "lostpointercapture"])
+    canvas.addEventListener(name, (event) => pointers.delete(event.pointerId));
   canvas.addEventListener("pointermove", (event) => {
+    const from = pointers.get(event.pointerId);
     if (!from) return;
-    state.turn -= (event.clientX - from.clientX) * 0.35;
-    state.tilt = Math.min(80, Math.max(2, state.tilt + (event.clientY - from.clientY) * 0.25));
-    from = event;
+    const before = pointers.size === 2 ? spread() : 0;
+    pointers.set(event.pointerId, event);
+    if (pointers.size === 2) moveCamera(0, 0, before / Math.max(1, spread()));
+    if (pointers.size === 1) moveCamera(-(event.clientX - from.clientX) * 0.35, (event.clientY - from.clientY) * 0.25, 1);
   });
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
-    state.distance = Math.min(20, Math.max(1.5, state.distance * Math.exp(event.deltaY * 0.001)));
+    moveCamera(0, 0, Math.exp(event.deltaY * 0.001));
   }, { passive: false });
+  canvas.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key.toLowerCase() === "o") {
+      state.on = !state.on;
+      page.changed("on");
+      page.showPanel();
+    } else if (keys[event.key]) {
+      keys[event.key]();
+    } else {
+      return;
+    }
+    event.preventDefault();
+  });
+  stillness.addEventListener("change", () => {
+    if (!stillness.matches) return;
+    state.moving = false;
+    page.showPanel();
+  });
+}
+
+// The page may lose its context at any time, while it loads too.
+function watchContext(pageOf) {
   canvas.addEventListener("webglcontextlost", (event) => {
     event.preventDefault();
-    page.renderer.ao.contextLost();
-    page.renderer.destroy();
-    page.renderer = null;
+    pageOf()?.loseRenderer();
   });
   canvas.addEventListener("webglcontextrestored", () => {
-    page.makeRenderer();
-    page.arrange();
+    const page = pageOf();
+    if (!page) return;
+    try {
+      page.loseRenderer();
+      page.makeRenderer();
+      page.arrange();
+      clear();
+    } catch (error) {
+      report(error);
+    }
   });
 }
 
@@ -167,13 +249,15 @@ function run(page) {
   let last = performance.now(), shown = last, frames = 0;
   const frame = (now) => {
     requestAnimationFrame(frame);
-    if (!page.renderer || page.paused) return;
+    if (page.paused || page.failed) return;
     if (state.moving) page.seconds += Math.min(0.1, (now - last) / 1000);
     last = now;
     try {
-      page.draw(fixedTime ?? page.seconds);
+      if (!page.draw(fixedTime ?? page.seconds)) return;
     } catch (error) {
-      page.paused = true;
+      // A context may be lost within a frame; the next one draws when it is back.
+      if (page.webgl.isContextLost()) return;
+      page.failed = true;
       report(error);
       return;
     }
@@ -190,16 +274,42 @@ function run(page) {
 async function start() {
   const webgl = canvas.getContext("webgl2", { antialias: true, alpha: false, preserveDrawingBuffer: query.has("check") });
   if (!webgl) throw new Error("This browser gives no WebGL 2; switch hardware acceleration on, or take another browser.");
-  const [nook, character, materialBytes] = await Promise.all([
-    load({ log: (severity, text) => severity !== "info" && console.warn(text) }), fetchCharacter("data"), fetchBytes("data/material.nook")]);
-  const page = new Page(nook, character, nook.loadCharacter(character.nook), nook.loadMaterial(materialBytes), webgl);
+  let page = null;
+  watchContext(() => page);
+  const files = new Map();
+  const count = (url, received, all) => {
+    files.set(url, { received, all });
+    const [got, whole] = ["received", "all"].map((member) => [...files.values()].reduce((sum, file) => sum + file[member], 0) / 1e6);
+    progress(`Loading the scene: ${got.toFixed(1)}${[...files.values()].every(({ all: known }) => known > 0) ? ` of ${whole.toFixed(1)}` : ""} MB`);
+  };
+  const [nook, character] = await Promise.all([
+    load({ log: (severity, text) => severity !== "info" && console.warn(text) }), fetchCharacter("data", count)]);
+  page = new Page(nook, character, named("data/character.nook", () => nook.loadCharacter(character.nook)), null, webgl);
   character.nook = null;
-  page.showPanel = () => makePanel(document.getElementById("rows"), state, entries, (member) => page.changed(member));
+  // The panel is folded where it would cover the picture.
+  document.getElementById("more").open = !matchMedia("(max-width: 640px), (max-height: 420px)").matches;
+  page.showPanel = () => {
+    makePanel(document.getElementById("first"), state, first, (member) => page.changed(member));
+    makePanel(document.getElementById("rows"), state, entries, (member) => page.changed(member));
+  };
   page.showPanel();
   steer(page);
   page.paused = query.has("check");
+  clear();
   run(page);
+  // The first picture does not wait for the material, which is the largest file.
+  const material = await fetchBytes("data/material.nook");
+  page.addMaterial(named("data/material.nook", () => nook.loadMaterial(material)));
   window.nookPage = { page, checks: makeChecks(page) };
+}
+
+// What a file's contents make the library say, with the name of the file.
+function named(url, call) {
+  try {
+    return call();
+  } catch (error) {
+    throw new Error(`${url}: ${error.message}; load the page again, or make the file anew by samples/web/build.sh`, { cause: error });
+  }
 }
 
 start().catch(report);

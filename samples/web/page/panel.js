@@ -41,6 +41,7 @@ export function makePanel(parent, state, entries, changed) {
       state[member] = value;
       changed(member);
     });
-    parent.append(element("label", { className: kind }, element("span", { textContent: text }), ...controls));
+    parent.append(element("label", { className: kind, htmlFor: `control_${member}` }, element("span", { textContent: text }), ...controls));
+    controls[0].id = `control_${member}`;
   }
 }

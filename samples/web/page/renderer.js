@@ -40,7 +40,7 @@ export class Renderer {
     this.character = character;
     this.ao = nook.createGl(webgl);
     this.probe = this.ao.uploadProbe(probe);
-    this.material = material ? this.ao.uploadMaterial(material) : null;
+    this.material = null;
     this.pass = null;
     this.bodyPrograms = new Map();  // by the form of the light
     this.#makeGeometry();
@@ -51,9 +51,13 @@ export class Renderer {
     this.ballDepth = new Program(webgl, ballVertex, depthFragment);
     this.groundProgram = new Program(webgl, groundVertex, groundFragment);
     this.screenProgram = new Program(webgl, screenVertex, screenFragment);
-    if (this.material)
-      this.ballProgram = new Program(webgl, ballVertex, ballFragment(this.probe.info.glsl + this.material.info.glsl));
+    if (material) this.addMaterial(material);
     this.lampMap = depthTarget(webgl, lampMapSize, lampMapSize, true);
+  }
+
+  addMaterial(material) {
+    this.material = this.ao.uploadMaterial(material);
+    this.ballProgram = new Program(this.gl, ballVertex, ballFragment(this.probe.info.glsl + this.material.info.glsl));
   }
 
   #makeGeometry() {

@@ -1,0 +1,113 @@
+// Checks of what a caller passes: each throws before anything is written to the module's memory. Messages name the function, the
+// argument, what came and what is wanted.
+import { NookError } from "./error.js";
+
+const mostNumbers = 2 ** 32;
+
+export function refuse(call, text) {
+  throw new NookError(`${call}: ${text}`, "NOOK_ERROR_INVALID_ARGUMENT");
+}
+
+const tagOf = (value) => Object.prototype.toString.call(value).slice(8, -1);
+const isObject = (value) => typeof value === "object" && value !== null;
+
+// What to pass in place of an object that holds the numbers, such as those of three.js.
+function cureOf(value) {
+  if (typeof value.then === "function") return "await it";
+  if (value.isPlane || (isObject(value.normal) && typeof value.constant === "number"))
+    return "pass [plane.normal.x, plane.normal.y, plane.normal.z, plane.constant]";
+  if (typeof value.elements?.length === "number") return "pass its elements";
+  if (value.isSkeleton) return "pass its boneMatrices";
+  if (value.isBufferAttribute) return "pass its array";
+  if (typeof value.toArray === "function") return "pass its toArray()";
+  if (typeof value.x === "number" && typeof value.y === "number") return "pass its members as an array";
+  if (["ArrayBuffer", "SharedArrayBuffer", "DataView"].includes(tagOf(value))) return "pass a Float32Array or an array";
+  return "";
+}
+
+// "3 numbers", "a Vector3; pass its toArray()", "\"text\"": what came, for messages.
+export function described(value) {
+  if (typeof value === "string") return JSON.stringify(value.length > 40 ? `${value.slice(0, 40)}…` : value);
+  if (typeof value === "function") return "a function";
+  if (!isObject(value)) return String(value);
+  if (Number.isSafeInteger(value.length)) return `${value.length} ${value.length === 1 ? "number" : "numbers"}`;
+  const name = value.constructor?.name || tagOf(value);
+  const cure = cureOf(value);
+  return `${/^[AEIOU]/.test(name) ? "an" : "a"} ${name}${cure && `; ${cure}`}`;
+}
+
+const isList = (value) => isObject(value) && Number.isSafeInteger(value.length) && value.length >= 0 && value.length < mostNumbers &&
+  !["BigInt64Array", "BigUint64Array", "String"].includes(tagOf(value));
+
+// A list of numbers: an array or a typed array.
+//   count      how many there are
+//   groupsOf   what their number is a multiple of
+//   least      how many there are at least
+//   whole      each is a whole number of 32 bits
+//   anyValue   NaN and infinity are right too
+//   optional   undefined and null are right, and mean none
+//   why        ends the sentence of what is wanted
+export function checkNumbers(call, argument, value, { count, groupsOf, least, whole, anyValue, optional, why = "" } = {}) {
+  if (optional && (value === undefined || value === null)) return;
+  const noun = whole ? "whole numbers" : "numbers";
+  const wanted = `${argument} needs ${count !== undefined ? `${count} ${count === 1 ? noun.slice(0, -1) : noun}`
+    : groupsOf ? `a multiple of ${groupsOf} ${noun}` : least ? `at least ${least} ${noun}` : `an array of ${noun}`}${why && ` ${why}`}`;
+  if (!isList(value) || (count !== undefined && value.length !== count) || (groupsOf && value.length % groupsOf !== 0) ||
+      (least && value.length < least))
+    refuse(call, `${wanted} (got ${described(value)})`);
+  for (let i = 0; i < value.length; ++i) {
+    const each = value[i];
+    if (typeof each !== "number") refuse(call, `${wanted} (got ${described(each)} in place ${i})`);
+    if (whole ? !Number.isInteger(each) || each < -(2 ** 31) || each >= 2 ** 32 : !anyValue && !Number.isFinite(each))
+      refuse(call, `${wanted} (got ${each} in place ${i})`);
+  }
+}
+
+// One number. least: the smallest that is right.
+export function checkNumber(call, argument, value, { whole, least = -Infinity, optional } = {}) {
+  if (optional && value === undefined) return;
+  const most = whole ? 2 ** 32 - 1 : Infinity;
+  if (typeof value === "number" && !Number.isNaN(value) && value >= least && value <= most && (!whole || Number.isInteger(value))) return;
+  const from = least === -Infinity ? "" : ` from ${least} on`;
+  refuse(call, `${argument} needs a ${whole ? "whole " : ""}number${from} (got ${described(value)})`);
+}
+// The index of something, or the number of an instance or an occluder.
+export const checkIndex = (call, argument, value) => checkNumber(call, argument, value, { whole: true, least: 0 });
+
+// An object of options or of members.
+export function checkObject(call, argument, value, wanted = "an object") {
+  if (!isObject(value) || isList(value)) refuse(call, `${argument} needs ${wanted} (got ${described(value)})`);
+}
+
+// An array of anything but numbers; each(value, argument) checks its elements.
+export function checkList(call, argument, value, wanted, each) {
+  if (!Array.isArray(value)) refuse(call, `${argument} needs an array of ${wanted} (got ${described(value)})`);
+  for (let i = 0; i < value.length; ++i) each(value[i], `${argument}[${i}]`);
+}
+
+// Where a call writes its numbers: room for `count` of them.
+export function checkOut(call, out, count) {
+  if (out === undefined || out === null) return;
+  if (!["Float32Array", "Float64Array"].includes(tagOf(out)) || out.length < count)
+    refuse(call, `out needs a Float32Array of ${count} numbers (got ${described(out)})`);
+}
+
+// The contents of a file.
+export function checkBytes(call, argument, value) {
+  if (!ArrayBuffer.isView(value) && !["ArrayBuffer", "SharedArrayBuffer"].includes(tagOf(value)))
+    refuse(call, `${argument} needs an ArrayBuffer or a typed array with the bytes of the file (got ${
+      typeof value?.arrayBuffer === "function" ? `a ${tagOf(value)}; pass await its arrayBuffer()` : described(value)})`);
+}
+
+// An object of WebGL, such as a WebGLTexture; undefined and null mean none. Engines have classes of their own that are called alike.
+export function checkWebGL(call, argument, value, kinds) {
+  if (value === undefined || value === null) return;
+  const isOne = kinds.some((kind) => tagOf(value) === kind || (globalThis[kind] && value instanceof globalThis[kind]));
+  // Stand-ins of WebGL outside of browsers have no classes.
+  const isStandIn = !kinds.some((kind) => globalThis[kind]) && isObject(value) && !isList(value) &&
+    !value.isTexture && !value.isRenderTarget && !value.isBufferAttribute;
+  if (isOne || isStandIn) return;
+  const cure = value.isTexture || value.isRenderTarget
+    ? "; with three.js, pass renderer.properties.get(texture).__webglTexture once the renderer has made it" : "";
+  refuse(call, `${argument} needs a ${kinds.join(" or a ")} (got ${described(value)}${cure})`);
+}

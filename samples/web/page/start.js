@@ -1,0 +1,25 @@
+// Starts the page, and tells why where it cannot: a file that is missing, an answer that is cut off, a policy that forbids it.
+(() => {
+  const message = document.getElementById("message"), text = document.getElementById("message_text");
+  const show = (sentence, isError) => {
+    text.textContent = sentence;
+    message.classList.toggle("error", isError);
+    message.setAttribute("role", isError ? "alert" : "status");
+    message.hidden = !sentence;
+  };
+  globalThis.nookMessage = {
+    progress: (sentence) => !message.classList.contains("error") && show(sentence, false),
+    clear: () => show("", false),
+    report(error) {
+      const reason = error?.message ?? String(error);
+      // A script that is cut off, or a page of the server in its place, is a SyntaxError.
+      show(error instanceof SyntaxError || /dynamically imported module|module script|Failed to resolve module|error loading/i.test(reason)
+        ? `A script of the page cannot be loaded (${reason}). Is the folder complete, and does the server's content security policy allow its own scripts?`
+        : reason, true);
+      console.error(error);
+    },
+  };
+  addEventListener("unhandledrejection", ({ reason }) => globalThis.nookMessage.report(reason));
+  globalThis.nookMessage.progress("Loading the page's scripts …");
+  import("./main.js").catch(globalThis.nookMessage.report);
+})();
