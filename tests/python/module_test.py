@@ -219,7 +219,7 @@ def worker(task):
 
 
 class Arguments(unittest.TestCase):
-    """What Python programs pass, and what they copy."""
+    """The arguments and copies of Python programs."""
 
     @classmethod
     def setUpClass(cls):
