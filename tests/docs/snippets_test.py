@@ -66,6 +66,14 @@ def glsl_text(page, found):
     return "#version 330 core\n" + include(own, set()) + "\n".join(outside) + "\nvoid main() {\n" + "\n".join(inside) + "}\n"
 
 
+def javascript_of(_page, blocks):
+    """A module with the imports of all blocks, and each block in a scope of its own."""
+    lines = [line for block in blocks for line in block.split("\n")]
+    imports = dict.fromkeys(line for line in lines if line.startswith("import "))
+    bodies = ["\n".join(line for line in block.split("\n") if not line.startswith("import ")) for block in blocks]
+    return "\n".join(imports) + "".join("\n{\n" + body + "\n}" for body in bodies) + "\n"
+
+
 def main():
     c_compiler, cxx_compiler = sys.argv[1:3]
     warnings = ["-Wall", "-Wextra", "-Werror", "-Wno-unused", "-Wno-missing-field-initializers", "-Wno-sign-conversion", "-fsyntax-only", "-I", str(ROOT / "sdk/include")]
@@ -78,7 +86,7 @@ def main():
         print("SKIPPED: the blocks of GLSL, which glslangValidator compiles (Debian: glslang-tools)")
     node = shutil.which("node")
     if node:
-        languages.append(("js", [node, "--check"], lambda page, found: "\n".join(found), ".mjs"))
+        languages.append(("js", [node, "--check"], javascript_of, ".mjs"))
     else:
         print("SKIPPED: the blocks of JavaScript, whose grammar node checks")
     failed = count = 0
