@@ -69,6 +69,7 @@ ImportedCharacter character_of(const nook_bake_source_desc& desc) {
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
         "desc.meshes and desc.without choose meshes of a file, but desc has arrays; leave them out");
+  check_switch("desc.allow_outside_files", desc.allow_outside_files);
   const LinkedFiles linked = desc.allow_outside_files ? LinkedFiles::anywhere : LinkedFiles::folder;
   if (desc.path) return import_file(desc.path, {linked, meshes});
   if (desc.bytes)

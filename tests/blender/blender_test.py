@@ -15,33 +15,10 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import limb as character  # noqa: E402
+from checks import check, colours, fails_with  # noqa: E402
 
 ADDON, TOOL, LIBRARY, FOLDER, *PICTURES = sys.argv[sys.argv.index("--") + 1:]
 FOLDER = pathlib.Path(FOLDER)
-
-
-def check(holds, text):
-    print(("ok    " if holds else "FAILS ") + text, flush=True)
-    if not holds:
-        raise SystemExit(1)
-
-
-def fails_with(operator, words):
-    """Checks that an operator fails with a text that has all words; such errors are exceptions in scripts."""
-    try:
-        operator()
-    except RuntimeError as error:
-        missing = [w for w in words if w not in str(error)]
-        check(not missing, f"error: {str(error).strip()}" if not missing else f"the error {error} lacks {missing}")
-        return
-    check(False, f"an error with {words} was expected")
-
-
-def colours(mesh, name="Nook AO"):
-    attribute = mesh.data.attributes[name]
-    values = np.empty(4 * len(mesh.data.vertices), dtype=np.float32)
-    attribute.data.foreach_get("color", values)
-    return values.reshape(-1, 4)
 
 
 def rest_points(mesh):

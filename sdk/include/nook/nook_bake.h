@@ -90,7 +90,7 @@ NOOK_API void nook_bake_job_destroy(nook_bake_job* job);
 typedef struct nook_bake_source_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* UTF-8. The file may name other files of its folder; of any folder if allow_outside_files is not 0. */
+  /* UTF-8. The file may name other files of its folder; of any folder if allow_outside_files is 1. */
   const char* path;
   /* All buffers must be embedded. */
   const void* bytes;

@@ -234,6 +234,9 @@ TEST_CASE("a file names others outside of its folder only where that is allowed"
   nook_bake_character character = nullptr;
   CHECK(nook_bake_character_create(&desc, &character) == NOOK_ERROR_BAD_FILE);
   CHECK(message_has("outside of its own folder"));
+  desc.allow_outside_files = 2;
+  CHECK(nook_bake_character_create(&desc, &character) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("desc.allow_outside_files"));
   desc.allow_outside_files = 1;
   CHECK(nook_bake_character_create(&desc, &character) == NOOK_OK);
   nook_bake_character_destroy(&character);

@@ -2,6 +2,7 @@
 #include <meshoptimizer.h>
 
 #include "sdk/src/core/failure.h"
+#include "tests/bakers/import/refused_file.h"
 #include "tests/bakers/import/tube_file.h"
 #include "tests/catch.h"
 
@@ -15,16 +16,6 @@ using namespace nook::bake;
 using namespace nook::test;
 
 namespace {
-
-std::string failure_of(const GltfBuilder& file) {
-  try {
-    import_gltf(file.glb());
-  } catch (const Failure& failure) {
-    CHECK(failure.code() == NOOK_ERROR_BAD_FILE);
-    return failure.what();
-  }
-  return "";
-}
 
 // Writes compressed views beside room for what they hold, as gltfpack does: a second buffer without bytes.
 class MeshoptBuilder {

@@ -6,7 +6,7 @@
 #include "bakers/import/gltf_types.h"
 #include "bakers/import/static_scene.h"
 #include "bakers/import/surface_mesh.h"
-#include "sdk/src/core/failure.h"
+#include "tests/bakers/import/refused_file.h"
 #include "tests/bakers/import/tube_file.h"
 #include "tests/catch.h"
 
@@ -17,21 +17,6 @@ using namespace nook::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-template <class Import>
-std::string failure_when(Import&& import) {
-  try {
-    import();
-  } catch (const Failure& failure) {
-    CHECK(failure.code() == NOOK_ERROR_BAD_FILE);
-    return failure.what();
-  }
-  return "";
-}
-
-std::string failure_of(const GltfBuilder& file) {
-  return failure_when([&] { import_gltf(file.glb()); });
-}
 
 bool contains(const std::string& text, const std::string& part) {
   INFO(text);
