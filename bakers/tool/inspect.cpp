@@ -78,7 +78,9 @@ void run(const Options& options) {
   std::string text;
   for (const Table& table : tables) {
     all[table.title] = table.rows;
-    if (!table.rows.empty()) text += (text.empty() ? "" : "\n") + table_text(table.rows);
+    if (table.rows.empty()) continue;
+    if (!text.empty()) text += '\n';
+    text += table_text(table.rows);
   }
   if (report) report->commit(all.dump(2, ' ', false, Row::error_handler_t::replace) + "\n");
   print_table(options.common, text, !options.common.report.empty());
