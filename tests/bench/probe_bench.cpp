@@ -1,6 +1,8 @@
 // add_samples of the probe fits on one core, 12 lobes and RGB. The argument is the nook_isa;
 // ratio_to_published is how many times as fast it is as the published running average with the same flags.
+// add_samples_by_calls goes through the C function; its second argument is the number of samples of a call.
 #include <benchmark/benchmark.h>
+#include <nook/nook_probe.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,6 +84,41 @@ void add_samples(benchmark::State& state, FitMethod method, Step step) {
   state.counters["ratio_to_published"] = published * double(done) / seconds;
 }
 
+void add_samples_by_calls(benchmark::State& state) {
+  const Samples samples;
+  const double published = published_seconds(static_cast<Isa>(state.range(0)), samples);
+  nook_context_desc context_desc;
+  nook_context_desc_init(&context_desc);
+  context_desc.isa = static_cast<nook_isa>(state.range(0));
+  nook_context context = nullptr;
+  nook_probe_fit_desc desc;
+  nook_probe_fit_desc_init(&desc);
+  desc.lobe_count = 12;
+  nook_probe_fit fit = nullptr;
+  if (nook_context_create(&context_desc, &context) != NOOK_OK ||
+      nook_probe_fit_create(context, &desc, &fit) != NOOK_OK)
+    return state.SkipWithError(nook_last_message());
+  const auto step = static_cast<std::size_t>(state.range(1));
+  const std::clock_t start = std::clock();
+  for (auto _ : state)
+    for (std::size_t i = 0; i < Samples::count; i += step)
+      nook_probe_fit_add_samples(fit, samples.directions.data() + 3 * i, samples.radiance.data() + 3 * i,
+                                 nullptr, step);
+  const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+  const auto done = std::int64_t(state.iterations()) * std::int64_t(Samples::count);
+  state.SetItemsProcessed(done);
+  state.counters["ratio_to_published"] = published * double(done) / seconds;
+  nook_probe_fit_destroy(&fit);
+  nook_context_destroy(&context);
+}
+
+void every_isa_and_call(benchmark::internal::Benchmark* all) {
+  for (const Isa isa : all_isas)
+    if (isa_available(isa))
+      for (const std::int64_t samples : {1, 4, 16, 64, 4096})
+        all->Args({static_cast<nook_isa>(isa), samples});
+}
+
 void every_isa(benchmark::internal::Benchmark* all) {
   for (const Isa isa : all_isas)
     if (isa_available(isa)) all->Arg(static_cast<nook_isa>(isa));
@@ -97,3 +134,4 @@ BENCHMARK_CAPTURE(add_samples, running_average_non_negative_plain, FitMethod::ru
     ->Apply(every_isa);
 BENCHMARK_CAPTURE(add_samples, moments, FitMethod::moments, Step::fast)->Apply(every_isa);
 BENCHMARK_CAPTURE(add_samples, least_squares, FitMethod::least_squares, Step::fast)->Apply(every_isa);
+BENCHMARK(add_samples_by_calls)->Apply(every_isa_and_call);

@@ -69,7 +69,19 @@ TEST_CASE("bad samples are skipped, counted and leave no trace") {
     }
     test::add(dirty, mixed);
     CHECK(test::read(dirty) == test::read(clean));  // to the bit
-    const SampleCounts& counts = dirty.counts();
+    const SampleCounts counts = dirty.counts();
+    Fit single(vogel_basis(12), with(method));
+    for (std::size_t i = 0; i < mixed.size(); ++i) {
+      test::add(single, mixed, i, 1);
+      // Samples that came one by one are in the counts at once.
+      if (i % 50 == 0) CHECK(single.counts().used + single.counts().skipped() == i + 1);
+    }
+    CHECK(test::read(single) == test::read(dirty));
+    CHECK(single.counts().skipped() == counts.skipped());
+    // reset forgets the last few as well.
+    test::add(single, mixed, 0, 5);
+    single.reset();
+    CHECK(single.counts().used + single.counts().skipped() == 0);
     CHECK(counts.used == good.size());
     CHECK(counts.bad_direction == directions);
     CHECK(counts.bad_radiance == radiances);

@@ -70,6 +70,7 @@ Fit::Fit(const Basis& basis, const FitSettings& settings, Memory* memory)
   spare_ = AlignedArray<double>(state_size(), memory);
   // Whitening has four rows at a time, and the plain step padded ones.
   values_ = AlignedArray<float>(std::size_t(padded_) * sample_chunk, memory);
+  recent_ = AlignedArray<RecentSamples>(1, memory);
   samples_ = AlignedArray<SampleColumns>(1, memory);
   std::fill_n(samples_[0].growth, SampleColumns::capacity, 1.0f);
   scratch_ = AlignedArray<double>(2 * std::size_t(n) * n + 6 * std::size_t(n), memory);

@@ -95,12 +95,13 @@ class Fit {
   Fit(const Basis& basis, const FitSettings& settings, Memory* memory = default_memory());
 
   // directions and radiance have three floats for each entry; with weights null all weights are 1. Allocates
-  // nothing. The result has the same bits for any distribution of the samples over calls.
+  // nothing. The result has the same bits for any distribution of the samples over calls. A call with few
+  // samples only copies them; they are checked and counted when a group is whole, or when they are needed.
   void add_samples(const float* directions, const float* radiance, const float* weights, std::size_t count);
   // Starts a running average without samples from short_run, which counts as much as its samples. Both
   // functions throw INVALID_ARGUMENT for a fit of another basis, and merge also for other settings.
   void seed(Fit& short_run);
-  void merge(const Fit& other);
+  void merge(Fit& other);
   void reset();
 
   // One coefficient for each function; 0 before the first sample. Allocates nothing.
@@ -108,7 +109,7 @@ class Fit {
 
   const Basis& basis() const { return basis_; }
   const FitSettings& settings() const { return settings_; }
-  SampleCounts counts() const;
+  SampleCounts counts();
 
  private:
   // The samples leave sums. Those over functions are over the orthonormal ones where whitens_ is set.
@@ -131,14 +132,25 @@ class Fit {
     float* values;
   };
 
+  // The last samples that came, as the caller has them: less than a group. read_group reads one float more.
+  struct RecentSamples {
+    std::uint32_t count = 0;
+    float directions[3 * sample_group + 1], radiance[3 * sample_group + 1], weights[sample_group];
+  };
+
   void prepare_gram(Memory* memory);
   void prepare_whitening(float* whitening) const;
   std::size_t state_size() const;
   State state_at(double* numbers) const;
   bool is_block() const;  // a running average by the fast step
+  void append_recent(const float* directions, const float* radiance, const float* weights,
+                     std::uint32_t count);
+  void take_recent();  // they wait with the others
+  void take_group(const float* directions, const float* radiance, const float* weights, std::uint32_t count);
   void keep(const SampleFaults& faults, std::uint32_t count);
   void flush();                              // samples that wait become part of the state
   Gathered present(const Room& room) const;  // the state with them, and blocks closed
+  SampleCounts counts_with_waiting() const;
   void advance(SampleCounts& counts, std::uint32_t count) const;
   void absorb(std::uint32_t count, float* values, State into) const;
   Room room() { return {spare_.data(), scratch_.data(), values_.data()}; }
@@ -172,6 +184,7 @@ class Fit {
   LobeSoa lobes_;
   RunningView running_;  // constants alone
   const float* whitening_ = nullptr;
+  AlignedArray<RecentSamples> recent_;   // one
   AlignedArray<SampleColumns> samples_;  // one: those that wait
   AlignedArray<float> floats_;           // what lobes_, running_ and whitening_ point to
   AlignedArray<float> values_;           // of a chunk

@@ -25,7 +25,7 @@ void Fit::seed(Fit& short_run) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "short_run has another basis; make both with the same functions and domain");
   if (!is_running(settings_.method)) return;
-  if (counts_.used > 0)
+  if (counts().used > 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the fit has samples already; seed it before, or reset it");
   std::array<Vec3, max_functions> start;
   short_run.read(std::span(start).first(basis_.count));
@@ -53,7 +53,7 @@ void Fit::seed_bands(const Vec3* start) {
     }
 }
 
-void Fit::merge(const Fit& other) {
+void Fit::merge(Fit& other) {
   const auto same = [](const FitSettings& a, const FitSettings& b) {
     return a.method == b.method && a.step == b.step && a.constraint == b.constraint &&
            a.denominator == b.denominator && a.growing_samples == b.growing_samples;
@@ -63,7 +63,9 @@ void Fit::merge(const Fit& other) {
                   "the fits differ in basis or method; make both from equal descriptors");
   if (&other == this)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a fit cannot be merged with itself; make a second one");
-  const double their_weight = other.counts().weight + other.prior_weight_;
+  take_recent();
+  const SampleCounts their_counts = other.counts();
+  const double their_weight = their_counts.weight + other.prior_weight_;
   if (their_weight > 0) {
     flush();
     const State mine = state_at(state_.data());
@@ -72,7 +74,7 @@ void Fit::merge(const Fit& other) {
     join(mine, other.present(room()).state, their_weight / (my_weight + their_weight));
   }
   prior_weight_ += other.prior_weight_;
-  add_counts(counts_, other.counts());
+  add_counts(counts_, their_counts);
   if (their_weight > 0) {
     closed_weight_ = counts_.weight;
     open_ = 0;
@@ -94,6 +96,7 @@ void Fit::join(State mine, State theirs, double share) const {
 }
 
 void Fit::reset() {
+  recent_[0].count = 0;
   flush();
   std::fill(state_.begin(), state_.end(), 0.0);
   prior_weight_ = 0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "sdk/src/probe/fit.h"
 #include "sdk/src/probe/harmonics.h"
@@ -29,40 +30,60 @@ void clear_samples(SampleColumns& samples, std::uint32_t from, std::uint32_t to)
 // A running average takes so many samples at once: one solution of a system then costs little for each.
 constexpr std::uint32_t block_samples = 4 * sample_chunk;
 
-// A group's records, padded as read_group needs them.
-struct LastGroup {
-  std::array<float, 3 * sample_group + 1> directions, radiance;
-  std::array<float, sample_group> weights;
-};
-
-void copy_padded(const float* from, std::size_t count, float* to, std::size_t padded) {
-  std::copy_n(from, count, to);
-  std::fill(to + count, to + padded, 0.0f);
-}
-
 }  // namespace
 
+// One sample a call is what a path tracer has, so that the short way is the first one here.
 void Fit::add_samples(const float* directions, const float* radiance, const float* weights,
                       std::size_t count) {
-  const float* const up = basis_.domain == Domain::hemisphere ? &basis_.up.x : nullptr;
-  SampleColumns& samples = samples_[0];
-  while (count > sample_group) {
-    keep(kernels_->read_group(directions, radiance, weights, up, sample_group, samples, waiting_),
-         sample_group);
-    directions += 3 * sample_group;
-    radiance += 3 * sample_group;
-    if (weights) weights += sample_group;
-    count -= sample_group;
+  RecentSamples& recent = recent_[0];
+  if (recent.count + count < sample_group)
+    return append_recent(directions, radiance, weights, std::uint32_t(count));
+  const auto advance_by = [&](std::uint32_t n) {
+    directions += 3 * n;
+    radiance += 3 * n;
+    if (weights) weights += n;
+    count -= n;
+  };
+  if (recent.count > 0) {
+    const std::uint32_t missing = sample_group - recent.count;
+    append_recent(directions, radiance, weights, missing);
+    take_recent();
+    advance_by(missing);
   }
-  LastGroup last;
-  const auto rest = std::uint32_t(count);
-  const std::size_t whole = whole_vectors(rest);
-  copy_padded(directions, 3 * count, last.directions.data(), 3 * whole + 1);
-  copy_padded(radiance, 3 * count, last.radiance.data(), 3 * whole + 1);
-  if (weights) copy_padded(weights, count, last.weights.data(), whole);
-  keep(kernels_->read_group(last.directions.data(), last.radiance.data(),
-                            weights ? last.weights.data() : nullptr, up, rest, samples, waiting_),
-       rest);
+  // The last group is copied, because read_group reads a float beyond it.
+  while (count > sample_group) {
+    take_group(directions, radiance, weights, sample_group);
+    advance_by(sample_group);
+  }
+  append_recent(directions, radiance, weights, std::uint32_t(count));
+  if (recent.count == sample_group) take_recent();
+}
+
+void Fit::append_recent(const float* directions, const float* radiance, const float* weights,
+                        std::uint32_t count) {
+  RecentSamples& recent = recent_[0];
+  std::copy_n(directions, 3 * count, recent.directions + 3 * recent.count);
+  std::copy_n(radiance, 3 * count, recent.radiance + 3 * recent.count);
+  if (weights)
+    std::copy_n(weights, count, recent.weights + recent.count);
+  else
+    std::fill_n(recent.weights + recent.count, count, 1.0f);
+  recent.count += count;
+}
+
+void Fit::take_recent() {
+  RecentSamples& recent = recent_[0];
+  const std::uint32_t count = std::exchange(recent.count, 0), whole = whole_vectors(count);
+  std::fill(recent.directions + 3 * count, recent.directions + 3 * whole + 1, 0.0f);
+  std::fill(recent.radiance + 3 * count, recent.radiance + 3 * whole + 1, 0.0f);
+  std::fill(recent.weights + count, recent.weights + whole, 0.0f);
+  take_group(recent.directions, recent.radiance, recent.weights, count);
+}
+
+void Fit::take_group(const float* directions, const float* radiance, const float* weights,
+                     std::uint32_t count) {
+  const float* const up = basis_.domain == Domain::hemisphere ? &basis_.up.x : nullptr;
+  keep(kernels_->read_group(directions, radiance, weights, up, count, samples_[0], waiting_), count);
 }
 
 // Closes the gaps that faulty samples leave in the last group.
@@ -120,13 +141,18 @@ void Fit::flush() {
 Fit::Gathered Fit::present(const Room& room) const {
   double* const spare = room.state;
   std::copy(state_.begin(), state_.end(), spare);
-  const Gathered gathered{state_at(spare), counts()};
+  const Gathered gathered{state_at(spare), counts_with_waiting()};
   absorb(waiting_, room.values, gathered.state);
   if (is_block()) close_block(gathered.state, gathered.counts, room.solver);
   return gathered;
 }
 
-SampleCounts Fit::counts() const {
+SampleCounts Fit::counts() {
+  take_recent();
+  return counts_with_waiting();
+}
+
+SampleCounts Fit::counts_with_waiting() const {
   SampleCounts counts = counts_;
   advance(counts, waiting_);
   return counts;

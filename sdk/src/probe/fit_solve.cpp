@@ -42,6 +42,7 @@ void Fit::read(std::span<Vec3> coefficients) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "function_count is not the fit's (got %zu, need %zu)",
                   coefficients.size(), n);
   std::array<double, 3 * max_functions> b{};  // function by function
+  take_recent();
   const Gathered gathered = present(room());
   if (!is_block()) unwhiten(gathered.state);
   if (is_running(settings_.method)) {
