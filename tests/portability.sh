@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the library for the platforms that this machine can run, compares their results with those of GCC on Linux, runs
+# Builds the library for the platforms that this machine can run, compares their results with GCC on Linux, runs
 # the OpenGL tests on other drivers, and ends with a table. A row whose packages are missing names them; a row that fails makes
 # the exit status 1. With row names as arguments it does those alone; --quick takes the rows windows, arm64 and wasm, without
 # their OpenGL half; --list prints the names. tests/portability/packages.txt lists the packages.
@@ -49,7 +49,7 @@ compile() {  # options...: cpu_results and the library for a platform, in $build
     cmake --build "$folder" -j "$jobs"
 }
 
-results() {  # command...: runs cpu_results by this command and compares its values with those of Linux
+results() {  # command...: runs cpu_results by this command and compares its values with Linux
   local folder=$build-$row values=$build-linux/native.values set sets
   (cd "$build-linux" && "$@" run character.nook material.nook "$folder/$row.values") > "$folder/output" || return 1
   # Windows ends lines with two characters.
@@ -140,7 +140,7 @@ row_arm64() {
 }
 
 # The bakers and the tool as the ARM64 compiler reads them, without a link. Debian's packages have the same headers of Embree and
-# of the other libraries for both processors, so those of this machine serve.
+# of the other libraries for both processors, so this machine's headers serve.
 row_arm64-bakers() {
   need aarch64-linux-gnu-g++
   [ -d /usr/include/embree4 ] || [ -d /usr/include/embree3 ] || missing "libembree-dev is not installed"
@@ -162,7 +162,7 @@ row_wasm() {
   wrapper=(emcmake)
   compile || return 1
   local options=()
-  # Emscripten 3.1.6 takes the fetch of newer versions of node for that of a browser.
+  # Emscripten 3.1.6 takes the fetch of newer versions of node for a browser's.
   node --no-experimental-fetch -e 0 2> /dev/null && options=(--no-experimental-fetch)
   results node "${options[@]}" "$build-$row/cpu_results.js"
 }

@@ -118,7 +118,7 @@ TEST_CASE("clips: a scene keeps the clips of its instances alive") {
   CHECK(ao == wanted);
 }
 
-TEST_CASE("clips: the AO of a time is that of the formula, in every format and with a stride") {
+TEST_CASE("clips: the AO of a time follows the formula, in every format and with a stride") {
   ClipStage stage;
   REQUIRE(stage.loaded == NOOK_OK);
   const std::vector<float> ao = stage.ao(in_walk);
@@ -156,7 +156,7 @@ TEST_CASE("clips: an instance takes AO and pose of its clip, as one with the sam
   CHECK(by_clip != stage.ao(in_walk));
 }
 
-TEST_CASE("clips: the casters of a time are those of the pose") {
+TEST_CASE("clips: the casters of a time match the pose") {
   ClipStage stage;
   // At a frame: between two, a bone that turns by an angle shrinks by the cosine of half of it.
   const nook_clip_time at_frame{1, NOOK_CLIP_CLAMP, 0.5};

@@ -64,7 +64,7 @@ def describe(paths):
     lines = set()
     for path in paths:
         found, defines = declarations(path.read_text(encoding="utf-8"))
-        # Macros of the compiler and of guards are no part of the interface.
+        # Macros of the compiler and of guards are not part of the interface.
         lines |= {f"constant {name} = {' '.join(value.split())}" for name, value in defines
                   if not re.search(r"__|declspec|attribute", value) and name not in ("NOOK_API",)}
         for code in found:

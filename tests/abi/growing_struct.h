@@ -61,7 +61,7 @@ void check_init(nook_result (*init_type)(std::uint32_t, void*, std::size_t, std:
   CHECK(init(nullptr, sizeof(Desc), NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);
 }
 
-// use(desc) hands a descriptor over, whose fields beyond the header's own three are those of *good. Its
+// use(desc) hands a descriptor over, whose fields beyond the three of the header come from *good. Its
 // result must be the same for every size that fits, and INVALID_ARGUMENT for what this library cannot know.
 template <class Desc, class Use>
 void check_use(const Desc& good, Use&& use, std::size_t first_size = sizeof(Desc)) {

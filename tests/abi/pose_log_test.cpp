@@ -130,8 +130,8 @@ TEST_CASE("an uneven bone is logged once for an instance with its axes, whatever
     for (const nook_instance_id id : log.ids) CHECK(nook_scene_set_pose(log.scene, id, &desc) == NOOK_OK);
   REQUIRE(log.warnings.size() == 2);
   // The skin's joints are the bones from the last on, so that the middle one stays. The bind data of the
-  // sample turn axes and scale by 0.01, so that lengths are those of the matrix for Nook's own matrices
-  // alone.
+  // sample turn axes and scale by 0.01, so that only Nook's own matrices have the lengths of the given
+  // matrix.
   for (const std::string& line : log.warnings) {
     INFO(line);
     CHECK(has(line, "bone 2 "));

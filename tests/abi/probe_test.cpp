@@ -109,7 +109,7 @@ nook_result run_everything(Host& host) {
 }  // namespace
 
 // The sky is 1 + z: 2 from above, 1 in the mean, with the irradiance pi + 2 pi / 3 from above.
-TEST_CASE("the light of a fitted sky is that of the sky, as lobes and as harmonics") {
+TEST_CASE("a fitted sky gives the light of the sky, as lobes and as harmonics") {
   const ProbeStage stage;
   nook_lobe lobes[12];
   REQUIRE(nook_probe_read_lobes(stage.probe, nullptr, lobes, 12) == NOOK_OK);
@@ -331,7 +331,7 @@ TEST_CASE("fits: bad calls") {
   nook_probe_fit_destroy(&none);
   nook_probe_fit_destroy(nullptr);
 
-  // Bad samples are no error; they are counted.
+  // Bad samples are counted and cause no error.
   const float bad[] = {0, 0, 1, 0, 0, 0, 0, 1, 0}, light[] = {1, 1, NAN, 1, 1, 1, 1, 1, 1};
   const float weights[] = {1, 1, -1};
   CHECK(nook_probe_fit_add_samples(stage.fit, bad, light, weights, 3) == NOOK_OK);
@@ -547,7 +547,7 @@ TEST_CASE("probes: each allocation refused in turn is one clean failure") {
 }
 
 TEST_CASE("samples, reading and evaluation allocate nothing") {
-  // All methods of fits, then those of studies.
+  // All methods of fits, then all methods of studies.
   for (int i = 0; i < 7; ++i) {
     ProbeStage stage;
     nook_probe_fit_desc desc = fit_desc();
@@ -573,7 +573,7 @@ TEST_CASE("samples, reading and evaluation allocate nothing") {
   }
 }
 
-TEST_CASE("harmonics refuse what is no light") {
+TEST_CASE("harmonics refuse arrays that are not light") {
   const float c[75] = {1, 1, 1}, bad[27] = {1, NAN, 1}, up[3] = {0, 0, 1};
   float out[15];
   CHECK(nook_sh_irradiance(c, 0, up, out, 1) == NOOK_ERROR_INVALID_ARGUMENT);

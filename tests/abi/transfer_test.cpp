@@ -327,7 +327,7 @@ TEST_CASE("transfer: a direction turns with the shape, and the context keeps wha
     if (result == NOOK_OK) break;
     REQUIRE(result == NOOK_ERROR_OUT_OF_MEMORY);
     CHECK(host.blocks >= factored);
-    // The last refusal is that of the moments, after the factor was kept.
+    // The last refused allocation holds the moments; the factor was kept before.
     if (host.blocks != factored) CHECK(refusals >= 3);
   }
   CHECK(refusals >= 3);
@@ -338,7 +338,7 @@ TEST_CASE("transfer: a direction turns with the shape, and the context keeps wha
   CHECK(host.blocks == 0);
 }
 
-TEST_CASE("transfer: a neural material is refused, because its radiance is no sum of light modes") {
+TEST_CASE("transfer: a neural material is refused, because its radiance is not a sum of light modes") {
   Loaded loaded;
   const std::vector<std::byte> bytes =
       nook::material::write_material(nook::material::test::sample_material(1, {.channels = 4}));

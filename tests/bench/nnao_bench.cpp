@@ -1,5 +1,5 @@
 // A frame of the screen-space pass on both paths, 640 x 360, through the C ABI: linear depth of a room with
-// balls, normals reconstructed from it. Time is measured around glFinish. CPU is that of all threads of the
+// balls, normals reconstructed from it. Time is measured around glFinish. CPU counts all threads of the
 // process, which on a software renderer hardly depends on the other load of the machine. Both are minima over
 // all frames.
 #include <benchmark/benchmark.h>

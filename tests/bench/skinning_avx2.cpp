@@ -1,5 +1,5 @@
-// A vertex is 8 multiply-adds to blend two columns a register, then 6 to apply them. Stores overlap: four
-// floats of which the next store overwrites the last.
+// A vertex is 8 multiply-adds to blend two columns a register, then 6 to apply them. Stores overlap: each
+// store writes four floats, and the next one overwrites the last of them.
 #include <immintrin.h>
 
 #include "sdk/src/core/isa.h"

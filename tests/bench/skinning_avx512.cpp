@@ -1,5 +1,5 @@
 // A vertex is 4 multiply-adds to blend the whole matrix in one register, then 6 to apply its columns. Stores
-// overlap: four floats of which the next store overwrites the last.
+// overlap: each store writes four floats, and the next one overwrites the last of them.
 #include <immintrin.h>
 
 #include "sdk/src/core/isa.h"

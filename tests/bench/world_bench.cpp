@@ -1,6 +1,6 @@
 // The CPU side of the world pass beside nook_scene_update of the same crowd, on one thread through the C ABI.
 // The camera sees a part of the crowd; its frame is small, so that a software renderer has little to draw.
-// CPU is that of this thread alone, without the renderer's own. Minima over all frames.
+// CPU counts this thread alone, without the renderer's own. Minima over all frames.
 #include <benchmark/benchmark.h>
 #include <glad/gl.h>
 #include <nook/nook_world.h>

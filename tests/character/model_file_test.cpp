@@ -203,8 +203,8 @@ TEST_CASE("quantising twice changes nothing more") {
 }
 
 TEST_CASE("a file stays within 16 bytes for each vertex and 16 KB, and 8 bytes for its rest position") {
-  // The largest model of the product's tables, with 6 entries a vertex on average, of which it shares 4 with
-  // the vertex before; of real characters' 6.7 entries 4.3 are shared.
+  // The largest model of the product's tables, with 6 entries a vertex on average, 4 of them shared with the
+  // vertex before; on real characters 4.3 of 6.7 entries are shared.
   CharacterModel model = test::sample_model(9, {80, 130, 500, 6000, 0, 8});
   for (std::size_t v = 0; v < model.vertex_count(); ++v)
     for (std::size_t e = 0; e < 8; ++e) {

@@ -62,7 +62,7 @@ void check_shapes(const Instance& instance) {
 
 }  // namespace
 
-TEST_CASE("shapes for debug drawing are those of the kernels, also in scaled poses") {
+TEST_CASE("shapes for debug drawing equal the shapes of the kernels, also in scaled poses") {
   Scene scene = make_scene();
   const auto model = load(sample_model(3));
   const nook_instance_id id = place(scene, model, {0.3f, 0.1f, -0.2f}, 0.7f, 1.3f);
@@ -73,7 +73,7 @@ TEST_CASE("shapes for debug drawing are those of the kernels, also in scaled pos
   check_shapes(instance_of(scene, id));
 }
 
-TEST_CASE("shapes for debug drawing are those of the level of detail") {
+TEST_CASE("shapes for debug drawing follow the level of detail") {
   CharacterModel data = sample_model(41, {6, 60, 120, 400, 40, 4});
   for (const CharacterLevel& level : nook::bake::make_levels(data, turned_poses(data)))
     data.levels.push_back(level);
@@ -109,7 +109,7 @@ TEST_CASE("key points have no values before the first update on the CPU") {
   CHECK(describe_instance(scene, instance).updated == 0);
 }
 
-TEST_CASE("links are those of the last update, without instances that have gone") {
+TEST_CASE("links are from the last update, without instances that have gone") {
   Scene scene = make_scene();
   const auto model = load(sample_model());
   const nook_instance_id a = place(scene, model, {}), b = place(scene, model, {1, 0, 0}),

@@ -76,7 +76,7 @@ TEST_CASE("the tree finds what brute force finds") {
     }
 }
 
-TEST_CASE("the nearest of points in one place cost about what those of spread points cost") {
+TEST_CASE("the nearest points cost about the same in one place as spread out") {
   constexpr std::uint32_t count = 10'000, k = 4;
   Numbers numbers(12);
   std::vector<Vec3> spread, piled(count, Vec3{3, 1, 2}), mixed;

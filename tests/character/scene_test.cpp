@@ -389,7 +389,7 @@ TEST_CASE("ids of removed instances are refused and never come back") {
   CHECK(scene.instances.size() == 3);
 }
 
-TEST_CASE("links in any order of edits are those of a plain table") {
+TEST_CASE("links in any order of edits equal a plain table") {
   Scene scene = make_scene();
   const auto model = load(single_model({0, 1, 0}, 0.3f));
   constexpr std::uint32_t count = 12;

@@ -167,8 +167,8 @@ TEST_CASE("groups keep mass and centre, and change a far receiver by less than t
           moment += double(posed.lanes_of[t].moment[g]);
         CHECK(std::abs(moment - moment_by_spheres(posed, t)) < 1e-4 * moment);
         const double change = rms_difference(depths(posed.tier[t], points), exact);
-        // The form factor of the kernels is within 0.002 of itself, of which the sum of all is a hundredth
-        // here.
+        // The form factor of the kernels has a relative error of 0.002, and the sum of all factors is a
+        // hundredth here.
         CHECK(change < double(group_error(posed.lanes_of[t], points.receiver())) + 1e-5);
         CHECK(change > 0);
       }

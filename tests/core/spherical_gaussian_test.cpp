@@ -89,7 +89,8 @@ TEST_CASE("convolution keeps integral and mean cosine") {
       };
       CHECK(std::abs(mean_of(blurred.sharpness) - mean_of(a) * mean_of(b)) < 2e-5);
       CHECK(blurred.axis == axis_a);
-      // Near the true one everywhere: within 6 % of its peak, the price of standing in for what is no lobe.
+      // Near the true one everywhere: within 6 % of its peak, because a lobe replaces a function that is not
+      // a lobe.
       double worst = 0, peak = 0;
       for (int i = 0; i <= 20; ++i) {
         const float angle = 0.157f * float(i);

@@ -19,7 +19,7 @@ PICTURED = ["docs/concepts.md", "docs/start.md", "docs/guide/character.md", "doc
 
 
 def prose(text):
-    """The text without fenced blocks and inline code, whose brackets are no links."""
+    """The text without fenced blocks and inline code, whose brackets are not links."""
     text = re.sub(r"^(```|~~~).*?^\1", "", text, flags=re.M | re.S)
     return re.sub(r"(?<!\[)`[^`\n]*`(?!\])", "", text)
 
@@ -36,7 +36,7 @@ def anchors(path):
 
 
 def files(*endings):
-    """The files of the repository with these endings; without git, those of its folders."""
+    """The files of the repository with these endings; without git, the files of its folders."""
     try:
         names = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z", "--cached", "--others", "--exclude-standard",
                                 *(f"*.{e}" for e in endings)], check=True, capture_output=True, text=True).stdout.split("\0")

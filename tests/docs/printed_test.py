@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The ten lines of README.md are those of samples/minimal/ten_lines.cpp, and what the pages say that programs print is printed.
+"""The ten lines of README.md equal samples/minimal/ten_lines.cpp, and what the pages say that programs print is printed.
 
   printed_test.py TEN_LINES MINIMAL        the two programs
 """

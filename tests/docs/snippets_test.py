@@ -3,7 +3,7 @@
 
   snippets_test.py C_COMPILER CXX_COMPILER
 
-The blocks of C and C++ of a page follow one another in one function, those of GLSL in a scope each. What an engine would have, such as a texture or
+The blocks of C and C++ of a page follow one another in one function, and each block of GLSL has a scope of its own. What an engine would have, such as a texture or
 a pose, is declared in tests/docs/snippets: engine.h for all pages of C and C++, and a file for each page with GLSL. In
 GLSL, lines that begin with a qualifier (in, out, uniform) stand before the function. Blocks are compiled, not run:
 tests/docs/printed_test.py runs the programs that README.md shows.

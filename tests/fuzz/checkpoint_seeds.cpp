@@ -4,7 +4,7 @@
 
 namespace nook::test {
 
-// A training of a few steps; that of the paper's form takes 190 kB, too much for a corpus.
+// A training of a few steps. The paper's form would take 190 kB, too much for a corpus.
 std::vector<Seed> seeds() {
   using namespace bake::nnao;
   TrainingState state(parameter_count(NetworkForm::horizon));

@@ -92,7 +92,7 @@ std::uint32_t file_vertices(nook_model model);
 std::vector<float> cpu_ao(const Crowd& crowd, nook_model model, std::size_t index);
 std::vector<float> gpu_ao(nook_gl gl, const Crowd& crowd, nook_model model, std::size_t index);
 float largest_difference(const std::vector<float>& a, const std::vector<float>& b);
-// Between the AO of the last nook_gl_scene_update and that of the CPU, which is evaluated here.
+// Between the AO of the last nook_gl_scene_update and the AO of the CPU, which is evaluated here.
 float difference_to_cpu(nook_gl gl, const Crowd& crowd, nook_model model, std::size_t index);
 // The error that nook_gl.h promises for it, and that a byte of a frame buffer (1 / 255) cannot show.
 constexpr float promised_difference = 2e-3f;

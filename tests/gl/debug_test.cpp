@@ -43,7 +43,7 @@ std::ptrdiff_t lines_with(const CountedContext& host, const char* part) {
                        [&](const std::string& line) { return line.find(part) != std::string::npos; });
 }
 
-// Calls of the context thread, each of which must be refused elsewhere.
+// Calls of the context thread; every other thread must be refused.
 struct Calls {
   explicit Calls(platform::Context& context)
       : fixture(context), gl(context, cast.context.handle, platform::Context::loader, &context, 1) {

@@ -44,7 +44,7 @@ class Textures {
  private:
   // The name of a multisample texture without contents; layers 0: no array.
   GLuint make_samples(SampledImage kind, int width, int height, GLsizei samples, int layers);
-  // layer -1: the texture is no array.
+  // layer -1: the texture is not an array.
   void draw_samples(SampledImage kind, GLuint texture, int layer, int width, int height,
                     const std::vector<std::vector<float>>& images);
   // layers 0: a 2D texture.

@@ -37,7 +37,7 @@ struct Form : Size {
   int whole_light_modes = 4;
 };
 
-// N-SVD, CTA, K-CTA, K-CTA resampled, ranks that are no multiples of four, more terms than one texel of the
+// N-SVD, CTA, K-CTA, K-CTA resampled, ranks that are not multiples of four, more terms than one texel of the
 // membership holds, one texel, no VOTF; integers of several of these; reliefs; neural materials; blocks of
 // several of these, with sides that are no multiples of four.
 const Size forms[] = {
@@ -200,8 +200,8 @@ std::vector<float> reaches_of(const std::vector<Item>& items, const std::vector<
 }
 
 // The mapping (26) steps from weight times threshold to 1; on either side both may be right. Visibility is
-// weight times the VOTF's value: so much larger is its difference. With RGTC it is that of the value which
-// the driver's levels gave.
+// weight times the VOTF's value: so much larger is its difference. With RGTC it belongs to the value that the
+// driver's levels gave.
 void check_agreement(const std::vector<GpuValue>& got, const std::vector<nook_material_value>& wanted,
                      const std::vector<float>& reaches, const Uploaded& form) {
   REQUIRE(got.size() == wanted.size());
@@ -251,7 +251,7 @@ void check_pixels(const Uploaded& form, int fetches) {
     return values;
   };
   const std::vector<nook_material_value> wanted = evaluate(pixels);
-  // Of the longer side, which is no less than that of the fetches.
+  // The longer side, at least as long as the side of the fetches.
   const auto level = [&](const nook_material_pixel& p) {
     const auto length = [&](float x, float y) {
       return std::hypot(x * float(form.info.width), y * float(form.info.height));

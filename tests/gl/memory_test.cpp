@@ -166,7 +166,7 @@ TEST_CASE("an upload whose contents OpenGL loses is repeated, and fails with a r
       for (std::size_t i = 0; i < crowd.ids.size(); ++i)
         CHECK(largest_difference(gpu[i], cpu_ao(crowd, model, i)) < promised_difference);
     };
-    // Of every upload, those of the preparation too.
+    // Every upload counts, the uploads of the preparation too.
     for (const int failures : {2, 0, 1, 2}) {
       crowd.pose(static_cast<std::uint32_t>(failures));
       trace.unmapping_failures = failures;

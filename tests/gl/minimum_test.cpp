@@ -120,7 +120,7 @@ TEST_CASE("every program of every tier and form links within the minimum limits 
   }
 }
 
-TEST_CASE("high precision is that of 32-bit floats; the bits of medium precision are printed") {
+TEST_CASE("high precision means 32-bit floats; the bits of medium precision are printed") {
   NOOK_NEED_CONTEXT(context);
   const GladGLContext& gl = context.gl();
   Textures textures(gl);

@@ -63,7 +63,7 @@ float degrees_between(Vec3 a, Vec3 b) {
 
 }  // namespace
 
-TEST_CASE("nnao: bent normals are the reference's, and AO is that of a pass without them") {
+TEST_CASE("nnao: bent normals are the reference's, and AO is the same as without them") {
   NOOK_NEED_CONTEXT(context);
   Bent fixture(context);
   const nnao::Network network = mild_network(nnao::NetworkForm::horizon);

@@ -1,4 +1,4 @@
-// Kinds of depth besides those of the matrix: logarithmic depth.
+// A kind of depth that no projection matrix gives: logarithmic depth.
 #include <nook/experimental/nook_recording.h>
 #include <cmath>
 

@@ -240,8 +240,7 @@ nnao::Network mild_network(nnao::NetworkForm form, std::uint32_t seed) {
   for (float& weight : network.paper.layer_3.weights) weight *= 0.1f;
   for (float& weight : network.horizon.tap.weights) weight = std::abs(weight);
   for (float& weight : network.horizon.out) weight = -0.3f * std::abs(weight);
-  // The sum of the normal and what bends it stays far from zero, where its direction would be that of
-  // roundings.
+  // The sum of the normal and what bends it stays far from zero, where rounding would decide its direction.
   for (float& weight : network.horizon.bent.weights) weight *= 0.1f;
   network.paper.layer_3.bias = {0.5f};
   return network;

@@ -175,7 +175,7 @@ TEST_CASE("nnao: the own texture changes in the viewport alone") {
         NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
         return own_ao(context.gl(), pass, 64, 50);
       };
-      // Split screen: two views, neither of which touches the other.
+      // Split screen: two views that do not touch each other.
       const std::vector<float> first = draw({64, 50, 0, 0}), second = draw({64, 50, 33, 25});
       std::vector<float> wanted(std::size_t(64) * 50, 1.0f);
       bool moved = false;

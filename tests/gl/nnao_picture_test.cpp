@@ -215,7 +215,7 @@ TEST_CASE("nnao: the filter does not cross an edge") {
   const std::vector<float> both = draw(fixture, camera, picture, drawing, &network);
   drawing.view = NOOK_NNAO_VIEW_RAW;
   const std::vector<float> raw = draw(fixture, camera, picture, drawing, &network);
-  // The mean along y over whole periods is that of the raw columns on the same side alone.
+  // The mean along y over whole periods comes from the raw columns on the same side alone.
   const auto column_mean = [&](const std::vector<float>& ao, int x) {
     double sum = 0;
     for (int y = 16; y < 37; ++y) sum += double(ao[std::size_t(y) * width + std::size_t(x)]) / 21;
@@ -248,7 +248,7 @@ TEST_CASE("nnao: normals rebuilt from depth are the plane's, and do not lean ove
     int off = 0, surface = 0;
     for (std::size_t i = 0; i < picture.depth.size(); ++i) {
       if (!std::isfinite(picture.depth[i])) continue;
-      // Along a crease the slope between two pixels is that of neither plane.
+      // Along a crease the slope between two pixels belongs to neither plane.
       if (touches_another_plane(picture, i)) continue;
       ++surface;
       // Half a degree: depth in 32-bit floats between 0.2 and 40 m.
@@ -269,7 +269,7 @@ TEST_CASE("nnao: a wire one pixel wide faces the viewer") {
     for (int y = 5; y < height - 5; ++y) wire.push_back(std::size_t(y) * width + 40);
     for (const std::size_t pixel : wire) picture.depth[pixel] = 2;
     const std::vector<float> shown = rebuilt_normals(fixture, camera, picture);
-    // All of these depths are those of planes at right angles to the camera's axis.
+    // All of these depths belong to planes at right angles to the camera's axis.
     for (std::size_t i = 0; i < picture.depth.size(); ++i) REQUIRE(degrees_off(shown, picture, i) < 0.5f);
   }
 }
@@ -307,8 +307,8 @@ TEST_CASE("nnao: half resolution is near full resolution") {
   const std::vector<float> half = draw(fixture, camera, picture, drawing, nullptr);
   const Difference found = difference(full, half, 0.1f);
   INFO("largest " << found.largest << ", mean " << found.mean << ", beyond 0.1 " << found.beyond);
-  // Half resolution loses what is narrower than two pixels, along silhouettes and contacts, and its normals
-  // are those of every second pixel.
+  // Half resolution loses what is narrower than two pixels, along silhouettes and contacts, and it reads the
+  // normals of every second pixel.
   CHECK(found.mean < 0.015f);
   CHECK(found.beyond < 0.045f);
 }

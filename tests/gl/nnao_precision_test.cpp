@@ -148,9 +148,9 @@ TEST_CASE("nnao: the error of each stage in medium precision is printed, and the
           "pixels change, %.1f %% by more than a step\n",
           pass.name, name.c_str(), sum.squared / sum.pixels, sum.squared / high,
           100 * sum.changed / sum.pixels, 100 * sum.beyond / sum.pixels);
-    // The pass draws its filter at half resolution in medium precision. AO is rounded to 8 bits behind it, of
-    // which a few percent of the pixels take the next step: up or down, so that no error comes of it; half a
-    // thousandth is room for another driver.
+    // The pass draws its filter at half resolution in medium precision. AO is rounded to 8 bits afterwards,
+    // so that a few percent of the pixels take the next step: up or down, so that no error comes of it; half
+    // a thousandth is room for another driver.
     if (pass.half) {
       CHECK(measured.at("filter").squared < 1.0005 * high);
       CHECK(measured.at("filter").beyond == 0);

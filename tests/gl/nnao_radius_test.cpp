@@ -127,7 +127,7 @@ TEST_CASE("nnao: a share of the scene is the radius in metres that follows from 
   CHECK((fixture.draw(pass, frame) == wanted));
 }
 
-TEST_CASE("nnao: the edges of a radius in pixels are those of its metres at each depth") {
+TEST_CASE("nnao: the edges of a radius in pixels follow its metres at each depth") {
   NOOK_NEED_CONTEXT(context);
   Fixture fixture(context);
   // The orthographic projection has the same number of pixels for a metre at each depth, so that both kinds

@@ -67,8 +67,8 @@ std::vector<float> mean_over_pixels(NnaoFixture& fixture, const Samples& fine, b
   return mean;
 }
 
-// Normals for a pixel by the ways to resolve those of its samples: that of the sample whose depth it has, the
-// mean, that of sample 0.
+// The normal of a pixel by each way to resolve its samples: the sample whose depth it has, the mean, or
+// sample 0.
 std::vector<float> normals_by(std::size_t rule, const Samples& samples) {
   if (rule == 0) return resolved(NOOK_NNAO_SAMPLE_MEDIAN, samples).normals;
   if (rule == 2) return samples.normals[0];

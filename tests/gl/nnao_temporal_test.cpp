@@ -176,8 +176,8 @@ TEST_CASE("nnao: the noise of a mean over frames falls, and a flat wall keeps it
     noise_last += (double(last[i]) - wanted[i]) * (double(last[i]) - wanted[i]);
   }
   INFO("squared noise of a frame " << noise_first << ", of the mean of eight " << noise_last);
-  // A moving mean over eight independent frames has an eighth of the variance; those of R2 have less, and the
-  // clamp to the likely range leaves some.
+  // A moving mean over eight independent frames has an eighth of the variance; frames that follow R2 have
+  // less, and the clamp to the likely range leaves some.
   CHECK(noise_last < 0.3 * noise_first);
 }
 

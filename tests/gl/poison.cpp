@@ -39,8 +39,7 @@ Values indexed(const GladGLContext& gl, GLenum binding, GLenum start, GLenum siz
   return {buffer, offset, bytes};
 }
 
-// The part of the state that the context has: OpenGL ES lacks some, and the functions of others are not those
-// of its version.
+// The part of the state that the context has: OpenGL ES lacks some, and sets others by other functions.
 struct Has {
   explicit Has(const GladGLContext& gl)
       : desktop(!is_es(gl)),
@@ -467,7 +466,7 @@ StateValues Poison::untouched() const {
   if (!has.desktop && users_ & (gl::characters | gl::probes | gl::captures) && values.contains("texture_2d"))
     values["texture_2d"].erase(values["texture_2d"].begin());
   if (!has.desktop && users_ & (gl::screen | gl::outputs)) values.erase("texture_unit_0");
-  // Captures have their own item of the first two units' samplers, which are among those of the screen pass.
+  // Captures have their own item for the samplers of the first two units, which the screen pass uses too.
   if (users_ & gl::captures) values["samplers"] = {values["samplers"].begin() + 2, values["samplers"].end()};
   if (users_ & gl::screen) values.erase("capture_samplers");
   // Further viewports and draw buffers are the host's, whoever sets the first.

@@ -51,7 +51,7 @@ TEST_CASE("captures keep the promises on OpenGL state, and read nothing back") {
     CHECK(trace.calls(reading) == 0);
 }
 
-TEST_CASE("what is no cube map for a capture is refused, and the light stays") {
+TEST_CASE("what is not a cube map for a capture is refused, and the light stays") {
   NOOK_NEED_CONTEXT(context);
   Fixture fixture(context);
   const GladGLContext& gl = context.gl();

@@ -76,7 +76,7 @@ class CubeTextures {
   CubeTextures(const CubeTextures&) = delete;
   CubeTextures& operator=(const CubeTextures&) = delete;
 
-  // The parameters stay those of a new texture, whose filter wants mipmaps that it has not.
+  // The parameters stay as in a new texture, whose filter needs mipmaps that it does not have.
   GLuint make(const Cube& cube) {
     GLuint name = 0;
     gl_.GenTextures(1, &name);

@@ -124,8 +124,8 @@ TEST_CASE("constant light and one cosine become their closed forms") {
     CHECK(std::abs(result.harmonics[1] - 2 * std::sqrt(4 * pi)) < 2e-5f);
     for (int i = 3; i < 18; ++i) CHECK(std::abs(result.harmonics[i]) < 2e-5f);
 
-    // Radiance 1 + z / 2: irradiance pi + (2 pi / 3) n.z / 2. A texel's light is that of its centre: the
-    // error of the rule of midpoints is the square of half a texel.
+    // Radiance 1 + z / 2: irradiance pi + (2 pi / 3) n.z / 2. A texel has the light of its centre: the error
+    // of the rule of midpoints is the square of half a texel.
     add(capture, 0, fixture.cubes.make(Cube(size, [](Vec3 d) { return Vec3{1, 1, 1} * (1 + 0.5f * d.z); })));
     result = read(capture);
     const float midpoint = 1.0f / float(size * size);
@@ -133,7 +133,7 @@ TEST_CASE("constant light and one cosine become their closed forms") {
     const std::vector<Vec3> lobes = solved(capture, 12);
     for (const Vec3 n : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{0, 0.6f, 0.8f}}) {
       const Vec3 e = probe::irradiance(basis, lobes, probe::IrradianceForm::bands, n);
-      // Lobes that have the light's bands 0 to 2 may have a band 4, a 24th of which counts.
+      // Lobes that have the light's bands 0 to 2 may have a band 4, and a 24th of it counts.
       CHECK(std::abs(e.x - (pi + pi / 3 * n.z)) < 0.01f * pi + midpoint);
     }
   }
@@ -164,7 +164,7 @@ TEST_CASE("a cube map becomes the CPU's fit of its texels, in lobes and harmonic
       // The promise, 0.2 % of the mean; floats have a hundred times more digits than that.
       CHECK(moments.radiance < 2e-3f);
       CHECK(moments.irradiance < 2e-4f);
-      // Least squares takes the Gram matrix of the texels, which is that of the sphere but for the rule of
+      // Least squares takes the Gram matrix of the texels, which differs from the sphere's by the rule of
       // midpoints.
       if (size == 64) CHECK(squares.irradiance < 2e-3f);
       const std::vector<Vec3> harmonics = projected(cube);
@@ -295,7 +295,7 @@ TEST_CASE("texels that are not finite do not count") {
   CHECK(kept.used_solid_angle == 0);
 }
 
-TEST_CASE("the sky of a cube map is that of the CPU, and its sun is reported") {
+TEST_CASE("the sky of a cube map agrees with the CPU, and its sun is reported") {
   NOOK_NEED_CONTEXT(context);
   Fixture fixture(context);
   const GlProbe probe = fixture.upload(black_grid(probe::vogel_basis(12)));

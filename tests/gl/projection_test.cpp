@@ -114,7 +114,7 @@ Matrix4 left_handed(Matrix4 m) {
 
 }  // namespace
 
-TEST_CASE("projection: those of engines and libraries pass in every call") {
+TEST_CASE("projection: matrices of engines and libraries pass in every call") {
   NOOK_NEED_CONTEXT(context);
   Calls calls(context);
   const std::vector<RealProjection> all = real_projections();

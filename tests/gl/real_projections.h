@@ -104,7 +104,7 @@ inline Matrix4 lengyel_oblique(Matrix4 m, const std::array<double, 4>& plane) {
   m[10] += 1;
   return m;
 }
-// The four angles of an eye of a headset, of which two are negative, as tangents.
+// The tangents of the four angles of an eye of a headset; two are negative.
 struct Eye {
   double left = -1.19, right = 0.84, down = -1.28, up = 1.0;
 };

@@ -1,4 +1,4 @@
-// Names that rotate, as those of swap chains and of the frames of a headset: no frame makes a query about
+// Names that rotate, as in swap chains and in the frames of a headset: no frame makes a query about
 // names that are known, and names of new textures are not taken for the old ones.
 #include <functional>
 

@@ -27,7 +27,7 @@ std::vector<nook_lobe> window_light() {
   std::vector<nook_lobe> lobes{lobe({1, 0.4f, 0.2f}, 3, {2, 1.6f, 1}),
                                lobe({-0.3f, 1, 0.5f}, 1, {0.2f, 0.4f, 0.9f}),
                                lobe({0, 1, 0}, 0, {0.1f, 0.1f, 0.12f})};
-  // Lamps on a spiral, of which every third is bright, make them so many that all bands count.
+  // Lamps on a spiral, every third one bright: so many that all bands count.
   for (int i = 0; i < 21; ++i) {
     const float height = float(i) / 10 - 1, angle = 2.4f * float(i), bright = i % 3 == 0 ? 1.0f : 0.05f;
     const float radius = std::sqrt(1 - height * height);

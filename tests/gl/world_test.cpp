@@ -52,7 +52,7 @@ TEST_CASE("world: a sphere and a capsule darken as on the CPU, under every proje
   }
 }
 
-TEST_CASE("world: normals from depth come close to those of the host") {
+TEST_CASE("world: normals from depth come close to the host's normals") {
   NOOK_NEED_CONTEXT(context);
   WorldFixture fixture(context);
   nook_world pass = fixture.made();
@@ -273,7 +273,7 @@ TEST_CASE("world: levels stay within their error, with fewer casters at a pixel"
   const double without_levels = mean_casters();
   for (const float error : {1.0f / 256, 1.0f / 32}) {
     frame.level_error = error;
-    // The rms is that of one body; seven of them add as if independent. A step of 8 bits besides.
+    // The rms belongs to one body; seven of them add as if independent. A step of 8 bits besides.
     CHECK(std::sqrt(mean_square(fixture.drawn(frame), all)) < std::sqrt(7.0) * double(error) + 1.0 / 255);
   }
   CHECK(mean_casters() < without_levels);

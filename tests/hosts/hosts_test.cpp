@@ -62,7 +62,7 @@ Picture side_by_side(const std::vector<const Picture*>& pictures, int first, int
   return out;
 }
 
-// The mean of squares of pixels, whose side divides that of the picture.
+// The mean of squares of pixels, whose side divides the side of the picture.
 Picture shrunk(const Picture& source, int side) {
   Picture out;
   out.width = source.width / side;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every file that states the version of the project states that of nook.h: the changelog, the recipes of package managers, the
+"""Every file that states the version of the project agrees with nook.h: the changelog, the recipes of package managers, the
 Debian packages, the Python module and the Blender add-on. The Debian packages' names end in the number of the library's soname.
 """
 import json

@@ -406,7 +406,7 @@ TEST_CASE("places of a pixel lie along the longer axis of its footprint and cove
   }
 }
 
-TEST_CASE("a round pixel is decoded as a sample, and sides that are no numbers give the coarsest level") {
+TEST_CASE("a round pixel is decoded as a sample, and sides that are not numbers give the coarsest level") {
   const float infinite = std::numeric_limits<float>::infinity(), no_number = std::nanf("");
   for (const test::SampleSize& size :
        {test::SampleSize{.width = 16, .height = 8, .map_side = 5},

@@ -165,7 +165,7 @@ TEST_CASE("a file is as long as the formula says, but for directions, heads and 
 
 TEST_CASE("integers take the bits that their sizes need") {
   // Numbers as of a normal distribution, in steps of a quarter of their deviation: an entropy of 2.05 -
-  // log2(1/4) = 4.05 bits, of which Rice's code may exceed by 0.3.
+  // log2(1/4) = 4.05 bits, which Rice's code may exceed by 0.3.
   Material material =
       test::sample_material(1, {.width = 48, .height = 48, .rank_x = 48, .rank_y = 48, .bits = 8});
   test::Numbers numbers(3);
@@ -283,7 +283,7 @@ TEST_CASE("a relief comes back from its file, and a file without one is of the v
   CHECK((read.low == -0.1f && read.high == 0.1f && read.max_slope == 2 && read.steps == 8));
   CHECK(read.levels == bumpy.relief.levels);
 
-  // Heights of zero everywhere are no relief: the same bits as without.
+  // Heights of zero everywhere are not a relief: the same bits as without.
   const Material flat = test::sample_material();
   Material zero = bumpy;
   zero.relief.low = zero.relief.high = 0;

@@ -16,7 +16,7 @@ using namespace nook::material;
 
 namespace {
 
-// A side that is no multiple of four.
+// A side that is not a multiple of four.
 constexpr test::SampleSize small = {.width = 7, .height = 9, .channels = 8};
 
 Material small_neural() {
@@ -116,7 +116,7 @@ TEST_CASE("a neural material has the same bits after its file, which is of versi
   CHECK(read.neural.blocks == material.neural.blocks);
   CHECK(read.neural.weights == material.neural.weights);
   CHECK(write_material(read) == file);
-  // Files of tensors are those of before.
+  // Files of tensors are as before.
   CHECK(write_material(test::sample_material(3))[8] == std::byte{2});
 }
 
@@ -138,8 +138,8 @@ TEST_CASE("a neural material gives what its equations give") {
       }
       const Radiance got = evaluate_btf(tables, sample);
       const std::vector<double> want = network.radiance(double(sample.u), double(sample.v), view, light);
-      // Some hundred products of floats up to about 3, and a place on the tile whose error of 1e-6 is that of
-      // floats at 10 tiles, times the slope of features.
+      // Some hundred products of floats up to about 3, and a place on the tile with the error of floats at 10
+      // tiles, 1e-6, times the slope of features.
       CHECK(double(got.red) == Approx(want[0]).margin(2e-4));
       CHECK(double(got.green) == Approx(want[1]).margin(2e-4));
       CHECK(double(got.blue) == Approx(want[2]).margin(2e-4));
@@ -171,7 +171,7 @@ TEST_CASE("the smallest mipmap of a neural material has the means of its feature
   }
 }
 
-TEST_CASE("views and lights below the samples are those of the rim, and light fades to the horizon") {
+TEST_CASE("views and lights below the samples are taken from the rim, and light fades to the horizon") {
   Material material = small_neural();
   for (auto* set : {&material.views, &material.lights})
     set->assign({Vec3{0, 0, 1}, Vec3{0.6f, 0, 0.8f}, Vec3{0, 0.8f, 0.6f}});

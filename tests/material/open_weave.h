@@ -9,7 +9,7 @@ namespace nook::material::test {
 struct WeaveSize {
   std::uint32_t lights = 12, views = 48, texels = 32;  // views: a multiple of 4
   VisibilityForm visibility = VisibilityForm::distance;
-  float radius = 0.085f;  // of a thread, in tiles, of which it has four a side
+  float radius = 0.085f;  // of a thread, in tiles; a side has four threads
 };
 
 Material open_weave(const WeaveSize& size = {});

@@ -55,7 +55,7 @@ Material positive_material(float scale) {
 
 }  // namespace
 
-TEST_CASE("the mean reflectance is that of sums over lights, views and texels") {
+TEST_CASE("the mean reflectance equals sums over lights, views and texels") {
   const float whole = summed_reflectance(make_tables(positive_material(1), {}, default_memory(), 32)).x;
   const MaterialTables tables = make_tables(positive_material(0.4f / whole), {}, default_memory(), 32);
   const Vec3 wanted = summed_reflectance(tables), got = mean_reflectance(tables);

@@ -168,7 +168,7 @@ TEST_CASE("ends of the range and equal numbers come back from blocks") {
     }
 }
 
-TEST_CASE("modes in blocks have the bytes of their blocks, and those of integers beside them") {
+TEST_CASE("modes in blocks have the bytes of their blocks, and of the integers beside them") {
   for (const test::SampleSize& size :
        {test::SampleSize{.width = 16, .height = 8, .rank_light = 8, .bits = 8},
         test::SampleSize{.width = 7, .height = 5, .rank_light = 6, .rank_view = 5, .bits = 16},
@@ -257,7 +257,7 @@ TEST_CASE("modes in blocks decode to what integers do, up to the rounding of blo
 }
 
 TEST_CASE("beside modes in blocks, the light map has the basis of each light") {
-  // A basis as smooth as that of a material.
+  // A basis as smooth as a material's basis.
   Material material = test::sample_material(9, {.lights = 40, .rank_light = 6, .bits = 8});
   for (std::size_t light = 0; light < material.lights.size(); ++light)
     for (std::size_t channel = 0; channel < 3; ++channel) {

@@ -40,14 +40,14 @@ double mebibytes(const Row& row, std::uint32_t clusters, std::uint32_t mixture) 
 
 }  // namespace
 
-TEST_CASE("sizes of N-SVD are those of the paper's table") {
+TEST_CASE("sizes of N-SVD agree with the paper's table") {
   for (const Row& row : table) {
     INFO(row.name);
     CHECK(std::round(100 * mebibytes(row, 1, 1)) == std::round(100 * row.n_svd));
   }
 }
 
-TEST_CASE("sizes of CTA and K-CTA are those of the paper's table to 0.4 per cent") {
+TEST_CASE("sizes of CTA and K-CTA agree with the paper's table to 0.4 per cent") {
   // The paper does not describe the storage of the membership.
   for (const Row& row : table) {
     INFO(row.name);

@@ -59,7 +59,7 @@ TEST_CASE("a network comes back from its file bit for bit") {
 TEST_CASE("a network file cut or flipped at any byte is refused") {
   for (const NetworkForm form : forms) {
     const std::vector<std::byte> good = write_network(test::sample_network(form));
-    // The paper's file is 33 KB of which 31 are filters, all alike: every byte of the rest, one in 37 of
+    // The paper's file has 33 KB, and 31 of them are filters, all alike: every byte of the rest, one in 37 of
     // them.
     const auto stride = [&](std::size_t i) {
       return form == NetworkForm::paper && i > 400 && i + 1200 < good.size() ? 37 : 1;

@@ -10,7 +10,7 @@ namespace nook::test {
 
 template <class Layer>
 void fill_layer(Layer& layer, std::mt19937& random) {
-  // mt19937's numbers are the same everywhere, those of a std distribution are not.
+  // mt19937's numbers are the same everywhere; the numbers of a std distribution are not.
   const auto next = [&] { return float(random()) * 0x1p-31f - 1; };
   for (float& w : layer.weights) w = next();
   if constexpr (requires { layer.bias; })

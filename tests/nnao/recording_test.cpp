@@ -242,7 +242,7 @@ TEST_CASE("a frame that no pass draws is not recorded, and the text names the nu
   }
 }
 
-TEST_CASE("stored depth gives the distance under every projection, and the far plane is no surface") {
+TEST_CASE("stored depth gives the distance under every projection, and the far plane is not a surface") {
   for (const bool perspective : {true, false})
     for (const bool reversed : {true, false})
       for (const ClipRange clip : {ClipRange::negative_one_to_one, ClipRange::zero_to_one})
@@ -267,7 +267,7 @@ TEST_CASE("stored depth gives the distance under every projection, and the far p
     CHECK(std::isinf(view_depth(linear, true, none)));
 }
 
-TEST_CASE("logarithmic depth gives the distance, and 1 is no surface") {
+TEST_CASE("logarithmic depth gives the distance, and 1 is not a surface") {
   const Lens lens(true, 0.1f, 10, false, ClipRange::negative_one_to_one);
   for (const double scale : {0.01, 1.0, 1000.0})
     for (const double near_m : {0.0, 0.2})
@@ -276,8 +276,8 @@ TEST_CASE("logarithmic depth gives the distance, and 1 is no surface") {
             depth_decode({lens.projection, DepthKind::logarithmic, ClipRange::negative_one_to_one, 0,
                           float(scale), float(near_m), float(far_m)});
         INFO(scale << " " << near_m << " " << far_m);
-        // The stored value is rounded to 2^-25, times the natural logarithm of the range, of which 1 + C w
-        // has that share as its error. exp2 has some steps of 1.2e-7 more.
+        // The stored value is rounded to 2^-25, times the natural logarithm of the range; the relative error
+        // of 1 + C w is the product. exp2 has some steps of 1.2e-7 more.
         const double step = std::log(1 + scale * far_m) * 6e-8 + 5e-7;
         for (const double depth : {0.25, 1.0, 3.0, 9.0}) {
           const auto stored =
@@ -320,7 +320,7 @@ TEST_CASE("a recording of the second format version has neither a minimum of its
   CHECK(old.radius == recording.frame.radius);
 }
 
-TEST_CASE("normals of a recording are the host's in view space, and those of depth where it has none") {
+TEST_CASE("normals of a recording are the host's in view space, or come from depth where it has none") {
   // A plane that faces the viewer at 2 m: every normal is +z.
   Recording recording = sample_recording(6, 5, false);
   recording.frame.depth_kind = 1;

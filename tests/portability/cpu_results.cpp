@@ -1,4 +1,4 @@
-// The numbers of the library on one platform, for comparison with those of another: AO and directional
+// The numbers of the library on one platform, for comparison with another: AO and directional
 // occlusion of a scene, fits of probes, the light of lobes and a material, by the C functions alone.
 //
 // cpu_results run CHARACTER.nook MATERIAL.nook VALUES

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints the times of the kernels in WebAssembly beside those of native code on the same machine.
+"""Prints the times of the kernels in WebAssembly beside native code on the same machine.
 
 Both are nook_kernel_time, one built natively, one by Emscripten and run by node. They run in turns, and each number is the
 fastest of all turns, since other processes can only add to it.
@@ -29,7 +29,7 @@ def main():
     arguments.add_argument("--rounds", type=int, default=5)
     arguments.add_argument("--node", default="node")
     given = arguments.parse_args()
-    # Older output of Emscripten takes node's fetch for that of a browser.
+    # Older output of Emscripten takes node's fetch for a browser's.
     script = [given.node, "--no-experimental-fetch", given.script]
     rows = {}
     for _ in range(given.rounds):

@@ -46,8 +46,8 @@ TEST_CASE("irradiance of every basis against quadrature") {
       const Vec3 n = directions.next();
       const double truth = lit(basis, b, n);
       full = std::max(full, truth);
-      // Simpson's rule across the horizon's kink: 1e-4. Lobes of sharpness 6: what the forms promise, of full
-      // lights, of which a few overlap.
+      // Simpson's rule across the horizon's kink: 1e-4. Lobes of sharpness 6: what the forms promise for full
+      // lights, where a few overlap.
       const bool lobes = basis.kind == BasisKind::gaussians;
       CHECK(std::abs(double(irradiance(basis, b, IrradianceForm::fitted, n).x) - truth) <
             (lobes ? 0.02 : 2e-4) * full);

@@ -46,7 +46,7 @@ TEST_CASE("forms that solve merge exactly") {
 
 TEST_CASE("running averages merge to within their own error") {
   // Order matters to them: the merged fit is the mean of two shorter ones. With the fast step its distance to
-  // least squares over all samples stays within twice that of the whole run; 20 seeds.
+  // least squares over all samples stays within twice the distance of the whole run; 20 seeds.
   const Basis basis = vogel_basis(12);
   const auto gram = basis_gram(basis);
   FitSettings exact = with(FitMethod::least_squares), average = with(FitMethod::running_average);

@@ -66,7 +66,7 @@ TEST_CASE("a function of the basis comes back") {
     CHECK(error_of(basis, with(FitMethod::least_squares), 200) < 1e-4);
     // The fast step forgets its start as the number of functions / n, 1.3e-3 for 25.
     CHECK(error_of(basis, with(FitMethod::running_average), 20000) < 3e-3);
-    // The moments' noise is that of the function itself: condition times n^-1/2.
+    // The moments have the noise of the function itself: condition times n^-1/2.
     CHECK(error_of(basis, with(FitMethod::moments), 20000) < 0.15);
     if (basis.kind == BasisKind::harmonics) continue;
     CHECK(error_of(basis, with(FitMethod::non_negative_least_squares), 200) < 1e-4);
@@ -116,7 +116,8 @@ TEST_CASE("few samples, or few directions, leave a small and nearly exact answer
       Fit fit(basis, with(FitMethod::least_squares));
       test::add(fit, samples);
       const Coefficients b = test::read(fit);
-      // The prior keeps 1e-4 or ten times that of the answer, and the sums' rounding over it adds to that.
+      // The prior keeps 1e-4 of the answer, or ten times as much, and the sums' rounding over it adds to
+      // that.
       for (std::size_t k = 0; k < std::min<std::size_t>(count, 6); ++k) {
         const float* const d = &samples.directions[3 * k];
         const Vec3 at = function_of(basis, b)({d[0], d[1], d[2]});

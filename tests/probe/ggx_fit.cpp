@@ -95,7 +95,8 @@ VectorXd fit_largest(const MatrixXd& rows, const VectorXd& target, double& large
 }
 
 // Rows of equations for the albedo over views: whole albedos relative to the truth, and the cosine whose
-// Fresnel term is that of all normals, weighed by the relative error of the albedo for an error of it.
+// Fresnel term equals the mean over all normals, weighed by the relative error of the albedo for an error of
+// it.
 struct AlbedoRows {
   MatrixXd whole, fresnel;
   VectorXd one, cosine;

@@ -173,7 +173,7 @@ TEST_CASE("anisotropic surfaces against the GGX integral") {
     INFO("alpha " << x << " " << y << " isotropic " << errors.isotropic << " anisotropic "
                   << errors.anisotropic);
     CHECK(errors.anisotropic < 0.14);
-    // One lobe has no direction in which it is wider.
+    // One lobe is equally wide in all directions.
     CHECK(errors.anisotropic_square < 0.1 * errors.isotropic_square);
   }
 }

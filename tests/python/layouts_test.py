@@ -1,4 +1,4 @@
-"""Sizes and offsets of every structure of the Python module against those of a C compiler."""
+"""Sizes and offsets of every structure of the Python module against a C compiler."""
 import ctypes
 import os
 import pathlib

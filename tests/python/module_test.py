@@ -535,7 +535,7 @@ class Probes(unittest.TestCase):
             again.radiance(directions[:8], np.zeros((7, 3)))
         self.assertEqual(again.counts, (1, 1, 1))
         self.assertLess(len(probe.save("half")), len(probe.save("float")))
-        # 13 functions, of which the ambient term is the constant light.
+        # 13 functions; the ambient term is the constant light.
         np.testing.assert_allclose(probe.coefficients()[12], 2, rtol=1e-3)
         with self.assertRaisesRegex(nook.NookError, "index"):
             probe.coefficients(1)

@@ -22,8 +22,7 @@ What it covers:
 - The results of the CPU half by every instruction set (cpu_results), the values for the page in a browser, and the
   instructions of every shader (nook_gpu_cost).
 
-What it does not cover: .btf files, windows, the hosts, the web page itself, the Blender add-on, the Python package, bakes
-through the C ABI other than those of the samples, and nook_gpu_time, whose numbers are all times.
+What it does not cover: .btf files, windows, the hosts, the web page itself, the Blender add-on, the Python package, bakes through the C ABI other than in the samples, and nook_gpu_time, whose numbers are all times.
 
 A command is looked for in nook, then in nook-lab; a program is looked for in the whole build folder, and one that was not
 built is left out. The reports are comparable when both runs have the same processor and drivers: the kernels choose their

@@ -16,7 +16,7 @@ class Surface:
 
     def __init__(self, is_rigid=False):
         self.position, self.weights, self.triangles = [], [], []
-        self.is_rigid = is_rigid  # limbs are a tube for each segment, as those of a robot
+        self.is_rigid = is_rigid  # limbs are a tube for each segment, as in a robot
 
     def ring(self, centre, across, up, radii, around, weights):
         for a in range(around):

@@ -132,7 +132,7 @@ static void check_by_documents(stranger* s, uint32_t frame) {
   free(positions);
 }
 
-/* The lines of the documents leave out what they return, so that their AO must be that of the checked calls.
+/* The lines of the documents leave out what they return, so that their AO must equal the checked calls.
  */
 void stranger_run_documents(stranger* s, const char* model_path) {
   const uint32_t count = s->engine.vertex_count;

@@ -183,7 +183,7 @@ static void read_texture(GLuint texture, GLenum channels, unsigned char* out) {
   glGetTexImage(GL_TEXTURE_2D, 0, channels, GL_UNSIGNED_BYTE, out);
 }
 
-/* The AO in Nook's buffer is that of the CPU. Tiers may differ where a shadow gets the next code. */
+/* The AO in Nook's buffer equals the CPU's. Tiers may differ where a shadow gets the next code. */
 static void compare_buffer(stranger* s, const pictures* p) {
   const size_t count = s->engine.vertex_count;
   float* const on_cpu = engine_memory(count * sizeof *on_cpu);

@@ -47,7 +47,7 @@ static void to_own_order(const stranger* s, const float* of_file, float* own) {
   for (size_t v = 0; v < s->engine.vertex_count; ++v) own[v] = of_file[s->order[v]];
 }
 
-/* Ray-traced AO of the engine's vertices among meshes, of which the first is their own. */
+/* Ray-traced AO of the engine's vertices among meshes; the first mesh is their own. */
 static void trace(const stranger* s, const nook_bake_occluder_mesh* meshes, uint32_t mesh_count, float* ao) {
   const engine* const e = &s->engine;
   float* const normals = engine_memory(3 * sizeof *normals * e->vertex_count);
@@ -177,7 +177,7 @@ void stranger_run_layouts(stranger* s, const char* ao_path) {
   free(ao);
 }
 
-/* docs/guide/character.md, Ground, neighbours, spheres. Lengths are those of the world. */
+/* docs/guide/character.md, Ground, neighbours, spheres. Lengths are in the world's unit. */
 static void add_company(stranger* s) {
   const float plane[4] = {ground[0], ground[1], ground[2], ground[3] * s->unit};
   stranger_need(nook_scene_add_instance(s->scene, s->model, &s->neighbour), "the neighbour");

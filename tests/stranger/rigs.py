@@ -22,7 +22,7 @@ class Rig:
     """The differences between the files of a body.
 
     armature: the node above the skeleton. It must be a similarity.
-    joint_scale: what a joint's axes have more than those of the plain rig: the scale and the mirror of the armature.
+    joint_scale: what a joint's axes have beyond the plain rig's: the scale and the mirror of the armature.
     mesh: from the space of POSITION to the world; for each part of the body, or one for all.
     """
 

@@ -5,8 +5,7 @@
   stranger_test.py bakes FOLDER --program STRANGER --tool NOOK [NAME...]
   stranger_test.py characters FOLDER --program STRANGER --unfitted WRITE_UNFITTED --assets ASSETS
 
-rigs: models without a bake, so that two rigs of a body have the same model but for rounding. Their AO is that of the
-plain rig in every frame, the check of poses passes what is right, and names what is wrong. bakes: each rig has a model
+rigs: models without a bake, so that two rigs of a body have the same model but for rounding. Their AO equals the plain rig's in every frame, the check of poses passes what is right, and names what is wrong. bakes: each rig has a model
 of its own, whose AO is compared with ray tracing. characters: the checks alone, on real files.
 """
 import argparse

@@ -35,7 +35,7 @@ std::vector<Vec3> radiance_of(const CubeCells& cells) {
 }
 
 material::MaterialTables sample_tables() {
-  // Enough lights that the light basis is no rougher than those of materials.
+  // Enough lights to make the light basis as smooth as a material's.
   material::test::SampleSize size;
   size.lights = 60;
   size.rank_light = 6;
@@ -109,7 +109,7 @@ TEST_CASE("a light of one lobe gives that lobe") {
       radiance.push_back(Vec3{1, 2, 3} * gaussian_value(fit.axes()[lobe], fit.sharpness(), d));
     std::vector<float> amplitudes(3 * lobes);
     fit.fit(cells, radiance, Mat3x4{}, amplitudes);
-    // The cells are a sum in place of an integral, of which the Gram matrix magnifies the error.
+    // The cells are a sum in place of an integral, and the Gram matrix magnifies the error.
     for (std::size_t j = 0; j < lobes; ++j)
       for (std::size_t c = 0; c < 3; ++c)
         CHECK(std::abs(amplitudes[3 * j + c] - (j == lobe ? float(c + 1) : 0.0f)) < 5e-3f);
@@ -286,7 +286,7 @@ TEST_CASE("suns are taken out of a map, and nothing is lost") {
   CHECK(after + double(suns[0].irradiance.y) == Approx(before).epsilon(1e-5));
 }
 
-TEST_CASE("a sun of a cube map has the light of its texel, and the limit is that of the whole sphere") {
+TEST_CASE("a sun of a cube map has the light of its texel, and the limit counts the whole sphere") {
   constexpr std::uint32_t side = 16;
   std::vector<float> rgb(std::size_t(3) * side * side * 6, 1.0f);
   const std::uint32_t row = 3 * side + 2, column = 5;

@@ -6,8 +6,8 @@
 namespace nook::transfer::test {
 
 // The body in its bind pose, over a plane. The skin has no texture coordinates of its own: each triangle
-// takes those of the axis that its normal is nearest to, six tiles a metre, and vertices on borders are there
-// once for each axis.
+// takes the coordinates along the axis nearest to its normal, six tiles a metre, and vertices on borders are
+// there once for each axis.
 Shape mannequin_over_plane();
 
 }  // namespace nook::transfer::test

@@ -82,8 +82,8 @@ TEST_CASE("caster parts: one capsule of even ends stays as it is") {
 }
 
 TEST_CASE("caster parts: the capsule of a bent part ends where the part does") {
-  // A lower leg over a foot: the variance along the axis is that of a longer segment, which would reach
-  // through the floor at y = 0.
+  // A lower leg over a foot: the variance along the axis fits a longer segment, which would reach through the
+  // floor at y = 0.
   const std::vector<PosedCaster> leg{{{{0, 0.45f, 0}, {0, 0.28f, 0}, 0.06f, 0.055f}, 1},
                                      {{{0, 0.28f, 0}, {0, 0.1f, 0}, 0.05f, 0.04f}, 1},
                                      {{{0, 0.04f, -0.04f}, {0, 0.04f, 0.12f}, 0.04f, 0.035f}, 1},
@@ -100,7 +100,7 @@ TEST_CASE("caster parts: the capsule of a bent part ends where the part does") {
   // Three steps towards the radius of the shortened segment leave a millimetre.
   CHECK(dot(axis, one.a) - one.radius_a > low - 1e-3f);
   CHECK(dot(axis, one.b) + one.radius_b < high + 1e-3f);
-  // Without that end it would be at -0.05 m; the radius of the leg is more than that of the toes.
+  // Without that end it would be at -0.05 m; the leg has a larger radius than the toes.
   CHECK(std::min(one.a.y, one.b.y) - one.radius_a > -0.03f);
   // The leg is about as long as it was.
   CHECK(length(one.b - one.a) > 0.3f);

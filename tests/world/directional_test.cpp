@@ -88,7 +88,7 @@ TEST_CASE("directional: a caster that fills the hemisphere takes all light, and 
   }
 }
 
-TEST_CASE("directional: the open share of soft light comes near that of rays, much nearer than AO") {
+TEST_CASE("directional: the open share of soft light comes near the rays', much nearer than AO") {
   Numbers numbers(8);
   double error = 0, plain = 0, bias = 0;
   int count = 0;
@@ -112,7 +112,7 @@ TEST_CASE("directional: the open share of soft light comes near that of rays, mu
   }
   INFO("rms " << std::sqrt(error / count) << ", of AO " << std::sqrt(plain / count));
   REQUIRE(count > 20);
-  // Lobes of a sharpness up to 3 have some of their power above band 2, and near casters are no discs.
+  // Lobes of a sharpness up to 3 have some of their power above band 2, and near casters are not discs.
   CHECK(error < 0.2 * plain);
   CHECK(std::abs(bias / count) < 0.01);
 }
@@ -130,12 +130,12 @@ TEST_CASE("directional: the terms of many broad lobes are their radiance") {
     // A density of one direction alone, whose bands undo the taper.
     world::GatheredTerms<float> gathered = world::GatheredTerms<float>::none();
     gathered.add({d.x, d.y, d.z}, 1, {1, 1, 1, 1 / 0.8f, 1 / 0.6f});
-    // Band 5 of a lobe of sharpness 1 is 3e-4 of its mean, of which 11 times are in a direction.
+    // Band 5 of a lobe of sharpness 1 is 3e-4 of its mean, and at most 11 times as much in one direction.
     CHECK(std::abs(double(gathered.light(light, &Vec3::x)) / radiance - 1) < 2e-3);
   }
 }
 
-TEST_CASE("directional: bands 3 and 4 of many lobes bring the open share nearer to that of rays") {
+TEST_CASE("directional: bands 3 and 4 of many lobes bring the open share nearer to the rays'") {
   Numbers numbers(12);
   double error = 0, to_band_2 = 0;
   for (int i = 0; i < 60; ++i) {
@@ -161,7 +161,7 @@ TEST_CASE("directional: bands 3 and 4 of many lobes bring the open share nearer 
     error += square(light);
     to_band_2 += square(blurred);
   }
-  INFO("mean squared error over that of bands 0 to 2: " << error / to_band_2);
+  INFO("mean squared error over the error of bands 0 to 2: " << error / to_band_2);
   // The rest of the error lies in the bands above and in the taper.
   CHECK(error < 0.6 * to_band_2);
 }
@@ -181,7 +181,7 @@ TEST_CASE("directional: a planted lobe over a floor darkens it as by rays, from 
   const Capsule sphere{{0, 0, 1}, {0, 0, 1.001f}, 0.3f, 0.3f},
       standing{{0, 0, 0.15f}, {0, 0, 1.5f}, 0.15f, 0.15f};
   // Of the squared error of AO, with a third of margin over what was found; an upright capsule under light
-  // from above is no disc, and left out.
+  // from above is not a disc, and left out.
   const struct {
     Capsule caster;
     Vec3 towards;

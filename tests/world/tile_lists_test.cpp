@@ -120,7 +120,8 @@ TEST_CASE("tile lists: a tile lists the ranges that hold it, in their order") {
   }
 }
 
-TEST_CASE("tile lists: a sphere at the camera, an endless one and one that is no number cover everything") {
+TEST_CASE(
+    "tile lists: a sphere at the camera, an endless one and one that is not a number cover everything") {
   const world::TileGrid grid = grid_of(false);
   for (const auto& [centre, radius] : {std::pair{Vec3{0, 0, 0}, 1.0f},
                                        {Vec3{0, 0, 0.5f}, 1.0f},

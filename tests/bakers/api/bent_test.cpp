@@ -81,7 +81,7 @@ TEST_CASE("a job of bent normals is cancelled by its progress function") {
 TEST_CASE("faults of a job of bent normals come before it starts, with their cause") {
   const Character character = tube_with_clips();
   const std::string model = model_of(character);
-  // Blocks and not sections, each of which would bake the model again.
+  // Blocks instead of sections, because each section would bake the model again.
   const nook_bake_bent_desc sound = desc_of(model);
   {
     INFO("numbers out of range");

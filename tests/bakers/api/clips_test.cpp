@@ -68,7 +68,7 @@ TEST_CASE("a job of clips gives a file for the model, the same on any number of 
 TEST_CASE("faults of a job of clips come before it starts, with their cause") {
   const Character character = tube_with_clips();
   const std::string model = model_of(character), plain = model_of(tube_character());
-  // Blocks and not sections, each of which would bake the model again.
+  // Blocks instead of sections, because each section would bake the model again.
   const nook_bake_clips_desc sound = desc_of(model);
   {
     INFO("an unknown clip");

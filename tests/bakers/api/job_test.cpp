@@ -276,7 +276,7 @@ TEST_CASE("settings that make no sense are refused before the job starts") {
     desc.saturation = 65;
     expected = "desc.saturation is out of range (got 65";
   }
-  SECTION("saturation that is no number") {
+  SECTION("saturation that is not a number") {
     desc.saturation = std::nanf("");
     expected = "desc.saturation is out of range";
   }
@@ -289,7 +289,7 @@ TEST_CASE("settings that make no sense are refused before the job starts") {
     desc.gamma = -2;
     expected = "desc.gamma is out of range (got -2";
   }
-  SECTION("gamma that is no number") {
+  SECTION("gamma that is not a number") {
     desc.gamma = std::nanf("");
     expected = "desc.gamma is out of range";
   }

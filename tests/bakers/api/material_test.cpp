@@ -361,8 +361,8 @@ TEST_CASE("known heights are in the file at their texels") {
   const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
   for (std::size_t i = 0; i < heights.size(); ++i) {
     INFO("texel " << i % across << " " << i / across);
-    // Smoothed over no more than two texels, which takes 27 % from waves of 16 texels and 13 % from those of
-    // 24: 10 of 255 levels. Those along another axis or direction are off by more than 90.
+    // Smoothed over at most two texels. This takes 27 % from waves of 16 texels and 13 % from waves of 24
+    // texels: 10 of 255 levels. Those along another axis or direction are off by more than 90.
     CHECK(std::abs(float(relief.levels[i]) - 255 * (heights[i] - *low) / (*high - *low)) < 12);
   }
 }
@@ -470,7 +470,7 @@ TEST_CASE("what a material cannot be baked from is named") {
   Measured measured;
   nook_bake_job job = nullptr;
   measured.coverage.assign(measured.coverage.size(), 1.0f);
-  // Light 0, view 0, row 0, column 1 is a gap, which is no number.
+  // Light 0, view 0, row 0, column 1 is a gap, which is not a number.
   CHECK(measured.start(&job) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(message_has("texel (1, 0) is not a finite number"));
   measured = Measured();

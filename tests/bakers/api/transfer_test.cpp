@@ -68,7 +68,7 @@ struct Loaded {
   Loaded& operator=(const Loaded&) = delete;
 };
 
-// A grey material of 6 x 4 texels, of which one column of three is a hole.
+// A grey material of 6 x 4 texels, where every third column is a hole.
 std::string material_with_holes(std::uint32_t column) {
   constexpr std::uint32_t directions = 5, width = 6, height = 4;
   std::vector<float> set{0, 0, 1}, btf, coverage;

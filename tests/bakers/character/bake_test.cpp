@@ -1,5 +1,5 @@
-// A whole bake on a small body: its error is below that of a static bake, it is reproducible, it can be
-// cancelled, and quantisation adds little error.
+// A whole bake on a small body: its error is smaller than the error of a static bake, it is reproducible, it
+// can be cancelled, and quantisation adds little error.
 #include "bakers/character/character_bake.h"
 
 #include <tbb/global_control.h>

@@ -32,7 +32,7 @@ TEST_CASE("initial spheres lie on the axis of each bone's flesh") {
 TEST_CASE("key points crowd where AO changes with the pose") {
   const SkinnedMesh mesh = bending_tube();
   const auto changes = [&](std::size_t i) { return mesh.position[i].x > 0.5f; };
-  // AO of the far half is 0.25 and 0.75 in turns, which has the variance 1/16; that of the near half is 0.6.
+  // AO of the far half is 0.25 and 0.75 in turns, which has the variance 1/16; AO of the near half is 0.6.
   constexpr std::size_t poses = 4;
   AoTargets targets;
   targets.vertex_count = mesh.vertex_count();

@@ -63,7 +63,7 @@ double loss_of(const Problem& p, const std::vector<float>& parameters) {
 
 }  // namespace
 
-TEST_CASE("the gradient of the non-linear layer is that of finite differences") {
+TEST_CASE("the gradient of the non-linear layer equals finite differences") {
   const KernelForm form = GENERATE(KernelForm::paper, KernelForm::nook, KernelForm::rational);
   const float gamma = GENERATE(1.0f, 1.3f, 1.5f, 2.0f);
   const Problem p = random_problem({form, gamma}, 5, 21, 7);

@@ -88,7 +88,7 @@ TEST_CASE("radiance comes through .exr exactly and through .hdr to a 256th") {
   CHECK(read_environment(folder.write("b.exr", 8, 4, 4, OIIO::TypeDesc::FLOAT, values_of(4))).width() == 8);
 }
 
-TEST_CASE("images that are no maps of radiance are refused") {
+TEST_CASE("images that are not maps of radiance are refused") {
   const Folder folder;
   const std::vector<float> values = values_of(3);
   CHECK(failure_of(folder.write("a.png", 8, 4, 3, OIIO::TypeDesc::UINT8, values))

@@ -129,7 +129,7 @@ TEST_CASE("a planted set of other sizes and depths arrives as it was planted") {
   for (std::size_t x = 1; x < 7; ++x)
     CHECK(maps.height[2 * 8 + x] == Approx((double(x) + 0.5) / 8).margin(1e-4));  // 16 bits
   for (const float w : maps.squared_width)
-    // A byte of roughness 0.6 is right to 1/510; a fourth power's relative error is four times that of 0.6.
+    // A byte of roughness 0.6 is right to 1/510; a fourth power has four times the relative error of 0.6.
     CHECK(double(w) == Approx(std::pow(0.6, 4)).epsilon(4.0 / 510 / 0.6));
   CHECK(maps.metalness.empty());
   for (const MapSlope& s : maps.slope) {
@@ -186,7 +186,7 @@ TEST_CASE("packed maps and gloss stand for roughness, and green may point down")
   CHECK(maps.metalness[0] == Approx(0.9).epsilon(1e-6));
 }
 
-TEST_CASE("folders that hold no set, and images that are no map, are refused by name") {
+TEST_CASE("folders that hold no set, and images that are not maps, are refused by name") {
   const TemporaryFolder folder;
   CHECK(refusal(folder.path).find("no image") != std::string::npos);
   CHECK(refusal(folder.path / "nothing").find("cannot be read") != std::string::npos);

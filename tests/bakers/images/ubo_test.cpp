@@ -98,7 +98,7 @@ TEST_CASE("a grid of names is ordered by tilt and azimuth; gaps and doubles are 
   gap.erase(gap.begin() + 3);
   CHECK(message(gap).find("tl 30, pl 120, tv 30, pv 60 (1 of 6") != std::string::npos);
   std::vector<std::string> twice = names;
-  twice.push_back(name_of(0, 90, 60, 180));  // an azimuth at tilt 0 is no direction of its own
+  twice.push_back(name_of(0, 90, 60, 180));  // an azimuth at tilt 0 is not a direction of its own
   CHECK(message(twice).find("same directions") != std::string::npos);
   std::vector<std::string> odd = names;
   odd.push_back("readme_first.png");

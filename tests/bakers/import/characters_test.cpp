@@ -23,7 +23,7 @@ struct Expected {
   std::size_t bones;
   std::size_t clips;
   float low_m, high_m;        // heights of the rest pose's lowest and highest point
-  const char* standing_clip;  // feet on the ground in it; null: the model is no human in metres
+  const char* standing_clip;  // feet on the ground in it; null: the model is not a human in metres
 };
 
 // Counts of vertices welded by position alone, as published with the files, except ual_mannequin: 69 of its

@@ -129,7 +129,7 @@ TEST_CASE("accessors have the types that the specification allows") {
   }
 }
 
-TEST_CASE("the table of types is that of the specification") {
+TEST_CASE("the table of types agrees with the specification") {
   // Each use with all element and component types: the count of those allowed, without and with quantisation.
   const int elements[] = {TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3,
                           TINYGLTF_TYPE_VEC4,   TINYGLTF_TYPE_MAT3, TINYGLTF_TYPE_MAT4};
@@ -195,7 +195,7 @@ TEST_CASE("what has one reading is read with a warning") {
     nodes[3]["translation"] = {5, 0, 0};
     CHECK(warnings_with(file, "1 nodes have a matrix beside translation, rotation or scale") == 1);
   }
-  SECTION("a rotation that is no unit quaternion") {
+  SECTION("a rotation that is not a unit quaternion") {
     nodes[0]["rotation"] = {0, 0, 0, 2};
     CHECK(warnings_with(file, "1 nodes have a rotation that is not a unit quaternion") == 1);
   }

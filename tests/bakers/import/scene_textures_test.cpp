@@ -126,7 +126,7 @@ TEST_CASE("textures that cannot be read are refused by name") {
         std::string::npos);
 }
 
-TEST_CASE("an image's buffer view beyond its buffer is no image") {
+TEST_CASE("an image's buffer view beyond its buffer is not an image") {
   GltfBuilder file = textured_triangle();
   const int view = file.document["images"][0]["bufferView"];
   file.document["bufferViews"][view]["byteLength"] = 1u << 30;

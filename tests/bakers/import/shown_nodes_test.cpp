@@ -77,7 +77,7 @@ GltfBuilder square_scene() {
 
 }  // namespace
 
-TEST_CASE("hidden nodes and what hangs on them are no geometry") {
+TEST_CASE("hidden nodes and what hangs on them are not geometry") {
   const ImportedCharacter plain = load(tube_file());
   GltfBuilder file = tube_file();
   const int hull = add_body(file, "hull");
@@ -114,7 +114,7 @@ TEST_CASE("a hidden joint still poses, and a hidden armature hides its meshes") 
   CHECK(contains(failure_when(NOOK_ERROR_BAD_FILE, [&] { load(file); }), "visible is not true or false"));
 }
 
-TEST_CASE("what is scaled to nothing is no geometry") {
+TEST_CASE("what is scaled to nothing is not geometry") {
   GltfBuilder file = square_scene();
   file.document["nodes"].push_back({{"name", "gone"}, {"mesh", 0}, {"scale", {0, 0, 0}}});
   file.document["nodes"][0]["children"].push_back(2);
@@ -375,7 +375,7 @@ TEST_CASE("clothes, linings and neighbours do not lie on each other") {
   CHECK(coincident(file) == 0);
 }
 
-TEST_CASE("names that do not tell two nodes apart give way to those of meshes") {
+TEST_CASE("where nodes share a name, the names of their meshes replace it") {
   GltfBuilder file = empty_scene();
   add_tube_mesh(file, "body", 32, 40, 0.3f);
   add_tube_mesh(file, "copy", 16, 20, 0.3f);

@@ -174,7 +174,7 @@ TEST_CASE("faults are named with their number and the first place") {
     mesh.bones[0].parent = 1;
     CHECK(contains(failure_of(mesh), "bone 0 (\"bone_0\") has parent 1"));
   }
-  SECTION("a frame that is no frame") {
+  SECTION("a frame that is not orthonormal") {
     mesh.bones[1].frame_rest.m[0] = 2;
     CHECK(contains(failure_of(mesh), "bone 1 (\"bone_1\") has a rest frame"));
   }

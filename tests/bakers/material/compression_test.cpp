@@ -167,8 +167,8 @@ TEST_CASE("a view that turns changes what K-CTA decodes about as smoothly as wha
                 << largest_step(Method::k_cta, 64) << ", without " << largest_step(Method::k_cta, 0));
   // Where the map's clusters change, both sets are near the data, but not the same.
   CHECK(largest_step(Method::k_cta, 256) < 1.5 * n_svd);
-  // A small map is refined where it is decoded: read as it is, its cells of 3.6 degrees would be steps of
-  // seven times that of half a degree.
+  // A small map is refined where it is decoded: read as it is, its cells of 3.6 degrees would be steps seven
+  // times as large as a step of half a degree.
   CHECK(largest_step(Method::k_cta, 64) < 1.5 * n_svd);
   // Where cells of CTA meet whose single clusters differ, nothing of the one is left in the other.
   CHECK(largest_step(Method::cta, 64) > 1.5 * largest_step(Method::k_cta, 64));
@@ -227,7 +227,7 @@ TEST_CASE("compression can be stopped, and a material without a mask has no VOTF
   CHECK(compress(raw, s).visibility == VisibilityForm::none);
 }
 
-TEST_CASE("the visibility mapping is half a texel's, or that of the settings") {
+TEST_CASE("the visibility mapping has half a texel, or what the settings say") {
   using nook::material::VisibilityForm;
   // The scale of distances is 2.5 texels of 96.
   const auto at_96 = default_mapping(VisibilityForm::distance, 96, 64);
@@ -358,7 +358,7 @@ TEST_CASE("an estimated relief is the planted one, and views between the samples
   CHECK(measure_unseen(unseen, compress(raw, s)).se_db > without + 6);
 }
 
-TEST_CASE("of known heights the planted ones are taken, and those that are no heights are refused") {
+TEST_CASE("known heights are used as planted, and numbers that are not heights are refused") {
   const auto refused = [](const RawMaterial& raw, const char* why) {
     try {
       known_relief(raw);
@@ -383,7 +383,7 @@ TEST_CASE("of known heights the planted ones are taken, and those that are no he
   CHECK(refused(raw, "out of range"));
 }
 
-TEST_CASE("ranks by threshold are those of the views on the relief") {
+TEST_CASE("ranks by threshold come from the views on the relief") {
   RawMaterial raw = Painted::seen_from(spiral_directions(24));
   for (std::size_t t = 0; t < raw.texels(); ++t)
     raw.heights.push_back(Painted::height(Painted::middle(t / Painted::side)));
@@ -400,8 +400,8 @@ TEST_CASE("ranks by threshold are those of the views on the relief") {
 
 namespace {
 
-// A wall over all y, 0.3 tiles high, from x = 0.25 to 0.75 of the tile: half a tile of ground between two
-// walls, of which views across it beyond 59 degrees see nothing.
+// A wall over all y, 0.3 tiles high, from x = 0.25 to 0.75 of the tile: half a tile of ground lies between
+// two walls, and views across it beyond 59 degrees see none of it.
 struct Walled {
   static constexpr std::uint32_t side = 48;
   static constexpr float low_x = 0.25f, high_x = 0.75f, top = 0.3f;

@@ -65,8 +65,8 @@ TEST_CASE("normals are unit, point out of the solid, and colours are reflectance
     for (const Vec3 n : s.normal) REQUIRE(length(n) == Approx(1).margin(1e-4));
     for (const Vec3 a : s.albedo)
       for (const float c : {a.x, a.y, a.z}) REQUIRE((c > 0 && c < 1));
-    // The signed volume under outward triangles is positive; each tile's part adds up to that of a closed
-    // solid.
+    // The signed volume under outward triangles is positive; the parts of the tiles add up to the volume of a
+    // closed solid.
     double volume = 0, agree = 0;
     for (const auto& t : s.triangle) {
       const Vec3 a = s.position[t[0]], b = s.position[t[1]], c = s.position[t[2]];

@@ -57,7 +57,7 @@ double loss_of(const Numbers& n, NeuralPass& pass, const Eigen::MatrixXf& shares
   return pass.out.cast<double>().cwiseProduct(shares.cast<double>()).sum();
 }
 
-// The length of the difference between a gradient and central differences, over that of the gradient.
+// The length of the difference between a gradient and central differences, over the gradient's length.
 double difference(Numbers& n, std::vector<float> Numbers::*values, const std::vector<float>& gradient,
                   NeuralPass& pass, const Eigen::MatrixXf& shares, float step) {
   double off = 0, length = 0;
@@ -78,7 +78,7 @@ double difference(Numbers& n, std::vector<float> Numbers::*values, const std::ve
 
 }  // namespace
 
-TEST_CASE("the gradient of a neural tile is that of differences") {
+TEST_CASE("the gradient of a neural tile equals finite differences") {
   Numbers n = random_numbers();
   NeuralPass pass = random_pass();
   const Eigen::MatrixXf shares = Eigen::MatrixXf::Random(3, Eigen::Index(pass.lights.size()));
@@ -88,8 +88,8 @@ TEST_CASE("the gradient of a neural tile is that of differences") {
   const std::vector<float> weights = pass.weights;
   std::vector<float> features(n.features.size()), offset_features(n.offset_features.size());
   pass.scatter(n.shape, features, offset_features);
-  // Rounding of floats over the step gives 1e-3, that of the small gradient of offsets over a larger step
-  // 5e-3; a unit whose sign changes within a step gives more.
+  // Rounding of floats over the step gives 1e-3, and 5e-3 for the small gradient of offsets over a larger
+  // step; a unit whose sign changes within a step gives more.
   CHECK(difference(n, &Numbers::weights, weights, pass, shares, 1e-3f) < 0.01);
   CHECK(difference(n, &Numbers::features, features, pass, shares, 1e-3f) < 0.01);
   CHECK(difference(n, &Numbers::offset_features, offset_features, pass, shares, 1e-2f) < 0.01);

@@ -83,7 +83,7 @@ TEST_CASE("normals of a surface that goes on across the border of the tile agree
   }
 }
 
-TEST_CASE("a mesh that is no tile is refused") {
+TEST_CASE("a mesh that is not a tile is refused") {
   const StaticScene good = box({0, 0, 0}, {1, 0.25f, 1});
   CHECK(refusal(good, 1).empty());
   CHECK(refusal(good, 0).find("the side of the tile") != std::string::npos);

@@ -187,7 +187,7 @@ TEST_CASE(
   for (std::size_t i = 0; i < 16; ++i) CHECK(wide.result()[i] == Approx(expected[i % 4]));
 }
 
-TEST_CASE("surfaces of maps that are no material are refused") {
+TEST_CASE("surfaces of maps that are not a material are refused") {
   const auto refusal = [](float range, float scale, float side) {
     PbrMaps maps = flat_maps(4, {1, 1, 1}, 1, 0);
     maps.height.assign(16, 0);

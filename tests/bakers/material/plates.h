@@ -1,4 +1,4 @@
-// Surfaces of which light and visibility are known in closed form.
+// Surfaces whose light and visibility are known in closed form.
 #pragma once
 
 #include "bakers/material/meso_surface.h"

@@ -26,7 +26,7 @@ float slow_distance(const std::vector<float>& mask, int width, int height, int x
 
 }  // namespace
 
-TEST_CASE("signed distances are those of a search over all texels, across the tile's border") {
+TEST_CASE("signed distances equal a search over all texels, across the tile's border") {
   constexpr int width = 40, height = 24;
   for (const int share : {50, 10, 1}) {
     std::vector<float> mask(width * height);

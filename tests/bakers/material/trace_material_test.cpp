@@ -65,7 +65,7 @@ TEST_CASE("a strip occludes and shadows where the ray's slope says, across the t
   }
 }
 
-TEST_CASE("heights are those of the highest points over the texels, and of their surroundings over gaps") {
+TEST_CASE("heights are the highest points over the texels, and over gaps come from the surroundings") {
   const std::vector<Vec3> up{{0, 0, 1}};
   const Vec3 grey{0.5f, 0.5f, 0.5f};
   TraceSettings settings{8, 4, 2, 0, 1, 1, true};
@@ -129,7 +129,7 @@ TEST_CASE("moving the structure by half a tile moves the textures by half their 
   CHECK(differing < values / 200);
 }
 
-TEST_CASE("the mean over a tile, its smallest mipmap, is near that of what is visible, gaps or not") {
+TEST_CASE("the mean over a tile, its smallest mipmap, is near the mean of what is visible, gaps or not") {
   MesoParameters p = meso_parameters("roughhole");
   p.detail = 0.5f;
   const MesoSurface surface = make_meso_surface(p);

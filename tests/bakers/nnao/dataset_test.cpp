@@ -135,7 +135,7 @@ TEST_CASE("guests stand on the surfaces of their host") {
   CHECK(high > 0.01f);
 }
 
-TEST_CASE("the mean open direction is that of the closed forms") {
+TEST_CASE("the mean open direction follows the closed forms") {
   // An endless floor, and a wall at x = 0 as high as it is wide, which hides one half of the hemisphere of a
   // point at its foot.
   bake::TriangleSoup soup;
@@ -183,12 +183,12 @@ TEST_CASE("host normals tilt by 25 degrees at most, and change nothing but the n
   }
   CHECK(sound);
   CHECK(same);
-  // A half of 24 views. Smooth normals of a scene of boxes are those of its faces.
+  // A half of 24 views. Smooth normals of a scene of boxes equal the normals of its faces.
   CHECK(views.size() >= 5);
   CHECK(views.size() <= 19);
 }
 
-TEST_CASE("smooth normals of a coarse ball are those of the round one") {
+TEST_CASE("smooth normals of a coarse ball equal the normals of the round one") {
   bake::TriangleSoup soup;
   add_ellipsoid(soup, standing_frame({0, 0, 0}, 0), {1, 1, 1}, 24);
   const bake::RayScene rays(soup);

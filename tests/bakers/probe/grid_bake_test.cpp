@@ -58,7 +58,7 @@ TEST_CASE("probes stand at the centres of the cells of a box") {
   CHECK(grid.spacing_ws.z > 0);  // a flat box
 }
 
-TEST_CASE("probes under an open sky are those of the map") {
+TEST_CASE("probes under an open sky equal the probes of the map") {
   const Environment map = uneven_map();
   const Basis basis = nook::probe::vogel_basis(9);
   const ExactFit exact(map, basis);

@@ -1,4 +1,4 @@
-// The looks of texels: distances of the short vectors against those of all radiances.
+// The looks of texels: distances of the short vectors against distances of all radiances.
 #include "bakers/material/appearance.h"
 
 #include <cmath>
@@ -69,7 +69,7 @@ double correlation(const bake::tensor::Matrix& looks, const RawMaterial& raw) {
 
 }  // namespace
 
-TEST_CASE("distances of looks are those of radiances, from a compressed and from a raw material") {
+TEST_CASE("distances of looks equal distances of radiances, from a compressed and from a raw material") {
   const nook::material::Material material = nook::material::test::sample_material(4, size_of_sample());
   const RawMaterial raw = decoded(material);
   // 256 sums keep a squared distance to about sqrt(2 / 256) = 9 % of itself, over pairs whose distances

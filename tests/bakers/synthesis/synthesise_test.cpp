@@ -35,7 +35,7 @@ Exemplar checker(std::int32_t side, std::int32_t square, bool is_tiling) {
                      [&](std::int32_t x, std::int32_t y) { return float((x / square + y / square) % 2); });
 }
 
-// Smooth noise: a sum of waves in random directions, some of which have periods that no crop repeats.
+// Smooth noise: a sum of waves in random directions; some have periods that no crop repeats.
 Exemplar waves(std::int32_t side, bool is_tiling, float periods) {
   material::test::Numbers numbers(3);
   std::array<std::array<float, 3>, 24> wave;

@@ -103,7 +103,7 @@ std::vector<std::uint32_t> seeds_in_order(std::size_t count, std::size_t cluster
 
 }  // namespace
 
-TEST_CASE("CTA recovers planted clusters from seeds of which a third is wrong") {
+TEST_CASE("CTA recovers planted clusters from seeds where a third is wrong") {
   const test::Planted planted = test::planted_clusters({5, 24, 9, 8}, {2, 2, 3, 3}, 1, 3, 1, 31);
   std::vector<std::uint32_t> seeds = planted.membership;
   for (const std::size_t i : {1, 4, 5, 9, 12, 14, 17, 22})
@@ -333,7 +333,7 @@ MixedCells two_halves(std::size_t side) {
 
 }  // namespace
 
-TEST_CASE("weights with lower steps are those of the closed form, between cells and where cells go on") {
+TEST_CASE("weights with lower steps equal the closed form, between cells and where cells go on") {
   const AtomGram atoms{2, 1, Eigen::MatrixXd::Identity(2, 2)};
   // The border of two cells: (w - 1)^2 + 3 w^2.
   MixedCells cells = two_halves(2);

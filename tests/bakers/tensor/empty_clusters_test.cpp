@@ -48,7 +48,7 @@ TEST_CASE("a clustering stage that leaves a cluster empty splits another, and th
     CHECK(clustering_stage(fit, a, settings, residual) == 1);
     for (const WorkingCluster& cluster : fit.clusters) CHECK_FALSE(cluster.members.empty());
     CHECK_FALSE(fit.clusters[2].fitted);
-    // The residual is that of what the clusters hold now.
+    // The residual belongs to what the clusters hold now.
     Tensor left = a;
     const auto subtract_parts = [&](Tensor& from) {
       for (const WorkingCluster& cluster : fit.clusters) {

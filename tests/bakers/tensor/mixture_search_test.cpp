@@ -71,7 +71,7 @@ constexpr double rounding = 1e-5;
 
 }  // namespace
 
-TEST_CASE("theorem 1 and lemma 2: the first cluster and its coefficients are those of least squared error") {
+TEST_CASE("theorem 1 and lemma 2: the first cluster and its coefficients have the least squared error") {
   const Explicit e(11);
   for (Index i = 0; i < e.sub_tensors.rows(); ++i) {
     double least = 1e30;

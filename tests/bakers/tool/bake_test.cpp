@@ -212,7 +212,7 @@ TEST_CASE("an interrupt stops cleanly and an older file stays as it was") {
   CHECK(folder.names() == Names{"hero.glb", "hero.nook"});
 }
 
-TEST_CASE("the rational kernel is no option of a bake") {
+TEST_CASE("the rational kernel is not an option of a bake") {
   const TestFolder folder;
   const ToolRun run =
       folder.run({"bake", "character", "hero.glb", "-o", folder.path("hero.nook"), "--kernel", "rational"});

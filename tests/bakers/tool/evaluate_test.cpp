@@ -109,7 +109,7 @@ TEST_CASE("by default the clips that were not fitted are measured, 20 poses each
   // The parts that are left out add to the error over all.
   CHECK(share * row.at("mse_visible").get<double>() <= row.at("mse").get<double>() * (1 + 1e-12));
   CHECK(row.at("model_bytes") == read_text(baked.model).size());
-  // The body's ratio is a mean of those of its clips, so that none is the worst with less.
+  // The body's ratio is a mean over its clips, so that the worst clip cannot have a smaller ratio.
   const std::string worst = row.at("worst_clip").get<std::string>();
   CHECK((worst == "run" || worst == "walk"));
   CHECK(row.at("worst_clip_over_body").get<double>() >= 1 - 1e-12);
@@ -225,7 +225,7 @@ TEST_CASE("a neighbour darkens less the farther it is, by each form and by ray t
 }
 
 TEST_CASE("a model of another character is refused") {
-  // Blocks and not sections, each of which would bake the model again.
+  // Blocks instead of sections, because each section would bake the model again.
   const Baked baked;
   const std::string glb = read_text(baked.glb), model = read_text(baked.model);
   {

@@ -265,7 +265,7 @@ TEST_CASE("a hang-up leaves nothing behind, but for a program that ignores it") 
   CHECK(ignoring.exit_code == 0);
 }
 
-TEST_CASE("the parts of dead processes are removed by the next run, those of living ones stay") {
+TEST_CASE("the next run removes the parts of dead processes and keeps the parts of living ones") {
   const TestFolder folder;
   const Names endless = training(folder.path("n.nook"), "100000");
   const ToolRun killed = folder.run_and_signal(endless, SIGKILL, "ray tracing");

@@ -104,7 +104,7 @@ bool has_no_number_for(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a black map is fitted and measured, ratios to its light are no numbers") {
+TEST_CASE("a black map is fitted and measured, and ratios to its light are not numbers") {
   const TestFolder folder;
   write_text(folder.path("black.hdr"), even_map(0, 0));
   const ToolRun run = folder.run({"bake", "probe", folder.path("black.hdr"), "-o", folder.path("b.nook"),
@@ -218,7 +218,7 @@ TEST_CASE("evaluate probe measures a grid against path tracing of its scene") {
     CHECK(row.at("irradiance_worst_relative").get<double>() >
           row.at("irradiance_rms_relative").get<double>());
   }
-  // Grids measure what they were baked with: here reflected light alone, of which an open sky leaves little.
+  // Grids measure what they were baked with: here reflected light alone, which is weak under an open sky.
   REQUIRE(folder
               .run({"bake", "probe", folder.path("tube.glb"), "-o", grid, "--grid", "2x2x2", "--light",
                     folder.path("sky.hdr"), "--box", "-1,-1,-1,1,2,1", "--error", "0.05", "--direct", "none",

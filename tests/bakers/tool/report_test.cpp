@@ -96,7 +96,7 @@ TEST_CASE("names from files add no markup and no code to a page") {
   CHECK(page.find("alert(\"1\")") == std::string::npos);
   CHECK(page.find("<script>alert") == std::string::npos);
   CHECK(page.find("&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt;&amp;&#39;") != std::string::npos);
-  // In the view's data, where entities are no characters.
+  // In the view's data, where entities are not characters.
   CHECK(page.find("\\u003cscript\\u003ealert") != std::string::npos);
   CHECK(count_of(page, "</title>") == 1);
 }

@@ -9,7 +9,7 @@ inline std::string rgbe_map(int width, int height) {
                      std::to_string(width) + "\n";
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      // Mantissas of 8 bits and a common exponent, 128 of which stands for values below 1.
+      // Mantissas of 8 bits and a common exponent; the exponent 128 stands for values below 1.
       const bool lamp = y == height / 4 && x >= width / 4 && x < width / 4 + 2;
       const bool sky = y < height / 2;
       const unsigned char texel[4] = {

@@ -10,8 +10,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-// Retitles a window, colours by a C1 byte and by a C1 character, moves the cursor, is no UTF-8, turns writing
-// round.
+// Retitles a window, colours by a C1 byte and by a C1 character, moves the cursor, is not UTF-8, and reverses
+// the direction of writing.
 const std::string hostile =
     "a\x1b]0;title\x07 \x9b 31m \xc2\x9b"
     "31m \rb\bc\x7f \xff \xe2\x80\xae";

@@ -83,7 +83,7 @@ TEST_CASE("in a bowl reflected light is even: every part of a sphere sees every 
     const SurfaceMesh mesh = mesh_of(bowl(share));
     const Transfer baked = bake::transfer::bake_transfer(mesh, {12, 64, 2});
     // A patch of a sphere sees the share f of the whole sphere's patches as the share f of its light: the sky
-    // leaves pi (1 - f), of which f comes back with each reflection.
+    // leaves pi (1 - f), and the share f comes back with each reflection.
     const double f = double(share), first = pi * f * (1 - f), second = pi * f * f * (1 - f);
     for (std::size_t v = 0; v < mesh.position.size(); ++v) {
       // Triangles at the bottom are slivers, and at the rim a facet reaches less high than its vertices.

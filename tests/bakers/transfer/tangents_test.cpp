@@ -104,7 +104,7 @@ TEST_CASE("a mesh without texture coordinates is refused by name") {
   }
 }
 
-TEST_CASE("a mesh without normals gets those of its triangles") {
+TEST_CASE("a mesh without normals gets the normals of its triangles") {
   std::vector<std::byte> bytes = shapes::glb_of(shapes::ball({0, 0, 0}, 1, 32));
   std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   bytes[text.find("NORMAL")] = std::byte('_');

@@ -37,7 +37,7 @@ float outside(Vec3 p, const Capsule& c) {
 
 }  // namespace
 
-TEST_CASE("world casters: derivatives are those of finite differences") {
+TEST_CASE("world casters: derivatives equal finite differences") {
   test::Numbers numbers(4);
   for (int i = 0; i < 200; ++i) {
     const Vec3 a = numbers.place(0.5f) + Vec3{0, 0, 1}, b = a + numbers.place(0.5f);
@@ -55,8 +55,8 @@ TEST_CASE("world casters: derivatives are those of finite differences") {
         return world::coverage<double>({v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]}, 0, 0, 1);
       };
       const double h = 1e-5, slope = (at(h) - at(-h)) / (2 * h);
-      // Floats have seven digits, of which differences of near directions lose two; shares change by up to 10
-      // a metre.
+      // Floats have seven digits, and differences of near directions lose two of them; shares change by up to
+      // 10 a metre.
       CHECK(std::abs(double(f.slope[k]) - slope) < 0.02 * (std::abs(slope) + 1));
     }
   }

@@ -87,8 +87,9 @@ TEST_CASE("the crowd of clips is as dark between its limbs as live heroes are") 
           5000);
   }
   // Members of the crowd have more neighbours than the heroes, and are a little darker. This holds only if
-  // both parts of their AO are there, once: without that of the clips the crowd is 0.02 brighter than the
-  // heroes, without that of ground and neighbours 0.3, and heroes with AO of a clip as well are 0.09 darker.
+  // both parts of their AO are there, once: without the part of the clips the crowd is 0.02 brighter than the
+  // heroes, without the part of ground and neighbours 0.3, and heroes with AO of a clip as well are 0.09
+  // darker.
   const double of_heroes = darkest_tenth(heroes), of_crowd = darkest_tenth(crowd);
   INFO("AO leaves " << of_heroes << " of the heroes and " << of_crowd << " of the crowd");
   CHECK(of_crowd < of_heroes);

@@ -1,5 +1,5 @@
-/* The program of samples/minimal/main.c with right and wrong matrices: those of another kind than pose.kind
- * says must be seen in what it prints, and the check of poses must name them.
+/* The program of samples/minimal/main.c with right and wrong matrices: matrices of another kind than
+ * pose.kind says must show in what it prints, and the check of poses must name them.
  *
  *   minimal_test MODEL.nook */
 #define main minimal_main
@@ -28,7 +28,8 @@ static float* rest_to_world(const nook_skin_info* skin, float x_m) {
 
 typedef float* (*animation)(const nook_skin_info*, float);
 
-/* The largest difference between the means that the README of the sample lists and those of an animation. */
+/* The largest difference between the means that the README of the sample lists and the means of an animation.
+ */
 static double difference(Character* c, const nook_skin_info* skin, animation animate) {
   static const struct {
     float distance_m;

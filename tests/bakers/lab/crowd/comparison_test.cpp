@@ -133,7 +133,7 @@ TEST_CASE("under constant light AO is all that counts, and what has no occlusion
   const Light light{std::span(&lobe, 1), {rgb.data(), 8, 4}, 1.0f};
   const LightErrors errors = measure_light(scene.subject, light);
   REQUIRE(errors.forms.size() == 3);
-  // The variance of the reference's mean of twice 64 rays, and that of the evaluation's 1,024 rays.
+  // The variance of the reference's mean of twice 64 rays, and the variance of the evaluation's 1,024 rays.
   CHECK(errors.forms[0].errors.mse < 3 * errors.noise_floor_mse);
   CHECK(errors.forms[2].errors.mse > 20 * errors.noise_floor_mse);
   CHECK(light_sheet(scene.subject, light).width == 2 * 40 + 4);

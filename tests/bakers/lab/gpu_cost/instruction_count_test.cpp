@@ -8,7 +8,7 @@ using namespace nook::lab;
 
 namespace {
 
-// Two nested loops, one behind them, and a branch forward, which is no loop.
+// Two nested loops, one behind them, and a branch forward, which is not a loop.
 const char* const nested = R"(BB0:
 	s_mov_b32 s0, 0                                             ; be800380
 	v_mov_b32_e32 v0, 0                                         ; 7e000280

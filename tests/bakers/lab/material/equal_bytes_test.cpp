@@ -1,4 +1,4 @@
-// Bytes that reports compare: those of files as they are written.
+// Reports compare the bytes of files as they are written.
 #include "bakers/lab/material/equal_bytes.h"
 
 #include <Eigen/SVD>

@@ -47,7 +47,7 @@ TEST_CASE("each band of each border has the error that was planted in it") {
   CHECK(top.at(2, 0) == 0);
 }
 
-TEST_CASE("an error that is the same everywhere is no rim, and a dark rim is below 0") {
+TEST_CASE("an error that is the same everywhere is not a rim, and a dark rim is below 0") {
   CHECK(bias_of([](std::uint32_t, std::uint32_t) { return 0.125f; }, surface_everywhere).rim() == 0);
   const auto dark_rim = [](std::uint32_t x, std::uint32_t y) {
     return x < 20 || y < 20 || x >= width - 20 || y >= height - 20 ? -0.25f : 0.125f;
@@ -70,7 +70,7 @@ const float sky = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-TEST_CASE("dark parts are those of the truth, and the sky does not count") {
+TEST_CASE("the truth decides which parts are dark, and the sky does not count") {
   Calibration calibration;
   CHECK(calibration.dark_bias() == 0);
   CHECK(calibration.largest_bias() == 0);
@@ -79,7 +79,7 @@ TEST_CASE("dark parts are those of the truth, and the sky does not count") {
   CHECK(std::abs(calibration.dark_bias() - 0.2) < 1e-6);
 }
 
-TEST_CASE("the largest bias is that of a tenth of the prediction, not of single pixels") {
+TEST_CASE("the largest bias is taken over a tenth of the prediction, not of single pixels") {
   // 600 pixels in the tenth from 0.5 are right in the mean, 398 from 0.8 too bright by 0.125; one pixel is
   // far off, and one is 1, which belongs to the last tenth.
   std::vector<float> ao, truth;

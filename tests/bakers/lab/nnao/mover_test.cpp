@@ -156,7 +156,7 @@ TEST_CASE("a mean over frames follows a body by its motion vectors and leaves no
   for (std::size_t single = 0; single < 9; single += 3) {
     INFO(slides.errors[single].taps << " taps");
     const std::size_t vectors = single + 1, cameras = single + 2;
-    // Vectors of 0 are those of a camera that stands still, whose places are off by the rounding of floats.
+    // Vectors of 0 belong to a camera that stands still; rounding of floats moves its places.
     for (const MoverPart part : {MoverPart::mover, MoverPart::beside})
       CHECK(mse(still, vectors, part) == Approx(mse(still, cameras, part)).epsilon(0.01));
     CHECK(mse(slides, vectors, MoverPart::mover) < mse(slides, cameras, MoverPart::mover));

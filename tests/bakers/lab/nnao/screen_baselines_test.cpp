@@ -67,8 +67,8 @@ TEST_CASE("every baseline leaves an open plane open") {
     const float mean = std::accumulate(ao.begin(), ao.end(), 0.0f) / float(ao.size());
     INFO(baseline_row(method) << ' ' << method.taps << " mean " << mean);
     // SSAO clips what exceeds 1: with n points, half of them closed, 2 (open share) falls short by about 0.4
-    // / sqrt(n). GTAO and the bitmask take a texel's angle for that of their slice. SSAO+ and HBAO allow for
-    // texels; what is shipped does not, most of all VTK with a bias of a hundredth of the radius.
+    // / sqrt(n). GTAO and the bitmask take a texel's angle for the angle of their slice. SSAO+ and HBAO allow
+    // for texels; what is shipped does not, most of all VTK with a bias of a hundredth of the radius.
     const bool slices = method.baseline >= Baseline::gtao;
     const float bound = method.baseline == Baseline::ssao        ? 0.5f / std::sqrt(float(method.taps))
                         : method.baseline == Baseline::ssao_plus ? 0.01f

@@ -1,4 +1,4 @@
-// The commands of nook-lab that add other methods to those of nook, as a user runs them.
+// The commands of nook-lab that add other methods to the commands of nook, run as a user runs them.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 

@@ -84,7 +84,7 @@ TEST_CASE("a model with the true AO and bent normals is as good as its reference
   }
 }
 
-TEST_CASE("the points of a fit have the model's pixels and those of the reference") {
+TEST_CASE("the points of a fit have the pixels of the model and of the reference") {
   const SkinnedMesh mesh = body();
   BentStudy study;
   study.points = 200;

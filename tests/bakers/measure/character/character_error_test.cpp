@@ -1,5 +1,4 @@
-// Errors over all vertex-poses and over those that can be seen, on a body half of which is inside the other
-// half.
+// Errors over all vertex-poses and over the visible ones, on a body with one half inside the other.
 #include "bakers/measure/character/character_error.h"
 
 #include "bakers/character/character_bake.h"

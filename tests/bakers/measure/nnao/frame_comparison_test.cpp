@@ -106,7 +106,7 @@ TEST_CASE("a frame replays to its recorded AO, and its errors are those against 
   const FrameRow& replayed = row_of(rows, "replayed");
   CHECK(replayed.from_recorded.value().largest == 0);
   CHECK(replayed.network == "embedded");
-  // The recorded settings are those of best.
+  // The recorded settings are the settings of best.
   CHECK(row_of(rows, "best").from_recorded.value().largest == 0);
   CHECK(row_of(rows, "fast").from_recorded.value().largest > 0.02);
   CHECK(std::abs(row_of(rows, "recorded").oracle_mse.value() - replayed.oracle_mse.value()) < 1e-6);
@@ -144,7 +144,7 @@ TEST_CASE("a frame keeps its network, and another one is measured beside it") {
   const auto rows = compare_frame(replay, recording, {"replayed", "nnao_file", "default"}, other, go_on);
   REQUIRE(rows.size() == 3);
   CHECK((rows[0].network == "recorded" && rows[1].network == "file" && rows[2].network == "embedded"));
-  // Each is that of its own network.
+  // Each picture comes from its own network.
   CHECK(difference_of(rows[0].ao, replay.draw(recording.pass, own, NOOK_NNAO_VIEW_AO)).largest == 0);
   CHECK(difference_of(rows[1].ao, replay.draw(recording.pass, other, NOOK_NNAO_VIEW_AO)).largest == 0);
   CHECK(difference_of(rows[2].ao, replay.draw(recording.pass, {}, NOOK_NNAO_VIEW_AO)).largest == 0);
