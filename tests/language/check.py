@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Finds sentences that readers read twice, in comments, messages, help texts and documents.
 
-The rules are those of CONTRIBUTING.md. The check counts five habits, and a part of the tree may have so many of each
+CONTRIBUTING.md has the rules. The check counts five habits, and a part of the tree may have so many of each
 for 1,000 of its words (limits.json). A part is a top-level folder; sdk/include and sdk/src are parts of their own.
 
   that-of     "that of", "those of", "the latter", "of which", "which it is": the reader has to search for the thing
