@@ -202,41 +202,94 @@ using Cell = std::array<std::int64_t, 3>;
 
 struct CellVertices {
   std::uint32_t first = 0;
-  bool is_mixed = false;  // not all vertices of the cell have the weights of the first
+  // Not all vertices of the cell have the place, the weights of the first.
+  bool has_other_places = false, has_other_weights = false;
 };
 
-// Finds vertices that lie within the tolerance of nook_model_match_vertices and have different weights. The
-// match may take one for the other, and both move apart in a pose. A cell is as large as the tolerance, so
-// that only neighbours count.
-std::vector<bool> ambiguous_vertices(const SkinnedMesh& mesh) {
+// Differences between a vertex and those round it.
+struct Neighbourhood {
+  Cell cell{};
+  bool has_other_places = false, has_other_weights = false;
+};
+
+// Looks at the cells of a grid round each vertex; a cell is `share` of the diagonal of the mesh's box wide.
+std::vector<Neighbourhood> neighbourhoods(const SkinnedMesh& mesh, double share) {
   Vec3 low = mesh.position[0], high = low;
   for (const Vec3 p : mesh.position) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  const double size = std::max(1e-4 * static_cast<double>(length(high - low)), 1e-30);
-  const auto cell_of = [&](Vec3 p) {
-    const auto number = [&](float from, float to) {
-      return std::int64_t((double(to) - double(from)) / size);
-    };
-    return Cell{number(low.x, p.x), number(low.y, p.y), number(low.z, p.z)};
+  const double size = std::max(share * static_cast<double>(length(high - low)), 1e-30);
+  const auto number = [&](float from, float to) { return std::int64_t((double(to) - double(from)) / size); };
+  const auto is_other_place = [&](std::uint32_t a, std::uint32_t b) {
+    return mesh.position[a] != mesh.position[b];
   };
   std::map<Cell, CellVertices> cells;
+  std::vector<Neighbourhood> out(mesh.vertex_count());
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-    CellVertices& cell = cells.try_emplace(cell_of(mesh.position[v]), CellVertices{v, false}).first->second;
-    cell.is_mixed = cell.is_mixed || mesh.weights[v] != mesh.weights[cell.first];
+    const Vec3 p = mesh.position[v];
+    out[v].cell = {number(low.x, p.x), number(low.y, p.y), number(low.z, p.z)};
+    CellVertices& cell = cells.try_emplace(out[v].cell, CellVertices{v}).first->second;
+    cell.has_other_places = cell.has_other_places || is_other_place(v, cell.first);
+    cell.has_other_weights = cell.has_other_weights || mesh.weights[v] != mesh.weights[cell.first];
   }
-  std::vector<bool> out(mesh.vertex_count());
-  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-    const Cell own = cell_of(mesh.position[v]);
-    for (std::int64_t neighbour = 0; neighbour < 27 && !out[v]; ++neighbour) {
-      const auto found = cells.find(
-          {own[0] + neighbour % 3 - 1, own[1] + neighbour / 3 % 3 - 1, own[2] + neighbour / 9 - 1});
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+    for (std::int64_t n = 0; n < 27; ++n) {
+      const Cell& own = out[v].cell;
+      const auto found = cells.find({own[0] + n % 3 - 1, own[1] + n / 3 % 3 - 1, own[2] + n / 9 - 1});
       if (found == cells.end()) continue;
-      out[v] = found->second.is_mixed || mesh.weights[found->second.first] != mesh.weights[v];
+      const CellVertices& cell = found->second;
+      out[v].has_other_places |= cell.has_other_places || is_other_place(v, cell.first);
+      out[v].has_other_weights |= cell.has_other_weights || mesh.weights[v] != mesh.weights[cell.first];
     }
-  }
   return out;
+}
+
+// Vertices that lie within the tolerance of nook_model_match_vertices and have different weights. The match
+// may take one for the other, and both move apart in a pose.
+std::vector<bool> ambiguous_vertices(const SkinnedMesh& mesh) {
+  std::vector<bool> out;
+  for (const Neighbourhood& n : neighbourhoods(mesh, 1e-4)) out.push_back(n.has_other_weights);
+  return out;
+}
+
+BoneWeights weights_of(const SkinWeights& weights) {
+  BoneWeights out;
+  static_assert(SkinWeights::max_bones == BoneWeights::max_bones);
+  while (out.count < BoneWeights::max_bones && weights.weight[out.count] > 0) ++out.count;
+  std::copy_n(weights.bone.begin(), out.count, out.bone.begin());
+  std::copy_n(weights.weight.begin(), out.count, out.weight.begin());
+  return out;
+}
+
+// The first vertex of the file of each welded vertex.
+std::vector<std::uint32_t> first_file_vertices(const SkinnedMesh& mesh) {
+  std::vector<std::uint32_t> first(mesh.vertex_count());
+  for (std::uint32_t v = static_cast<std::uint32_t>(mesh.file_to_welded.size()); v-- > 0;)
+    first[mesh.file_to_welded[v]] = v;
+  return first;
+}
+
+// The vertices that others lie next to, in the order of their cells. Two cells are above two steps of a rest
+// position, so that places separate farther vertices.
+void add_close_vertices(const ImportedCharacter& character, BindData& out) {
+  const SkinnedMesh& mesh = character.mesh;
+  const std::vector<Neighbourhood> around = neighbourhoods(mesh, 2.0 / 65535);
+  std::vector<std::uint32_t> close;
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+    if (around[v].has_other_places || around[v].has_other_weights) close.push_back(v);
+  std::ranges::stable_sort(close, {}, [&](std::uint32_t v) { return around[v].cell; });
+  const std::vector<std::uint32_t> first = first_file_vertices(mesh);
+  for (const std::uint32_t v : close) {
+    CloseVertex vertex;
+    vertex.welded = v;
+    const auto after = std::ranges::upper_bound(mesh.primitives, first[v], {}, &Primitive::first_vertex);
+    vertex.space = out.primitive_space[std::size_t(after - mesh.primitives.begin()) - 1];
+    vertex.mesh_position =
+        character.mesh_position.empty() ? mesh.position[v] : character.mesh_position[first[v]];
+    if (around[v].has_other_weights) vertex.weights = weights_of(mesh.weights[v]);
+    out.close.push_back(vertex);
+  }
 }
 
 // The vertices that each bone moves more than any other bone does, without the ambiguous ones unless all are.
@@ -299,6 +352,7 @@ BindData bind_data_of(const ImportedCharacter& character) {
   add_skins(character, out);
   for (const std::uint32_t vertex : spread_vertices(character.mesh))
     out.vertices.push_back(rest_vertex(character.mesh, vertex));
+  add_close_vertices(character, out);
   return out;
 }
 

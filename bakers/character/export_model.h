@@ -23,8 +23,8 @@ FitState state_of_model(const CharacterModel& model);
 // The part of its source's rest pose that a model keeps, so that hosts can hand over their own matrices and
 // meshes.
 
-// Bind matrices, skins, and rest vertices that are spread over the bones. Bones of a character from arrays
-// have the inverses of their rest frames, and no skins.
+// Bind matrices, skins, rest vertices that are spread over the bones, and vertices that are close to others.
+// Bones of a character from arrays have the inverses of their rest frames, and no skins.
 BindData bind_data_of(const ImportedCharacter& character);
 
 // Positions and normals of the welded vertices in the rest pose.

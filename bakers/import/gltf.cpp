@@ -247,6 +247,7 @@ ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAcces
         {mesh_nodes.file_skins[s], skeleton.skins[s].rest_from_mesh, std::move(skeleton.skins[s].bone)});
   file.bones = std::move(skeleton.bones);
   character.bindings = std::move(skeleton.bindings);
+  character.mesh_position = std::move(file.mesh_position);
   character.mesh = weld(std::move(file), character.warnings, NOOK_ERROR_BAD_FILE);
   warn_of_size(character.mesh, character.warnings);
   warn_of_uneven_bones(character);

@@ -196,10 +196,11 @@ void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
     if (is_mirrored) std::swap(out.triangle[t][1], out.triangle[t][2]);
   }
 
-  for (std::size_t v = 0; v < position.count; ++v)
-    out.position.push_back(
-        transform(binding.rest_from_mesh,
-                  Vec3{position.value[3 * v], position.value[3 * v + 1], position.value[3 * v + 2]}));
+  for (std::size_t v = 0; v < position.count; ++v) {
+    out.mesh_position.push_back(
+        {position.value[3 * v], position.value[3 * v + 1], position.value[3 * v + 2]});
+    out.position.push_back(transform(binding.rest_from_mesh, out.mesh_position.back()));
+  }
   if (source.is_skinned) {
     append_skin_weights(read_influences(model, primitive, position.count, what), binding, position.count,
                         what, out, repairs);

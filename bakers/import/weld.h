@@ -21,6 +21,8 @@ struct FileMesh {
   std::vector<SkinWeights> weights;
   std::vector<std::array<std::uint32_t, 3>> triangle;
   std::vector<Primitive> primitives;  // empty: one that holds everything
+  // As the file has them, in the space of each mesh; empty: they are `position`.
+  std::vector<Vec3> mesh_position;
 };
 
 // Keeps the max_bones largest, adds up entries of the same bone, drops what is not positive, and makes the

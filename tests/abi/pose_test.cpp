@@ -95,9 +95,14 @@ TEST_CASE("a vertex of the mesh is found by its position") {
   vertex.struct_size = sizeof vertex;
   REQUIRE(nook_model_describe_check_vertex(stage.model, 0, &vertex) == NOOK_OK);
   const nook_vertex_match_desc match = match_desc(vertex.mesh_position, 1);
-  std::uint32_t found = NOOK_NO_VERTEX, unmatched = 9;
-  REQUIRE(nook_model_match_vertices(stage.model, &match, &found, &unmatched) == NOOK_OK);
-  CHECK(unmatched == 0);
+  std::uint32_t found = NOOK_NO_VERTEX;
+  nook_vertex_match_info info{};
+  info.struct_size = sizeof info;
+  info.unmatched = 9;
+  REQUIRE(nook_model_match_vertices(stage.model, &match, &found, &info) == NOOK_OK);
+  CHECK(info.unmatched == 0);
+  CHECK(info.ambiguous == 0);
+  CHECK(info.text[0] == 0);
   CHECK(found < stage.info.file_vertex_count);
 }
 
@@ -266,6 +271,39 @@ TEST_CASE("checks and matches refuse what they cannot compare") {
   no_match([](nook_vertex_match_desc& m) { m.primitive = 2; }, "desc.primitive");
   no_match([](nook_vertex_match_desc& m) { m.tolerance = 2; }, "desc.tolerance");
   no_match([](nook_vertex_match_desc& m) { m.in_rest_space = 2; }, "desc.in_rest_space");
+  static const std::uint16_t joints[] = {0, 0, 0, 0, 0, 9999, 0, 0};
+  static const float weights[] = {1, 0, 0, 0, 1, 0, 0, 0}, far_joint[] = {1, 0, 0, 0, 0.5f, 0.5f, 0, 0};
+  static const float not_a_number[] = {1, 0, 0, 0, 1, 0, 0, NAN}, negative[] = {1, 0, 0, 0, 1, 0, -1, 0};
+  const auto no_weights = [&](const float* given, auto spoil, const char* what) {
+    no_match(
+        [&](nook_vertex_match_desc& m) {
+          m.joints = joints;
+          m.weights = given;
+          m.skin = 1;
+          spoil(m);
+        },
+        what);
+  };
+  no_weights(
+      nullptr, [](nook_vertex_match_desc&) {}, "desc.weights is NULL, but desc.joints is not");
+  no_weights(
+      weights, [](nook_vertex_match_desc& m) { m.joints = nullptr; }, "desc.joints is NULL");
+  no_weights(
+      weights, [](nook_vertex_match_desc& m) { m.influences = 9; }, "desc.influences");
+  no_weights(
+      weights, [](nook_vertex_match_desc& m) { m.influences = 0; }, "desc.influences");
+  no_weights(
+      weights, [](nook_vertex_match_desc& m) { m.skin = 77; }, "desc.skin is none of the model's (got 77");
+  no_weights(
+      weights, [](nook_vertex_match_desc& m) { m.joint_stride = 6; }, "desc.joint_stride");
+  no_weights(
+      weights, [](nook_vertex_match_desc& m) { m.weight_stride = 12; }, "desc.weight_stride");
+  no_weights(
+      not_a_number, [](nook_vertex_match_desc&) {}, "desc.weights[3] of vertex 1");
+  no_weights(
+      negative, [](nook_vertex_match_desc&) {}, "desc.weights[2] of vertex 1");
+  no_weights(
+      far_joint, [](nook_vertex_match_desc&) {}, "desc.joints[1] of vertex 1");
   const std::uint32_t none[2] = {0, NOOK_NO_VERTEX};
   nook_model remapped = nullptr;
   CHECK(nook_model_remap(stage.model, none, 2, &remapped) == NOOK_ERROR_INVALID_ARGUMENT);

@@ -421,6 +421,29 @@ TEST_CASE("saturations keep half a step of their roots, and those out of range a
   }
 }
 
+TEST_CASE("close vertices come back to the bit, and a model without them has no section for them") {
+  CharacterModel model = test::sample_model();
+  const std::vector<std::byte> bytes = write_character_model(model);
+  const CharacterModel read = read_character_model(bytes);
+  REQUIRE(read.bind.close.size() == model.bind.close.size());
+  for (std::size_t v = 0; v < read.bind.close.size(); ++v) {
+    const CloseVertex &is = read.bind.close[v], &was = model.bind.close[v];
+    CHECK(is.welded == was.welded);
+    CHECK(is.space == was.space);
+    CHECK(is.mesh_position == was.mesh_position);
+    REQUIRE(is.weights.count == was.weights.count);
+    for (std::uint32_t b = 0; b < is.weights.count; ++b) {
+      CHECK(is.weights.bone[b] == was.weights.bone[b]);
+      // Half a step of 16 bits for each of up to three weights.
+      CHECK(std::abs(is.weights.weight[b] - was.weights.weight[b]) <= 3 * 0.5f / 65535);
+    }
+  }
+  CHECK(Container(bytes, character_kind).has("NEAR"));
+  model.bind.close.clear();
+  const std::vector<std::byte> without = write_character_model(model);
+  CHECK(!Container(without, character_kind).has("NEAR"));
+}
+
 TEST_CASE("bind data with faults is refused by name") {
   const auto refusal = [](auto&& spoil) {
     CharacterModel model = test::sample_model();
@@ -448,6 +471,14 @@ TEST_CASE("bind data with faults is refused by name") {
   names([](CharacterModel& m) { m.bind.vertices[3].weight[0] = 0.3f; }, "rest vertex 3");
   names([](CharacterModel& m) { m.bind.vertices[3].file_vertex = 1 << 20; }, "file vertex of rest vertex 3");
   names([](CharacterModel& m) { m.bind.vertices[0].bone_count = 0; }, "bone count of rest vertex 0");
+  names([](CharacterModel& m) { m.bind.close[2].welded = 1 << 20; }, "welded vertex of close vertex 2");
+  names([](CharacterModel& m) { m.bind.close[2].space = 2; }, "space of close vertex 2");
+  names([](CharacterModel& m) { m.bind.close[2].mesh_position.y = NAN; }, "position of close vertex 2");
+  names([](CharacterModel& m) { m.bind.close[1].weights.bone[0] = 5; }, "bone of close vertex 1");
+  names([](CharacterModel& m) { m.bind.close[1].weights.weight[0] = NAN; }, "bone weight of close vertex 1");
+  names([](CharacterModel& m) { m.bind.close[5].weights.weight[0] = 0; },
+        "sum of bone weights of close vertex 5");
+  names([](CharacterModel& m) { m.bind.close[1].weights.count = 9; }, "bone count of close vertex 1");
   names([](CharacterModel& m) { m.rest.normal[4] = {}; }, "rest normal of vertex 4");
   names([](CharacterModel& m) { m.rest.position.pop_back(); }, "rest positions");
 }

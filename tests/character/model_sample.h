@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sdk/src/character/model.h"
+#include "sdk/src/core/affine.h"
 
 namespace nook::test {
 
@@ -70,6 +71,30 @@ inline void add_bind_data(CharacterModel& model, Numbers& numbers) {
           vertex.bone_count == 1 ? 1.0f : (b == 0 ? 0.5f : 0.5f / float(vertex.bone_count - 1));
     }
     bind.vertices.push_back(vertex);
+  }
+}
+
+// Close vertices where the rest positions are; every other one has weights.
+inline void add_close_vertices(CharacterModel& model) {
+  BindData& bind = model.bind;
+  const auto bones = static_cast<std::uint32_t>(model.bone_count());
+  for (std::uint32_t v = 0; v < 6 && v < model.vertex_count(); ++v) {
+    CloseVertex vertex;
+    vertex.welded = v;
+    std::uint32_t first = 0;
+    while (model.file_to_welded[first] != v) ++first;
+    std::size_t primitive = 0;
+    while (first - model.primitives[primitive].first_vertex >= model.primitives[primitive].vertex_count)
+      ++primitive;
+    vertex.space = bind.primitive_space[primitive];
+    const Affine mesh_from_rest = inverse(to_double(bind.rest_from_mesh[vertex.space]));
+    vertex.mesh_position = transform(mesh_from_rest, model.rest.position[v]);
+    vertex.weights.count = v % 2 == 0 ? 0 : 1 + v % 3;
+    for (std::uint32_t b = 0; b < vertex.weights.count; ++b) {
+      vertex.weights.bone[b] = static_cast<std::uint16_t>((v + b) % bones);
+      vertex.weights.weight[b] = 1.0f / static_cast<float>(vertex.weights.count);
+    }
+    bind.close.push_back(vertex);
   }
 }
 
@@ -142,6 +167,7 @@ inline CharacterModel sample_model(std::uint32_t seed = 1, SampleSize size = {})
   model.primitives = {{0, file_vertices / 3}, {file_vertices / 3, file_vertices - file_vertices / 3}};
   model.bounding_radius = 0.9f;
   add_bind_data(model, numbers);
+  add_close_vertices(model);
   model.recipe = "{\"preset\": \"test\"}";
   return model;
 }

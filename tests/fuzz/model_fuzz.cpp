@@ -133,6 +133,11 @@ void use_bind_data(const Crowd& crowd) {
     require(ok(nook_vertex_match_desc_init(&match)));
     match.vertex_count = 1;
     match.positions = vertex.mesh_position;
+    const std::uint16_t joint = 0;
+    const float weight = 1;
+    match.joints = v % 2 ? &joint : nullptr;
+    match.weights = v % 2 ? &weight : nullptr;
+    match.influences = 1;
     std::uint32_t found = 0;
     if (ok(nook_model_match_vertices(crowd.model, &match, &found, nullptr)))
       require(found == NOOK_NO_VERTEX || found < crowd.info.file_vertex_count);

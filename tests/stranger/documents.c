@@ -53,16 +53,20 @@ static nook_pose_fault document_check(const stranger* s, uint32_t frame, nook_mo
 }
 
 static nook_model document_match(nook_model model, const float* rest_positions, const float* rest_normals,
-                                 uint32_t count, uint32_t* vertices) {
+                                 const uint16_t* joints, const float* weights, uint32_t count,
+                                 uint32_t* vertices) {
   nook_model mine = NULL;
-  uint32_t unmatched = 0;
   /* [match] */
   nook_vertex_match_desc match;
   nook_vertex_match_desc_init(&match);
   match.vertex_count = count;
   match.positions = rest_positions; /* as the engine has them, 16 bits will do */
   match.normals = rest_normals;     /* tell the two sides of a card apart */
-  nook_model_match_vertices(model, &match, vertices, &unmatched);
+  match.joints = joints;            /* four for each vertex, with their weights, */
+  match.weights = weights;          /* tell meshes apart where they meet */
+  nook_vertex_match_info info = {.struct_size = sizeof info};
+  nook_model_match_vertices(model, &match, vertices, &info);
+  if (info.ambiguous > 0) puts(info.text);
   nook_model_remap(model, vertices, count, &mine);
   /* [end] */
   return mine;
@@ -144,8 +148,8 @@ void stranger_run_documents(stranger* s, const char* model_path) {
   nook_model model = NULL;
   nook_scene scene = NULL;
   const nook_instance_id hero = document_scene(s->context, bytes, size, &model, &scene);
-  nook_model mine =
-      document_match(model, s->engine.parts[0].positions, NULL, s->engine.parts[0].vertex_count, vertices);
+  nook_model mine = document_match(model, s->engine.parts[0].positions, NULL, NULL, NULL,
+                                   s->engine.parts[0].vertex_count, vertices);
   stranger_expect(s, mine != NULL, "the match of docs/poses.md gives no model");
   for (uint32_t frame = 0; frame < s->engine.frame_count; ++frame) {
     ao_by_documents(s, scene, hero, frame, ao);

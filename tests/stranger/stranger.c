@@ -46,7 +46,7 @@ static void match_vertices(stranger* s) {
   for (uint32_t p = 0; p < e->part_count; ++p) {
     const engine_part* const part = &e->parts[p];
     nook_vertex_match_desc match;
-    uint32_t unmatched = 0;
+    nook_vertex_match_info info = {.struct_size = sizeof info};
     float* const backwards = engine_memory(3 * sizeof *backwards * part->vertex_count);
     for (size_t v = 0; v < part->vertex_count; ++v)
       memcpy(backwards + 3 * v, part->positions + 3 * (part->vertex_count - 1 - v), 3 * sizeof *backwards);
@@ -54,10 +54,10 @@ static void match_vertices(stranger* s) {
     match.vertex_count = part->vertex_count;
     match.positions = backwards;
     match.primitive = (int32_t)p;
-    stranger_need(nook_model_match_vertices(s->model, &match, s->order + part->first_vertex, &unmatched),
+    stranger_need(nook_model_match_vertices(s->model, &match, s->order + part->first_vertex, &info),
                   "the match");
-    stranger_expect(s, unmatched == 0, "%u of %u vertices of primitive %u have no vertex of the model",
-                    (unsigned)unmatched, (unsigned)part->vertex_count, (unsigned)p);
+    stranger_expect(s, info.unmatched == 0, "%u of %u vertices of primitive %u have no vertex of the model",
+                    (unsigned)info.unmatched, (unsigned)part->vertex_count, (unsigned)p);
     free(backwards);
   }
   if (s->failures) return;

@@ -35,7 +35,7 @@ Row describe_character(std::span<const std::byte> bytes) {
   row["max_saturation"] = max_saturation_of(model);
   row["bounding_radius_m"] = model.bounding_radius;
   for (const char* name : {"HEAD", "BONE", "SPHR", "KEYP", "LINR", "STAO", "FMAP", "PRIM", "LODS", "BIND",
-                           "REST", "WCAS", "BENT", "SATU", "RECP"}) {
+                           "NEAR", "REST", "WCAS", "BENT", "SATU", "RECP"}) {
     const char letters[5] = {name[0], name[1], name[2], name[3], 0};
     row[std::string("bytes_") + name] = container.has(letters) ? container.section(letters).remaining() : 0;
   }

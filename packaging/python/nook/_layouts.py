@@ -535,6 +535,21 @@ class nook_vertex_match_desc(ctypes.Structure):
         ("primitive", ctypes.c_int32),
         ("in_rest_space", ctypes.c_uint32),
         ("tolerance", ctypes.c_float),
+        ("joints", ctypes.POINTER(ctypes.c_uint16)),
+        ("joint_stride", ctypes.c_size_t),
+        ("weights", ctypes.POINTER(ctypes.c_float)),
+        ("weight_stride", ctypes.c_size_t),
+        ("influences", ctypes.c_uint32),
+        ("skin", ctypes.c_uint32),
+    ]
+
+
+class nook_vertex_match_info(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_uint32),
+        ("unmatched", ctypes.c_uint32),
+        ("ambiguous", ctypes.c_uint32),
+        ("text", ctypes.c_char * 320),
     ]
 
 
@@ -1216,7 +1231,7 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "nook_model_describe_skin": (nook_result, [nook_model, ctypes.c_uint32, ctypes.POINTER(nook_skin_info)]),
     "nook_model_describe_check_vertex": (nook_result, [nook_model, ctypes.c_uint32, ctypes.POINTER(nook_check_vertex_info)]),
     "nook_model_check_pose": (nook_result, [nook_model, ctypes.POINTER(nook_pose_desc), ctypes.POINTER(nook_pose_check_desc), ctypes.POINTER(nook_pose_check_info)]),
-    "nook_model_match_vertices": (nook_result, [nook_model, ctypes.POINTER(nook_vertex_match_desc), ctypes.POINTER(ctypes.c_uint32), ctypes.POINTER(ctypes.c_uint32)]),
+    "nook_model_match_vertices": (nook_result, [nook_model, ctypes.POINTER(nook_vertex_match_desc), ctypes.POINTER(ctypes.c_uint32), ctypes.POINTER(nook_vertex_match_info)]),
     "nook_model_remap": (nook_result, [nook_model, ctypes.POINTER(ctypes.c_uint32), ctypes.c_uint32, ctypes.POINTER(nook_model)]),
     "nook_material_load": (nook_result, [nook_context, ctypes.c_void_p, ctypes.c_size_t, ctypes.POINTER(nook_material_desc), ctypes.POINTER(nook_material)]),
     "nook_material_destroy": (None, [ctypes.POINTER(nook_material)]),

@@ -55,10 +55,13 @@ class Skin(NamedTuple):
 
 
 class VertexMatch(NamedTuple):
-    """vertices has the model's vertex for each of yours, or NO_VERTEX for the unmatched ones, which are counted."""
+    """vertices has the model's vertex for each of yours, or NO_VERTEX for the unmatched ones, which are counted. ambiguous counts those
+    that fit several vertices with other AO, and text names the first of each."""
 
     vertices: npt.NDArray[np.uint32]
     unmatched: int
+    ambiguous: int
+    text: str
 
 
 NO_VERTEX = 0xFFFFFFFF
@@ -102,22 +105,29 @@ class CharacterModel(Handle):
         call("nook_model_read", self.handle, c.NOOK_MODEL_STATIC_AO, pointer(ao), self.vertex_count, 0)
         return ao
 
-    def match_vertices(self, positions: Any, normals: Any = None, *, primitive: Optional[int] = None, in_rest_space: bool = False,
-                       tolerance: float = 0.0) -> VertexMatch:
+    def match_vertices(self, positions: Any, normals: Any = None, *, joints: Any = None, weights: Any = None, skin: int = 0,
+                       primitive: Optional[int] = None, in_rest_space: bool = False, tolerance: float = 0.0) -> VertexMatch:
         """Finds the model's vertex for each vertex of your mesh, for remap().
 
         positions are n x 3, as the file's POSITION has them; with in_rest_space, in rest space and metres. normals are n x 3 and tell
-        the two sides of a card apart. primitive is the one of the file that your vertices come from; None is all of them. tolerance is
+        the two sides of a card apart. joints and weights are n x k, with k from 1 to 8, and tell vertices apart where meshes meet; skin
+        is the index of their skin in the file. primitive is the one of the file that your vertices come from; None is all of them. tolerance is
         the largest distance as a share of the diagonal of the model's box; 0 is 1e-4.
         """
         desc = descriptor(c.nook_vertex_match_desc)
         p = floats(positions, (None, 3), "positions")
         n = None if normals is None else floats(normals, (len(p), 3), "normals")
+        j = None if joints is None else integers(joints, np.uint16, (len(p), None), "joints")
+        w = None if weights is None else floats(weights, (len(p), None), "weights")
+        if j is not None and w is not None and j.shape != w.shape:
+            raise ValueError(f"joints and weights differ in their shapes (got {j.shape} and {w.shape})")
         put(desc, positions=pointer(p), normals=pointer(n), vertex_count=len(p), in_rest_space=bool(in_rest_space), tolerance=tolerance,
-            primitive=c.NOOK_ALL_PRIMITIVES if primitive is None else primitive)
-        vertices, unmatched = np.empty(len(p), np.uint32), ctypes.c_uint32()
-        call("nook_model_match_vertices", self.handle, ctypes.byref(desc), pointer(vertices), ctypes.byref(unmatched))
-        return VertexMatch(vertices, int(unmatched.value))
+            joints=pointer(j), weights=pointer(w), skin=skin, primitive=c.NOOK_ALL_PRIMITIVES if primitive is None else primitive)
+        if j is not None:
+            put(desc, influences=j.shape[1])
+        vertices = np.empty(len(p), np.uint32)
+        info = described(c.nook_vertex_match_info, "nook_model_match_vertices", self.handle, ctypes.byref(desc), pointer(vertices))
+        return VertexMatch(vertices, info.unmatched, info.ambiguous, info.text.decode())
 
     def remap(self, vertices: Any) -> "CharacterModel":
         """A model whose vertex i is this model's vertex vertices[i], so that AO comes in the order of your mesh. It takes the answer of

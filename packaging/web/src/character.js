@@ -143,25 +143,29 @@ export class CharacterModel extends Owned {
     });
   }
 
-  // Finds the model's vertex for each vertex of a host's mesh by rest position: { vertices, unmatched }.
+  // Finds the model's vertex for each vertex of a host's mesh: { vertices, unmatched, ambiguous, text }.
   matchVertices(match) {
     const { library } = this;
     return library.call("nook_model_match_vertices", () => {
       checkObject(library.name, "match", match, "an object such as { positions, normals }");
-      const { positions, normals, inRestSpace, ...others } = match;
+      const { positions, normals, joints, weights, inRestSpace, ...others } = match;
       checkNumbers(library.name, "positions", positions, { groupsOf: 3 });
       checkNumbers(library.name, "normals", normals, { count: positions.length, why: "(as many as positions)", optional: true });
       const count = positions.length / 3;
+      checkNumbers(library.name, "joints", joints, { groupsOf: count || 1, why: "(as many for each position)", whole: true, optional: true });
+      checkNumbers(library.name, "weights", weights, { count: joints?.length ?? 0, why: "(as many as joints)", optional: true });
+      for (let i = 0; i < (joints?.length ?? 0); ++i)
+        if (joints[i] < 0 || joints[i] > 65535) refuse(library.name, `joints need numbers from 0 to 65535 (got ${joints[i]} in place ${i})`);
       const description = library.descriptor("nook_vertex_match_desc", {
         ...others, vertexCount: count, positions: () => library.floats(positions), normals: () => library.floats(normals),
-        inRestSpace: inRestSpace ? 1 : 0,
+        inRestSpace: inRestSpace ? 1 : 0, weights: () => library.floats(weights),
+        joints: () => (joints ? library.bytes(Uint16Array.from(joints)).address : 0),
+        ...(joints && { influences: joints.length / (count || 1) }),
       });
-      const vertices = library.room32(count), unmatched = library.room32(1);
-      library.check(library.module._nook_model_match_vertices(this.handle, description, vertices, unmatched));
-      return {
-        vertices: library.module.HEAPU32.slice(vertices >> 2, (vertices >> 2) + count),
-        unmatched: library.module.HEAPU32[unmatched >> 2],
-      };
+      const vertices = library.room32(count);
+      const { unmatched, ambiguous, text } = library.info(library.name, "nook_vertex_match_info",
+        (info) => library.module._nook_model_match_vertices(this.handle, description, vertices, info));
+      return { vertices: library.module.HEAPU32.slice(vertices >> 2, (vertices >> 2) + count), unmatched, ambiguous, text };
     });
   }
 

@@ -1,5 +1,5 @@
 // Nook in three.js: AO of skinned meshes as an attribute of their vertices, and AO of the screen as a pass of EffectComposer.
-import { BufferGeometry, GLBufferAttribute, Matrix4, ShaderChunk, Vector3 } from "three";
+import { BufferGeometry, GLBufferAttribute, Matrix4, ShaderChunk } from "three";
 import { Pass } from "three/addons/postprocessing/Pass.js";
 
 // A copy of the material whose ambient light is multiplied by Nook's AO, where three.js multiplies it by an aoMap.
@@ -17,8 +17,25 @@ function occluded(material, share) {
   return copy;
 }
 
-const values = (meshes, name) => meshes.flatMap(({ geometry: { attributes: { [name]: from } } }) =>
-  Array.from({ length: from?.count ?? 0 }, (_, i) => new Vector3().fromBufferAttribute(from, i).toArray()).flat());
+const values = ({ geometry: { attributes: { [name]: from } } }, name) => from && Array.from({ length: from.count * from.itemSize },
+  (_, i) => from.getComponent(Math.floor(i / from.itemSize), i % from.itemSize));
+
+// The vertices of a mesh in the model: in the primitive of the file that has them all, as the GLTFLoader makes a mesh of each; otherwise
+// in any. Joints and weights tell vertices apart where meshes meet; they are of the only skin, or of the one with as many joints.
+function matchMesh(model, mesh, taken) {
+  const { count } = mesh.geometry.attributes.position, { primitiveCount, skinCount } = model.info;
+  const skins = Array.from({ length: skinCount }, (_, i) => model.skin(i)).filter(({ jointCount }) => jointCount === mesh.skeleton?.bones.length);
+  const bound = skins.length === 1 && { skin: skins[0].fileIndex, joints: values(mesh, "skinIndex"), weights: values(mesh, "skinWeight") };
+  const match = { positions: values(mesh, "position"), normals: values(mesh, "normal"), ...bound };
+  for (let primitive = 0; primitive < primitiveCount; ++primitive) {
+    if (taken.has(primitive) || model.primitive(primitive).count !== count) continue;
+    const found = model.matchVertices({ ...match, primitive });
+    if (found.unmatched) continue;
+    taken.add(primitive);
+    return found;
+  }
+  return model.matchVertices(match);
+}
 
 // One for each WebGLRenderer. `scene` is Nook's own, for links, ground and occluders; share.value is the share of AO in use.
 export class NookThree {
@@ -59,8 +76,10 @@ export class NookThree {
   add(model, ...meshes) {
     if (!meshes.length || meshes.some((mesh) => !mesh?.geometry?.attributes?.position))
       throw new Error("NookThree.add: give the model, then the skinned meshes of one character");
-    const { vertices, unmatched } = model.matchVertices({ positions: values(meshes, "position"), normals: values(meshes, "normal") });
     if (meshes.some((mesh) => mesh.geometry.attributes.nookAo)) throw new Error("NookThree.add: a mesh has been added before; remove its character first");
+    const taken = new Set(), matches = meshes.map((mesh) => matchMesh(model, mesh, taken));
+    const vertices = matches.flatMap((match) => [...match.vertices]), unmatched = matches.reduce((sum, match) => sum + match.unmatched, 0);
+    for (const { ambiguous, text } of matches) if (ambiguous) console.warn(`NookThree.add: ${text}`);
     if (unmatched) throw new Error(`NookThree.add: ${unmatched} of ${vertices.length} vertices are not in the model; bake the file again`);
     const own = model.remap(vertices), instance = this.scene.addInstance(own);
     own.destroy();

@@ -1,8 +1,7 @@
 /* Dynamic ambient occlusion of skinned characters: baked models, scenes of instances, evaluation on the CPU.
  * The model is B. H. Le et al., I3D 2019. Proxy spheres are rigid to bones and cast shadow on key points, and
  * each vertex blends the shadows of a few key points. A scene holds instances of models with their poses.
- * Links let one instance darken another; the ground and free occluders darken instances as well. None of
- * these needs a new bake. */
+ * Links let one instance darken another; the ground and free occluders darken too. None needs a new bake. */
 #ifndef NOOK_CHARACTER_H
 #define NOOK_CHARACTER_H
 
@@ -52,8 +51,7 @@ typedef struct nook_model_info {
   uint64_t instance_bytes, lit_instance_bytes;
 } nook_model_info;
 
-/* Describes a model. nook_gl_model_memory of experimental/nook_debug.h has the memory on the GPU. Any thread.
- * Errors: INVALID_ARGUMENT. */
+/* Describes a model; nook_gl_model_memory has its memory on the GPU. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_model_describe(nook_model model, nook_model_info* info);
 
 /* Returns the name of a bone, valid while the model lives, or NULL for an index out of range. Any thread. */
@@ -76,8 +74,7 @@ enum {
 typedef int32_t nook_model_array;
 
 /* Copies an array in the file's vertex order. count must be file_vertex_count; stride is in bytes (0: tightly
- * packed). Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model was baked without it; the message
- * names the cure). */
+ * packed). Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (baked without it). */
 NOOK_API nook_result nook_model_read(nook_model model, nook_model_array array, void* out, uint32_t count,
                                      size_t stride);
 
@@ -128,16 +125,14 @@ static inline nook_result nook_scene_desc_init(nook_scene_desc* desc) {
 /* Creates an empty scene. On failure *out is NULL. Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_create(nook_context context, const nook_scene_desc* desc, nook_scene* out);
 
-/* Destroys the scene and sets *scene to NULL. You may destroy its GL objects before or afterwards. One at a
- * time. */
+/* Destroys the scene and sets *scene to NULL, before or after its GL objects. One at a time. */
 NOOK_API void nook_scene_destroy(nook_scene* scene);
 
 /* Adds an instance in the rest pose, without ground and links. The call allocates.
  * One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_add_instance(nook_scene scene, nook_model model, nook_instance_id* out);
 
-/* Removes an instance and every link from and to it.
- * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+/* Removes an instance and all of its links. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_remove_instance(nook_scene scene, nook_instance_id instance);
 
 /* Gives an instance another model with the same number of bones: a new bake of the same character, or the
@@ -151,8 +146,7 @@ NOOK_API nook_result nook_scene_set_model(nook_scene scene, nook_instance_id ins
  * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_link(nook_scene scene, nook_instance_id receiver, nook_instance_id caster);
 
-/* Removes a link of nook_scene_link.
- * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE (an id is unknown, or there is no such link). */
+/* Removes a link. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE (an id or the link is unknown). */
 NOOK_API nook_result nook_scene_unlink(nook_scene scene, nook_instance_id receiver, nook_instance_id caster);
 
 /* Links each instance to its k nearest instances in addition to the links above, from the next update on. k
@@ -178,8 +172,7 @@ typedef struct nook_occluder {
   nook_instance_id receiver;
 } nook_occluder;
 
-/* Adds an occluder. If you remove the instance that is its receiver, it stays and darkens none. The call
- * allocates.
+/* Adds an occluder. If you remove the instance that is its receiver, it stays and darkens none. Allocates.
  * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE (occluder->receiver is unknown), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_add_occluder(nook_scene scene, const nook_occluder* occluder,
                                              nook_occluder_id* out);
@@ -229,8 +222,7 @@ NOOK_API nook_result nook_scene_update(nook_scene scene);
  * nook_model_info.file_vertex_count; stride is in bytes (0: tightly packed), and nothing between the values
  * is written. The call does not allocate.
  * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT (also for a format that the channel
- * does not take), INVALID_HANDLE, UNSUPPORTED (the model was baked without bent normals or without rest
- * normals). */
+ * does not take), INVALID_HANDLE, UNSUPPORTED (the model has no bent normals or no rest normals). */
 NOOK_API nook_result nook_scene_read(nook_scene scene, nook_instance_id instance, nook_channel channel,
                                      nook_format format, void* out, uint32_t count, size_t stride);
 
@@ -410,8 +402,7 @@ typedef struct nook_check_vertex_info {
   uint32_t bone;
 } nook_check_vertex_info;
 
-/* Describes a check vertex, less than nook_model_info.check_vertex_count: a vertex of the file for
- * nook_model_check_pose. They are spread over the bones.
+/* Describes a vertex of the file for nook_model_check_pose, less than nook_model_info.check_vertex_count.
  * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (no bind data). */
 NOOK_API nook_result nook_model_describe_check_vertex(nook_model model, uint32_t index,
                                                       nook_check_vertex_info* info);
@@ -445,14 +436,12 @@ typedef int32_t nook_pose_fault;
 typedef struct nook_pose_check_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* Where your own skinning puts the vertices: vertex_count times three floats, `stride` bytes apart (0: 12).
-   * Must not be NULL. */
+  /* Where your own skinning puts the vertices: three floats each, `stride` bytes apart (0: 12). Not NULL. */
   const float* positions;
   size_t stride;
   /* The check vertex of each position; NULL (default): 0, 1, 2 and so on. */
   const uint32_t* check_vertices;
-  /* NULL (default): the positions are in the world. Otherwise the 3x4 row-major matrix that brings them
-   * there. */
+  /* NULL (default), or the 3x4 row-major matrix that brings the positions to the world. */
   const float* place_3x4;
   /* At least 8, at most nook_model_info.check_vertex_count. */
   uint32_t vertex_count;
@@ -481,22 +470,19 @@ typedef struct nook_pose_check_info {
 } nook_pose_check_info;
 
 /* Compares a pose with vertices that you skinned yourself, and names the likely fault in info->fault; the
- * call itself returns OK. Use a frame of a clip: in the bind pose all bones have the same matrix, so that
- * their order cannot be seen. The call allocates.
+ * call itself returns OK. Use a frame of a clip: in the bind pose all matrices are equal. The call allocates.
  * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model has no bind data), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_check_pose(nook_model model, const nook_pose_desc* desc,
                                            const nook_pose_check_desc* check, nook_pose_check_info* info);
 
 /* ---- Vertices of your mesh ----
  *
- * AO comes in the order of the file's vertices. If your engine re-indexes, splits, strips or optimises
- * meshes, match your vertices once and remap the model: the new model gives AO in your order, on the CPU and
- * on every tier. For a mesh with other vertices, such as a level of detail, see experimental/nook_lod.h. */
+ * AO comes in the order of the file's vertices. If your engine has another order, match your vertices once
+ * and remap the model: the new model gives AO in your order on every tier. For a mesh with other vertices,
+ * such as a level of detail, see experimental/nook_lod.h. */
 
-/* Every primitive of the file. */
+/* Every primitive of the file; and a vertex without a match. */
 enum { NOOK_ALL_PRIMITIVES = -1 };
-
-/* No vertex of the model is near enough, in the answer of nook_model_match_vertices. */
 #define NOOK_NO_VERTEX 0xffffffffu
 
 typedef struct nook_vertex_match_desc {
@@ -513,23 +499,38 @@ typedef struct nook_vertex_match_desc {
   uint32_t vertex_count;
   /* The primitive of the file that the vertices come from, default NOOK_ALL_PRIMITIVES. */
   int32_t primitive;
-  /* 0 (default): the positions are in the space of the file's POSITION attribute. 1: in rest space,
-   * metres. */
+  /* 0 (default): the positions are as in the file's POSITION attribute. 1: in rest space, metres. */
   uint32_t in_rest_space;
   /* The largest distance of a match, as a share of the diagonal of the model's box, in [0, 1]. 0 (default):
    * 1e-4, which allows for positions of 16 bits. */
   float tolerance;
+  /* NULL (default), or `influences` joints and weights for each vertex (1 to 8, default 4), strides in bytes
+   * (0: tightly packed). They tell vertices apart where meshes meet. The joints are those of the skin with
+   * the index `skin` in the file (default 0), or bones in a model without skins. */
+  const uint16_t* joints;
+  size_t joint_stride;
+  const float* weights;
+  size_t weight_stride;
+  uint32_t influences, skin;
 } nook_vertex_match_desc;
 static inline nook_result nook_vertex_match_desc_init(nook_vertex_match_desc* desc) {
   return nook_desc_init(NOOK_DESC_VERTEX_MATCH, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Finds the model's vertex for each vertex of your mesh by rest position, and by normal among vertices at one
- * place. vertices takes vertex_count indices in the order of nook_scene_read, or NOOK_NO_VERTEX where none is
- * near enough; *unmatched, which may be NULL, takes their number. The call allocates.
+typedef struct nook_vertex_match_info {
+  uint32_t struct_size;
+  /* Your vertices with NOOK_NO_VERTEX; and those that fit several vertices, which have other AO. */
+  uint32_t unmatched, ambiguous;
+  /* The same in words, with the first of each and the cure; empty if all vertices are sure. */
+  char text[320];
+} nook_vertex_match_info;
+
+/* Finds the model's vertex for each vertex of your mesh: by position, then by normal, weights and order.
+ * vertices takes vertex_count indices in the order of nook_scene_read, or NOOK_NO_VERTEX where none is near
+ * enough. info may be NULL: ambiguous vertices are logged as well. The call allocates.
  * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model has no rest positions), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_match_vertices(nook_model model, const nook_vertex_match_desc* desc,
-                                               uint32_t* vertices, uint32_t* unmatched);
+                                               uint32_t* vertices, nook_vertex_match_info* info);
 
 /* Makes a model whose vertex i is vertex vertices[i] of the given one; all else is copied. Its primitives are
  * the runs of vertices whose meshes have the same space: one for most files. On failure *out is NULL.
@@ -543,8 +544,7 @@ NOOK_API nook_result nook_model_remap(nook_model model, const uint32_t* vertices
 #define NOOK_WORLD_MAX_CASTERS 64
 #define NOOK_WORLD_CONE_PARTS 16
 
-/* A capsule: every point that is within the radius of the segment from a to b, which changes evenly from
- * radius_a to radius_b. Metres. */
+/* The points round the segment from a to b, within a radius that changes evenly from a to b. Metres. */
 typedef struct nook_capsule {
   float a[3];
   float radius_a;

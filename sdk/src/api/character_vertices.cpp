@@ -2,11 +2,13 @@
 #include <nook/nook_character.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
 #include "sdk/src/character/host_vertices.h"
+#include "sdk/src/character/vertex_match.h"
 #include "sdk/src/core/checks.h"
 
 using namespace nook;
@@ -25,6 +27,57 @@ StridedPoints points_of(const float* first, std::size_t stride, std::uint32_t co
   return points;
 }
 
+std::span<const std::uint16_t> bones_of_skin(const CharacterModel& model, std::uint32_t file_skin) {
+  const BindData& bind = model.bind;
+  for (const SkinBind& skin : bind.skins)
+    if (skin.file_index == file_skin)
+      return std::span(bind.bone_of_joint).subspan(skin.first_joint, skin.joint_count);
+  if (bind.skins.empty() && file_skin == 0) return {};
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                "desc.skin is none of the model's (got %u; the model has %zu, the first has index %u); "
+                "nook_model_describe_skin lists them",
+                file_skin, bind.skins.size(), bind.skins.empty() ? 0 : bind.skins.front().file_index);
+}
+
+void check_host_weights(const HostWeights& host, std::uint32_t count, std::size_t joints) {
+  for (std::uint32_t i = 0; i < count; ++i)
+    for (std::uint32_t k = 0; k < host.influences; ++k) {
+      const float weight = host.weight_at(i, k);
+      if (!(std::isfinite(weight) && weight >= 0))
+        throw Failure(
+            NOOK_ERROR_INVALID_ARGUMENT,
+            "desc.weights[%u] of vertex %u is out of range (got %g, need a finite number, 0 or more)", k, i,
+            double(weight));
+      // Engines leave any joint where the weight is 0, but for a vertex without weights.
+      if ((weight > 0 || k == 0) && host.joint_at(i, k) >= joints)
+        throw Failure(
+            NOOK_ERROR_INVALID_ARGUMENT,
+            "desc.joints[%u] of vertex %u is out of range (got %u, need less than %zu, the joints of "
+            "desc.skin); match the meshes of each skin in a call of their own",
+            k, i, host.joint_at(i, k), joints);
+    }
+}
+
+HostWeights host_weights(const CharacterModel& model, const nook_vertex_match_desc& match) {
+  HostWeights host;
+  if (!match.joints != !match.weights)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.%s is NULL, but desc.%s is not; give both or neither",
+                  match.joints ? "weights" : "joints", match.joints ? "joints" : "weights");
+  if (!match.joints) return host;
+  check_range("desc.influences", match.influences, 1u, BoneWeights::max_bones);
+  host.joint = match.joints;
+  host.weight = match.weights;
+  host.influences = match.influences;
+  host.joint_stride = checked_stride("desc.joint_stride", match.joint_stride, match.vertex_count,
+                                     match.influences * sizeof(std::uint16_t));
+  host.weight_stride = checked_stride("desc.weight_stride", match.weight_stride, match.vertex_count,
+                                      match.influences * sizeof(float));
+  host.bone_of_joint = bones_of_skin(model, match.skin);
+  check_host_weights(host, match.vertex_count,
+                     host.bone_of_joint.empty() ? model.bone_count() : host.bone_of_joint.size());
+  return host;
+}
+
 HostVertices host_vertices(const CharacterModel& model, const nook_vertex_match_desc& match) {
   need(match.positions, "desc.positions");
   if (model.rest.position.empty() || model.bind.empty())
@@ -41,24 +94,55 @@ HostVertices host_vertices(const CharacterModel& model, const nook_vertex_match_
                             "desc.position_stride");
   host.normal =
       points_of(match.normals, match.normal_stride, match.vertex_count, "normals", "desc.normal_stride");
+  host.weights = host_weights(model, match);
   host.in_rest_space = match.in_rest_space != 0;
   host.primitive = match.primitive;
   if (match.tolerance > 0) host.tolerance = match.tolerance;
   return host;
 }
 
+// Names the missing data that would separate vertices at one place.
+const char* missing_evidence(const nook_vertex_match_desc& match) {
+  if (!match.normals) return "give desc.normals too";
+  if (!match.joints) return "give desc.joints and desc.weights too";
+  if (match.primitive < 0) return "match each primitive in a call of its own";
+  return "keep the order of the file's vertices, or move the vertices apart and bake again";
+}
+
+void describe_matches(const VertexMatches& matches, const nook_vertex_match_desc& match,
+                      nook_vertex_match_info& info) {
+  info.unmatched = matches.unmatched;
+  info.ambiguous = matches.ambiguous;
+  int used = 0;
+  if (matches.unmatched > 0)
+    used = std::snprintf(info.text, sizeof info.text,
+                         "%u of %u vertices are near no vertex of the model, the first is vertex %u; check "
+                         "the mesh and its unit",
+                         matches.unmatched, match.vertex_count, matches.first_unmatched);
+  if (matches.ambiguous > 0)
+    std::snprintf(info.text + used, sizeof info.text - static_cast<std::size_t>(used),
+                  "%s%u of %u vertices fit several vertices of the model with other AO, the first is vertex "
+                  "%u, which can be %u or %u; %s",
+                  used > 0 ? ". " : "", matches.ambiguous, match.vertex_count, matches.first_ambiguous,
+                  matches.taken, matches.other, missing_evidence(match));
+}
+
 }  // namespace
 
 nook_result nook_model_match_vertices(nook_model model, const nook_vertex_match_desc* desc,
-                                      uint32_t* vertices, uint32_t* unmatched) {
+                                      uint32_t* vertices, nook_vertex_match_info* info) {
   return api::enter("nook_model_match_vertices", [&] {
     need(model, "model");
     const nook_vertex_match_desc match = read_descriptor(desc);
     need(vertices, "vertices");
     const HostVertices host = host_vertices(model->model, match);
-    const std::uint32_t missing =
+    const VertexMatches matches =
         match_vertices(model->model, host, {vertices, host.count}, model->context->memory());
-    if (unmatched) *unmatched = missing;
+    nook_vertex_match_info answer{};
+    describe_matches(matches, match, answer);
+    if (matches.ambiguous > 0)
+      model->context->log(NOOK_LOG_WARNING, "nook_model_match_vertices: %s", answer.text);
+    if (info) write_info(info, answer);
   });
 }
 

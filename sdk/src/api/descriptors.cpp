@@ -48,6 +48,7 @@ template <>
 nook_vertex_match_desc default_desc() {
   nook_vertex_match_desc desc{};
   desc.primitive = NOOK_ALL_PRIMITIVES;
+  desc.influences = 4;
   return desc;
 }
 

@@ -26,6 +26,22 @@ struct SkinBind {
   std::uint32_t first_joint = 0, joint_count = 0;  // range of BindData::bone_of_joint, in the skin's order
 };
 
+// The bones that move a vertex.
+struct BoneWeights {
+  static constexpr std::uint32_t max_bones = 8;
+  std::uint32_t count = 0;
+  std::array<std::uint16_t, max_bones> bone{};
+  std::array<float, max_bones> weight{};  // 0 to 1 up to count, with sum 1
+};
+
+// A welded vertex with others so near that the steps of rest positions do not tell them apart.
+struct CloseVertex {
+  std::uint32_t welded = 0;
+  std::uint16_t space = 0;  // index into BindData::rest_from_mesh
+  Vec3 mesh_position;       // in that space, to the bit as the file has it
+  BoneWeights weights;      // none where all vertices nearby have the same
+};
+
 // A vertex of the file with everything that skins it.
 struct RestVertex {
   static constexpr std::uint32_t max_bones = 8;
@@ -43,7 +59,8 @@ struct BindData {
         primitive_space(memory),
         skins(memory),
         bone_of_joint(memory),
-        vertices(memory) {}
+        vertices(memory),
+        close(memory) {}
 
   static constexpr std::uint32_t max_vertices = 64;
 
@@ -54,6 +71,7 @@ struct BindData {
   Vector<SkinBind> skins;                 // none: the meshes are rigid, or came as arrays
   Vector<std::uint16_t> bone_of_joint;    // of all skins
   Vector<RestVertex> vertices;            // at most max_vertices, spread over the bones
+  Vector<CloseVertex> close;              // in any order; vertices that are near each other follow each other
 
   bool empty() const { return bones.empty(); }
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "sdk/src/core/affine.h"
 
@@ -16,19 +17,27 @@ Vec3 normal_in_mesh(const Mat3x4& rest_from_mesh, Vec3 n) {
                      m[2] * n.x + m[6] * n.y + m[10] * n.z});
 }
 
-void add_primitive(const CharacterModel& model, std::size_t primitive, bool in_rest_space, Candidates& out) {
-  const PrimitiveRange& range = model.primitives[primitive];
-  const Mat3x4& rest_from_mesh = model.bind.rest_from_mesh[model.bind.primitive_space[primitive]];
-  const Affine mesh_from_rest = inverse(to_double(rest_from_mesh));
-  for (std::uint32_t v = range.first_vertex; v < range.first_vertex + range.vertex_count; ++v) {
-    const std::uint32_t welded = model.file_to_welded[v];
-    Candidate candidate{model.rest.position[welded], model.rest.normal[welded], v};
-    if (!in_rest_space) {
-      candidate.position = transform(mesh_from_rest, candidate.position);
-      candidate.normal = normal_in_mesh(rest_from_mesh, candidate.normal);
-    }
-    out.push_back(candidate);
-  }
+// Where the file has a close vertex, to the bit.
+Vec3 exact_position(const CloseVertex& vertex, const Affine& rest_from_mesh, bool in_rest_space) {
+  return in_rest_space ? transform(rest_from_mesh, vertex.mesh_position) : vertex.mesh_position;
+}
+
+// The close vertex of each welded vertex, null for most.
+Vector<const CloseVertex*> close_vertices(const CharacterModel& model, Memory* memory) {
+  Vector<const CloseVertex*> out(model.vertex_count(), nullptr, memory);
+  for (const CloseVertex& vertex : model.bind.close) out[vertex.welded] = &vertex;
+  return out;
+}
+
+Candidate candidate_of(const CharacterModel& model, std::uint32_t file_vertex, std::uint16_t space,
+                       const Affine& mesh_from_rest, bool in_rest_space) {
+  const Mat3x4& rest_from_mesh = model.bind.rest_from_mesh[space];
+  const std::uint32_t welded = model.file_to_welded[file_vertex];
+  Candidate out{model.rest.position[welded], model.rest.normal[welded], file_vertex, welded, space};
+  if (in_rest_space) return out;
+  out.position = transform(mesh_from_rest, out.position);
+  out.normal = normal_in_mesh(rest_from_mesh, out.normal);
+  return out;
 }
 
 // Metres in rest space.
@@ -41,12 +50,16 @@ float diagonal_of(const RestSurface& rest) {
   return length(high - low);
 }
 
+bool is_chosen(const HostVertices& host, std::size_t primitive) {
+  return host.primitive < 0 || static_cast<std::size_t>(host.primitive) == primitive;
+}
+
 // The largest length that a metre of rest space has in the spaces of the given primitives.
 double largest_unit(const CharacterModel& model, const HostVertices& host) {
   if (host.in_rest_space) return 1;
   double largest = 0;
   for (std::size_t p = 0; p < model.primitives.size(); ++p)
-    if (host.primitive < 0 || static_cast<std::size_t>(host.primitive) == p) {
+    if (is_chosen(host, p)) {
       const Mat3x4& matrix = model.bind.rest_from_mesh[model.bind.primitive_space[p]];
       largest = std::max(largest, 1 / std::cbrt(std::abs(determinant(to_double(matrix)))));
     }
@@ -61,6 +74,20 @@ Vec3 StridedPoints::operator[](std::size_t index) const {
   return out;
 }
 
+std::uint16_t HostWeights::joint_at(std::size_t vertex, std::uint32_t influence) const {
+  std::uint16_t out;
+  const auto* at = reinterpret_cast<const unsigned char*>(joint) + vertex * joint_stride;
+  std::memcpy(&out, at + influence * sizeof out, sizeof out);
+  return out;
+}
+
+float HostWeights::weight_at(std::size_t vertex, std::uint32_t influence) const {
+  float out;
+  const auto* at = reinterpret_cast<const unsigned char*>(weight) + vertex * weight_stride;
+  std::memcpy(&out, at + influence * sizeof out, sizeof out);
+  return out;
+}
+
 std::uint16_t space_of(const CharacterModel& model, std::uint32_t file_vertex) {
   const auto after =
       std::upper_bound(model.primitives.begin(), model.primitives.end(), file_vertex,
@@ -69,15 +96,37 @@ std::uint16_t space_of(const CharacterModel& model, std::uint32_t file_vertex) {
 }
 
 Candidates candidates_of(const CharacterModel& model, const HostVertices& host, Memory* memory) {
+  const BindData& bind = model.bind;
+  const Vector<const CloseVertex*> close = close_vertices(model, memory);
+  // Vertices that welding made one are one vertex, so that seams of the file do not count twice.
+  Vector<std::uint32_t> seen_in_space(model.vertex_count(), no_vertex, memory);
   Candidates candidates(memory);
-  for (std::size_t p = 0; p < model.primitives.size(); ++p)
-    if (host.primitive < 0 || static_cast<std::size_t>(host.primitive) == p)
-      add_primitive(model, p, host.in_rest_space, candidates);
+  for (std::size_t p = 0; p < model.primitives.size(); ++p) {
+    if (!is_chosen(host, p)) continue;
+    const PrimitiveRange& range = model.primitives[p];
+    const std::uint16_t space = bind.primitive_space[p];
+    const Affine rest_from_mesh = to_double(bind.rest_from_mesh[space]);
+    const Affine mesh_from_rest = inverse(rest_from_mesh);
+    for (std::uint32_t v = range.first_vertex; v < range.first_vertex + range.vertex_count; ++v) {
+      const std::uint32_t welded = model.file_to_welded[v];
+      if (std::exchange(seen_in_space[welded], space) == space) continue;
+      Candidate candidate = candidate_of(model, v, space, mesh_from_rest, host.in_rest_space);
+      const CloseVertex* const exact = close[welded];
+      if (exact && exact->space == space)
+        candidate.position = exact_position(*exact, rest_from_mesh, host.in_rest_space);
+      if (exact && exact->weights.count > 0) candidate.weights = &exact->weights;
+      candidates.push_back(candidate);
+    }
+  }
   return candidates;
 }
 
+float diagonal_of(const CharacterModel& model, const HostVertices& host) {
+  return diagonal_of(model.rest) * static_cast<float>(largest_unit(model, host));
+}
+
 float tolerance_of(const CharacterModel& model, const HostVertices& host) {
-  return host.tolerance * diagonal_of(model.rest) * static_cast<float>(largest_unit(model, host));
+  return host.tolerance * diagonal_of(model, host);
 }
 
 void set_primitives(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,
@@ -92,67 +141,6 @@ void set_primitives(const CharacterModel& model, std::span<const std::uint32_t> 
     }
     ++out.primitives.back().vertex_count;
   }
-}
-
-namespace {
-
-// Candidates in the order of their x, so that those near a position are in a short range.
-class Finder {
- public:
-  // distance is in the host's unit.
-  Finder(Candidates candidates, float distance) : sorted_(std::move(candidates)), distance_(distance) {
-    std::stable_sort(sorted_.begin(), sorted_.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.position.x < b.position.x; });
-  }
-
-  // With a normal, the candidate that faces it most among those that lie within the tolerance of the nearest.
-  std::uint32_t find(Vec3 position, const Vec3* normal) const {
-    const auto first = std::lower_bound(sorted_.begin(), sorted_.end(), position.x - distance_,
-                                        [](const Candidate& c, float x) { return c.position.x < x; });
-    float nearest = INFINITY;
-    for (auto c = first; c != sorted_.end() && c->position.x <= position.x + distance_; ++c)
-      nearest = std::min(nearest, length(c->position - position));
-    if (!(nearest <= distance_)) return no_vertex;
-    // The steps of 16-bit positions, which vertices at one place can differ by.
-    const float same_place = nearest + (normal ? distance_ : 0);
-    std::uint32_t found = no_vertex;
-    float best = -INFINITY;
-    for (auto c = first; c != sorted_.end() && c->position.x <= position.x + distance_; ++c) {
-      const float distance = length(c->position - position);
-      if (distance > same_place) continue;
-      // Directions that differ by less than the steps of the model's normals count as the same.
-      const float facing = normal ? std::round(20 * dot(c->normal, *normal)) : 0;
-      const float score = facing - distance / (distance_ + 1e-30f);
-      if (score > best) {
-        best = score;
-        found = c->file_vertex;
-      }
-    }
-    return found;
-  }
-
- private:
-  Candidates sorted_;
-  float distance_ = 0;
-};
-
-}  // namespace
-
-std::uint32_t match_vertices(const CharacterModel& model, const HostVertices& host,
-                             std::span<std::uint32_t> file_vertices, Memory* memory) {
-  Candidates candidates = candidates_of(model, host, memory);
-  if (candidates.empty()) {
-    std::fill(file_vertices.begin(), file_vertices.end(), no_vertex);
-    return host.count;
-  }
-  const Finder finder(std::move(candidates), tolerance_of(model, host));
-  std::uint32_t unmatched = 0;
-  for (std::uint32_t i = 0; i < host.count; ++i) {
-    const Vec3 normal = host.normal.first ? normalised(host.normal[i]) : Vec3{};
-    file_vertices[i] = finder.find(host.position[i], host.normal.first ? &normal : nullptr);
-    unmatched += file_vertices[i] == no_vertex;
-  }
-  return unmatched;
 }
 
 CharacterModel remapped(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,

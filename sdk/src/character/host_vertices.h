@@ -1,5 +1,5 @@
-// A host's vertices and the vertices of a model: which is which, a model in the host's order, and a model for
-// another mesh of the same body.
+// A host's vertices beside the vertices of a model: a model in the host's order, and a model for another mesh
+// of the same body. vertex_match.h finds the matches.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,24 @@ struct StridedPoints {
   Vec3 operator[](std::size_t index) const;
 };
 
+// Joints and weights of each vertex, `joint_stride` and `weight_stride` bytes apart.
+struct HostWeights {
+  const std::uint16_t* joint = nullptr;  // null: none
+  const float* weight = nullptr;         // finite, 0 or more
+  std::size_t joint_stride = 0, weight_stride = 0;
+  std::uint32_t influences = 0;
+  // The bone of each joint, which has an entry for every joint with a weight; empty: joints are bones.
+  std::span<const std::uint16_t> bone_of_joint;
+
+  std::uint16_t joint_at(std::size_t vertex, std::uint32_t influence) const;
+  float weight_at(std::size_t vertex, std::uint32_t influence) const;
+};
+
 struct HostVertices {
   std::uint32_t count = 0;
   StridedPoints position;
   StridedPoints normal;  // first null: none
+  HostWeights weights;
   bool in_rest_space = false;
   std::int32_t primitive = -1;  // of the file; -1: all
   float tolerance = 1e-4f;      // share of the diagonal of the model's box
@@ -36,13 +50,19 @@ std::uint16_t space_of(const CharacterModel& model, std::uint32_t file_vertex);
 struct Candidate {
   Vec3 position;
   Vec3 normal;
-  std::uint32_t file_vertex = 0;
+  std::uint32_t file_vertex = 0;  // the first one of the welded vertex in the space of its mesh
+  std::uint32_t welded = 0;
+  std::uint16_t space = 0;
+  const BoneWeights* weights = nullptr;  // null: not known, as where no near vertex has others
 };
 using Candidates = Vector<Candidate>;
 
-// The file vertices of the primitives that the host names, in file order. The model has a rest surface and
-// bind data.
+// The welded vertices of the primitives that the host names, once for each space, in file order. The model
+// has a rest surface and bind data, and outlives the result.
 Candidates candidates_of(const CharacterModel& model, const HostVertices& host, Memory* memory);
+
+// The diagonal of the box of the model's rest pose in the host's unit.
+float diagonal_of(const CharacterModel& model, const HostVertices& host);
 
 // HostVertices::tolerance as a length in the host's unit.
 float tolerance_of(const CharacterModel& model, const HostVertices& host);
@@ -53,11 +73,6 @@ void set_primitives(const CharacterModel& model, std::span<const std::uint32_t> 
                     CharacterModel& out);
 
 inline constexpr std::uint32_t no_vertex = UINT32_MAX;
-
-// Writes the file vertex of each host vertex, or no_vertex, and returns the number of no_vertex. The model
-// has a rest surface and bind data, and the primitive is one of its own.
-std::uint32_t match_vertices(const CharacterModel& model, const HostVertices& host,
-                             std::span<std::uint32_t> file_vertices, Memory* memory);
 
 // The model with file_vertices[i] as its vertex i. Every index is in range.
 CharacterModel remapped(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,

@@ -80,18 +80,6 @@ Vector<Oriented> host_points(const HostVertices& host, Memory* memory) {
   return points;
 }
 
-// Vertices that welding made one are one vertex, so that seams of the file do not count twice.
-Candidates without_doubles(const CharacterModel& model, Candidates candidates, Memory* memory) {
-  constexpr std::uint32_t none = UINT32_MAX;
-  Vector<std::uint32_t> seen_in_space(model.vertex_count(), none, memory);
-  const auto is_double = [&](const Candidate& c) {
-    const std::uint32_t space = space_of(model, c.file_vertex);
-    return std::exchange(seen_in_space[model.file_to_welded[c.file_vertex]], space) == space;
-  };
-  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), is_double), candidates.end());
-  return candidates;
-}
-
 Vector<Oriented> baked_points(const Candidates& candidates, bool has_normals, Memory* memory) {
   Vector<Oriented> points(memory);
   points.reserve(candidates.size());
@@ -220,7 +208,7 @@ void keep_rest_vertices(const CharacterModel& model, CharacterModel& out, Memory
 }  // namespace
 
 FarVertex farthest_vertex(const CharacterModel& model, const HostVertices& host, Memory* memory) {
-  const Candidates candidates = without_doubles(model, candidates_of(model, host, memory), memory);
+  const Candidates candidates = candidates_of(model, host, memory);
   const Vector<Oriented> baked = baked_points(candidates, host.normal.first != nullptr, memory);
   const Vector<Oriented> vertices = host_points(host, memory);
   const SortedPoints sorted(baked, memory);
@@ -233,7 +221,7 @@ FarVertex farthest_vertex(const CharacterModel& model, const HostVertices& host,
 }
 
 CharacterModel resampled(const CharacterModel& model, const HostVertices& host, Memory* memory) {
-  const Candidates candidates = without_doubles(model, candidates_of(model, host, memory), memory);
+  const Candidates candidates = candidates_of(model, host, memory);
   const Vector<Oriented> baked = baked_points(candidates, host.normal.first != nullptr, memory);
   const Vector<Oriented> vertices = host_points(host, memory);
   const SortedPoints sorted(baked, memory);
@@ -250,6 +238,7 @@ CharacterModel resampled(const CharacterModel& model, const HostVertices& host, 
   out.file_to_welded.clear();
   out.rest.position.clear();
   out.rest.normal.clear();
+  out.bind.close.clear();
   Vector<std::uint32_t> nearest_file_vertex(memory);
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     LayerMean mean(model, memory);

@@ -232,6 +232,37 @@ void check_bind_data(const CharacterModel& model, const Check& check) {
   }
 }
 
+// The coordinates of a mesh may be in any unit.
+bool is_finite(Vec3 p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+void check_close_vertices(const CharacterModel& model, const Check& check) {
+  const Vector<CloseVertex>& close = model.bind.close;
+  for (std::size_t v = 0; v < close.size(); ++v) {
+    const CloseVertex& vertex = close[v];
+    check.that(vertex.welded < model.vertex_count(), "welded vertex of close vertex", v, vertex.welded,
+               "less than the number of welded vertices");
+    check.that(vertex.space < model.bind.rest_from_mesh.size(), "space of close vertex", v, vertex.space,
+               "less than the number of spaces");
+    check.that(is_finite(vertex.mesh_position), "position of close vertex", v, vertex.mesh_position.x,
+               "finite numbers");
+    const BoneWeights& weights = vertex.weights;
+    check.that(weights.count <= BoneWeights::max_bones, "bone count of close vertex", v, weights.count,
+               "0 to 8");
+    float sum = 0;
+    for (std::uint32_t b = 0; b < weights.count; ++b) {
+      check.that(weights.bone[b] < model.bone_count(), "bone of close vertex", v, weights.bone[b],
+                 "less than the number of bones");
+      check.that(within(weights.weight[b], 0, 1), "bone weight of close vertex", v, weights.weight[b],
+                 "0 to 1");
+      sum += weights.weight[b];
+    }
+    check.that(weights.count == 0 || within(sum, 1 - 1e-4f, 1 + 1e-4f), "sum of bone weights of close vertex",
+               v, sum, "1");
+  }
+}
+
 void check_rest_surface(const CharacterModel& model, const Check& check) {
   const RestSurface& rest = model.rest;
   if (rest.position.empty() && rest.normal.empty()) return;
@@ -271,6 +302,7 @@ void check_model(const CharacterModel& model, nook_result code) {
   check_linear_layer(model, check);
   check_file_order(model, check);
   check_bind_data(model, check);
+  check_close_vertices(model, check);
   check_rest_surface(model, check);
   check_world_casters(model, check);
   check_occluded(model, check);

@@ -5,6 +5,7 @@
 //   BIND bind data (optional)   REST rest positions and normals of the welded vertices (optional)
 //   WCAS world casters (optional)   BENT occluded directions of the welded vertices (optional)
 //   SATU saturations of the key points (optional, all 0 without it)
+//   NEAR exact places of welded vertices that lie next to others, and weights where these differ (optional)
 // Version 2 has neither BIND nor REST, version 3 has no SATU; both are read as well.
 // Numbers are quantised within the error budget; model_file_packing.h has the number of bits.
 #pragma once

@@ -37,6 +37,9 @@ struct CharacterBits {
   static constexpr int world_caster_scale = 8;
   static constexpr int rest_position = 16;
   static constexpr int rest_normal = 7;  // the error is within 2 degrees
+  static constexpr int float_bits = 6;   // the number of low bits of a float that changed, 0 to 32
+  static constexpr int close_bones = 4;
+  static constexpr int close_weight = 16;
 };
 
 // The number of earlier vertices that a vertex may share key points with.

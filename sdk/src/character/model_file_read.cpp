@@ -301,6 +301,56 @@ void read_bind_data(ByteReader in, CharacterModel& model) {
   in.check_end();
 }
 
+float read_changed_bits(ByteReader& in, float before) {
+  const int count = static_cast<int>(in.bits(Bits::float_bits));
+  if (count > 32)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "section %s holds a float of %d changed bits (need at most 32); bake the file again",
+                  in.name(), count);
+  return bit_cast<float>(bit_cast<std::uint32_t>(before) ^ in.bits(count));
+}
+
+BoneWeights read_close_weights(ByteReader& in, std::uint32_t welded, int bone_bits) {
+  BoneWeights weights;
+  weights.count = in.bits(Bits::close_bones);
+  std::uint32_t left = Range::last_code(Bits::close_weight);
+  if (weights.count > BoneWeights::max_bones)
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "close vertex %u has too many bones (got %u, need at most %u); bake the file again", welded,
+                  weights.count, BoneWeights::max_bones);
+  for (std::uint32_t b = 0; b < weights.count; ++b) {
+    weights.bone[b] = static_cast<std::uint16_t>(in.bits(bone_bits));
+    const std::uint32_t code = b + 1 < weights.count ? in.bits(Bits::close_weight) : left;
+    if (code > left)
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "the bone weights of close vertex %u do not sum to 1; bake the file again", welded);
+    weights.weight[b] = Range{0, 1}.decode(code, Bits::close_weight);
+    left -= code;
+  }
+  return weights;
+}
+
+void read_close_vertices(ByteReader in, CharacterModel& model) {
+  const int welded_bits = index_bits(model.vertex_count());
+  const int space_bits = index_bits(model.bind.rest_from_mesh.size());
+  const int least_bits = welded_bits + space_bits + 3 * Bits::float_bits + Bits::close_bones;
+  const std::uint32_t count =
+      in.check_count(in.varint(), static_cast<std::size_t>(least_bits), "close vertices");
+  model.bind.close.reserve(count);
+  Vec3 before;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    CloseVertex& vertex = model.bind.close.emplace_back();
+    vertex.welded = in.bits(welded_bits);
+    vertex.space = static_cast<std::uint16_t>(in.bits(space_bits));
+    vertex.mesh_position.x = read_changed_bits(in, before.x);
+    vertex.mesh_position.y = read_changed_bits(in, before.y);
+    vertex.mesh_position.z = read_changed_bits(in, before.z);
+    vertex.weights = read_close_weights(in, vertex.welded, index_bits(model.bone_count()));
+    before = vertex.mesh_position;
+  }
+  in.check_end();
+}
+
 void read_rest_surface(ByteReader in, CharacterModel& model) {
   const Box box = read_box(in, max_box_metres);
   const std::size_t vertices = model.vertex_count();
@@ -371,6 +421,7 @@ CharacterModel read_character_model(std::span<const std::byte> bytes, Memory* me
   read_primitives(file.section("PRIM"), model);
   if (file.has("LODS")) read_levels(file.section("LODS"), model);
   if (file.has("BIND")) read_bind_data(file.section("BIND"), model);
+  if (file.has("NEAR")) read_close_vertices(file.section("NEAR"), model);
   if (file.has("REST")) read_rest_surface(file.section("REST"), model);
   if (file.has("WCAS")) read_world_casters(file.section("WCAS"), model);
   if (file.has("BENT")) read_occluded(file.section("BENT"), model);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <span>
@@ -308,6 +309,44 @@ ByteWriter write_bind_data(const CharacterModel& model) {
   return out;
 }
 
+// Close vertices follow each other, so that their floats differ in few low bits.
+void write_changed_bits(ByteWriter& out, float value, float before) {
+  const std::uint32_t changed = bit_cast<std::uint32_t>(value) ^ bit_cast<std::uint32_t>(before);
+  const int count = std::bit_width(changed);
+  out.bits(static_cast<std::uint32_t>(count), Bits::float_bits);
+  out.bits(changed, count);
+}
+
+// The last weight follows from the sum of 1.
+void write_close_weights(ByteWriter& out, const BoneWeights& weights, int bone_bits) {
+  out.bits(weights.count, Bits::close_bones);
+  std::uint32_t left = Range::last_code(Bits::close_weight);
+  for (std::uint32_t b = 0; b < weights.count; ++b) {
+    out.bits(weights.bone[b], bone_bits);
+    if (b + 1 == weights.count) break;
+    const std::uint32_t code = std::min(left, Range{0, 1}.encode(weights.weight[b], Bits::close_weight));
+    out.bits(code, Bits::close_weight);
+    left -= code;
+  }
+}
+
+ByteWriter write_close_vertices(const CharacterModel& model) {
+  const BindData& bind = model.bind;
+  ByteWriter out;
+  out.varint(static_cast<std::uint32_t>(bind.close.size()));
+  Vec3 before;
+  for (const CloseVertex& vertex : bind.close) {
+    out.bits(vertex.welded, index_bits(model.vertex_count()));
+    out.bits(vertex.space, index_bits(bind.rest_from_mesh.size()));
+    write_changed_bits(out, vertex.mesh_position.x, before.x);
+    write_changed_bits(out, vertex.mesh_position.y, before.y);
+    write_changed_bits(out, vertex.mesh_position.z, before.z);
+    write_close_weights(out, vertex.weights, index_bits(model.bone_count()));
+    before = vertex.mesh_position;
+  }
+  return out;
+}
+
 ByteWriter write_rest_surface(const RestSurface& rest) {
   Box box = Box::around(rest.position.front());
   for (const Vec3 p : rest.position) box.include(p);
@@ -382,6 +421,7 @@ std::vector<std::byte> write_character_model(const CharacterModel& model) {
     add("LODS", levels);
   }
   if (!model.bind.empty()) add("BIND", write_bind_data(model));
+  if (!model.bind.close.empty()) add("NEAR", write_close_vertices(model));
   if (!model.rest.position.empty()) add("REST", write_rest_surface(model.rest));
   if (!model.world_casters.empty()) add("WCAS", write_world_casters(model));
   if (!model.occluded.empty()) add("BENT", write_occluded(model));

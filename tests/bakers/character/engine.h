@@ -27,6 +27,7 @@ struct Engine {
     int node = 0;   // of the mesh
     int skin = -1;  // in the file; -1: the mesh is rigid
     std::array<double, 3> position{};
+    std::array<float, 3> normal{};                         // 0 where the file has none
     std::vector<std::pair<std::uint32_t, float>> weights;  // joint, weight
   };
 
@@ -98,7 +99,13 @@ struct Engine {
         vertices.push_back({node,
                             at.skin,
                             {position.value[3 * v], position.value[3 * v + 1], position.value[3 * v + 2]},
+                            {},
                             {}});
+      if (primitive.attributes.count("NORMAL")) {
+        const auto normal = bake::read_floats(model, primitive.attributes.at("NORMAL"), 3, "normals");
+        for (std::size_t v = 0; v < position.count; ++v)
+          std::copy_n(&normal.value[3 * v], 3, vertices[first + v].normal.begin());
+      }
       for (int set = 0; at.skin >= 0 && primitive.attributes.count("JOINTS_" + std::to_string(set)); ++set) {
         const std::string suffix = std::to_string(set);
         const auto joints =

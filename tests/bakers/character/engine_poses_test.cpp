@@ -409,6 +409,7 @@ TEST_CASE("a mesh that was shuffled, split and stored in 16 bits finds its verti
     // For each primitive, as an optimiser leaves it: another order, and some vertices twice.
     std::vector<std::uint32_t> found;
     std::vector<std::uint32_t> expected;
+    std::size_t ambiguous = 0;
     std::vector<Vec3> normal;
     vertex_normals(mesh.triangle, mesh.position, normal);
     std::mt19937 random(11);
@@ -444,9 +445,11 @@ TEST_CASE("a mesh that was shuffled, split and stored in 16 bits finds its verti
       match.normals = normals.data();
       match.primitive = static_cast<std::int32_t>(p);
       std::vector<std::uint32_t> part(order.size());
-      std::uint32_t unmatched = 1;
-      REQUIRE(nook_model_match_vertices(host.model, &match, part.data(), &unmatched) == NOOK_OK);
-      CHECK(unmatched == 0);
+      nook_vertex_match_info info{};
+      info.struct_size = sizeof info;
+      REQUIRE(nook_model_match_vertices(host.model, &match, part.data(), &info) == NOOK_OK);
+      CHECK(info.unmatched == 0);
+      ambiguous += info.ambiguous;
       found.insert(found.end(), part.begin(), part.end());
       expected.insert(expected.end(), order.begin(), order.end());
     }
@@ -466,9 +469,10 @@ TEST_CASE("a mesh that was shuffled, split and stored in 16 bits finds its verti
       other_vertex += mesh.file_to_welded[found[i]] != mesh.file_to_welded[expected[i]];
       other_ao += ao[i] != own[expected[i]];
     }
-    INFO(other_vertex << " of " << ao.size());
-    // Vertices at one place with one normal and different weights are the same by place and normal.
-    CHECK(other_vertex <= ao.size() / 100);
+    INFO(other_vertex << " of " << ao.size() << ", ambiguous " << ambiguous);
+    // Positions of 16 bits do not tell layers apart that lie closer. Every vertex that is not sure is
+    // counted.
+    CHECK(other_vertex <= ambiguous);
     CHECK(other_ao <= other_vertex);
   }
 }

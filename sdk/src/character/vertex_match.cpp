@@ -1,0 +1,313 @@
+#include "sdk/src/character/vertex_match.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sdk/src/character/place_tree.h"
+
+namespace nook {
+namespace {
+
+// A vertex whose normal looks to another side has a cosine that is smaller by this. Hosts smooth normals and
+// bend those of cards and leaves, so that a smaller difference tells nothing by itself.
+constexpr float other_side = 0.7f;
+
+// A normal within 5 degrees of the model's is the model's: steps of 2 degrees, and a normal of 8 bits. One
+// that is 10 degrees away is not.
+constexpr float fitting_cosine = 0.9962f, unfitting_cosine = 0.9848f;
+
+// Half a step of 8 bits for each of 8 weights is within this sum of absolute differences. Weights without any
+// that fits so well are those of another skin.
+constexpr float fitting_weights = 0.1f;
+// The steps of the file's weights.
+constexpr float weight_steps = 2e-4f;
+
+// AO that differs by less in every pose counts as equal: half a step of 8 bits and what a bake is off by.
+constexpr float equal_ao = 0.01f;
+
+constexpr float unknown_weights = -1;
+
+// A candidate for one vertex of the host.
+struct Fit {
+  const Candidate* candidate = nullptr;
+  float distance = 0;               // host's unit
+  float facing = 1;                 // the cosine between the normals; 1 without
+  float weights = unknown_weights;  // the sum of absolute differences
+};
+using Fits = Vector<Fit>;
+
+// The alpha of a key point at a welded vertex.
+float alpha_of(const CharacterModel& model, std::uint32_t welded, std::uint16_t key_point) {
+  const std::size_t first = std::size_t{welded} * model.influences;
+  float sum = 0;
+  for (std::size_t s = first; s < first + model.influences; ++s)
+    if (model.influence[s] == key_point) sum += model.alpha[s];
+  return sum;
+}
+
+// The most by which `a` can be darker than `b`, if every key point has a shadow of 0 to 1.
+float darker_by(const CharacterModel& model, std::uint32_t a, std::uint32_t b) {
+  const std::size_t first = std::size_t{a} * model.influences;
+  float sum = model.bias[a] - model.bias[b];
+  for (std::size_t s = first; s < first + model.influences; ++s)
+    if (model.alpha[s] > 0) sum += std::max(0.0f, model.alpha[s] - alpha_of(model, b, model.influence[s]));
+  return sum;
+}
+
+// The bound of the difference in the AO that a body gives itself, in any pose.
+float ao_difference(const CharacterModel& model, std::uint32_t a, std::uint32_t b) {
+  const float rest = model.static_ao.empty() ? 0 : std::abs(model.static_ao[a] - model.static_ao[b]);
+  return std::max({rest, darker_by(model, a, b), darker_by(model, b, a)});
+}
+
+// The first fit whose AO is not that of `taken`, or null.
+const Fit* other_ao(const CharacterModel& model, const Fits& fits, const Fit& taken) {
+  for (const Fit& fit : fits)
+    if (fit.candidate->welded != taken.candidate->welded &&
+        ao_difference(model, fit.candidate->welded, taken.candidate->welded) > equal_ao)
+      return &fit;
+  return nullptr;
+}
+
+// The bones of a host's vertex, with sum 1. Without a positive weight it follows its first joint, as in the
+// import.
+BoneWeights bones_of(const HostWeights& host, std::size_t vertex) {
+  BoneWeights out;
+  double sum = 0;
+  for (std::uint32_t k = 0; k < host.influences; ++k) sum += double(host.weight_at(vertex, k));
+  for (std::uint32_t k = 0; k < host.influences; ++k) {
+    const double share = sum > 0 ? double(host.weight_at(vertex, k)) / sum : k == 0 ? 1.0 : 0.0;
+    const auto weight = static_cast<float>(share);
+    if (!(weight > 0)) continue;
+    const std::uint16_t joint = host.joint_at(vertex, k);
+    out.bone[out.count] = host.bone_of_joint.empty() ? joint : host.bone_of_joint[joint];
+    out.weight[out.count++] = weight;
+  }
+  return out;
+}
+
+// The weight of a bone, which may be named several times.
+float weight_of(const BoneWeights& weights, std::uint16_t bone) {
+  float sum = 0;
+  for (std::uint32_t b = 0; b < weights.count; ++b)
+    if (weights.bone[b] == bone) sum += weights.weight[b];
+  return sum;
+}
+
+// The sum of absolute differences over all bones. Both sum to 1, so that what `a` has more of a bone than `b`
+// is half of it.
+float weight_difference(const BoneWeights& a, const BoneWeights& b) {
+  float more = 0;
+  for (std::uint32_t i = 0; i < a.count; ++i) {
+    const bool is_again = std::find(a.bone.begin(), a.bone.begin() + i, a.bone[i]) != a.bone.begin() + i;
+    if (!is_again) more += std::max(0.0f, weight_of(a, a.bone[i]) - weight_of(b, a.bone[i]));
+  }
+  return 2 * more;
+}
+
+template <class Predicate>
+void drop(Fits& fits, Predicate predicate) {
+  fits.erase(std::remove_if(fits.begin(), fits.end(), predicate), fits.end());
+}
+
+void drop_other_sides(Fits& fits, const Fit* but) {
+  const Candidate* const kept = but ? but->candidate : nullptr;
+  float best = -1;
+  for (const Fit& fit : fits) best = std::max(best, fit.facing);
+  drop(fits, [&](const Fit& fit) { return fit.facing < best - other_side && fit.candidate != kept; });
+}
+
+// A host may have weights of fewer bits, which are then off for all candidates.
+void drop_other_weights(Fits& fits, const BoneWeights& bones) {
+  float best = INFINITY;
+  for (Fit& fit : fits)
+    if (fit.candidate->weights) {
+      fit.weights = weight_difference(bones, *fit.candidate->weights);
+      best = std::min(best, fit.weights);
+    }
+  if (best <= fitting_weights)
+    drop(fits, [&](const Fit& fit) { return fit.weights > 2 * best + weight_steps; });
+}
+
+// The only one that fits the normal, or null.
+const Fit* only_facing(const Fits& fits) {
+  const Fit* found = nullptr;
+  for (const Fit& fit : fits) {
+    if (fit.facing < unfitting_cosine) continue;
+    if (found || fit.facing < fitting_cosine) return nullptr;
+    found = &fit;
+  }
+  return found;
+}
+
+// The vertex of the file that looks nearest to the normal, the nearest one among equals.
+const Fit& best_fit(const Fits& fits) {
+  return *std::min_element(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) {
+    if (a.facing != b.facing) return a.facing > b.facing;
+    if (a.distance != b.distance) return a.distance < b.distance;
+    return a.candidate->file_vertex < b.candidate->file_vertex;
+  });
+}
+
+// A guess at the next match from the order of the host's vertices: most meshes keep runs of the file's order.
+struct Order {
+  std::uint32_t successor = no_vertex;  // the vertex of the file after the one before
+  std::uint32_t number = no_vertex;     // the vertex of the file with the host's number
+  bool is_sure = false;                 // the one before is known
+  std::uint32_t run = 0;                // the number of matches before that each were the successor
+
+  // Some files have vertices whose normals look to the other side of a card. Where the host keeps the file's
+  // order for a while, it tells more than a normal.
+  bool is_kept() const { return run >= 4; }
+};
+
+class Matcher {
+ public:
+  Matcher(const CharacterModel& model, const HostVertices& host, Memory* memory)
+      : model_(model),
+        host_(host),
+        candidates_(candidates_of(model, host, memory)),
+        places_(places_of(candidates_, memory)),
+        tree_(places_, memory),
+        nearest_(memory),
+        found_(memory),
+        fits_(memory) {}
+
+  VertexMatches match(std::span<std::uint32_t> file_vertices, Memory* memory);
+
+ private:
+  static Vector<Vec3> places_of(const Candidates& candidates, Memory* memory) {
+    Vector<Vec3> places(memory);
+    places.reserve(candidates.size());
+    for (const Candidate& candidate : candidates) places.push_back(candidate.position);
+    return places;
+  }
+
+  float slack_of_places(Memory* memory) const;
+  void gather(std::uint32_t vertex, float reach, const Order& order);
+  // The vertex of the file that a fit is: one that goes on with the host's order, else the first.
+  std::uint32_t file_vertex(const Fit& fit, const Order& order) const;
+  bool is_vertex_of(const Fit& fit, std::uint32_t file_vertex) const;
+  const Fit* fit_of(std::uint32_t file_vertex) const;
+  const Fit* decide(const Order& order) const;
+
+  const CharacterModel& model_;
+  const HostVertices& host_;
+  Candidates candidates_;
+  Vector<Vec3> places_;
+  PlaceTree tree_;
+  Vector<float> nearest_;  // the distance of each host vertex
+  Vector<std::uint32_t> found_;
+  Fits fits_;  // of the current vertex
+};
+
+// The distance by which the right candidate may lie beyond the nearest one: rounding if the host's places are
+// exact, and the steps of both if the host stores fewer bits.
+float Matcher::slack_of_places(Memory* memory) const {
+  constexpr float model_steps = 65535, exact_share = 0.9f, rounding = 5e-7f;
+  float farthest = 0;
+  for (const Vec3 p : places_) farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  Vector<float> matched(memory);
+  for (const float distance : nearest_)
+    if (distance < INFINITY) matched.push_back(distance);
+  if (matched.empty()) return 0;
+  const float half_step = diagonal_of(model_, host_) / model_steps / 2 + rounding * farthest;
+  const auto exact = std::count_if(matched.begin(), matched.end(), [&](float d) { return d <= half_step; });
+  if (static_cast<float>(exact) >= exact_share * static_cast<float>(matched.size()))
+    return rounding * farthest;
+  const auto middle = matched.begin() + static_cast<std::ptrdiff_t>(matched.size() / 2);
+  std::nth_element(matched.begin(), middle, matched.end());
+  return 2 * *middle;
+}
+
+void Matcher::gather(std::uint32_t vertex, float reach, const Order& order) {
+  const Vec3 position = host_.position[vertex];
+  const Vec3 normal = host_.normal.first ? normalised(host_.normal[vertex]) : Vec3{};
+  const bool has_normal = dot(normal, normal) > 0;
+  found_.clear();
+  fits_.clear();
+  tree_.find_within(position, reach, found_);
+  for (const std::uint32_t index : found_) {
+    const Candidate& candidate = candidates_[index];
+    fits_.push_back(
+        {&candidate, length(candidate.position - position), has_normal ? dot(candidate.normal, normal) : 1});
+  }
+  if (fits_.size() > 1 && has_normal)
+    drop_other_sides(fits_, order.is_kept() ? fit_of(order.successor) : nullptr);
+  if (fits_.size() > 1 && host_.weights.joint) drop_other_weights(fits_, bones_of(host_.weights, vertex));
+}
+
+bool Matcher::is_vertex_of(const Fit& fit, std::uint32_t file_vertex) const {
+  if (file_vertex >= model_.file_to_welded.size()) return false;
+  if (model_.file_to_welded[file_vertex] != fit.candidate->welded) return false;
+  if (space_of(model_, file_vertex) != fit.candidate->space) return false;
+  if (host_.primitive < 0) return true;
+  const PrimitiveRange& range = model_.primitives[static_cast<std::size_t>(host_.primitive)];
+  return file_vertex - range.first_vertex < range.vertex_count;
+}
+
+const Fit* Matcher::fit_of(std::uint32_t file_vertex) const {
+  for (const Fit& fit : fits_)
+    if (is_vertex_of(fit, file_vertex)) return &fit;
+  return nullptr;
+}
+
+std::uint32_t Matcher::file_vertex(const Fit& fit, const Order& order) const {
+  for (const std::uint32_t vertex : {order.successor, order.number})
+    if (is_vertex_of(fit, vertex)) return vertex;
+  return fit.candidate->file_vertex;
+}
+
+// Null: nothing decides. A successor goes before a number where the mesh is known to have another order.
+const Fit* Matcher::decide(const Order& order) const {
+  const Fit* const successor = order.is_sure ? fit_of(order.successor) : nullptr;
+  if (successor && order.is_kept()) return successor;
+  if (const Fit* facing = only_facing(fits_)) return facing;
+  return successor ? successor : fit_of(order.number);
+}
+
+VertexMatches Matcher::match(std::span<std::uint32_t> file_vertices, Memory* memory) {
+  const float tolerance = tolerance_of(model_, host_);
+  nearest_.reserve(host_.count);
+  for (std::uint32_t i = 0; i < host_.count; ++i)
+    nearest_.push_back(tree_.nearest(host_.position[i], tolerance));
+  const float slack = slack_of_places(memory);
+  const std::uint32_t first =
+      host_.primitive < 0 ? 0 : model_.primitives[static_cast<std::size_t>(host_.primitive)].first_vertex;
+  VertexMatches out;
+  Order order;
+  for (std::uint32_t i = 0; i < host_.count; ++i) {
+    if (!(nearest_[i] <= tolerance)) {
+      file_vertices[i] = no_vertex;
+      if (out.unmatched++ == 0) out.first_unmatched = i;
+      continue;
+    }
+    // A candidate at the host's place to the bit excludes all that lie beside it.
+    gather(i, nearest_[i] == 0 ? 0 : nearest_[i] + slack, order);
+    order.number = first + i;
+    const Fit* decided = fits_.size() == 1 ? &fits_[0] : decide(order);
+    const Fit* taken = decided ? decided : fit_of(order.successor);
+    if (!taken) taken = &best_fit(fits_);
+    file_vertices[i] = file_vertex(*taken, order);
+    const Fit* const other = decided ? nullptr : other_ao(model_, fits_, *taken);
+    if (other && out.ambiguous++ == 0) {
+      out.first_ambiguous = i;
+      out.taken = file_vertices[i];
+      out.other = other->candidate->file_vertex;
+    }
+    order.is_sure = !other;
+    order.run = file_vertices[i] == order.successor ? order.run + 1 : 0;
+    order.successor = file_vertices[i] + 1;
+  }
+  return out;
+}
+
+}  // namespace
+
+VertexMatches match_vertices(const CharacterModel& model, const HostVertices& host,
+                             std::span<std::uint32_t> file_vertices, Memory* memory) {
+  return Matcher(model, host, memory).match(file_vertices, memory);
+}
+
+}  // namespace nook
