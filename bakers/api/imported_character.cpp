@@ -11,6 +11,7 @@
 #include "bakers/api/bake_handles.h"
 #include "bakers/character/auto_poses.h"
 #include "bakers/character/pose_sets.h"
+#include "bakers/import/posed_normals.h"
 #include "bakers/import/skinned_mesh.h"
 #include "bakers/job/caller_arrays.h"
 #include "sdk/src/core/checks.h"
@@ -35,9 +36,24 @@ void need_index(const char* name, std::size_t index, std::size_t count) {
                   count);
 }
 
+// A program that opens a pipe without a writer would wait for ever, without a word.
+void require_regular_file(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  // The importer says why a missing file or a folder cannot be read.
+  if (!std::filesystem::exists(status) || std::filesystem::is_directory(status) ||
+      std::filesystem::is_regular_file(status))
+    return;
+  throw Failure(NOOK_ERROR_BAD_FILE,
+                "this is not a regular file but a pipe, a socket or a device; read it yourself and give "
+                "desc.bytes");
+}
+
 ImportedCharacter import_file(const char* path, const ImportOptions& options) {
   try {
-    return import_gltf(std::filesystem::path(reinterpret_cast<const char8_t*>(path)), options);
+    const std::filesystem::path file(reinterpret_cast<const char8_t*>(path));
+    require_regular_file(file);
+    return import_gltf(file, options);
   } catch (const Failure& failure) {
     // The message of the importer may already contain the name of the file.
     if (std::string_view(failure.what()).find(path) != std::string_view::npos) throw;
@@ -151,12 +167,12 @@ void read_skin(const SkinnedMesh& mesh, nook_bake_array array, void* out, std::s
 }
 
 // Writes values of welded vertices in file order.
-void write_vertices(const SkinnedMesh& mesh, const std::vector<Vec3>& position, float* positions,
-                    float* normals) {
+void write_posed(const SkinnedMesh& mesh, const Pose& pose, float* positions, float* normals) {
+  std::vector<Vec3> position, normal;
+  skin_positions(mesh, pose, position);
   if (positions) write_points(position, mesh.file_to_welded, positions);
   if (!normals) return;
-  std::vector<Vec3> normal;
-  vertex_normals(mesh.triangle, position, normal);
+  posed_normals(mesh, pose, position, normal);
   write_points(normal, mesh.file_to_welded, normals);
 }
 
@@ -308,8 +324,6 @@ nook_result nook_bake_character_skin(nook_bake_character character, const float*
     need(bones_3x4, "bones_3x4");
     need_count("bone_count", bone_count, mesh.bones.size());
     need_count("vertex_count", vertex_count, mesh.file_to_welded.size());
-    std::vector<Vec3> posed;
-    skin_positions(mesh, read_poses(bones_3x4, 1, bone_count).front(), posed);
-    write_vertices(mesh, posed, positions, normals);
+    write_posed(mesh, read_poses(bones_3x4, 1, bone_count).front(), positions, normals);
   });
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "bakers/import/posed_normals.h"
 #include "bakers/raytrace/random.h"
 #include "sdk/src/character/kernel.h"
 #include "sdk/src/character/model_file_packing.h"
@@ -53,7 +54,7 @@ std::vector<PosedBody> posed_bodies(const CharacterModel& model, const SkinnedMe
     const Pose& pose = poses[b * poses.size() / bodies.size()];
     std::vector<Vec3> position, normal;
     skin_positions(mesh, pose, position);
-    vertex_normals(mesh.triangle, position, normal);
+    posed_normals(mesh, pose, position, normal);
     for (std::size_t i = 0; i < position.size(); ++i) bodies[b].vertex.push_back({position[i], normal[i]});
     for (const KeyPoint& point : model.key_points) bodies[b].key_point.push_back(posed_surface(point, pose));
   });

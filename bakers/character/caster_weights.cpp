@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bakers/import/posed_normals.h"
 #include "bakers/import/skinned_mesh.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/random.h"
@@ -42,10 +43,8 @@ std::vector<Point> points_round(Vec3 centre, float radius, std::size_t count, st
 }
 
 // In front of random vertices, 0.03 to 0.5 body radii away, turned towards the surface.
-std::vector<Point> points_near(const SkinnedMesh& mesh, std::span<const Vec3> position, float radius,
+std::vector<Point> points_near(std::span<const Vec3> position, std::span<const Vec3> normal, float radius,
                                std::size_t count, std::uint64_t seed) {
-  std::vector<Vec3> normal;
-  vertex_normals(mesh.triangle, position, normal);
   std::vector<Point> points(count);
   Random random(seed);
   for (Point& p : points) {
@@ -58,11 +57,11 @@ std::vector<Point> points_near(const SkinnedMesh& mesh, std::span<const Vec3> po
   return points;
 }
 
-std::vector<Point> fit_points(const SkinnedMesh& mesh, std::span<const Vec3> position, Vec3 centre,
+std::vector<Point> fit_points(std::span<const Vec3> position, std::span<const Vec3> normal, Vec3 centre,
                               float radius, const CasterFitSettings& settings, std::uint64_t seed) {
   const std::size_t near = settings.points_per_pose / 10;
   std::vector<Point> points = points_round(centre, radius, settings.points_per_pose - near, seed);
-  const std::vector<Point> others = points_near(mesh, position, radius, near, ~seed);
+  const std::vector<Point> others = points_near(position, normal, radius, near, ~seed);
   points.insert(points.end(), others.begin(), others.end());
   return points;
 }
@@ -91,8 +90,10 @@ void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::spa
     const Pose& pose = poses[s * poses.size() / used];
     skin_positions(mesh, pose, body.position);
     const Vec3 centre = transform_point(pose[model.root_bone], model.bounding_centre);
+    std::vector<Vec3> front;
+    posed_normals(mesh, pose, body.position, front);
     const std::vector<Point> points =
-        fit_points(mesh, body.position, centre, model.bounding_radius, settings, settings.seed + s);
+        fit_points(body.position, front, centre, model.bounding_radius, settings, settings.seed + s);
     std::vector<Vec3> position, normal;
     for (const Point& p : points) {
       position.push_back(p.position);

@@ -7,6 +7,7 @@
 #include "bakers/character/export_model.h"
 #include "bakers/character/initialise.h"
 #include "bakers/character/linear_fit.h"
+#include "bakers/import/posed_normals.h"
 #include "bakers/import/skinned_mesh.h"
 #include "bakers/raytrace/ray_scene.h"
 #include "sdk/src/core/failure.h"
@@ -127,7 +128,7 @@ OccludedSample trace_occluded(const SkinnedMesh& mesh, const Pose& pose,
   skin_positions(mesh, pose, soup.position);
   soup.triangle = mesh.triangle;
   std::vector<Vec3> normal;
-  vertex_normals(mesh.triangle, soup.position, normal);
+  posed_normals(mesh, pose, soup.position, normal);
   AoSettings ao;
   ao.rays = settings.rays;
   ao.seed = settings.seed;

@@ -6,6 +6,7 @@
 #include "bakers/import/gltf.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/geometry.h"
+#include "sdk/src/core/mirroring_similarity.h"
 
 namespace nook::bake {
 namespace {
@@ -96,7 +97,7 @@ Pose bone_matrices(const ImportedCharacter& character, const std::vector<Trs>& l
   for (std::size_t b = 0; b < character.bindings.size(); ++b) {
     const BoneBinding& binding = character.bindings[b];
     const Similarity bone =
-        nearest_similarity(world[binding.node] * binding.node_from_rest, binding.origin_rest);
+        nearest_mirroring_similarity(world[binding.node] * binding.node_from_rest, binding.origin_rest);
     pose.push_back(to_float(bone.matrix));
     if (!is_pose_matrix(pose.back()))
       throw Failure(

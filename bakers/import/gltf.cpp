@@ -7,6 +7,7 @@
 #include "bakers/import/accessor.h"
 #include "bakers/import/coincident_surfaces.h"
 #include "bakers/import/file_reader.h"
+#include "bakers/import/fronts.h"
 #include "bakers/import/gltf_check.h"
 #include "bakers/import/gltf_clips.h"
 #include "bakers/import/gltf_document.h"
@@ -206,6 +207,7 @@ SurfaceParts parts_of(const FileMesh& file, const std::vector<std::uint32_t>& no
 void append_meshes(const tinygltf::Model& model, const MeshNodes& mesh_nodes, const Skeleton& skeleton,
                    ImportedCharacter& character, FileMesh& file) {
   MeshRepairs repairs;
+  const std::vector<Affine> world = default_world_transforms(character.nodes);
   for (const MeshNode& at : mesh_nodes.all) {
     MeshBinding binding = at.is_skinned ? skeleton.skins[at.binding] : skeleton.rigid_parts[at.binding];
     if (binding.bone.empty()) {
@@ -216,7 +218,7 @@ void append_meshes(const tinygltf::Model& model, const MeshNodes& mesh_nodes, co
     const Affine rest_from_node = binding.rest_from_mesh;
     for (const Affine& instance : mesh_instances(model, at.node)) {
       binding.rest_from_mesh = rest_from_node * instance;
-      append_mesh(model, model.nodes[at.node], binding, file, repairs);
+      append_mesh(model, {model.nodes[at.node], binding, determinant(world[at.node]) < 0}, file, repairs);
       character.rest_from_primitive.resize(file.primitives.size(), binding.rest_from_mesh);
       character.node_of_primitive.resize(file.primitives.size(), at.node);
     }
@@ -240,8 +242,9 @@ ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAcces
 
   FileMesh file;
   append_meshes(model, mesh_nodes, skeleton, character, file);
-  warn_of_coincident_surfaces(model, parts_of(file, character.node_of_primitive), file.position,
-                              file.triangle, character.warnings);
+  const SurfaceParts parts = parts_of(file, character.node_of_primitive);
+  warn_of_coincident_surfaces(model, parts, file.position, file.triangle, character.warnings);
+  warn_of_inside_out_parts(model, parts, file.position, file.triangle, character.warnings);
   for (std::size_t s = 0; s < skeleton.skins.size(); ++s)
     character.skins.push_back(
         {mesh_nodes.file_skins[s], skeleton.skins[s].rest_from_mesh, std::move(skeleton.skins[s].bone)});

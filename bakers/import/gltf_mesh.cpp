@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "bakers/import/accessor.h"
+#include "bakers/import/fronts.h"
 #include "bakers/import/shown_primitives.h"
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
@@ -168,7 +169,7 @@ void append_skin_weights(const Influences& influences, const MeshBinding& bindin
 struct MeshSource {
   std::string name;
   const MeshBinding& binding;
-  bool is_skinned;
+  bool is_skinned, node_mirrors;
   std::vector<double> morph_weights;
 };
 
@@ -190,10 +191,12 @@ void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
 
   const std::size_t first_triangle = out.triangle.size();
   append_triangles(model, primitive, position.count, what, out.triangle);
-  const bool is_mirrored = determinant(binding.rest_from_mesh) < 0;
+  const std::vector<float> normal = read_normals(model, primitive, position.count, what);
+  const bool turns = turns_round({position.value, normal, std::span(out.triangle).subspan(first_triangle)},
+                                 binding.rest_from_mesh, source.node_mirrors);
   for (std::size_t t = first_triangle; t < out.triangle.size(); ++t) {
     for (std::uint32_t& i : out.triangle[t]) i += static_cast<std::uint32_t>(first);
-    if (is_mirrored) std::swap(out.triangle[t][1], out.triangle[t][2]);
+    if (turns) std::swap(out.triangle[t][1], out.triangle[t][2]);
   }
 
   for (std::size_t v = 0; v < position.count; ++v) {
@@ -214,11 +217,15 @@ void append_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
 
 }  // namespace
 
-void append_mesh(const tinygltf::Model& model, const tinygltf::Node& node, const MeshBinding& binding,
-                 FileMesh& out, MeshRepairs& repairs) {
+void append_mesh(const tinygltf::Model& model, const PlacedMesh& placed, FileMesh& out,
+                 MeshRepairs& repairs) {
+  const tinygltf::Node& node = placed.node;
+  const bool is_skinned = node.skin >= 0;
+  // A rigid part is where its node is, so that its way to rest space mirrors as the node does.
+  const bool node_mirrors = is_skinned ? placed.node_mirrors : determinant(placed.binding.rest_from_mesh) < 0;
   const tinygltf::Mesh& mesh = model.meshes[node.mesh];
   const std::string name = mesh.name.empty() ? "mesh_" + std::to_string(node.mesh) : mesh.name;
-  const MeshSource source{name, binding, node.skin >= 0, default_morph_weights(mesh, node)};
+  const MeshSource source{name, placed.binding, is_skinned, node_mirrors, default_morph_weights(mesh, node)};
   repairs.primitives += mesh.primitives.size();
   refuse_many_primitives(repairs.primitives);
   if (!source.morph_weights.empty()) ++repairs.morphed;

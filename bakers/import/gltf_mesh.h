@@ -40,11 +40,18 @@ struct MeshRepairs {
   std::size_t with_targets = 0;   // meshes with morph targets
 };
 
-// Appends all triangle primitives of a node's mesh, which is there. Where the node has a skin, joints and
-// weights are read; else everything rides on binding.bone[0]. Fails with BAD_FILE. The time is linear in the
-// vertices and indices that it appends, and in the primitives: a file may show 2^20.
-void append_mesh(const tinygltf::Model& model, const tinygltf::Node& node, const MeshBinding& binding,
-                 FileMesh& out, MeshRepairs& repairs);
+// A mesh node and its way to rest space.
+struct PlacedMesh {
+  const tinygltf::Node& node;
+  const MeshBinding& binding;
+  bool node_mirrors = false;  // the determinant of its global transform is negative, which only skins need
+};
+
+// Appends all triangle primitives of a node's mesh, which is there, with their fronts outside (turns_round).
+// Where the node has a skin, joints and weights are read; else everything rides on binding.bone[0]. Fails
+// with BAD_FILE. The time is linear in the vertices and indices that it appends, and in the primitives: a
+// file may show 2^20.
+void append_mesh(const tinygltf::Model& model, const PlacedMesh& placed, FileMesh& out, MeshRepairs& repairs);
 
 // Fails with BAD_FILE where more than 1 % of the skinned vertices have no weights: that is no slip of a few.
 void add_warnings(const MeshRepairs& repairs, std::vector<std::string>& warnings);

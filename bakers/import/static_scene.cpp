@@ -7,6 +7,7 @@
 #include "bakers/import/accessor.h"
 #include "bakers/import/coincident_surfaces.h"
 #include "bakers/import/file_reader.h"
+#include "bakers/import/fronts.h"
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_textures.h"
 #include "bakers/import/gltf_types.h"
@@ -108,8 +109,13 @@ void append_primitive(const tinygltf::Model& model, const ShownPrimitive& shown,
   }
   const std::size_t first_triangle = scene.triangle.size();
   append_triangles(model, primitive, position.count, what, scene.triangle);
-  for (std::size_t t = first_triangle; t < scene.triangle.size(); ++t)
+  const std::vector<float> normal = read_normals(model, primitive, position.count, what);
+  const bool turns = turns_round({position.value, normal, std::span(scene.triangle).subspan(first_triangle)},
+                                 shown.world_from_mesh, determinant(shown.world_from_mesh) < 0);
+  for (std::size_t t = first_triangle; t < scene.triangle.size(); ++t) {
     for (std::uint32_t& i : scene.triangle[t]) i += first;
+    if (turns) std::swap(scene.triangle[t][1], scene.triangle[t][2]);
+  }
   const auto none = std::uint32_t(scene.surface.size() - 1);
   if (primitive.material >= int(none))
     throw Failure(NOOK_ERROR_BAD_FILE, "%s names material %d (file has %u)", what.c_str(), primitive.material,

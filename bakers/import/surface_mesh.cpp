@@ -8,6 +8,7 @@
 #include "bakers/import/accessor.h"
 #include "bakers/import/coincident_surfaces.h"
 #include "bakers/import/file_reader.h"
+#include "bakers/import/fronts.h"
 #include "bakers/import/gltf_document.h"
 #include "bakers/import/gltf_types.h"
 #include "bakers/import/shown_primitives.h"
@@ -128,9 +129,13 @@ void append_primitive(const tinygltf::Model& model, const ShownPrimitive& shown,
   }
   const std::size_t first_triangle = mesh.triangle.size();
   append_triangles(model, primitive, count, what, mesh.triangle);
+  const std::vector<float> file_normal = read_normals(model, primitive, count, what);
+  const bool turns =
+      turns_round({position.value, file_normal, std::span(mesh.triangle).subspan(first_triangle)},
+                  world_from_mesh, is_mirrored);
   for (std::size_t t = first_triangle; t < mesh.triangle.size(); ++t) {
     for (std::uint32_t& i : mesh.triangle[t]) i += first;
-    if (is_mirrored) std::swap(mesh.triangle[t][1], mesh.triangle[t][2]);
+    if (turns) std::swap(mesh.triangle[t][1], mesh.triangle[t][2]);
   }
 }
 
@@ -185,6 +190,7 @@ ImportedSurface import_document(std::span<const std::byte> bytes, const FileAcce
   make_missing(building, imported.warnings);
   warn_of_coincident_surfaces(model, parts, building.mesh.position, building.mesh.triangle,
                               imported.warnings);
+  warn_of_inside_out_parts(model, parts, building.mesh.position, building.mesh.triangle, imported.warnings);
   imported.mesh = std::move(building.mesh);
   return imported;
 }

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "bakers/import/posed_normals.h"
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
 
@@ -108,7 +109,7 @@ AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> pose
         Workspace& work = workspaces.local();
         for (std::size_t p = range.begin(); p < range.end() && !cancelled; ++p) {
           skin_positions(mesh, poses[p], work.position);
-          vertex_normals(mesh.triangle, work.position, work.normal);
+          posed_normals(mesh, poses[p], work.position, work.normal);
           const RayScene scene(device, work.position, mesh.triangle);
           std::uint16_t* row = &targets.value[p * targets.vertex_count];
           for (std::size_t v = 0; v < targets.vertex_count; ++v) {

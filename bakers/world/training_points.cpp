@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bakers/import/posed_normals.h"
 #include "bakers/import/skinned_mesh.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/hemisphere.h"
@@ -83,9 +84,11 @@ TrainingPoints trace_training_points(const SkinnedMesh& mesh, std::span<const Po
   for (std::size_t p = 0; p < used; ++p) {
     if (progress && !progress(p, used))
       throw Failure(NOOK_ERROR_CANCELLED, "cancelled while tracing casters");
-    PosedBody body{{}, mesh.triangle}, other{{}, mesh.triangle};
+    const Pose& other_pose = set.poses[(p + 1) % used];
+    std::vector<Triangle> turned;
+    PosedBody body{{}, mesh.triangle}, other{{}, posed_triangles(mesh, other_pose, turned)};
     skin_positions(mesh, set.poses[p], body.position);
-    skin_positions(mesh, set.poses[(p + 1) % used], other.position);
+    skin_positions(mesh, other_pose, other.position);
     Random random(mix_bits(settings.seed) + p);
     const float wall = 2 * std::numbers::pi_v<float> * random.unit();
     const float neighbour = 2 * std::numbers::pi_v<float> * random.unit();

@@ -141,8 +141,42 @@ void compute_normals(CharacterFile& out, std::size_t first_vertex, std::size_t f
       out.vertices[v].normal = glm::normalize(out.vertices[v].normal);
 }
 
-void read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, int node, int skin,
+// Returns the matrices from the mesh of a node to the node, one for each instance (EXT_mesh_gpu_instancing).
+std::vector<glm::mat4> instances(const tinygltf::Model& model, const tinygltf::Node& node) {
+  const auto extension = node.extensions.find("EXT_mesh_gpu_instancing");
+  if (extension == node.extensions.end() || !extension->second.Has("attributes")) return {glm::mat4(1)};
+  const tinygltf::Value& attributes = extension->second.Get("attributes");
+  const auto values = [&](const char* name, std::size_t components) {
+    return attributes.Has(name) ? read(model, attributes.Get(name).GetNumberAsInt(), components)
+                                : std::vector<float>();
+  };
+  const std::vector<float> moves = values("TRANSLATION", 3), turns = values("ROTATION", 4),
+                           scales = values("SCALE", 3);
+  const std::size_t count = std::max({moves.size() / 3, turns.size() / 4, scales.size() / 3});
+  std::vector<glm::mat4> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    Node place;
+    if (!moves.empty()) place.translation = glm::make_vec3(&moves.at(3 * i + 2) - 2);
+    if (!turns.empty()) {
+      const float* q = &turns.at(4 * i + 3) - 3;
+      place.rotation = glm::normalize(glm::quat(q[3], q[0], q[1], q[2]));
+    }
+    if (!scales.empty()) place.scale = glm::make_vec3(&scales.at(3 * i + 2) - 2);
+    out.push_back(local(place));
+  }
+  return out.empty() ? std::vector{glm::mat4(1)} : out;
+}
+
+// Where the vertices of a primitive belong: the node, its skin or -1, and the instance.
+struct Shown {
+  int node = 0, skin = -1;
+  glm::mat4 instance{1};
+};
+
+void read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Shown& shown,
                     CharacterFile& out) {
+  const int skin = shown.skin;
+  const glm::mat3 turn = glm::transpose(glm::inverse(glm::mat3(shown.instance)));
   if (primitive.mode != TINYGLTF_MODE_TRIANGLES)
     throw std::runtime_error("it has strips or fans; export lists");
   const std::size_t first = out.vertices.size(), first_index = out.triangles.size();
@@ -163,9 +197,13 @@ void read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& pri
     if (factor.size() >= 3 && factor[0] + factor[1] + factor[2] < 2.9) albedo = glm::make_vec3(factor.data());
   }
   for (std::size_t v = 0; v < positions.size() / 3; ++v) {
-    Vertex vertex{
-        glm::make_vec3(&positions[3 * v]), glm::make_vec3(&normals.at(3 * v + 2) - 2), albedo, {}, {}};
-    vertex.matrices[0] = std::uint16_t(out.first_node_matrix + std::uint32_t(node));
+    const glm::vec3 normal = turn * glm::make_vec3(&normals.at(3 * v + 2) - 2);
+    Vertex vertex{shown.instance * glm::vec4(glm::make_vec3(&positions[3 * v]), 1),
+                  glm::length(normal) > 0 ? glm::normalize(normal) : normal,
+                  albedo,
+                  {},
+                  {}};
+    vertex.matrices[0] = std::uint16_t(out.first_node_matrix + std::uint32_t(shown.node));
     vertex.weights = {1, 0, 0, 0};
     if (skin >= 0) {
       vertex.weights = glm::make_vec4(&weights.at(4 * v + 3) - 3);
@@ -231,9 +269,10 @@ void read_meshes(const tinygltf::Model& model, const std::vector<std::string>& w
   for (std::size_t n = 0; n < model.nodes.size(); ++n) {
     const tinygltf::Node& node = model.nodes[n];
     if (node.mesh < 0 || !shown[n] || (node.skin < 0 && !moves[n])) continue;
-    for (const tinygltf::Primitive& primitive : model.meshes.at(std::size_t(node.mesh)).primitives)
-      if (primitive.mode != TINYGLTF_MODE_POINTS && primitive.mode > TINYGLTF_MODE_LINE_STRIP)
-        read_primitive(model, primitive, int(n), node.skin, out);
+    for (const glm::mat4& instance : instances(model, node))
+      for (const tinygltf::Primitive& primitive : model.meshes.at(std::size_t(node.mesh)).primitives)
+        if (primitive.mode != TINYGLTF_MODE_POINTS && primitive.mode > TINYGLTF_MODE_LINE_STRIP)
+          read_primitive(model, primitive, {int(n), node.skin, instance}, out);
   }
 }
 

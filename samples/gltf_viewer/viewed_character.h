@@ -1,6 +1,7 @@
 // A rigged glTF file as a viewer needs it: one mesh, skins, nodes and clips. Vertices are in the order of the
-// file, the primitives one after another in the order of the nodes, which is the order of Nook's AO. Meshes
-// that a bake leaves out are not there: hidden ones, lower levels of detail, and those that the caller names.
+// file, which is the order of Nook's AO: the primitives one after another in the order of the nodes. A mesh
+// with EXT_mesh_gpu_instancing is there once for each instance. Meshes that a bake leaves out are not there:
+// hidden ones, lower levels of detail, and those that the caller names.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""cases_test.py FOLDER TOOL: files of each kind, one line each, with the exit code and the words that `nook inspect` must give.
+"""cases_test.py FOLDER TOOL COMPARE: files of each kind, one line each, with the exit code and the words that `nook inspect`
+must give, and the AO by ray tracing.
 
 Writes the files into FOLDER. Exit code 3 is a refusal; code 0 with words is a repair or a note. A line without words
-must print no warning at all."""
+must print no warning at all. The AO of a file that says which plain file shows the same body is equal to the AO of that
+file; COMPARE is the program compare_ao."""
 import os
 import pathlib
 import struct
@@ -158,13 +160,47 @@ def sparse_floats(file, document):
         "values": {"bufferView": file.view(struct.pack("<3f", 0, 0, 0))}}
 
 
-# Name, how the file is made, options of the command, exit code, words of its message or warnings.
+def turned(indices_):
+    """Triangles whose corners go round the other way."""
+    return [i for t in range(0, len(indices_), 3) for i in (indices_[t], indices_[t + 2], indices_[t + 1])]
+
+
+MIRROR = [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+LOWERED_MIRROR = MIRROR[:13] + [-1, 0, 1]
+
+
+def mirrored(positions=False, corners=False, normals=False, matrices=False, **scales):
+    """A column below mirrored nodes. What is true is mirrored in x in the file: positions, with the normals; the order of
+    corners; the inverse bind matrices. scales: the nodes, armature, root or body, that are scaled by -1."""
+    def change(file, document):
+        attributes = document["meshes"][0]["primitives"][0]["attributes"]
+        position = list(struct.unpack_from("<480f", file.data, document["bufferViews"][0]["byteOffset"]))
+        index_view = document["bufferViews"][3]
+        index = list(struct.unpack_from(f"<{index_view['byteLength'] // 2}H", file.data, index_view["byteOffset"]))
+        sign = -1 if positions else 1
+        if normals:
+            across = [[sign * position[3 * v], 0, position[3 * v + 2]] for v in range(160)]
+            attributes["NORMAL"] = file.add([x / 0.08 ** 0.5 for normal in across for x in normal], "VEC3")
+        if positions:
+            attributes["POSITION"] = file.add([-x if i % 3 == 0 else x for i, x in enumerate(position)], "VEC3")
+        if corners:
+            document["meshes"][0]["primitives"][0]["indices"] = file.add(turned(index), "SCALAR", U16)
+        if matrices:
+            document["skins"][0]["inverseBindMatrices"] = file.add(MIRROR + LOWERED_MIRROR, "MAT4")
+        for name in scales:
+            document["nodes"][["armature", "root", "tip", "body"].index(name)]["scale"] = [-1, 1, 1]
+    return edited(change)
+
+
+# Name, how the file is made, options of the command, exit code, words of its message or warnings; and for a file that
+# shows the body of another one, the name of that file.
+INSIDE_OUT = ['a closed part of node "body" (mesh "column" primitive 0', "is inside out"]
 CASES = [
     ("plain", edited(no_change), [], 0, []),
     # Versions.
     ("version_3", asset(version="3.0"), [], 3, ['glTF version "3.0"']),
     ("version_1", asset(version="1.0"), [], 3, ['glTF version "1.0"']),
-    ("version_2_1", asset(version="2.1"), [], 0, []),
+    ("version_2_1", asset(version="2.1"), [], 0, [], "plain"),
     ("minimum_2_1", asset(version="2.1", minVersion="2.1"), [], 3, ['glTF version "2.1"', "minVersion"]),
     ("header_1", header_version, [], 3, ["glTF version 1, by its binary header"]),
     # Types of accessors.
@@ -176,9 +212,9 @@ CASES = [
     ("positions_u16", attribute("POSITION", [1] * 480, "VEC3", U16), [], 3, ["list KHR_mesh_quantization"]),
     ("sparse_float", edited(sparse_floats), [], 3, ["sparse indices have component type 5126"]),
     ("times_u16", edited(lambda f, d: d["accessors"][5].update(componentType=U16)), [], 3, ["input (accessor 5) is SCALAR of UNSIGNED_SHORT"]),
-    ("colours_u8", attribute("COLOR_0", [1] * 640, "VEC4", U8), [], 0, ["COLOR_0, VEC4 of UNSIGNED_BYTE"]),
+    ("colours_u8", attribute("COLOR_0", [1] * 640, "VEC4", U8), [], 0, ["COLOR_0, VEC4 of UNSIGNED_BYTE"], "plain"),
     # Weights.
-    ("weights_zero_one", zero_weights(1), [], 0, ["1 of 160 skinned vertices have no weights"]),
+    ("weights_zero_one", zero_weights(1), [], 0, ["1 of 160 skinned vertices have no weights"], "plain"),
     ("weights_zero_two", zero_weights(2), [], 3, ["2 of 160 skinned vertices have no weights (need at most 1 %)"]),
     # Faults that leave one way to read the file.
     *[(f"restart_{mode}_{component}", restart(mode, component), [], 0, ["restarts primitives"])
@@ -186,7 +222,7 @@ CASES = [
     *[(f"restart_{mode}_{component}", restart(mode, component), [], 3, ["no triangles"])
       for mode in (0, 1, 2, 3) for component in (U8, U16)],
     ("no_position", edited(no_position), [], 3, ["has no POSITION"]),
-    ("joint_twice", edited(joints_twice), [], 0, ["lists joint node 2 twice"]),
+    ("joint_twice", edited(joints_twice), [], 0, ["lists joint node 2 twice"], "plain"),
     ("matrix_and_translation", node(0, matrix=[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], translation=[9, 0, 0]), [], 0,
      ["matrix beside translation"]),
     ("rotation_of_length_2", node(0, rotation=[0, 0, 0, 2]), [], 0, ["not a unit quaternion"]),
@@ -194,17 +230,26 @@ CASES = [
     ("times_equal", key_times(0, 1, 1), [], 0, ["equal key times"]),
     ("times_falling", key_times(0, 2, 1), [], 3, ["key times that go back"]),
     ("bounds_false", edited(lambda f, d: d["accessors"][0].update(min=[-1, 0, -1], max=[1, 1, 1])), [], 0,
-     ["min and max that do not match"]),
+     ["min and max that do not match"], "plain"),
     # Which meshes are in.
-    ("hidden", second_body("hull", extensions={"KHR_node_visibility": {"visible": False}}), [], 0, ["hidden by KHR_node_visibility", "hull"]),
-    ("hidden_parent", edited(hidden_parent), [], 0, ["hidden by KHR_node_visibility", "hull"]),
-    ("lod1", second_body("body_LOD1"), [], 0, ["lower level of detail", "body_LOD1"]),
-    ("lod2_lower_case", second_body("body.lod2"), [], 0, ["lower level of detail", "body.lod2"]),
+    ("hidden", second_body("hull", extensions={"KHR_node_visibility": {"visible": False}}), [], 0, ["hidden by KHR_node_visibility", "hull"], "plain"),
+    ("hidden_parent", edited(hidden_parent), [], 0, ["hidden by KHR_node_visibility", "hull"], "plain"),
+    ("lod1", second_body("body_LOD1"), [], 0, ["lower level of detail", "body_LOD1"], "plain"),
+    ("lod2_lower_case", second_body("body.lod2"), [], 0, ["lower level of detail", "body.lod2"], "plain"),
     ("copy", second_body("copy"), [], 0, ["lie on each other"]),
     ("copy_without", second_body("copy"), ["--without", "copy"], 0, []),
     ("instances", edited(instances), [], 0, []),
+    # Mirrored rigs.
+    *[(f"{name}{'' if has else '_no_normals'}", mirrored(normals=has, **how), [], 0, [], "plain") for has in (True, False)
+      for name, how in {
+          "mirrored_armature": {"positions": True, "corners": True, "armature": True},
+          "mirrored_armature_blender": {"corners": True, "matrices": True, "armature": True},
+          "mirrored_root": {"matrices": True, "root": True},
+          "mirrored_root_and_mesh": {"positions": True, "corners": True, "root": True}}.items()],
+    ("mirrored_object_blender", mirrored(corners=True, normals=True), [], 0, [], "plain"),
+    ("mirrored_object_no_normals", mirrored(corners=True), [], 0, INSIDE_OUT),
     # Names of files.
-    ("percent_bare", buffer_in("100%.bin", "100%.bin"), [], 0, []),
+    ("percent_bare", buffer_in("100%.bin", "100%.bin"), [], 0, [], "plain"),
     ("percent_space", buffer_in("a%20b.bin", "a b.bin"), [], 0, []),
     ("plus", buffer_in("a+b.bin", "a+b.bin"), [], 0, []),
     ("link_out", buffer_in("link.bin", "../outside.bin", ("link.bin", "../outside.bin")), [], 3, ["a link that leads outside", OUTSIDE]),
@@ -225,12 +270,20 @@ def refused(text):
     return "cannot be baked as a character: " in text
 
 
+def difference_of_ao(compare, given, plain):
+    run = subprocess.run([compare, str(given), str(plain)], capture_output=True, text=True, timeout=120)
+    if run.returncode != 0:
+        return float("inf"), run.stderr.strip()
+    difference, mean = map(float, run.stdout.split())
+    return difference, f"the AO differs by {difference:.6f} from a mean of {mean:.6f}"
+
+
 def main():
-    folder, tool = pathlib.Path(sys.argv[1]), sys.argv[2]
+    folder, tool, compare = pathlib.Path(sys.argv[1]), sys.argv[2], sys.argv[3]
     folder.mkdir(parents=True, exist_ok=True)
-    faults = []
-    for name, make, options, code, words in CASES:
-        path = folder / make(folder, name)
+    faults, path_of, compared = [], {}, 0
+    for name, make, options, code, words, *plain in CASES:
+        path = path_of[name] = folder / make(folder, name)
         run = subprocess.run([tool, "inspect", str(path), *options], capture_output=True, text=True, timeout=120,
                              env={**os.environ, "LC_ALL": "C"})
         got = 3 if run.returncode == 0 and refused(run.stderr) else run.returncode
@@ -238,7 +291,13 @@ def main():
         too_much = not words and run.stderr.strip()
         if got != code or missing or too_much:
             faults.append(f"{name}: exit code {got} (need {code}), missing {missing}\n{run.stderr.strip()}")
-    print("\n".join(faults) or f"{len(CASES)} cases are as the table says")
+        # The same rays from the same places: only those that graze an edge may differ. compare_ao takes no options.
+        if plain and not options:
+            difference, text = difference_of_ao(compare, path, path_of[plain[0]])
+            compared += 1
+            if not difference <= 1e-3:
+                faults.append(f"{name} beside {plain[0]}: {text}")
+    print("\n".join(faults) or f"{len(CASES)} cases are as the table says, {compared} of them with equal AO")
     return 1 if faults else 0
 
 

@@ -43,7 +43,7 @@ class Gltf:
 
 
 def column(rings=40):
-    """A column of `rings` rings with a skin of two joints, nodes 1 and 2, and a clip that turns node 2.
+    """A closed column of `rings` rings with a skin of two joints, nodes 1 and 2, and a clip that turns node 2.
     Accessors: 0 positions, 1 joints, 2 weights, 3 indices, 4 inverse bind matrices, 5 key times, 6 rotations."""
     sides = ((0.2, 0.2), (-0.2, 0.2), (-0.2, -0.2), (0.2, -0.2))
     position, joints, weights, index = [], [], [], []
@@ -58,6 +58,8 @@ def column(rings=40):
         for side in range(4):
             a, b = 4 * ring + side, 4 * ring + (side + 1) % 4
             index += [a, a + 4, b, b, a + 4, b + 4]
+    top = 4 * rings - 4
+    index += [0, 1, 2, 0, 2, 3, top, top + 2, top + 1, top, top + 3, top + 2]
     file = Gltf()
     identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
     attributes = {"POSITION": file.add(position, "VEC3"), "JOINTS_0": file.add(joints, "VEC4", U8),

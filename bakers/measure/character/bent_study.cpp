@@ -10,6 +10,7 @@
 #include <numbers>
 #include <span>
 
+#include "bakers/import/posed_normals.h"
 #include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/character/character_error.h"
 #include "bakers/nnao/specular_fit.h"
@@ -215,7 +216,7 @@ BentBody bent_body(const bake::SkinnedMesh& mesh, const CharacterModel& model, c
                   "the model was baked without bent normals; add them with `nook bake bent`");
   BentBody body;
   bake::skin_positions(mesh, pose, body.position);
-  bake::vertex_normals(mesh.triangle, body.position, body.normal);
+  bake::posed_normals(mesh, pose, body.position, body.normal);
   body.ao = predict_ao(model, pose);
   for (std::size_t v = 0; v < body.position.size(); ++v)
     body.bent.push_back(

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "bakers/character/rotation.h"
+#include "bakers/import/posed_normals.h"
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/character/loaded_model.h"
 #include "sdk/src/character/scene.h"
@@ -89,7 +90,7 @@ std::vector<bool> outside_caster(const SkinnedMesh& mesh, const BodyPair& pair, 
   const RayScene caster(soup);
   std::vector<Vec3> position, normal, behind;
   skin_positions(mesh, pair.receiver, position);
-  vertex_normals(mesh.triangle, position, normal);
+  posed_normals(mesh, pair.receiver, position, normal);
   for (const Vec3 n : normal) behind.push_back(-n);
   AoSettings settings{rays, seed};
   settings.origin_offset = ray_origin_offset(mesh.position);
@@ -218,7 +219,7 @@ TracedPair trace_pair(const SkinnedMesh& mesh, const BodyPair& pair, std::uint32
   skin_positions(mesh, pair.receiver, soup.position);
   skin_positions(mesh, pair.caster, caster.position);
   soup.triangle = caster.triangle = mesh.triangle;
-  vertex_normals(mesh.triangle, soup.position, normal);
+  posed_normals(mesh, pair.receiver, soup.position, normal);
   const std::vector<Vec3> position = soup.position;
   AoSettings settings{rays, seed};
   settings.origin_offset = ray_origin_offset(mesh.position);

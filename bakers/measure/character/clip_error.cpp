@@ -6,6 +6,7 @@
 
 #include "bakers/character/rotation.h"
 #include "bakers/import/clip.h"
+#include "bakers/import/posed_normals.h"
 #include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/character/character_error.h"
 #include "sdk/src/character/scene.h"
@@ -186,7 +187,7 @@ ClipErrorRow measure_neighbour(const SkinnedMesh& mesh, const CharacterModel& mo
     const float turn = std::numbers::pi_v<float> * (3 - std::sqrt(5.0f)) * float(p);
     const Mat3x4 place = place_of(model, receiver.pose, caster.pose, distance_m, turn, 1.7f * turn);
     skin_positions(mesh, receiver.pose, position);
-    vertex_normals(mesh.triangle, position, normal);
+    posed_normals(mesh, receiver.pose, position, normal);
     skin_positions(mesh, caster.pose, other);
     AoSettings rays{study.rays, study.seed + 31 * p};
     rays.origin_offset = offset;

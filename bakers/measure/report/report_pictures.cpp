@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bakers/import/posed_normals.h"
 #include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/report/html.h"
 #include "bakers/raytrace/ray_scene.h"
@@ -130,11 +131,12 @@ bake::Picture plain_picture(int width, int height, bake::Colour colour) {
   return picture;
 }
 
-Vec3 view_of_error(const SkinnedMesh& mesh, std::span<const Vec3> posed,
-                   std::span<const std::uint32_t> vertices, std::span<const float> error) {
-  std::vector<Vec3> normals;
-  vertex_normals(mesh.triangle, posed, normals);
-  const RayScene scene({{posed.begin(), posed.end()}, mesh.triangle});
+Vec3 view_of_error(const SkinnedMesh& mesh, const Pose& pose, std::span<const std::uint32_t> vertices,
+                   std::span<const float> error) {
+  std::vector<Vec3> posed, normals;
+  skin_positions(mesh, pose, posed);
+  posed_normals(mesh, pose, posed, normals);
+  const RayScene scene({posed, mesh.triangle});
   Box box;
   for (const Vec3 p : posed) box.add(p);
   const float offset = 1e-4f * length(box.high - box.low);
@@ -195,7 +197,7 @@ Picture compare_pose(const SkinnedMesh& mesh, const MeasuredBody& body, std::siz
       is_whole ? all_vertices(posed.size()) : std::vector<std::uint32_t>();
   const std::span<const std::uint32_t> looked_at =
       is_whole ? std::span<const std::uint32_t>(whole) : vertices;
-  const Vec3 towards = view_of_error(mesh, posed, looked_at, error);
+  const Vec3 towards = view_of_error(mesh, body.poses[pose], looked_at, error);
   BodyCamera camera = camera_at(towards, points_of(posed, looked_at), width, height);
   if (!is_whole) {
     // With its surroundings, a place is recognised; a place of one vertex also has some.

@@ -24,7 +24,7 @@ inline constexpr float error_end = 0.25f;
 
 // The direction to a viewer who sees most of the error of the given vertices, of 24 that are spread over the
 // sphere but its poles. Faces that others hide do not count.
-Vec3 view_of_error(const bake::SkinnedMesh& mesh, std::span<const Vec3> posed,
+Vec3 view_of_error(const bake::SkinnedMesh& mesh, const bake::Pose& pose,
                    std::span<const std::uint32_t> vertices, std::span<const float> error);
 
 // Eight pictures of the rest pose from sides that are 45 degrees apart, from the front on to the body's left.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bakers/import/posed_normals.h"
 #include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/world/darkeners.h"
 #include "bakers/measure/world/ratio_bounds.h"
@@ -194,9 +195,11 @@ Json world_rows(const SkinnedMesh& mesh, const CharacterModel& model, std::span<
   for (std::size_t p = 0; p < poses.size(); ++p) {
     if (progress && !progress(p, poses.size()))
       throw Failure(NOOK_ERROR_CANCELLED, "cancelled while measuring the world");
-    PosedBody body{{}, mesh.triangle}, other{{}, mesh.triangle};
+    const Pose& other_pose = poses[(p + 1) % poses.size()];
+    std::vector<Triangle> turned;
+    PosedBody body{{}, mesh.triangle}, other{{}, posed_triangles(mesh, other_pose, turned)};
     skin_positions(mesh, poses[p], body.position);
-    skin_positions(mesh, poses[(p + 1) % poses.size()], other.position);
+    skin_positions(mesh, other_pose, other.position);
     for (Darkener* variant : variants) variant->pose(poses[p]);
     const RayScene scene(TriangleSoup{body.position, mesh.triangle});
     Random random(mix_bits(~study.seed) + p);

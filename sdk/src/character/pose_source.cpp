@@ -8,6 +8,7 @@
 #include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/geometry.h"
+#include "sdk/src/core/mirroring_similarity.h"
 
 namespace nook {
 namespace {
@@ -188,13 +189,7 @@ bool is_kept(const BoneAxes<double>& axes) {
 }
 
 Affine nearest_with_one_scale(const Affine& matrix, const std::array<double, 3>& fixed) {
-  if (!(determinant(matrix) < 0)) return nearest_similarity(matrix, fixed).matrix;
-  // The mirror image of the problem: x is turned round on both sides.
-  const auto mirrored = [](Affine a) {
-    for (int i = 0; i < 3; ++i) a.m[4 * i] = -a.m[4 * i];
-    return a;
-  };
-  return mirrored(nearest_similarity(mirrored(matrix), {-fixed[0], fixed[1], fixed[2]}).matrix);
+  return nearest_mirroring_similarity(matrix, fixed).matrix;
 }
 
 // Returns whether the matrix of the bone is uneven.

@@ -7,6 +7,7 @@
 #include "sdk/src/core/failure.h"
 #include "sdk/src/nnao/filter.h"
 #include "sdk/src/nnao/frame_radius.h"
+#include "sdk/src/nnao/frame_ranges.h"
 #include "sdk/src/nnao/network_file.h"
 #include "sdk/src/nnao/projection_check.h"
 
@@ -22,16 +23,7 @@ void check_frame(const RecordedFrame& frame) {
   const bool share = frame.radius_kind != 0;
   check_fits("radius", frame.radius, frame.radius > 0 && (!share || frame.radius <= 1),
              share ? "a share of the screen, more than 0 up to 1" : "more than 0 metres");
-  check_fits("max_radius_px", frame.max_radius_px, frame.max_radius_px == 0 || frame.max_radius_px >= 1,
-             "at least 1 pixel, or 0 for the default");
-  check_fits("min_radius_px", frame.min_radius_px, frame.min_radius_px >= 0,
-             "0 or more pixels, 0 for no minimum");
-  check_fits("fade_begin", frame.fade_begin, frame.fade_begin >= 0, "0 or more metres");
-  check_fits("fade_end", frame.fade_end,
-             frame.fade_end > frame.fade_begin || (frame.fade_end == 0 && frame.fade_begin == 0),
-             "more metres than fade_begin, or 0 for both and no fade");
-  check_fits("intensity", frame.intensity, frame.intensity >= 0 && frame.intensity <= 16, "0 to 16");
-  check_fits("power", frame.power, frame.power > 0 && frame.power <= 16, "more than 0, up to 16");
+  check_shape(frame, name_in_recording);
   check_fits("sky_depth", frame.sky_depth, frame.sky_depth >= 0, "0 or more metres");
   check_fits("normal_scale", frame.normal_scale, frame.normal_scale != 0, "a number other than 0");
   check_fits("normal_bias", frame.normal_bias, true, "a number");

@@ -1,3 +1,4 @@
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -241,6 +242,26 @@ TEST_CASE("a file names others outside of its folder only where that is allowed"
   CHECK(nook_bake_character_create(&desc, &character) == NOOK_OK);
   nook_bake_character_destroy(&character);
   std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("a pipe is refused, because nobody may ever write into it") {
+  const std::filesystem::path pipe =
+      std::filesystem::temp_directory_path() / ("nook_pipe_" + std::to_string(getpid()));
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  nook_bake_source_desc desc;
+  REQUIRE(nook_bake_source_desc_init(&desc) == NOOK_OK);
+  nook_bake_character character = nullptr;
+  const std::string link = pipe.string() + "_link";
+  std::filesystem::create_symlink(pipe, link);
+  for (const std::string& path : {pipe.string(), link, std::string("/dev/zero")}) {
+    CAPTURE(path);
+    desc.path = path.c_str();
+    CHECK(nook_bake_character_create(&desc, &character) == NOOK_ERROR_BAD_FILE);
+    CHECK(message_has("not a regular file"));
+    CHECK(message_has(path.c_str()));
+  }
+  std::filesystem::remove(pipe);
+  std::filesystem::remove(link);
 }
 
 TEST_CASE("faults of a mesh in memory are named") {

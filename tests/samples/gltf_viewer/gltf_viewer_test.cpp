@@ -74,14 +74,13 @@ TEST_CASE("sample gltf_viewer: its skinning is what Nook expects of the same mat
   }
 }
 
-TEST_CASE("sample gltf_viewer: it leaves out what a bake leaves out") {
-  // A triangle that the nodes below a moving root show.
-  const Folder folder;
+namespace {
+
+// A panel of one triangle that nodes below a moving root show; the corners are (0 0 0), (1 0 0) and (0 1 0).
+std::filesystem::path write_panels(const Folder& folder, const std::string& nodes) {
   const std::filesystem::path path = folder.path / "parts.gltf";
-  std::ofstream(path) << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [
-      {"name": "root", "children": [1, 2, 3, 4]}, {"name": "Body", "mesh": 0},
-      {"name": "Hull", "mesh": 0, "extensions": {"KHR_node_visibility": {"visible": false}}},
-      {"name": "Body_LOD1", "mesh": 0}, {"name": "Sword", "mesh": 0}],
+  std::ofstream(path) << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [)"
+                      << nodes << R"(],
       "meshes": [{"name": "panel", "primitives": [{"attributes": {"POSITION": 0}}]}],
       "animations": [{"name": "turn", "samplers": [{"input": 1, "output": 2}],
                       "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}],
@@ -90,6 +89,32 @@ TEST_CASE("sample gltf_viewer: it leaves out what a bake leaves out") {
                     {"bufferView": 0, "byteOffset": 44, "componentType": 5126, "count": 2, "type": "VEC3"}],
       "bufferViews": [{"buffer": 0, "byteLength": 68}], "buffers": [{"byteLength": 68, "uri":
       "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA="}]})";
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("sample gltf_viewer: it leaves out what a bake leaves out") {
+  const Folder folder;
+  const std::filesystem::path path = write_panels(folder, R"(
+      {"name": "root", "children": [1, 2, 3, 4]}, {"name": "Body", "mesh": 0},
+      {"name": "Hull", "mesh": 0, "extensions": {"KHR_node_visibility": {"visible": false}}},
+      {"name": "Body_LOD1", "mesh": 0}, {"name": "Sword", "mesh": 0})");
   CHECK(viewer::CharacterFile(path).vertices.size() == 6);
   CHECK(viewer::CharacterFile(path, {"Sword"}).vertices.size() == 3);
+}
+
+TEST_CASE("sample gltf_viewer: it repeats the instances that a bake repeats") {
+  const Folder folder;
+  // The corners of the panel are the places of its instances.
+  const std::filesystem::path path = write_panels(folder, R"({"name": "root", "children": [1]},
+      {"name": "Body", "mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}})");
+  const viewer::CharacterFile file(path);
+  REQUIRE(file.vertices.size() == 9);
+  REQUIRE(file.triangles.size() == 9);
+  for (std::size_t v = 0; v < 9; ++v) {
+    const glm::vec3 wanted = file.vertices[v / 3].position + file.vertices[v % 3].position;
+    CHECK(glm::distance(file.vertices[v].position, wanted) < 1e-6f);
+    CHECK(glm::distance(file.vertices[v].normal, glm::vec3(0, 0, 1)) < 1e-6f);
+  }
 }

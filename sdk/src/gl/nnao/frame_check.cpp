@@ -5,6 +5,7 @@
 #include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/vec.h"
+#include "sdk/src/nnao/frame_ranges.h"
 #include "sdk/src/nnao/host_depth.h"
 #include "sdk/src/nnao/projection_check.h"
 
@@ -51,16 +52,7 @@ void check_logarithm(const NnaoFrame& frame) {
 
 void check_numbers(const NnaoFrame& frame) {
   check_radius(frame);
-  check_fits("desc.max_radius_px", frame.max_radius_px, frame.max_radius_px == 0 || frame.max_radius_px >= 1,
-             "at least 1 pixel, or 0 for the default");
-  check_fits("desc.min_radius_px", frame.min_radius_px, frame.min_radius_px >= 0,
-             "0 or more pixels, 0 for no minimum");
-  check_fits("desc.fade_begin", frame.fade_begin, frame.fade_begin >= 0, "0 or more metres");
-  check_fits("desc.fade_end", frame.fade_end,
-             frame.fade_end > frame.fade_begin || (frame.fade_end == 0 && frame.fade_begin == 0),
-             "more metres than fade_begin, or 0 for both and no fade");
-  check_fits("desc.intensity", frame.intensity, frame.intensity >= 0 && frame.intensity <= 16, "0 to 16");
-  check_fits("desc.power", frame.power, frame.power > 0 && frame.power <= 16, "more than 0, up to 16");
+  nnao::check_shape(frame, nnao::name_in_desc);
   check_fits("frame.sky_depth", frame.sky_depth, frame.sky_depth >= 0, "0 or more metres");
   check_logarithm(frame);
 }

@@ -1,0 +1,33 @@
+// Similarities that may mirror: scaled rotations of a shape or of its mirror image.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "sdk/src/core/affine.h"
+
+namespace nook {
+
+// True for a matrix that mirrors, whose determinant is negative beyond rounding. A matrix of floats that
+// flattens has a determinant of either sign, some 1e-7 of its size.
+inline bool mirrors(const Affine& a) {
+  double square = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) square += a.m[4 * i + j] * a.m[4 * i + j];
+  return determinant(a) < -1e-6 * square * std::sqrt(square);
+}
+
+// As nearest_similarity, but a matrix that mirrors stays one that does.
+inline Similarity nearest_mirroring_similarity(const Affine& a, const std::array<double, 3>& fixed) {
+  if (!mirrors(a)) return nearest_similarity(a, fixed);
+  // The mirror image of the problem: x is turned round on both sides.
+  const auto mirrored = [](Affine m) {
+    for (int i = 0; i < 3; ++i) m.m[4 * i] = -m.m[4 * i];
+    return m;
+  };
+  Similarity result = nearest_similarity(mirrored(a), {-fixed[0], fixed[1], fixed[2]});
+  result.matrix = mirrored(result.matrix);
+  return result;
+}
+
+}  // namespace nook
