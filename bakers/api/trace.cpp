@@ -6,6 +6,7 @@
 
 #include "bakers/api/bake_descriptors.h"
 #include "bakers/api/bake_entry.h"
+#include "bakers/job/bake_job.h"
 #include "bakers/job/caller_arrays.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/path_tracer.h"
@@ -13,6 +14,19 @@
 
 using namespace nook;
 using namespace nook::bake;
+
+namespace {
+
+// Returns an empty function if there is no callback.
+Progress progress_of(nook_bake_progress_fn call, void* user) {
+  const BakeJob::Listener listener = listener_of(call, user);
+  if (!listener) return {};
+  return [listener](std::size_t done, std::size_t total) {
+    return listener({false, JobStage::raytrace, done, total});
+  };
+}
+
+}  // namespace
 
 nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float* ao, uint32_t count) {
   return api::enter("nook_bake_trace_ao", [&] {
@@ -34,7 +48,8 @@ nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float* ao, uint
     std::vector<float> result(d.point_count, 1.0f);
     if (!soup.triangle.empty())
       run_with_threads(d.threads, [&] {
-        result = trace_ao(soup, {position, normal}, {d.rays, d.seed, d.radius, d.origin_offset});
+        result = trace_ao(soup, {position, normal}, {d.rays, d.seed, d.radius, d.origin_offset},
+                          progress_of(d.progress, d.progress_user));
       });
     std::copy(result.begin(), result.end(), ao);
   });
@@ -99,8 +114,8 @@ nook_result nook_bake_trace_irradiance(const nook_bake_irradiance_desc* desc, fl
     const LitScene scene(read_lit_meshes(d.meshes, d.mesh_count), read_environment(d.environment));
     std::vector<Vec3> result;
     run_with_threads(d.threads, [&] {
-      result =
-          trace_irradiance(scene, {position, normal}, {d.rays, d.seed, {d.max_bounces, d.origin_offset}});
+      result = trace_irradiance(scene, {position, normal}, {d.rays, d.seed, {d.max_bounces, d.origin_offset}},
+                                progress_of(d.progress, d.progress_user));
     });
     for (std::size_t i = 0; i < result.size(); ++i) {
       irradiance[3 * i] = result[i].x;

@@ -40,11 +40,39 @@ float trace_point(const RayScene& scene, Vec3 position, Vec3 normal, const Hemis
   return float(open) / float(rays);
 }
 
+// Counts the work that is done and lets the caller's function stop it.
+class Pace {
+ public:
+  Pace(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
+
+  bool is_stopped() const { return stopped_; }
+  void add(std::size_t count) {
+    if (!progress_) return;
+    const std::lock_guard lock(mutex_);
+    done_ += count;
+    if (!stopped_ && !progress_(done_, total_)) stopped_ = true;
+  }
+  // what: the things that are counted. After all workers have ended.
+  void throw_if_stopped(const char* what) const {
+    if (stopped_)
+      throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing (%zu of %zu %s done)", done_, total_,
+                    what);
+  }
+
+ private:
+  const Progress& progress_;
+  std::size_t total_, done_ = 0;
+  std::mutex mutex_;
+  std::atomic<bool> stopped_{false};
+};
+
 // direction may be empty.
 void trace_receivers(const RayScene& scene, const Receivers& receivers, const AoSettings& settings,
-                     std::span<float> ao, std::span<Vec3> direction) {
+                     std::span<float> ao, std::span<Vec3> direction, const Progress& progress = {}) {
   const HemispherePatterns patterns(settings.rays, settings.seed);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ao.size(), 256), [&](const auto& range) {
+  Pace pace(progress, ao.size());
+  const auto trace = [&](const auto& range) {
+    if (pace.is_stopped()) return;
     const FlushDenormals flush;
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const float radius = receivers.radius.empty() ? settings.radius : receivers.radius[i];
@@ -55,7 +83,11 @@ void trace_receivers(const RayScene& scene, const Receivers& receivers, const Ao
                           mix_bits(settings.seed ^ mix_bits(i)), direction.empty() ? nullptr : &open_sum);
       if (!direction.empty() && ao[i] > 0) direction[i] = open_sum * (1 / (ao[i] * float(settings.rays)));
     }
-  });
+    pace.add(range.size());
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ao.size(), receivers_per_task(settings.rays)), trace,
+                    tbb::simple_partitioner());
+  pace.throw_if_stopped("points");
 }
 
 }  // namespace
@@ -70,13 +102,14 @@ float ray_origin_offset(std::span<const Vec3> rest_positions) {
 }
 
 std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& receivers,
-                            const AoSettings& settings) {
-  return trace_ao(RayScene(occluders), receivers, settings);
+                            const AoSettings& settings, const Progress& progress) {
+  return trace_ao(RayScene(occluders), receivers, settings, progress);
 }
 
-std::vector<float> trace_ao(const RayScene& scene, const Receivers& receivers, const AoSettings& settings) {
+std::vector<float> trace_ao(const RayScene& scene, const Receivers& receivers, const AoSettings& settings,
+                            const Progress& progress) {
   std::vector<float> ao(receivers.position.size());
-  trace_receivers(scene, receivers, settings, ao, {});
+  trace_receivers(scene, receivers, settings, ao, {}, progress);
   return ao;
 }
 
@@ -99,15 +132,13 @@ AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> pose
     std::vector<Vec3> position, normal;
   };
   tbb::enumerable_thread_specific<Workspace> workspaces;
-  std::atomic<bool> cancelled{false};
-  std::mutex progress_mutex;
-  std::size_t done = 0;
+  Pace pace(progress, poses.size());
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, poses.size(), 1),
       [&](const auto& range) {
         const FlushDenormals flush;
         Workspace& work = workspaces.local();
-        for (std::size_t p = range.begin(); p < range.end() && !cancelled; ++p) {
+        for (std::size_t p = range.begin(); p < range.end() && !pace.is_stopped(); ++p) {
           skin_positions(mesh, poses[p], work.position);
           posed_normals(mesh, poses[p], work.position, work.normal);
           const RayScene scene(device, work.position, mesh.triangle);
@@ -118,16 +149,11 @@ AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> pose
                                          std::numeric_limits<float>::infinity(), offset, random);
             row[v] = std::uint16_t(std::lround(ao * 65535));
           }
-          if (progress) {
-            const std::lock_guard lock(progress_mutex);
-            if (!progress(++done, poses.size())) cancelled = true;
-          }
+          pace.add(1);
         }
       },
       tbb::simple_partitioner());
-  if (cancelled)
-    throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing (%zu of %zu poses done)", done,
-                  poses.size());
+  pace.throw_if_stopped("poses");
   return targets;
 }
 

@@ -2,6 +2,7 @@
 // hemisphere around a normal. Both sides of triangles occlude; 1 is open.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -32,11 +33,16 @@ struct AoSettings {
   float origin_offset = 0;                                // metres along the normal
 };
 
+// Returns false to stop. Worker threads call it, one call at a time.
+using Progress = std::function<bool(std::size_t done, std::size_t total)>;
+
 // Returns the AO of every receiver against one soup. Threads work on blocks of receivers, and the result does
-// not depend on their number.
+// not depend on their number. progress counts receivers. Throws Failure(NOOK_ERROR_CANCELLED) if it returns
+// false.
 std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& receivers,
-                            const AoSettings& settings);
-std::vector<float> trace_ao(const RayScene& scene, const Receivers& receivers, const AoSettings& settings);
+                            const AoSettings& settings, const Progress& progress = {});
+std::vector<float> trace_ao(const RayScene& scene, const Receivers& receivers, const AoSettings& settings,
+                            const Progress& progress = {});
 
 // The AO of receivers, and the mean of the directions of their open rays: cosine-weighted, in world space,
 // and shorter the wider the opening is (2/3 over a plane); zero where no ray is open.
@@ -47,8 +53,11 @@ struct Openness {
 // The AO is that of trace_ao, bit for bit.
 Openness trace_openness(const RayScene& scene, const Receivers& receivers, const AoSettings& settings);
 
-// Returns false to stop. Worker threads call it, one call at a time.
-using Progress = std::function<bool(std::size_t done, std::size_t total)>;
+// Receivers for each task: some 10 ms of work, which bounds the wait of a caller who stops.
+inline std::size_t receivers_per_task(std::uint32_t rays) {
+  constexpr std::uint32_t most_rays = 1 << 16, most_receivers = 256;
+  return std::clamp(most_rays / std::max(rays, 1u), 1u, most_receivers);
+}
 
 // The AO targets of a character: poses x vertices in 16-bit fixed point (value / 65535), which has half the
 // size of floats and a step far below the noise of the rays.

@@ -115,14 +115,13 @@ Vec3 trace_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, const Pa
 
 std::vector<Vec3> trace_irradiance(const LitScene& scene, const Receivers& receivers,
                                    const IrradianceSettings& settings, const Progress& progress) {
-  constexpr std::size_t block = 256;
   const HemispherePatterns patterns(settings.rays, settings.seed);
   std::vector<Vec3> irradiance(receivers.position.size());
   std::atomic<bool> cancelled{false};
   std::mutex progress_mutex;
   std::size_t done = 0;
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, irradiance.size(), block),
+      tbb::blocked_range<std::size_t>(0, irradiance.size(), receivers_per_task(settings.rays)),
       [&](const auto& range) {
         if (cancelled) return;
         const FlushDenormals flush;

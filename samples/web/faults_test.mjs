@@ -37,6 +37,7 @@ try {
     [{ missing: wasm }, /nook\.wasm .*404/], [{ cut: wasm }, /nook\.wasm/], [{ missing: "/data/character.bin" }, /character\.bin cannot be fetched/],
     [{ cut: "/data/character.bin" }, /character\.bin is incomplete/], [{ cut: "/data/character.json" }, /character\.json is damaged/],
     [{ cut: "/data/character.nook" }, /character\.nook: /], [{ cut: "/data/material.nook" }, /material\.nook: /],
+    [{ missing: "/data/showcase.bin" }, /showcase\.bin cannot be fetched/], [{ cut: "/data/showcase.bin" }, /showcase\.bin is incomplete/],
     [{ policy: "default-src 'self'" }, /wasm-unsafe-eval/], [{ policy: "default-src 'self' 'wasm-unsafe-eval'; connect-src 'none'" }, /content security policy/]]) {
     fault = made;
     await open("", 640, 400);

@@ -1,15 +1,17 @@
 // A file server for the page: node serve.mjs [FOLDER] [PORT]
-import { createReadStream, statSync } from "node:fs";
+import { createReadStream, readFileSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join, normalize, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
 
 export const types = { ".html": "text/html", ".js": "text/javascript", ".mjs": "text/javascript", ".css": "text/css", ".json": "application/json",
   ".wasm": "application/wasm" };
 
-// The server listens on a port of its own where port is 0; the result has its address in `url`.
-export async function serve(folder, port = 0) {
-  const root = resolve(folder);
+// The server listens on a port of its own where port is 0; the result has its address in `url`. With isCompressed it sends files
+// behind gzip, as servers on the internet do.
+export async function serve(folder, port = 0, isCompressed = false) {
+  const root = resolve(folder), compressed = new Map();
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, "http://localhost").pathname));
     const file = join(root, path.endsWith("/") ? `${path}index.html` : path);
@@ -19,8 +21,13 @@ export async function serve(folder, port = 0) {
       response.writeHead(404).end();
       return;
     }
-    response.writeHead(200, { "Content-Type": types[extname(file)] ?? "application/octet-stream" });
-    createReadStream(file).pipe(response);
+    const type = { "Content-Type": types[extname(file)] ?? "application/octet-stream" };
+    if (isCompressed) {
+      if (!compressed.has(file)) compressed.set(file, gzipSync(readFileSync(file), { level: 9 }));
+      return response.writeHead(200, { ...type, "Content-Encoding": "gzip", "Content-Length": compressed.get(file).length }).end(compressed.get(file));
+    }
+    response.writeHead(200, type);
+    return createReadStream(file).pipe(response);
   });
   await new Promise((done) => server.listen(port, "127.0.0.1", done));
   return { server, url: `http://127.0.0.1:${server.address().port}` };

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds the package and the page, installs the package into an empty folder, and tests the page in Chromium without a window.
+# Builds the package and the page, installs the package into an empty folder, and tests the page in Chromium without a window. Then it
+# follows docs/guide/three.md and the examples for bundlers in docs/web.md, which takes npm's registry.
 #   samples/web/test.sh [--quick] [FOLDER]     --quick: 5 s of frames in place of 60; FOLDER as for build.sh
 # Pictures and results.json go to FOLDER/test. The exit status is 0 if every check holds.
 set -euo pipefail
@@ -30,3 +31,8 @@ cmake --build "$build" -j "${NOOK_JOBS:-$(nproc)}" --target web_screen web_pictu
 mkdir -p "$folder/test"
 node "$here/test.mjs" "$folder/site" "$folder/test" "$seconds"
 node "$here/faults_test.mjs" "$folder/site"
+
+# These need npm's registry: axe-core, and what the guides of docs/ name.
+(cd "$scratch" && npm install --silent --no-audit --no-fund --no-package-lock --no-save axe-core@4)
+node "$here/visit_test.mjs" "$folder/site" "$scratch/node_modules/axe-core/axe.min.js"
+node "$here/guides_test.mjs" "$folder"/nook-web-*.tgz "$folder/models/mannequin.glb" "$folder/models/mannequin.nook" "$build/bakers/tool"

@@ -4,7 +4,8 @@
 //
 //   web_data CHARACTER.glb CHARACTER.nook FOLDER
 //
-// FOLDER/character.json names arrays in FOLDER/character.bin: type, offset in bytes, length.
+// FOLDER/character.json names arrays: type, offset in bytes, length. `arrays` are in FOLDER/character.bin,
+// which the first picture needs; `showcase` are in FOLDER/showcase.bin, which the page loads afterwards.
 #include <nook/experimental/nook_trace.h>
 #include <nook/nook_bake.h>
 #include <nook/nook_character.h>
@@ -144,9 +145,10 @@ std::vector<float> trace(const Character& character, const std::vector<float>& b
   return ao;
 }
 
-nlohmann::json add_clips(const Character& character, Arrays& arrays) {
+// The first picture has one frame of each clip: the one of the reference.
+nlohmann::json add_clips(const Character& character, Arrays& arrays, Arrays& showcase) {
   nlohmann::json clips = nlohmann::json::array();
-  std::vector<float> frames, references;
+  std::vector<float> frames, stills, references;
   for (std::uint32_t clip = 0; clip < character.info.clip_count; ++clip) {
     float seconds = 0;
     check_bake(nook_bake_character_clip_duration(character.handle, clip, &seconds));
@@ -155,8 +157,7 @@ nlohmann::json add_clips(const Character& character, Arrays& arrays) {
     clips.push_back({{"name", nook_bake_character_name(character.handle, NOOK_BAKE_NAME_CLIP, clip)},
                      {"first_frame", frames.size() / (12 * character.info.bone_count)},
                      {"frames", count},
-                     {"seconds", seconds},
-                     {"reference_frame", middle}});
+                     {"seconds", seconds}});
     for (std::uint32_t f = 0; f < count; ++f) {
       const std::vector<float> bones =
           character.pose(clip, seconds * static_cast<float>(f) / static_cast<float>(count));
@@ -164,10 +165,12 @@ nlohmann::json add_clips(const Character& character, Arrays& arrays) {
       if (f != middle) continue;
       const std::vector<float> ao = trace(character, bones);
       references.insert(references.end(), ao.begin(), ao.end());
+      stills.insert(stills.end(), bones.begin(), bones.end());
     }
   }
-  arrays.add("frames", frames);
-  arrays.add("references", as_bytes(references));
+  arrays.add("stills", stills);
+  showcase.add("frames", frames);
+  showcase.add("references", as_bytes(references));
   return clips;
 }
 
@@ -244,17 +247,19 @@ int main(int argc, char** argv) {
   }
   const std::string folder = argv[3];
   Character character(argv[1]);
-  Arrays arrays;
+  Arrays arrays, showcase;
   add_geometry(character, arrays);
   nlohmann::json description;
   description["bones"] = character.info.bone_count;
   description["vertices"] = character.info.file_vertex_count;
-  description["clips"] = add_clips(character, arrays);
-  add_expected(character, argv[2], arrays);
+  description["clips"] = add_clips(character, arrays, showcase);
+  add_expected(character, argv[2], showcase);
   description["arrays"] = arrays.places();
+  description["showcase"] = showcase.places();
   const std::string text = description.dump(1);
   write_file(folder + "/character.json", text.data(), text.size());
   write_file(folder + "/character.bin", arrays.bytes().data(), arrays.bytes().size());
+  write_file(folder + "/showcase.bin", showcase.bytes().data(), showcase.bytes().size());
   nook_bake_character_destroy(&character.handle);
   return 0;
 }

@@ -1,12 +1,15 @@
 // The functions of poses and vertices: good and bad arguments, refused allocations, frames without
 // allocation.
 #include <nook/experimental/nook_lod.h>
+#include <nook/experimental/nook_poses.h>
 #include <nook/nook_character.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <thread>
 
 #include "sdk/src/core/floats.h"
 #include "tests/abi/host.h"
@@ -448,4 +451,150 @@ TEST_CASE("AO is read as bytes and halves, among a host's own attributes") {
   CHECK(nook_scene_read(stage.scene, stage.first, NOOK_CHANNEL_AO, NOOK_FORMAT_HALF, stage.ao.data(), count,
                         1) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(last_mentions("stride"));
+}
+
+namespace {
+
+constexpr float ground[4] = {0, 1, 0, -1.5f};
+
+// Poses that turn each bone about y by an angle of its own.
+std::vector<float> turning_poses(std::uint32_t count, std::uint32_t bones) {
+  std::vector<float> rows;
+  for (std::uint32_t i = 0; i < count * bones; ++i) {
+    const float c = std::cos(0.37f * float(i)), s = std::sin(0.37f * float(i));
+    rows.insert(rows.end(), {c, 0, s, 0.1f, 0, 1, 0, 0, -s, 0, c, 0});
+  }
+  return rows;
+}
+
+// The AO of poses in a scene of its own, one after the other.
+std::vector<float> read_in_scene(const Stage& stage, const nook_scene_desc& settings, nook_pose_desc pose,
+                                 std::uint32_t pose_count, const float* plane) {
+  nook_scene scene = nullptr;
+  nook_instance_id id = 0;
+  REQUIRE(nook_scene_create(stage.context, &settings, &scene) == NOOK_OK);
+  REQUIRE(nook_scene_add_instance(scene, stage.model, &id) == NOOK_OK);
+  REQUIRE(nook_scene_set_ground(scene, id, plane) == NOOK_OK);
+  const std::uint32_t vertices = stage.info.file_vertex_count;
+  std::vector<float> ao(std::size_t{pose_count} * vertices);
+  for (std::uint32_t p = 0; p < pose_count; ++p, pose.transforms += 12 * stage.info.bone_count) {
+    REQUIRE(nook_scene_set_pose(scene, id, &pose) == NOOK_OK);
+    REQUIRE(nook_scene_update(scene) == NOOK_OK);
+    REQUIRE(nook_scene_read(scene, id, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, &ao[p * vertices], vertices, 0) ==
+            NOOK_OK);
+  }
+  nook_scene_destroy(&scene);
+  return ao;
+}
+
+}  // namespace
+
+TEST_CASE("many poses in one call have the bits of a scene, on any number of threads") {
+  Stage stage;
+  constexpr std::uint32_t poses = 41;
+  const std::uint32_t bones = stage.info.bone_count;
+  const std::vector<float> rows = turning_poses(poses, bones);
+  const nook_pose_desc first = pose_of_rows(rows.data(), bones);
+  nook_scene_desc paper = Host::scene_desc();
+  paper.form = NOOK_FORM_PAPER;
+  // Reversed and on two threads: no order and no thread may count.
+  const auto backwards = [](void* user, std::uint32_t count, nook_job_fn body, void* body_user) {
+    static_cast<std::atomic<int>*>(user)->fetch_add(int(count));
+    std::thread other([=] {
+      for (std::uint32_t i = count; i-- > 1;)
+        if (i % 2) body(body_user, i);
+    });
+    for (std::uint32_t i = count; i-- > 0;)
+      if (i % 2 == 0) body(body_user, i);
+    other.join();
+  };
+  std::atomic<int> jobs{0};
+  nook_context_desc desc = stage.host.context_desc();
+  desc.parallel_for = backwards;
+  desc.parallel_for_user = &jobs;
+  nook_context threaded = nullptr;
+  REQUIRE(nook_context_create(&desc, &threaded) == NOOK_OK);
+  nook_model other = nullptr;
+  REQUIRE(nook_model_load(threaded, stage.host.bytes.data(), stage.host.bytes.size(), &other) == NOOK_OK);
+  for (const nook_scene_desc& settings : {Host::scene_desc(), paper})
+    for (const float* plane : {static_cast<const float*>(nullptr), ground}) {
+      const std::vector<float> expected = read_in_scene(stage, settings, first, poses, plane);
+      CHECK(*std::max_element(expected.begin(), expected.end()) >
+            *std::min_element(expected.begin(), expected.end()));
+      for (nook_model model : {stage.model, other}) {
+        std::vector<float> ao(expected.size(), -1.0f);
+        REQUIRE(nook_model_evaluate_poses(model, &settings, &first, poses, 0, plane, ao.data(), ao.size()) ==
+                NOOK_OK);
+        CHECK(std::memcmp(ao.data(), expected.data(), ao.size() * sizeof(float)) == 0);
+      }
+    }
+  CHECK(jobs > 2);
+  // Every second pose, by a stride; and without settings.
+  const std::vector<float> expected = read_in_scene(stage, Host::scene_desc(), first, poses, nullptr);
+  const std::uint32_t vertices = stage.info.file_vertex_count;
+  std::vector<float> ao(std::size_t{2} * vertices, -1.0f);
+  REQUIRE(nook_model_evaluate_poses(stage.model, nullptr, &first, 2, std::size_t{2} * 48 * bones, nullptr,
+                                    ao.data(), ao.size()) == NOOK_OK);
+  CHECK(std::equal(ao.begin(), ao.begin() + vertices, expected.begin()));
+  CHECK(std::equal(ao.begin() + vertices, ao.end(), expected.begin() + 2 * vertices));
+  // No pose writes nothing.
+  CHECK(nook_model_evaluate_poses(stage.model, nullptr, &first, 0, 0, nullptr, nullptr, 0) == NOOK_OK);
+  nook_model_destroy(&other);
+  nook_context_destroy(&threaded);
+}
+
+TEST_CASE("a partial pose leaves the other bones of each pose at rest") {
+  Stage stage;
+  const std::uint32_t bones = stage.info.bone_count;
+  const std::vector<float> rows = turning_poses(2, bones);
+  std::vector<std::int32_t> map(bones, -1), all(bones, 0);
+  map[0] = 0;
+  nook_pose_desc first = pose_of_rows(rows.data(), bones);
+  first.transform_of_bone = map.data();
+  first.bone_count = bones;
+  first.flags = NOOK_POSE_FLAG_PARTIAL;
+  std::vector<float> both(std::size_t{2} * stage.info.file_vertex_count), alone(both.size() / 2);
+  REQUIRE(nook_model_evaluate_poses(stage.model, nullptr, &first, 2, 0, nullptr, both.data(), both.size()) ==
+          NOOK_OK);
+  first.transforms += 12 * bones;
+  REQUIRE(nook_model_evaluate_poses(stage.model, nullptr, &first, 1, 0, nullptr, alone.data(),
+                                    alone.size()) == NOOK_OK);
+  CHECK(std::equal(alone.begin(), alone.end(), both.begin() + std::ptrdiff_t(alone.size())));
+}
+
+TEST_CASE("many poses: what is refused is named, and no memory is lost") {
+  Stage stage;
+  constexpr std::uint32_t poses = 5;
+  const std::uint32_t bones = stage.info.bone_count;
+  std::vector<float> rows = turning_poses(poses, bones);
+  std::vector<float> ao(std::size_t{poses} * stage.info.file_vertex_count);
+  nook_pose_desc first = pose_of_rows(rows.data(), bones);
+  const auto run = [&](std::size_t stride = 0, std::size_t missing = 0, const float* plane = nullptr) {
+    return nook_model_evaluate_poses(stage.model, nullptr, &first, poses, stride, plane, ao.data(),
+                                     ao.size() - missing);
+  };
+  const int blocks = stage.host.blocks, before = stage.host.allocations;
+  REQUIRE(run() == NOOK_OK);
+  const int total = stage.host.allocations - before;
+  REQUIRE(total > 5);
+  for (int n = 0; n < total; ++n) {
+    stage.host.refuse_at = stage.host.allocations + n;
+    INFO("allocation " << n);
+    CHECK(run() == NOOK_ERROR_OUT_OF_MEMORY);
+    CHECK(stage.host.blocks == blocks);
+  }
+  CHECK(run(0, 1) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(last_mentions("nook_model_evaluate_poses: count is not pose_count times"));
+  CHECK(run(std::size_t{48} * bones - 4) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(last_mentions("pose_stride is too small"));
+  CHECK(run(std::size_t{48} * bones + 2) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(last_mentions("pose_stride is not a multiple of 4"));
+  constexpr float slanted[4] = {1, 1, 0, 0};
+  CHECK(run(0, 0, slanted) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(last_mentions("the normal of the plane"));
+  rows[(3 * bones + 1) * 12] = NAN;
+  CHECK(run() == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(last_mentions("nook_model_evaluate_poses: pose 3: "));
+  --first.transform_count;
+  CHECK(run() == NOOK_ERROR_INVALID_ARGUMENT);
 }

@@ -1,5 +1,6 @@
 // Every call that takes a number of elements and the bytes between them: distances for which no memory is
 // large enough are refused before anything is computed from them.
+#include <nook/experimental/nook_poses.h>
 #include <nook/experimental/nook_sg.h>
 #include <nook/experimental/nook_transfer.h>
 #include <nook/experimental/nook_world_sample.h>
@@ -107,6 +108,15 @@ TEST_CASE("strides: poses and vertices of the host refuse what overflows") {
     return nook_model_convert_pose(s.model, &pose, static_cast<float*>(out), s.info.bone_count);
   });
   pose.stride = 0;
+  // Strides are refused before anything is written.
+  float ao[4] = {2, 2, 2, 2};
+  for (const std::size_t stride : {SIZE_MAX - 3, SIZE_MAX / 2 - 3, std::size_t{4}}) {
+    INFO(stride);
+    CHECK(nook_model_evaluate_poses(s.model, nullptr, &pose, 8, stride, nullptr, ao,
+                                    std::size_t{8} * s.info.file_vertex_count) == invalid);
+    CHECK(std::string(nook_last_message()).find("pose_stride") != std::string::npos);
+  }
+  CHECK(ao[0] == 2);
   nook_pose_check_desc check;
   REQUIRE(nook_pose_check_desc_init(&check) == NOOK_OK);
   check.vertex_count = s.info.check_vertex_count;
@@ -208,7 +218,8 @@ TEST_CASE("strides: all of the headers are in this file, or have a reason") {
       {"nook_bake.h", 1},       // nook_bake_character_read: tests/bakers/api/character_test.cpp
       {"nook_character.h", 6},  // nook_model_read, nook_scene_read, pose, check, and two of a match
       {"nook_clips.h", 1},      // nook_clips_read_ao
-      {"nook_gl.h", 3},  // a view (an answer) and a target, which is within 2^40: tests/gl/output_test.cpp
+      {"nook_gl.h", 3},     // a view (an answer) and a target, which is within 2^40: tests/gl/output_test.cpp
+      {"nook_poses.h", 1},  // nook_model_evaluate_poses
       {"nook_transfer.h", 1},      // nook_transfer_read_vectors
       {"nook_world_sample.h", 1},  // nook_world_sample
   };

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <nook/experimental/nook_capture.hpp>
 #include <nook/experimental/nook_debug.hpp>
+#include <nook/experimental/nook_poses.hpp>
 #include <nook/experimental/nook_recording.hpp>
 #include <nook/experimental/nook_stages.hpp>
 #include <nook/experimental/nook_synthesis.hpp>
@@ -62,6 +63,9 @@ TEST_CASE("the C++ wrapper owns, moves and throws") {
   pose.transforms = bones.data();
   pose.transform_count = model.info().bone_count;
   moved.set_pose(id, pose);
+  moved.update();
+  moved.read_ao(id, ao.data(), static_cast<std::uint32_t>(ao.size()));
+  CHECK(nook::evaluate_poses(model, pose, 1) == ao);
   CHECK(model.map_bones({"skeleton:bone_1"})[1] == 0);
   CHECK(model.remap({3, 3, 1}).info().file_vertex_count == 3);
   try {

@@ -434,6 +434,78 @@ class Arguments(unittest.TestCase):
             self.assertTrue(done)
             self.assertEqual(status, 0)
 
+    def test_many_poses_have_the_numbers_of_one_at_a_time(self):
+        poses = [bent(angle) for angle in np.linspace(-1.5, 1.5, 300)]
+        ground = (0, 1, 0, -0.2)
+        for options in ({}, {"ground": ground}):
+            expected = np.stack([nook.evaluate_pose(self.model, pose, **options) for pose in poses])
+            self.assertGreater(np.ptp(expected), 0.1)
+            for threads in (1, 3, 0):
+                np.testing.assert_array_equal(nook.evaluate_poses(self.model, poses, threads=threads, **options), expected)
+        whole = np.concatenate([poses, np.tile([[[[0, 0, 0, 1]]]], (len(poses), 2, 1, 1))], axis=2)
+        given = {"skinning": (whole @ np.diag([0.01, 0.01, 0.01, 1.0]))[:, :, :3], "rest_to_world": whole[:, ::-1].transpose(0, 1, 3, 2)}
+        options = {"skinning": {}, "rest_to_world": {"layout": "columns_4x4", "transform_of_bone": [1, 0]}}
+        expected = nook.evaluate_poses(self.model, poses)
+        for kind, transforms in given.items():
+            np.testing.assert_allclose(nook.evaluate_poses(self.model, transforms, kind=kind, **options[kind]), expected, atol=1e-4)
+        self.assertEqual(nook.evaluate_poses(self.model, np.empty((0, 2, 3, 4))).shape, (0, self.model.vertex_count))
+
+    def test_many_poses_name_what_is_wrong(self):
+        poses = np.stack([bent(0)] * 40)
+        for wrong, words in ((poses[0], r"poses: has the shape \(2, 3, 4\)"), (poses[:, :1], r"poses: has the shape \(40, 1, 3, 4\)")):
+            with self.assertRaisesRegex(ValueError, words):
+                nook.evaluate_poses(self.model, wrong)
+        poses[[33, 37], 1, 0, 0] = math.nan
+        for threads in (1, 3):
+            with self.assertRaisesRegex(nook.NookError, "nook_model_evaluate_poses: pose 33: "):
+                nook.evaluate_poses(self.model, poses, threads=threads)
+        with self.assertRaisesRegex(ValueError, "threads: need a whole number of 0 to 1024, got 1025"):
+            nook.evaluate_poses(self.model, poses, threads=1025)
+        with self.assertRaisesRegex(TypeError, "model: need a nook.CharacterModel, got "):
+            nook.evaluate_poses(self.data, poses)
+
+    def test_ctrl_c_ends_every_long_call(self):
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
+        positions, normals = self.character.vertices()
+        body = [(positions, self.character.triangles())]
+        many = np.random.default_rng(1).integers(0, len(positions), 3_000_000)
+        directions = np.random.default_rng(2).normal(size=(6_000_000, 3)).astype(np.float32)
+        directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+        fit, light = nook.ProbeFit(), np.ones_like(directions)
+        fit.add_samples(directions[:1000], light[:1000])
+        probe = fit.solve()
+        # Each takes many seconds.
+        calls = {
+            "trace_ao": lambda: nook.trace_ao(body, positions[many], normals[many], rays=4096),
+            "model_error": lambda: nook.model_error(self.character, self.model, [bent(0)] * 100_000, rays=4096),
+            "evaluate_poses": lambda: [nook.evaluate_poses(self.model, [bent(0)] * 20_000) for _ in range(1000)],
+            "auto_poses": lambda: [self.character.auto_poses(100_000) for _ in range(1000)],
+            "match_vertices": lambda: [self.model.match_vertices(positions[many], normals[many], in_rest_space=True) for _ in range(1000)],
+            "add_samples": lambda: [nook.ProbeFit(lobes=64).add_samples(directions, light) for _ in range(1000)],
+            "radiance": lambda: [probe.radiance(directions) for _ in range(1000)],
+            "Character": lambda: [tube() for _ in range(100_000)],
+        }
+        for name, work in calls.items():
+            sent = []
+
+            def send():
+                sent.append(time.monotonic())
+                signal.raise_signal(signal.SIGINT) if os.name == "nt" else os.kill(os.getpid(), signal.SIGINT)
+
+            timer = threading.Timer(0.7, send)
+            timer.start()
+            with self.subTest(name):
+                with self.assertRaises(KeyboardInterrupt):
+                    work()
+                took = time.monotonic() - sent[0]
+                print(f"Ctrl+C in {name}: {took:.2f} s")
+                # Half a second on a free machine; a busy one gets ten times that.
+                self.assertLess(took, 5)
+            timer.join()
+        # Later calls are right.
+        np.testing.assert_array_equal(nook.evaluate_pose(self.model, bent(1)), self.ao)
+
     def test_ctrl_c_ends_a_wait_and_cancels_the_job(self):
         before = signal.signal(signal.SIGINT, signal.default_int_handler)
         self.addCleanup(signal.signal, signal.SIGINT, before)

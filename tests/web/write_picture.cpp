@@ -3,9 +3,9 @@
 //
 //   web_picture FOLDER
 //
-// FOLDER holds character.json, character.bin and character.nook. FOLDER/picture.json gets sizes, matrices,
-// shaders, and places in FOLDER/picture.bin: positions and normals in world space, triangles, and the picture
-// as RGBA bytes whose rows begin at the bottom.
+// FOLDER holds character.json, character.bin, showcase.bin and character.nook. FOLDER/picture.json gets
+// sizes, matrices, shaders, and places in FOLDER/picture.bin: positions and normals in world space,
+// triangles, and the picture as RGBA bytes whose rows begin at the bottom.
 #include <glad/gl.h>
 
 #include <array>
@@ -42,11 +42,11 @@ struct Geometry {
   std::uint32_t body_vertices = 0;
 };
 
-// An array of character.bin.
+// An array of character.bin or showcase.bin.
 template <class T>
-std::vector<T> array_of(const nlohmann::json& description, const std::vector<unsigned char>& bytes,
+std::vector<T> array_of(const nlohmann::json& places, const std::vector<unsigned char>& bytes,
                         const char* name) {
-  const nlohmann::json& place = description["arrays"][name];
+  const nlohmann::json& place = places[name];
   std::vector<T> values(place["length"].get<std::size_t>());
   std::memcpy(values.data(), bytes.data() + place["offset"].get<std::size_t>(), values.size() * sizeof(T));
   return values;
@@ -92,15 +92,15 @@ void skin_vertex(const std::vector<float>& positions, const std::vector<float>& 
   }
 }
 
-Geometry build_geometry(const nlohmann::json& description, const std::vector<unsigned char>& bytes) {
-  const auto positions = array_of<float>(description, bytes, "positions");
-  const auto normals = array_of<float>(description, bytes, "normals");
-  const auto joints = array_of<std::uint16_t>(description, bytes, "joints");
-  const auto weights = array_of<float>(description, bytes, "weights");
-  const auto poses = array_of<float>(description, bytes, "expected_poses");
+Geometry build_geometry(const nlohmann::json& places, const std::vector<unsigned char>& bytes,
+                        const std::vector<float>& poses) {
+  const auto positions = array_of<float>(places, bytes, "positions");
+  const auto normals = array_of<float>(places, bytes, "normals");
+  const auto joints = array_of<std::uint16_t>(places, bytes, "joints");
+  const auto weights = array_of<float>(places, bytes, "weights");
   Geometry geometry;
   geometry.body_vertices = static_cast<std::uint32_t>(positions.size() / 3);
-  geometry.triangles = array_of<std::uint32_t>(description, bytes, "indices");
+  geometry.triangles = array_of<std::uint32_t>(places, bytes, "indices");
   for (std::size_t body = 0; body < 2; ++body)
     for (std::size_t v = 0; v < geometry.body_vertices; ++v)
       skin_vertex(positions, normals, joints, weights, &poses[body * poses.size() / 2], v, geometry);
@@ -278,14 +278,15 @@ void run(const std::string& folder) {
   const std::vector<unsigned char> text = platform::read_file(folder + "/character.json");
   const nlohmann::json description = nlohmann::json::parse(text.begin(), text.end());
   const std::vector<unsigned char> arrays = platform::read_file(folder + "/character.bin");
-  const Geometry geometry = build_geometry(description, arrays);
+  const auto poses = array_of<float>(description["showcase"], platform::read_file(folder + "/showcase.bin"),
+                                     "expected_poses");
+  const Geometry geometry = build_geometry(description["arrays"], arrays, poses);
   platform::ContextRequest request;
   request.es = true;
   request.major = 3;
   request.minor = 0;
   const std::unique_ptr<platform::Context> window = platform::create_context(request);
-  Occlusion occlusion(platform::read_file(folder + "/character.nook"),
-                      array_of<float>(description, arrays, "expected_poses"), *window);
+  Occlusion occlusion(platform::read_file(folder + "/character.nook"), poses, *window);
   const Matrix projection = perspective(), clip = product(projection, view_from_world());
   const std::vector<unsigned char> pixels = draw(geometry, occlusion, window->gl(), projection, clip);
 

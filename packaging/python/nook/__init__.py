@@ -18,12 +18,12 @@ from .characters import Character
 from .jobs import Job, Progress, bake_character, bake_material, bake_transfer
 from .materials import Material, MaterialValues
 from .probes import Probe, ProbeFit
-from .scenes import NO_VERTEX, CharacterModel, Context, Instance, Scene, Skin, VertexMatch, evaluate_pose
+from .scenes import NO_VERTEX, CharacterModel, Context, Instance, Scene, Skin, VertexMatch, evaluate_pose, evaluate_poses
 from .traces import ModelError, model_error, trace_ao
 
 __version__ = f"{NOOK_VERSION_MAJOR}.{NOOK_VERSION_MINOR}.{NOOK_VERSION_PATCH}{NOOK_VERSION_SUFFIX.replace('-', '')}"
 __all__ = [
     "Cancelled", "Character", "CharacterModel", "Context", "Instance", "Job", "Material", "MaterialValues", "MissingLibrary", "ModelError",
     "NO_VERTEX", "NookError", "Probe", "ProbeFit", "Progress", "Scene", "Skin", "VertexMatch", "bake_character", "bake_material",
-    "bake_transfer", "evaluate_pose", "model_error", "trace_ao",
+    "bake_transfer", "evaluate_pose", "evaluate_poses", "model_error", "trace_ao",
 ]

@@ -6,7 +6,8 @@ import math
 import operator
 import os
 import pathlib
-from typing import Any, Dict, Iterable, List, Optional, Tuple, Type, Union
+import threading
+from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple, Type, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +15,7 @@ import numpy.typing as npt
 from . import _layouts as c
 
 FloatArray = npt.NDArray[np.float32]
+Own = TypeVar("Own", bound="Handle")
 
 
 class NookError(Exception):
@@ -145,7 +147,8 @@ def _fields(structure: Any) -> Dict[str, Any]:
 
 def put(structure: Any, **values: Any) -> None:
     """Sets fields of a structure; what they do not hold raises ValueError or TypeError that names the field."""
-    kinds = _fields(type(structure))
+    kind: Any = type(structure)
+    kinds = _fields(kind)
     for name, value in values.items():
         setattr(structure, name, checked(value, kinds[name], name))
 
@@ -180,6 +183,41 @@ def call(name: str, *arguments: Any) -> Any:
         kind = Cancelled if result == c.NOOK_ERROR_CANCELLED else NookError
         raise kind(_RESULTS.get(result, str(result)), message)
     return result
+
+
+def call_interruptibly(name: str, *arguments: Any, stop: Optional[Callable[[], None]] = None, keep: Any = None,
+                       entries: Optional[int] = None) -> Any:
+    """call(), which Ctrl+C ends: a call of C on the main thread would hold back Ctrl+C until it returns.
+
+    The call runs on another thread. After Ctrl+C, stop() asks it to end; if it has not ended soon, it goes on alone, and nobody sees
+    what comes of it. So it may write only into what nobody else has; keep is what its descriptor points to. A call with few entries
+    ends soon anyway, and needs no thread.
+    """
+    # Signals come to the main thread alone.
+    if threading.current_thread() is not threading.main_thread() or (entries is not None and entries < 50_000):
+        return call(name, *arguments)
+    answers: List[Any] = []
+    errors: List[BaseException] = []
+
+    def run(_keep: Any) -> None:
+        try:
+            answers.append(call(name, *arguments))
+        except BaseException as error:
+            errors.append(error)
+
+    thread = threading.Thread(target=run, args=(keep,), name="nook", daemon=True)
+    thread.start()
+    try:
+        while thread.is_alive():
+            thread.join(0.1)  # with a time, because Windows does not interrupt a wait without one
+    except BaseException:  # Ctrl+C, or what another handler of a signal raises
+        if stop is not None:
+            stop()
+        thread.join(0.2)
+        raise
+    if errors:
+        raise errors[0]
+    return answers[0]
 
 
 def described(kind: Any, name: str, *arguments: Any) -> Any:
@@ -227,7 +265,7 @@ class Handle:
         # A copied handle would name an object that another process has not, or that is destroyed twice.
         raise TypeError(f"a nook.{type(self).__name__} cannot be pickled or copied: {self._no_copy}")
 
-    def __enter__(self) -> Any:
+    def __enter__(self: Own) -> Own:
         return self
 
     def __exit__(self, *reason: object) -> None:
@@ -354,7 +392,7 @@ def pointer(array: Optional[npt.NDArray[Any]]) -> Any:
     """The C pointer of an array, which the caller keeps alive; None is NULL."""
     if array is None:
         return None
-    kinds = {"f": ctypes.c_float, "u4": ctypes.c_uint32, "i4": ctypes.c_int32, "u2": ctypes.c_uint16}
+    kinds: Dict[str, Any] = {"f": ctypes.c_float, "u4": ctypes.c_uint32, "i4": ctypes.c_int32, "u2": ctypes.c_uint16}
     key = "f" if array.dtype == np.float32 else array.dtype.str[1:]
     return array.ctypes.data_as(ctypes.POINTER(kinds[key]))
 

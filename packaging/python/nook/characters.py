@@ -9,8 +9,8 @@ import numpy.typing as npt
 
 from . import _layouts as c
 from ._library import (
-    FloatArray, Handle, came, call, described, descriptor, floats, integer, integers, name_array, names, number, path_or_bytes, pointer, put,
-    text,
+    FloatArray, Handle, came, call, call_interruptibly, described, descriptor, floats, integer, integers, name_array, names, number,
+    path_or_bytes, pointer, put, text,
 )
 
 
@@ -78,7 +78,7 @@ class Character(Handle):
                 bone_frames_3x4=pointer(origin["bone_frames"]), bone_count=len(parents))
             if origin["bone_names"] is not None:
                 desc.bone_names = name_array(origin["bone_names"])
-        call("nook_bake_character_create", ctypes.byref(desc), ctypes.byref(self._handle))
+        call_interruptibly("nook_bake_character_create", ctypes.byref(desc), ctypes.byref(self._handle), keep=(origin, held, self))
         self._origin = origin
         self._describe()
 
@@ -138,7 +138,7 @@ class Character(Handle):
         """Generated whole-body poses, count x bones x 3 x 4."""
         count, seed = integer(count, ctypes.c_uint32, "count"), integer(seed, ctypes.c_uint64, "seed")
         bones = np.empty((count, self.bone_count, 3, 4), np.float32)
-        call("nook_bake_character_auto_poses", self.handle, seed, count, pointer(bones), self.bone_count)
+        call_interruptibly("nook_bake_character_auto_poses", self.handle, seed, count, pointer(bones), self.bone_count, keep=self)
         return bones
 
     def vertices(self) -> Tuple[FloatArray, FloatArray]:

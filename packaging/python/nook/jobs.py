@@ -10,8 +10,8 @@ import numpy as np
 
 from . import _layouts as c
 from ._library import (
-    Handle, NookError, came, call, choice, described, descriptor, encoded, file_bytes, floats, integers, name_array, names, need, pointer,
-    put, put_settings, text,
+    Handle, NookError, came, call, call_interruptibly, choice, described, descriptor, encoded, file_bytes, floats, integers, name_array, names, need,
+    pointer, put, put_settings, text,
 )
 from .characters import Character
 from .materials import Material
@@ -36,7 +36,7 @@ class Job(Handle):
     _destroy = "nook_bake_job_destroy"
     _no_copy = "it runs on threads of this process; call wait() and pass on the bytes that it returns"
 
-    def __init__(self, desc: Any, progress: Optional[ProgressFunction]) -> None:
+    def __init__(self, desc: Any, progress: Optional[ProgressFunction], keep: Any) -> None:
         super().__init__()
         if progress is not None and not callable(progress):
             raise TypeError(f"progress: need a function, got {came(progress)}")
@@ -52,9 +52,10 @@ class Job(Handle):
                 return 0
 
         # The job calls it from its own threads, so that it lives as long as the job.
-        self._report = c.nook_bake_progress_fn(report if progress else 0)
+        self._report = c.nook_bake_progress_fn(report) if progress else c.nook_bake_progress_fn(0)
         desc.progress = self._report
-        call("nook_bake_start", ctypes.byref(desc), ctypes.byref(self._handle))
+        # It makes poses before it returns. A job that Ctrl+C leaves behind is closed with this object.
+        call_interruptibly("nook_bake_start", ctypes.byref(desc), ctypes.byref(self._handle), keep=(keep, self))
 
     @property
     def handle(self) -> Any:
@@ -155,7 +156,7 @@ def bake_character(character: Character, *, preset: str = "standard", poses: Opt
         put(desc, extra_poses_3x4=pointer(extra), extra_pose_count=len(extra))
     put_settings(desc, settings, ("spheres", "key_points", "rays", "steps", "auto_pose_count", "samples_per_clip", "seed", "threads",
                                   "gamma", "saturation", "time_limit_s"), "a character's bake")
-    return Job(desc, progress)
+    return Job(desc, progress, (character, study, extra))
 
 
 def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any = None, lights: Any = None, views: Any = None,
@@ -204,7 +205,7 @@ def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any 
     desc.relief = 1 if relief else 0
     if heights is not None:
         give("heights", heights, (desc.height, desc.width))
-    return Job(desc, progress)
+    return Job(desc, progress, kept)
 
 
 def bake_transfer(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tangents: Any = None, holes_of: Any = None,
@@ -215,6 +216,7 @@ def bake_transfer(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tan
     ray_side, threads, bounces, tiles.
     """
     desc = descriptor(c.nook_bake_transfer_desc)
+    holes: Optional[bytes] = None
     p = floats(positions, (None, 3), "positions")
     n = floats(normals, (len(p), 3), "normals")
     uv = floats(uvs, (len(p), 2), "uvs")
@@ -226,4 +228,4 @@ def bake_transfer(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tan
         holes = holes_of.data if isinstance(holes_of, Material) else file_bytes(holes_of, "holes_of")
         put(desc, votf=ctypes.cast(ctypes.c_char_p(holes), ctypes.c_void_p), votf_size=len(holes))
     put_settings(desc, settings, ("lobes", "ray_side", "threads", "bounces", "tiles"), "a transfer's bake")
-    return Job(desc, progress)
+    return Job(desc, progress, (p, n, uv, tangent, indices, holes))

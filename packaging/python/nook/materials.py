@@ -5,7 +5,7 @@ from typing import Any, Callable, NamedTuple, Tuple
 import numpy as np
 
 from . import _layouts as c
-from ._library import FloatArray, Handle, call, described, file_bytes, floats, integer, word
+from ._library import FloatArray, Handle, call, call_interruptibly, described, file_bytes, floats, integer, word
 from .scenes import shared_context
 
 
@@ -50,6 +50,8 @@ class Material(Handle):
         # The structures hold floats alone, so that arrays of floats have their layout.
         rows = np.concatenate([points, *sides, views, lights], axis=1).astype(np.float32)
         values = np.empty((len(rows), ctypes.sizeof(c.nook_material_value) // 4), np.float32)
-        call("nook_material_evaluate", self.handle, ctypes.cast(rows.ctypes.data, ctypes.POINTER(c.nook_material_pixel)), len(rows),
-             fetches, ctypes.cast(values.ctypes.data, ctypes.POINTER(c.nook_material_value)))
+        pixels = ctypes.cast(rows.ctypes.data, ctypes.POINTER(c.nook_material_pixel))
+        out = ctypes.cast(values.ctypes.data, ctypes.POINTER(c.nook_material_value))
+        call_interruptibly("nook_material_evaluate", self.handle, pixels, len(rows), fetches, out, keep=(rows, values, self),
+                           entries=len(rows) * max(fetches, 1))
         return MaterialValues(values[:, 0:3].copy(), values[:, 3].copy(), values[:, 4].copy())

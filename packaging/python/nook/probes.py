@@ -5,7 +5,7 @@ from typing import Any, Callable, Tuple
 import numpy as np
 
 from . import _layouts as c
-from ._library import FloatArray, Handle, call, choice, described, descriptor, file_bytes, floats, integer, need, pointer, put
+from ._library import FloatArray, Handle, NookError, call, call_interruptibly, choice, described, descriptor, file_bytes, floats, integer, need, pointer, put
 from .scenes import shared_context
 
 
@@ -55,7 +55,7 @@ class Probe(Handle):
             shape = (3,) if np.ndim(position) == 1 else (len(d), 3)
             at = np.ascontiguousarray(np.broadcast_to(floats(position, shape, "position"), d.shape))
         rgb = np.empty_like(d)
-        call(function, self.handle, pointer(at), pointer(d), pointer(rgb), len(d))
+        call_interruptibly(function, self.handle, pointer(at), pointer(d), pointer(rgb), len(d), keep=self, entries=len(d))
         return rgb
 
     def coefficients(self, index: int = 0) -> FloatArray:
@@ -96,11 +96,18 @@ class ProbeFit(Handle):
         call("nook_probe_fit_create", shared_context().handle, ctypes.byref(desc), ctypes.byref(self._handle))
 
     def add_samples(self, directions: Any, radiance: Any, weights: Any = None) -> None:
-        """Light from unit directions; weights are 1 / (4 pi p) for directions of density p, None for uniform ones."""
+        """Light from unit directions; weights are 1 / (4 pi p) for directions of density p, None for uniform ones. Ctrl+C closes the fit,
+        because it may have a part of the samples."""
         d = floats(directions, (None, 3), "directions")
         rgb = floats(radiance, (len(d), 3), "radiance")
         w = None if weights is None else floats(weights, (len(d),), "weights")
-        call("nook_probe_fit_add_samples", self.handle, pointer(d), pointer(rgb), pointer(w), len(d))
+        try:
+            call_interruptibly("nook_probe_fit_add_samples", self.handle, pointer(d), pointer(rgb), pointer(w), len(d), entries=len(d))
+        except NookError:
+            raise
+        except BaseException:
+            self._handle = self._kind()  # not destroyed: the call may still add to it
+            raise
 
     def merge(self, other: "ProbeFit") -> None:
         """Adds the samples of another fit with the same settings, such as one that another thread filled."""

@@ -1,6 +1,10 @@
 """What the runtime does with baked characters: models, scenes, ambient occlusion of poses."""
 import ctypes
 import logging
+import os
+import re
+import threading
+import time
 import weakref
 from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
@@ -9,19 +13,21 @@ import numpy.typing as npt
 
 from . import _layouts as c
 from ._library import (
-    FloatArray, Handle, call, choice, described, descriptor, file_bytes, floats, integer, integers, name_array, names, need, numbers, pointer,
-    put, put_settings, text,
+    FloatArray, Handle, NookError, call, call_interruptibly, choice, described, descriptor, file_bytes, floats, integer, integers, name_array,
+    names, need, numbers, pointer, put, put_settings, text,
 )
 
 
 _log = logging.getLogger("nook")
 
 
-@c.nook_log_fn
-def _log_line(_user: Any, severity: int, line: bytes) -> None:
+def _write_log(_user: Any, severity: int, line: bytes) -> None:
     """Passes what the library logs to the logger "nook"."""
     levels = {c.NOOK_LOG_WARNING: logging.WARNING, c.NOOK_LOG_ERROR: logging.ERROR}
     _log.log(levels.get(severity, logging.DEBUG), "%s", text(line))
+
+
+_log_line = c.nook_log_fn(_write_log)
 
 
 class Context(Handle):
@@ -125,8 +131,10 @@ class CharacterModel(Handle):
             joints=pointer(j), weights=pointer(w), skin=skin, primitive=c.NOOK_ALL_PRIMITIVES if primitive is None else primitive)
         if j is not None:
             put(desc, influences=j.shape[1])
-        vertices = np.empty(len(p), np.uint32)
-        info = described(c.nook_vertex_match_info, "nook_model_match_vertices", self.handle, ctypes.byref(desc), pointer(vertices))
+        vertices, info = np.empty(len(p), np.uint32), c.nook_vertex_match_info()
+        info.struct_size = ctypes.sizeof(info)
+        call_interruptibly("nook_model_match_vertices", self.handle, ctypes.byref(desc), pointer(vertices), ctypes.byref(info),
+                           keep=(p, n, j, w, self), entries=len(p))
         return VertexMatch(vertices, info.unmatched, info.ambiguous, info.text.decode())
 
     def remap(self, vertices: Any) -> "CharacterModel":
@@ -138,7 +146,8 @@ class CharacterModel(Handle):
         made: CharacterModel = type(self).__new__(type(self))
         Handle.__init__(made)
         made._data, made._maps = self._data, self._maps + (indices,)
-        call("nook_model_remap", self.handle, pointer(indices), len(indices), ctypes.byref(made._handle))
+        call_interruptibly("nook_model_remap", self.handle, pointer(indices), len(indices), ctypes.byref(made._handle), keep=(self, made),
+                           entries=len(indices))
         made._describe()
         return made
 
@@ -172,13 +181,14 @@ def _model(kind: Any, data: bytes, maps: Tuple[Any, ...]) -> CharacterModel:
 
 
 def _pose(model: CharacterModel, pose: Any, kind: str, *, layout: Optional[str] = None, skin: int = 0, transform_of_bone: Any = None,
-          place: Any = None, strict: bool = False) -> Tuple[Any, List[Any]]:
-    """A pose for C, and the arrays that it points to."""
+          place: Any = None, strict: bool = False, many: bool = False) -> Tuple[Any, List[Any]]:
+    """A pose for C, and the arrays that it points to, transforms first. many: an array of poses; C gets the first one."""
+    what = "poses" if many else "pose"
     if not isinstance(kind, str) or kind not in _KINDS:
         raise ValueError(f"kind: {kind!r} is none of {', '.join(_KINDS)}")
     if layout is None:
-        pose = numbers(pose, "pose")
-        layout = "rows_4x4" if pose.shape[1:] == (4, 4) else "rows_3x4"
+        pose = numbers(pose, what)
+        layout = "rows_4x4" if pose.shape[1 + many:] == (4, 4) else "rows_3x4"
     number = choice("NOOK_TRANSFORM_", layout, "layout")
     skin = integer(skin, ctypes.c_uint32, "skin")
     count: Optional[int] = model.bone_count
@@ -190,10 +200,11 @@ def _pose(model: CharacterModel, pose: Any, kind: str, *, layout: Optional[str] 
     bones = None
     if transform_of_bone is not None:
         bones, count = integers(transform_of_bone, np.int32, (model.bone_count,), "transform_of_bone"), None
-    transforms = floats(pose, (count,) + _LAYOUTS[layout], "pose")
+    of_all: Tuple[Optional[int], ...] = (None,) if many else ()
+    transforms = floats(pose, of_all + (count,) + _LAYOUTS[layout], what)
     at = None if place is None else floats(place, (3, 4), "place")
     desc = descriptor(c.nook_pose_desc)
-    put(desc, kind=choice("NOOK_POSE_", kind, "kind"), layout=number, transforms=pointer(transforms), transform_count=len(transforms),
+    put(desc, kind=choice("NOOK_POSE_", kind, "kind"), layout=number, transforms=pointer(transforms), transform_count=transforms.shape[many],
         skin=skin, place_3x4=pointer(at), flags=c.NOOK_POSE_FLAG_STRICT if strict else 0)
     if bones is not None:
         put(desc, transform_of_bone=pointer(bones), bone_count=len(bones))
@@ -299,8 +310,7 @@ class Scene(Handle):
 
 def evaluate_pose(model: CharacterModel, pose: Any, *, ground: Optional[Sequence[float]] = None, kind: str = "rest_to_world",
                   **options: Any) -> FloatArray:
-    """AO of one character in one pose. kind and options are those of Instance.set_pose(). For many poses, keep a Scene with an instance
-    and call set_pose(), update() and read_ao() for each."""
+    """AO of one character in one pose. kind and options are as in Instance.set_pose(). For many poses call evaluate_poses()."""
     with Scene() as scene:
         instance = scene.add_instance(model)
         instance.set_pose(pose, kind, **options)
@@ -308,3 +318,82 @@ def evaluate_pose(model: CharacterModel, pose: Any, *, ground: Optional[Sequence
             instance.set_ground(ground)
         scene.update()
         return instance.read_ao()
+
+
+def evaluate_poses(model: CharacterModel, poses: Any, *, ground: Optional[Sequence[float]] = None, kind: str = "rest_to_world",
+                   threads: int = 0, **options: Any) -> FloatArray:
+    """AO of one character in many poses: poses x vertices, the same numbers as evaluate_pose() gives for each.
+
+    poses has one more axis than a pose: poses x bones x 3 x 4. kind and options are as in Instance.set_pose(), and hold for all
+    poses. threads is 0 for all cores, or up to 1024; the numbers do not depend on it. Ctrl+C ends the call within moments.
+    """
+    handle = need(model, CharacterModel, "model").handle
+    if integer(threads, ctypes.c_uint32, "threads") > _MOST_THREADS:
+        raise ValueError(f"threads: need a whole number of 0 to {_MOST_THREADS}, got {threads}")
+    desc, kept = _pose(model, poses, kind, many=True, **options)
+    plane = None if ground is None else floats(ground, (4,), "ground")
+    each: FloatArray = kept[0]
+    ao = np.empty((len(each), model.vertex_count), np.float32)
+
+    def evaluate(first: int, end: int) -> None:
+        own = type(desc).from_buffer_copy(desc)
+        own.transforms = pointer(each[first:end])
+        try:
+            call("nook_model_evaluate_poses", handle, None, ctypes.byref(own), end - first, 0, pointer(plane), pointer(ao[first:end]),
+                 (end - first) * model.vertex_count)
+        except NookError as error:
+            # The library counts from the first pose that it was given.
+            said = re.sub(r"(?<=: pose )\d+(?=:)", lambda found: str(first + int(found.group())), str(error), count=1)
+            raise NookError(error.code, said) from None
+
+    _share(evaluate, len(each), int(threads) or _cores())
+    return ao
+
+
+_MOST_THREADS = 1024
+
+
+def _cores() -> int:
+    """The number of cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _share(work: Callable[[int, int], None], count: int, threads: int) -> None:
+    """Calls work(first, end) for runs of 0 to count, on this thread and others. Raises the error of the first run that failed.
+
+    A run takes some 50 ms, so that Ctrl+C is answered between two of them and what a call costs does not count.
+    """
+    lock, taken = threading.Lock(), 0
+    errors: List[Tuple[int, BaseException]] = []
+
+    def run() -> None:
+        nonlocal taken
+        size = 8
+        while not errors:
+            with lock:
+                first, taken = taken, min(taken + size, count)
+                end = taken
+            if first == end:
+                return
+            began = time.perf_counter()
+            try:
+                work(first, end)
+            except Exception as error:
+                errors.append((first, error))
+            each = (time.perf_counter() - began) / (end - first)
+            size = max(1, min(4 * size, int(0.05 / max(each, 1e-9)), -(-count // threads)))
+
+    others = [threading.Thread(target=run, name="nook", daemon=True) for _ in range(min(threads, count) - 1)]
+    for thread in others:
+        thread.start()
+    try:
+        run()
+        for thread in others:
+            thread.join()
+    except BaseException as error:  # Ctrl+C, or what another handler of a signal raises
+        errors.append((-1, error))
+        for thread in others:
+            thread.join()
+        raise
+    if errors:
+        raise min(errors, key=lambda each: each[0])[1]

@@ -1,11 +1,12 @@
 """Ray-traced references, and the error of a model against them."""
 import ctypes
+import threading
 from typing import Any, NamedTuple, Sequence, Tuple
 
 import numpy as np
 
 from . import _layouts as c
-from ._library import FloatArray, call, descriptor, floats, integers, need, pointer, put
+from ._library import FloatArray, call_interruptibly, descriptor, floats, integers, need, pointer, put
 from .characters import Character
 from .scenes import CharacterModel, evaluate_pose
 
@@ -14,7 +15,8 @@ VISIBLE = 0.01  # vertex-poses whose traced AO is smaller are inside the body
 
 def trace_ao(meshes: Sequence[Tuple[Any, Any]], positions: Any, normals: Any, *, rays: int = 64, seed: int = 1, threads: int = 0,
              radius: float = float("inf"), origin_offset: float = 1e-4) -> FloatArray:
-    """Cosine-weighted visibility of points against meshes, each (positions, triangles) in world space and metres."""
+    """Cosine-weighted visibility of points against meshes, each (positions, triangles) in world space and metres. Ctrl+C ends the call
+    within moments."""
     for mesh in meshes:
         if not isinstance(mesh, (tuple, list)) or len(mesh) != 2:
             raise TypeError("meshes: need a list of pairs (positions, triangles)")
@@ -27,8 +29,12 @@ def trace_ao(meshes: Sequence[Tuple[Any, Any]], positions: Any, normals: Any, *,
     desc = descriptor(c.nook_bake_trace_desc)
     put(desc, meshes=occluders, mesh_count=len(kept), positions=pointer(at), normals=pointer(facing), point_count=len(at), rays=rays,
         seed=seed, threads=threads, radius=radius, origin_offset=origin_offset)
+    stopped = threading.Event()
+    go_on = c.nook_bake_progress_fn(lambda _user, _at: 0 if stopped.is_set() else 1)
+    desc.progress = go_on
     ao = np.empty(len(at), np.float32)
-    call("nook_bake_trace_ao", ctypes.byref(desc), pointer(ao), len(at))
+    call_interruptibly("nook_bake_trace_ao", ctypes.byref(desc), pointer(ao), len(at), stop=stopped.set,
+                       keep=(kept, occluders, at, facing, go_on))
     return ao
 
 

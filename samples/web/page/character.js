@@ -3,7 +3,7 @@ const types = { float32: Float32Array, uint32: Uint32Array, uint16: Uint16Array,
 
 // The bytes of a file; progress(received, all) is told as they come, all 0 where the server does not say it.
 export async function fetchBytes(url, progress = () => {}) {
-  const response = await fetch(url).catch((error) => {
+  const response = await globalThis.nookFetch(url).catch((error) => {
     throw new Error(`${url} cannot be fetched (${error.message}); check the connection and the page's content security policy`);
   });
   if (!response.ok) throw new Error(`${url} cannot be fetched (status ${response.status}); samples/web/build.sh makes it`);
@@ -25,10 +25,10 @@ export async function fetchBytes(url, progress = () => {}) {
   return bytes.buffer;
 }
 
-const needed = ["positions", "normals", "joints", "weights", "indices", "references", "frames"];
-function arraysOf(description, bytes, url) {
+const needed = { arrays: ["positions", "normals", "joints", "weights", "indices", "stills"], showcase: ["frames", "references"] };
+function arraysOf(places, bytes, url) {
   const arrays = {};
-  for (const [name, { type, offset, length }] of Object.entries(description.arrays)) {
+  for (const [name, { type, offset, length }] of Object.entries(places)) {
     const end = offset + length * types[type].BYTES_PER_ELEMENT;
     if (end > bytes.byteLength)
       throw new Error(`${url} is incomplete (it has ${bytes.byteLength} bytes, and its array ${name} ends at ${end}); ` +
@@ -38,7 +38,7 @@ function arraysOf(description, bytes, url) {
   return arrays;
 }
 
-// progress(name of the file, received, all).
+// What the first picture needs. progress(name of the file, received, all).
 export async function fetchCharacter(folder, progress = () => {}) {
   const [text, bytes, nook] = await Promise.all(["json", "bin", "nook"].map((ending) => {
     const url = `${folder}/character.${ending}`;
@@ -48,14 +48,23 @@ export async function fetchCharacter(folder, progress = () => {}) {
   try {
     description = JSON.parse(new TextDecoder().decode(text));
   } catch {}
-  const lacks = needed.find((name) => !types[description?.arrays?.[name]?.type]);
+  const lacks = Object.keys(needed).flatMap((part) => needed[part].filter((name) => !types[description?.[part]?.[name]?.type]))[0];
   if (lacks || !Array.isArray(description.clips))
     throw new Error(`${folder}/character.json is damaged or another file (it describes no array ${lacks ?? "of clips"}); samples/web/build.sh makes it`);
-  return { ...description, arrays: arraysOf(description, bytes, `${folder}/character.bin`), nook };
+  return { ...description, arrays: arraysOf(description.arrays, bytes, `${folder}/character.bin`), nook, isComplete: false };
 }
 
-// The matrices of a clip at a time, 12 floats for each bone, between the two nearest frames.
+// What comes after the first picture: all frames of the clips, and the ray-traced reference.
+export async function fetchShowcase(folder, character) {
+  const url = `${folder}/showcase.bin`;
+  Object.assign(character.arrays, arraysOf(character.showcase, await fetchBytes(url), url));
+  character.isComplete = true;
+}
+
+// The matrices of a clip at a time, 12 floats for each bone, between the two nearest frames; those of the reference until all
+// frames are there.
 export function samplePose(character, clip, seconds, out) {
+  if (!character.isComplete) return referencePose(character, clip, out);
   const { first_frame: first, frames, seconds: length } = character.clips[clip];
   const floats = 12 * character.bones;
   const at = ((((seconds / length) % 1) + 1) % 1) * frames;
@@ -80,7 +89,6 @@ function straighten(matrix, at, scale) {
 // The matrices of the frame that the ray-traced reference has.
 export function referencePose(character, clip, out) {
   const floats = 12 * character.bones;
-  const { first_frame: first, reference_frame: middle } = character.clips[clip];
-  out.set(character.arrays.frames.subarray((first + middle) * floats, (first + middle + 1) * floats));
+  out.set(character.arrays.stills.subarray(clip * floats, (clip + 1) * floats));
   return out;
 }

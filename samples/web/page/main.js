@@ -3,8 +3,7 @@
 // By its place: a map of names would stand in the page itself, where strict policies forbid scripts.
 import { load } from "./node_modules/nook-web/index.js";
 import { readAddress, readTime, writeAddress } from "./address.js";
-import { fetchBytes, fetchCharacter } from "./character.js";
-import { makeChecks } from "./checks.js";
+import { fetchBytes, fetchCharacter, fetchShowcase } from "./character.js";
 import { Crowd } from "./crowd.js";
 import { makePanel } from "./panel.js";
 import { Renderer } from "./renderer.js";
@@ -88,6 +87,14 @@ class Page {
     this.renderer?.destroy();
     this.renderer = null;
   }
+  // The error is shown once its reference is there.
+  get showsError() {
+    return state.view === "error" && this.character.isComplete;
+  }
+  addShowcase() {
+    if (this.renderer && !this.webgl.isContextLost()) this.renderer.addReferences();
+    this.arrange();
+  }
   addMaterial(material) {
     this.material = material;
     if (this.renderer && !this.webgl.isContextLost()) this.renderer.addMaterial(material);
@@ -111,7 +118,7 @@ class Page {
 
   // The crowd and its links, after a change of the state.
   arrange() {
-    const error = state.view === "error";
+    const error = this.showsError;
     if (error) this.crowd.lineUp();
     else this.crowd.scatter(state.count);
     this.crowd.configure({ neighbours: error ? 0 : state.neighbours, ground: error || state.ground });
@@ -139,7 +146,7 @@ class Page {
     const width = Math.round(canvas.clientWidth * scale), height = Math.round(canvas.clientHeight * scale);
     if (width === 0 || height === 0) return false;
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-    const error = state.view === "error";
+    const error = this.showsError;
     this.crowd.animate(seconds, error);
     const turn = (error ? 0 : state.turn) * degrees, tilt = (error ? 4 : state.tilt) * degrees, away = error ? 11 : state.distance;
     const target = error ? [1.45, 0.8, 0] : [0.45, 0.82, 0];
@@ -244,7 +251,10 @@ function watchContext(pageOf) {
   });
 }
 
+// Draws frames from now on. Resolves after the first one, or at once where the page waits for its test.
 function run(page) {
+  let drawn = () => {};
+  const first = page.paused ? Promise.resolve() : new Promise((resolve) => (drawn = resolve));
   const status = document.getElementById("status");
   let last = performance.now(), shown = last, frames = 0;
   const frame = (now) => {
@@ -261,14 +271,23 @@ function run(page) {
       report(error);
       return;
     }
+    if (page.frames === 1) performance.mark("first picture");
     ++frames;
+    drawn();
     if (now - shown < 1000) return;
     status.textContent = `${((frames * 1000) / (now - shown)).toFixed(0)} frames/s · ${page.crowd.count} characters · ${(page.crowd.count * page.character.vertices).toLocaleString("en")} vertices`;
-    if (state.view === "error") document.getElementById("error").textContent = `Mean squared error ${page.meanSquaredError().toExponential(2)}`;
+    if (page.showsError) document.getElementById("error").textContent = `Mean squared error ${page.meanSquaredError().toExponential(2)}`;
     shown = now;
     frames = 0;
   };
   requestAnimationFrame(frame);
+  return first;
+}
+
+// start.js has asked for the module already; where that failed, load() asks again and tells why.
+async function loadNook(log) {
+  const answer = await globalThis.nookFetch("node_modules/nook-web/nook.wasm").catch(() => null);
+  return load(answer?.ok ? { log, wasm: answer } : { log });
 }
 
 async function start() {
@@ -282,8 +301,8 @@ async function start() {
     const [got, whole] = ["received", "all"].map((member) => [...files.values()].reduce((sum, file) => sum + file[member], 0) / 1e6);
     progress(`Loading the scene: ${got.toFixed(1)}${[...files.values()].every(({ all: known }) => known > 0) ? ` of ${whole.toFixed(1)}` : ""} MB`);
   };
-  const [nook, character] = await Promise.all([
-    load({ log: (severity, text) => severity !== "info" && console.warn(text) }), fetchCharacter("data", count)]);
+  const log = (severity, text) => severity !== "info" && console.warn(text);
+  const [nook, character] = await Promise.all([loadNook(log), fetchCharacter("data", count)]);
   page = new Page(nook, character, named("data/character.nook", () => nook.loadCharacter(character.nook)), null, webgl);
   character.nook = null;
   // The panel is folded where it would cover the picture.
@@ -296,11 +315,14 @@ async function start() {
   steer(page);
   page.paused = query.has("check");
   clear();
-  run(page);
-  // The first picture does not wait for the material, which is the largest file.
+  const firstPicture = run(page);
+  // The showcase comes after the first picture: the clips, the reference and the material are most of the bytes.
+  await firstPicture;
+  await fetchShowcase("data", character);
+  page.addShowcase();
   const material = await fetchBytes("data/material.nook");
   page.addMaterial(named("data/material.nook", () => nook.loadMaterial(material)));
-  window.nookPage = { page, checks: makeChecks(page) };
+  window.nookPage = { page, checks: query.has("check") ? (await import("./checks.js")).makeChecks(page) : null };
 }
 
 // What a file's contents make the library say, with the name of the file.

@@ -60,9 +60,14 @@ export class Renderer {
     this.ballProgram = new Program(this.gl, ballVertex, ballFragment(this.probe.info.glsl + this.material.info.glsl));
   }
 
+  addReferences() {
+    this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.references);
+    this.gl.bufferData(this.gl.ARRAY_BUFFER, this.character.arrays.references, this.gl.STATIC_DRAW);
+  }
+
   #makeGeometry() {
     const { gl } = this;
-    const { positions, normals, joints, weights, indices, references } = this.character.arrays;
+    const { positions, normals, joints, weights, indices } = this.character.arrays;
     this.restArray = gl.createVertexArray();
     gl.bindVertexArray(this.restArray);
     const floats = (slot, data, size, type = gl.FLOAT, normalised = false) => {
@@ -79,7 +84,8 @@ export class Renderer {
     floats(3, weights, 4);
     this.bodyArray = gl.createVertexArray();
     gl.bindVertexArray(this.bodyArray);
-    this.references = floats(6, references, 1, gl.UNSIGNED_BYTE, true);
+    // The reference comes after the first picture; an attribute must have a buffer before.
+    this.references = floats(6, this.character.arrays.references ?? new Uint8Array(this.character.vertices), 1, gl.UNSIGNED_BYTE, true);
     buffer(gl, gl.ELEMENT_ARRAY_BUFFER, indices);
     this.ballArray = gl.createVertexArray();
     gl.bindVertexArray(this.ballArray);

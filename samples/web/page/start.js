@@ -19,6 +19,15 @@
       console.error(error);
     },
   };
+  // Takes what index.html preloads, before the other scripts are there.
+  const early = new Map(["node_modules/nook-web/nook.wasm", "data/character.json", "data/character.bin", "data/character.nook"]
+    .map((url) => [url, fetch(url)]));
+  for (const answer of early.values()) answer.catch(() => {});  // whoever needs the file tells
+  globalThis.nookFetch = (url) => {
+    const answer = early.get(url) ?? fetch(url);
+    early.delete(url);
+    return answer;
+  };
   addEventListener("unhandledrejection", ({ reason }) => globalThis.nookMessage.report(reason));
   globalThis.nookMessage.progress("Loading the page's scripts …");
   import("./main.js").catch(globalThis.nookMessage.report);

@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-/* Identify an instance and an occluder. 0 is never a valid id, and no id is used again in a scene. */
+/* Identify an instance and an occluder, each in its own scene only. 0 is never an id; none is used again. */
 typedef uint32_t nook_instance_id;
 typedef uint32_t nook_occluder_id;
 

@@ -1,9 +1,11 @@
+#include <nook/experimental/nook_poses.h>
 #include <nook/nook_character.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <exception>
 
 #include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
@@ -83,6 +85,92 @@ nook::Vector<SkinnedVertex> skinned_vertices(const CharacterModel& model, const 
   return out;
 }
 
+// Many poses of one model, and where their AO goes.
+struct PoseBatch {
+  nook_model_s& model;
+  SceneSettings settings;
+  PoseSource first;
+  std::size_t stride = 0;         // bytes from pose to pose
+  const Plane* ground = nullptr;  // null: none
+  float* ao = nullptr;
+};
+
+// A run of poses that one job evaluates.
+struct PoseRun {
+  std::uint32_t begin = 0, end = 0;
+  std::array<PoseNotes, 3> notes;  // of the first pose with each topic
+  std::exception_ptr failure;      // of the pose at `begin`, which moves on while poses succeed
+};
+
+// Keeps the notes for the log, which jobs do not write: their threads may not be ones that call Nook.
+void keep_notes(PoseRun& run, const PoseNotes& notes) {
+  for (std::size_t t = 0; t < run.notes.size(); ++t)
+    if ((notes.topics() >> t & 1) && !run.notes[t].topics()) run.notes[t] = notes;
+}
+
+// Returns the bytes from pose to pose. A pose is as long as all transforms that the host gave.
+std::size_t batch_stride(const CharacterModel& model, PoseSource source, std::size_t pose_stride,
+                         std::uint32_t pose_count) {
+  check_pose_source(model, source);
+  if (pose_stride % sizeof(float))
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "pose_stride is not a multiple of 4 (got %zu bytes)",
+                  pose_stride);
+  return checked_stride("pose_stride", pose_stride, pose_count, source.stride * source.given_count);
+}
+
+// The runs are long, because each has a scene of its own.
+std::uint32_t run_count(const Parallel& parallel, std::uint32_t pose_count) {
+  constexpr std::uint32_t min_poses = 8, max_runs = 64;
+  return parallel.run ? std::clamp(pose_count / min_poses, 1u, max_runs) : 1;
+}
+
+void evaluate_run(const PoseBatch& batch, PoseRun& run, nook::Memory* memory) {
+  Scene scene(batch.settings, {}, memory);
+  const nook_instance_id id = add_instance(scene, Ref<const LoadedModel>::share(&batch.model));
+  const Instance& instance = instance_of(scene, id);
+  if (batch.ground) set_ground(scene, id, batch.ground);
+  const Vector<Mat3x4> rest(instance.input.bones, memory);
+  const std::size_t vertices = batch.model.model.file_to_welded.size();
+  for (; run.begin < run.end; ++run.begin) {
+    PoseSource source = batch.first;
+    source.transforms = reinterpret_cast<const float*>(
+        reinterpret_cast<const unsigned char*>(batch.first.transforms) + run.begin * batch.stride);
+    if (source.is_partial) set_pose(scene, id, rest);
+    keep_notes(run, set_pose(scene, id, source));
+    update(scene);
+    read_ao_as(scene, instance, NOOK_FORMAT_FLOAT, batch.ao + run.begin * vertices, sizeof(float));
+  }
+}
+
+// Throws the failure of the first pose that was refused, with its number.
+void rethrow_first(std::span<const PoseRun> runs) {
+  for (const PoseRun& run : runs) try {
+      if (run.failure) std::rethrow_exception(run.failure);
+    } catch (const Failure& failure) {
+      throw Failure(failure.code(), "pose %u: %s", run.begin, failure.what());
+    }
+}
+
+void evaluate_batch(const PoseBatch& batch, std::uint32_t pose_count, Context& context) {
+  nook::Vector<PoseRun> runs(run_count(context.parallel(), pose_count), context.memory());
+  const auto count = static_cast<std::uint32_t>(runs.size());
+  auto evaluate = [&](std::uint32_t r) noexcept {
+    PoseRun& run = runs[r];
+    run.begin = static_cast<std::uint32_t>(std::uint64_t{pose_count} * r / count);
+    run.end = static_cast<std::uint32_t>(std::uint64_t{pose_count} * (r + 1) / count);
+    try {
+      evaluate_run(batch, run, context.memory());
+    } catch (...) {
+      run.failure = std::current_exception();
+    }
+  };
+  parallel_for(context.parallel(), count, evaluate);
+  rethrow_first(runs);
+  for (const PoseRun& run : runs)
+    for (const PoseNotes& notes : run.notes)
+      api::log_pose(context, "nook_model_evaluate_poses", batch.model.model, notes, batch.model.reported);
+}
+
 }  // namespace
 
 nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id instance, const nook_pose_desc* desc) {
@@ -106,6 +194,30 @@ nook_result nook_model_convert_pose(nook_model model, const nook_pose_desc* desc
     const PoseNotes notes =
         convert_pose(model->model, source, {reinterpret_cast<Mat3x4*>(bones_3x4), bone_count});
     api::log_pose(*model->context, "nook_model_convert_pose", model->model, notes, model->reported);
+  });
+}
+
+nook_result nook_model_evaluate_poses(nook_model model, const nook_scene_desc* settings,
+                                      const nook_pose_desc* first, uint32_t pose_count, size_t pose_stride,
+                                      const float* plane_xyzd, float* ao, size_t count) {
+  return api::enter("nook_model_evaluate_poses", [&] {
+    need(model, "model");
+    const std::size_t vertices = model->model.file_to_welded.size();
+    check_array("pose_count", pose_count, vertices * sizeof(float));
+    if (count != pose_count * vertices)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "count is not pose_count times the model's file_vertex_count (got %zu, need %zu)", count,
+                    pose_count * vertices);
+    if (pose_count) need(ao, "ao");
+    nook_context_s& context = *model->context;
+    const nook_scene_desc used = settings ? read_descriptor(settings) : default_desc<nook_scene_desc>();
+    PoseBatch batch{*model, settings_of(used, context), source_of(model->model, first)};
+    batch.stride = batch_stride(model->model, batch.first, pose_stride, pose_count);
+    const float* const p = plane_xyzd;
+    const Plane ground = p ? Plane{{p[0], p[1], p[2]}, p[3]} : Plane{};
+    batch.ground = p ? &ground : nullptr;
+    batch.ao = ao;
+    evaluate_batch(batch, pose_count, context);
   });
 }
 

@@ -12,32 +12,6 @@ using namespace nook;
 
 namespace {
 
-SceneSettings settings_of(const nook_scene_desc& desc, const Context& context) {
-  constexpr float tiny = 1e-6f, huge = 1e9f;
-  check_known("desc.form", desc.form, NOOK_FORM_PAPER);
-  check_range("desc.cutoff_error", desc.cutoff_error, 0, 1);
-  check_range("desc.far_error", desc.far_error, 0, 1);
-  check_fits("desc.lod_error", desc.lod_error, desc.lod_error >= 0 && desc.lod_error <= huge, "0 or more");
-  check_fits("desc.lod_distance", desc.lod_distance,
-             desc.lod_distance == 0 || (desc.lod_distance >= tiny && desc.lod_distance <= huge),
-             "a length above 0, or 0 for 10 metres");
-  check_fits("desc.ground_radius", desc.ground_radius,
-             desc.ground_radius == 0 || (desc.ground_radius >= tiny && desc.ground_radius <= huge),
-             "a length above 0, or 0 for a multiple of each body's size");
-  check_fits("desc.lod_max_interval", desc.lod_max_interval, desc.lod_max_interval >= 1, "1 or more");
-  check_fits("desc.strict_poses", desc.strict_poses, desc.strict_poses <= 1, "0 or 1");
-  return {
-      desc.form,
-      context.isa(),
-      desc.cutoff_error,
-      desc.far_error,
-      desc.lod_error,
-      desc.lod_distance > 0 ? desc.lod_distance : SceneSettings{}.lod_distance * context.units_per_metre(),
-      desc.lod_max_interval,
-      desc.ground_radius,
-      desc.strict_poses != 0};
-}
-
 // Runs body on the scene of the handle.
 template <class Body>
 nook_result with_scene(const char* function, nook_scene scene, Body&& body) noexcept {
@@ -94,6 +68,32 @@ std::size_t check_output(const Instance& instance, uint32_t count, size_t stride
 }
 
 }  // namespace
+
+SceneSettings nook::settings_of(const nook_scene_desc& desc, const Context& context) {
+  constexpr float tiny = 1e-6f, huge = 1e9f;
+  check_known("desc.form", desc.form, NOOK_FORM_PAPER);
+  check_range("desc.cutoff_error", desc.cutoff_error, 0, 1);
+  check_range("desc.far_error", desc.far_error, 0, 1);
+  check_fits("desc.lod_error", desc.lod_error, desc.lod_error >= 0 && desc.lod_error <= huge, "0 or more");
+  check_fits("desc.lod_distance", desc.lod_distance,
+             desc.lod_distance == 0 || (desc.lod_distance >= tiny && desc.lod_distance <= huge),
+             "a length above 0, or 0 for 10 metres");
+  check_fits("desc.ground_radius", desc.ground_radius,
+             desc.ground_radius == 0 || (desc.ground_radius >= tiny && desc.ground_radius <= huge),
+             "a length above 0, or 0 for a multiple of each body's size");
+  check_fits("desc.lod_max_interval", desc.lod_max_interval, desc.lod_max_interval >= 1, "1 or more");
+  check_fits("desc.strict_poses", desc.strict_poses, desc.strict_poses <= 1, "0 or 1");
+  return {
+      desc.form,
+      context.isa(),
+      desc.cutoff_error,
+      desc.far_error,
+      desc.lod_error,
+      desc.lod_distance > 0 ? desc.lod_distance : SceneSettings{}.lod_distance * context.units_per_metre(),
+      desc.lod_max_interval,
+      desc.ground_radius,
+      desc.strict_poses != 0};
+}
 
 nook_result nook_scene_create(nook_context context, const nook_scene_desc* desc, nook_scene* out) {
   return api::enter("nook_scene_create", [&] {

@@ -42,6 +42,13 @@ struct nook_model_s : Meter, nook::LoadedModel {
   std::atomic<std::uint32_t> reported{0};
 };
 
+namespace nook {
+
+// Throws Failure for a setting that is out of range.
+SceneSettings settings_of(const nook_scene_desc& desc, const Context& context);
+
+}  // namespace nook
+
 struct nook_scene_s : Meter, nook::RefCounted {
   nook_scene_s(nook_context_s* made_by, const nook::SceneSettings& settings)
       : Meter(made_by->memory()), context(made_by), scene(settings, made_by->parallel(), &metered) {}

@@ -17,7 +17,7 @@ NOOK_AT(nook_bake_occluder_mesh, indices, 8);
 NOOK_AT(nook_bake_occluder_mesh, vertex_count, 16);
 NOOK_AT(nook_bake_occluder_mesh, index_count, 20);
 
-NOOK_SIZE(nook_bake_trace_desc, 72);
+NOOK_SIZE(nook_bake_trace_desc, 88);
 NOOK_AT(nook_bake_trace_desc, struct_size, 0);
 NOOK_AT(nook_bake_trace_desc, type, 4);
 NOOK_AT(nook_bake_trace_desc, next, 8);
@@ -31,6 +31,8 @@ NOOK_AT(nook_bake_trace_desc, threads, 52);
 NOOK_AT(nook_bake_trace_desc, seed, 56);
 NOOK_AT(nook_bake_trace_desc, radius, 64);
 NOOK_AT(nook_bake_trace_desc, origin_offset, 68);
+NOOK_AT(nook_bake_trace_desc, progress, 72);
+NOOK_AT(nook_bake_trace_desc, progress_user, 80);
 
 NOOK_SIZE(nook_bake_environment, 16);
 NOOK_AT(nook_bake_environment, rgb, 0);
@@ -45,7 +47,7 @@ NOOK_AT(nook_bake_lit_mesh, index_count, 20);
 NOOK_AT(nook_bake_lit_mesh, base_colour, 24);
 NOOK_AT(nook_bake_lit_mesh, emission, 36);
 
-NOOK_SIZE(nook_bake_irradiance_desc, 88);
+NOOK_SIZE(nook_bake_irradiance_desc, 104);
 NOOK_AT(nook_bake_irradiance_desc, struct_size, 0);
 NOOK_AT(nook_bake_irradiance_desc, type, 4);
 NOOK_AT(nook_bake_irradiance_desc, next, 8);
@@ -60,3 +62,5 @@ NOOK_AT(nook_bake_irradiance_desc, threads, 68);
 NOOK_AT(nook_bake_irradiance_desc, seed, 72);
 NOOK_AT(nook_bake_irradiance_desc, max_bounces, 80);
 NOOK_AT(nook_bake_irradiance_desc, origin_offset, 84);
+NOOK_AT(nook_bake_irradiance_desc, progress, 88);
+NOOK_AT(nook_bake_irradiance_desc, progress_user, 96);

@@ -165,3 +165,62 @@ TEST_CASE("scenes that make no sense are refused") {
   CHECK(ao[0] == -1);
   CHECK(nook_bake_trace_ao(&scene.desc, ao.data(), 9) == NOOK_ERROR_INVALID_ARGUMENT);
 }
+
+namespace {
+
+struct Watch {
+  int calls = 0, stop_at = 0;
+  std::uint64_t done = 0, total = 0;
+};
+
+std::int32_t watch(void* user, const nook_bake_progress* progress) {
+  Watch& seen = *static_cast<Watch*>(user);
+  seen.done = progress->done;
+  seen.total = progress->total;
+  return ++seen.calls != seen.stop_at;
+}
+
+}  // namespace
+
+TEST_CASE("tracing tells its progress, and ends where that returns 0 without writing") {
+  const Square square(1, 2);
+  Scene scene;
+  scene.meshes = {square.mesh()};
+  scene.positions.assign(3 * 3000, 0.0f);
+  scene.normals.clear();
+  for (int i = 0; i < 3000; ++i) scene.normals.insert(scene.normals.end(), {0, 1, 0});
+  std::vector<float> expected, ao;
+  REQUIRE(scene.trace(expected) == NOOK_OK);
+  Watch seen;
+  scene.desc.progress = watch;
+  scene.desc.progress_user = &seen;
+  REQUIRE(scene.trace(ao) == NOOK_OK);
+  CHECK(ao == expected);
+  CHECK(seen.calls > 10);  // blocks have at most 256 points
+  CHECK(seen.done == 3000);
+  CHECK(seen.total == 3000);
+  seen = {0, 3, 0, 0};
+  CHECK(scene.trace(ao) == NOOK_ERROR_CANCELLED);
+  CHECK(message_has("nook_bake_trace_ao: cancelled while ray tracing ("));
+  CHECK(seen.calls == 3);
+  CHECK(ao == std::vector<float>(3000, -1.0f));
+
+  const std::vector<nook_bake_lit_mesh> lit = {
+      {square.positions, square.indices, 4, 6, {0.5f, 0.5f, 0.5f}, {1, 1, 1}}};
+  nook_bake_irradiance_desc light;
+  REQUIRE(nook_bake_irradiance_desc_init(&light) == NOOK_OK);
+  light.meshes = lit.data();
+  light.mesh_count = 1;
+  light.positions = scene.positions.data();
+  light.normals = scene.normals.data();
+  light.point_count = 3000;
+  light.progress = watch;
+  light.progress_user = &seen;
+  std::vector<float> rgb(9000, -1.0f);
+  seen = {0, 2, 0, 0};
+  CHECK(nook_bake_trace_irradiance(&light, rgb.data(), 3000) == NOOK_ERROR_CANCELLED);
+  CHECK(rgb == std::vector<float>(9000, -1.0f));
+  seen = {};
+  CHECK(nook_bake_trace_irradiance(&light, rgb.data(), 3000) == NOOK_OK);
+  CHECK(seen.done == 3000);
+}

@@ -85,14 +85,19 @@ typedef struct nook_bake_trace_desc {
   float radius;
   /* Metres along the normal, >= 0, default 1e-4: the distance of a ray's origin from its point. */
   float origin_offset;
+  /* NULL (default), or a function that the call reports to while it traces, with the number of points. It
+   * runs on threads of the call, one call at a time. If it returns 0, the call ends within some 10 ms with
+   * NOOK_ERROR_CANCELLED. */
+  nook_bake_progress_fn progress;
+  void* progress_user;
 } nook_bake_trace_desc;
 static inline nook_result nook_bake_trace_desc_init(nook_bake_trace_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_TRACE, desc, sizeof *desc, NOOK_VERSION);
 }
 
 /* Traces the cosine-weighted visibility of all points and writes point_count values to ao; count must be
- * point_count. The call returns when all points are done.
- * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+ * point_count. The call returns when all points are done; a call that fails writes nothing.
+ * Any thread. Errors: INVALID_ARGUMENT, CANCELLED, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float* ao, uint32_t count);
 
 /* ---- Path-traced irradiance of a scene under an environment ---- */
@@ -149,6 +154,9 @@ typedef struct nook_bake_irradiance_desc {
   /* Metres along the normal, >= 0, default 1e-4: the distance of a ray's origin from the surface that it
    * leaves. */
   float origin_offset;
+  /* As in nook_bake_trace_desc; a block of points with many bounces may take longer than 10 ms. */
+  nook_bake_progress_fn progress;
+  void* progress_user;
 } nook_bake_irradiance_desc;
 static inline nook_result nook_bake_irradiance_desc_init(nook_bake_irradiance_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_IRRADIANCE, desc, sizeof *desc, NOOK_VERSION);
@@ -158,8 +166,9 @@ static inline nook_result nook_bake_irradiance_desc_init(nook_bake_irradiance_de
  * point_count. E(n) = integral of L(w) max(dot(n, w), 0) over the sphere, in the map's unit times steradians;
  * a diffuse surface there reflects the radiance E * base colour / pi. Each path samples the environment by
  * luminance and the hemisphere by cosine, combined by the balance heuristic. The estimate is unbiased, and
- * its noise falls with the square root of rays. The call returns when all points are done.
- * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+ * its noise falls with the square root of rays. The call returns when all points are done; a call that fails
+ * writes nothing.
+ * Any thread. Errors: INVALID_ARGUMENT, CANCELLED, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_trace_irradiance(const nook_bake_irradiance_desc* desc, float* irradiance,
                                                 uint32_t count);
 
