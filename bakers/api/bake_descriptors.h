@@ -31,4 +31,8 @@ namespace nook {
 NOOK_BAKE_DESCRIPTORS(NOOK_DECLARE_DESCRIPTOR)
 #undef NOOK_DECLARE_DESCRIPTOR
 
+// A struct that has grown since its first release.
+template <>
+inline constexpr std::size_t first_size<nook_bake_character_study_desc> = 32;
+
 }  // namespace nook

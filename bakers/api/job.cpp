@@ -48,10 +48,13 @@ nook_bake_job_s* api::start_character(const void* desc) {
   Recipe recipe = recipe_of(settings, study, imported);
   std::vector<Pose> extra =
       read_poses(settings.extra_poses_3x4, settings.extra_pose_count, imported.mesh.bones.size());
-  return api::start_job(settings, [shared = settings.character->character, recipe = std::move(recipe),
-                                   extra = std::move(extra)](const StageReport& report) {
-    return bake_by_recipe(*shared, recipe, extra, report);
-  });
+  CalibrationPoses calibration{
+      read_poses(study.calibration_poses_3x4, study.calibration_pose_count, imported.mesh.bones.size())};
+  return api::start_job(
+      settings, [shared = settings.character->character, recipe = std::move(recipe), extra = std::move(extra),
+                 calibration = std::move(calibration)](const StageReport& report) {
+        return bake_by_recipe(*shared, recipe, extra, report, calibration);
+      });
 }
 
 nook_result nook_bake_start(const void* desc, nook_bake_job* out) {

@@ -6,6 +6,7 @@
 
 #include "bakers/character/blend_weights.h"
 #include "bakers/character/block_descent.h"
+#include "bakers/character/body_scale.h"
 #include "bakers/character/caster_weights.h"
 #include "bakers/character/export_model.h"
 #include "bakers/character/fit_state.h"
@@ -328,11 +329,8 @@ std::vector<float> floats_of(std::span<const std::uint16_t> targets) {
   return ao;
 }
 
-}  // namespace
-
-BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& settings,
+BakeResult bake_in_metres(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& settings,
                           const BakeProgress& progress) {
-  check(mesh, poses, settings);
   BakeReport report;
   TracedPoses traced = trace_poses(mesh, poses, settings, progress, report);
   TrainingSet& set = traced.set;
@@ -371,6 +369,18 @@ BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, 
   casters.seed = settings.seed;
   fit_caster_weights(result.model, mesh, set.poses, casters, stage_progress(progress, BakeStage::casters));
   add_levels(result.model, set.poses);
+  return result;
+}
+
+}  // namespace
+
+BakeResult bake_character(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& settings,
+                          const BakeProgress& progress) {
+  check(mesh, poses, settings);
+  const float scale = scale_to_person(mesh);
+  if (scale == 1) return bake_in_metres(mesh, poses, settings, progress);
+  BakeResult result = bake_in_metres(scaled(mesh, scale), scaled(poses, scale), settings, progress);
+  scale_model(result.model, 1 / scale);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bakers/character/blend_weights.h"
+#include "bakers/character/body_scale.h"
 #include "bakers/character/export_model.h"
 #include "bakers/character/initialise.h"
 #include "bakers/character/linear_fit.h"
@@ -46,11 +47,9 @@ void take_rig(const CharacterModel& model, CharacterModel& out) {
   out.recipe = model.recipe;
 }
 
-}  // namespace
-
-CharacterModel refit_vertices(const CharacterModel& model, const SkinnedMesh& mesh,
-                              std::span<const Pose> poses, const RefitSettings& settings,
-                              const Progress& progress) {
+CharacterModel refit_in_metres(const CharacterModel& model, const SkinnedMesh& mesh,
+                               std::span<const Pose> poses, const RefitSettings& settings,
+                               const Progress& progress) {
   TrainingSet set;
   set.poses.assign(poses.begin(), poses.end());
   set.targets = trace_character_ao(mesh, poses, settings.rays, settings.seed, progress);
@@ -68,6 +67,20 @@ CharacterModel refit_vertices(const CharacterModel& model, const SkinnedMesh& me
   CharacterModel out = export_model(state, mesh, area, normal, static_ao);
   take_rig(model, out);
   fit_blend_weights(out, mesh, poses);
+  return out;
+}
+
+}  // namespace
+
+CharacterModel refit_vertices(const CharacterModel& model, const SkinnedMesh& mesh,
+                              std::span<const Pose> poses, const RefitSettings& settings,
+                              const Progress& progress) {
+  const float scale = scale_to_person(mesh);
+  CharacterModel in_metres = model;
+  scale_model(in_metres, scale);
+  CharacterModel out =
+      refit_in_metres(in_metres, scaled(mesh, scale), scaled(poses, scale), settings, progress);
+  scale_model(out, 1 / scale);
   return out;
 }
 

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bakers/character/export_model.h"
+#include "bakers/character/judgement.h"
+#include "bakers/character/offset_fit.h"
 #include "bakers/character/pose_sets.h"
 #include "bakers/raytrace/worker_arena.h"
 #include "bakers/world/fit_casters.h"
@@ -102,8 +104,19 @@ std::vector<std::size_t> chosen_clips(const nook_bake_character_desc& desc, nook
   return clips;
 }
 
+// An update takes as long as spheres times key points, and skinning as long as the vertices: below about
+// 1,000 vertices both follow the vertices, so that an update stays cheaper than skinning. docs/character.md
+// has what the error loses.
+void limit_capacity(const nook_bake_character_desc& desc, std::size_t vertices, BakeSettings& settings) {
+  constexpr std::size_t least_key_points = 64, least_spheres = 48;
+  if (!desc.key_points)
+    settings.key_points = std::min(settings.key_points, std::max(vertices * 3 / 5, least_key_points));
+  if (!desc.spheres)
+    settings.spheres = std::min(settings.spheres, std::max(vertices * 2 / 15, least_spheres));
+}
+
 void choose_settings(const nook_bake_character_desc& desc, const nook_bake_character_study_desc& study,
-                     BakeSettings& settings) {
+                     std::size_t vertices, BakeSettings& settings) {
   check_at_most("desc.spheres", desc.spheres, max_spheres);
   check_at_most("desc.key_points", desc.key_points, max_key_points);
   check_at_most("desc.rays", desc.rays, max_rays);
@@ -114,6 +127,7 @@ void choose_settings(const nook_bake_character_desc& desc, const nook_bake_chara
   if (desc.rays) settings.rays = desc.rays;
   settings.kernel.form = kernel_of(desc, study);
   settings.fit = fit_of(desc, study);
+  if (settings.fit == FitMethod::nook) limit_capacity(desc, vertices, settings);
   if (desc.steps) settings.steps = desc.steps;
   settings.seed = desc.seed;
   if (desc.saturation == NOOK_BAKE_UNSATURATED) {
@@ -146,12 +160,12 @@ void choose_settings(const nook_bake_character_desc& desc, const nook_bake_chara
 Recipe recipe_of(const nook_bake_character_desc& desc, const nook_bake_character_study_desc& study,
                  const ImportedCharacter& character) {
   Recipe recipe;
-  if (study.reserved != 0)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.next: reserved is %u, need 0", study.reserved);
+  check_at_most("desc.next: calibration_pose_count", study.calibration_pose_count, max_poses);
+  if (study.calibration_pose_count) need(study.calibration_poses_3x4, "desc.next: calibration_poses_3x4");
   recipe.preset = preset_of(desc.preset);
   const PresetValues preset = preset_values(recipe.preset, fit_of(desc, study));
   recipe.settings = preset.settings;
-  choose_settings(desc, study, recipe.settings);
+  choose_settings(desc, study, character.mesh.vertex_count(), recipe.settings);
   recipe.poses = mode_of(desc.pose_mode);
   recipe.source_hash = character.source_hash;
   recipe.extra_poses = desc.extra_pose_count;
@@ -206,9 +220,62 @@ JobStage stage_of(BakeStage stage) {
   return JobStage::casters;
 }
 
+// The figures by which a pipeline may refuse a model.
+Json figures_of(const Judgement& judgement) {
+  return {
+      {"on", text_of(judgement.source)},
+      {"poses", judgement.poses},
+      {"over_static", judgement.over_static()},
+      {"over_static_by_area", judgement.errors.by_area.over_static()},
+      {"over_oracle", judgement.over_oracle()},
+      {"worst_clip_over_static", judgement.clips.empty() ? 0 : judgement.clips.front().error.over_static()}};
+}
+
+// The worst of them.
+Json parts_of(std::span<const JudgedPart> parts) {
+  constexpr std::size_t most = 8;
+  Json rows = Json::array();
+  for (const JudgedPart& part : parts.first(std::min(most, parts.size())))
+    rows.push_back({{"name", part.name},
+                    {"over_static", part.error.over_static()},
+                    {"mse", part.error.model},
+                    {"share_of_error", part.share_of_error},
+                    {"share_of_area", part.share_of_area}});
+  return rows;
+}
+
+Json judgement_of(const Judgement& judgement) {
+  Json j = figures_of(judgement);
+  j["poor"] = judgement.is_poor();
+  j["rays"] = judgement.rays;
+  j["mse"] = judgement.errors.by_vertices.model;
+  j["mse_static"] = judgement.errors.by_vertices.static_bake;
+  j["mse_oracle"] = judgement.errors.oracle;
+  j["torn_edges"] = judgement.torn_edges;
+  j["bones_without_role"] = judgement.bones_without_role;
+  j["parts"] = parts_of(judgement.parts);
+  j["meshes"] = parts_of(judgement.meshes);
+  j["clips"] = parts_of(judgement.clips);
+  return j;
+}
+
+std::string dumped(const Json& j, int indent) {
+  // Names come from files and need not be UTF-8.
+  return j.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+// The text of a recipe with the figures of the model, which `nook inspect` shows as judged_*.
+std::string with_figures(std::string_view recipe, const Judgement& judgement) {
+  Json j = Json::parse(recipe);
+  j["judged"] = figures_of(judgement);
+  return dumped(j, -1);
+}
+
 std::string report_text(const ImportedCharacter& character, const Recipe& recipe, const CharacterModel& model,
-                        std::size_t model_bytes, const BakeReport& report, const WorldCasterReport& casters) {
+                        std::size_t model_bytes, const BakeReport& report, const WorldCasterReport& casters,
+                        const Judgement& judgement) {
   Json j;
+  j["summary"] = summary_of(judgement);
   j["vertices"] = model.vertex_count();
   j["file_vertices"] = model.file_to_welded.size();
   j["bones"] = model.bone_count();
@@ -241,8 +308,8 @@ std::string report_text(const ImportedCharacter& character, const Recipe& recipe
   for (const CurvePoint& p : report.curve)
     curve.push_back({{"seconds", p.seconds}, {"mse_train", p.mse_train}, {"mse_held_out", p.mse_held_out}});
   j["curve"] = std::move(curve);
-  // Names come from files and need not be UTF-8.
-  return j.dump(2, ' ', false, Json::error_handler_t::replace);
+  j["judged"] = judgement_of(judgement);
+  return dumped(j, 2);
 }
 
 // A draft takes a few seconds for the casters, the others a share of their time.
@@ -261,14 +328,43 @@ WorldCasterSettings caster_settings(const Recipe& recipe) {
 
 }  // namespace
 
+namespace {
+
+Progress tracing(const StageReport& progress) {
+  return
+      [&progress](std::size_t done, std::size_t total) { return progress(JobStage::raytrace, done, total); };
+}
+
+// Moves the constants to the poses in use: recorded ones, or a share of the rest pose where the bake has
+// generated poses alone.
+void fit_constants(CharacterModel& model, const ImportedCharacter& character, const Recipe& recipe,
+                   const CalibrationPoses& calibration, const StageReport& progress) {
+  const std::uint64_t seed = mix_bits(recipe.settings.seed ^ 0x6f6666736574ull);
+  if (!calibration.poses.empty()) {
+    calibrate_offsets(model, character.mesh, calibration.poses, {CalibrationTask().rays, seed},
+                      tracing(progress));
+    return;
+  }
+  if (recipe.settings.fit != FitMethod::nook || recipe.auto_poses == 0 || !recipe.clips.empty() ||
+      recipe.extra_poses > 0)
+    return;
+  constexpr std::uint32_t rays = 256;  // one pose alone: its noise would stay in the constants
+  const std::vector<Pose> rest(rest_pose_weight, Pose(character.mesh.bones.size()));
+  calibrate_offsets(model, character.mesh, rest, {rays, seed}, tracing(progress));
+}
+
+}  // namespace
+
 BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recipe,
-                         std::span<const Pose> extra_poses, const StageReport& progress) {
+                         std::span<const Pose> extra_poses, const StageReport& progress,
+                         const CalibrationPoses& calibration) {
   std::vector<Pose> poses = recipe_poses(character, recipe);
   poses.insert(poses.end(), extra_poses.begin(), extra_poses.end());
   BakeResult baked = bake_character(character.mesh, poses, recipe.settings,
                                     [&](BakeStage stage, std::size_t done, std::size_t total) {
                                       return progress(stage_of(stage), done, total);
                                     });
+  fit_constants(baked.model, character, recipe, calibration, progress);
   WorldCasterReport caster_report;
   // An object of one bone has no poses but places: it is turned before walls and lights.
   const std::vector<Pose> caster_poses =
@@ -279,10 +375,38 @@ BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recip
   baked.model.world_casters.assign(casters.begin(), casters.end());
   baked.model.bind = bind_data_of(character);
   baked.model.rest = rest_surface_of(character.mesh);
-  baked.model.recipe = recipe_text(character, recipe);
+  const Judgement judgement =
+      judge_model(character, quantise(baked.model), recipe, judged_poses(character, recipe),
+                  mix_bits(recipe.settings.seed ^ 0x6a75646765ull), tracing(progress));
+  baked.model.recipe = with_figures(recipe_text(character, recipe), judgement);
   BakedFile file;
   file.model = write_character_model(baked.model);
-  file.report = report_text(character, recipe, baked.model, file.model.size(), baked.report, caster_report);
+  file.report =
+      report_text(character, recipe, baked.model, file.model.size(), baked.report, caster_report, judgement);
+  return file;
+}
+
+BakedFile calibrate_file(const ImportedCharacter& character, CharacterModel model,
+                         const CalibrationPoses& calibration, const CalibrationTask& task,
+                         const StageReport& progress) {
+  const Recipe recipe =
+      model.recipe.empty() ? Recipe() : read_recipe(character, std::string_view(model.recipe));
+  const double moved =
+      calibrate_offsets(model, character.mesh, calibration.poses, {task.rays, task.seed}, tracing(progress));
+  const Judgement judgement = judge_model(character, quantise(model), recipe, judged_poses(character, recipe),
+                                          mix_bits(task.seed ^ 0x6a75646765ull), tracing(progress));
+  model.recipe =
+      with_figures(model.recipe.empty() ? std::string_view("{}") : std::string_view(model.recipe), judgement);
+  BakedFile file;
+  file.model = write_character_model(model);
+  Json report;
+  report["summary"] = summary_of(judgement);
+  report["poses"] = calibration.poses.size();
+  report["rays"] = task.rays;
+  report["offset_rms"] = moved;
+  report["model_bytes"] = file.model.size();
+  report["judged"] = judgement_of(judgement);
+  file.report = dumped(report, 2);
   return file;
 }
 

@@ -19,8 +19,28 @@ Recipe recipe_of(const nook_bake_character_desc& desc, const nook_bake_character
 
 // Makes the bytes of a .nook file and a report from a recipe.
 
+// Recorded poses of a game, to which the constants of the vertices are fitted last; may be empty.
+struct CalibrationPoses {
+  std::vector<Pose> poses;
+};
+
 // Throws Failure: INVALID_ARGUMENT (there are no poses, or settings are out of range), CANCELLED.
 BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recipe,
-                         std::span<const Pose> extra_poses, const StageReport& progress);
+                         std::span<const Pose> extra_poses, const StageReport& progress,
+                         const CalibrationPoses& calibration = {});
+
+// Fits the constants of a baked model's vertices to recorded poses, against ray tracing, and judges it anew.
+// Everything else of the model stays as it is.
+
+struct CalibrationTask {
+  std::uint32_t rays = 64;  // for each vertex and pose
+  std::uint64_t seed = 1;
+};
+
+// Throws Failure: INVALID_ARGUMENT (no poses), BAD_FILE (a recipe that is not that of the character),
+// CANCELLED.
+BakedFile calibrate_file(const ImportedCharacter& character, CharacterModel model,
+                         const CalibrationPoses& calibration, const CalibrationTask& task,
+                         const StageReport& progress);
 
 }  // namespace nook::bake

@@ -9,20 +9,24 @@
 #include <optional>
 
 #include "bakers/job/character_job.h"
+#include "bakers/job/vertex_bakes.h"
 #include "bakers/tool/baking.h"
 #include "bakers/tool/command_end.h"
+#include "bakers/tool/command_files.h"
 #include "bakers/tool/command_inputs.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/table.h"
+#include "platform/printable.h"
 #include "platform/progress_bar.h"
+#include "sdk/src/character/pose_record.h"
 
 namespace nook::tool {
 namespace {
 
 struct Options {
   CommonOptions common;
-  std::filesystem::path input, output;
+  std::filesystem::path input, output, calibration, model;
   bake::ImportOptions reading;
   std::int32_t preset = NOOK_BAKE_PRESET_STANDARD, poses = NOOK_BAKE_POSES_ALL, split = NOOK_BAKE_SPLIT_ALL;
   std::int32_t form = NOOK_FORM_DEFAULT, kernel = NOOK_FORM_DEFAULT, fit = NOOK_FORM_DEFAULT;
@@ -73,26 +77,59 @@ bake::Recipe requested_recipe(const Options& options, const bake::ImportedCharac
   return bake::recipe_of(desc_of(options, clips), study, character);
 }
 
+// Empty without --calibrate. Poses of other bodies are left out.
+bake::CalibrationPoses recorded_poses(const Options& options, const bake::SkinnedMesh& mesh) {
+  if (options.calibration.empty()) return {};
+  return naming_file(options.calibration, [&] {
+    std::vector<std::string> names;
+    for (const bake::Bone& bone : mesh.bones) names.push_back(bone.name);
+    RecordedPoses recorded =
+        read_pose_records(read_any_file(options.calibration), hash_of_bone_names(names), mesh.bones.size());
+    if (recorded.poses.empty())
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "none of its %zu poses is of this character (other bones, or other names of bones); "
+                    "record instances of a model that was baked from this file",
+                    recorded.of_others);
+    return bake::CalibrationPoses{std::move(recorded.poses)};
+  });
+}
+
 bake::BakedFile bake(const Options& options, const bake::ImportedCharacter& character) {
-  const bake::Recipe recipe = requested_recipe(options, character);
+  const bake::CalibrationPoses calibration = recorded_poses(options, character.mesh);
   platform::ProgressBar bar(options.common.quiet);
-  return bake::bake_by_recipe(character, recipe, {},
-                              [&](bake::JobStage stage, std::size_t done, std::size_t total) {
-                                const bool traces = stage == bake::JobStage::raytrace;
-                                bar.show(bake::text_of(stage), traces ? "poses" : "steps", done, total);
-                                return !interrupted();
-                              });
+  const auto show = [&](bake::JobStage stage, std::size_t done, std::size_t total) {
+    const bool traces = stage == bake::JobStage::raytrace;
+    bar.show(bake::text_of(stage), traces ? "poses" : "steps", done, total);
+    return !interrupted();
+  };
+  if (options.model.empty())
+    return bake::bake_by_recipe(character, requested_recipe(options, character), {}, show, calibration);
+  return naming_file(options.model, [&] {
+    bake::CalibrationTask task;
+    if (options.rays) task.rays = options.rays;
+    task.seed = options.common.seed;
+    return bake::calibrate_file(character, bake::model_of_character(read_file(options.model), character),
+                                calibration, task, show);
+  });
 }
 
 // The table goes without what only a file wants.
 BakeOutput output_of(bake::BakedFile file) {
   nlohmann::ordered_json row = nlohmann::ordered_json::parse(file.report);
-  for (const char* key : {"clips", "warnings", "recipe", "curve"}) row.erase(key);
-  return {std::move(file.model), file.report + "\n", table_text(nlohmann::ordered_json::array({row}))};
+  const std::string summary = platform::printable(row["summary"].get<std::string>());
+  for (const char* key : {"summary", "judged", "clips", "warnings", "recipe", "curve"}) row.erase(key);
+  return {std::move(file.model), file.report + "\n",
+          summary + "\n\n" + table_text(nlohmann::ordered_json::array({row}))};
 }
 
 void run(const Options& options) {
-  run_bake({options.common, options.output, {{{"the input", options.input}}, {}, {}}}, [&] {
+  if (!options.model.empty() && options.calibration.empty())
+    throw ToolError(exit_bad_arguments, "--model needs --calibrate POSES, the poses to fit its constants to");
+  const CommandFiles files{
+      {{"the input", options.input}, {"--model", options.model}, {"--calibrate", options.calibration}},
+      {},
+      {}};
+  run_bake({options.common, options.output, files}, [&] {
     const bake::ImportedCharacter character = read_character(options.input, options.reading, options.common);
     require_clips(options.clips, character);
     return output_of(bake(options, character));
@@ -176,6 +213,12 @@ void add_bake_character(Command bake) {
   command.add_option("--steps", o.steps, "steps of the fit (--fit paper: rounds)")
       .check(in_range(1, 10000000));
   add_form_options(command, o);
+  command.add_input("--calibrate", o.calibration,
+                    "recorded poses of your game (nook_scene_record_pose): the constant of each vertex is "
+                    "fitted to them last");
+  command.add_input("--model", o.model,
+                    "with --calibrate: fit the constants of this baked model of the character, and bake "
+                    "nothing else; only --rays and --seed count");
   command
       .add_option("--time-limit", o.time_limit_s,
                   "end the fit after so many seconds; such a bake is not reproducible bit for bit")

@@ -6,6 +6,7 @@
 
 #include "bakers/measure/character/character_pictures.h"
 #include "bakers/measure/character/character_report.h"
+#include "bakers/measure/character/motion_error.h"
 #include "bakers/tool/command_end.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/command_inputs.h"
@@ -27,6 +28,7 @@ struct Options {
   EvaluatedFiles files;
   PoseChoice poses;
   std::uint32_t rays = 256;
+  bool is_motion = false;
   std::filesystem::path images;
   std::size_t image_count = 4;
 };
@@ -39,11 +41,40 @@ std::optional<bake::Recipe> known_recipe(const BakedCharacter& baked, const Opti
   return recipe;
 }
 
+Json motion_row(const Options& options, const BakedCharacter& baked, const std::vector<std::string>& names) {
+  constexpr std::size_t usual_frames = 480;
+  std::vector<std::size_t> clips;
+  for (const std::string& name : names) clips.push_back(bake::find_clip(baked.character, name));
+  platform::ProgressBar bar(options.common.quiet);
+  const MotionErrors errors = measure_motion(
+      baked.character, baked.model, clips, options.poses.most ? options.poses.most : usual_frames,
+      options.rays, evaluation_ray_seed(options.common.seed), [&](std::size_t done, std::size_t total) {
+        bar.show("ray tracing", "frames", done, total);
+        return !interrupted();
+      });
+  return {{"character", options.files.character.stem().string()},
+          {"frames", errors.frames},
+          {"rays", options.rays},
+          {"vertex_frames", errors.vertex_frames},
+          {"largest_step", errors.largest_step},
+          {"largest_step_truth", errors.largest_step_truth},
+          {"largest_step_ratio",
+           errors.largest_step_truth > 0 ? errors.largest_step / errors.largest_step_truth : 0},
+          {"share_beyond", errors.share_beyond},
+          {"largest_beyond", errors.largest_beyond},
+          {"worst_clip", errors.worst_clip}};
+}
+
 Json evaluate(const Options& options, std::span<const CharacterPeer> peers) {
   const BakedCharacter baked = read_evaluated_files(options.files, options.common);
   require_clips(options.poses.clips, baked.character);
   const std::optional<bake::Recipe> recipe = known_recipe(baked, options);
   const EvaluatedPoses measured = choose_poses(baked.character, recipe ? &*recipe : nullptr, options.poses);
+
+  if (options.is_motion)
+    return {{"rows", Json::array({motion_row(options, baked, measured.clips)})},
+            {"clips", measured.clips},
+            {"seed", options.common.seed}};
 
   platform::ProgressBar bar(options.common.quiet);
   const auto stage = [&bar](const char* label) {
@@ -101,6 +132,11 @@ void add_evaluate_character(Command evaluate_command, std::span<const CharacterP
   command.add_option("--rays", o.rays, "rays for each vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
+  command.add_flag(
+      "--motion", o.is_motion,
+      "measure motion instead: the steps of AO from frame to frame at 60 Hz, beside those of ray "
+      "tracing, in a run of frames of each clip (--max-poses: frames of all, default 480). "
+      "share_beyond is the share of vertex-frames whose step is beyond the truth's by 0.02");
   command.add_option("--images", o.images, "draw the error on the body: PNG files in this directory");
   command.add_option("--image-count", o.image_count, "poses to draw")
       .check(in_range(1, 1000))

@@ -27,7 +27,7 @@ float linear_ao(const CharacterModel& model, std::size_t vertex, const float* sh
 
 // Sums of squared errors of one pose, kept apart so that they can be added in order.
 struct ErrorSums {
-  double all = 0, visible = 0, area = 0, body = 0, hands = 0;
+  double all = 0, visible = 0, visible_area = 0, area = 0, body = 0, hands = 0;
 
   void add(double error, float vertex_area, bool hand) {
     const double e2 = error * error;
@@ -35,15 +35,25 @@ struct ErrorSums {
     area += e2 * double(vertex_area);
     (hand ? hands : body) += e2;
   }
-  void add_visible(double error) { visible += error * error; }
+  void add_visible(double error, float vertex_area) {
+    visible += error * error;
+    visible_area += error * error * double(vertex_area);
+  }
 };
 
-ErrorColumns columns_of(const std::vector<ErrorSums>& poses, std::size_t visible_count,
+// The visible vertex-poses: their number, and the sum of their areas.
+struct VisibleTotal {
+  std::size_t count = 0;
+  double area = 0;
+};
+
+ErrorColumns columns_of(const std::vector<ErrorSums>& poses, const VisibleTotal& visible_total,
                         std::span<const float> vertex_area, std::span<const char> hands) {
   ErrorSums total;
   for (const ErrorSums& p : poses) {
     total.all += p.all;
     total.visible += p.visible;
+    total.visible_area += p.visible_area;
     total.area += p.area;
     total.body += p.body;
     total.hands += p.hands;
@@ -54,7 +64,8 @@ ErrorColumns columns_of(const std::vector<ErrorSums>& poses, std::size_t visible
   const double body_count = double(hands.size()) - hand_count, count = double(poses.size());
   ErrorColumns columns;
   columns.mse = total.all / (count * double(hands.size()));
-  if (visible_count > 0) columns.mse_visible = total.visible / double(visible_count);
+  if (visible_total.count > 0) columns.mse_visible = total.visible / double(visible_total.count);
+  if (visible_total.area > 0) columns.mse_visible_area = total.visible_area / visible_total.area;
   columns.mse_area = total.area / (count * area);
   if (body_count > 0) columns.mse_body = total.body / (count * body_count);
   if (hand_count > 0) columns.mse_hands = total.hands / (count * hand_count);
@@ -68,9 +79,9 @@ double truth_at(const AoTargets& targets, std::size_t pose, std::size_t vertex) 
 // The mean truth of every vertex: of all poses, and of those in which it is visible.
 struct Oracle {
   std::vector<double> mean, visible_mean;
-  std::size_t visible_count = 0;  // vertex-poses
+  VisibleTotal visible_total;
 
-  explicit Oracle(const AoTargets& targets)
+  Oracle(const AoTargets& targets, std::span<const float> vertex_area)
       : mean(targets.vertex_count, 0.0), visible_mean(targets.vertex_count, 0.0) {
     const std::size_t poses = targets.pose_count();
     std::vector<std::size_t> visible_poses(targets.vertex_count, 0);
@@ -85,7 +96,8 @@ struct Oracle {
     for (std::size_t i = 0; i < mean.size(); ++i) {
       mean[i] /= double(poses);
       if (visible_poses[i] > 0) visible_mean[i] /= double(visible_poses[i]);
-      visible_count += visible_poses[i];
+      visible_total.count += visible_poses[i];
+      visible_total.area += double(visible_poses[i]) * double(vertex_area[i]);
     }
   }
 };
@@ -128,7 +140,7 @@ CharacterEvaluation score_character(const SkinnedMesh& mesh, const CharacterMode
   const std::vector<float> area = vertex_areas(mesh, mesh.position);
   const std::vector<char> hands = hand_vertices(mesh);
 
-  const Oracle best(targets);
+  const Oracle best(targets, area);
   std::vector<ErrorSums> model_sums(poses.size()), static_sums(poses.size()), oracle_sums(poses.size());
   tbb::parallel_for(std::size_t(0), poses.size(), [&](std::size_t t) {
     for (std::size_t i = 0; i < vertices; ++i) {
@@ -136,20 +148,20 @@ CharacterEvaluation score_character(const SkinnedMesh& mesh, const CharacterMode
       const bool visible = truth >= visible_truth;
       const auto add = [&](ErrorSums& sums, double value) {
         sums.add(value - truth, area[i], hands[i]);
-        if (visible) sums.add_visible(value - truth);
+        if (visible) sums.add_visible(value - truth, area[i]);
       };
       add(model_sums[t], double(linear_ao(model, i, &shadows[t * padded])));
       if (!model.static_ao.empty()) add(static_sums[t], double(model.static_ao[i]));
       oracle_sums[t].add(best.mean[i] - truth, area[i], hands[i]);
-      if (visible) oracle_sums[t].add_visible(best.visible_mean[i] - truth);
+      if (visible) oracle_sums[t].add_visible(best.visible_mean[i] - truth, area[i]);
     }
   });
   CharacterEvaluation result;
   result.poses = poses.size();
-  result.visible_share = double(best.visible_count) / double(vertices * poses.size());
-  result.model = columns_of(model_sums, best.visible_count, area, hands);
-  result.static_bake = columns_of(static_sums, best.visible_count, area, hands);
-  result.oracle = columns_of(oracle_sums, best.visible_count, area, hands);
+  result.visible_share = double(best.visible_total.count) / double(vertices * poses.size());
+  result.model = columns_of(model_sums, best.visible_total, area, hands);
+  result.static_bake = columns_of(static_sums, best.visible_total, area, hands);
+  result.oracle = columns_of(oracle_sums, best.visible_total, area, hands);
   for (std::size_t t = 0; t < poses.size(); ++t)
     result.pose_visible.push_back({model_sums[t].visible, static_sums[t].visible});
   result.vertex_rms.resize(vertices);

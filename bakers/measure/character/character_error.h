@@ -20,9 +20,10 @@ struct ErrorColumns {
   double mse = 0;  // over all welded vertices and poses, as the paper has it
   double mse_visible =
       0;  // over those vertex-poses whose truth is at least visible_truth; 0 where there are none
-  double mse_area = 0;   // weighted by rest Voronoi area
-  double mse_body = 0;   // vertices that no hand bone or anything below it moves
-  double mse_hands = 0;  // the others; 0 where there are none
+  double mse_visible_area = 0;  // as mse_visible, weighted by rest Voronoi area: what the eye sees
+  double mse_area = 0;          // weighted by rest Voronoi area
+  double mse_body = 0;          // vertices that no hand bone or anything below it moves
+  double mse_hands = 0;         // the others; 0 where there are none
 };
 
 // Squared errors of one pose, summed over its visible vertices.

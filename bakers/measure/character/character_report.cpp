@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 
+#include "bakers/character/judgement.h"
 #include "bakers/character/pose_sets.h"
 #include "bakers/import/clip.h"
 #include "bakers/import/skinned_mesh.h"
@@ -63,6 +64,7 @@ Json model_row(const BakedCharacter& baked, const EvaluatedPoses& measured, cons
   row["mse_static_visible"] = e.static_bake.mse_visible;
   row["mse_oracle_visible"] = e.oracle.mse_visible;
   row["ratio_to_static_visible"] = ratio(e.model.mse_visible, e.static_bake.mse_visible);
+  row["ratio_to_static_visible_by_area"] = ratio(e.model.mse_visible_area, e.static_bake.mse_visible_area);
   row["mse"] = e.model.mse;
   row["rmse"] = std::sqrt(e.model.mse);
   row["mse_area"] = e.model.mse_area;
@@ -77,6 +79,25 @@ Json model_row(const BakedCharacter& baked, const EvaluatedPoses& measured, cons
   row["ratio_to_oracle_visible"] = ratio(e.model.mse_visible, e.oracle.mse_visible);
   add_worst_clip(row, measured, e);
   return row;
+}
+
+// Errors near the noise of the rays are measured once more without it: each is the product of the errors
+// against this tracing and another one.
+void add_errors_without_noise(Json& row, const BakedCharacter& baked, std::span<const Pose> poses,
+                              const CharacterReportSettings& settings, const CharacterEvaluation& e,
+                              const StageProgress& progress) {
+  constexpr double near_noise = 0.2;
+  if (e.noise_floor_mse < near_noise * e.model.mse_visible) return;
+  const SkinnedMesh& mesh = baked.character.mesh;
+  const AoTargets second = trace_character_ao(
+      mesh, poses, settings.rays, mix_bits(settings.seed ^ 0x7365636f6e64ull), progress("ray tracing again"));
+  const VisibleErrors errors = visible_errors(mesh, baked.model, poses, e.truth, second);
+  row["mse_visible_without_noise"] = errors.by_vertices.model;
+  row["mse_static_visible_without_noise"] = errors.by_vertices.static_bake;
+  row["mse_oracle_visible_without_noise"] = errors.oracle;
+  row["ratio_to_static_visible_without_noise"] = errors.by_vertices.over_static();
+  row["ratio_to_static_visible_by_area_without_noise"] = errors.by_area.over_static();
+  row["ratio_to_oracle_visible_without_noise"] = ratio(errors.by_vertices.model, errors.oracle);
 }
 
 // Fits other methods to the model's own training poses and measures them on the same targets.
@@ -134,6 +155,7 @@ CharacterReport measure_character(const BakedCharacter& baked, const Recipe* rec
   report.evaluation = evaluate_character(baked.character.mesh, baked.model, measured.poses, settings.rays,
                                          evaluation_ray_seed(settings.seed), progress("ray tracing"));
   report.row = model_row(baked, measured, settings.name, report.evaluation);
+  add_errors_without_noise(report.row, baked, measured.poses, settings, report.evaluation, progress);
   add_update_errors(report.row, baked.model, measured.poses, report.evaluation.truth);
   if (!settings.peers.empty())
     add_peers(report.row, baked.character, recipe, measured.poses, report.evaluation.truth, settings,

@@ -128,12 +128,13 @@ def _progress(at: Any) -> Progress:
 
 
 def bake_character(character: Character, *, preset: str = "standard", poses: Optional[str] = None, clips: Union[str, Sequence[str]] = (),
-                   clip_split: Optional[str] = None, extra_poses: Any = None, form: Optional[str] = None,
+                   clip_split: Optional[str] = None, extra_poses: Any = None, calibration_poses: Any = None, form: Optional[str] = None,
                    progress: Optional[ProgressFunction] = None, **settings: Any) -> Job:
     """Starts to bake a character model and returns at once.
 
     preset: draft, standard or production. poses: auto, single_joint, clips, all or extra. form: default, or paper: Le et al. 2019.
-    clips: names of the clips to take poses from; one str is one name. clip_split: all, half or families, for comparisons.
+    clips: names of the clips to take poses from; one str is one name. calibration_poses: recorded poses of your game as extra_poses,
+    to which the bake fits the constants of the vertices last. clip_split: all, half or families, for comparisons.
     settings: spheres, key_points, rays, steps, auto_pose_count, samples_per_clip, seed, threads, gamma, saturation, time_limit_s, as
     nook_bake_character_desc has them. progress is called on threads of the job; it returns False to cancel.
     """
@@ -145,6 +146,11 @@ def bake_character(character: Character, *, preset: str = "standard", poses: Opt
     study = descriptor(c.nook_bake_character_study_desc)
     if clip_split is not None:
         study.clip_split = choice("NOOK_BAKE_SPLIT_", clip_split, "clip_split")
+    calibration = None
+    if calibration_poses is not None:
+        calibration = floats(calibration_poses, (None, character.bone_count, 3, 4), "calibration_poses")
+        put(study, calibration_poses_3x4=pointer(calibration), calibration_pose_count=len(calibration))
+    if clip_split is not None or calibration is not None:
         desc.next = ctypes.cast(ctypes.pointer(study), ctypes.c_void_p)
     if form is not None:
         desc.form = choice("NOOK_FORM_", form, "form")

@@ -246,6 +246,14 @@ class Instance:
             raise ValueError("caster: it is in another scene; add its model to this scene and link that instance")
         call("nook_scene_link", self.scene.handle, self.number, caster.number)
 
+    def record_pose(self) -> bytes:
+        """The pose as a record of a file of poses, which `nook bake character --calibrate` takes: append it to the file."""
+        size = ctypes.c_size_t()
+        call("nook_scene_record_pose", self.scene.handle, self.number, None, ctypes.byref(size))
+        record = ctypes.create_string_buffer(size.value)
+        call("nook_scene_record_pose", self.scene.handle, self.number, record, ctypes.byref(size))
+        return record.raw
+
     def read_ao(self) -> FloatArray:
         """AO after the scene's update, one value for each vertex of the file; 1 is open."""
         ao = np.empty(self.model.vertex_count, np.float32)

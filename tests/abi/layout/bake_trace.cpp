@@ -2,14 +2,15 @@
 
 #include "tests/abi/layout/layout.h"
 
-NOOK_SIZE(nook_bake_character_study_desc, 32);
+NOOK_SIZE(nook_bake_character_study_desc, 40);
 NOOK_AT(nook_bake_character_study_desc, struct_size, 0);
 NOOK_AT(nook_bake_character_study_desc, type, 4);
 NOOK_AT(nook_bake_character_study_desc, next, 8);
 NOOK_AT(nook_bake_character_study_desc, clip_split, 16);
 NOOK_AT(nook_bake_character_study_desc, kernel, 20);
 NOOK_AT(nook_bake_character_study_desc, fit, 24);
-NOOK_AT(nook_bake_character_study_desc, reserved, 28);
+NOOK_AT(nook_bake_character_study_desc, calibration_pose_count, 28);
+NOOK_AT(nook_bake_character_study_desc, calibration_poses_3x4, 32);
 
 NOOK_SIZE(nook_bake_occluder_mesh, 24);
 NOOK_AT(nook_bake_occluder_mesh, positions, 0);

@@ -38,7 +38,10 @@ typedef struct nook_bake_character_study_desc {
   /* NOOK_FORM_PAPER: the block coordinate descent of Le et al. 2019, whatever the kernel is. Default
    * NOOK_FORM_DEFAULT: the fit of the form of the bake. */
   nook_form fit;
-  uint32_t reserved;
+  /* Recorded poses of your game, as extra_poses_3x4 has them: the bake ends with a fit of the constant of
+   * each vertex to these. Default 0: none. */
+  uint32_t calibration_pose_count;
+  const float* calibration_poses_3x4;
 } nook_bake_character_study_desc;
 static inline nook_result nook_bake_character_study_desc_init(nook_bake_character_study_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_CHARACTER_STUDY, desc, sizeof *desc, NOOK_VERSION);

@@ -1,0 +1,81 @@
+// The error of a bake on poses that it did not fit, against static bakes, by part of the body.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bakers/character/recipe.h"
+#include "bakers/import/gltf.h"
+#include "bakers/raytrace/ambient_occlusion.h"
+#include "sdk/src/character/model.h"
+
+namespace nook::bake {
+
+// Which poses a model is judged on; none of them was fitted.
+struct JudgedPoses {
+  enum class Source : std::uint8_t {
+    other_clips,     // clips of the file that the bake did not fit
+    between_frames,  // half-way between the fitted frames of the clips
+    generated,       // automatic poses of another seed, as the file has no clip
+    turned,          // an object of one bone
+  };
+  Source source = Source::generated;
+  std::vector<Pose> poses;
+  std::vector<std::string> clips;  // names
+  std::vector<std::size_t> clip;   // of each pose, an index into clips; empty without clips
+};
+JudgedPoses judged_poses(const ImportedCharacter& character, const Recipe& recipe);
+const char* text_of(JudgedPoses::Source source);
+
+// Mean squared errors over visible vertex-poses, those whose traced AO is at least 0.01. Each is the product
+// of the errors against two independent halves of the rays, so that it has no noise of rays in it.
+struct JudgedErrors {
+  double model = 0, static_bake = 0;
+  double over_static() const { return static_bake > 0 ? model / static_bake : 0; }
+};
+
+struct VisibleErrors {
+  JudgedErrors by_vertices, by_area;
+  // The best static bake of these poses: the mean AO of each vertex over those in which it is visible.
+  double oracle = 0;
+};
+
+// Against two tracings of the poses whose rays are independent.
+VisibleErrors visible_errors(const SkinnedMesh& mesh, const CharacterModel& model,
+                             std::span<const Pose> poses, const AoTargets& first, const AoTargets& second);
+
+struct JudgedPart {
+  std::string name;
+  JudgedErrors error;
+  double share_of_error = 0, share_of_area = 0;  // of the body's
+};
+
+struct Judgement {
+  JudgedPoses::Source source = JudgedPoses::Source::generated;
+  std::size_t poses = 0;
+  std::uint32_t rays = 0;
+  VisibleErrors errors;
+  std::vector<JudgedPart> clips, parts, meshes;  // the worst first: clips by ratio, the others by share
+  double torn_edges = 0;  // share of edge-poses of the automatic poses; 0 where there are none
+  std::vector<std::string> bones_without_role;  // those that move at least 2 % of the body's area
+
+  double over_static() const { return errors.by_vertices.over_static(); }
+  double over_oracle() const { return errors.oracle > 0 ? errors.by_vertices.model / errors.oracle : 0; }
+  bool is_poor() const;
+};
+
+// Traces each pose with two halves of rays. The bits do not depend on the number of threads. Throws
+// Failure(NOOK_ERROR_CANCELLED) if progress returns false.
+Judgement judge_model(const ImportedCharacter& character, const CharacterModel& model, const Recipe& recipe,
+                      const JudgedPoses& judged, std::uint64_t seed, const Progress& progress = {});
+
+// The share of edge-poses that tear: stretched more than 2.5 times, and by more than 1 % of the diagonal of
+// the body's bounding box.
+double torn_share(const SkinnedMesh& mesh, std::span<const Pose> poses);
+
+// One or two sentences: the figures; and for a poor model what is wrong, why, and what to do.
+std::string summary_of(const Judgement& judgement);
+
+}  // namespace nook::bake
