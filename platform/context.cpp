@@ -11,7 +11,7 @@ namespace {
 const GLubyte* GLAD_API_PTR version_for_glad(GLenum) {
   return reinterpret_cast<const GLubyte*>("4.6");
 }
-// OpenGL ES 2.0 has no glGetStringi, through which glad counts the extensions of newer versions.
+// glad counts extensions through glGetStringi, which OpenGL ES 2.0 lacks.
 const GLubyte* GLAD_API_PTR old_version_for_glad(GLenum) {
   return reinterpret_cast<const GLubyte*>("2.1");
 }
@@ -34,8 +34,8 @@ void* Context::loader(void* user, const char* name) {
 
 void Context::load_functions() {
   gl_ = std::make_unique<GladGLContext>();
-  // glad stops at the functions of the version that GL_VERSION says, and OpenGL ES counts otherwise: its
-  // functions have the names and the meanings of OpenGL's, so that all that the driver has are loaded.
+  // glad loads only the functions of the version in GL_VERSION, and OpenGL ES numbers its versions otherwise.
+  // Its functions have the names and meanings of OpenGL's, so this loads every function that the driver has.
   const GLADuserptrloadfunc load = [](void* user, const char* name) {
     if (std::strcmp(name, "glGetString") == 0 && static_cast<Context*>(user)->is_es()) {
       const auto get_string = reinterpret_cast<PFNGLGETSTRINGPROC>(loader(user, name));

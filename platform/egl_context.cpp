@@ -1,4 +1,4 @@
-// EGL without a display. Mesa's surfaceless platform comes first, and then the first EGL device that gives a
+// EGL without a display. It tries Mesa's surfaceless platform first, then each EGL device until one gives a
 // context.
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -42,8 +42,8 @@ EGLenum api_of(bool es) {
   return es ? EGL_OPENGL_ES_API : EGL_OPENGL_API;
 }
 
-// The display is never terminated, because other code of the process may share it, and because Mesa's LLVM
-// leaks when it is terminated.
+// The display is never terminated: other code of the process may share it, and Mesa's LLVM leaks when it is
+// terminated.
 class EglContext final : public Context {
  public:
   EglContext(const ContextRequest& request, EGLDisplay display, EGLContext context)
@@ -70,7 +70,7 @@ class EglContext final : public Context {
   bool es_;
 };
 
-// Some drivers refuse the debug attribute with any value.
+// Some drivers reject the debug attribute whatever its value.
 EGLContext create(EGLDisplay display, const ContextRequest& request, bool debug) {
   std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION, request.major, EGL_CONTEXT_MINOR_VERSION,
                                     request.minor};

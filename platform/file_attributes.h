@@ -1,4 +1,4 @@
-// The owner, the mode and the attributes of a file, for the one that replaces it.
+// Copies the owner, mode and attributes of a file to the file that replaces it.
 #pragma once
 
 #include <sys/stat.h>
@@ -8,9 +8,9 @@
 
 namespace platform {
 
-// Gives a new, empty file the owner, the mode and the extended attributes (access lists are among them) of an
-// old one, as far as the system allows. Returns what a user may not expect, or nothing: other names of the
-// old file keep the old content, the owner changes.
+// Gives a new, empty file the owner, mode and extended attributes (access lists included) of an old one, as
+// far as the system allows. Returns a note on what the user may not expect, or an empty text: other names of
+// the old file keep the old content, or the owner changes.
 std::string take_attributes(int descriptor, const std::filesystem::path& old, const struct stat& there);
 
 }  // namespace platform

@@ -1,4 +1,4 @@
-// Waiting for the other end of a pipe, without being deaf to the user.
+// Waits for the other end of a pipe and still reacts when the user stops the program.
 #pragma once
 
 #include <functional>
@@ -7,11 +7,13 @@
 
 namespace platform {
 
-// Questions and messages of a reader or writer of files to its program. Each function may be empty.
+// How a reader or writer of files asks its program and reports to it. Each function may be empty.
 struct FileEvents {
-  std::function<bool()> stopped;                     // true ends a wait, by Stopped
-  std::function<void(const std::string&)> waits;     // once, after waiting_seconds: the reason; empty: stderr
-  std::function<void(const std::string&)> replaces;  // what a user may not expect when a file is replaced
+  std::function<bool()> stopped;                     // return true to end a wait with Stopped
+  std::function<void(const std::string&)> waits;     // called once, after waiting_seconds, with the reason;
+                                                     // if empty, stderr gets it
+  std::function<void(const std::string&)> replaces;  // called when replacing a file does what the user may
+                                                     // not expect
 };
 
 inline constexpr double waiting_seconds = 2;
@@ -31,7 +33,7 @@ class Wait {
   Wait(const FileEvents& events, std::string what) : events_(events), what_(std::move(what)) {}
 
   void step();
-  // Something came: the next message needs another waiting_seconds.
+  // Call it when something came: the next message then needs another waiting_seconds.
   void restart() { steps_ = 0; }
 
  private:
@@ -41,7 +43,7 @@ class Wait {
   bool said_ = false;
 };
 
-// Waits until a descriptor can be read (POLLIN) or written (POLLOUT), or its other end is gone.
+// Waits until a descriptor can be read (POLLIN) or written (POLLOUT), or until its other end is closed.
 void wait_until_ready(int descriptor, short event, Wait& wait);
 
 }  // namespace platform

@@ -20,7 +20,7 @@ Image read_pixels(const Context& context, int width, int height, int channels) {
     gl.PixelStorei(name, 0);
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl.ReadPixels(0, 0, width, height, channels == 4 ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
-  // The first row of OpenGL is the lowest one.
+  // OpenGL's first row is the lowest one.
   const std::size_t row = static_cast<std::size_t>(width) * channels;
   for (int y = 0; y < height / 2; ++y)
     std::swap_ranges(image.pixels.begin() + y * row, image.pixels.begin() + (y + 1) * row,

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 // Closes itself.
 class Descriptor {
  public:
-  // Opening a pipe does not wait for its writer.
+  // O_NONBLOCK: opening a pipe must not wait for its writer.
   explicit Descriptor(const fs::path& path) {
     const int own = own_descriptor(followed(path));
     number_ =
@@ -47,7 +47,7 @@ class Descriptor {
   int number_ = -1;
 };
 
-// Returns the bytes that came, 0 at the end.
+// Returns the number of bytes read, 0 at the end.
 std::size_t read_some(const Descriptor& file, const fs::path& path, std::span<std::byte> out, Wait* wait) {
   for (;;) {
     if (wait) wait_until_ready(file.number(), POLLIN, *wait);
@@ -61,7 +61,7 @@ std::size_t read_some(const Descriptor& file, const fs::path& path, std::span<st
   fail(path, "is too large (need at most " + std::to_string(max_bytes) + " bytes)");
 }
 
-// Hands over what comes through a stream, piece by piece.
+// Passes what a stream delivers to take, piece by piece.
 template <class Take>
 void read_stream(const Descriptor& file, const fs::path& path, std::uint64_t max_bytes,
                  const FileEvents& events, Take&& take) {

@@ -1,4 +1,4 @@
-// Files that a user names as inputs, which may be pipes.
+// Reads files that a user names as inputs, which may be pipes.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +11,17 @@
 namespace platform {
 
 // Reads a whole file, or a pipe, a terminal or a socket (/dev/stdin) up to its end. Throws std::runtime_error
-// with a text that names the file: it cannot be read, has more than max_bytes (known before memory is taken,
-// except of a pipe), or changed its size meanwhile; Stopped.
+// with a text that names the file if it cannot be read, has more than max_bytes, or changes its size
+// meanwhile. Only a pipe takes memory before the size is checked. Throws Stopped if the user ends the wait.
 std::vector<std::byte> read_input(const std::filesystem::path& path, std::uint64_t max_bytes,
                                   const FileEvents& events);
 
-// Returns whether a path names a pipe, a socket or a terminal, which can be read once and may wait for ever.
+// Returns whether a path names a pipe, a socket or a terminal: you can read it only once, and it may wait for
+// ever.
 bool is_stream(const std::filesystem::path& path);
 
-// A stream as a file: whatever comes is copied to a temporary file of the same name, for readers that need a
-// size or read twice. The file goes with this object.
+// Copies a stream to a temporary file of the same name, for readers that need a size or read twice. The
+// destructor deletes the file.
 class InputCopy {
  public:
   InputCopy(const std::filesystem::path& stream, std::uint64_t max_bytes, const FileEvents& events);

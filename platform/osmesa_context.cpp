@@ -1,4 +1,4 @@
-// OSMesa: software rendering into memory of this process.
+// OSMesa renders in software, into memory of this process.
 #include <GL/osmesa.h>
 
 #include <stdexcept>

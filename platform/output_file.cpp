@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int max_links = 40;  // as Linux follows
+constexpr int max_links = 40;  // Linux follows as many
 
 [[noreturn]] void fail(const fs::path& target, const std::string& why,
                        const char* cure = "choose a place that exists and can be written") {
@@ -35,7 +35,8 @@ bool same_file(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-// Root may write to every file. A file without any w is protected from root too: somebody meant it.
+// Root may write to every file. But nobody clears every w of a file by chance, so this protects it from root,
+// too.
 void require_writable(const fs::path& named, const fs::path& target, const struct stat& there) {
   if ((there.st_mode & 0222) == 0)
     fail(named, "it is write-protected", "make it writable (chmod u+w), or choose another place");
@@ -58,7 +59,7 @@ int own_descriptor(const fs::path& path) {
 fs::path followed(const fs::path& path) {
   fs::path at = path;
   for (int links = 0; links <= max_links; ++links) {
-    // An entry of /proc/self/fd looks like a link to a path; a pipe's path does not exist.
+    // An entry of /proc/self/fd looks like a link, but for a pipe the path behind it does not exist.
     std::error_code error;
     if (own_descriptor(at) >= 0 || !fs::is_symlink(at, error)) return at;
     const fs::path next = fs::read_symlink(at, error);
@@ -71,7 +72,7 @@ fs::path followed(const fs::path& path) {
 OutputFile::OutputFile(fs::path target, FileEvents events)
     : events_(std::move(events)), named_(std::move(target)), target_(followed(named_)) {
   if (const int own = own_descriptor(target_); own >= 0) {
-    // A stream that was closed at the start cannot be written; see standard_streams.h.
+    // A stream that was closed when the program started cannot be written; see standard_streams.h.
     const int flags = fcntl(own, F_GETFL);
     if (flags >= 0 && (flags & O_ACCMODE) == O_RDONLY) fail_errno(named_, EBADF);
     descriptor_ = fcntl(own, F_DUPFD_CLOEXEC, 0);
@@ -85,7 +86,7 @@ OutputFile::OutputFile(fs::path target, FileEvents events)
     open_part();
 }
 
-// A pipe without a reader gives ENXIO until there is one.
+// Opening a pipe fails with ENXIO until a program reads it.
 void OutputFile::open_stream() {
   std::error_code error;
   if (fs::is_directory(target_, error)) fail(named_, "it is a folder", "add the name of a file");
@@ -149,7 +150,7 @@ void OutputFile::write_stream(std::span<const std::byte> bytes) {
   }
 }
 
-// The front last, in the place of the mark.
+// Writes the front last, over the mark: until then the file counts as a part.
 void OutputFile::write_part(std::span<const std::byte> bytes) {
   const auto write_at = [&](std::span<const std::byte> left, std::size_t at) {
     while (!left.empty()) {
@@ -164,8 +165,8 @@ void OutputFile::write_part(std::span<const std::byte> bytes) {
   write_at(bytes.subspan(front), front);
   write_at(bytes.first(front), 0);
   if (ftruncate(descriptor_, off_t(bytes.size())) != 0) fail_errno(named_, errno);
-  // The bytes are on the disk before they take the place of an older file. Some file systems cannot
-  // synchronise, which is not a fault.
+  // The bytes must be on the disk before they replace an older file. A file system that cannot synchronise is
+  // not an error.
   if (fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail_errno(named_, errno);
 }
 
@@ -174,13 +175,14 @@ void OutputFile::replace_target(std::span<const std::byte> bytes) {
   if (rename(part_.c_str(), target_.c_str()) == 0) return;
   std::error_code error;
   if (errno == ENOENT && fs::is_directory(folder_of(target_), error)) {
-    // Somebody emptied the folder, or made it again.
+    // Somebody emptied the folder or created it again meanwhile.
     close(std::exchange(descriptor_, -1));
     open_part();
     write_part(bytes);
     if (rename(part_.c_str(), target_.c_str()) == 0) return;
   } else if (errno == EBUSY) {
-    // A file that is mounted, as containers do, keeps its place.
+    // A mounted file, as in containers, cannot be renamed over: the part is removed, and the target written
+    // in place.
     unlink(part_.c_str());
     close(std::exchange(descriptor_, -1));
     descriptor_ = open(target_.c_str(), O_WRONLY | O_CLOEXEC);

@@ -1,4 +1,4 @@
-// A file that a program writes: it appears whole or not at all.
+// A file that a program writes either appears whole or not at all.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,14 @@
 
 namespace platform {
 
-// A regular file is written to a part beside its target, TARGET.nook-part-PID, which commit() renames to the
-// target; without commit() the part is removed. The new file has the mode of the one that it replaces, and
-// its owner and attributes where the system allows that. A symbolic link keeps its place: the file that it
+// The program writes a regular file to a part beside its target, TARGET.nook-part-PID. commit() renames the
+// part to the target; without commit() the destructor removes it. The new file takes over the old file's
+// mode, and its owner and attributes where the system allows that. Behind a symbolic link, the file that it
 // points to is replaced. Devices, pipes and the program's own streams (/dev/stdout) are never replaced:
-// commit() writes to them. Everything is opened by the constructor, which waits for the reader of a pipe, so
-// that a place where nothing can be written is known before the work begins. A file that is write-protected
-// is refused. The constructor also removes the parts that dead processes left beside the target. It knows
-// them by their names and by their first bytes, which are those of a part until it is whole. Failures are
-// std::runtime_error with a text that names the file.
+// commit() writes to them. The constructor opens everything and waits for the reader of a pipe, so that you
+// learn before the work begins if nothing can be written there. It refuses a write-protected file. It also
+// removes parts that dead processes left beside the target, which it recognises by their names and first
+// bytes. Failures are std::runtime_error with a text that names the file.
 class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path target, FileEvents events = {});
@@ -26,11 +25,11 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  // Once.
+  // Call it once.
   void commit(std::span<const std::byte> bytes);
   void commit(std::string_view text);
 
-  // False for a device, a pipe or a stream, where what was written cannot be replaced by a later version.
+  // False for a device, a pipe or a stream: a later version cannot replace what was written.
   bool is_regular() const { return !part_.empty(); }
 
  private:
@@ -41,13 +40,13 @@ class OutputFile {
   void replace_target(std::span<const std::byte> bytes);
 
   FileEvents events_;
-  std::filesystem::path named_, target_;  // as the user named it, and what it stands for
+  std::filesystem::path named_, target_;  // as the user named it, and the file behind its symbolic links
   std::filesystem::path part_;            // empty: the target is written directly
   int descriptor_ = -1;
 };
 
-// The file that a path stands for once its symbolic links are followed; it need not exist. Throws
-// std::runtime_error where the links form a circle.
+// Returns the file that a path leads to when its symbolic links are followed; it need not exist. Throws
+// std::runtime_error if the links form a circle.
 std::filesystem::path followed(const std::filesystem::path& path);
 
 // The number N of /proc/self/fd/N, where a path such as /dev/stdout ends; -1 for other paths.

@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int max_parts = 100;           // of one process beside one target
-constexpr std::size_t name_bytes = 200;  // of the target's name: a name has at most 255 bytes
+constexpr int max_parts = 100;           // for one process and one target
+constexpr std::size_t name_bytes = 200;  // of the target's name; a whole name has at most 255 bytes
 
 using Mark = std::array<char, part_mark_size>;
 
@@ -39,7 +39,7 @@ std::string start_of(const fs::path& target) {
   return target.filename().string().substr(0, name_bytes) + ".nook-part-";
 }
 
-// The process of a name such as START123 or START123-4; 0 for other names.
+// Returns the process number in a name such as START123 or START123-4; 0 for other names.
 long process_of(const std::string& name, const std::string& start) {
   if (!name.starts_with(start)) return 0;
   const char* at = name.data() + start.size();
@@ -52,7 +52,7 @@ long process_of(const std::string& name, const std::string& start) {
   return after == end || numbered ? process : 0;
 }
 
-// The number of this process can be one of an earlier process: those of a container begin at 1.
+// A file with this process's own number may come from an earlier process: in a container, numbers begin at 1.
 bool is_dead(long process) {
   return process == getpid() || (kill(pid_t(process), 0) != 0 && errno == ESRCH);
 }
@@ -67,8 +67,7 @@ bool has_mark(int descriptor, long process) {
          found == mark_of(process);
 }
 
-// A live process also holds a lock on its part, which the kernel gives up with the process, however that
-// ends.
+// A live process also holds a lock on its part. The kernel releases it however the process ends.
 void remove_if_abandoned(const fs::path& part, long process) {
   const int descriptor = open(part.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (descriptor < 0) return;
@@ -83,8 +82,8 @@ bool same_file(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-// A descriptor of a new part, locked; -1 where one of this name is there (EEXIST), or another process has
-// just removed it.
+// Returns the descriptor of a new, locked part. Returns -1 if one of this name exists (EEXIST), or if another
+// process has just removed it.
 int try_part(const fs::path& part, unsigned mode) {
   const int descriptor = open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (descriptor < 0) return -1;

@@ -1,4 +1,4 @@
-// The unfinished files beside a target that output_file.h writes.
+// The unfinished files that output_file.h writes beside a target.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +10,17 @@ struct PartFile {
   int descriptor = -1;
 };
 
-// Bytes at the front of a part that are written last: until then they mark the file as a part.
+// The first bytes of a part mark it as a part. The content replaces them last.
 inline constexpr std::size_t part_mark_size = 64;
 
-// A new part of a target, locked and marked. Its descriptor is -1 and errno set where none can be made.
+// Creates a part of a target, locked and marked. If it cannot, the descriptor is -1 and errno is set.
 PartFile make_part(const std::filesystem::path& target, unsigned mode);
 
-// Removes the parts of dead processes. A file is one of them if its name is TARGET.nook-part-PID, its first
-// bytes are the mark of this process, the process is dead, and nobody holds its lock.
+// Removes the parts of dead processes. It removes a file only if its name is TARGET.nook-part-PID, its first
+// bytes are that process's mark, the process is dead, and nobody holds its lock.
 void remove_abandoned_parts(const std::filesystem::path& target);
 
-// The folder of a path as one that can be opened.
+// Returns the folder of a path in a form that can be opened.
 std::filesystem::path folder_of(const std::filesystem::path& path);
 
 }  // namespace platform

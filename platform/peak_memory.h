@@ -1,5 +1,5 @@
-// The memory that the process has taken. A header without objects of its own, so that libraries can include
-// it.
+// The memory that the process has used. Libraries can include this header, because it has no objects of its
+// own.
 #pragma once
 
 #include <sys/resource.h>
@@ -8,7 +8,7 @@
 
 namespace platform {
 
-// Returns the peak memory of the process since it started.
+// Returns the peak memory of the process in bytes.
 inline std::size_t peak_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -1,6 +1,6 @@
-// OpenGL contexts and pictures for the tool, the samples and the tests. Each thread has one current context,
-// and a context is used on the thread that made it. Every function that fails throws std::runtime_error with
-// a text that names the remedy.
+// OpenGL contexts and pictures for the tool, the samples and the tests. Each thread has one current context;
+// use a context only on the thread that created it. A function that fails throws std::runtime_error with a
+// text that says what to do.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ struct ContextRequest {
   std::string kind = "egl";  // "egl" (no display needed), "osmesa" or "window"
   int width = 1280;          // pixels
   int height = 720;
-  int major = 4;  // the version of the core profile; Mesa's software renderer has 4.5 at most
+  int major = 4;  // version of the core profile; Mesa's software renderer has at most 4.5
   int minor = 5;
-  bool es = false;     // true: OpenGL ES of that version, from "egl" alone
+  bool es = false;     // true: OpenGL ES of that version; only "egl" has it
   bool debug = false;  // true: a debug context if the driver supports one
   std::string title = "Nook";
 };
@@ -33,26 +33,26 @@ class Context {
 
   virtual void make_current() = 0;
   virtual void clear_current() = 0;
-  // Shows the drawn picture and reads the events of a window. Does nothing without a window.
+  // Shows the drawn picture and handles the window's events. Does nothing without a window.
   virtual void present() {}
   virtual bool should_close() const { return false; }
-  // OpenGL ES in place of OpenGL.
+  // True for OpenGL ES.
   virtual bool is_es() const { return false; }
   // Null unless the kind is "window".
   virtual GLFWwindow* window() const { return nullptr; }
-  // The size of the drawable in pixels. The user may resize a window.
+  // Gets the size of the drawable in pixels, which changes when the user resizes a window.
   virtual void size(int* width, int* height) const;
   virtual void* proc(const char* name) const = 0;
 
-  // The framebuffer to draw into. It is 0 if the context has one of its own. Otherwise the first call makes
-  // one with RGBA8 and a 24-bit depth buffer. The call leaves it bound.
+  // The framebuffer to draw into. It is 0 if the context has one of its own; otherwise the first call creates
+  // one with RGBA8 and a 24-bit depth buffer, and leaves it bound.
   unsigned framebuffer();
   // The OpenGL functions of this context.
   const GladGLContext& gl() const { return *gl_; }
   std::string version() const;
   std::string renderer() const;
 
-  // Loads one function. The user pointer is the Context.
+  // Loads one function; user is the Context.
   static void* loader(void* user, const char* name);
 
  protected:
@@ -72,7 +72,7 @@ class Context {
 
 // Creates a context and makes it current.
 std::unique_ptr<Context> create_context(const ContextRequest& request);
-// The kinds that this build has, as text for a message.
+// Lists the kinds that this build has, for a message.
 const char* context_kinds();
 
 // Rows run from top to bottom. A pixel has three or four bytes.
@@ -96,7 +96,7 @@ FloatImage read_float_image(const std::filesystem::path& path);
 // Reads the framebuffer that is bound for reading. Waits for the GPU. Sets pixel-pack state and does not
 // restore it.
 Image read_pixels(const Context& context, int width, int height, int channels = 3);
-// The format follows the file's extension, such as .png. A failed run leaves no half-written file.
+// Chooses the format by the file's extension, such as .png. A failed run leaves no half-written file.
 void write_image(const std::filesystem::path& path, const Image& image);
 
 }  // namespace platform

@@ -1,4 +1,4 @@
-// Text from files and arguments, made fit for a terminal.
+// Makes text from files and arguments safe to print on a terminal.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 
 namespace platform {
 
-// Control characters (C0, DEL and C1), characters that turn the direction of writing, and bytes that are no
-// UTF-8 become visible escapes such as \x1b: a name cannot colour, move or retitle a terminal.
+// Replaces control characters (C0, DEL and C1), characters that change the writing direction, and invalid
+// UTF-8 by visible escapes such as \x1b. A name then cannot colour, move or retitle a terminal.
 std::string printable(std::string_view text);
 
-// The same for text of several lines, whose line feeds stay.
+// The same for text of several lines; line feeds stay.
 std::string printable_lines(std::string_view text);
 
 }  // namespace platform

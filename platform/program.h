@@ -7,15 +7,15 @@
 
 namespace platform {
 
-// Makes a linked program. The texts of a stage follow each other, and the first one begins with the #version
-// line. The caller deletes the program. Throws std::runtime_error with the log of the compiler or the linker.
+// Creates a linked program, which the caller deletes. The texts of a stage are concatenated; the first one
+// begins with the #version line. Throws std::runtime_error with the compiler's or linker's log.
 GLuint link_program(const GladGLContext& gl, std::initializer_list<const char*> vertex,
                     std::initializer_list<const char*> fragment);
 
 // A linked program that deletes itself.
 class Program {
  public:
-  // The texts are those of link_program. The context must outlive this object.
+  // Takes the same texts as link_program. The context must outlive this object.
   Program(const GladGLContext& gl, std::initializer_list<const char*> vertex,
           std::initializer_list<const char*> fragment);
   Program(Program&& other) noexcept;

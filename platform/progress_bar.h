@@ -1,4 +1,4 @@
-// Shows the progress of long work on the error stream: a bar on a terminal, and plain lines elsewhere.
+// Shows the progress of long work on the error stream: a bar on a terminal, plain lines elsewhere.
 #pragma once
 
 #include <chrono>
@@ -10,12 +10,11 @@ namespace platform {
 class ProgressBar {
  public:
   explicit ProgressBar(bool quiet);
-  ~ProgressBar();  // leaves the cursor on a new line
+  ~ProgressBar();  // puts the cursor on a new line
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  // The unit names what is counted, for example "poses". A new label begins a new line. Calls must not
-  // overlap.
+  // unit names what is counted, for example "poses". A new label begins a new line. Calls must not overlap.
   void show(const std::string& label, const char* unit, std::size_t done, std::size_t total);
 
  private:
@@ -26,13 +25,13 @@ class ProgressBar {
   void draw(const char* unit, double rate, double seconds_left);
 
   bool quiet_, terminal_;
-  std::string label_, shown_label_;  // as it was given, and as it is printed
+  std::string label_, shown_label_;  // as passed, and as printed
   std::size_t first_ = 0, done_ = 0, total_ = 0, tenths_ = 0;
   Clock::time_point began_, drawn_;
   bool line_open_ = false;
 };
 
-// A duration such as "12 s", "3 min 05 s" or "1 h 02 min".
+// Returns a duration such as "12 s", "3 min 05 s" or "1 h 02 min".
 std::string duration_text(double seconds);
 
 }  // namespace platform

@@ -27,7 +27,7 @@ RenderTarget::RenderTarget(const Context& context, int width_px, int height_px)
   const GladGLContext& gl = context.gl();
   GLint max_samples = 0;
   gl.GetIntegerv(GL_MAX_SAMPLES, &max_samples);
-  // Softpipe has no multisampling, so that it gets a plain framebuffer.
+  // Softpipe has no multisampling and gets a plain framebuffer.
   const GLint samples = max_samples >= 4 ? 4 : 0;
   gl.GenFramebuffers(2, framebuffers_);
   gl.GenRenderbuffers(3, renderbuffers_);
@@ -71,7 +71,7 @@ void RenderTarget::show(unsigned framebuffer, int width_px, int height_px) const
   resolve();
   const GladGLContext& gl = context_.gl();
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-  // The pixels are already encoded.
+  // The pixels are already sRGB-encoded.
   gl.Disable(GL_FRAMEBUFFER_SRGB);
   gl.BlitFramebuffer(0, 0, width_px_, height_px_, 0, 0, width_px, height_px, GL_COLOR_BUFFER_BIT, GL_LINEAR);
 }

@@ -1,5 +1,5 @@
-// The framebuffers that the samples draw pictures into: an sRGB framebuffer with four samples, if OpenGL has
-// them, and the framebuffer to which it is resolved.
+// The framebuffers that the samples draw into: an sRGB framebuffer, with four samples per pixel if OpenGL
+// supports them, and another framebuffer, which gets the resolved picture.
 #pragma once
 
 #include "platform/platform.h"
@@ -15,11 +15,11 @@ class RenderTarget {
 
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
-  void bind() const;     // for drawing, and sets the viewport and sRGB encoding
+  void bind() const;     // binds it for drawing, sets the viewport and sRGB encoding
   void resolve() const;  // leaves the resolved picture bound for reading
-  // Resolves, waits for the GPU, and returns rows from top to bottom.
+  // Resolves, waits for the GPU, and returns the rows from top to bottom.
   Image read() const;
-  // Resolves to a framebuffer that shows its bytes as they are, for example that of a window. The picture is
+  // Resolves to a framebuffer that shows bytes without conversion, such as a window's. The picture is
   // filtered if the sizes differ.
   void show(unsigned framebuffer, int width_px, int height_px) const;
 

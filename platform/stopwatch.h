@@ -1,4 +1,4 @@
-// Wall-clock time. A header without objects of its own, so that libraries can include it.
+// Measures wall-clock time. Libraries can include this header, because it has no objects of its own.
 #pragma once
 
 #include <chrono>
@@ -7,10 +7,10 @@ namespace platform {
 
 class Stopwatch {
  public:
-  // Seconds since the construction or the last lap.
+  // Seconds since construction or the last lap.
   double seconds() const { return std::chrono::duration<double>(Clock::now() - last_).count(); }
 
-  // The same, in seconds or milliseconds, and begins a new lap.
+  // Returns seconds() or the same in milliseconds, and begins a new lap.
   double lap_seconds() {
     const Clock::time_point now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - last_).count();

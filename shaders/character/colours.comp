@@ -1,5 +1,5 @@
-// Directional occlusion at the key points of instances with a light: the colour of their shadow, and the
-// added occlusion of each channel.
+// Computes directional occlusion at the key points of instances with a light: the colour of their shadow, and
+// the added occlusion of each channel.
 #include "shaders/core/constants.h"
 #include "shaders/character/key_points.glsl"
 #include "shaders/character/light.glsl"
@@ -28,8 +28,8 @@ NookBands nook_gather_spheres(uint first, uint count, NookPoint point) {
   return bands;
 }
 
-// The spheres of a caster as one: the sum of their directions, weighted by their shares; w is the sum of the
-// shares.
+// Combines the spheres of a caster: the sum of their directions, weighted by their shares; w is the sum of
+// the shares.
 vec4 nook_joint_sight(uint first, uint count, NookPoint point) {
   vec4 joint = vec4(0.0);
   for (uint begin = 0u; begin < count; begin += nook_tile_size) {

@@ -1,5 +1,5 @@
-// Constants of the formulas that sdk/src/character (kernel.h, directional_occlusion.h) and these
-// shaders share; the headers describe them. C++ and GLSL both include this file.
+// Constants of formulas in sdk/src/character (kernel.h, directional_occlusion.h) and in these shaders; the
+// headers describe them. C++ and GLSL both include this file.
 #ifndef NOOK_CHARACTER_CONSTANTS_H
 #define NOOK_CHARACTER_CONSTANTS_H
 

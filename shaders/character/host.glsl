@@ -1,4 +1,4 @@
-// The functions of a host's shader for the light of a scene's instances. `light` is that of nook_gl_view;
+// Functions for a host's shader that lights with a scene's instances. `light` comes from nook_gl_view;
 // normals are unit vectors in world space; colours are linear RGB.
 #include "shaders/character/bent_normal.glsl"
 #include "shaders/character/light_layout.h"
@@ -22,8 +22,8 @@ vec3 nook_scene_open_irradiance(int light, vec3 normal_ws) {
   return max(sum, 0.0);
 }
 
-// Returns the irradiance that remains with the occlusion by bodies, ground and occluders. directional_ao is
-// the vertex' value of nook_gl_view.
+// Returns the irradiance that occlusion by bodies, ground and occluders leaves. directional_ao is the vertex'
+// value of nook_gl_view.
 vec3 nook_scene_irradiance(int light, vec3 normal_ws, vec3 directional_ao) {
   return nook_scene_open_irradiance(light, normal_ws) * directional_ao;
 }

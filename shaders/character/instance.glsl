@@ -1,10 +1,10 @@
-// Declarations that the compute passes share: the places of an instance's data. Positions are relative to the
-// instance's origin, so that a scene far from the world's origin keeps its precision.
+// Declares where the compute passes find an instance's data. Positions are relative to the instance's origin,
+// so that a scene far from the world's origin keeps its precision.
 #include "shaders/character/constants.h"
 #include "shaders/character/layout.h"
 
-// The CPU's inputs of an update of the chunk: records, bones, casters and lights, floats as bits. A number of an
-// element in a record is its place in the stream.
+// What the CPU sends for an update of the chunk: records, bones, casters and lights, with floats as bits.
+// Element numbers in a record are indices into the stream.
 layout(std430, binding = NOOK_BINDING_STREAM) readonly buffer NookStream {
   uvec4 nook_stream[];
 };

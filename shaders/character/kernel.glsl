@@ -1,6 +1,6 @@
-// The effect of one sphere on one key point, with the formulas and names of sdk/src/character/kernel.h. delta2 is
-// the squared distance of the centre in radii, and xi is the height of the centre above the key point's horizon in
-// radii.
+// The effect of one sphere on one key point, with the formulas and names of sdk/src/character/kernel.h.
+// delta2 is the squared distance of the centre in radii. xi is the height of the centre above the key point's
+// horizon in radii.
 #include "shaders/character/constants.h"
 
 float nook_visibility_paper(float xi) { return max(xi * inversesqrt(4.0 * xi * xi + 1.0) + 0.5, 0.0); }
@@ -51,7 +51,8 @@ float nook_form_factor_exact(float xi, float delta2) {
   return f + max(1.0 - f, 0.0) * max(1.0 - delta2, 0.0);
 }
 
-// The optical depth of a caster, of the sum over its spheres; sdk/src/character/kernel.h has the reason.
+// Returns the optical depth of a caster, from the sum over its spheres; sdk/src/character/kernel.h has the
+// reason.
 float nook_solid_depth(float d) { return d + NOOK_SOLID_DEPTH * d * d; }
 
 // Returns the same share without angles, for the many spheres of a caster; sdk/src/character/kernel.h has the

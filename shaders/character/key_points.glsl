@@ -1,13 +1,13 @@
-// Declarations that the passes over key points share. There is one thread for each key point; y is the
-// instance. Spheres are copied to shared memory, from which all threads of the group read.
+// Declares what the passes over key points share. There is one thread for each key point; y is the instance.
+// Spheres are copied to shared memory, from which all threads of the group read.
 #include "shaders/character/instance.glsl"
 #include "shaders/character/kernel.glsl"
 
 const uint nook_tile_size = uint(NOOK_GROUP_SIZE);
 layout(local_size_x = NOOK_GROUP_SIZE) in;
 
-// The stream has two elements for each caster: its origin minus the receiver's, first sphere; number of spheres. Of each
-// exact sphere it has one: centre, 1 / radius.
+// The stream has two elements for each caster: its origin minus the receiver's, first sphere; number of
+// spheres. It has one for each exact sphere: centre, 1 / radius.
 layout(std430, binding = NOOK_BINDING_SPHERES) readonly buffer NookSpheres {
   vec4 nook_sphere[];  // two for each: centre, 1 / radius; caster weight
 };
@@ -50,8 +50,7 @@ void nook_stage(uint first, uint count) {
   barrier();
 }
 
-// Blends up to four bones linearly. The normal is renormalised, and stays zero where opposite bones cancel
-// it.
+// Blends up to four bones linearly. The normal is renormalised, and stays zero if opposite bones cancel it.
 void nook_pose(uint key_point, uint first_bone, out NookPoint fitted, out NookPoint surface) {
   uint k = uint(NOOK_KEY_POINT_VEC4S) * key_point;
   vec4 bones = nook_rest_key_point[k + 4u], weights = nook_rest_key_point[k + 5u];
@@ -74,7 +73,7 @@ void nook_pose(uint key_point, uint first_bone, out NookPoint fitted, out NookPo
   }
 }
 
-// The shadow of a key point whose spheres have the sum of terms `sum`.
+// Returns the shadow of a key point whose spheres have the sum of terms `sum`.
 float nook_shadow_of(float sum, uint key_point) {
   float saturation = nook_rest_key_point[uint(NOOK_KEY_POINT_VEC4S) * (nook_first_key_point + key_point)].w;
   return nook_saturated(nook_norm_root(sum, nook_gamma), saturation);

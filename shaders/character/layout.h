@@ -1,19 +1,19 @@
-// Numbers that the passes over characters and the C++ that runs them share: where buffers are bound, where
-// uniforms lie and how arrays are laid out. C++ and GLSL both include this file.
+// Numbers that the passes over characters share with the C++ that runs them: bindings of buffers, locations
+// of uniforms and layouts of arrays. C++ and GLSL both include this file.
 #ifndef NOOK_CHARACTER_LAYOUT_H
 #define NOOK_CHARACTER_LAYOUT_H
 
-// Bindings of shader storage blocks. No pass has more than four, which is what every OpenGL ES 3.1 allows.
+// Bindings of shader storage blocks. No pass has more than four, because OpenGL ES 3.1 guarantees no more.
 #define NOOK_BINDING_STREAM 0
 #define NOOK_BINDING_MODEL 1
 #define NOOK_BINDING_SPHERES 2
-// Of shadows or colours at key points: where they are written, and where vertices.comp reads them.
+// Shadows or colours at key points: where they are written, and where vertices.comp reads them.
 #define NOOK_BINDING_KEY_POINTS 3
 #define NOOK_BINDING_VERTEX_INPUT 2
 #define NOOK_BINDING_AO 3
 #define NOOK_BINDING_COUNT 4
 
-// Threads of a group. Passes over key points stage as many spheres at a time in shared memory.
+// Threads of a group. Passes over key points stage this many spheres at a time in shared memory.
 #define NOOK_GROUP_SIZE 64
 #define NOOK_VERTEX_GROUP_SIZE 128
 
@@ -29,7 +29,7 @@
 #define NOOK_LOCATION_COMPOSED 6
 #define NOOK_LOCATION_SHADOW_STRIDE 7
 #define NOOK_LOCATION_SHADOW_OFFSET 8
-// of those that spread a level's key points (spread.comp, colours_spread.comp),
+// of the passes that spread a level's key points (spread.comp, colours_spread.comp),
 #define NOOK_LOCATION_SPREAD_FIRST_RECORD 0
 #define NOOK_LOCATION_SPREAD_KEY_POINT_COUNT 1
 #define NOOK_LOCATION_SPREAD_SHADOW_STRIDE 2
@@ -41,7 +41,7 @@
 #define NOOK_LOCATION_VERTEX_SHADOW_STRIDE 3
 
 // Attributes of vertices.vert: a bias, then for each quad of influences its key points, alphas and blend
-// weights. OpenGL 3.3 wants a literal for each location.
+// weights. OpenGL 3.3 requires a literal for each location.
 #define NOOK_ATTRIBUTE_BIAS 0
 #define NOOK_ATTRIBUTE_KEY_POINTS_0 1
 #define NOOK_ATTRIBUTE_ALPHA_0 2
@@ -55,7 +55,7 @@
 #define NOOK_OUTPUT_COLOUR 1
 #define NOOK_OUTPUT_GREY 2
 
-// The bit beside the place of an instance whose own spheres darken it.
+// This bit beside an instance's place says that its own spheres darken it.
 #define NOOK_RECORD_SELF 0x80000000u
 
 // Elements of the arrays in storage buffers.

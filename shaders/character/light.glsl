@@ -1,12 +1,12 @@
-// The light of an instance and what stands in it; derived in sdk/src/character/directional_occlusion.h.
+// The light of an instance and what occludes it; derived in sdk/src/character/directional_occlusion.h.
 #include "shaders/core/constants.h"
 #include "shaders/character/instance.glsl"
 #include "shaders/character/light_layout.h"
 #include "shaders/probe/lobe.glsl"
 
-// Texel i of a light, which stands in the stream; light_layout.h numbers them.
+// Returns texel i of a light in the stream; light_layout.h numbers them.
 vec4 nook_light(uint light, int i) { return nook_streamed(light + uint(i)); }
-// The first of the two texels of a lobe.
+// Returns the first of the two texels of a lobe.
 int nook_lobe_texel(int lobe) { return NOOK_LIGHT_LOBES + NOOK_LIGHT_LOBE_TEXELS * lobe; }
 
 float nook_lobe_norm(float v) {
@@ -14,8 +14,7 @@ float nook_lobe_norm(float v) {
   return q / (v * q + 1.0);
 }
 
-// Returns the mean of the lobes under the density exp(dot(b, s)), without the part of each lobe that the
-// ground hides.
+// Returns the mean of the lobes under the density exp(dot(b, s)), without the parts that the ground hides.
 vec3 nook_mean_radiance(uint light, vec3 b) {
   float length_b = length(b);
   int count = int(nook_light(light, NOOK_LIGHT_HEAD).x);
@@ -33,7 +32,7 @@ vec3 nook_inverse_hemisphere(uint light, vec3 n) {
   return 1.0 / max(nook_mean_radiance(light, n * NOOK_COSINE_LOBE_SHARPNESS), nook_light(light, NOOK_LIGHT_DARKEST).xyz);
 }
 
-// The direction to the part of a caster above the horizon, a unit vector, and its cosine to the normal.
+// The unit vector towards the part of a caster above the horizon, and its cosine with the normal.
 struct NookSight {
   vec3 towards;
   float cosine;

@@ -1,4 +1,4 @@
-// Writes each value to a word of its own in a host's buffer, the words at equal distances.
+// Writes each value to its own word of a host's buffer, at equal distances.
 #include "shaders/character/pack.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-// The non-linear layer: shadow and added occlusion at the key points of an instance.
+// The non-linear layer computes shadow and added occlusion at the key points of an instance.
 #include "shaders/character/key_points.glsl"
 
 layout(std430, binding = NOOK_BINDING_KEY_POINTS) writeonly buffer NookShadows {

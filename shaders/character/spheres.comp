@@ -24,7 +24,7 @@ void main() {
   vec4 p = vec4(rest.xyz, 1.0);
   vec4 x = nook_streamed(row);
   vec3 centre = vec3(dot(x, p), dot(nook_streamed(row + 1u), p), dot(nook_streamed(row + 2u), p));
-  // Under rigid or uniformly scaled matrices, the length of every row of the linear part is the scale.
+  // Under rigid or uniformly scaled matrices, each row of the linear part is as long as the scale.
   float radius = rest.w * length(x.xyz);
   uint place = uint(NOOK_SPHERE_VEC4S) * (record.first_sphere + s);
   nook_sphere[place] = vec4(centre, 1.0 / max(radius, NOOK_MIN_SPHERE_RADIUS));

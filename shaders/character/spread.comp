@@ -1,4 +1,4 @@
-// Derives the shadows of all key points from those that a coarser level of detail evaluates. There is one
+// Derives the shadows of all key points from the ones that a coarser level of detail evaluates. There is one
 // thread for each key point; y is the instance.
 #include "shaders/character/instance.glsl"
 

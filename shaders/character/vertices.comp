@@ -1,5 +1,5 @@
-// The linear layer: AO of every vertex in file order from a few key points. There is one thread for each
-// vertex; y is the instance. NOOK_OUTPUT is one of
+// The linear layer computes the AO of every vertex in file order from a few key points. There is one thread
+// for each vertex; y is the instance. NOOK_OUTPUT is one of
 //   NOOK_OUTPUT_AO      AO, one float for each vertex;
 //   NOOK_OUTPUT_COLOUR  directional occlusion of instances with a light, three floats;
 //   NOOK_OUTPUT_GREY    AO in all three channels, for the instances without light that live among those with one.
@@ -16,8 +16,8 @@ layout(std430, binding = NOOK_BINDING_VERTEX_INPUT) readonly buffer NookKeyPoint
 #endif
 };
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookLinear {
-  // Welded vertex of each file vertex, then for each welded vertex: bias, two key points in a word for each pair of
-  // influences, the alphas and the blend weights; each of these as an array over the welded vertices.
+  // The welded vertex of each file vertex comes first. Then follow arrays over the welded vertices: bias, two
+  // key points in a word for each pair of influences, alphas, and blend weights.
   uint nook_linear[];
 };
 layout(std430, binding = NOOK_BINDING_AO) writeonly buffer NookAo {

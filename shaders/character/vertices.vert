@@ -1,5 +1,5 @@
-// The linear layer of OpenGL 3.3: the shadows at key points come in a texture buffer, AO leaves by transform feedback. One
-// point a file vertex; its index picks the welded vertex whose attributes it reads.
+// The linear layer for OpenGL 3.3. It reads the shadows at key points from a texture buffer, and writes AO by
+// transform feedback. Each file vertex is one point, whose index picks the welded vertex with its attributes.
 #include "shaders/character/layout.h"
 #include "shaders/character/linear.glsl"
 #include "shaders/core/texels.glsl"
@@ -14,7 +14,8 @@ layout(location = NOOK_ATTRIBUTE_ALPHA_1) in vec4 nook_alpha_1;
 layout(location = NOOK_ATTRIBUTE_BLEND_1) in vec4 nook_blend_1;
 #endif
 
-// One texel: shadow and added occlusion; with NOOK_LIGHT two texels: coloured shadow and shadow, added occlusion.
+// One texel holds shadow and added occlusion. With NOOK_LIGHT there are two: coloured shadow and shadow, then
+// added occlusion.
 uniform NOOK_TEXELS nook_shadows;
 uniform int nook_first_key_point;    // of the draw's first instance, in the page
 uniform int nook_key_point_count;

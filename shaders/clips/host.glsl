@@ -1,5 +1,5 @@
-// The function of a host's vertex shader for the AO of baked clips. The texels of a vertex, and those of a frame, follow each
-// other in the rows of textures that nook_clips_read_table writes: nook_clip_vec4s of each.
+// Call this function in a host's vertex shader for the AO of baked clips. Textures hold what
+// nook_clips_read_table writes: each vertex and each frame has nook_clip_vec4s consecutive texels.
 #include "shaders/core/texel_layout.h"
 
 uniform highp sampler2D nook_clip_modes, nook_clip_weights;
@@ -9,7 +9,7 @@ vec4 nook_clip_texel(highp sampler2D table, int number) {
   return texelFetch(table, ivec2(number & (NOOK_TEXEL_ROW - 1), number >> NOOK_TEXEL_ROW_SHIFT), 0);
 }
 
-// Returns the AO of the character alone, in [0, 1]. nook_clips_frames gives frames and share.
+// Returns the AO of the character alone, in [0, 1]. Take frames and share from nook_clips_frames.
 float nook_clip_ao(int vertex, ivec2 frames, float share) {
   ivec2 weights = frames * nook_clip_vec4s;
   int modes = vertex * nook_clip_vec4s;

@@ -1,4 +1,4 @@
-// Constants of spherical Gaussians that sdk/src/core/spherical_gaussian.h and the shaders share; the header
+// Constants of spherical Gaussians in sdk/src/core/spherical_gaussian.h and in the shaders; the header
 // describes them. C++ and GLSL both include this file.
 #ifndef NOOK_CORE_CONSTANTS_H
 #define NOOK_CORE_CONSTANTS_H
@@ -9,8 +9,8 @@
 
 // S. Hill's fit of the irradiance of a lobe: the slope of its middle part.
 #define NOOK_FITTED_IRRADIANCE_SLOPE 0.36
-// The fit takes the bands below this sharpness.
+// Below this sharpness, the bands replace the fit.
 #define NOOK_FITTED_IRRADIANCE_MIN_SHARPNESS 3.0
-// The best form takes the bands up to this sharpness.
+// Up to this sharpness, the best form uses the bands.
 #define NOOK_BANDS_MAX_SHARPNESS 16.0
 #endif

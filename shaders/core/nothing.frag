@@ -1,2 +1,2 @@
-// The fragment shader of programs that draw nothing: OpenGL ES wants one in every program.
+// A fragment shader for programs that draw nothing, because OpenGL ES requires one in every program.
 void main() {}

@@ -1,5 +1,5 @@
-// The length of a row of the 2D textures that stand in for texture buffers on OpenGL ES. C++ and GLSL both
-// include this file.
+// The row length of the 2D textures that replace texture buffers on OpenGL ES. C++ and GLSL both include this
+// file.
 #ifndef NOOK_CORE_TEXEL_LAYOUT_H
 #define NOOK_CORE_TEXEL_LAYOUT_H
 

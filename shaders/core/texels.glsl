@@ -1,6 +1,6 @@
 #ifndef NOOK_TEXELS
-// Tables of texels that are fetched by number: texture buffers on OpenGL; 2D textures on OpenGL ES and WebGL, which lack
-// texture buffers, with their rows one after another.
+// Tables of texels that are fetched by number. They are texture buffers on OpenGL. OpenGL ES and WebGL lack
+// those and have 2D textures, whose rows follow one another.
 #include "shaders/core/texel_layout.h"
 #ifdef GL_ES
 #define NOOK_TEXELS highp sampler2D

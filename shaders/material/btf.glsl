@@ -24,8 +24,8 @@ vec2 nook_material_relief(vec2 uv, vec3 view, float level) {
 }
 #endif
 
-// Computes the mean light modes of places for the view. On a relief the view's ray through each place meets a point of
-// its own.
+// Computes the mean light modes of places for the view. On a relief, the view's ray through each place hits
+// its own point.
 void nook_material_decode_at(NookMaterialFetches at, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   vec2 place = nook_parabolic_place(view, NOOK_BTF_SIDE);
   ivec2 cell = min(ivec2(place), ivec2(NOOK_BTF_SIDE - 1));
@@ -49,12 +49,14 @@ void nook_material_decode_at(NookMaterialFetches at, vec3 view, out vec4 modes[N
   }
 }
 
-// Computes the light modes of the point uv for the view, filtered over the pixel with the sides dx and dy.
+// Computes the light modes at the point uv for the view. dx and dy are the pixel's sides, over which it
+// filters.
 void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   nook_material_decode_at(nook_material_one_fetch(uv, dx, dy, NOOK_BTF_TEXELS), view, modes);
 }
 
-// The same with several fetches of each mode along the longer side of the pixel, which keep grazing views sharp.
+// The same with several fetches of each mode along the longer side of the pixel, which keeps grazing views
+// sharp.
 void nook_material_decode_anisotropic(vec2 uv, vec2 dx, vec2 dy, vec3 view, int fetches,
                                       out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   nook_material_decode_at(nook_material_fetches_along(uv, dx, dy, NOOK_BTF_TEXELS, fetches), view, modes);

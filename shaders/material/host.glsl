@@ -1,5 +1,6 @@
-// The functions of a host's shader. sdk/src/gl/material/material_glsl.cpp writes before this text, for the sizes of a material: the
-// constants, the samplers, base/host.glsl, and for the BTF and the VOTF the function
+// The functions of a host's shader. Before this text, sdk/src/gl/material/material_glsl.cpp writes the
+// constants and samplers for the sizes of a material and base/host.glsl. For the BTF and the VOTF it also
+// writes the function
 //   vec4 nook_btf_mode(int cluster, int mode, vec2 uv, float level)
 // and tensor/host.glsl. sdk/src/material/tables.h defines the layout of layers and numbers, and sdk/src/material/reflectance.cpp
 // has the same functions.

@@ -15,8 +15,8 @@ struct NookMaterialCell {
   float weight_x, weight_y;
 };
 
-// Finds the cell of a view and its neighbours, whose steps are two bits for each half of the cell, plus 1.
-// sdk/src/material/view_cells.h has the same function.
+// Finds the cell of a view and its neighbours. `neighbours` holds the step + 1 in two bits for each half of
+// the cell. sdk/src/material/view_cells.h has the same function.
 NookMaterialCell nook_material_blend(vec2 place, ivec2 cell, int neighbours) {
   vec2 at = place - vec2(cell) - 0.5;
   int x = (neighbours >> (at.x > 0.0 ? 2 : 0) & 3) - 1, y = (neighbours >> (at.y > 0.0 ? 6 : 4) & 3) - 1;
@@ -29,8 +29,8 @@ vec4 nook_material_blended(highp sampler2DArray coefficients, NookMaterialCell c
          texelFetch(coefficients, ivec3(c.y, layer), 0) * c.weight_y;
 }
 
-// Where the terms of a tensor for a view are: the cell of the view, the clusters of the four terms that are being evaluated,
-// and of the last four, where the cell's neighbours stand too.
+// Where to find the terms of a tensor for a view: the cell of the view, and the clusters of four terms. They
+// are the terms in evaluation; the last four also hold the cell's neighbours.
 struct NookMaterialTerms {
   NookMaterialCell cell;
   uvec4 clusters, last;

@@ -1,6 +1,6 @@
-// Blends the AO of a frame with the mean of the frames before it. Each texel finds where its surface was in the
-// earlier frame, by the cameras and by motion vectors of the host, and takes the AO of those of the four texels
-// around that place that show the same surface. sdk/src/nnao/history.h has the same on the CPU.
+// Blends the AO of a frame with the mean of the frames before it. The cameras and the host's motion vectors
+// tell where a texel's surface was in the earlier frame. Of the four texels around that place, the ones that
+// show the same surface give their AO. sdk/src/nnao/history.h does the same on the CPU.
 #include "shaders/nnao/depth.glsl"
 #include "shaders/nnao/host_images.glsl"
 
@@ -12,15 +12,16 @@ uniform vec4 nook_earlier[NOOK_EARLIER_VEC4S];
 
 out vec4 nook_out;
 
-#define nook_earlier_rays nook_earlier[NOOK_EARLIER_RAYS]   // as nook_surface_rays, of the earlier frame
+#define nook_earlier_rays nook_earlier[NOOK_EARLIER_RAYS]   // as nook_surface_rays, for the earlier frame
 #define nook_earlier_last nook_earlier[NOOK_EARLIER_SIZE].xy  // the texel of its upper right corner
-#define nook_max_frames nook_earlier[NOOK_EARLIER_SIZE].z    // of the mean; 1: the history is not used
+#define nook_max_frames nook_earlier[NOOK_EARLIER_SIZE].z    // of the mean; 1: the history is ignored
 #define nook_has_motion (nook_earlier[NOOK_EARLIER_SIZE].w != 0.0)
-#define nook_motion_scale nook_earlier[NOOK_EARLIER_MOTION].xy  // texels of the surface for a unit of the texture
+#define nook_motion_scale nook_earlier[NOOK_EARLIER_MOTION].xy  // texels of the surface per unit of the
+                                                                // texture
 #define nook_noise_reach nook_earlier[NOOK_EARLIER_MOTION].z    // how far the taps' noise takes AO from its mean
 
-// AO in [0, 1] as the nearest 255th, which the filter reads, and what is left of it. 8 bits alone would keep a
-// mean of many frames from moving.
+// Splits AO in [0, 1] into the nearest 255th, which the filter reads, and the rest. 8 bits alone would freeze
+// a mean of many frames.
 vec4 nook_packed(float ao, float edges, float frames) {
   float step = floor(255.0 * ao + 0.5);
   return vec4(step, 255.0 * edges, floor(127.5 + 254.0 * (255.0 * ao - step)), frames) / 255.0;
@@ -35,14 +36,14 @@ vec3 nook_earlier_position(vec3 position) {
   return vec3(dot(nook_earlier[0], p), dot(nook_earlier[1], p), dot(nook_earlier[2], p));
 }
 
-// The change of depth to a neighbouring texel along an axis, on the flatter side.
+// Returns the change of depth to a neighbouring texel along an axis, on the flatter side.
 float nook_flat_step(float depth, float before, float after) {
   return min(abs(before - depth), abs(after - depth));
 }
 
-// The bounds of what the AO of earlier frames can have been: the mean of the texels that the edges connect, and
-// twice their deviation to either side, at least 0.06; but no farther from the texel itself than the noise of the
-// taps, so that lines stay. Things that moved leave no trail.
+// Returns the range in which earlier AO is plausible: the mean of the texels that the edges connect, plus and
+// minus twice their deviation, at least 0.06. It extends no farther from the texel itself than the noise of
+// the taps, so that thin lines stay. Things that moved leave no trail.
 vec2 nook_likely_range(ivec2 texel, vec2 centre) {
   ivec2 low = max(texel - 1, ivec2(0)), high = min(texel + 1, nook_surface_size - 1);
   uint bits = uint(255.0 * centre.g + 0.5);
@@ -56,7 +57,7 @@ vec2 nook_likely_range(ivec2 texel, vec2 centre) {
   return vec2(max(mean - reach, centre.r - nook_noise_reach), min(mean + reach, centre.r + nook_noise_reach));
 }
 
-// Returns the mean AO of earlier frames and their number, which is 0 where the surface was not seen.
+// Returns the mean AO of earlier frames and their number, which is 0 if the surface was not visible.
 vec2 nook_earlier_ao(ivec2 texel, float depth) {
   vec3 earlier = nook_earlier_position(nook_position(nook_surface_rays, vec2(texel), depth));
   vec2 place = (earlier.xy / nook_extent(-earlier.z) - nook_earlier_rays.yw) / nook_earlier_rays.xz;
@@ -68,7 +69,7 @@ vec2 nook_earlier_ao(ivec2 texel, float depth) {
 #endif
     place = vec2(texel) - nook_motion_scale * nook_host_texel(nook_motion, pixel).rg;
   }
-  // Also false where it is not a number.
+  // Also false for NaN.
   if (!(all(greaterThan(place, vec2(-1.0))) && all(lessThan(place, nook_earlier_last + 1.0)))) return vec2(0.0);
   float slope = nook_flat_step(depth, nook_depth_near(texel - ivec2(1, 0)), nook_depth_near(texel + ivec2(1, 0))) +
                 nook_flat_step(depth, nook_depth_near(texel - ivec2(0, 1)), nook_depth_near(texel + ivec2(0, 1)));

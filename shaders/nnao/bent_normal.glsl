@@ -1,9 +1,9 @@
-// The bent normal beside AO and edges: the two coordinates of a unit vector across the direction to the
-// viewer, in 8 bits each. A filter can average them as they are. A bent normal that points away from the viewer
-// is turned to the nearest direction that does not.
+// Stores the bent normal beside AO and edges, as the two coordinates of a unit vector across the direction to
+// the viewer, in 8 bits each. A filter can average them directly. If a bent normal points away from the
+// viewer, it is turned to the nearest direction that does not.
 #include "shaders/nnao/frame.glsl"
 
-// A coordinate in [-1, 1] as a number in [0, 1] that 8 bits keep; 0 is exact.
+// Encodes coordinates in [-1, 1] as numbers in [0, 1] for 8 bits; 0 is exact.
 vec2 nook_coded(vec2 coordinates) {
   return (127.0 * coordinates + 128.0) / 255.0;
 }
@@ -12,7 +12,7 @@ vec2 nook_decoded(vec2 coded) {
   return (255.0 * coded - 128.0) / 127.0;
 }
 
-// The rotation that turns one unit vector into the other, applied to v.
+// Applies to v the rotation that turns one unit vector into the other.
 vec3 nook_turned(vec3 v, vec3 from, vec3 to) {
   vec3 between = from + to;
   return v - between * (dot(v, between) / (1.0 + dot(from, to))) + 2.0 * dot(v, from) * to;

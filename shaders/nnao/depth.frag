@@ -1,14 +1,14 @@
-// Writes the depth of the surface: the linear depth of every pixel, or of every second pixel of every second
-// row. The later stages read it many times, and the host's depth costs a division each time.
+// Writes the linear depth of the surface, for every pixel or for every second pixel of every second row.
+// Later stages read it many times, and decoding the host's depth costs a division each time.
 #include "shaders/nnao/host_depth.glsl"
 
-// NOOK_NO_SURFACE_ABOVE: the weight of the layer above which there is no surface.
+// NOOK_NO_SURFACE_ABOVE: if the layer's weight is above this, there is no surface.
 #ifdef NOOK_NO_SURFACE_ABOVE
 uniform NOOK_HOST_IMAGE nook_layer;
 #endif
 
 #ifdef NOOK_NORMAL_SAMPLES
-out uvec2 nook_out;  // the number of the sample as well, whose normal the next stage reads
+out uvec2 nook_out;  // with the number of the sample, whose normal the next stage reads
 #else
 out uint nook_out;
 #endif

@@ -1,8 +1,8 @@
 // The depth of the surface's texels, as depth.frag writes it.
 #include "shaders/nnao/frame.glsl"
 
-// A float's bits, since OpenGL ES 3.0 draws into no texture of 32-bit floats, and with NOOK_NORMAL_SAMPLES the
-// number of the host's sample.
+// The bits of a float, because OpenGL ES 3.0 cannot draw into textures of 32-bit floats. With
+// NOOK_NORMAL_SAMPLES there is also the number of the host's sample.
 uniform usampler2D nook_depth;
 
 float nook_depth_at(ivec2 texel) {

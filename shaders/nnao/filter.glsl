@@ -1,12 +1,12 @@
-// A bilateral filter over 3 x 3 texels: it averages the noise of the taps, which repeats after as many, over
-// texels that the edges connect and whose AO does not differ too much.
+// A bilateral filter over 3 x 3 texels. It averages the noise of the taps, which repeats after as many
+// texels. Only texels that the edges connect and whose AO is similar take part.
 uniform sampler2D nook_ao;  // AO, edges, and the bent normal in passes that have it
 
 uint nook_edge_bits(float packed_edges) {
   return uint(255.0 * packed_edges + 0.5);
 }
 
-// Left, right, below, above, each 0 to 3.
+// Left, right, below, above; each is 0 to 3.
 vec4 nook_edges_of(uint bits) {
   return vec4(bits >> 6u, bits >> 4u & 3u, bits >> 2u & 3u, bits & 3u);
 }
@@ -16,7 +16,7 @@ struct NookFilterSum {
   vec2 bent;
 };
 
-// centre, texel: values of nook_ao.
+// centre and texel are values of nook_ao.
 void nook_add_texel(inout NookFilterSum sum, vec4 centre, vec4 texel, float connected) {
   float weight = connected * clamp(2.0 - nook_range_sharpness * abs(texel.r - centre.r), 0.0, 1.0);
   sum.ao += weight * texel.r;
@@ -26,13 +26,13 @@ void nook_add_texel(inout NookFilterSum sum, vec4 centre, vec4 texel, float conn
 #endif
 }
 
-// One of the corners. horizontal and vertical: the edges of the centre on the way to it; back: those of the
-// corner on its way to the centre's neighbours, (along x, along y).
+// Weighs a corner. horizontal and vertical: the centre's edges on the way to it. back: the corner's edges on
+// the way to the centre's neighbours, (along x, along y).
 void nook_add_corner(inout NookFilterSum sum, vec4 centre, vec4 texel, float horizontal, float vertical, vec2 back) {
   nook_add_texel(sum, centre, texel, max(horizontal * back.y, vertical * back.x) / 9.0);
 }
 
-// Returns a texel after the filter; its edges stay.
+// Returns a texel after the filter; its edges stay the same.
 vec4 nook_filtered(ivec2 texel, ivec2 last) {
   ivec2 low = max(texel - 1, ivec2(0)), high = min(texel + 1, last);
   vec4 centre = texelFetch(nook_ao, texel, 0);

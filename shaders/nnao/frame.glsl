@@ -1,6 +1,6 @@
-// The values that are equal for all pixels of a frame; nnao_frame.h fills them. Pixels are those of the
-// viewport, with (0, 0) at its lower left corner. The surface is the viewport at the resolution at which AO is
-// computed: itself, or every second pixel of every second row.
+// Values that are equal for all pixels of a frame; nnao_frame.h fills them. Pixels count within the viewport,
+// with (0, 0) at its lower left corner. The surface is the viewport at the resolution at which AO is
+// computed: every pixel, or every second pixel of every second row.
 #include "shaders/nnao/layout.h"
 uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 
@@ -12,7 +12,8 @@ uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 #define nook_min_depth nook_frame[NOOK_FRAME_FAR].z
 #define nook_writes_bent_normals (nook_frame[NOOK_FRAME_FAR].w != 0.0)
 #define nook_spread nook_frame[NOOK_FRAME_SPREAD].xy  // the screen's extent at a depth is x depth + y: perspective (1, 0), orthographic (0, 1)
-#define nook_edges_per_metre nook_frame[NOOK_FRAME_SPREAD].z  // the inverse of the change of depth that is an edge
+#define nook_edges_per_metre nook_frame[NOOK_FRAME_SPREAD].z  // the inverse of the depth change that makes an
+                                                              // edge
 #define nook_edges_per_extent nook_frame[NOOK_FRAME_INPUT].y  // the same for radii in pixels, relative to the extent
 #define nook_array_layer int(nook_frame[NOOK_FRAME_INPUT].z)  // of the host's texture arrays
 #define nook_log_rate nook_frame[NOOK_FRAME_INPUT].x  // not 0: depth is logarithmic, s = exp2(nook_log_rate stored)
@@ -20,12 +21,14 @@ uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 #define nook_radius nook_frame[NOOK_FRAME_RADIUS].x         // metres
 #define nook_max_radius_px nook_frame[NOOK_FRAME_RADIUS].y  // texels of the surface
 #define nook_min_radius_px nook_frame[NOOK_FRAME_FADE].x    // texels of the surface, at most nook_max_radius_px
-#define nook_fade nook_frame[NOOK_FRAME_FADE].yz            // the share of AO that is left is x depth + y, clamped
+#define nook_fade nook_frame[NOOK_FRAME_FADE].yz            // the remaining share of AO is x depth + y,
+                                                            // clamped
 #define nook_intensity nook_frame[NOOK_FRAME_RADIUS].z
 #define nook_power nook_frame[NOOK_FRAME_RADIUS].w
 #define nook_normal_scale nook_frame[NOOK_FRAME_NORMAL].x
 #define nook_normal_bias nook_frame[NOOK_FRAME_NORMAL].y
-#define nook_shortest_normal nook_frame[NOOK_FRAME_NORMAL].z  // shorter texels are no normals; 0: there are none
+#define nook_shortest_normal nook_frame[NOOK_FRAME_NORMAL].z  // shorter texels are not normals; 0: there are
+                                                              // none
 #define nook_has_normals (nook_shortest_normal != 0.0)
 #define nook_layer_mode int(nook_frame[NOOK_FRAME_NORMAL].w)
 #define nook_origin ivec2(nook_frame[NOOK_FRAME_VIEWPORT].xy)  // of the viewport in the host's textures
@@ -45,12 +48,12 @@ bool nook_inside(ivec2 texel, ivec2 size) {
   return all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
 }
 
-// Returns the extent at a depth: view space x, y are the ray of a pixel times this.
+// Returns the extent at a depth: multiply a pixel's ray by it to get view-space x and y.
 float nook_extent(float depth) {
   return nook_spread.x * depth + nook_spread.y;
 }
 
-// Returns the extent at a depth over the change of depth that is an edge there.
+// Returns the extent at a depth divided by the depth change that makes an edge there.
 float nook_edge_scale(float depth) {
   return nook_extent(depth) * nook_edges_per_metre + nook_edges_per_extent;
 }
@@ -69,9 +72,9 @@ vec2 nook_pixel_scale(float depth) {
   return 1.0 / (nook_surface_rays.xz * nook_extent(depth));
 }
 
-// Returns the radius of a pixel in metres and in texels, and the share of its darkness that counts. The radius shrinks
-// where it would cover too many texels. Where it would cover too few it grows, and what is dark then spreads over more
-// texels: the share keeps its sum.
+// Returns the radius of a pixel in metres and in texels, and the share of its darkness that counts. The
+// radius shrinks if it would cover too many texels, and grows if it would cover too few. When it grows,
+// darkness spreads over more texels, and the share keeps its sum.
 vec3 nook_pixel_radius(vec2 scale, float depth) {
   float per_metre = abs(scale.y), wanted = nook_radius * per_metre;
   float texels = clamp(wanted, nook_min_radius_px, nook_max_radius_px);

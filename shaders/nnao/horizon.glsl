@@ -1,8 +1,9 @@
-// The horizon form; network.h defines it. Four units are one vec4.
-// Tap, direction, join, out, in the order of network.h. The weights of means are those of sums here.
+// The horizon form, which network.h defines. Four units are one vec4. The layers are tap, direction, join and
+// out, in the order of network.h. The shader sums where the network has means, so the weights of means
+// contain the division.
 uniform vec4 nook_network[NOOK_HORIZON_VEC4S];
-// Directions. Where they are many the number is no constant: compilers would unroll them all, into more code
-// than caches hold.
+// The number of directions. If there are many, it is not a constant: compilers would unroll all of them, into
+// more code than caches hold.
 #if NOOK_DIRECTIONS > 4
 uniform int nook_tap_groups;
 #define NOOK_LOOPED_DIRECTIONS nook_tap_groups
@@ -10,10 +11,10 @@ uniform int nook_tap_groups;
 #define NOOK_LOOPED_DIRECTIONS NOOK_DIRECTIONS
 #endif
 
-// The cosine and the sine of the angle between two directions.
+// The cosine and sine of the angle between two directions.
 const vec2 nook_turn = vec2(cos(6.2831853 / float(NOOK_DIRECTIONS)), sin(6.2831853 / float(NOOK_DIRECTIONS)));
 
-// A pixel, as its taps see it.
+// A pixel as its taps need it.
 struct NookCentre {
   vec2 place;  // the texel's centre
   vec3 position, normal, viewer;
@@ -31,7 +32,7 @@ vec4 nook_leaky(vec4 x, int slope) {
   return max(x, nook_network[slope] * x);
 }
 
-// The findings of the taps of a direction.
+// What the taps of a direction found.
 struct NookHorizon {
   vec4 most, sum;  // of the units
   float bound;     // the greatest elevation times nearness, at least 0
@@ -58,13 +59,14 @@ struct NookSums {
   vec3 bent;
 };
 
-// direction: a unit vector of view space. gate, bent_gate: those of the layers, but for what differs between
+// direction: a unit vector in view space. gate, bent_gate: the layers' gates, except for what differs between
 // directions.
 void nook_add_direction(inout NookSums sums, NookCentre centre, vec2 direction, vec2 scale, vec4 gate, vec2 bent_gate) {
   vec2 along_px = nook_horizon_tap(direction, 1.0, scale);
   NookHorizon found = NookHorizon(vec4(0.0), vec4(0.0), 0.0);
   for (int i = 0; i < NOOK_STEPS; ++i) nook_add_tap(found, centre, centre.place + along_px * centre.steps_px[i]);
-  // The unit vector across the direction to the viewer, in the plane of the direction, times the normal.
+  // `across` is the dot product of the normal with a unit vector, which is across the direction to the viewer
+  // and in the direction's plane.
   float towards = dot(direction, centre.viewer.xy), per_length = inversesqrt(1.0 - towards * towards);
   float across = (dot(direction, centre.normal.xy) - towards * dot(centre.normal, centre.viewer)) * per_length;
   vec4 x = nook_products(found.most, NOOK_HORIZON_DIRECTION) + nook_products(found.sum, NOOK_HORIZON_DIRECTION + 4);
@@ -85,7 +87,7 @@ float nook_border_distance(vec2 place) {
   return min(inside.x, inside.y);
 }
 
-// Returns AO. bent becomes the bent normal, not normalised, in passes that have it.
+// Returns AO. In passes with bent normals, bent becomes the bent normal, not normalised.
 float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 radius, out vec3 bent) {
   vec2 noise = nook_tap_noise(texel);
   NookCentre centre;
@@ -94,9 +96,9 @@ float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 ra
   centre.normal = normal;
   centre.viewer = nook_to_viewer(position);
   centre.half_nearness = 0.5 / radius.x;
-  // At the border of the screen taps meet their own pixel. v is 0 there, but for what a compiler rounds otherwise at the one
-  // place than at the other, which would be a direction at random. Half a pixel is less than the distance of any other one,
-  // for fields of view up to 120 degrees.
+  // At the border of the screen, taps meet their own pixel. Then v is 0 except for rounding, which would act
+  // as a random direction. Half a pixel is less than the distance of any other pixel, for fields of view up
+  // to 120 degrees.
   float half_pixel = 0.5 / max(abs(scale.x), abs(scale.y));
   centre.min_squared = half_pixel * half_pixel;
   for (int i = 0; i < NOOK_STEPS; ++i) centre.steps_px[i] = nook_step_distance(i, NOOK_STEPS, noise, radius.y);

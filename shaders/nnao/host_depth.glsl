@@ -1,4 +1,4 @@
-// The host's depth buffer as view-space depth.
+// Converts the host's depth buffer to view-space depth.
 #include "shaders/nnao/host_images.glsl"
 
 #ifdef NOOK_SAMPLES
@@ -28,7 +28,7 @@ NookDepthSample nook_sample_at(ivec2 pixel, int number) {
   return NookDepthSample(nook_view_depth(nook_host_sample(nook_host_depth, pixel, number).r, pixel), number);
 }
 
-// Returns the sample that nook_nnao_sample says; sdk/src/nnao/host_depth.h has the same on the CPU.
+// Returns the sample that nook_nnao_sample selects; sdk/src/nnao/host_depth.h does the same on the CPU.
 NookDepthSample nook_chosen_sample(ivec2 pixel) {
 #if NOOK_SAMPLE_RULE == NOOK_SAMPLE_FIRST
   return nook_sample_at(pixel, 0);

@@ -1,4 +1,4 @@
-// The host's images: 2D textures, or one layer of texture arrays; those with samples beside those without.
+// The host's images are 2D textures or one layer of texture arrays, each with or without samples.
 #include "shaders/nnao/frame.glsl"
 #ifdef NOOK_LAYERS
 #define NOOK_HOST_IMAGE sampler2DArray

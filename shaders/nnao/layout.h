@@ -1,5 +1,5 @@
-// Numbers that the stages of the screen-space pass and the C++ that runs them share: texture units, the
-// constants of a frame, the arrays that hold a network. C++ and GLSL both include this file.
+// Numbers that the stages of the screen-space pass share with the C++ that runs them: texture units, the
+// constants of a frame, and the arrays of a network. C++ and GLSL both include this file.
 #ifndef NOOK_NNAO_LAYOUT_H
 #define NOOK_NNAO_LAYOUT_H
 
@@ -14,7 +14,7 @@
 #define NOOK_UNIT_HISTORY 3
 #define NOOK_UNIT_MOTION 4
 #define NOOK_UNIT_COUNT 5
-// Image unit, and the threads of a group along x and y, where the network runs as a compute shader.
+// The image unit, and the threads of a group along x and y if the network runs as a compute shader.
 #define NOOK_IMAGE_UNIT 0
 #define NOOK_OCCLUSION_GROUP_SIZE 8
 
@@ -33,8 +33,8 @@
 #define NOOK_FRAME_FADE 13
 #define NOOK_FRAME_VEC4S 14
 
-// vec4 of the uniform array nook_earlier: the rows of the matrix to the earlier frame's view space, then
-// these.
+// The uniform array nook_earlier has the rows of the matrix to the earlier frame's view space, then these
+// vec4.
 #define NOOK_EARLIER_RAYS 3
 #define NOOK_EARLIER_SIZE 4
 #define NOOK_EARLIER_MOTION 5
@@ -48,24 +48,25 @@
 // Values of nook_gbuffer_ao. From REPLACE on, the layer has a weight.
 #define NOOK_LAYER_MIN 1
 #define NOOK_LAYER_REPLACE 3
-// Weights above which depth has no surface: of what the screen-space pass excludes, and of what the layer
-// replaces, of which no more than a step of 8 bits is left.
+// Above these weights, depth has no surface. One is for layers that the screen-space pass excludes. The other
+// is for layers that replace: at most one step of 8 bits of the surface is left.
 #define NOOK_EXCLUDED_ABOVE 0.5
 #define NOOK_REPLACED_ABOVE 0.998
 
-// The noise of the taps repeats after so many pixels along each axis. The filter averages as many.
+// The noise of the taps repeats after this many pixels along each axis. The filter averages as many.
 #define NOOK_NOISE_SIZE 3
 #define NOOK_NOISE_COUNT 9
 
-// The paper's grid of taps: so many cells along a side.
+// The paper's grid of taps has this many cells along a side.
 #define NOOK_GRID_SIZE 31
 
 // A network of the horizon form: units of a layer, which are one vec4, and inputs of a tap.
 #define NOOK_HORIZON_UNITS 4
 #define NOOK_HORIZON_TAP_INPUTS 4
-// vec4 of nook_network: the layers in the order of network.h; a layer is a row of units for each input, then
-// one for each value of its gate, then slopes. Taps have thresholds instead. The layer of the bent normal has
-// two outputs and no slopes: a vec4 is four weights of one output, and the last one is both gates.
+// The layers in nook_network, as vec4, in the order of network.h. A layer is a row of units for each input,
+// then for each value of its gate, then slopes. Taps have thresholds instead of slopes. The bent normal's
+// layer has two outputs and no slopes: each vec4 is four weights of one output, and the last vec4 is both
+// gates.
 #define NOOK_HORIZON_TAP 0
 #define NOOK_HORIZON_TAP_THRESHOLD NOOK_HORIZON_TAP_INPUTS
 #define NOOK_HORIZON_DIRECTION (NOOK_HORIZON_TAP_THRESHOLD + 1)
@@ -78,11 +79,11 @@
 #define NOOK_HORIZON_BENT (NOOK_HORIZON_OUT + 1)
 #define NOOK_HORIZON_BENT_GATE (NOOK_HORIZON_BENT + 4)
 #define NOOK_HORIZON_VEC4S (NOOK_HORIZON_BENT_GATE + 1)
-// 1 - AO is at most so many times the mean over the directions of the greatest elevation times nearness.
+// 1 - AO is at most this many times the mean over the directions of the greatest elevation times nearness.
 #define NOOK_HORIZON_BOUND 8.0
 
-// A network of the paper's form, four units a layer: bias and slopes of the filters, two layers of four
-// inputs, one of one unit.
+// A network of the paper's form has four units a layer: bias and slopes of the filters, two layers of four
+// inputs, and one layer of one unit.
 #define NOOK_PAPER_UNITS 4
 #define NOOK_PAPER_FILTERS 0
 #define NOOK_PAPER_LAYER_VEC4S (NOOK_PAPER_UNITS + 3)

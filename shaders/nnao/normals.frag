@@ -1,4 +1,4 @@
-// Writes the normals of the surface for the paper's form, which reads those of its taps.
+// Writes the normals of the surface for the paper's form, which reads them at its taps.
 #include "shaders/nnao/normal.glsl"
 #include "shaders/nnao/octahedral.glsl"
 
@@ -14,7 +14,7 @@ void main() {
   vec2 normal = vec2(0.5);
   if (depth != nook_no_surface) normal = nook_octahedral(nook_texel_normal(texel, nook_neighbours_of(texel, depth)));
 #if defined(GL_ES)
-  nook_out = uvec2(normal * 65535.0 + 0.5);  // OpenGL ES draws into no normalised 16-bit format
+  nook_out = uvec2(normal * 65535.0 + 0.5);  // OpenGL ES cannot draw into normalised 16-bit formats
 #else
   nook_out = normal;
 #endif

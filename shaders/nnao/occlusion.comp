@@ -1,10 +1,10 @@
-// The network as a dispatch, with one thread for each texel of the surface. The groups at the border extend
-// beyond it.
+// Runs the network as a dispatch, with one thread for each texel of the surface. The groups at the border
+// extend beyond it.
 #include "shaders/nnao/occlusion.glsl"
 
 layout(local_size_x = NOOK_OCCLUSION_GROUP_SIZE, local_size_y = NOOK_OCCLUSION_GROUP_SIZE) in;
 #if defined(GL_ES) || NOOK_BENT_NORMALS
-layout(rgba8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;  // OpenGL ES 3.1 writes no rg8
+layout(rgba8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;  // OpenGL ES 3.1 cannot write rg8
 #else
 layout(rg8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;
 #endif

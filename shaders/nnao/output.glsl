@@ -1,4 +1,4 @@
-// From the AO of a pixel to the output of a pass: strength, and the host's G-buffer AO.
+// Turns the AO of a pixel into the output of a pass: strength, and the host's G-buffer AO.
 #include "shaders/nnao/host_images.glsl"
 
 #ifdef NOOK_LAYERED
@@ -7,7 +7,7 @@ uniform NOOK_HOST_IMAGE nook_layer;
 
 float nook_strengthened(float ao) {
   float base = max(1.0 - nook_intensity * (1.0 - ao), 0.0);
-  // pow is inexact on some drivers, and open must stay exactly open.
+  // pow is inexact on some drivers, and fully open must stay exactly open.
   return nook_power == 1.0 || base == 1.0 ? base : pow(base, nook_power);
 }
 

@@ -2,9 +2,10 @@
 //   (n_t - n, (p_t.z - p.z) / r) clamp(1 - |p_t - p| / r, 0, 1).
 #include "shaders/core/texels.glsl"
 #include "shaders/nnao/surface_normal.glsl"
-uniform NOOK_TEXELS nook_filters;  // for each cell of the grid four texels, one an input, of four units
+uniform NOOK_TEXELS nook_filters;  // each cell of the grid has four texels, one for each input, of four units
 uniform vec4 nook_network[NOOK_PAPER_VEC4S];  // the other layers, in the order of network.h
-// Of NOOK_STEPS taps each. Not a constant: compilers would unroll them all, into more code than caches hold.
+// The number of taps, NOOK_STEPS at a time. It is not a constant: compilers would unroll all of them, into
+// more code than caches hold.
 uniform int nook_tap_groups;
 
 vec4 nook_prelu(vec4 x, int slopes) {

@@ -1,4 +1,4 @@
-// Draws a pixel where the host's depth has a surface, for a query that tells whether any was drawn.
+// Draws a pixel where the host's depth has a surface, so that a query tells whether there is any.
 #include "shaders/nnao/host_depth.glsl"
 
 out vec4 nook_out;

@@ -1,9 +1,9 @@
-// Joint-bilateral upsample: AO of a pixel from the four texels of the half-size surface around it, weighted by
-// how well they lie on the pixel's plane.
+// Upsamples with a joint-bilateral filter. AO of a pixel comes from the four texels of the half-size surface
+// around it, weighted by how well they lie on the pixel's plane.
 #include "shaders/nnao/depth.glsl"
 
 uniform sampler2D nook_ao;
-// A texel of nook_ao without a surface.
+// The value of nook_ao where there is no surface.
 #ifndef NOOK_OPEN_TEXEL
 #define NOOK_OPEN_TEXEL vec4(1.0, 0.0, vec2(128.0 / 255.0))
 #endif
@@ -16,12 +16,12 @@ float nook_smaller(float a, float b) {
 #ifdef NOOK_GATHERS
 uniform vec2 nook_texel_size;  // the inverse of the size of nook_depth and nook_ao, in texels
 
-// The four texels above and right of `low`, by one look-up of each texture: left, right; then above them. Of nook_ao the red
-// channel alone, unless its texels are colours.
+// Reads the four texels above and right of `low` with one look-up of each texture: left, right; then above
+// them. Only the red channel of nook_ao is read, unless its texels are colours.
 void nook_fetch_quad(ivec2 low, out vec4 depths, out mat4 values) {
   vec2 middle = vec2(low + 1) * nook_texel_size;
   depths = uintBitsToFloat(textureGather(nook_depth, middle).wzxy);
-  // A surface of one texel along an axis has no other.
+  // A surface that is one texel wide along an axis has no second texel there.
   bvec2 lone = lessThan(nook_surface_size, ivec2(2));
   if (lone.x) depths.yw = vec2(nook_no_surface);
   if (lone.y) depths.zw = vec2(nook_no_surface);
@@ -44,7 +44,7 @@ void nook_fetch_quad(ivec2 low, out vec4 depths, out mat4 values) {
 #endif
 
 #ifdef NOOK_LAYERED
-// Returns the value of the texel that is nearest in depth, of those around the four.
+// Returns the value of the texel that is nearest in depth, among the texels around the four.
 vec4 nook_value_around(ivec2 low, float depth) {
   vec4 found = nook_open;
   float least = nook_no_surface;
@@ -59,17 +59,17 @@ vec4 nook_value_around(ivec2 low, float depth) {
 }
 #endif
 
-// Returns a value of nook_ao; its edges mean nothing.
+// Returns a value of nook_ao; its edges are meaningless.
 vec4 nook_upsampled(ivec2 pixel, float depth) {
   ivec2 low = pixel / 2;
 #ifdef NOOK_GATHERS
-  // Both texels of an axis lie on the surface; the pixel may lie beyond them.
+  // Both texels of an axis lie on the surface, but the pixel may lie beyond them.
   low = max(min(low, nook_surface_size - 2), ivec2(0));
 #endif
   vec4 depths;
   mat4 values;
   nook_fetch_quad(low, depths, values);
-  // This difference is linear in pixels over a plane.
+  // On a plane, this difference is linear in pixels.
   vec4 rise = (depths - depth) / (nook_spread.x * depths + nook_spread.y);
   vec2 slope = vec2(nook_smaller(rise.y - rise.x, rise.w - rise.z), nook_smaller(rise.z - rise.x, rise.w - rise.y));
   vec2 place = 0.5 * vec2(pixel - 2 * low);  // from the lower left texel, in texels
@@ -83,7 +83,7 @@ vec4 nook_upsampled(ivec2 pixel, float depth) {
   weights *= vec4(notEqual(depths, vec4(nook_no_surface)));
   float sum = dot(weights, vec4(1.0));
 #ifdef NOOK_LAYERED
-  // Beside a foot that the layer leaves out, the floor may have none of the four.
+  // Beside a foot that the layer leaves out, the floor may have none of the four texels.
   if (sum == 0.0 && nook_layer_mode >= NOOK_LAYER_REPLACE) return nook_value_around(low, depth);
 #endif
   return sum > 0.0 ? values * weights / sum : nook_open;

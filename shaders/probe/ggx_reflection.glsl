@@ -1,11 +1,11 @@
-// The reflection of a GGX surface as numbers that depend on the view alone, as in
+// The reflection of a GGX surface as numbers that depend only on the view, as in
 // sdk/src/probe/ggx_reflection.h.
 #include "shaders/probe/constants.h"
 
 struct NookProbeSurface {
   vec3 normal;       // unit
   vec3 view;         // unit, from the surface to the eye
-  vec3 tangent;      // unit, across the normal; counts where the two alphas differ
+  vec3 tangent;      // unit, across the normal; matters only if the two alphas differ
   vec2 alpha;        // GGX width, roughness squared, along the tangent and across it; 0.001 to 1
   float reflectance; // at normal incidence, 0 to 1
 };
@@ -39,7 +39,7 @@ NookProbeSurfaceView nook_probe_view_of(NookProbeSurface surface) {
   return v;
 }
 
-// Polynomials of two variables: sums of k u^i v^j over i + j <= degree, j fastest.
+// Evaluates polynomials of two variables: sums of k u^i v^j over i + j <= degree, j fastest.
 float nook_probe_quadratic(float u, float v, float k0, float k1, float k2, float k3, float k4, float k5) {
   return k0 + v * (k1 + v * k2) + u * (k3 + v * k4 + u * k5);
 }
@@ -49,7 +49,7 @@ float nook_probe_quartic(float u, float v, float k0, float k1, float k2, float k
          u * (k5 + v * (k6 + v * (k7 + v * k8)) + u * (k9 + v * (k10 + v * k11) + u * (k12 + v * k13 + u * k14)));
 }
 
-// Share of uniform light that leaves towards the eye.
+// Returns the share of uniform light that leaves towards the eye.
 float nook_probe_directional_albedo(NookProbeSurfaceView v, NookProbeSurface surface) {
   float mean2 = 0.5 * (v.alpha2.x + v.alpha2.y), away = 1.0 - v.facing;
   float alpha = sqrt(clamp(mean2 - 0.5 * away * away * away * (v.alpha2.x - mean2), 0.0, 1.0));
@@ -60,12 +60,12 @@ float nook_probe_directional_albedo(NookProbeSurfaceView v, NookProbeSurface sur
   return whole * (surface.reflectance + (1.0 - surface.reflectance) * off2 * off2 * off);
 }
 
-// Four visible normals, side by side, as sdk/src/probe/ggx_reflection.h has one.
+// Four visible normals side by side; sdk/src/probe/ggx_reflection.h describes one.
 struct NookProbeVisibleNormals {
   vec4 across, along, share, sharpness;
 };
 
-// The root of the isotropic width that stands for both.
+// Returns the root of the isotropic width that stands for both.
 float nook_probe_mean_roughness(NookProbeSurface surface) { return sqrt(sqrt(surface.alpha.x * surface.alpha.y)); }
 
 NookProbeVisibleNormals nook_probe_visible_normals(NookProbeSurfaceView v, NookProbeSurface surface) {
@@ -82,7 +82,7 @@ NookProbeVisibleNormals nook_probe_visible_normals(NookProbeSurfaceView v, NookP
   return all;
 }
 
-// The middle one alone, in the first place; the others count nothing.
+// Returns only the middle normal, in the first place; the others have no weight.
 NookProbeVisibleNormals nook_probe_middle_normal(NookProbeSurfaceView v, NookProbeSurface surface) {
   float u = v.openness, rho = nook_probe_mean_roughness(surface);
   return NookProbeVisibleNormals(vec4(0.0), vec4(nook_probe_quadratic(u, rho, NOOK_GGX_MIDDLE_ALONG)), vec4(1.0, 0.0, 0.0, 0.0),

@@ -1,12 +1,12 @@
-// A probe, or a grid of probes, in a table of RGBA32F texels as sdk/src/gl/probe/probe_texture.cpp lays it
-// out: counts and number of lobes; origin; 1 / spacing; axis and sharpness of each lobe; then the amplitudes
-// of each probe, x fastest, then y, z.
+// Reads a probe, or a grid of probes, from a table of RGBA32F texels in the layout of
+// sdk/src/gl/probe/probe_texture.cpp. It holds counts and number of lobes; origin; 1 / spacing; axis and
+// sharpness of each lobe; then the amplitudes of each probe. x varies fastest, then y, then z.
 #include "shaders/core/texels.glsl"
 #include "shaders/probe/lobe.glsl"
 
 uniform NOOK_TEXELS nook_probe_texels;
 
-// The eight probes round a point, and their weights: trilinear, clamped at the grid's ends.
+// The eight probes around a point, and their weights: trilinear, clamped at the grid's ends.
 struct NookProbePlace {
   int lobe_count;
   int first[8];    // texel of the first amplitude
@@ -33,7 +33,7 @@ NookProbePlace nook_probe_place(vec3 position_ws) {
   return place;
 }
 
-// Lobe i of the light at a place.
+// Returns lobe i of the light at a place.
 NookLobe nook_probe_lobe_at(NookProbePlace place, int i) {
   vec4 shape = nook_texel(nook_probe_texels, 3 + i);
   vec3 amplitude = vec3(0.0);

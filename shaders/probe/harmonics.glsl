@@ -1,7 +1,8 @@
 #ifndef NOOK_PROBE_BASIS_SH
 #define NOOK_PROBE_BASIS_SH
-// Light as real spherical harmonics, orthonormal, without the Condon-Shortley phase, as nook_sg_to_sh and fits
-// of NOOK_PROBE_BASIS_SH write them: 1, then y, z, x, then xy, yz, 3zz - 1, xz, xx - yy. Directions are unit vectors.
+// Light as real spherical harmonics, orthonormal, without the Condon-Shortley phase, as nook_sg_to_sh and
+// fits of NOOK_PROBE_BASIS_SH write them. The order is 1, then y, z, x, then xy, yz, 3zz - 1, xz, xx - yy.
+// Directions are unit vectors.
 
 #include "shaders/probe/constants.h"
 
@@ -10,8 +11,9 @@ struct NookHarmonics {
   vec3 coefficient[9];
 };
 
-// Bands 0 and 1, and the part of band 2 that is symmetric round the axis of band 1's luminance (T. Roughton, P.-P. Sloan,
-// A. Silvennoinen, M. Iwanicki, P. Shirley, ZH3: Quadratic Zonal Harmonics, 2024): 15 floats in place of 27.
+// Bands 0 and 1, and the part of band 2 that is symmetric around the axis of band 1's luminance (T. Roughton,
+// P.-P. Sloan, A. Silvennoinen, M. Iwanicki, P. Shirley, ZH3: Quadratic Zonal Harmonics, 2024). They take 15
+// floats in place of 27.
 struct NookZonalHarmonics {
   vec3 coefficient[4];
   vec3 zonal;
@@ -43,7 +45,7 @@ vec3 nook_zh3_sum(NookZonalHarmonics light, vec3 s, vec3 factor) {
   return sum + factor.z * NOOK_HARMONICS_2_ZONAL * (3.0 * cosine * cosine - 1.0) * light.zonal;
 }
 
-// Radiance from a direction.
+// Returns the radiance from a direction.
 vec3 nook_sh_radiance(NookHarmonics light, vec3 s) {
   return nook_sh_sum(light, s, vec3(1.0));
 }
@@ -51,7 +53,8 @@ vec3 nook_zh3_radiance(NookZonalHarmonics light, vec3 s) {
   return nook_zh3_sum(light, s, vec3(1.0));
 }
 
-// Irradiance on a surface, exact for these bands; opposite a sun they ring below 0, which is cut off.
+// Returns the irradiance on a surface, exact for these bands. Opposite a sun they ring below 0; negative
+// values are clamped.
 vec3 nook_sh_irradiance(NookHarmonics light, vec3 n) {
   return max(nook_sh_sum(light, n, vec3(3.14159265, 2.09439510, 0.78539816)), 0.0);
 }

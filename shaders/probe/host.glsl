@@ -1,5 +1,5 @@
-// The functions of a host's shader. Directions are unit vectors in world space, as the probe's lobes; colours are
-// linear RGB.
+// Functions for a host's shader. Directions are unit vectors in world space, like the probe's lobes; colours
+// are linear RGB.
 #include "shaders/probe/grid.glsl"
 #include "shaders/probe/harmonics.glsl"
 #include "shaders/probe/irradiance.glsl"
@@ -18,7 +18,7 @@ vec3 nook_probe_irradiance(NookProbePlace place, vec3 normal) {
   for (int i = 0; i < place.lobe_count; ++i) sum += nook_sg_lobe_irradiance(nook_probe_lobe_at(place, i), normal);
   return max(sum, 0.0);
 }
-// The same by S. Hill's fit alone, and with the clamped cosine as a lobe.
+// These return the same by S. Hill's fit alone, and with the clamped cosine as a lobe.
 vec3 nook_probe_irradiance_fitted(NookProbePlace place, vec3 normal) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < place.lobe_count; ++i)
@@ -54,8 +54,9 @@ vec3 nook_probe_ambient(vec3 albedo, vec3 irradiance, vec3 occlusion) {
   return albedo * irradiance * occlusion * 0.31830989;
 }
 
-// Returns the share of a glossy reflection that AO leaves: AO for rough surfaces, and a smaller effect for sharper
-// reflections (S. Lagarde, C. de Rousiers, Moving Frostbite to PBR, 2014); facing is dot(normal, view).
+// Returns the share of a glossy reflection that AO leaves: AO for rough surfaces, and a smaller effect for
+// sharper reflections (S. Lagarde, C. de Rousiers, Moving Frostbite to PBR, 2014). facing is dot(normal,
+// view).
 float nook_probe_specular_occlusion(float ao, float facing, float roughness) {
   return clamp(pow(max(facing, 0.0) + ao, exp2(-16.0 * roughness - 1.0)) - 1.0 + ao, 0.0, 1.0);
 }

@@ -1,7 +1,7 @@
 #ifndef NOOK_PROBE_LOBE
 #define NOOK_PROBE_LOBE
-// Spherical Gaussians and their closed forms; the same as sdk/src/core/spherical_gaussian.h. The layout of
-// NookLobe is that of nook_lobe in std140 and std430.
+// Spherical Gaussians and their closed forms, as in sdk/src/core/spherical_gaussian.h. NookLobe has the
+// layout of nook_lobe in std140 and std430.
 struct NookLobe {
   vec3 axis;       // unit
   float sharpness; // >= 0; 0 is constant over the sphere
@@ -9,13 +9,13 @@ struct NookLobe {
   float reserved;
 };
 
-// 1 - dot(a, b) of unit vectors, without the cancellation of nearly equal ones.
+// Returns 1 - dot(a, b) of unit vectors, without cancellation for nearly equal ones.
 float nook_probe_apart(vec3 a, vec3 b) {
   vec3 d = a - b;
   return 0.5 * dot(d, d);
 }
 
-// Radiance from the unit direction s.
+// Returns the radiance from the unit direction s.
 vec3 nook_sg_lobe_radiance(NookLobe lobe, vec3 s) {
   return lobe.amplitude * exp(-lobe.sharpness * nook_probe_apart(lobe.axis, s));
 }
@@ -23,7 +23,7 @@ vec3 nook_sg_lobe_radiance(NookLobe lobe, vec3 s) {
 // Integral over the sphere at amplitude 1: 2 pi (1 - e^(-2 sharpness)) / sharpness.
 float nook_sg_integral(float sharpness) {
   float x = sharpness;
-  // Where the difference would cancel, its series.
+  // The series for where the difference would cancel.
   float share = x < 0.05 ? 2.0 - x * (2.0 - x * (1.3333333 - 0.6666667 * x)) : (1.0 - exp(-2.0 * x)) / x;
   return 6.2831853 * share;
 }

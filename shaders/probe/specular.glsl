@@ -1,16 +1,16 @@
-// Glossy reflection of a lobe by a GGX surface: the directions that it reflects to the eye, as one lobe or as four
-// side by side; the same as sdk/src/probe/probe_light.cpp.
+// Glossy reflection of a lobe by a GGX surface. The directions that it reflects to the eye are one lobe, or
+// four side by side, as in sdk/src/probe/probe_light.cpp.
 #include "shaders/probe/ggx_reflection.glsl"
 #include "shaders/probe/lobe.glsl"
 
-// A surface seen from one direction, ready to reflect any number of lobes.
+// A surface seen from one direction can reflect any number of lobes.
 struct NookProbeReflection {
   vec4 x, y, z;     // axes of the four lobes, unit vectors
   vec4 sharpness;
-  vec4 amplitude;   // the lobes' integrals add up to the directional albedo: masking and Fresnel
+  vec4 amplitude;   // the lobes' integrals sum to the directional albedo: masking and Fresnel
 };
 
-// Integrals over the sphere at amplitude 1, as nook_sg_integral.
+// Returns integrals over the sphere at amplitude 1, as nook_sg_integral does.
 vec4 nook_probe_four_integrals(vec4 x) {
   vec4 series = 2.0 - x * (2.0 - x * (1.3333333 - 0.6666667 * x));
   return 6.2831853 * mix((1.0 - exp(-2.0 * x)) / max(x, 1e-6), series, lessThan(x, vec4(0.05)));
@@ -39,7 +39,7 @@ NookProbeReflection nook_probe_reflection_of(NookProbeSurface surface, NookProbe
   r.x = scale * (v.tangent.x * lx + v.bitangent.x * ly + surface.normal.x * lz);
   r.y = scale * (v.tangent.y * lx + v.bitangent.y * ly + surface.normal.y * lz);
   r.z = scale * (v.tangent.z * lx + v.bitangent.z * ly + surface.normal.z * lz);
-  // The density of visible normals over four times the cosine is that of reflected directions.
+  // The density of reflected directions is the density of visible normals divided by four times the cosine.
   r.sharpness = max(normals.sharpness, 0.2) * length2 * length2 / (surface.alpha.x * surface.alpha.y * (v.facing + masked));
   r.amplitude = weight * nook_probe_directional_albedo(v, surface) / (dot(weight, vec4(1.0)) * nook_probe_four_integrals(r.sharpness));
   return r;

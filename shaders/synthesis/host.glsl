@@ -2,8 +2,8 @@
 // before this text, and sdk/src/synthesis/coordinates.cpp has the same function.
 uniform highp usampler2DArray nook_synthesis_texels;
 
-// Returns the material's texture coordinates at the point uv of the plane, both in tiles of the material. The sides
-// of the pixel and the mipmap level are those of uv, whose derivatives have no jumps.
+// Returns the material's texture coordinates at the point uv of the plane, both in tiles of the material.
+// Take the pixel's sides and the mipmap level from uv, whose derivatives have no jumps.
 vec2 nook_synthesis_material_uv(vec2 uv) {
   vec2 texels = uv * NOOK_SYNTHESIS_MATERIAL_TEXELS;
   vec2 whole = floor(texels);

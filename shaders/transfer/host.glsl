@@ -1,17 +1,17 @@
-// The functions of a host's shaders for radiance transfer. sdk/src/gl/transfer/ defines
-// NOOK_LIGHT_VEC4_COUNT before this text, where the material's text has not done so. A vector has 3
-// NOOK_LIGHT_VEC4_COUNT texels: its light modes of red, then of green, then of blue.
+// The functions of a host's shaders for radiance transfer. sdk/src/gl/transfer/ defines NOOK_LIGHT_VEC4_COUNT
+// before this text, unless the material's text already has. A vector has 3 NOOK_LIGHT_VEC4_COUNT texels: its
+// light modes of red, then of green, then of blue.
 #include "shaders/core/texels.glsl"
 
 uniform NOOK_TEXELS nook_transfer_texels;
 
 #ifdef NOOK_TRANSFER_CLUSTERS
-// The paper's form: the texels are vectors of the light, NOOK_TRANSFER_VERTEX_RANK for each cluster and then
-// NOOK_TRANSFER_BANDS of reflected light. A vertex has NOOK_TRANSFER_VERTEX_TEXELS texels: the number of its
-// cluster, its weights of the cluster's vectors, and those of the reflected ones.
+// In the paper's form, the texels are vectors of the light: NOOK_TRANSFER_VERTEX_RANK for each cluster, then
+// NOOK_TRANSFER_BANDS of reflected light. A vertex has NOOK_TRANSFER_VERTEX_TEXELS texels. They hold the
+// number of its cluster, its weights for the cluster's vectors, and its weights for the reflected ones.
 uniform NOOK_TEXELS nook_transfer_vertices;
 
-// Mixes the vectors of a vertex; gl_VertexID is its number where the host draws with the baked order.
+// Mixes the vectors of a vertex. Pass gl_VertexID if you draw with the baked order.
 void nook_transfer_vectors(int vertex, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT]) {
   int first = vertex * NOOK_TRANSFER_VERTEX_TEXELS;
   vec4 numbers = nook_texel(nook_transfer_vertices, first);
@@ -29,7 +29,7 @@ void nook_transfer_vectors(int vertex, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUN
   }
 }
 
-// The same in a fragment shader, for materials with more light modes than varyings have room for: mixes the
+// Does the same in a fragment shader, for materials with more light modes than fit into varyings: mixes the
 // vectors of a triangle's three vertices.
 void nook_transfer_mix(ivec3 vertices, vec3 weights, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT]) {
   vec4 corner[3 * NOOK_LIGHT_VEC4_COUNT];
@@ -40,13 +40,13 @@ void nook_transfer_mix(ivec3 vertices, vec3 weights, out vec4 vectors[3 * NOOK_L
   }
 }
 #else
-// Fetches the vectors of a vertex; gl_VertexID is its number where the host draws with the baked order.
+// Fetches the vectors of a vertex. Pass gl_VertexID if you draw with the baked order.
 void nook_transfer_vectors(int vertex, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT]) {
   int first = vertex * 3 * NOOK_LIGHT_VEC4_COUNT;
   for (int i = 0; i < 3 * NOOK_LIGHT_VEC4_COUNT; ++i) vectors[i] = nook_texel(nook_transfer_texels, first + i);
 }
 
-// The same in a fragment shader, for materials with more light modes than varyings have room for: mixes the
+// Does the same in a fragment shader, for materials with more light modes than fit into varyings: mixes the
 // vectors of a triangle's three vertices.
 void nook_transfer_mix(ivec3 vertices, vec3 weights, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT]) {
   ivec3 first = vertices * (3 * NOOK_LIGHT_VEC4_COUNT);
@@ -57,8 +57,8 @@ void nook_transfer_mix(ivec3 vertices, vec3 weights, out vec4 vectors[3 * NOOK_L
 }
 #endif
 
-// Turns a direction to the tangent space of a pixel, from the interpolated normal and tangent. The bake has
-// the same frame: y points along growing v.
+// Rotates a direction to the tangent space of a pixel, from the interpolated normal and tangent. As in the
+// bake, y points along growing v.
 vec3 nook_transfer_tangent_space(vec3 normal, vec4 tangent, vec3 direction) {
   vec3 z = normalize(normal);
   vec3 x = normalize(tangent.xyz - z * dot(z, tangent.xyz));

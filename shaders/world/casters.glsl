@@ -1,9 +1,9 @@
-// The openness that the casters of a frame leave at a point. The table holds four texels for each body: the centre of
-// the sphere round it, with its strength over the cut-off and its radius in one number; its first part, the number of
-// parts, the squared distance from which one capsule stands for it; that capsule.
-// A part has four texels: its centre and the squared distance from which one capsule stands for it; its first caster and
-// their number; that capsule. A capsule is two texels, its ends with their radii in AO. Props and occluders are bodies
-// of one part that has one caster.
+// Computes the openness that the casters of a frame leave at a point. The table has four texels for each
+// body. They hold the centre of its sphere, with strength over cut-off and radius in one number; its first
+// part, the number of parts, and a squared distance; then one capsule. From that distance on, the capsule
+// stands for the body. A part has four texels, too: its centre and a squared distance; its first caster and
+// their number; then one capsule. A capsule is two texels, its ends with their radii for AO. Props and
+// occluders are bodies with one part and one caster.
 #include "shaders/core/texels.glsl"
 #include "shaders/world/coverage.glsl"
 #ifdef NOOK_COLOURED
@@ -17,18 +17,18 @@
 uniform NOOK_TEXELS nook_world_casters;
 uniform int nook_world_groups;
 
-// Numbers of what the point has evaluated so far: capsules of all kinds, those that are casters, and bodies whose reach
-// was tested.
+// Counts what the point has evaluated so far: capsules of all kinds, capsules that are casters, and bodies
+// whose reach was tested.
 int nook_world_evaluated = 0;
 int nook_world_exact = 0;
 int nook_world_tested = 0;
 
-// A texel of a part of a body; a stage may read it from memory of its own.
+// Returns a texel of a part of a body; a stage may read it from its own memory.
 #ifndef nook_world_part_texel
 #define nook_world_part_texel(number) nook_texel(nook_world_casters, number)
 #endif
 
-// The share of a body's casters that counts in this stage.
+// Returns the share of a body's casters that counts in this stage.
 float nook_world_weight = 1.0;
 bool nook_world_far_bodies = NOOK_BODIES == NOOK_FAR_BODIES;
 
@@ -51,7 +51,7 @@ float nook_world_caster_open(int texel, vec3 point, vec3 normal) {
   return nook_world_left(share, phi, normal);
 }
 
-// The ends of the capsule of a limb or a body.
+// The ends of the capsule of a part or a body.
 float nook_world_merged_open(vec4 end_a, vec4 end_b, vec3 point, vec3 normal) {
   vec3 phi;
   float share = nook_world_far_coverage(end_a, end_b, point, normal, phi);
@@ -74,8 +74,9 @@ float nook_world_parts_open(int first, int last, vec3 point, vec3 normal) {
   return open;
 }
 
-// Returns true where a body, whose bound is the first of its texels, takes less than the cut-off. The middle is nearest
-// to a point at this distance, and the top of its sphere at most so high above the point's horizon.
+// Returns true if a body takes less than the cut-off; bound is the first of its texels. No point of its
+// sphere is nearer than its centre's distance minus its radius, and none is higher above the horizon than its
+// top.
 bool nook_world_out_of_reach(float bound, float distance, float height) {
   float radius = bound < NOOK_ENDLESS_BOUND ? fract(bound) * NOOK_LARGEST_RADIUS : NOOK_ENDLESS_BOUND;
   float gap = distance - radius, top = height + radius;
@@ -83,7 +84,8 @@ bool nook_world_out_of_reach(float bound, float distance, float height) {
   return top < 0.0 || (gap > 0.0 && bound * min(top, gap) < NOOK_STRENGTH_STEPS * gap * gap * gap);
 }
 
-// The share of far bodies by the squared distance, over that from which one capsule stands for the body.
+// Returns the share of far bodies. The argument is the squared distance, divided by the one from which one
+// capsule stands for the body.
 float nook_world_far_share(float ratio) {
   return clamp((ratio - NOOK_FAR_FROM) / (1.0 - NOOK_FAR_FROM), 0.0, 1.0);
 }

@@ -1,5 +1,5 @@
-// The share of the cosine-weighted hemisphere above a point that a capsule covers, with the formulas and names of
-// sdk/src/world/coverage.h, which has the derivation.
+// Computes the share of the cosine-weighted hemisphere above a point that a capsule covers. Formulas and
+// names are as in sdk/src/world/coverage.h, which has the derivation.
 #include "shaders/world/constants.h"
 
 float nook_angle_of_versine(float w) {
@@ -46,8 +46,8 @@ float nook_above_horizon(float factor, float size2, float lowest) {
   return max(size * sqrt(size) * (0.5 * (1.0 - t) - q * (w2 * q + w1)) + factor, 0.0);
 }
 
-// The ends of the capsule with their radii, and a point with its unit normal, all in the same space; in [0, 1]. phi gets
-// the vector of the region.
+// Takes the ends of the capsule with their radii, and a point with its unit normal, all in the same space.
+// Returns a share in [0, 1]; phi gets the vector of the region.
 float nook_world_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal, out vec3 phi) {
   vec3 a = end_a.xyz - point, b = end_b.xyz - point;
   float ia = inversesqrt(max(dot(a, a), 1e-24)), ib = inversesqrt(max(dot(b, b), 1e-24));
@@ -62,12 +62,13 @@ float nook_world_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal, out v
   return min(nook_above_horizon(hull.x * nu + hull.y * nv, size2, min(nu / su, nv / sv)), 1.0);
 }
 
-// The same from far away, where a capsule is a narrow strip: within 0.003 of the above for 99 of 100 capsules whose ends
-// have sines below 0.25. With the vector g in the plane of u and v for which dot(g, u) = s_u and dot(g, v) = s_v, the
-// strip's sine along the arc of w from u to v is dot(g, w), and its integral 2 / pi dot(g, w) w over the arc is
+// The same from far away, where a capsule is a narrow strip. It is within 0.003 of the above for 99 of 100
+// capsules whose ends have sines below 0.25. Let g be the vector in the plane of u and v with dot(g, u) = s_u
+// and dot(g, v) = s_v. Then the strip's sine along the arc of w from u to v is dot(g, w), and its integral 2
+// / pi dot(g, w) w over the arc is
 //   (lambda + s) (s_u + s_v) / (2 (1 + c)) (u + v) + (lambda - s) (s_u - s_v) / (2 (1 - c)) (u - v), over pi,
-// lambda the angle between both and s its sine. The ends add halves of their discs. Above the horizon the region counts
-// as the disc of the same vector at a great distance.
+// where lambda is the angle between both and s its sine. The ends add halves of their discs. Above the
+// horizon, the region counts as the disc of the same vector at a great distance.
 float nook_world_far_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal, out vec3 phi) {
   vec3 a = end_a.xyz - point, b = end_b.xyz - point;
   float ia = inversesqrt(dot(a, a)), ib = inversesqrt(dot(b, b));

@@ -1,19 +1,21 @@
-// A stage at half resolution as a dispatch. A group of threads reads the bodies of its tile once, leaves out those that
-// reach no point of the box round its surfaces, and keeps the others where all of its threads read them.
+// Runs a stage at half resolution as a dispatch. A group of threads reads the bodies of its tile once, and
+// leaves out bodies that reach no point of the box around its surfaces. It keeps the others where all of its
+// threads read them.
 #define NOOK_GROUPS
 #define nook_world_part_texel(number) nook_group_texel[number]
 #include "shaders/world/constants.h"
 
 layout(local_size_x = NOOK_WORLD_GROUP_SIZE, local_size_y = NOOK_WORLD_GROUP_SIZE) in;
 
-// The bodies that a group keeps at a time, one bit each, so that their order is always the same.
+// The number of bodies that a group keeps at a time. Each has one bit, so that their order is always the
+// same.
 #define NOOK_GROUP_BODIES 32
 shared uint nook_group_kept;
 shared vec4 nook_group_bound[NOOK_GROUP_BODIES], nook_group_parts[NOOK_GROUP_BODIES];
 // The parts of one near body, or the capsules that stand for far bodies.
 shared vec4 nook_group_texel[NOOK_MAX_PARTS * NOOK_PART_TEXELS];
-// The box round the group's surfaces, by integers in the order of the floats; of far bodies also round their normals,
-// and the minimum of dot(position, normal).
+// The box around the group's surfaces, with integers that sort like the floats. For far bodies there are also
+// the box of the normals, and the minimum of dot(position, normal).
 shared int nook_group_low[3], nook_group_high[3];
 #include "shaders/world/darken.glsl"
 #if NOOK_BODIES == NOOK_FAR_BODIES
@@ -21,7 +23,7 @@ shared int nook_group_normal_low[3], nook_group_normal_high[3], nook_group_minim
 #endif
 
 #if defined(GL_ES) || defined(NOOK_COLOURED)
-layout(rgba8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;  // OpenGL ES 3.1 writes no r8
+layout(rgba8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;  // OpenGL ES 3.1 cannot write r8
 #else
 layout(r8, binding = NOOK_IMAGE_UNIT) writeonly uniform image2D nook_out;
 #endif
@@ -65,7 +67,8 @@ void nook_bound_group(NookSurface surface, int thread) {
   barrier();
 }
 
-// Returns false where the body takes less than the cut-off at each point of the group, or counts in the other stage.
+// Returns false if the body takes less than the cut-off at each point of the group, or counts in the other
+// stage.
 bool nook_group_keeps(vec4 bound, vec4 parts) {
   vec3 low = nook_numbers(nook_group_low), high = nook_numbers(nook_group_high);
   vec3 nearest = bound.xyz - clamp(bound.xyz, low, high);
@@ -104,7 +107,7 @@ void nook_read_bodies(int first, int begin, int count, int thread) {
   barrier();
 }
 
-// Returns the openness that a body which the group keeps leaves at a thread's surface. All threads call it.
+// Returns the openness that a kept body leaves at a thread's surface. All threads must call it.
 float nook_kept_open(int slot, NookSurface surface, int thread) {
   vec4 bound = nook_group_bound[slot], parts = nook_group_parts[slot];
 #if NOOK_BODIES != NOOK_FAR_BODIES
@@ -129,7 +132,7 @@ float nook_kept_open(int slot, NookSurface surface, int thread) {
 }
 
 #if NOOK_BODIES == NOOK_NEAR_BODIES
-// The texels of far bodies round the group's pixels.
+// The texels of far bodies around the group's pixels.
 #define NOOK_FAR_SIDE (2 * NOOK_WORLD_GROUP_SIZE / NOOK_FAR_STEP + 1)
 shared vec4 nook_group_far_place[NOOK_FAR_SIDE * NOOK_FAR_SIDE];  // the position; 1 where there is a surface
 shared vec3 nook_group_far_open[NOOK_FAR_SIDE * NOOK_FAR_SIDE];

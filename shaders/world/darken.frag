@@ -1,4 +1,4 @@
-// A pixel of the full resolution, or a texel of a stage at half resolution, as a draw.
+// Draws a pixel at full resolution, or a texel of a stage at half resolution.
 #include "shaders/nnao/host_depth.glsl"
 #if !NOOK_HALF
 #include "shaders/world/output.glsl"

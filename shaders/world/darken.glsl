@@ -1,6 +1,6 @@
-// AO of the casters at what the host's depth shows, as darken.frag and darken.comp compute it: of every pixel; or of every
-// second pixel of every second row, which resolve.frag spreads, by the bodies that are near, times that of the far ones,
-// which has been computed of every eighth.
+// Computes the casters' AO for what the host's depth shows, for darken.frag and darken.comp. It is for every
+// pixel, or for every second pixel of every second row, which resolve.frag spreads. Then the AO by near
+// bodies is multiplied by the far bodies' AO, which was computed for every eighth pixel.
 #include "shaders/nnao/host_depth.glsl"
 #if NOOK_HALF
 #include "shaders/nnao/depth.glsl"
@@ -8,7 +8,7 @@
 #include "shaders/world/casters.glsl"
 
 uniform sampler2D nook_host_normal;
-// The lists of bodies that may reach a tile lie behind the casters: for each tile a texel, then the entries.
+// The lists of bodies that may reach a tile follow the casters: a texel for each tile, then the entries.
 uniform int nook_world_first_tile;
 uniform int nook_world_tile_columns;  // 0: no body reaches the view
 uniform int nook_world_tile_size;     // pixels along a side
@@ -20,15 +20,16 @@ bool nook_world_replaced(ivec2 pixel, float above) {
 }
 #endif
 
-// Pixels from one that this stage evaluates to the next one whose depth it knows.
+// The distance in pixels from a pixel of this stage to the next one whose depth is known.
 #if NOOK_HALF
 #define NOOK_NORMAL_STEP 2
 #else
 #define NOOK_NORMAL_STEP 1
 #endif
 
-// The depth of a pixel beside one that this stage evaluates; far away where there is no surface, and where the layer has a
-// surface of its own. A foot that faces the viewer is flatter than the floor it stands on: the floor would get its normal.
+// Returns the depth of a pixel beside one of this stage. It is far away if there is no surface, or if the
+// layer has its own surface there. Otherwise the floor would get the normal of a foot on it, which faces the
+// viewer and is flatter.
 float nook_world_depth_beside(ivec2 pixel) {
 #if NOOK_HALF
   return nook_depth_near(pixel / NOOK_NORMAL_STEP);
@@ -41,8 +42,9 @@ float nook_world_depth_beside(ivec2 pixel) {
 #endif
 }
 
-// The tangent along an axis from the steps to both neighbours, each weighted by the inverse square of its change of
-// depth: past a silhouette depth changes more steeply than on the pixel's own surface. axis: of one pixel.
+// Returns the tangent along an axis from the steps to both neighbours, each weighted by the inverse square of
+// its change of depth. Past a silhouette, depth changes more steeply than on the pixel's own surface. axis:
+// of one pixel.
 vec3 nook_world_tangent(ivec2 pixel, ivec2 axis, vec3 position) {
   ivec2 step = NOOK_NORMAL_STEP * axis;
   vec2 depths = vec2(nook_world_depth_beside(pixel - step), nook_world_depth_beside(pixel + step));
@@ -64,7 +66,7 @@ vec3 nook_world_normal(ivec2 pixel, vec3 position) {
     vec3 stored = texelFetch(nook_host_normal, pixel + nook_origin, 0).xyz;
     vec3 n = nook_normal_matrix * (stored * nook_normal_scale + nook_normal_bias);
     float size = length(n);
-    // A size outside these bounds means that nothing, or no normal, was drawn here.
+    // If the length is outside these bounds, nothing was drawn here, or not a normal.
     if (size > nook_shortest_normal && size < 1.0e6) return n / size;
   }
   vec3 x = nook_world_tangent(pixel, ivec2(1, 0), position), y = nook_world_tangent(pixel, ivec2(0, 1), position);
@@ -73,13 +75,13 @@ vec3 nook_world_normal(ivec2 pixel, vec3 position) {
 }
 
 #ifdef NOOK_COLOURED
-// The lists of bodies whose shadow may fall on a tile, from this texel on, and behind them these bodies.
+// The lists of bodies whose shadow may fall on a tile begin at this texel; the bodies follow them.
 uniform int nook_world_first_light_tile;
 uniform int nook_world_first_shade;
 uniform int nook_world_light_columns;  // 0: there is no cone, or it is open
 
-// A texel of a list has four numbers of bodies. The loops turn it, so that the next number is always in x: an index that
-// changes at run time would make compilers keep the vector in memory or compare four times.
+// A texel of a list has four body numbers. The loops rotate it, so that the next number is always in x. With
+// an index that changes at run time, compilers would keep the vector in memory or compare four times.
 float nook_world_tile_light(ivec2 pixel, vec3 point) {
   if (nook_world_light_columns == 0) return 1.0;
   for (int i = 0; i < NOOK_CONE_PARTS; ++i) nook_world_parts[i] = 1.0;
@@ -111,7 +113,8 @@ float nook_world_list_open(int first_tile, ivec2 pixel, vec3 point, vec3 normal)
   return open;
 }
 
-// The depth of a pixel that this stage evaluates; at half resolution depth.frag has left out what a layer replaces.
+// Returns the depth of a pixel of this stage; at half resolution, depth.frag has left out what a layer
+// replaces.
 float nook_world_depth(ivec2 pixel) {
 #if NOOK_HALF
   return nook_depth_at(pixel / 2);
@@ -127,7 +130,8 @@ float nook_world_depth(ivec2 pixel) {
 uniform sampler2D nook_far_open;
 uniform int nook_world_far;  // 0: no far body reaches the view
 
-// A texel of far bodies: its point in view space, whether there is a surface, and what they leave open.
+// A texel of far bodies holds its point in view space, whether there is a surface, and what the bodies leave
+// open.
 struct NookFarTexel {
   vec3 position;
   bool there;
@@ -141,19 +145,19 @@ NookFarTexel nook_fetch_far(ivec2 texel) {
                       texelFetch(nook_far_open, texel, 0).rgb);
 }
 
-// A stage may keep these texels in memory of its own.
+// A stage may keep these texels in its own memory.
 #ifdef NOOK_GROUPS
 NookFarTexel nook_far_texel(ivec2 texel);
 #else
 #define nook_far_texel nook_fetch_far
 #endif
 
-// Returns the openness by far bodies, from the four texels of every eighth pixel round this one, by how near their points
-// lie to its plane. Alpha is 0 where none of them does.
+// Returns the openness by far bodies, from the four texels around this pixel, weighted by how near their
+// points lie to its plane. Alpha is 0 if none does.
 vec4 nook_world_far_open(ivec2 pixel, vec3 point, vec3 normal) {
   ivec2 low = pixel / NOOK_FAR_STEP, last = (nook_screen_size - 1) / NOOK_FAR_STEP;
   vec2 place = vec2(pixel - NOOK_FAR_STEP * low) / float(NOOK_FAR_STEP);
-  // A step off the plane of a hundredth of the distance weighs half.
+  // A point off the plane by a hundredth of the distance has half the weight.
   float inverse_off = 100.0 * inversesqrt(dot(point, point) + 1.0e-12);
   vec3 sum = vec3(0.0);
   float weights = 0.0;

@@ -1,6 +1,6 @@
-// For shaders of a host, such as those of a forward renderer:
+// For a host's shaders, for example in a forward renderer:
 //   float nook_world_open(vec3 point, vec3 normal)
-// is the AO that all casters leave at a point with a unit normal, both in the view space of the frame's matrix.
-// The host binds the pass's table of casters to nook_world_casters and sets nook_world_groups;
-// nook_world_describe gives both.
+// returns the AO of all casters at a point with a unit normal, both in the view space of the frame's matrix.
+// Bind the pass's table of casters to nook_world_casters and set nook_world_groups; nook_world_describe
+// returns both.
 #include "shaders/world/casters.glsl"

@@ -1,12 +1,12 @@
-// The open share of light by colour channel, and of one cone of light, at a point; formulas and names of
-// sdk/src/world/light_terms.h and cone.h.
+// Computes the open share of light by colour channel, and of one cone of light, at a point. Formulas and
+// names are as in sdk/src/world/light_terms.h and cone.h.
 #include "shaders/core/texels.glsl"
 #include "shaders/world/constants.h"
 
 // The light's terms in view space (sdk/src/world/light_terms.h), then the darkest hemisphere.
 uniform vec4 nook_world_light_terms[NOOK_LIGHT_VEC4S];
 
-// The sums of the terms of the casters of a point, each by its share, in the order of the light's.
+// Sums of the terms of a point's casters, each weighted by its share, in the order of the light's terms.
 struct NookTaken {
   float scalar;
   vec4 terms[6];
@@ -59,12 +59,12 @@ vec3 nook_world_open_light(vec3 normal, float ao) {
   return clamp(1.0 - (1.0 - ao) / max(nook_world_taken.scalar, 1e-12) * ratio, 0.0, 1.0);
 }
 
-// The cone's parts with the slope of each; then its axis with its reach in metres; then the cosine and the sine of the
-// half angle round all parts.
+// The cone's parts with the slope of each; then its axis with its reach in metres; then cosine and sine of
+// the half angle around all parts.
 uniform vec4 nook_world_cone[NOOK_CONE_VEC4S];
 float nook_world_parts[NOOK_CONE_PARTS];
 
-// Returns true where a sphere, relative to the point, may stand in the cone.
+// Returns true if a sphere, relative to the point, may stand in the cone.
 bool nook_world_in_cone(vec3 centre, float radius) {
   vec4 axis = nook_world_cone[NOOK_CONE_PARTS], round = nook_world_cone[NOOK_CONE_PARTS + 1];
   float depth = dot(centre, axis.xyz), aside = sqrt(max(dot(centre, centre) - depth * depth, 0.0));
@@ -96,7 +96,8 @@ float nook_part_coverage(vec4 a, vec4 b, vec4 part) {
   return deepest > 0.0 ? clamp(across * along, 0.0, 1.0) : 0.0;
 }
 
-// The table's bodies of light: the centre and the radius of the sphere round the body; its first caster and their number.
+// The table's bodies of light: the centre and radius of the sphere around the body; its first caster and
+// their number.
 void nook_world_body_shade(NOOK_TEXELS table, int texel, vec3 point) {
   vec4 bound = nook_texel(table, texel);
   if (!nook_world_in_cone(bound.xyz - point, bound.w)) return;

@@ -1,4 +1,5 @@
-// From the openness of a pixel to the result: strength, the composition with AO of another kind, the layer.
+// Turns the openness of a pixel into the result: strength, the composition with AO of another kind, the
+// layer.
 #include "shaders/nnao/output.glsl"
 
 uniform sampler2D nook_other_ao;
@@ -18,7 +19,7 @@ float nook_world_finished(float open, ivec2 pixel) {
   return ao;
 }
 
-// open: by channel, and of the cone of light, which the replacing layers alone change.
+// open: by channel, and for the cone of light, which only replacing layers change.
 vec4 nook_world_result(vec4 open, ivec2 pixel) {
 #ifdef NOOK_COLOURED
   vec4 result = vec4(nook_world_finished(open.r, pixel), nook_world_finished(open.g, pixel),

@@ -1,4 +1,5 @@
-// Spreads the AO of every fourth pixel over all of them, and computes the result. With NOOK_COUNTS the texels are numbers.
+// Spreads the AO of every fourth pixel over all pixels, and computes the result. With NOOK_COUNTS the texels
+// are numbers.
 #include "shaders/nnao/host_depth.glsl"
 #ifdef NOOK_COLOURED
 #define NOOK_OPEN_TEXEL vec4(1.0)

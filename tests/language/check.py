@@ -144,7 +144,7 @@ def sentences(text):
             prose.append(line.strip())
     flat.append(" ".join(prose))
     for piece in flat:
-        for sentence in re.split(r"(?<=[.!?])\s+(?!.{0,3}\))|(?<=:)\s+(?=[A-Z])", LIST.sub(" ", PLAIN.sub(r"\1 code", piece))):
+        for sentence in re.split(r"(?<=[.!?])(?<!\bal\.)\s+(?!.{0,3}\))|(?<=:)\s+(?=[A-Z])", LIST.sub(" ", PLAIN.sub(r"\1 code", piece))):
             if sentence.strip():
                 yield sentence.strip()
 
@@ -174,10 +174,12 @@ def matches(path, verbs):
                 continue
             if len(words) > LONGEST_SENTENCE:
                 yield line, "too-long", sentence
-            if len(words) >= SHORTEST_WITH_VERB and sentence.endswith(".") and not has_verb(words, verbs):
+            # A short noun phrase may explain itself after a colon: "8 floats: a unit dual quaternion."
+            longest = max(len(words_of(part)) for part in re.split("[:;]", sentence))
+            if longest >= SHORTEST_WITH_VERB and sentence.endswith(".") and not has_verb(words, verbs):
                 yield line, "no-verb", sentence
         # A row of a table that ends in the middle of a cell was wrapped by a formatter.
-        rows = [row for row in text.split("\n") if row.strip().startswith("|")]
+        rows = [row for row in text.split("\n") if row.strip().startswith("| ") and row.count("|") > 1]
         if path.suffix != ".md" and any(not row.strip().endswith("|") for row in rows):
             yield line, "wrapped", rows[0].strip()
 

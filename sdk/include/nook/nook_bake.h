@@ -85,8 +85,8 @@ NOOK_API void nook_bake_job_destroy(nook_bake_job* job);
  * world space in metres. Vertices are in the imported file's order, the primitives that are in one after
  * another (`nook inspect FILE` lists them), which is also the order of the runtime's AO. */
 
-/* Where a rigged character comes from: exactly one of the path of a .glb or .gltf file, the bytes of one, or
- * arrays, from positions on, in the rest pose and in metres. The import copies what it needs. */
+/* Where a rigged character comes from. Set exactly one: the path of a .glb or .gltf file, the bytes of one,
+   or arrays, from positions on, in the rest pose and in metres. The import copies what it needs. */
 typedef struct nook_bake_source_desc {
   uint32_t struct_size, type;
   const void* next;
@@ -215,7 +215,7 @@ NOOK_API nook_result nook_bake_character_skin(nook_bake_character character, con
 
 /* ---- The bake of a character's model ---- */
 
-/* The effort of a bake; the times are those of two cores. */
+/* The effort of a bake; the times are for two cores. */
 enum {
   /* About 20 s. */
   NOOK_BAKE_PRESET_DRAFT = 0,
@@ -276,7 +276,7 @@ typedef struct nook_bake_character_desc {
   uint32_t extra_pose_count;
   /* An unknown name fails, and the message lists the clips of the character. */
   const char* const* clip_names;
-  /* Poses in addition to those of pose_mode, bone_count matrices each. The call copies them. */
+  /* Poses in addition to pose_mode's, bone_count matrices each. The call copies them. */
   const float* extra_poses_3x4;
   uint64_t seed;
   uint32_t threads;
@@ -396,7 +396,7 @@ enum {
   /* N-mode singular value decomposition: one cluster. */
   NOOK_BAKE_METHOD_N_SVD = 2,
   /* Experimental: a small network over features of the texels, which trains for minutes; better on flat and
-   * glossy materials (docs/materials.md). Ranks are those of the VOTF, which is that of K-CTA. */
+     glossy materials (docs/materials.md). The ranks apply to the VOTF, which is K-CTA's. */
   NOOK_BAKE_METHOD_NEURAL = 3
 };
 typedef int32_t nook_bake_method;
@@ -411,7 +411,7 @@ typedef struct nook_bake_material_desc {
   /* "fiber", "roughhole" or "weave": a built-in structure, which is ray traced. NULL: btf holds measured
    * data. */
   const char* meso;
-  /* light_count x view_count x height x width x RGB, of which RGB varies fastest; row 0 is at v = 0. Finite
+  /* light_count x view_count x height x width x RGB, where RGB varies fastest; row 0 is at v = 0. Pass finite
    * linear radiances towards the view, for an irradiance of 1 on a plane that faces the light. NULL with
    * meso. */
   const float* btf;
@@ -440,9 +440,9 @@ typedef struct nook_bake_material_desc {
   /* A nook_material_visibility: 0 for no VOTF, 1 for masks, 2 (default) for signed distances. */
   int32_t visibility;
   /* Ranks of the BTF's modes; rank_view is the sum over the clusters. All four 0 (default): a built-in
-   * structure has the ranks of docs/materials.md, and measured data have those of rank_threshold. */
+     structure has the ranks of docs/materials.md, and measured data follow rank_threshold. */
   uint32_t rank_light, rank_view, rank_x, rank_y;
-  /* Ranks of the VOTF's spatial modes. Both 0 (default): those of the BTF. */
+  /* Ranks of the VOTF's spatial modes. Both 0 (default): the same as the BTF. */
   uint32_t votf_rank_x, votf_rank_y;
   /* The view rank of one cluster, default 4; and clusters, default 0: rank_view / cluster_rank_view. */
   uint32_t cluster_rank_view, clusters;
@@ -463,9 +463,9 @@ typedef struct nook_bake_material_desc {
   void* progress_user;
   /* 8 (default): integers in the file and in textures. 16: half floats, twice the room for about 0.1 dB. */
   uint32_t bits;
-  /* 1: views are aligned on a relief, so that views between them are sharper (docs/materials.md): that of
-   * `heights` or of meso, else the one on which the views agree. Where it predicts no view better, the
-   * material has none. 0 (default): no relief. */
+  /* 1: views are aligned on a relief, so that views between them are sharper (docs/materials.md): from
+   * `heights` or meso, else the one on which the views agree. Where it predicts no view better, the material
+   * has none. 0 (default): no relief. */
   uint32_t relief;
   /* Known heights of measured data, for a relief: height x width, row 0 at v = 0, over the plane of the
    * texels in tiles, -1 to 1. NULL (default): not known. */

@@ -190,9 +190,9 @@ NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_
  * Light that comes from few directions is darkened only by what stands in these directions. With lobes set, a
  * sphere that covers the share f of its receiver's hemisphere takes f * rho of the light instead of f. For
  * each channel, rho is the mean radiance of the lobes behind the sphere over their mean radiance in the
- * receiver's hemisphere. The spheres of a linked instance share one rho, and the rho of the ground is that of
- * the half-space below its plane. The result is a colour for each vertex that takes the place of AO in albedo
- * / pi * E * AO, where E is the irradiance of the same lobes. Under constant light it is equal to AO. Both
+ * receiver's hemisphere. The spheres of a linked instance share one rho, and the ground has the rho of the
+ * half-space below its plane. The result is a colour for each vertex that takes the place of AO in albedo /
+ * pi * E * AO, where E is the irradiance of the same lobes. Under constant light it is equal to AO. Both
  * updates evaluate it; nook_gl.h describes the use in a shader. */
 
 /* Sets the light of an instance for the updates that follow: at most NOOK_PROBE_MAX_FUNCTIONS lobes, such as
@@ -216,13 +216,13 @@ NOOK_API nook_result nook_scene_update(nook_scene scene);
  *   NOOK_CHANNEL_AO              FLOAT, HALF, UNORM8
  *   NOOK_CHANNEL_DIRECTIONAL_AO  FLOAT
  *   NOOK_CHANNEL_BENT_NORMAL     SNORM8
- * Values are those of the last nook_scene_update. AO is 1 until an update has evaluated the instance, and
+ * Values come from the last nook_scene_update. AO is 1 until an update has evaluated the instance, and
  * directional AO is AO three times if the update found no light on it. Bent normals follow the pose that is
  * set; each vertex turns with the key point that it takes most from. count must be
  * nook_model_info.file_vertex_count; stride is in bytes (0: tightly packed), and nothing between the values
- * is written. The call does not allocate.
- * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT (also for a format that the channel
- * does not take), INVALID_HANDLE, UNSUPPORTED (the model has no bent normals or no rest normals). */
+ * is written. The call does not allocate. Any thread, while no call changes the scene. Errors:
+ * INVALID_ARGUMENT (also for a format that the channel does not take), INVALID_HANDLE, UNSUPPORTED (the model
+ * was baked without bent normals or without rest normals). */
 NOOK_API nook_result nook_scene_read(nook_scene scene, nook_instance_id instance, nook_channel channel,
                                      nook_format format, void* out, uint32_t count, size_t stride);
 
@@ -245,11 +245,11 @@ NOOK_API nook_result nook_scene_describe(nook_scene scene, nook_scene_info* info
 
 /* ---- Poses ----
  *
- * Pass the matrices that your engine already has: those of your vertex shader (NOOK_POSE_SKINNING), or the
- * world matrices of the joints (NOOK_POSE_JOINT_TO_WORLD). Nook converts them to its own, from rest space to
- * the world. Rest space is the bind pose in metres with the node transforms of the file applied. Do not
- * convert yourself: many files have a node above the skeleton that scales by 0.01 or turns by 90 degrees. If
- * AO looks wrong, call nook_model_check_pose. docs/poses.md has the formula. */
+ * Pass the matrices that your engine already has: your vertex shader's (NOOK_POSE_SKINNING), or the world
+ * matrices of the joints (NOOK_POSE_JOINT_TO_WORLD). Nook converts them to its own, from rest space to the
+ * world. Rest space is the bind pose in metres with the node transforms of the file applied. Do not convert
+ * yourself: many files have a node above the skeleton that scales by 0.01 or turns by 90 degrees. If AO looks
+ * wrong, call nook_model_check_pose. docs/poses.md has the formula. */
 
 /* The matrices that you pass. Each maps to the space of place_3x4, or to the world if that is NULL. */
 enum {
@@ -258,8 +258,8 @@ enum {
   NOOK_POSE_REST_TO_WORLD = 0,
   /* From the joint's own space: the world matrices of joints, bones or nodes. One for each bone. */
   NOOK_POSE_JOINT_TO_WORLD = 1,
-  /* From the space of the mesh: joint matrix times inverse bind matrix, as your vertex shader takes them, one
-   * for each joint of the skin `skin` in the order of the file. */
+  /* From the space of the mesh: joint matrix times inverse bind matrix, as in your vertex shader. Pass one
+     for each joint of the skin `skin` in the order of the file. */
   NOOK_POSE_SKINNING = 2
 };
 typedef int32_t nook_pose_kind;

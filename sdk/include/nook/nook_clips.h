@@ -1,5 +1,5 @@
 /* Crowds without bones on the CPU: the AO and the poses of a character's clips, baked over frames. `nook bake
- * clips` ray traces a character in every frame of its clips and stores two tables of low rank: the AO of each
+ * clips` ray traces a character in every frame of its clips. It stores two low-rank tables: the AO of each
  * vertex, and the pose of each bone for what the character casts on others. The CPU then needs only the clip,
  * the time and the place of each character. A time between two frames mixes their weights. Give such a clip
  * to an instance of a scene with nook_scene_set_clip. Neighbours, ground, occluders and world capsules work
@@ -99,9 +99,9 @@ NOOK_API nook_result nook_clips_read_pose(nook_clips clips, const nook_clip_time
 /* Sets the pose of an instance from a clip, at a place as in nook_clips_read_pose, and takes its own AO from
  * the clip until the next nook_scene_set_pose or nook_scene_set_model. nook_scene_read then gives the AO of
  * the clip times what the added casters of the last update leave open, also for each channel of directional
- * AO; the buffers of nook_gl_scene_update have the second factor alone. The clips must have been loaded for
- * the instance's model. The call allocates at the first clip of an instance.
- * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE, OUT_OF_MEMORY. */
+ * AO. The buffers of nook_gl_scene_update have only the second factor. The clips must have been loaded for
+ * the instance's model. The call allocates at the first clip of an instance. One at a time. Errors:
+ * INVALID_ARGUMENT, INVALID_HANDLE, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_set_clip(nook_scene scene, nook_instance_id instance, nook_clips clips,
                                          const nook_clip_time* time, const float* place_3x4);
 

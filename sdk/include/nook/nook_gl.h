@@ -169,8 +169,8 @@ typedef struct nook_gl_ao_target {
   uint32_t texture;
   /* Of the first value: bytes, a multiple of 4, or texels. */
   uint64_t offset;
-  /* From the values of one instance to those of the next: bytes, a multiple of 4, or texels. Only with count
-   * > 1. */
+  /* The distance from one instance's values to the next's: bytes, a multiple of 4, or texels. Only with count
+     > 1. */
   uint64_t instance_stride;
   /* Bytes between the starts of two values in a buffer, a multiple of 4, for AO among other attributes of a
    * vertex; a value then owns a whole word. Needs compute shaders. 0: tightly packed; the bytes of an
@@ -277,8 +277,8 @@ typedef struct nook_gl_frame_desc {
   const void* next;
   /* Pixels; the size of every texture here, which may not exceed the maximum of the pass. Required. */
   int32_t width, height;
-  /* x, y, width and height in pixels of the part that `projection` fills, outside of which nothing is read or
-   * written; all 0 (default): everything. */
+  /* x, y, width and height in pixels of the part that `projection` fills. Nook reads and writes nothing
+     outside it; all 0 (default): everything. */
   int32_t viewport[4];
   /* Required; depth_kind is NOOK_DEPTH_HARDWARE by default. */
   uint32_t depth_texture;
@@ -395,10 +395,10 @@ NOOK_API void nook_gl_upload_destroy(nook_gl_upload* upload);
  *               nook_probe_specular_occlusion(ao, n_dot_v, roughness);
  * For a single lobe, such as one in a uniform block, call nook_sg_lobe_radiance, nook_sg_lobe_irradiance and
  * so on; shaders/probe documents them. NookLobe has the layout of nook_lobe in std140 and std430. The GLSL
- * agrees with nook_probe.h within 1e-4 of the largest value, and is the same for every probe.
- * Forms SH and ZH3 keep a grid of diffuse light in a 3D texture of GL_RGBA16F, which the hardware filters: 7
- * fetches per pixel, 4 for ZH3, at most 40 where walls choose among the probes of ZH3. They are smaller and
- * faster than lobes. The sampler is nook_grid_texels, the constant nook_grid_frame. Your shader:
+ * agrees with nook_probe.h within 1e-4 of the largest value, and is the same for every probe. Forms SH and
+ * ZH3 keep a grid of diffuse light in a 3D texture of GL_RGBA16F, which the hardware filters. They take 7
+ * fetches per pixel, 4 for ZH3, at most 40 where walls choose among ZH3 probes. They are smaller and faster
+ * than lobes. The sampler is nook_grid_texels, the constant nook_grid_frame. Your shader:
  *     vec3 e = nook_grid_irradiance(position_ws, normal_ws);
  * experimental/nook_capture.h fills them from cube maps that your engine renders, while the game runs. */
 
@@ -452,10 +452,10 @@ NOOK_API nook_result nook_gl_update_probe(nook_gl_upload upload, nook_probe prob
 
 /* Uploads a material, which you may destroy afterwards, as GL_TEXTURE_2D_ARRAYs. Materials of the same sizes
  * and mapping have the same GLSL and may share a program; a neural material has its own. The uniform vec2
- * nook_visibility_mapping, a constant on OpenGL ES, holds threshold and weight and starts with those of the
- * material. On failure *out is NULL and no OpenGL object is left.
- * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the material needs more texture units or larger
- * textures than this OpenGL has, or blocks that it does not have), GL, OUT_OF_MEMORY. */
+ * nook_visibility_mapping, a constant on OpenGL ES, holds threshold and weight and starts with the
+ * material's. On failure *out is NULL and no OpenGL object is left. Context thread. Errors: INVALID_ARGUMENT,
+ * UNSUPPORTED (the material needs more texture units or larger textures than this OpenGL has, or blocks that
+ * it does not have), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_upload_material(nook_gl gl, nook_material material, nook_gl_upload* out);
 
 /* ---- Clips in shaders ----

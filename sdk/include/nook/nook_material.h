@@ -8,7 +8,7 @@
  *     radiance:      sum_a light_basis[light, a] L_a, for red, green and blue, and again for each light.
  * Both are linear in the images, so that mipmaps give the mean over a pixel's footprint. A neural material
  * (`--method neural`) has a small network over features of its texels in place of the BTF's tensor; the same
- * calls load, evaluate and draw it. Radiance transfer refuses it, because its radiance is no sum of light
+ * calls load, evaluate and draw it. Radiance transfer refuses it, because its radiance is not a sum of light
  * modes. Its mipmaps are means of features, not of radiance. Directions are unit vectors in tangent space
  * that point away from the surface: x along u, y along v, z along the normal. */
 #ifndef NOOK_MATERIAL_H
@@ -74,7 +74,7 @@ NOOK_API nook_result nook_material_load(nook_context context, const void* bytes,
 /* Releases your reference and sets *material to NULL. Any thread. */
 NOOK_API void nook_material_destroy(nook_material* material);
 
-/* One clustered tensor; the symbols are those of the paper. */
+/* One clustered tensor; the symbols are the paper's. */
 typedef struct nook_material_tensor {
   /* R_l and R_v, the ranks of the light mode (1 for a VOTF) and of the view mode in each cluster. */
   uint32_t rank_light, rank_view;
@@ -128,8 +128,8 @@ typedef struct nook_material_info {
 NOOK_API nook_result nook_material_describe(nook_material material, nook_material_info* info);
 
 typedef struct nook_material_value {
-  /* Linear RGB towards the view, for an irradiance of 1 on a plane that faces the light. Compression may
-   * leave it slightly negative, but not for a neural material. */
+  /* Linear RGB towards the view, if the irradiance on a plane that faces the light is 1. Compression may
+     leave it slightly negative, but not for a neural material. */
   float radiance[3];
   /* The VOTF: a filtered mask in [0, 1], or a distance in [-1, 1]; 1 without a VOTF. */
   float occlusion;

@@ -28,7 +28,7 @@
 extern "C" {
 #endif
 
-/* Presets by cost. Cycles are those of all stages for a pixel on one GPU family (docs/gpu_cost.md). */
+/* Presets by cost. Cycles count all stages for a pixel on one GPU family (docs/gpu_cost.md). */
 enum {
   /* 9 taps, one filter. */
   NOOK_NNAO_PRESET_DEFAULT = 0,
@@ -152,8 +152,8 @@ NOOK_API nook_result nook_nnao_render(nook_nnao pass, const nook_gl_frame_desc* 
 
 typedef struct nook_nnao_info {
   uint32_t struct_size;
-  /* The pass's own texture, which Nook owns, an array for passes with views: GL_R8, or GL_RGBA8 with bent
-   * normals, max_width x max_height, the AO of pixel (x, y) in texel (x, y), in red or in alpha. AO is 1
+  /* The pass's own texture, which Nook owns, an array for passes with views. It is GL_R8, or GL_RGBA8 with
+   * bent normals, max_width x max_height. Texel (x, y) has the AO of pixel (x, y) in red or in alpha. AO is 1
    * everywhere before the first frame. Later frames write only their viewport; frames with another target
    * leave it undefined. */
   uint32_t texture;

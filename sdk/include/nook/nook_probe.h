@@ -47,7 +47,7 @@ enum {
   /* Least squares without negative coefficients. Fits merge exactly. */
   NOOK_PROBE_FIT_LEAST_SQUARES_NON_NEGATIVE = 1,
   /* Recursive least squares by blocks of 1,024 samples, with a solution after every sample. Its error tends
-   * to that of LEAST_SQUARES. */
+     to the error of LEAST_SQUARES. */
   NOOK_PROBE_FIT_RUNNING_AVERAGE = 2,
   /* A running average without negative coefficients: the non-negative solution nearest to RUNNING_AVERAGE. */
   NOOK_PROBE_FIT_RUNNING_AVERAGE_NON_NEGATIVE = 3
@@ -65,7 +65,7 @@ typedef struct nook_probe_fit_desc {
    * defaults then. */
   nook_form form;
   /* 1 (default): the lobes agree with the light in its spherical harmonics of bands 0 to 2, which make up 99
-   * % of its irradiance: the total light is exact, and irradiance has about a third of the error. Lobes that
+   * % of its irradiance. The total light is exact, and irradiance has about a third of the error. Lobes that
    * cannot agree (fewer than 9, non-negative methods, a hemisphere) come close. 0: least squares alone, for
    * lobes so sharp that there are gaps between them. Only lobes use it. */
   int32_t match_sh;
@@ -109,10 +109,9 @@ NOOK_API void nook_probe_fit_destroy(nook_probe_fit* fit);
 /* Adds samples of radiance. weights NULL: directions are distributed uniformly, and each has the weight 1. A
  * direction that you drew with the probability density p over a domain of area a has the weight 1 / (a p), so
  * that the mean of all weights is 1; with another mean, running averages converge more slowly. The fit skips
- * and counts samples whose direction has no unit length to 1e-3 or lies outside the hemisphere, and those
- * with a negative weight or with numbers that are not finite or, of radiance and weight, above 1e18. Running
- * averages need directions in random order. The call does not allocate.
- * One at a time. Errors: INVALID_ARGUMENT. */
+ * and counts a sample whose direction is not of unit length to 1e-3 or lies outside the hemisphere. It also
+ * skips negative weights, numbers that are not finite, and radiance or weights above 1e18. Running averages
+ * need directions in random order. The call does not allocate. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_add_samples(nook_probe_fit fit, const float* directions,
                                                 const float* radiance, const float* weights, size_t count);
 
@@ -244,7 +243,7 @@ NOOK_API nook_result nook_probe_read_coefficients(nook_probe probe, uint32_t ind
                                                   uint32_t function_count);
 
 /* Writes the lobes at a point (world space, metres), trilinearly interpolated between the probes of a grid;
- * outside it, those of its nearest point. position_ws NULL: those of the first probe. The call does not
+ * outside it, the lobes at its nearest point. position_ws NULL: the first probe's lobes. The call does not
  * allocate. Any thread. Errors: INVALID_ARGUMENT (also, the basis is not NOOK_PROBE_BASIS_LOBES). */
 NOOK_API nook_result nook_probe_read_lobes(nook_probe probe, const float* position_ws, nook_lobe* lobes,
                                            uint32_t function_count);

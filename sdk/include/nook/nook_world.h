@@ -1,16 +1,16 @@
 /* Characters darken the world: AO and the soft shadow of one light on what is not their own, from capsules.
  * `nook bake character` fits at most 64 capsules, each rigid to one bone, to a body against ray tracing, and
  * stores them in the model's file. The instances of a scene cast with them; so do the scene's free occluders,
- * as spheres, and the capsules that you pass in nook_world_frame_desc.
- * AO: the share of a point's cosine-weighted hemisphere that a capsule covers has a closed form, exact where
- * the capsule is above the horizon; its radii are scaled by a number that the bake fits. What capsules leave
- * open multiplies. Light: a cone of directions is cut into NOOK_WORLD_CONE_PARTS equal parts. In each, what
- * the capsules leave open multiplies, and the light's open share is the mean over the parts.
- * Light by channel: with lobes you get a shadow with direction and colour. A capsule that covers a share f of
- * the hemisphere takes f rho of the light; rho, for each channel, is the mean radiance behind it divided by
- * the mean radiance of the hemisphere. A capsule before a bright window darkens more than one before a wall.
- * Under constant light the result is AO. Below 24 lobes, SH bands 0 to 2 count; from 24 on, 0 to 4.
- * nook_world_sample of experimental/nook_world_sample.h computes the same at points on the CPU. */
+ * as spheres, and the capsules that you pass in nook_world_frame_desc. AO: the share of a point's
+ * cosine-weighted hemisphere that a capsule covers has a closed form, exact if the capsule is above the
+ * horizon. The bake fits a scale for its radii. What capsules leave open multiplies. Light: a cone of
+ * directions is cut into NOOK_WORLD_CONE_PARTS equal parts. In each, what the capsules leave open multiplies,
+ * and the light's open share is the mean over the parts. Light by channel: with lobes you get a shadow with
+ * direction and colour. A capsule that covers a share f of the hemisphere takes f rho of the light. For each
+ * channel, rho is the mean radiance behind it divided by the hemisphere's mean radiance. A capsule before a
+ * bright window darkens more than one before a wall. Under constant light the result is AO. Below 24 lobes,
+ * SH bands 0 to 2 count; from 24 on, 0 to 4. nook_world_sample of experimental/nook_world_sample.h computes
+ * the same at points on the CPU. */
 #ifndef NOOK_WORLD_H
 #define NOOK_WORLD_H
 
@@ -45,8 +45,9 @@ typedef struct nook_world_desc {
   uint32_t capsules;
   /* 1: AO is computed at half width and height, and upsampled by a joint-bilateral filter. Default 0. */
   int32_t half_resolution;
-  /* 1: the pass computes light as well, into a texture GL_RGBA8: in red, green and blue the open share of the
-   * light of nook_world_frame_desc.lobes, in alpha that of the cone of its light_axis. Default 0. */
+  /* 1: the pass also computes light, into a GL_RGBA8 texture. Red, green and blue get the open share of the
+     light of nook_world_frame_desc.lobes, and alpha gets the open share of the cone of its light_axis.
+     Default 0. */
   int32_t coloured;
 } nook_world_desc;
 static inline nook_result nook_world_desc_init(nook_world_desc* desc) {
@@ -63,9 +64,9 @@ NOOK_API nook_result nook_world_create(nook_gl gl, const nook_world_desc* desc, 
  * thread. */
 NOOK_API void nook_world_destroy(nook_world* pass);
 
-/* The composition of the darkening w by capsules with AO s of another kind. */
+/* How the darkening w by capsules is combined with AO s of another kind. */
 enum {
-  /* s w: s has no darkening by the capsules, as that of nook_nnao_render with NOOK_GBUFFER_AO_EXCLUDE. */
+  /* s w: s excludes darkening by the capsules, as nook_nnao_render does with NOOK_GBUFFER_AO_EXCLUDE. */
   NOOK_WORLD_COMBINE_MULTIPLY = 0,
   /* min(s, w): s has it as well. */
   NOOK_WORLD_COMBINE_MIN = 1
@@ -88,8 +89,9 @@ typedef struct nook_world_frame_desc {
   float level_error;
   /* AO becomes max(0, 1 - intensity * (1 - AO)) ^ power; in [0, 16] and (0, 16], both default to 1. */
   float intensity, power;
-  /* AO of another kind in its red channel, such as that of nook_nnao_render for the same frame: a 2D texture
-   * of the frame's size, in floats or normalised integers. The result combines both. Default 0: none. */
+  /* Its red channel has AO of another kind, such as from nook_nnao_render for the same frame. It must be a 2D
+     texture of the frame's size, in floats or normalised integers. The result combines both. Default 0:
+     none. */
   uint32_t ao_texture;
   /* Default NOOK_WORLD_COMBINE_MULTIPLY. */
   nook_world_combine combine;
@@ -98,9 +100,9 @@ typedef struct nook_world_frame_desc {
    * AO. */
   const nook_lobe* lobes;
   uint32_t lobe_count;
-  /* The light whose open share a coloured pass leaves in alpha: the unit vector towards it in world space,
-   * and the full angle of its cone in degrees, above 0 and below 179. Where G-buffer AO replaces the result
-   * it is 1; strength and combine leave it. Default 0 degrees: none, alpha is 1. */
+  /* The light whose open share a coloured pass writes to alpha. Set the unit vector towards it in world
+   * space, and the full angle of its cone in degrees, above 0 and below 179. Where G-buffer AO replaces the
+   * result, alpha is 1; strength and combine do not change it. Default 0 degrees: none, alpha is 1. */
   float light_axis[3];
   float light_degrees;
   /* Capsules farther from a point do not take the cone's light from it. 0 (default): 30 metres. */

@@ -55,7 +55,7 @@ PoseSource source_of(const CharacterModel& model, const nook_pose_desc* given) {
   return source;
 }
 
-// The check vertices and their places, as the caller gave them.
+// Returns the check vertices and their places as the caller passed them.
 nook::Vector<SkinnedVertex> skinned_vertices(const CharacterModel& model, const nook_pose_check_desc& check,
                                              nook::Memory* memory) {
   constexpr std::uint32_t min_vertices = 8;

@@ -40,11 +40,11 @@ constexpr ChannelForm channel_forms[] = {
 
 constexpr struct {
   const char* name;
-  std::uint32_t bytes;  // of a number
+  std::uint32_t bytes;  // of one number
 } format_forms[] = {
     {"NOOK_FORMAT_FLOAT", 4}, {"NOOK_FORMAT_HALF", 2}, {"NOOK_FORMAT_UNORM8", 1}, {"NOOK_FORMAT_SNORM8", 1}};
 
-// Returns the bytes of a vertex.
+// Returns the number of bytes for each vertex.
 std::size_t entry_bytes_of(nook_channel channel, nook_format format) {
   check_known("channel", channel, NOOK_CHANNEL_BENT_NORMAL);
   check_known("format", format, NOOK_FORMAT_SNORM8);

@@ -92,14 +92,14 @@ std::size_t check_ao_output(const LoadedClips& clips, nook_format format, std::u
   return checked_stride("stride", stride, count, sizeof(float) >> format);
 }
 
-// The pose of one bone at a time, checked as nook_scene_set_pose checks it.
+// Returns the pose of one bone, checked as nook_scene_set_pose checks it.
 Mat3x4 checked_bone(const LoadedClips& clips, const FrameMix& mix, const Mat3x4& place, std::size_t bone) {
   const Mat3x4 matrix = decode_bone(clips.set, mix, place, bone);
   check_size(clips.model->model, bone, matrix);
   return matrix;
 }
 
-// The matrices of a clip are even, so that the place alone decides.
+// A clip's matrices are even, so only the place can be uneven.
 void log_place(nook_clips_s& clips, const char* function, const Mat3x4& place) {
   const CharacterModel& model = clips.model->model;
   api::log_pose(*clips.context, function, model, notes_of_place(model, place), clips.reported);

@@ -1,4 +1,4 @@
-// The defaults of all descriptors of the library, and the call that hands them out.
+// Holds the defaults of all descriptors of the library, and the call that returns them.
 #include <algorithm>
 #include <iterator>
 

@@ -1,4 +1,4 @@
-// Every C function that can fail runs its body here; an exception becomes a result and this thread's message.
+// Every C function that can fail runs its body here. An exception becomes a result and this thread's message.
 #pragma once
 
 #include <nook/nook.h>

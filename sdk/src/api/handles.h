@@ -13,11 +13,11 @@
 struct nook_context_s final : nook::Context {
   using Context::Context;
 
-  // nook_transfer_light_project takes its fits from here.
+  // Fits that nook_transfer_light_project shares.
   nook::transfer::FitCache lobe_fits{memory()};
 
  private:
-  // The object lies in memory of its own allocator. The copy of the allocator outlives it.
+  // The object lies in memory of its own allocator, so a copy of the allocator must outlive it.
   void destroy() noexcept override {
     nook::HostMemory memory(allocator());
     this->~nook_context_s();
@@ -25,7 +25,7 @@ struct nook_context_s final : nook::Context {
   }
 };
 
-// A base, so that it outlives the arrays of the object that derives from it.
+// It is a base class, so that it outlives the arrays of the derived object.
 struct Meter {
   explicit Meter(nook::Memory* source) noexcept : metered(source) {}
   nook::MeteredMemory metered;
@@ -38,7 +38,7 @@ struct nook_model_s : Meter, nook::LoadedModel {
       : Meter(made_by->memory()), LoadedModel(make(&metered), &metered), context(made_by.get()) {}
 
   nook_context_s* context;  // kept alive by this object's owner reference
-  // Topics of PoseNotes that the host's log has of conversions for this model.
+  // Topics of PoseNotes already logged for conversions with this model.
   std::atomic<std::uint32_t> reported{0};
 };
 
@@ -54,7 +54,7 @@ struct nook_scene_s : Meter, nook::RefCounted {
       : Meter(made_by->memory()), context(made_by), scene(settings, made_by->parallel(), &metered) {}
 
   nook_context_s* context;  // kept alive by this object's owner reference
-  // The host destroyed the scene; objects that others hold for it are invalid.
+  // The host destroyed the scene; what other objects hold for it is invalid.
   std::atomic<bool> destroyed{false};
   nook::Scene scene;
 };

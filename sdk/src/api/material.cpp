@@ -43,7 +43,7 @@ nook_material_info info_of(const Material& material, const MaterialTables& table
   info.light_multiply_adds = light.multiply_adds;
   info.occlusion_fetches = occlusion.fetches;
   info.occlusion_multiply_adds = occlusion.multiply_adds;
-  // A neural material's fetches are those of features.
+  // In a neural material, further fetches read features.
   info.further_decode_fetches = is_neural ? decode.fetches : relief.fetches + further_fetches(tables.btf);
   info.further_occlusion_fetches = further_fetches(tables.votf);
   info.compressed_bytes = compressed_bytes(material);

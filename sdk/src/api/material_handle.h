@@ -7,7 +7,7 @@
 #include "sdk/src/material/tables.h"
 
 struct nook_material_s : nook::RefCounted {
-  // The compressed numbers are not kept.
+  // Does not keep the compressed numbers.
   nook_material_s(nook_context_s* made_by, const nook::material::Material& loaded,
                   const nook::material::ModeForm& form);
 

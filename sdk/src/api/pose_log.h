@@ -1,4 +1,4 @@
-// Log lines about poses that were taken but are unlikely to be meant.
+// Logs poses that were accepted but are probably not what the host meant.
 #pragma once
 
 #include <atomic>
@@ -11,7 +11,7 @@ namespace nook::api {
 
 // Both log the topics of the notes that were not reported yet, and mark them as reported.
 void log_pose(const Context& context, Instance& instance, const PoseNotes& notes);
-// subject is the object or the function whose pose it is.
+// subject names the object or function whose pose it is.
 void log_pose(const Context& context, const char* subject, const CharacterModel& model,
               const PoseNotes& notes, std::atomic<std::uint32_t>& reported);
 

@@ -38,7 +38,7 @@ void write_vec3(float* out, Vec3 v) {
   out[2] = v.z;
 }
 
-// evaluate(direction) for each direction.
+// Calls evaluate(direction) for each direction.
 template <class Evaluate>
 void at_directions(const float* directions, float* rgb, std::size_t count, Evaluate&& evaluate) {
   if (count == 0) return;

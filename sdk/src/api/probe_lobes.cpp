@@ -155,7 +155,7 @@ nook_result nook_sg_specular(const nook_lobe* lobes, uint32_t lobe_count, nook_p
     need(surfaces, "surfaces");
     need(rgb, "rgb");
     check_array("count", count, sizeof(nook_probe_surface));
-    // All surfaces are checked before anything is written.
+    // Checks all surfaces before anything is written.
     for (std::size_t i = 0; i < count; ++i) surface_of(surfaces[i], i);
     for (std::size_t i = 0; i < count; ++i)
       write_vec3(rgb + 3 * i,

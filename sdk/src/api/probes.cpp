@@ -49,7 +49,7 @@ void read_fits(const nook_probe_desc& desc, Probes& probes) {
         std::span<Vec3>(probes.coefficients).subspan(i * probes.basis.count, probes.basis.count));
 }
 
-// The functions of lobes: the last is the ambient term if its sharpness is 0.
+// Returns the functions of lobes. The last one is the ambient term if its sharpness is 0.
 Basis basis_of(const nook_lobe* lobes, std::uint32_t count) {
   std::array<Vec3, max_functions> axes;
   std::array<float, max_functions> sharpnesses;

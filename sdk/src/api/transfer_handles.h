@@ -23,7 +23,7 @@ struct nook_transfer_s : nook::RefCounted {
 struct nook_transfer_light_s : nook::RefCounted {
   static constexpr std::uint32_t side = 64;
 
-  // Without cells: the light of a direction.
+  // Without cells, it is the light of one direction.
   nook_transfer_light_s(nook_context_s* made_by, bool has_cells)
       : context(made_by),
         cells(has_cells ? side : 0, made_by->memory()),

@@ -98,7 +98,7 @@ void need_one_source(const nook_transfer_light_desc& desc) {
                   sources);
 }
 
-// Turns a direction of the light's space to the shape's: the transpose of a rotation is its inverse.
+// Rotates a direction from the light's space to the shape's. The inverse of a rotation is its transpose.
 Vec3 in_shape(const Mat3x4& light_from_shape, Vec3 d) {
   const float* const m = light_from_shape.m;
   return {m[0] * d.x + m[4] * d.y + m[8] * d.z, m[1] * d.x + m[5] * d.y + m[9] * d.z,

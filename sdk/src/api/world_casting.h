@@ -1,4 +1,4 @@
-// The casters of a call: the bodies and occluders of a scene, and the host's props.
+// Collects the casters of a call: the bodies and occluders of a scene, and the host's props.
 #pragma once
 
 #include <nook/nook_world.h>
@@ -17,13 +17,13 @@ inline Vec3 vector_of(const float (&v)[3]) {
 // Throws Failure unless every prop is a capsule; the message begins with the descriptor's name.
 void check_props(const char* descriptor, const nook_capsule* props, std::uint32_t count);
 
-// The light's axes are turned by `turn`, column-major with four numbers in a column, if it is not NULL.
-// Throws Failure unless the lobes are lobes; the message begins with the descriptor's name. Without lobes the
-// light is constant.
+// Converts lobes to terms. `turn`, column-major with four numbers in a column, rotates the light's axes if it
+// is not NULL. Without lobes the light is constant. Throws Failure unless every lobe is valid; the message
+// begins with the descriptor's name.
 world::LightTerms terms_of_lobes(const char* descriptor, const nook_lobe* lobes, std::uint32_t count,
                                  const float* turn = nullptr);
 
-// Returns the unit axis of a cone of light. Throws Failure unless it is one.
+// Returns the unit axis of a cone of light. Throws Failure if it is not a valid axis.
 Vec3 checked_light(const char* descriptor, const float (&axis)[3], float degrees);
 
 // Returns half of the full angle of a cone.
@@ -33,15 +33,15 @@ inline float half_angle_radians(float degrees) {
 
 class Casting {
  public:
-  // Poses the casters of the scene's instances. scene may be NULL. receiver: the instance that does not cast,
+  // Poses the casters of the scene's instances. scene may be NULL. receiver: an instance that does not cast,
   // or 0.
   Casting(Scene* scene, nook_instance_id receiver, const nook_capsule* props, std::uint32_t prop_count);
 
   // Bodies by slot, then occluders by slot, then props; a free slot is a group without casters.
   std::uint32_t group_count() const;
-  // The parts of a group that is a body; NULL for others. What it returns lives until the next call.
+  // Returns the parts of a group that is a body, NULL for others. The result is valid until the next call.
   const world::CasterParts* parts(std::uint32_t index) const;
-  // user: a Casting. The strength of an occluder or a prop is infinite, so that it is never left out.
+  // user: a Casting. Occluders and props have infinite strength, so that they are never left out.
   static world::CasterGroup group(const void* user, std::uint32_t index, PosedCaster& room);
 
  private:
@@ -54,7 +54,7 @@ class Casting {
   nook_instance_id receiver_;
   const nook_capsule* props_;
   std::uint32_t prop_count_;
-  // Of the model that was met last: the bodies of a crowd are alike.
+  // The parts belong to this model, the last one used: the bodies of a crowd are mostly alike.
   mutable const CharacterModel* parts_of_ = nullptr;
   mutable world::CasterParts parts_;
 };

@@ -1,7 +1,6 @@
-// Bent normals from occluded directions. The occluded direction of a point is the mean over its
-// cosine-weighted hemisphere of the directions that are occluded, where open directions count as zero: 0
-// where all is open, 2/3 of the normal where nothing is. What is left of 2/3 of the normal points to where
-// the point is open.
+// Bent normals from occluded directions. The occluded direction of a point is a mean over its cosine-weighted
+// hemisphere, in which open directions count as zero. It is 0 if everything is open, and 2/3 of the normal if
+// nothing is. 2/3 of the normal minus the occluded direction points to where the point is open.
 #pragma once
 
 #include <cmath>
@@ -11,8 +10,8 @@
 
 namespace nook {
 
-// The occluded directions of a vertex are on a line over its AO; these are its ends. They turn as the normal
-// does.
+// The occluded direction of a vertex depends linearly on its AO; these are its values at both ends. They turn
+// as the normal does.
 struct OccludedEnds {
   Vec3 dark;  // at AO 0
   Vec3 open;  // at AO 1
@@ -20,17 +19,18 @@ struct OccludedEnds {
   Vec3 at(float ao) const { return (1 - ao) * dark + ao * open; }
 };
 
-// The length of the mean direction of an open hemisphere under the cosine.
+// The length of the cosine-weighted mean direction of an open hemisphere.
 inline constexpr float open_hemisphere = 2.0f / 3;
 
-// Returns a unit vector: the normal where nothing is left. Both vectors are in one space.
+// Returns a unit vector, which is the normal if the point is not open at all. Both vectors are in the same
+// space.
 inline Vec3 bent_normal(Vec3 normal, Vec3 occluded) {
   const Vec3 left = open_hemisphere * normal - occluded;
   const float size = length(left);
   return size > 1e-6f ? left * (1 / size) : normal;
 }
 
-// A coordinate of -1 to 1 as a signed byte of which 127 is 1, as GL_BYTE is when it is normalised.
+// Encodes a coordinate from -1 to 1 as a signed byte, with 127 for 1, as normalised GL_BYTE does.
 inline std::int8_t encode_coordinate(float coordinate) {
   return static_cast<std::int8_t>(std::lround(std::fmin(std::fmax(coordinate, -1.0f), 1.0f) * 127));
 }

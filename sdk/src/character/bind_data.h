@@ -1,6 +1,6 @@
-// The rest pose of a model's rigged file. Engines have joint matrices or skinning matrices and
-// no rest space of this library; this data converts between them (pose_source.h), lets a host compare its own
-// skinned vertices with the model's (pose_check.h), and finds the model's vertices in a host's mesh
+// The rest pose of a model's rigged file. Engines have joint matrices or skinning matrices, but not this
+// library's rest space. This data converts between them (pose_source.h), lets a host compare its own skinned
+// vertices with the model's (pose_check.h), and finds the model's vertices in a host's mesh
 // (host_vertices.h).
 #pragma once
 
@@ -14,9 +14,9 @@
 namespace nook {
 
 struct BoneBind {
-  // Rest space to the joint's own space, so that the matrix of the bone is joint_to_world * node_from_rest.
+  // Maps rest space to the joint's own space: the matrix of the bone is joint_to_world * node_from_rest.
   Mat3x4 node_from_rest;
-  // The first bone of the same joint: a joint that skins bind differently has several bones.
+  // The first bone of the same joint. A joint has several bones if skins bind it differently.
   std::uint16_t first_of_joint = 0;
 };
 
@@ -65,10 +65,10 @@ struct BindData {
   static constexpr std::uint32_t max_vertices = 64;
 
   Vector<BoneBind> bones;  // one for each bone; empty: the model has no bind data
-  // The matrices from the space of a mesh's POSITION attribute to rest space that occur in the file.
+  // The distinct matrices in the file that map the space of a mesh's POSITION attribute to rest space.
   Vector<Mat3x4> rest_from_mesh;
-  Vector<std::uint16_t> primitive_space;  // for each primitive its index into rest_from_mesh
-  Vector<SkinBind> skins;                 // none: the meshes are rigid, or came as arrays
+  Vector<std::uint16_t> primitive_space;  // index into rest_from_mesh, for each primitive
+  Vector<SkinBind> skins;                 // empty: the meshes are rigid, or came as arrays
   Vector<std::uint16_t> bone_of_joint;    // of all skins
   Vector<RestVertex> vertices;            // at most max_vertices, spread over the bones
   Vector<CloseVertex> close;              // in any order; vertices that are near each other follow each other

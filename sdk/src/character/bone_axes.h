@@ -1,4 +1,5 @@
-// The one test of whether a matrix of a bone is a rotation with one scale, for matrices of any precision.
+// The single test for whether the matrix of a bone is a rotation with one scale, for matrices of any
+// precision.
 #pragma once
 
 #include <algorithm>
@@ -7,15 +8,15 @@
 
 namespace nook {
 
-// The shape of a matrix's 3x3 part by its axes, which are its columns.
+// A matrix's axes are the columns of its 3x3 part. These are their lengths and angles.
 template <class Real>
 struct BoneAxes {
   std::array<Real, 3> squared{};  // length of each axis
   Real longest_squared = 0;
-  Real shear = 0;  // the largest product of two axes; over longest_squared it is about a cosine
+  Real shear = 0;  // the largest product of two axes; divided by longest_squared, it is about a cosine
 
-  // A rotation with one scale, to 1 %. 1 % of length is 2 % of its square, and the last digits are for
-  // rounding. A matrix of zeros is not even.
+  // True for a rotation with one scale, to 1 %. 1 % of length is 2 % of its square, and the last digits allow
+  // for rounding. A matrix of zeros is not even.
   bool is_even() const {
     const Real shortest = std::min({squared[0], squared[1], squared[2]});
     return longest_squared > 0 && longest_squared <= shortest * Real(1.0205) &&

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t max_vertices = 1u << 24, max_bones = 65535;
 constexpr float max_duration_s = 1e6f;
-// AO is within [0, 1]; the products of modes and weights that make it are far below this bound.
+// AO is within [0, 1]; it is a sum of products of modes and weights, which are far below this bound.
 constexpr float max_ao_scale = 1e4f;
 
 void check_count(std::uint32_t got, std::uint32_t low, std::uint32_t high, const char* what,
@@ -96,12 +96,12 @@ void check_clip_set(const ClipSet& set, nook_result code) {
 
 namespace {
 
-// The vertices that are farthest along some directions, which tell the order of the welded vertices. Numbers
-// of vertices are the same on every machine, where positions may differ in the last digit.
+// Returns the vertices that are farthest along some directions. They reveal a different order of the welded
+// vertices. Vertex numbers are the same on every machine, while positions may differ in the last digit.
 std::array<std::uint32_t, 16> farthest_vertices(const CharacterModel& model) {
   std::array<std::uint32_t, 16> farthest{};
   for (std::size_t d = 0; d < farthest.size(); ++d) {
-    // Directions of a spiral, without symmetries that the two halves of a body could share.
+    // The directions lie on a spiral, which has no symmetry that the two halves of a body could share.
     const double z = 1 - (2 * double(d) + 1) / double(farthest.size()), r = std::sqrt(1 - z * z),
                  turn = 2.399963229728653 * double(d) + 0.3;
     const double x = r * std::cos(turn), y = r * std::sin(turn);
@@ -167,7 +167,7 @@ std::vector<std::byte> bytes_of(const FrameTable<Number>& table) {
   return out.bytes();
 }
 
-// Nothing is allocated for more than the section holds.
+// Checks the section's size first, so that a bad count cannot allocate more than the section holds.
 template <class Number>
 void read_table(ByteReader in, std::uint32_t frames, FrameTable<Number>& table) {
   const std::uint64_t need = std::uint64_t(table.modes) * (4 + 2 * std::uint64_t(frames)) +

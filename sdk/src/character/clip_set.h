@@ -1,5 +1,6 @@
 // The clips of a character as tables over frames: its own AO at each vertex and the pose of each bone. Both
-// are products of few modes, so that a frame is a short row of weights. Plain data, rest space and metres.
+// are sums of a few weighted modes, so that a frame is a short row of weights. Plain data, rest space and
+// metres.
 #pragma once
 
 #include <nook/nook.h>
@@ -34,13 +35,14 @@ struct ClipRange {
   std::uint32_t frame_count = 0;  // at least 1
 };
 
-// A table of rows x frames of low rank: the value of row r in frame f is the sum over the modes k of
+// A low-rank table of rows x frames. The value of row r in frame f is the sum over the modes k of
 // frame_weight(f, k) * mode[k * rows + r] / max_mode.
 template <class Number>
 struct FrameTable {
   explicit FrameTable(Memory* memory = default_memory()) : mode(memory), weight(memory), scale(memory) {}
 
-  // The largest magnitude of a number; the one below it is not used, so that both signs have the same range.
+  // The largest magnitude of a number. The most negative number is not used, so that both signs have the same
+  // range.
   static constexpr int max_mode = (1 << (8 * sizeof(Number) - 1)) - 1;
   static constexpr int max_weight = 32767;
 
@@ -48,14 +50,14 @@ struct FrameTable {
   std::uint32_t modes = 0;
   Vector<Number> mode;          // modes x rows
   Vector<std::int16_t> weight;  // frames x modes
-  Vector<float> scale;          // of each mode: the weight max_weight stands for it
+  Vector<float> scale;          // for each mode: the value of the weight max_weight
 
   float frame_weight(std::size_t frame, std::size_t k) const {
     return scale[k] * (1.0f / max_weight) * float(weight[frame * modes + k]);
   }
 };
 
-// The part of the body round a bone, whose displacement is the error of its pose.
+// The part of the body around a bone. The error of the bone's pose is measured by how far this part moves.
 struct BoneSpan {
   Vec3 centre;       // rest space
   float radius = 0;  // metres, > 0
@@ -73,26 +75,26 @@ struct ClipSet {
   std::uint32_t frame_count = 0;  // of all clips
   std::uint64_t model_hash = 0;   // clip_model_hash of the character
   // AO of welded vertices: 0.5 + the table's value, clamped to [0, 1]. The number of modes is a multiple of
-  // four, which is how shaders read them.
+  // four, because shaders read them in fours.
   FrameTable<std::int8_t> ao;
   Vector<BoneSpan> bones;
   // For each bone, rest space to the clip's space: radius times the nine numbers of its rotation and scale,
-  // row by row, then the place of its centre. All rows are in metres on the body.
+  // row by row, then the position of its centre. So all rows are in metres on the body.
   FrameTable<std::int16_t> pose;
   String recipe;  // JSON text of the bake's settings; the runtime does not read it
 };
 
-// Throws Failure with `code` and the first fault: a count or an index is out of range, an array has the wrong
-// length, or a number is not finite or is outside its range.
+// Throws Failure with `code` and the first fault. A count or index may be out of range, an array may have the
+// wrong length, or a number may not be finite or within its range.
 void check_clip_set(const ClipSet& set, nook_result code);
-// The same for the counts alone, before an array is read.
+// Checks the counts alone, before an array is read.
 void check_clip_counts(const ClipSet& set, nook_result code);
 
-// The hash of what a set takes from the model: the order of welded vertices and bones. A new bake of the same
-// character keeps it, and so does a model in the order of a host's mesh.
+// Returns a hash of what a set depends on in the model: the order of welded vertices and bones. It stays the
+// same if you bake the character again, or put the model in the order of a host's mesh.
 std::uint64_t clip_model_hash(const CharacterModel& model);
 
-// Throws Failure(INVALID_ARGUMENT) unless the set was baked from the character of the model.
+// Throws Failure(INVALID_ARGUMENT) unless the set was baked from the model's character.
 void check_clip_model(const ClipSet& set, const CharacterModel& model);
 
 // Baked clips as .nook files. Version 1 of the kind "CLIP" has the sections
@@ -102,7 +104,7 @@ void check_clip_model(const ClipSet& set, const CharacterModel& model);
 //   BONE  varint number of bones; for each: f32 centre x, y, z, radius
 //   POSE  f32 scale of each mode; frames x modes i16 weights; modes x 12 bones i16
 //   RECP  recipe
-// with the meaning that clip_set.h gives.
+// The structs above say what they mean.
 
 inline constexpr ContainerKind clip_kind{four_letters("CLIP"), "clips", 1, 1};
 

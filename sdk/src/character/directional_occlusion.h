@@ -4,9 +4,10 @@
 //   rho = mean radiance behind the sphere / mean radiance of the hemisphere
 // of the irradiance, for each channel. Under constant light rho is 1, and the result is plain occlusion.
 //
-// Both means are under a density over directions that is proportional to exp(dot(b, s)): b = h n represents
-// the clamped cosine, and b = h n + k d its product with the sphere's cap, where d points to the part of the
-// sphere above the horizon. The mean of a lobe with the vector a = sharpness * axis then has the closed form
+// Both means are weighted by a density over directions that is proportional to exp(dot(b, s)). b = h n
+// represents the clamped cosine. b = h n + k d represents the cosine times the sphere's cap, where d points
+// to the part of the sphere above the horizon. The mean of a lobe with the vector a = sharpness * axis then
+// has the closed form
 //   e^(m - |a| - |b|) N(m) / N(|b|),  m = |a + b|,  N(v) = (1 - e^(-2 v)) / v.
 //
 // All functions are templates over a number type F, as in kernel.h.
@@ -27,7 +28,7 @@ struct LightLobe {
   Vec3 vector;
   float sharpness = 0;
   Vec3 amplitude;   // linear RGB
-  float above = 1;  // the share that the ground leaves: 1 - share_below
+  float above = 1;  // the share of the lobe that the ground does not hide
 };
 
 struct LightView {
@@ -40,11 +41,11 @@ struct LightView {
 
 // The sharpness of the lobe that approximates the clamped cosine, as in core/spherical_gaussian.h.
 inline constexpr float directional_cosine = float(NOOK_COSINE_LOBE_SHARPNESS);
-// k = caster_concentration sqrt(height) (1 - f^2) / f: a far sphere is a lobe of its solid angle, one that
-// fills the hemisphere is the hemisphere.
+// k = caster_concentration sqrt(height) (1 - f^2) / f. A far sphere is then a lobe of its solid angle, and a
+// sphere that fills the hemisphere is the hemisphere.
 inline constexpr float caster_concentration = float(NOOK_CASTER_CONCENTRATION);
 inline constexpr float smallest_share = float(NOOK_SMALLEST_SHARE);
-// Nothing dims its receiver by more than this times its share: a bound on the effect of one bright lobe.
+// No sphere dims its receiver by more than this times its share. This bounds the effect of one bright lobe.
 inline constexpr float largest_ratio = float(NOOK_LARGEST_RATIO);
 
 // Returns (1 - e^(-2 v)) / v as 1 / (v + v / (e^(2 v) - 1)) with the series of the exponential. The relative
@@ -57,8 +58,7 @@ F lobe_norm(F v) {
   return q / fma(v, q, F(1.0f));
 }
 
-// Returns the mean of the lobes under the density of vector b, without the part of each lobe that the ground
-// hides.
+// Returns the mean of the lobes under the density of vector b, without the parts that the ground hides.
 template <class F>
 Colour<F> mean_radiance(const LightView& light, const Direction<F>& b) {
   const F length_b = sqrt(fma(b.x, b.x, fma(b.y, b.y, b.z * b.z)));
@@ -91,12 +91,12 @@ Colour<F> inverse_hemisphere(const LightView& light, const Direction<F>& n) {
 template <class F>
 struct Sight {
   Direction<F> towards;  // unit
-  F cosine;              // to the normal
+  F cosine;              // with the normal
 };
 
-// Returns the sight of a sphere whose centre lies at o from the key point in radii, with height
-// xi = dot(o, n) and squared distance delta2. The sight of a sphere that the horizon cuts is the middle of
-// the part above it.
+// Returns the sight of a sphere whose centre is at o from the key point, in units of its radius, with height
+// xi = dot(o, n) and squared distance delta2. If the horizon cuts the sphere, the sight points to the middle
+// of the part above it.
 template <class F>
 Sight<F> sight_of(const Direction<F>& n, const Direction<F>& o, F xi, F delta2) {
   const F height = max(xi, fma(max(xi, F(-1.0f)), F(0.5f), F(0.5f)));
@@ -107,8 +107,8 @@ Sight<F> sight_of(const Direction<F>& n, const Direction<F>& o, F xi, F delta2) 
           height * inverse_distance};
 }
 
-// Returns k of a caster that covers the share f of the hemisphere. sqrt(height) / f is computed as
-// height / sqrt(height f^2), which takes one estimate of a root instead of a root and a division.
+// Returns k of a caster that covers the share f of the hemisphere. sqrt(height) / f is computed as height /
+// sqrt(height f^2), which needs one estimated root instead of a root and a division.
 template <class F>
 F concentration_of(const Sight<F>& sight, F f, float concentration) {
   const F height = max(sight.cosine, F(1e-12f)), f2 = f * f;
@@ -137,8 +137,8 @@ Colour<F> light_ratio(const LightView& light, const Colour<F>& inverse, const Di
 // The `sharpest` of a single sphere, which sets no bound.
 inline constexpr float no_sharpest = float(NOOK_NO_SHARPEST);
 
-// The spheres of one caster as one: the mean of their sights, weighted by their shares, and the sum of these
-// shares.
+// Combines the spheres of one caster: the mean of their sights, weighted by their shares, and the sum of
+// these shares.
 template <class F>
 struct JointSight {
   Direction<F> sum{F(0.0f), F(0.0f), F(0.0f)};
@@ -166,8 +166,7 @@ struct JointSight {
 
 // Returns the share below the horizon of a lobe of sharpness m whose vector rises `height` (-m to m) above
 // it: (1 - erf(x)) / 2 with x = height / sqrt(5.09 + 2 m^2 / (m + 4)). It is exact for small m, tends to the
-// share of a narrow lobe for large m, and is within 0.016 between. erf is Abramowitz and Stegun 7.1.27,
-// within 5e-4.
+// exact share for large m, and is within 0.016 between. erf is Abramowitz and Stegun 7.1.27, within 5e-4.
 template <class F>
 F share_below(F height, F m) {
   const F x = height * rsqrt(fma(m, F(2.0f) * m / (m + F(4.0f)), F(float(NOOK_BELOW_WIDTH))));
@@ -180,8 +179,8 @@ F share_below(F height, F m) {
   return select(less(x, F(0.0f)), F(1.0f) - tail, tail);
 }
 
-// Returns rho of the ground, which hides the half-space below its plane, under the density b = h n. `light`
-// is the light without the ground, so that `above` has no effect here.
+// Returns rho of the ground, which hides the half-space below its plane, under the density b = h n. `above`
+// has no effect here, because `light` is the light without the ground.
 template <class F>
 Colour<F> ground_ratio(const LightView& light, const Direction<F>& n, const Direction<F>& up) {
   const F h(directional_cosine), zero(0.0f);
@@ -213,12 +212,12 @@ Colour<F> ground_ratio(const LightView& light, const Direction<F>& n, const Dire
 //
 // All functions are templates over a number type F, as in kernel.h.
 
-// Of the self-shadow this share follows the light, the rest is shadow of all of it; k as caster_concentration
-// has it. Both measured against rays in a crowd.
+// This share of the self-shadow follows the light; the rest takes all colours alike. k is defined at
+// caster_concentration. Both were measured against ray tracing in a crowd.
 inline constexpr float self_strength = float(NOOK_SELF_STRENGTH);
 inline constexpr float self_concentration = float(NOOK_SELF_CONCENTRATION);
 
-// Returns the density of a sphere of the body itself that takes y^gamma = `term` of the light.
+// Returns the density for a sphere of the body itself that takes y^gamma = `term` of the light.
 template <class F>
 void gather(GatheredBands<F>& gathered, const Direction<F>& n, const Sight<F>& sight, F y, F term) {
   const F k = concentration_of(sight, max(y, F(smallest_share)), self_concentration), h(directional_cosine);
@@ -240,8 +239,8 @@ Colour<F> coloured_sum(const GatheredBands<F>& gathered, const LightBands& bands
   return {channel(&Vec3::x), channel(&Vec3::y), channel(&Vec3::z)};
 }
 
-// Returns the light that a vertex' self-shadow takes, relative to its share of all directions: sums over its
-// key points, of the coloured shadow and of the shadow. Without shadow it is 1.
+// Returns how much light a vertex' self-shadow takes, relative to light from all directions alike. The
+// arguments are sums over its key points of the coloured and of the plain shadow. Without shadow it is 1.
 template <class F>
 F vertex_light_ratio(F coloured, F shadow) {
   return (coloured + F(smallest_share)) / (max(shadow, F(0.0f)) + F(smallest_share));

@@ -10,7 +10,8 @@
 namespace nook {
 namespace {
 
-// Normals go to the space of a mesh by the transpose of the matrix that brings its positions to rest space.
+// Normals go to the mesh's space by the transpose of the matrix that brings positions from there to rest
+// space.
 Vec3 normal_in_mesh(const Mat3x4& rest_from_mesh, Vec3 n) {
   const float* m = rest_from_mesh.m;
   return normalised({m[0] * n.x + m[4] * n.y + m[8] * n.z, m[1] * n.x + m[5] * n.y + m[9] * n.z,
@@ -54,7 +55,7 @@ bool is_chosen(const HostVertices& host, std::size_t primitive) {
   return host.primitive < 0 || static_cast<std::size_t>(host.primitive) == primitive;
 }
 
-// The largest length that a metre of rest space has in the spaces of the given primitives.
+// Returns the largest length that a metre of rest space has in the spaces of the given primitives.
 double largest_unit(const CharacterModel& model, const HostVertices& host) {
   if (host.in_rest_space) return 1;
   double largest = 0;
@@ -151,7 +152,8 @@ CharacterModel remapped(const CharacterModel& model, std::span<const std::uint32
   out.file_to_welded.reserve(file_vertices.size());
   for (const std::uint32_t vertex : file_vertices) out.file_to_welded.push_back(model.file_to_welded[vertex]);
   set_primitives(model, file_vertices, out);
-  // A rest vertex becomes the first vertex of the host that has its welded vertex, or goes.
+  // A rest vertex becomes the first host vertex that has its welded vertex. Without such a host vertex, it is
+  // dropped.
   Vector<std::uint32_t> first_host(model.vertex_count(), no_vertex, memory);
   for (std::size_t i = out.file_to_welded.size(); i-- > 0;)
     first_host[out.file_to_welded[i]] = static_cast<std::uint32_t>(i);

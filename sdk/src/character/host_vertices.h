@@ -42,11 +42,11 @@ struct HostVertices {
   float tolerance = 1e-4f;      // share of the diagonal of the model's box
 };
 
-// The space of the mesh that a vertex of the file belongs to, an index into BindData::rest_from_mesh. The
-// model has bind data.
+// Returns the space of the mesh that a file vertex belongs to, as an index into BindData::rest_from_mesh. The
+// model must have bind data.
 std::uint16_t space_of(const CharacterModel& model, std::uint32_t file_vertex);
 
-// A vertex of the model that a host's vertex can be, in the host's space.
+// A vertex of the model that may be the same as a host's vertex, in the host's space.
 struct Candidate {
   Vec3 position;
   Vec3 normal;
@@ -67,8 +67,8 @@ float diagonal_of(const CharacterModel& model, const HostVertices& host);
 // HostVertices::tolerance as a length in the host's unit.
 float tolerance_of(const CharacterModel& model, const HostVertices& host);
 
-// Sets the primitives of `out` and their spaces, where vertex i of `out` belongs to the mesh of
-// file_vertices[i] of `model`: runs of vertices of the same space.
+// Sets the primitives of `out` and their spaces; each is a run of vertices of the same space. Vertex i of
+// `out` belongs to the mesh of file_vertices[i] of `model`.
 void set_primitives(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,
                     CharacterModel& out);
 
@@ -78,22 +78,22 @@ inline constexpr std::uint32_t no_vertex = UINT32_MAX;
 CharacterModel remapped(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,
                         Memory* memory);
 
-// A model for another mesh of the same body, such as a level of detail: its vertices take their weights from
-// the baked vertices round them.
+// The vertex of a host's mesh that lies farthest from the model. It tells whether the mesh is of the same
+// body, such as a level of detail.
 
 struct FarVertex {
   std::uint32_t vertex = 0;  // of the host
   float distance = 0;        // to the nearest vertex of the model that faces the same way, host's unit
 };
 
-// The host's vertex that is farthest from the model's. The model has a rest surface and bind data, and the
-// host has vertices.
+// Returns the host's vertex that is farthest from the model's. The model must have a rest surface and bind
+// data, and the host at least one vertex.
 FarVertex farthest_vertex(const CharacterModel& model, const HostVertices& host, Memory* memory);
 
-// A model with one welded vertex for each vertex of the host. The linear layer is linear in its weights, so
-// that the mean of the weights of baked vertices gives the mean of their AO in every pose: a vertex takes
-// that of the three baked vertices nearest to it that face the same way. The largest
-// CharacterModel::max_influences weights are kept, and their sum stays.
+// Returns a model with one welded vertex for each vertex of the host. A host vertex takes the mean weights of
+// the three nearest baked vertices that face the same way. This gives the mean of their AO in every pose,
+// because the linear layer is linear in its weights. The largest CharacterModel::max_influences weights are
+// kept, and scaled so that their sum stays the same.
 CharacterModel resampled(const CharacterModel& model, const HostVertices& host, Memory* memory);
 
 }  // namespace nook

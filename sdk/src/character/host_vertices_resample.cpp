@@ -10,20 +10,20 @@
 namespace nook {
 namespace {
 
-// Directions below this cosine belong to another side of the body.
+// Normals whose cosine is below this belong to another side of the body.
 constexpr float min_facing = 0.2f;
 constexpr float facing_power = 8;
 constexpr std::size_t interpolated_vertices = 3;
-// As a share of the diameter of the rest pose; it allows for positions of 16 bits.
+// Points count as one place below this share of the rest pose's diameter. It allows for 16-bit positions.
 constexpr float same_place = 1e-4f;
 
-// A point that looks along a normal; without normals, all of them look the same way.
+// A position with a normal. Without normals, all of them face the same way.
 struct Oriented {
   Vec3 position;
   Vec3 normal;
 };
 
-// Points in the order of their x, so that those near a place are in a short range.
+// Points sorted by x, so that those near a place are in a short range.
 class SortedPoints {
  public:
   struct Near {
@@ -38,8 +38,8 @@ class SortedPoints {
     });
   }
 
-  // Returns the nearest points that face the same way, the nearest first. Where there are fewer than `count`,
-  // the distances of the others stay infinite.
+  // Returns the nearest points that face the same way, the nearest first. If there are fewer than `count`,
+  // the remaining distances stay infinite.
   template <std::size_t count>
   std::array<Near, count> nearest(const Oriented& at) const {
     std::array<Near, count> found;
@@ -93,9 +93,9 @@ struct Share {
   float weight = 0;
 };
 
-// The nearest candidates, weighed by the inverse square of their distances; the weights sum to 1. A vertex at
-// the place of a baked one takes that one alone, but for a millionth. Parts of a body meet at vertices of one
-// place that look different ways: a high power of the cosine chooses among them.
+// Weights the nearest candidates by the inverse square of their distance; the weights sum to 1. At the place
+// of a baked vertex, that vertex has all but a millionth of the weight. Where parts of a body meet, vertices
+// at one place face different ways. A high power of the cosine chooses among them.
 Vector<Share> shares_of(const Oriented& at, const SortedPoints& baked, std::span<const Oriented> points,
                         Memory* memory) {
   Vector<Share> shares(memory);
@@ -115,7 +115,7 @@ Vector<Share> shares_of(const Oriented& at, const SortedPoints& baked, std::span
   return shares;
 }
 
-// The sums of the linear layer over the shares of one vertex.
+// The weights of one vertex in the linear layer, summed over its shares.
 struct Influence {
   std::uint16_t key_point = 0;
   float alpha = 0, blend = 0;
@@ -151,7 +151,7 @@ class LayerMean {
       alpha_kept += sum_[i].alpha;
       blend_kept += sum_[i].blend;
     }
-    // Weights of blend may be negative, so that what is kept of them can sum to nearly nothing.
+    // Weights of blend may be negative, so that the sum of the kept ones can be close to zero.
     const bool blend_is_sound = blend_kept > 0.25f;
     for (std::size_t i = 0; i < out.influences; ++i) {
       const Influence entry = i < kept ? sum_[i] : Influence{};
@@ -183,12 +183,13 @@ Oriented in_rest_space(const Oriented& at, const CharacterModel& model, std::uin
   Oriented rest = at;
   const Mat3x4& matrix = model.bind.rest_from_mesh[space_of(model, file_vertex)];
   if (!host.in_rest_space) rest.position = transform(to_double(matrix), at.position);
-  // A mesh's own normals need the inverse transpose; those of the nearest baked vertex are in rest space.
+  // A mesh's own normals would need the inverse transpose; the nearest baked vertex has its normal in rest
+  // space.
   if (!host.in_rest_space || !host.normal.first) rest.normal = baked_normal;
   return rest;
 }
 
-// Keeps the vertices of the pose check at whose places the new mesh has vertices.
+// Keeps the pose check's vertices for which the new mesh has a vertex at the same place.
 void keep_rest_vertices(const CharacterModel& model, CharacterModel& out, Memory* memory) {
   Vector<Oriented> points(memory);
   for (std::size_t i = 0; i < out.rest.position.size(); ++i)

@@ -25,8 +25,8 @@ struct InstanceLight {
   AlignedArray<LobeBands> lobe_bands;  // the same
   std::uint32_t count = 0;             // 0: no light
   Vec3 darkest;                        // see LightView
-  LightBands bands;                    // of the lobes without the part that the ground hides
-  bool evaluated = false;              // shadow and added belong to the present light
+  LightBands bands;                    // of the lobes, without the parts that the ground hides
+  bool evaluated = false;              // shadow and added belong to the current light
 
   // One array of PointLanes::padded_count for each channel; the pointers are into storage.
   float* shadow[3] = {};   // PointLanes::shadow
@@ -42,11 +42,11 @@ struct InstanceLight {
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless there are at most max_light_lobes and each is a lobe.
 void check_light_lobes(std::span<const SphericalGaussian> lobes);
 
-// Without lobes the instance loses its light. Throws Failure on a bad id or lobe, and std::bad_alloc, and
-// then changes nothing. Allocates only at the first light of an instance.
+// Without lobes the instance loses its light. On a bad id or lobe it throws Failure, without memory
+// std::bad_alloc, and changes nothing. Allocates only at the first light of an instance.
 void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGaussian> lobes);
 
-// The light of an instance whose key points changed with its model: the same lobes, not evaluated yet. Throws
+// Returns the light of an instance after a change of its model: the same lobes, not evaluated yet. Throws
 // std::bad_alloc.
 InstanceLight moved_light(const InstanceLight& light, const PointLanes& points, Memory* memory);
 

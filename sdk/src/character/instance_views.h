@@ -1,4 +1,4 @@
-// The arrays of a scene's instances as the kernels take them.
+// Passes the arrays of a scene's instances to the kernels.
 #pragma once
 
 #include <nook/experimental/nook_debug.h>
@@ -9,7 +9,7 @@
 
 namespace nook {
 
-// Spheres of an instance at a level, or at its coarsest if that is finer.
+// Returns the spheres of an instance at a level, or at its coarsest level if the given one is coarser still.
 inline SphereSoa spheres_of(const Instance& instance, std::uint32_t level) {
   const LoadedModel& model = *instance.model;
   const std::size_t l = std::min<std::size_t>(level, model.levels.size());
@@ -19,14 +19,15 @@ inline SphereSoa spheres_of(const Instance& instance, std::uint32_t level) {
   return {s.x, s.y, s.z, s.inverse_radius, rest.caster_weight(), s.count};
 }
 
-// True where an update merges the spheres of far casters. The paper's form takes the spheres, because its
-// norm is no sum.
+// True if an update merges the spheres of far casters. The paper's form never merges them, because its norm
+// is not a sum.
 inline bool may_group(const Scene& scene) {
   return scene.settings.far_error > 0 && scene.settings.form == NOOK_FORM_DEFAULT;
 }
 
-// The spheres of a caster for a receiver: the fewest groups whose change of AO the distance allows, or the
-// spheres at the receiver's level. group_spheres leaves no groups where there should be none.
+// Returns the spheres of a caster for a receiver: the smallest number of groups whose error the distance
+// allows, or the spheres at the receiver's level. group_spheres leaves no groups for a caster that must not
+// be grouped.
 inline SphereSoa caster_spheres(const Scene& scene, const Instance& receiver, const Instance& caster) {
   const InstanceResult& result = caster.result;
   if (result.grouped_revision == caster.input.pose_revision) {
@@ -39,7 +40,7 @@ inline SphereSoa caster_spheres(const Scene& scene, const Instance& receiver, co
   return spheres_of(caster, receiver.plan.level);
 }
 
-// True where the spheres of the instance darken its own key points; a clip has its AO instead.
+// True if the instance's own spheres darken its key points. A clip has baked AO instead.
 inline bool has_self_shadow(const Scene& scene, const Instance& instance) {
   return (scene.terms & NOOK_TERM_SELF) && !instance.input.clip.is_used();
 }
@@ -49,7 +50,7 @@ inline const RestKeyPoints& rest_points_of(const Instance& instance) {
                                   : instance.model->levels[instance.plan.level - 1].rest_key_points;
 }
 
-// The lanes of the key points that are evaluated at the instance's level.
+// Returns the lanes of the key points that are evaluated at the instance's level.
 inline PointLanes evaluated_points(const Instance& instance) {
   PointLanes points = instance.result.arrays.points;
   points.padded_count = rest_points_of(instance).padded_count();
@@ -66,14 +67,14 @@ inline KeyPointSoa surface_points(const PointLanes& p) {
   return {p.surface_x, p.surface_y, p.surface_z, p.surface_nx, p.surface_ny, p.surface_nz, p.padded_count};
 }
 
-// The number of spheres that darken the instance beside those of characters: free occluders, and the ground
-// if it matters.
+// Returns the number of spheres that darken the instance besides other characters' spheres: free occluders,
+// and the ground if it matters.
 inline std::uint32_t free_sphere_count(const Instance& instance) {
   return static_cast<std::uint32_t>(instance.plan.occluders.size()) +
          (instance.plan.ground_sphere.radius > 0);
 }
 
-// The ground's sphere, if there is one that matters.
+// Calls apply for the ground's sphere if the ground matters.
 template <class Apply>
 void for_ground(const Instance& instance, Apply&& apply) {
   const Sphere& ground = instance.plan.ground_sphere;
@@ -82,7 +83,7 @@ void for_ground(const Instance& instance, Apply&& apply) {
   apply(SphereSoa{&ground.centre.x, &ground.centre.y, &ground.centre.z, &inverse_radius, nullptr, 1});
 }
 
-// Free occluders in batches on the stack; their caster weight is 1.
+// Passes free occluders in batches that live on the stack; their caster weight is 1.
 template <class Apply>
 void for_occluders(const Scene& scene, const Instance& instance, Apply&& apply) {
   constexpr std::uint32_t batch = 16;

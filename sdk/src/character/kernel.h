@@ -1,9 +1,10 @@
-// The effect of one sphere on one key point: the solid-angle and visibility terms of the model, and the
-// physical form factor for casters that were not part of the fit. The formulas are templates over a number
-// type F (float, double, or a SIMD vector with the same operators and the functions of core/simd_scalar.h),
-// so that the scalar reference and all SIMD paths share them.
+// The effect of one sphere on one key point. The model has a solid-angle term and a visibility term; casters
+// that were not part of the fit have the physical form factor. The formulas are templates over a number type
+// F: float, double, or a SIMD vector with the same operators and the functions of core/simd_scalar.h. So the
+// scalar reference and all SIMD paths share them.
 //
-// Two numbers describe a sphere of centre o and radius r at a key point c with unit normal u, with d = o - c:
+// Take a sphere of centre o and radius r, a key point c with unit normal u, and d = o - c. Two numbers
+// describe the sphere:
 //   delta2 = |d|^2 / r^2, the squared distance in radii, and xi = dot(d, u) / r, the height of its centre
 //   above the key point's horizon in radii; |xi| <= delta.
 #pragma once
@@ -24,9 +25,9 @@ inline constexpr int kernel_form_count = 3;
 
 struct Kernel {
   KernelForm form = KernelForm::nook;
-  // The exponent of the norm over spheres, >= 1 (slide 20). The larger exponents of the paper keep spheres of
-  // neighbours from darkening twice. In the composed form neighbours have a term of their own, and the plain
-  // sum fits self-shadow best.
+  // The exponent of the norm over spheres, >= 1 (slide 20). The paper needs larger exponents, so that the
+  // spheres of neighbours do not darken twice. Here neighbours have a term of their own (the composed form),
+  // and the plain sum fits self-shadow best.
   float gamma = 1;
 };
 
@@ -48,7 +49,7 @@ F shadow_paper(F xi, F delta2) {
 }
 
 // y = s t^3 with s = (xi + sqrt(xi^2 + 1)) / 2, a smooth positive part of the height, and t = 1 / sqrt(c +
-// delta^2): far above the horizon it tends to xi / delta^3, the form factor of a far sphere.
+// delta^2). Far above the horizon, y tends to the form factor of a far sphere, xi / delta^3.
 inline constexpr float nook_kernel_core = float(NOOK_KERNEL_CORE);
 template <class F>
 F shadow_nook(F xi, F delta2) {
@@ -58,8 +59,8 @@ F shadow_nook(F xi, F delta2) {
 }
 
 // The same for a sphere at the height h = r xi, with d2_and_core = r^2 (delta2 + core): r^2 / 2 (h + sqrt(h^2
-// + r^2)) / d2_and_core^(3/2). `softness` is r^2. `mass` is 3/4 r^2 because the cube takes 2/3, with which
-// its estimate has no constant left to multiply by.
+// + r^2)) / d2_and_core^(3/2). `softness` is r^2. `mass` is 3/4 r^2: the cube's estimate is then scaled by
+// 2/3, which leaves it without a constant factor.
 template <class F>
 F shadow_nook_of_mass(F h, F d2_and_core, F softness, F mass) {
   return mass * ((h + sqrt_positive(fma(h, h, softness))) * rsqrt_cubed(d2_and_core, 2.0f / 3));
@@ -83,9 +84,9 @@ F shadow_term(KernelForm form, F xi, F delta2) {
   return shadow_nook(xi, delta2);
 }
 
-// The shadow of a key point whose spheres have the norm n: n / (1 + c n). Spheres add up as if none of them
-// stood behind another; what lies close together hides itself, so that a shadow grows less than its norm. c
-// is fitted for each key point. 0 is the paper's form.
+// Returns the shadow of a key point whose spheres have the norm n: n / (1 + c n). The norm adds up spheres as
+// if none stood behind another. Spheres close together hide each other, so that the shadow grows less than
+// the norm. c is fitted for each key point; 0 is the paper's form.
 template <class F>
 F saturated(F norm, F c) {
   return norm / fma(c, norm, F(1.0f));
@@ -108,7 +109,7 @@ F form_factor_exact(F xi, F delta2) {
   const F depth = max(one - delta2, F(0.0f));
 
   const F outside = h2 - one;
-  // On the surface and exactly at the horizon both numerator and denominator are 0.
+  // On the surface and exactly at the horizon, numerator and denominator are both 0.
   const F c = sqrt(min(outside / max(h2 - s * s, F(1e-20f)), one));
   const F k = sqrt(max(one - s * s, F(0.0f)) * outside);
   const F clipped =
@@ -118,13 +119,13 @@ F form_factor_exact(F xi, F delta2) {
   return fma(max(one - f, F(0.0f)), depth, f);
 }
 
-// The same share without angles, for the many spheres of a caster. With a = 1 / h, b = sqrt(1 - a^2) and
-// t = (1 + xi) / 2 clamped to [0, 1], f = a^3 max(xi, 1) (t + t (1 - t) P(b, t)). This is exact where the
-// sphere is not clipped, and P is even in xi because f(xi) - f(-xi) = xi a^3 exactly. P is 0 on the surface
-// (b = 0, f = t). At infinity (b = 1) P is -1 - 0.6044 t (1 - t), which gives 2 / (3 pi) on the horizon and,
-// within 0.004, the integral G(xi) = 2/pi int_-xi^1 (xi + x) sqrt(1 - x^2) dx. Two further coefficients are
-// fitted between these limits. The maximum error against form_factor_exact is 0.009, for h >= 1.05 0.005, and
-// the rms error is 0.0022.
+// The same share without angles, for the many spheres of a caster. With a = 1 / h, b = sqrt(1 - a^2) and t =
+// (1 + xi) / 2 clamped to [0, 1], f = a^3 max(xi, 1) (t + t (1 - t) P(b, t)). This is exact if the sphere is
+// not clipped, and P is even in xi because f(xi) - f(-xi) = xi a^3 exactly. P is 0 on the surface (b = 0, f =
+// t). At infinity (b = 1) P is -1 - 0.6044 t (1 - t), which gives 2 / (3 pi) on the horizon and, within
+// 0.004, the integral G(xi) = 2/pi int_-xi^1 (xi + x) sqrt(1 - x^2) dx. Two further coefficients are fitted
+// between these limits. The maximum error against form_factor_exact is 0.009, for h >= 1.05 0.005, and the
+// rms error is 0.0022.
 template <class F>
 F form_factor_fast(F xi, F delta2) {
   const F one(1.0f);
@@ -140,11 +141,11 @@ F form_factor_fast(F xi, F delta2) {
   return fma(max(one - outside, F(0.0f)), max(one - delta2, F(0.0f)), outside);
 }
 
-// The optical depth of a caster whose spheres have the sum d of weight * form factor. Spheres that are strewn
-// at random leave exp(-d) open. Those of a body stand beside each other and leave less where they cover much:
-// a single sphere that covers the share f leaves 1 - f = exp(-(f + f^2 / 2 + ...)). Over vertices of bodies
-// 0.3 to 1 m apart, the traced depth is d + 0.2 d^2 to d + 0.45 d^2 up to d = 0.6, which leaves half open.
-// Above, it is less: what two bodies press together comes out too dark.
+// Returns the optical depth of a caster whose spheres have the sum d of weight * form factor. Spheres at
+// random places leave exp(-d) open. The spheres of a body stand side by side and leave less open where they
+// cover much: a single sphere of the share f leaves 1 - f = exp(-(f + f^2 / 2 + ...)). For vertices of bodies
+// 0.3 to 1 m apart, the ray-traced depth is d + 0.2 d^2 to d + 0.45 d^2 up to d = 0.6, which leaves half
+// open. Beyond, the traced depth is smaller: points between two bodies that press together come out too dark.
 template <class F>
 F solid_depth(F d) {
   return fma(F(float(NOOK_SOLID_DEPTH)) * d, d, d);

@@ -26,8 +26,8 @@ std::uint32_t block_count_of(std::size_t vertices) {
   return static_cast<std::uint32_t>((vertices + linear_block_vertices - 1) / linear_block_vertices);
 }
 
-// The columns of all blocks, one block after another: the key points that the vertices of a block use, each
-// once and in ascending order. A block of an odd number has its last one twice.
+// The columns of all blocks, one block after another. A block has a column for each key point that its
+// vertices use, in ascending order. If their number is odd, the last one is repeated.
 struct Columns {
   Vector<std::uint16_t> key_point;
   Vector<std::uint32_t> first;  // for each block, and the end
@@ -54,7 +54,7 @@ struct Columns {
     return static_cast<std::size_t>(std::lower_bound(begin + first[block], begin + first[block + 1], k) -
                                     begin);
   }
-  // Where the weights of a slot in one of its block's columns lie.
+  // Returns the index of a slot's weights in one of its block's columns.
   std::size_t place(std::size_t column, std::size_t slot) const {
     return column / 2 * linear_pair_weights + slot % linear_block_vertices * 2 + column % 2;
   }
@@ -66,13 +66,13 @@ float largest_of(const Vector<float>& weights) {
   return largest;
 }
 
-// The alphas of a file are max (c / 127)^2 with whole c, which are whole numbers of these steps.
+// Alphas in a file are max (c / 127)^2 with whole c, so they are whole multiples of this step.
 float alpha_step_of(const Vector<float>& alpha) {
   const float largest = largest_of(alpha);
   return largest > 0 ? largest / (2 * 127 * 127) : 1;
 }
 
-// A power of two, so that the sixteenths of a file are whole numbers of steps.
+// The step is a power of two, so that the sixteenths of a file are whole multiples of it.
 float blend_step_of(const Vector<float>& blend) {
   return std::exp2(std::ceil(std::log2(std::max(largest_of(blend), 1.0f)))) / 16384;
 }
@@ -84,7 +84,7 @@ AlignedArray<std::int16_t> in_steps(const Vector<float>& weights, float step, Me
   return out;
 }
 
-// The largest sum over a vertex' columns of the sizes of its weights, in steps.
+// Returns the largest sum of absolute weights, in steps, over the columns of any vertex.
 double largest_sum(const AlignedArray<LinearBlock>& blocks, const AlignedArray<std::int16_t>& weights) {
   double largest = 1;
   for (const LinearBlock& block : blocks)

@@ -1,5 +1,5 @@
-// The linear layer of a character model in an order that is efficient on processors: blocks of 16 vertices
-// that share key points, each as a small dense matrix.
+// The linear layer of a character model in an efficient order for processors. Blocks of 16 vertices share key
+// points, and each block is a small dense matrix.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +13,24 @@
 
 namespace nook {
 
-// A multiple of all block sizes. Its AO lies in 4 KiB where the file has no other vertices between.
+// A multiple of all block sizes. A window's AO fits into 4 KiB if the file has no other vertices in between.
 inline constexpr std::uint32_t linear_window_vertices = 1024;
 
-// Returns all vertices in the order of their slots. Blocks are made of the vertices of one window of the
-// file's order: the first that is left, then always the one that needs the fewest further key points. The
+// Returns all vertices in the order of their slots. Each block takes vertices from one window of the file's
+// order: the first vertex that is left, then repeatedly the vertex that needs the fewest new key points. The
 // model's influences must be valid.
 Vector<std::uint32_t> linear_layer_order(const CharacterModel& model, std::uint32_t block_vertices,
                                          Memory* memory);
 
 class LinearLayer {
  public:
-  // Entries with alpha 0 are left out. Throws Failure if an influence is not a key point of the model, or if
+  // Leaves out entries with alpha 0. Throws Failure if an influence is not a key point of the model, or if
   // the length of an array does not match the model's counts.
   explicit LinearLayer(const CharacterModel& model, Memory* memory = default_memory());
 
   const LinearView& view() const { return view_; }
-  // Returns the maximum over vertices of the sum of absolute blend weights, which is the largest gain of an
-  // error at key points.
+  // Returns the maximum over vertices of the sum of absolute blend weights. This is the largest factor by
+  // which an error at key points can grow.
   float max_blend_gain() const { return max_blend_gain_; }
   // Returns the length of the ao array that ShadowKernels::linear_layer fills.
   std::uint32_t padded_slots() const { return view_.block_count * linear_block_vertices; }

@@ -16,7 +16,7 @@ void for_influences(const CharacterModel& model, std::size_t vertex, Body&& body
     if (model.alpha[e] != 0) body(model.influence[e]);
 }
 
-// Vertices by their first place in the file, those without one last.
+// Sorts vertices by their first place in the file; vertices without a place come last.
 Indices file_order(const CharacterModel& model, Memory* memory) {
   Indices first(model.vertex_count(), ~0u, memory);
   for (std::size_t i = model.file_to_welded.size(); i-- > 0;)
@@ -29,7 +29,7 @@ Indices file_order(const CharacterModel& model, Memory* memory) {
   return order;
 }
 
-// Makes blocks of the vertices of a window, which are numbered within it.
+// Makes blocks from the vertices of a window, which are numbered within it.
 class Window {
  public:
   Window(const CharacterModel& model, std::span<const std::uint32_t> vertices, Memory* memory)
@@ -55,7 +55,7 @@ class Window {
     while (is_taken_[first_left_]) ++first_left_;
     take(first_left_, order);
     for (std::uint32_t i = 1; i < count; ++i) take(next(), order);
-    // The numbers of missing key points are those of an empty block again.
+    // Counts the missing key points for an empty block again.
     for (const std::uint16_t k : block_key_points_) {
       in_block_[k] = 0;
       for (const std::uint32_t user : users_[k]) ++missing_[user];
@@ -97,15 +97,16 @@ class Window {
   std::span<const std::uint32_t> vertices_;
   Vector<Indices> users_;          // of each key point
   Vector<std::uint8_t> in_block_;  // for each key point
-  Indices missing_;                // for each vertex, entries whose key points the block lacks
+  Indices missing_;                // for each vertex, the number of its entries whose key points the block
+                                   // lacks
   Vector<std::uint8_t> is_taken_, is_candidate_;
   Vector<std::uint16_t> block_key_points_;
   Indices candidates_;  // vertices that share a key point with the block
   std::uint32_t first_left_ = 0;
 };
 
-// Appends the blocks of a window, those with most key points first: a processor predicts the end of a loop
-// that is as long as the one before. A block that is not full stays last.
+// Appends the blocks of a window, blocks with the most key points first: a processor predicts a loop's end if
+// the loop is as long as the one before. A block that is not full stays last.
 void append_window(Window& window, std::size_t vertices, std::uint32_t block_vertices, Memory* memory,
                    Indices& order) {
   struct Block {

@@ -37,12 +37,12 @@ AlignedArray<std::int8_t> in_blocks(const ClipSet& set, const LoadedModel& model
   return out;
 }
 
-// The nearest matrix with one scale, about a centre whose image stays: the polar factor by Newton's iteration
-// (Higham 1986, "Computing the Polar Decomposition", equation 3.3). Mixed poses are near it, so that a few
-// steps are enough; what does not converge is left to the general form.
+// Returns the nearest matrix with one scale; the image of the centre stays. It computes the polar factor by
+// Newton's iteration (Higham 1986, "Computing the Polar Decomposition", equation 3.3). Mixed poses are close
+// to it and take a few steps; if the iteration does not converge, the general form takes over.
 Mat3x4 evened(const Mat3x4& matrix, Vec3 centre) {
   constexpr int max_steps = 12;
-  constexpr float converged = 1e-6f;  // squared, of rows of unit length
+  constexpr float converged = 1e-6f;  // squared; for rows of unit length
   const float* const m = matrix.m;
   const Vec3 given[3] = {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}};
   const float mean =

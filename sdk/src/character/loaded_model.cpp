@@ -26,9 +26,9 @@ std::size_t longest_side(std::span<const std::uint32_t> indices, const Vector<Pl
   return longest;
 }
 
-// Orders `indices` of places, so that places near each other are side by side, in blocks of equal size: all
-// blocks are whole, except for the last. Every coordinate must be finite. The recursion depth is the
-// logarithm of the number of blocks.
+// Orders `indices` so that places near each other are side by side, in blocks of equal size; only the last
+// block may be smaller. Every coordinate must be finite. The recursion depth is the logarithm of the number
+// of blocks.
 void order_in_space(std::span<std::uint32_t> indices, std::size_t block, const Vector<Place>& places) {
   if (indices.size() <= block) return;
   const std::size_t blocks = (indices.size() + block - 1) / block;
@@ -48,7 +48,8 @@ std::ptrdiff_t bones_of(const KeyPoint& point) {
   return 4 - std::count(point.weight.begin(), point.weight.end(), 0.0f);
 }
 
-// Within a group those of many bones come first, because four of few bones are posed faster.
+// Within a group, key points with many bones come first: four key points with few bones each are posed faster
+// together.
 Indices near_order(const CharacterModel& model, Memory* memory) {
   Vector<Place> places(memory);
   for (const KeyPoint& point : model.key_points)
@@ -80,7 +81,7 @@ void permute(Vector<T>& values, const Indices& order, Memory* memory) {
   values = std::move(permuted);
 }
 
-// A level's key points are in ascending order, in the new numbers as in the old ones.
+// A level's key points stay in ascending order in the new numbers.
 void renumber(CharacterLevel& level, const Indices& order, const Indices& place, Memory* memory) {
   const auto new_number = [&](std::uint32_t e) { return place[level.evaluated[e]]; };
   Indices sorted(level.evaluated.size(), 0u, memory);
@@ -114,8 +115,7 @@ void grow(LoadedModel::BoneBound& bound, Vec3 place, float radius) {
   bound.radius = std::max(bound.radius, length(place - bound.centre) + radius);
 }
 
-// The bound is centred on the mean of the points that the bone moves; a slightly larger radius than that of
-// the smallest sphere is sufficient.
+// The bound is centred on the mean of the points that the bone moves. It need not be the smallest sphere.
 AlignedArray<LoadedModel::BoneBound> make_bone_bounds(const CharacterModel& model, Memory* memory) {
   AlignedArray<LoadedModel::BoneBound> bounds(model.bone_count(), memory);
   Vector<std::uint32_t> count(model.bone_count(), 0u, memory);

@@ -1,4 +1,4 @@
-// A model in the runtime: shared and immutable, with values that are derived once from its data.
+// A model in the runtime is shared and immutable, and holds values derived once from its data.
 #pragma once
 
 #include <array>
@@ -28,44 +28,44 @@ struct LoadedModel : RefCounted {
   // The model must have passed check_model.
   LoadedModel(CharacterModel loaded, Memory* memory);
 
-  const CharacterModel model;  // with its key points in groups, see with_near_key_points_together
+  const CharacterModel model;  // with its key points in groups; see with_near_key_points_together
   const RestSpheres rest_spheres;
   const RestKeyPoints rest_key_points;
   const LinearLayer linear;
   const SphereGroups groups;         // of the spheres of full detail
-  const SphereTree sphere_tree;      // the same
-  const Vector<LoadedLevel> levels;  // those of model.levels; full detail is not among them
+  const SphereTree sphere_tree;      // also of the spheres of full detail
+  const Vector<LoadedLevel> levels;  // for model.levels, without full detail
 
-  // File vertices that follow each other and take the AO of one chunk of slots of the linear layer. Their
-  // slots, from the first of the chunk on, are slot_in_chunk[first_entry...first_entry + vertices].
+  // A run of consecutive file vertices that take their AO from one chunk of slots of the linear layer. Their
+  // slots, counted from the first of the chunk, are slot_in_chunk[first_entry...first_entry + vertices].
   struct FileRun {
     std::uint32_t first_vertex = 0, vertices = 0, first_entry = 0;
   };
-  // The runs of chunk c are file_run[run_begin[c]...run_begin[c + 1]], in ascending order. Chunks are the
-  // windows of linear_layer_order, whose vertices follow each other in most files.
+  // Chunk c has the runs file_run[run_begin[c]...run_begin[c + 1]], in ascending order. Chunks are the
+  // windows of linear_layer_order, whose vertices are consecutive in most files.
   static constexpr std::uint32_t slot_chunk = linear_window_vertices;
   AlignedArray<std::uint32_t> run_begin;
   AlignedArray<FileRun> file_run;
   AlignedArray<std::uint16_t> slot_in_chunk;
   AlignedArray<float>
-      open_without_bias;  // 1 per slot, in place of LinearView::open_bias where self-shadow is switched off
+      open_without_bias;  // 1 for each slot, in place of LinearView::open_bias if self-shadow is switched off
 
   // For each bone, a sphere in rest space that contains every key point that the bone moves and every proxy
-  // sphere that is rigid to it, or radius < 0 if there is none. The images of these spheres contain the posed
-  // character, because a blended point lies between its images.
+  // sphere that is rigid to it, or radius < 0 if there is none. Moved by their bones, these spheres contain
+  // the posed character, because a blended point lies between its images.
   struct BoneBound {
     Vec3 centre;
     float radius = -1;
   };
   AlignedArray<BoneBound> bone_bounds;
-  float max_alpha_sum = 0;    // maximum over the vertices of the sum of alpha, which is the largest change of
-                              // AO by a unit of shadow
+  float max_alpha_sum = 0;    // maximum over the vertices of the sum of alpha: the largest change of AO per
+                              // unit of shadow
   float caster_strength = 0;  // maximum over the levels of the sum of caster_weight * radius^2, square metres
 };
 
-// Renumbers the key points of a model that has passed check_model into groups of key_point_group that are
-// near each other, so that one decision about a far part of the body serves a whole group. What the model
-// means stays the same.
+// Renumbers the key points of a model into groups of key_point_group that are near each other. One decision
+// about a far part of the body then serves a whole group. The model's results stay the same. It must have
+// passed check_model.
 CharacterModel with_near_key_points_together(CharacterModel model, Memory* memory);
 
 }  // namespace nook

@@ -24,18 +24,18 @@ struct ProxySphere {
   Vec3 centre;
   float radius = 0;
   std::uint16_t bone = 0;
-  // The share of the sphere's form factor that counts when it darkens another instance, >= 0. It is fitted at
-  // bake time against ray tracing, so that overlapping spheres of one character do not darken twice.
+  // The share of the sphere's form factor that counts when it darkens another instance, >= 0. The bake fits
+  // it against ray tracing, so that overlapping spheres of one character do not darken twice.
   float caster_weight = 1;
 };
 
-// A capsule that is rigid to one bone. The casters of a body together stand for its volume where it darkens
-// what is not its own.
+// A capsule that is rigid to one bone. All capsules of a body together stand for its volume where it darkens
+// something else.
 struct WorldCaster {
-  Capsule capsule;  // as it hides a light
+  Capsule capsule;  // with the radii that hide a light
   std::uint16_t bone = 0;
-  // The radii in AO over those of the capsule. AO multiplies what casters leave open, as if they covered the
-  // hemisphere independently, so that casters which overlap must count as thinner.
+  // AO uses the capsule's radii times this scale. AO multiplies what casters leave open, as if they covered
+  // the hemisphere independently, so overlapping casters must count as thinner.
   float ao_scale = 1;
 };
 
@@ -56,8 +56,8 @@ struct PrimitiveRange {
   std::uint32_t vertex_count = 0;
 };
 
-// A coarser version of the non-linear layer for distant instances: fewer spheres act on fewer key points, and
-// the shadow of every key point is derived from an evaluated one. The linear layer is the same.
+// A coarser version of the non-linear layer for distant instances. Fewer spheres act on fewer key points, and
+// every key point derives its shadow from an evaluated one. The linear layer stays the same.
 struct CharacterLevel {
   using allocator_type = Allocator<std::byte>;
   explicit CharacterLevel(const allocator_type& memory = {})
@@ -76,11 +76,11 @@ struct CharacterLevel {
   Vector<ProxySphere> spheres;
   Vector<std::uint16_t> evaluated;  // key points, ascending
   // For each key point k, shadow[k] = max(0, scale[k] * shadow[evaluated[source[k]]] + offset[k]). The
-  // occlusion by other casters is taken over unchanged.
+  // occlusion by other casters is copied unchanged.
   Vector<std::uint16_t> source;
   Vector<float> scale;
   Vector<float> offset;
-  // Error of the AO of the instance alone against full detail, over vertices and held-out poses.
+  // The error against full detail in the AO of the instance alone, over vertices and held-out poses.
   float error_rms = 0;
 };
 
@@ -123,7 +123,7 @@ struct CharacterModel {
   // AO of the rest pose for each welded vertex, as in a static bake; may be empty.
   Vector<float> static_ao;
 
-  // For each welded vertex, in rest space; may be empty: the model was baked without.
+  // For each welded vertex, in rest space; empty if the model was baked without.
   Vector<OccludedEnds> occluded;
 
   Vector<std::uint32_t> file_to_welded;  // the welded vertex of each vertex in file order
@@ -133,7 +133,7 @@ struct CharacterModel {
   Vector<CharacterLevel> levels;  // from fine to coarse, without full detail; may be empty
 
   static constexpr std::size_t max_world_casters = 64;
-  Vector<WorldCaster> world_casters;  // may be empty: the model was baked without
+  Vector<WorldCaster> world_casters;  // empty if the model was baked without
 
   float bounding_radius = 0;  // metres, of the rest pose around bounding_centre
   Vec3 bounding_centre;
@@ -155,15 +155,16 @@ inline float max_saturation_of(const CharacterModel& model) {
   return max;
 }
 
-// The bound of alpha, bias and caster weight. It is far above fitted values, unless the spheres are far too
+// The bound of alpha, bias and caster weight. Fitted values come near it only if the spheres are far too
 // small.
 constexpr float max_coefficient = 1e4f;
 
-// With more, a key point is a switch: half of its shadow's range lies below a norm of 1/64.
+// Above this saturation, a key point acts like a switch: half of its shadow's range lies below a norm of
+// 1/64.
 constexpr float max_saturation = 64;
 
-// Throws Failure with `code` and the first fault: a count or an index is out of range, a number is not finite
-// or is outside its range, or weights do not sum to one.
+// Throws Failure with `code` and the first fault. A count or index may be out of range, a number may not be
+// finite or within its range, or weights may not sum to one.
 void check_model(const CharacterModel& model, nook_result code);
 
 }  // namespace nook

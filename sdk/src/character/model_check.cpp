@@ -8,7 +8,7 @@
 namespace nook {
 namespace {
 
-// Beyond this gamma, the norm is equal to the maximum norm in float precision.
+// Beyond this gamma, the norm equals the maximum norm in float precision.
 constexpr float max_gamma = 64;
 constexpr float max_blend = 16;             // far above the values that a file can hold
 constexpr std::size_t max_indexed = 65536;  // the number of 16-bit indices

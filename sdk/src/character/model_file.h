@@ -6,8 +6,8 @@
 //   WCAS world casters (optional)   BENT occluded directions of the welded vertices (optional)
 //   SATU saturations of the key points (optional, all 0 without it)
 //   NEAR exact places of welded vertices that lie next to others, and weights where these differ (optional)
-// Version 2 has neither BIND nor REST, version 3 has no SATU; both are read as well.
-// Numbers are quantised within the error budget; model_file_packing.h has the number of bits.
+// Readers also accept version 2, without BIND and REST, and version 3, without SATU. Numbers are quantised
+// within the error budget, with the bits that model_file_packing.h lists.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,8 @@ std::vector<std::byte> write_character_model(const CharacterModel& model);
 // NOOK_ERROR_FILE_VERSION), and allocates no more than a small multiple of the file's size.
 CharacterModel read_character_model(std::span<const std::byte> bytes, Memory* memory = default_memory());
 
-// Returns the model after a write and a read, so that the bakers can measure the error of quantisation.
+// Returns the model as it is after a write and a read, so that the bakers can measure the error of
+// quantisation.
 CharacterModel quantise(const CharacterModel& model);
 
 }  // namespace nook

@@ -58,7 +58,7 @@ std::array<std::uint32_t, KeyPoint::max_bones> weight_codes(
     remainder[i] = weight[i] * 256 - static_cast<float>(code[i]);
     left -= static_cast<int>(code[i]);
   }
-  // The sum of the weights is 1 up to rounding, so that at most n steps remain; a step too many comes off the
+  // The sum of the weights is 1 up to rounding, so at most n steps remain. A surplus step comes off the
   // largest weight.
   for (; left > 0; --left) {
     const auto most = std::max_element(remainder.begin(), remainder.end()) - remainder.begin();

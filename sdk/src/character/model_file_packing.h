@@ -42,14 +42,14 @@ struct CharacterBits {
   static constexpr int close_weight = 16;
 };
 
-// The number of earlier vertices that a vertex may share key points with.
+// A vertex may share key points with one of this many vertices before it.
 inline constexpr std::size_t max_references = std::size_t{1} << CharacterBits::reference;
 
-// The maximum number of bytes that a bone's name takes over from the previous one, so that a small file
-// cannot fill the memory with names.
+// A bone's name takes over at most this many bytes from the previous one, so that a small file cannot fill
+// the memory with names.
 inline constexpr std::uint32_t max_shared_name = 64;
 
-// Codes at equal distances from low to high, of which both are exact.
+// Codes are evenly spaced from low to high; both ends are exact.
 struct Range {
   float low = 0, high = 0;
 
@@ -125,8 +125,8 @@ inline std::uint32_t encode_alpha(float alpha, float max_alpha) {
   return static_cast<std::uint32_t>(std::min(std::max(code, 1.0), double(last)));
 }
 
-// Blend weights are in sixteenths from -8 / 16 on. Those of a vertex sum to exactly 1, so that one of them
-// need not be written.
+// Blend weights are sixteenths, from -8 / 16 on. The weights of a vertex sum to exactly 1, so one of them is
+// not written.
 inline constexpr int blend_one = 16, blend_low = -8;
 inline float decode_blend(std::uint32_t code) {
   return static_cast<float>(static_cast<int>(code) + blend_low) / blend_one;

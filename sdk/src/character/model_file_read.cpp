@@ -12,7 +12,7 @@ namespace {
 
 using Bits = CharacterBits;
 
-// The bounds of ranges are those of check_model, which decides; this one only keeps decoded numbers finite.
+// check_model decides what is valid, by the same bounds. This bound only keeps decoded numbers finite.
 constexpr float max_box_metres = 2 * max_metres;
 
 void read_head(ByteReader in, CharacterModel& model) {
@@ -151,7 +151,7 @@ void read_linear_layer(ByteReader in, CharacterModel& model) {
     counts[i % max_references] = count;
     for (; e < count; ++e) model.influence[first + e] = static_cast<std::uint16_t>(in.bits(key_point_bits));
     for (e = 0; e < count; ++e) model.alpha[first + e] = decode_alpha(in.bits(Bits::alpha), max_alpha);
-    float left = 1;  // sixteenths, which are exact
+    float left = 1;  // sixteenths, so the arithmetic is exact
     for (e = 1; e < count; ++e) left -= model.blend[first + e] = decode_blend(in.bits(Bits::blend));
     model.blend[first] = left;
     model.bias.push_back(bias.decode(in.bits(Bits::bias), Bits::bias));
@@ -243,7 +243,7 @@ void read_skin(ByteReader& in, BindData& bind, int bone_bits) {
   skin.file_index = in.varint();
   skin.space = static_cast<std::uint16_t>(std::min(in.varint(), 0xffffu));
   skin.first_joint = static_cast<std::uint32_t>(bind.bone_of_joint.size());
-  // A model of one bone writes no bits for a joint, so that only the bound of the count limits it.
+  // A model of one bone writes no bits for a joint, so only this bound limits the count.
   skin.joint_count = in.varint();
   if (skin.joint_count > bind.bones.size())
     throw Failure(NOOK_ERROR_BAD_FILE,

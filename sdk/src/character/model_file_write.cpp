@@ -97,7 +97,7 @@ ByteWriter write_key_points(const CharacterModel& model) {
   return out;
 }
 
-// Roots at equal distances, so that steps are fine where saturations are small.
+// Square roots are quantised evenly, so that steps are fine for small saturations.
 ByteWriter write_saturations(const CharacterModel& model) {
   const Range root{0, std::sqrt(max_saturation_of(model))};
   ByteWriter out;
@@ -107,7 +107,7 @@ ByteWriter write_saturations(const CharacterModel& model) {
   return out;
 }
 
-// The entries of a vertex with alpha above 0, which are the ones that the file holds.
+// The entries of a vertex with alpha above 0; the file holds only these.
 struct CodedEntry {
   std::uint16_t key_point = 0;
   std::uint32_t alpha = 0, blend = 0;  // codes
@@ -117,8 +117,8 @@ struct CodedEntries {
   std::uint32_t count = 0;
 };
 
-// Codes alphas in descending order, each passing its rounding error on to the next, whose steps are finer. So
-// the sum of alphas stays accurate; it matters most, because neighbouring key points have similar shadows.
+// Codes alphas in descending order. Each passes its rounding error on to the next, whose steps are finer. So
+// the sum of alphas stays accurate, which matters most, because neighbouring key points have similar shadows.
 CodedEntries code_entries(const CharacterModel& model, std::size_t vertex, float max_alpha) {
   const float* const alpha = model.alpha.data() + vertex * model.influences;
   std::array<std::uint32_t, CharacterModel::max_influences> order{};
@@ -138,7 +138,7 @@ CodedEntries code_entries(const CharacterModel& model, std::size_t vertex, float
   return out;
 }
 
-// Moves the entries whose key points `other` has to the front, in the other's order, and returns their
+// Moves the entries whose key points `other` also has to the front, in the other's order, and returns their
 // number. Bit e of kept is set if the other's entry e is among them.
 std::uint32_t gather_shared(CodedEntries& own, const CodedEntries& other, std::uint32_t& kept) {
   std::uint32_t shared = 0;
@@ -153,9 +153,8 @@ std::uint32_t gather_shared(CodedEntries& own, const CodedEntries& other, std::u
   return shared;
 }
 
-// Consecutive vertices are mostly neighbours and share key points. A vertex names one of the few vertices
-// before it and the key points of that vertex that it keeps, so that only the other key points are written as
-// numbers.
+// Consecutive vertices are mostly neighbours and share key points. So a vertex names an earlier vertex nearby
+// and which of its key points it keeps. Only the remaining key points are written as numbers.
 void write_key_points_of(ByteWriter& out, CodedEntries& own, std::span<const CodedEntries> before,
                          int key_point_bits) {
   std::uint32_t shared = 0, kept = 0;
@@ -204,8 +203,8 @@ ByteWriter write_linear_layer(const CharacterModel& model) {
   return out;
 }
 
-// For each key point there is a bit that is set if it is evaluated; otherwise its source, scale and offset
-// follow.
+// Writes one bit for each key point, set if the key point is evaluated. Otherwise its source, scale and
+// offset follow.
 void write_level(ByteWriter& out, const CharacterLevel& level, std::size_t bones) {
   out.f32(level.error_rms);
   write_spheres(out, level.spheres, bones);
@@ -235,8 +234,8 @@ ByteWriter write_static_ao(const CharacterModel& model) {
   return out;
 }
 
-// Mode 0 applies if welded vertices are numbered in the order of their first occurrence: a bit 0 is the next
-// new vertex, and a bit 1 is followed by the index of an earlier one. Mode 1 writes the index.
+// Mode 0 is for welded vertices that are numbered in the order of their first occurrence. A bit 0 stands for
+// the next new vertex; a bit 1 is followed by the index of an earlier one. Mode 1 writes the index.
 ByteWriter write_file_order(const CharacterModel& model) {
   std::uint32_t next = 0;
   const bool in_order =

@@ -10,10 +10,10 @@ namespace {
 using Entry = NeighbourTree::Entry;
 using Node = NeighbourTree::Node;
 
-// Points that a leaf holds at most: fewer would cost more boxes than they save points.
+// A leaf holds at most this many points: smaller leaves cost more boxes than they save points.
 constexpr std::size_t max_leaf_points = 8;
 
-// Halvings until a leaf holds all of its range.
+// Returns how often the range is halved until a leaf holds its part.
 std::uint32_t depth_of(std::size_t points) {
   std::uint32_t depth = 0;
   while ((points - 1) >> depth >= max_leaf_points) ++depth;
@@ -69,7 +69,7 @@ bool nearer(const Neighbour& a, const Neighbour& b) {
   return a.distance_squared != b.distance_squared ? a.distance_squared < b.distance_squared : a.slot < b.slot;
 }
 
-// A lower bound of the squared distance to any point of the box, less what rounding may add to it.
+// Returns a lower bound of the squared distance to any point of the box, with room for rounding.
 float box_distance_squared(const Node& node, Vec3 p) {
   const Vec3 d{std::max({node.low.x - p.x, p.x - node.high.x, 0.0f}),
                std::max({node.low.y - p.y, p.y - node.high.y, 0.0f}),
@@ -82,7 +82,7 @@ struct Query {
   Vec3 place;
   std::uint32_t self;
   std::uint32_t k;
-  float limit;  // squared; what is farther is of no use
+  float limit;  // squared; points beyond it are ignored
   std::span<Neighbour, max_nearest> found;
   std::uint32_t count = 0;
 

@@ -1,4 +1,4 @@
-// The k nearest of a set of points. A balanced tree over the points adapts to any spread of them, so that a
+// Finds the k nearest points of a set. A balanced tree adapts to any distribution of the points, so that a
 // query costs as much in a pile of coincident points as on an even field: O(n log n) for the set, O(log n +
 // k) for a query.
 #pragma once
@@ -45,8 +45,8 @@ void clear_tree(NeighbourTree& tree) noexcept;
 void add_to_tree(NeighbourTree& tree, std::uint32_t slot, Vec3 place) noexcept;
 void build_tree(NeighbourTree& tree) noexcept;
 
-// The k <= max_nearest points nearest to `place` within max_distance, nearest first and by slot where equally
-// near, without `slot` itself. Returns how many there are.
+// Finds the k <= max_nearest points nearest to `place` within max_distance, without `slot` itself, and
+// returns their number. The nearest come first; at equal distances, the lower slot does.
 std::uint32_t find_nearest(const NeighbourTree& tree, std::uint32_t slot, Vec3 place, std::uint32_t k,
                            float max_distance, std::span<Neighbour, max_nearest> found) noexcept;
 

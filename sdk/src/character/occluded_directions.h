@@ -1,5 +1,5 @@
-// The occluded directions of a model for a host's vertex shader, and bent normals of an instance for hosts
-// without one.
+// Provides a model's occluded directions for a host's vertex shader, and computes an instance's bent normals
+// for hosts without one.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +14,16 @@ struct Scene;
 
 inline constexpr std::size_t occluded_bytes = 8, bent_normal_bytes = 4;  // of a vertex
 
-// Writes both ends of each file vertex in the space of the file's normals, or in rest space where the model
-// has no bind data: x, y, z and 0 of each. The model must have occluded directions.
+// Writes x, y, z and 0 of both ends for each file vertex. They are in the space of the file's normals, or in
+// rest space if the model has no bind data. The model must have occluded directions.
 void copy_occluded_directions(const CharacterModel& model, std::int8_t* out,
                               std::size_t stride_bytes) noexcept;
 
 // Throws Failure(NOOK_ERROR_UNSUPPORTED) unless the model has occluded directions and rest normals.
 void check_bent_normals(const CharacterModel& model);
 
-// Writes x, y, z of the bent normal in world space and AO for each file vertex. AO is that of the last
-// update, normals follow the pose that is set. The model must pass check_bent_normals.
+// Writes x, y, z of the bent normal in world space and AO for each file vertex. AO comes from the last
+// update, while normals follow the current pose. The model must pass check_bent_normals.
 void read_bent_normals(const Scene& scene, const Instance& instance, std::int8_t* out,
                        std::size_t stride_bytes) noexcept;
 

@@ -43,9 +43,9 @@ bool explain(PoseFinding& finding, nook_pose_fault fault, const char* format, ..
   return is_first;
 }
 
-// The check tries the readings of the host's transforms that mistakes turn into each other, and names those
-// under which the model's vertices fall on the host's. In the bind pose several may. A best affine map
-// between the two sets of vertices tells a wrong place, unit, turn or mirror image of the whole pose.
+// The check tries the readings of the host's transforms that mistakes turn into each other. It names those
+// under which the model's vertices match the host's; in the bind pose, several may. A best affine map between
+// the two sets of vertices reveals a wrong place, unit, turn or mirror image of the whole pose.
 
 namespace {
 
@@ -54,17 +54,17 @@ struct Distances {
   std::size_t worst = 0;                  // index into the compared vertices
 };
 
-// Everything that the readings share.
+// What all readings share.
 struct Check {
   const CharacterModel& model;
   const PoseSource& given;
   std::span<const SkinnedVertex> all;
   Affine vertex_place;
   double tolerance_ws = 0;
-  std::size_t least_vertices = 1;    // of a reading, so that it tells something
+  std::size_t least_vertices = 1;    // that a reading needs to be conclusive
   Vector<const RestVertex*> vertex;  // of the latest reading: those whose bones all have transforms
-  Vector<Point3> host;               // where the host has them
-  Vector<Point3> posed;              // where that reading has them
+  Vector<Point3> host;               // as the host skinned them
+  Vector<Point3> posed;              // as the latest reading poses them
   Vector<std::uint8_t> has_matrix;   // for each bone
   Vector<Affine> matrix;             // for each bone
 
@@ -90,14 +90,14 @@ Point3 skinned(const Check& check, const RestVertex& vertex) {
   return sum;
 }
 
-// The first of a vertex's bones without a matrix, or the vertex's bone_count.
+// Returns the index of the first of a vertex's bones that has no matrix, or the vertex's bone_count.
 std::uint32_t first_missing(const Check& check, const RestVertex& vertex) {
   std::uint32_t b = 0;
   while (b < vertex.bone_count && check.has_matrix[vertex.bone[b]]) ++b;
   return b;
 }
 
-// Takes the vertices that only bones with matrices move, and poses them.
+// Selects the vertices whose bones all have matrices, and poses them.
 void pose_vertices(Check& check) {
   check.vertex.clear();
   check.host.clear();
@@ -111,8 +111,8 @@ void pose_vertices(Check& check) {
   }
 }
 
-// Poses the vertices by a reading. Returns false where the host's transforms cannot be read so, or where too
-// few vertices are left to tell.
+// Poses the vertices by a reading. Returns false if the host's transforms cannot be read that way, or if too
+// few vertices remain.
 bool pose(Check& check, const Reading& reading) {
   PoseSource source = reading.source;
   source.is_partial = true;
@@ -150,7 +150,7 @@ Distances compare(const Check& check) {
   return compare(check, [](const Point3& p) { return p; });
 }
 
-// The transform under which a vertex that hangs on one bone falls on the host's, or -1.
+// Returns the transform under which a vertex that hangs on one bone matches the host's, or -1.
 std::int64_t fitting_transform(const Check& check, const RestVertex& vertex, const Point3& host) {
   double nearest = 3 * check.tolerance_ws;
   std::int64_t fitting = -1;
@@ -166,7 +166,7 @@ std::int64_t fitting_transform(const Check& check, const RestVertex& vertex, con
   return fitting;
 }
 
-// A vertex that hangs on one bone almost alone, is off, and fits under another bone's transform.
+// A vertex that hangs almost entirely on one bone, is off, and matches under another bone's transform.
 struct Misplaced {
   std::uint32_t bone = 0;
   std::int64_t transform = -1;
@@ -180,9 +180,9 @@ std::size_t count_of_different(std::span<const Misplaced> all, std::int64_t (*ke
   return out;
 }
 
-// Looks for the transforms of vertices that are off. Several bones that fit under one transform stand still
-// in the host's pose, such as the bones of the bind pose under the root: that is another frame. Where a part
-// of the vertices does not fit, the text names both.
+// Looks for the transforms that vertices which are off should have had. If several bones match the same
+// transform, they stand still in the host's pose, as bones under the root do in the bind pose. Then the
+// host's frame is wrong. If only a part of the vertices does not match, the text names both.
 bool explain_by_order(const Check& check, PoseFinding& finding) {
   std::size_t off = 0;
   Vector<Misplaced> found(check.host.get_allocator());
@@ -210,8 +210,8 @@ bool explain_by_order(const Check& check, PoseFinding& finding) {
   return true;
 }
 
-// The unit of the tolerance is that of the host's vertices, known by their spread, because the transforms may
-// be misread. A pose changes the spread by a few tens of percent.
+// The tolerance is in the unit of the host's vertices. Their spread reveals that unit; the transforms may be
+// misread. A pose changes the spread by a few tens of percent.
 void set_tolerance(Check& check, double tolerance) {
   Vector<Point3> at_rest(check.host.get_allocator());
   at_rest.reserve(check.vertex.size());
@@ -244,7 +244,7 @@ PosedPoints points_of(const Check& check) {
           check.vertex_place};
 }
 
-// Mistakes that occur together, the likeliest pairs first.
+// Tries mistakes that occur together, the likeliest pairs first.
 void explain_by_two_mistakes(Check& check, std::span<const Reading> single, PoseFinding& finding,
                              Memory* memory) {
   for (const Reading& reading : readings_of_two_mistakes(check.model, check.given, memory))
@@ -292,7 +292,7 @@ PoseFinding find_pose_fault(const CharacterModel& model, const PoseSource& sourc
   check.least_vertices = std::min<std::size_t>(count, 6);
   const Reading as_given(source, memory);
   PoseFinding finding;
-  // A vertex that the pose moves to no finite place counts as one that differs.
+  // A vertex that the pose moves to a place that is not finite counts as different.
   const bool is_readable = pose(check, as_given) && check.vertex.size() == count;
   const Distances distances = is_readable ? compare(check) : Distances{};
   const double unit = check.tolerance_ws / tolerance;

@@ -1,4 +1,4 @@
-// Compares a pose with vertices that the host skinned itself, and finds out what is likely wrong.
+// Compares a pose with vertices that the host skinned itself, and finds the likely mistake.
 #pragma once
 
 #include <nook/nook_character.h>
@@ -24,18 +24,18 @@ struct PoseFinding {
   char text[512] = {};
 };
 
-// Adds a fault that explains the difference. The first one is the likeliest; further ones are named in the
-// text as far as it has room. Returns whether it was the first.
+// Adds a fault that explains the difference. The first one is the likeliest; the text names further ones as
+// far as it has room. Returns whether it was the first.
 bool explain(PoseFinding& finding, nook_pose_fault fault, const char* format, ...) NOOK_PRINTF(3, 4);
 
-// One way to read the host's transforms, as mistakes take one for another.
+// One way to read the host's transforms. A mistake takes one reading for another.
 struct Reading {
   PoseSource source;
-  Vector<std::int32_t> map;     // of the bones, in place of the source's; empty: the source has it
-  bool is_transposed = false;   // the layout: rows for columns
+  Vector<std::int32_t> map;     // of the bones, in place of the source's map; empty: use the source's
+  bool is_transposed = false;   // the layout swaps rows and columns
   bool is_turned_back = false;  // the 3x3 part is transposed, the translation stays
   bool is_inverted = false;
-  int mirrored_axis = -1;  // changes its sign before and behind the transform
+  int mirrored_axis = -1;  // the axis whose sign changes before and after the transform; -1: none
   double translation_scale = 1;
   nook_pose_fault fault = NOOK_POSE_FAULT_NONE;
 
@@ -44,12 +44,13 @@ struct Reading {
 
 Affine read_transform(const Reading& reading, std::uint32_t index);
 
-// All but the one that the host gives, the likeliest first: those of one mistake, and those of two.
+// Returns all readings except the host's own, the likeliest first: readings with one mistake, and readings
+// with two.
 Vector<Reading> other_readings(const CharacterModel& model, const PoseSource& given, Memory* memory);
 Vector<Reading> readings_of_two_mistakes(const CharacterModel& model, const PoseSource& given,
                                          Memory* memory);
 
-// Says that the host's transforms are right when read so.
+// Says that this reading of the host's transforms is right.
 void describe(const CharacterModel& model, const PoseSource& given, const Reading& reading,
               PoseFinding& finding);
 
@@ -59,32 +60,31 @@ using Point3 = std::array<double, 3>;
 
 double distance(const Point3& a, const Point3& b);
 
-// The root mean square distance of points from their mean; 0 for no points.
+// Returns the root mean square distance of points from their mean; 0 without points.
 double spread(std::span<const Point3> points);
 
-// Differences that are the same for the whole body: the places of a pose and of the host's vertices.
+// What explain_by_place compares: the model's and the host's vertices, and the places of both.
 
 struct PosedPoints {
   std::span<const Point3> posed;  // by the model, under the pose's place
   std::span<const Point3> host;
   double tolerance_ws = 0;
-  Affine pose_place, vertex_place;  // the identity where the host gave none
+  Affine pose_place, vertex_place;  // the identity if the host gave none
 };
 
-// Explains the difference by a wrong place, or by a turn, a mirror image or another unit of the whole pose.
-// Returns false where none of these does.
+// Explains the difference by a wrong place, or by a turn, mirror image or other unit of the whole pose.
+// Returns false if none of them fits.
 bool explain_by_place(const PosedPoints& points, PoseFinding& finding);
 
-// A vertex of BindData::vertices and where the host's skinning puts it, in the world.
+// A vertex of BindData::vertices, and the world position to which the host's skinning moves it.
 struct SkinnedVertex {
   std::uint32_t rest_vertex = 0;
   std::array<double, 3> position_ws{};
 };
 
-// vertex_place has been applied to the vertices. Distances up to `tolerance`, a share of the bounding radius,
-// count as equal.  Throws Failure if no vertex
-// hangs on bones with transforms alone, or as for_each_transform does. The source must have passed
-// check_pose_source.
+// Expects vertices that vertex_place has been applied to, and a source that passed check_pose_source.
+// Distances up to `tolerance`, a share of the bounding radius, count as equal. Throws Failure if no vertex
+// hangs only on bones with transforms, or for the reasons of for_each_transform.
 PoseFinding find_pose_fault(const CharacterModel& model, const PoseSource& source,
                             std::span<const SkinnedVertex> vertices, const Affine& vertex_place,
                             double tolerance, Memory* memory);

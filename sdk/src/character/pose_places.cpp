@@ -8,8 +8,8 @@
 namespace nook {
 namespace {
 
-// The affine map from one set to another of as many points that is best in the least-squares sense. Returns
-// false where the first lie in a plane.
+// Finds the affine map that is best in the least-squares sense from one set of points to another of the same
+// size. Returns false if the points of the first set lie in a plane.
 bool best_map(std::span<const Point3> from_points, std::span<const Point3> to_points, Affine& map) {
   Point3 from{}, to{};
   const double share = 1 / static_cast<double>(from_points.size());
@@ -36,7 +36,7 @@ bool best_map(std::span<const Point3> from_points, std::span<const Point3> to_po
   return true;
 }
 
-// The scale of a map that is a similarity, mirrored or not, to 1 %; else 0.
+// Returns the scale of a map that is a similarity to 1 %, mirrored or not; else 0.
 double scale_of_similarity(const Affine& map) {
   const double scale = std::cbrt(std::abs(determinant(map)));
   double difference = 0;
@@ -49,7 +49,7 @@ double scale_of_similarity(const Affine& map) {
   return difference <= 0.02 * scale * scale ? scale : 0;
 }
 
-// The turn of a similarity of a known scale.
+// Returns the turn of a similarity whose scale is known.
 double turn_degrees(const Affine& map, double scale) {
   const double cosine = 0.5 * ((map.m[0] + map.m[5] + map.m[10]) / scale - 1);
   return std::acos(std::clamp(cosine, -1.0, 1.0)) * 57.29577951308232;
@@ -78,7 +78,7 @@ Affine turned_back(const Affine& place) {
   return out;
 }
 
-// Reads a place of four columns of three numbers that the host gave as three rows of four.
+// Reads a place that the host passed as four columns of three numbers instead of three rows of four.
 Affine from_columns_4x3(const Affine& place) {
   Affine out;
   for (int i = 0; i < 3; ++i)
@@ -86,7 +86,7 @@ Affine from_columns_4x3(const Affine& place) {
   return out;
 }
 
-// True if the model's vertices are the host's under this place.
+// True if the model's vertices match the host's under this place.
 bool fits_under(const PosedPoints& points, const Affine& place) {
   const Affine map = place * inverse(points.pose_place);
   for (std::size_t v = 0; v < points.posed.size(); ++v) {
@@ -96,8 +96,8 @@ bool fits_under(const PosedPoints& points, const Affine& place) {
   return true;
 }
 
-// The place that a host has and did not give, or gave in another form. true_place is the one that the
-// vertices need.
+// Explains the difference by a place that the host has but did not pass, or passed in another form.
+// true_place is the place that the vertices need.
 bool explain_by_known_place(const PosedPoints& points, const Affine& true_place, PoseFinding& finding) {
   const Affine none, &given = points.pose_place;
   const double tolerance_m = points.tolerance_ws;
@@ -107,7 +107,7 @@ bool explain_by_known_place(const PosedPoints& points, const Affine& true_place,
     explain(finding, fault, "desc.place_3x4 is the inverse of the place");
     return true;
   }
-  // Columns of a 4x4 matrix lose the translation, so that the turn alone tells.
+  // Columns of a 4x4 matrix lose the translation, so only the turn decides.
   if (is_given &&
       (fits_under(points, from_columns_4x3(given)) ||
        (!is_same_turn(given, turned_back(given)) && is_same_turn(turned_back(given), true_place)))) {
@@ -136,8 +136,8 @@ bool explain_by_known_place(const PosedPoints& points, const Affine& true_place,
   return false;
 }
 
-// The axis of the character's space that a map changes the sign of, as text behind "mirror image"; empty
-// where it turns as well.
+// Returns the axis of the character's space whose sign a map changes, as text to follow "mirror image". Empty
+// if the map also turns.
 const char* mirrored_axis(const Affine& map, double scale, const Affine& place) {
   const Affine own = inverse(place) * map * place;
   constexpr const char* names[] = {" in x", " in y", " in z"};

@@ -27,7 +27,7 @@ nook_transform_layout transposed(nook_transform_layout layout) {
   }
 }
 
-// The transform of each bone where the host has them in the order of a skin's joints.
+// Returns the transform index of each bone for a host whose transforms are in the order of a skin's joints.
 Vector<std::int32_t> map_of_skin(const CharacterModel& model, std::uint32_t skin, Memory* memory) {
   const SkinBind& bind = model.bind.skins[skin];
   Vector<std::int32_t> out(model.bone_count(), std::int32_t{-1}, memory);
@@ -46,15 +46,15 @@ void add_skins(const CharacterModel& model, const PoseSource& given, Memory* mem
                     : given.kind == NOOK_POSE_REST_TO_WORLD ? NOOK_POSE_FAULT_NO_BIND
                                                             : NOOK_POSE_FAULT_KIND;
     out.push_back(reading);
-    // In the order of the bones that the skin was named for.
+    // The matrices may be this skin's, but in the joint order of the skin that the host named.
     if (given.kind != NOOK_POSE_SKINNING || !given.transform_of_bone.empty()) continue;
     reading.map = map_of_skin(model, given.skin, memory);
     out.push_back(reading);
   }
 }
 
-// The readings of another kind or skin, the likeliest first. A host that mistakes the kind has the transforms
-// in the order of the bones, or in that of the skin's joints.
+// Adds the readings of another kind or skin, the likeliest first. A host that mistakes the kind has its
+// transforms in the order of the bones, or in the order of the skin's joints.
 void add_kinds(const CharacterModel& model, const PoseSource& given, Memory* memory, Vector<Reading>& out) {
   add_skins(model, given, memory, out);
   for (const nook_pose_kind kind : {NOOK_POSE_JOINT_TO_WORLD, NOOK_POSE_REST_TO_WORLD}) {
@@ -115,7 +115,7 @@ Vector<Reading> other_readings(const CharacterModel& model, const PoseSource& gi
     other.fault = NOOK_POSE_FAULT_PLACE;
     out.push_back(other);
   }
-  // Centimetres, millimetres, inches and feet against metres, both ways round.
+  // Tries centimetres, millimetres, inches and feet against metres, in both directions.
   for (const double unit : {100.0, 0.01, 1000.0, 0.001, 1 / 0.0254, 0.0254, 1 / 0.3048, 0.3048}) {
     other = Reading(given, memory);
     other.translation_scale = unit;
@@ -125,7 +125,7 @@ Vector<Reading> other_readings(const CharacterModel& model, const PoseSource& gi
   return out;
 }
 
-// A layout read wrong hides the kind; the two mistakes occur together.
+// A misread layout hides a mistaken kind, so the two are also tried together.
 Vector<Reading> readings_of_two_mistakes(const CharacterModel& model, const PoseSource& given,
                                          Memory* memory) {
   Vector<Reading> out(memory);

@@ -1,4 +1,4 @@
-// From transforms as a host has them to the matrices of bones, rest space to world.
+// Converts a host's transforms to bone matrices, which map rest space to world.
 #pragma once
 
 #include <nook/nook_character.h>
@@ -14,26 +14,28 @@
 
 namespace nook {
 
-// A host's transforms with everything that defines their meaning. Pointers are the host's.
+// A host's transforms with everything that defines their meaning. The host owns the memory behind the
+// pointers.
 struct PoseSource {
   nook_pose_kind kind = NOOK_POSE_REST_TO_WORLD;
   nook_transform_layout layout = NOOK_TRANSFORM_ROWS_3X4;
   const float* transforms = nullptr;
   std::size_t stride = 0;                           // bytes, never 0 after check_pose_source
-  std::uint32_t transform_count = 0;                // after check_pose_source only those that count
-  std::uint32_t given_count = 0;                    // set by check_pose_source: what the host gave
+  std::uint32_t transform_count = 0;                // after check_pose_source, only the transforms that count
+  std::uint32_t given_count = 0;                    // set by check_pose_source: the host's own number
   std::uint32_t file_skin = 0;                      // of NOOK_POSE_SKINNING, as the file numbers its skins
-  std::uint32_t skin = 0;                           // its position in BindData::skins
-  std::span<const std::int32_t> transform_of_bone;  // empty: the order of the bones or of the skin's joints
+  std::uint32_t skin = 0;                           // its index in BindData::skins
+  std::span<const std::int32_t> transform_of_bone;  // empty: transforms are in the order of the bones, or of
+                                                    // the skin's joints
   bool is_partial = false;
   bool is_strict = false;
-  bool allows_surplus = false;  // transforms behind those that the model needs do not count
+  bool allows_surplus = false;  // ignores transforms after the ones that the model needs
   Affine place;
 };
 
-// Throws Failure unless every number and index is in range and the model has the bind data that the kind
-// needs, or has it for any kind. Sets the stride where it is 0, `skin` and given_count, and takes a surplus
-// off transform_count. A map of the bones must have the model's bone count.
+// Throws Failure unless every number and index is in range and the model has bind data if the kind needs it.
+// Sets `skin` and given_count, sets the stride if it is 0, and takes a surplus off transform_count. A map of
+// the bones must have the model's bone count.
 void check_pose_source(const CharacterModel& model, PoseSource& source, bool needs_bind_data = false);
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless the host's array has one entry for each bone.
@@ -54,8 +56,8 @@ Affine read_transform(const PoseSource& source, std::uint32_t index);
 [[noreturn]] void fail_without_transform(const CharacterModel& model, std::size_t bone);
 [[noreturn]] void fail_without_joint(const CharacterModel& model, const SkinBind& skin);
 
-// Calls body(bone, index) for each bone with the index of its transform. Throws Failure for a bone without
-// one unless the source is partial.
+// Calls body(bone, index) for each bone with the index of its transform. If a bone has none, it is skipped if
+// the source is partial; otherwise the call throws Failure.
 template <class Body>
 void for_each_transform(const CharacterModel& model, const PoseSource& source, Body&& body) {
   if (!source.transform_of_bone.empty()) {
@@ -67,7 +69,7 @@ void for_each_transform(const CharacterModel& model, const PoseSource& source, B
     }
   } else if (source.kind == NOOK_POSE_SKINNING) {
     const SkinBind& skin = model.bind.skins[source.skin];
-    // The bones of a skin are different from each other, because its joints are.
+    // Bones of a skin are distinct, because its joints are.
     if (!source.is_partial && skin.joint_count < model.bone_count()) fail_without_joint(model, skin);
     for (std::uint32_t j = 0; j < skin.joint_count; ++j)
       body(std::size_t(model.bind.bone_of_joint[skin.first_joint + j]), j);
@@ -76,30 +78,30 @@ void for_each_transform(const CharacterModel& model, const PoseSource& source, B
   }
 }
 
-// The matrix of a bone out of its transform: place * transform * what the kind puts behind it.
+// Returns the matrix of a bone from its transform: place * transform * the matrix that the kind needs.
 Affine bone_matrix(const CharacterModel& model, const PoseSource& source, std::size_t bone,
                    const Affine& transform);
 
-// The joint's origin in rest space, which stays in its place where shear or uneven scale is taken out.
+// Returns the joint's origin in rest space. Its image does not move when shear or uneven scale is removed.
 std::array<double, 3> joint_origin(const CharacterModel& model, std::size_t bone);
 
-// The nearest rotation or mirrored rotation with one scale above 0; the image of `fixed` stays. A matrix that
-// is a similarity to 1e-4 is returned as it is.
+// Returns the nearest rotation or mirrored rotation with one scale above 0; the image of `fixed` stays. A
+// matrix that is a similarity to 1e-4 is returned unchanged.
 Affine projected(const Affine& matrix, const std::array<double, 3>& fixed);
 
-// Remarks about a pose that was taken, for the log. A bone is uneven if its matrix is sheared, scaled
-// unevenly or has an axis of zero; it is projected.
+// Remarks for the log about a pose that was accepted. A bone is uneven if its matrix is sheared, scaled
+// unevenly or has a zero axis; then it is projected.
 struct PoseNotes {
-  std::uint32_t bones = 0;   // bones that the pose set
-  std::uint32_t uneven = 0;  // of them
-  std::uint32_t zero = 0;    // of these, without any axis
+  std::uint32_t bones = 0;   // that the pose set
+  std::uint32_t uneven = 0;  // uneven bones among them
+  std::uint32_t zero = 0;    // uneven bones whose axes are all zero
   std::uint32_t first = 0;   // the first uneven bone
-  BoneAxes<double> axes;     // of that bone
+  BoneAxes<double> axes;     // of the first uneven bone
   bool is_place_uneven = false;
-  std::uint32_t transforms_given = 0, transforms_used = 0;  // different ones if there was a surplus
+  std::uint32_t transforms_given = 0, transforms_used = 0;  // they differ if there was a surplus
 
-  // The topics are bits, so that each is reported once. In a pose of zeros alone, as in a buffer that was not
-  // filled, nothing else is worth a word.
+  // Topics are bits, so that each is reported once. If all of a pose is zero, as in a buffer that was not
+  // filled, nothing else is reported.
   enum Topic : std::uint32_t { topic_uneven = 1, topic_zero = 2, topic_surplus = 4 };
   std::uint32_t topics() const {
     const bool is_all_zero = bones > 0 && zero == bones;
@@ -111,26 +113,26 @@ struct PoseNotes {
 };
 
 void note_uneven(PoseNotes& notes, std::size_t bone, const BoneAxes<double>& axes);
-// The notes of a pose whose matrices are even, behind a place that may not be.
+// Returns the notes of a pose whose matrices are even before its place, perhaps uneven, is applied.
 PoseNotes notes_of_place(const CharacterModel& model, const Mat3x4& place);
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT): the axes of a bone are uneven and the pose is strict.
 [[noreturn]] void fail_uneven(const CharacterModel& model, std::size_t bone, const BoneAxes<double>& axes);
 
-// A bit for each bone of an instance: its matrix was projected.
+// A bit for each bone of an instance, set if its matrix was projected.
 using UnevenBones = Vector<bool>;
 
-// Converts all bones. Throws Failure for a transform that is not finite or far too large, for a bone without
-// a transform unless the source is partial, and, if it is strict, for an uneven one. bones, and uneven unless
-// it is null, have the model's bone count; they change for bones with a transform alone, and may hold a part
-// of the answer after a failure.
+// Converts all bones. Throws Failure for a transform that is not finite or far too large. It also does for a
+// missing transform unless the source is partial, and for an uneven one if the source is strict. bones, and
+// uneven unless it is null, must have the model's bone count. Only bones with a transform change; after a
+// failure, some may have changed.
 PoseNotes convert_pose(const CharacterModel& model, const PoseSource& source, std::span<Mat3x4> bones,
                        UnevenBones* uneven = nullptr);
 
 // Finds a host's transforms by the names of bones.
 
-// Writes the index of the first of the host's names that matches each bone, or -1, and returns the number of
-// -1. Bones of one joint take the transform of its first bone where their own name has none.
+// Writes for each bone the index of the first of the host's names that matches, or -1, and returns the number
+// of -1. A bone whose own name has no match takes the transform of the first bone of its joint.
 std::size_t map_bones(const CharacterModel& model, const nook_bone_map_desc& names,
                       std::span<std::int32_t> transform_of_bone, Memory* memory);
 

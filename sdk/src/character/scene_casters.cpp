@@ -47,15 +47,15 @@ void pose_world_casters(Instance& instance) noexcept {
 
 namespace {
 
-// Returns an upper bound of the darkening by spheres with sum(weight * radius^2) = strength of any vertex
-// whose key points are at least `gap` from their centres: a form factor is at most (radius / distance)^2, and
-// 1 - exp(-x) and 1 - exp(-solid_depth(x)) are at most x, since their slopes are 1 at 0 and fall from there.
+// Returns an upper bound of how much spheres with sum(weight * radius^2) = strength darken any vertex whose
+// key points are at least `gap` from their centres. A form factor is at most (radius / distance)^2. 1 -
+// exp(-x) and 1 - exp(-solid_depth(x)) are at most x, since their slopes are 1 at 0 and fall from there.
 float composed_bound(const LoadedModel& receiver, float strength, float gap) {
   return gap > 0 ? receiver.linear.max_blend_gain() * strength / (gap * gap) : INFINITY;
 }
 
-// No term of the paper's form exceeds this at `delta` radii: solid angle of slide 18 or the fall-off of the
-// others, with full visibility.
+// No term of the paper's form exceeds this at `delta` radii. It is the solid angle of slide 18, or the
+// fall-off of the other kernels, with full visibility.
 float term_bound(KernelForm form, float delta) {
   switch (form) {
     case KernelForm::paper:
@@ -68,7 +68,8 @@ float term_bound(KernelForm form, float delta) {
   return 1 / (delta * delta);
 }
 
-// One sphere adds at most its term to the norm of a shadow, which an AO takes max_alpha_sum times.
+// One sphere adds at most its term to the norm of a shadow, and AO changes by at most max_alpha_sum times
+// that.
 float paper_bound(const LoadedModel& receiver, float radius, float gap) {
   return gap > radius ? receiver.max_alpha_sum * term_bound(receiver.model.kernel.form, gap / radius)
                       : INFINITY;
@@ -79,8 +80,8 @@ const Vector<ProxySphere>& spheres_at(const CharacterModel& model, std::uint32_t
   return l == 0 ? model.spheres : model.levels[l - 1].spheres;
 }
 
-// All spheres of a caster: by Minkowski's inequality the norm grows by at most the norm of the new terms, and
-// the shadow by no more than the norm.
+// For all spheres of a caster: by Minkowski's inequality the norm grows by at most the norm of the new terms,
+// and the shadow by no more than the norm.
 float paper_bound(const LoadedModel& receiver, std::uint32_t receiver_level, const Instance& caster,
                   float gap) {
   const Kernel& kernel = receiver.model.kernel;
@@ -130,7 +131,7 @@ void gather_casters(const Scene& scene, std::uint32_t slot, Instance& receiver) 
   for (std::uint32_t i = 0; i < count; ++i)
     if (!std::binary_search(receiver.input.linked.begin(), receiver.input.linked.end(), found[i].slot))
       offer(found[i].slot);
-  // Sums in the order of slots do not depend on how the casters were found.
+  // Sorts by slot, so that sums do not depend on how the casters were found.
   std::sort(receiver.plan.casters.begin(), receiver.plan.casters.end());
 }
 
@@ -147,7 +148,7 @@ void gather_occluders(const Scene& scene, Instance& receiver) {
   }
 }
 
-// A bone without geometry may have any scale, so that the posed body limits the radius.
+// A bone without geometry may have any scale, so the posed body limits the radius.
 float ground_radius(const Scene& scene, const Instance& receiver) {
   if (scene.settings.ground_radius > 0) return scene.settings.ground_radius;
   const float in_rest = receiver.model->model.bounding_radius * receiver.input.largest_scale();
@@ -155,7 +156,8 @@ float ground_radius(const Scene& scene, const Instance& receiver) {
   return default_ground_radii * (in_rest > 0 ? std::min(in_rest, 2 * posed) : posed);
 }
 
-// Tangent to the plane at the foot of the bound's centre, on the other side of the plane than its normal.
+// Places the ground's sphere so that it touches the plane below the bound's centre, on the side opposite to
+// the plane's normal.
 void place_ground(const Scene& scene, Instance& receiver) {
   receiver.plan.ground_sphere = {};
   if (!receiver.input.has_ground || !(scene.terms & NOOK_TERM_GROUND)) return;

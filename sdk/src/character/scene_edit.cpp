@@ -15,7 +15,7 @@ constexpr std::uint32_t slot_in(std::uint32_t id) {
   return (id & max_slots) - 1;
 }
 
-// The slot that the next object takes, a freed one or one past the end; makes room for it to be freed again.
+// Returns the slot for the next object, a freed one or one past the end. Reserves room for freeing it again.
 template <class Object>
 std::uint32_t next_slot(const Vector<Object>& objects, Vector<std::uint32_t>& free_slots, const char* what) {
   if (!free_slots.empty()) return free_slots.back();
@@ -36,7 +36,7 @@ auto& find(Objects& objects, std::uint32_t id, const char* what) {
   return objects[slot];
 }
 
-// The nearest matrix with one scale.
+// Returns the nearest matrix with one scale.
 Mat3x4 evened(const CharacterModel& model, const Mat3x4& matrix, std::size_t bone) {
   return to_float(projected(to_double(matrix), joint_origin(model, bone)));
 }
@@ -68,7 +68,7 @@ void make_room_for_one(Slots& slots) {
   if (slots.size() == slots.capacity()) slots.reserve(std::bit_ceil(slots.size() + 1));
 }
 
-// Both for slots in ascending order.
+// Both expect slots in ascending order.
 void insert_slot(Slots& slots, std::uint32_t slot) {
   slots.insert(std::lower_bound(slots.begin(), slots.end(), slot), slot);
 }
@@ -191,7 +191,7 @@ void remove_instance(Scene& scene, nook_instance_id id) {
 
 namespace {
 
-// Updates what follows from new matrices, all of which are even.
+// Updates everything that depends on the matrices; all new ones are even.
 void finish_pose(Instance& instance, float longest_squared) {
   derive_bound(instance, longest_squared);
   ++instance.input.pose_revision;
@@ -218,8 +218,8 @@ PoseNotes take_pose(Instance& instance, std::span<const Mat3x4> bones) {
   return notes;
 }
 
-// The transforms are rest-to-world matrices in this library's own layout. They are taken as they are, because
-// a product with the identity would turn -0 into 0.
+// True if the transforms are rest-to-world matrices in this library's own layout. They are then copied,
+// because a product with the identity would turn -0 into 0.
 bool holds_bone_matrices(const PoseSource& source) {
   return source.kind == NOOK_POSE_REST_TO_WORLD && source.layout == NOOK_TRANSFORM_ROWS_3X4 &&
          source.stride == sizeof(Mat3x4) && source.transform_of_bone.empty() && source.place.m == Affine{}.m;
@@ -251,7 +251,7 @@ void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) 
   casters.posed.resize(model->model.world_casters.size());
   instance.result.arrays = std::move(arrays);
   instance.light = std::move(light);
-  // Clips belong to a model; the pose stays until the host sets another.
+  // The clips belong to the old model; the pose stays until the host sets another.
   instance.input.clip.clips = {};
   instance.casters = std::move(casters);
   instance.model = std::move(model);

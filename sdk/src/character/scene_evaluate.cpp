@@ -1,4 +1,4 @@
-// The steps of an update on the CPU, each a few calls of the kernels in use.
+// The steps of an update on the CPU. Each makes a few calls of the chosen kernels.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -11,7 +11,7 @@
 namespace nook {
 namespace {
 
-// Other instances may take its spheres.
+// True if other instances may use this instance's spheres.
 bool may_darken(const Scene& scene, const Instance& instance) {
   return scene.nearest > 0 || !instance.input.receivers.empty();
 }
@@ -20,7 +20,7 @@ bool has_casters(const Instance& instance) {
   return !instance.plan.casters.empty() || free_sphere_count(instance) > 0;
 }
 
-// Leaves what casters add in optical_depth, which then is no depth any more. Returns the number of spheres.
+// Overwrites optical_depth with the occlusion that the casters add. Returns the number of spheres.
 std::size_t evaluate_composed(const Scene& scene, const Instance& instance, const PointLanes& points) {
   const KeyPointSoa surface = surface_points(points);
   std::fill_n(points.optical_depth, points.padded_count, 0.0f);
@@ -55,8 +55,9 @@ std::size_t join_paper_norm(const Scene& scene, const Instance& instance, const 
   return count;
 }
 
-// Adds the body's own spheres to norm_sum, and returns the number of sphere-key-point pairs. Lights take
-// their colours from each sphere, so that the sum that they are compared with takes each as well.
+// Adds the body's own spheres to norm_sum, and returns the number of sphere-key-point pairs. Directional
+// light evaluates each sphere. With a light, this sum does so too and skips the tree, because colours are
+// relative to it.
 std::uint64_t sum_own_spheres(const Scene& scene, const Instance& instance, const PointLanes& points) {
   const SphereSoa spheres = spheres_of(instance, instance.plan.level);
   const SphereTree& tree = instance.model->sphere_tree;
@@ -69,8 +70,8 @@ std::uint64_t sum_own_spheres(const Scene& scene, const Instance& instance, cons
   return std::uint64_t{spheres.count} * points.count;
 }
 
-// From the evaluated key points to all of them; the padding repeats the last. Scale and offset belong to
-// self-shadow.
+// Spreads values from the evaluated key points to all of them; the padding repeats the last. Scale and offset
+// apply to self-shadow only.
 void spread_level(const CharacterLevel& level, bool with_self, const PointLanes& points) {
   for (std::uint32_t k = 0; k < points.count; ++k) {
     const std::uint16_t source = level.source[k];
@@ -194,7 +195,7 @@ void update(Scene& scene) noexcept {
 
 namespace {
 
-// The AO of the instance itself.
+// The source of an instance's own AO.
 enum class Self { none, shadow, clip };
 
 Self self_of(const Scene& scene, const Instance& instance) {
@@ -207,14 +208,14 @@ constexpr std::uint32_t chunk_slots = LoadedModel::slot_chunk,
 static_assert(LoadedClips::block_slots == chunk_slots);
 using ChunkAo = std::array<float, chunk_slots>;
 
-// Calls evaluate(layer, first_slot) for each chunk of the model's linear layer, then put(place, slot) for its
-// file vertices, place being a pointer stride_bytes further for each and the slot that within the chunk.
+// Calls evaluate(layer, first_slot) for each chunk of the model's linear layer, then put(place, slot) for the
+// file vertices of the chunk. place is a pointer that advances by stride_bytes; slot counts within the chunk.
 template <class Stride, class Evaluate, class Put>
 void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out, Stride stride_bytes,
                     Evaluate&& evaluate, Put&& put) noexcept {
   const LinearView& view = loaded.linear.view();
   auto* const bytes = static_cast<unsigned char*>(out);
-  // Copies, because bytes that are written might be those of the originals.
+  // Copies these pointers first: for all the compiler knows, the written bytes could overwrite the originals.
   const std::uint32_t* const begin = loaded.run_begin.data();
   const LoadedModel::FileRun* const runs = loaded.file_run.data();
   const std::uint16_t* const slots = loaded.slot_in_chunk.data();
@@ -235,7 +236,7 @@ void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out
   }
 }
 
-// Fills the part of own that the chunk has.
+// Fills `own` for the slots of the chunk.
 void decode_clip(const Instance& instance, const LinearView& chunk, std::uint32_t first_slot, ChunkAo& own) {
   const InstanceClip& clip = instance.input.clip;
   decode_ao(*clip.clips, clip.weights.data(), first_slot, chunk.block_count * linear_block_vertices,
@@ -246,8 +247,8 @@ const float* open_bias_of(const LoadedModel& loaded, Self self) {
   return self == Self::shadow ? loaded.linear.view().open_bias : loaded.open_without_bias.data();
 }
 
-// Calls put(place, number) for each file vertex, place being a pointer stride_bytes further for each. The
-// numbers are AO as numbers of another type, which convert makes of all of a chunk at once.
+// Calls put(place, number) for each file vertex; place is a pointer that advances by stride_bytes. convert
+// turns the AO of a whole chunk into numbers of another type at once.
 template <class Number, class Stride, class Convert, class Put>
 void for_each_ao(const Scene& scene, const Instance& instance, void* out, Stride stride_bytes,
                  Convert&& convert, Put&& put) noexcept {
@@ -277,7 +278,7 @@ void for_each_ao(const Scene& scene, const Instance& instance, void* out, Stride
       [&](unsigned char* place, std::uint32_t slot) { put(place, numbers[slot]); });
 }
 
-// A stride that the compiler knows spares a product for each vertex.
+// A constant stride saves a multiplication for each vertex.
 template <class Number, class Convert>
 void write_ao(const Scene& scene, const Instance& instance, void* out, std::size_t stride_bytes,
               Convert&& convert) noexcept {

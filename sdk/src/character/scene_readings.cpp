@@ -61,7 +61,8 @@ Mat3x4 blended(const Vector<Mat3x4>& bones, const KeyPoint& point) {
   return blend;
 }
 
-// A slot whose instance was removed is free, or has one that was added after the lists were made.
+// False if the slot is free, because its instance was removed, or if its instance was added after the lists
+// were made.
 bool is_there(const Instance& caster, const InstancePlan& plan) {
   return caster.id != 0 && caster.added_frame < plan.frame;
 }
@@ -118,7 +119,7 @@ nook_scene_instance_info describe_instance(const Scene& scene, const Instance& i
 void read_spheres(const Instance& instance, nook_scene_sphere* out) noexcept {
   for (const ProxySphere& sphere : spheres_of(instance)) {
     const Mat3x4& bone = instance.input.bones[sphere.bone];
-    // Bones are rigid or scale evenly, so that each row of the linear part has the length of the scale.
+    // Bones are rigid or scale evenly, so each row of the linear part is as long as the scale.
     const float scale = length({bone.m[0], bone.m[1], bone.m[2]});
     nook_scene_sphere& posed_sphere = *out++;
     write(posed_sphere.centre_ws, transform_point(bone, sphere.centre));

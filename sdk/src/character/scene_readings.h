@@ -1,5 +1,5 @@
-// Answers about the instances of a scene: their memory, and for debug drawing the shapes that the scene
-// evaluates.
+// Reports about the instances of a scene: their memory, and the shapes that the scene evaluates, for debug
+// drawing.
 #pragma once
 
 #include <nook/experimental/nook_debug.h>
@@ -11,26 +11,26 @@
 
 namespace nook {
 
-// Bytes of an instance without light and without links.
+// Returns the bytes of an instance without light and links.
 std::uint64_t instance_bytes(const LoadedModel& model);
-// The bytes that a light adds.
+// Returns the bytes that a light adds.
 std::uint64_t light_bytes(const LoadedModel& model);
 
-// Instances whose pose has a bone that was projected.
+// Returns the number of instances whose pose has a projected bone.
 std::uint32_t uneven_instances(const Scene& scene) noexcept;
 
-// The shapes that a scene evaluates, one by one in world space, for debug drawing. The kernels of an update
-// pose the same shapes in lanes (shadow_kernels.h).
+// These read the shapes that a scene evaluates, one by one in world space, for debug drawing. The kernels of
+// an update pose the same shapes in lanes (shadow_kernels.h).
 
 nook_scene_instance_info describe_instance(const Scene& scene, const Instance& instance) noexcept;
 
-// The numbers of shapes at the instance's level.
+// These return the numbers of shapes at the instance's level.
 std::uint32_t sphere_count(const Instance& instance) noexcept;
 std::uint32_t key_point_count(const Instance& instance) noexcept;
-// The casters of the instance's last update that still are in the scene.
+// Returns the number of casters of the instance's last update that are still in the scene.
 std::uint32_t link_count(const Scene& scene, const Instance& instance) noexcept;
 
-// `out` has room for as many as the counts above.
+// `out` must have room for as many shapes as the counts above.
 void read_spheres(const Instance& instance, nook_scene_sphere* out) noexcept;
 void read_key_points(const Instance& instance, nook_scene_key_point* out) noexcept;
 void read_links(const Scene& scene, const Instance& instance, nook_instance_id* out) noexcept;

@@ -1,9 +1,10 @@
 // The per-frame work of a character on the CPU as a table of plain functions, one table for each instruction
 // set. All of them work on arrays of numbers that the caller owns; none allocates, locks or throws.
 //
-// A character's frame: pose_spheres and pose_key_points bring the model to world space; self_norm_sum and
-// norm_root give the shadow at each key point; composed_depth, exact_open and composed_occlusion give what
-// other casters take away; encode_points and linear_layer blend both to vertices.
+// A frame of a character runs as follows. pose_spheres and pose_key_points bring the model to world space.
+// self_norm_sum and norm_root compute the shadow at each key point; composed_depth, exact_open and
+// composed_occlusion compute what other casters take away. encode_points and linear_layer blend both to
+// vertices.
 #pragma once
 
 #include <cstddef>
@@ -23,10 +24,10 @@ constexpr std::uint32_t padded_key_points(std::uint32_t count) {
   return (count + key_point_group - 1) / key_point_group * key_point_group;
 }
 
-// Spheres smaller than this count as this large, so that the squares of distances in radii stay finite: 1
-// micrometre.
+// Smaller spheres count as this large, 1 micrometre, so that squared distances in radii stay finite.
 inline constexpr float min_sphere_radius = float(NOOK_MIN_SPHERE_RADIUS);
-// Coordinates up to this many metres from the origin give finite results; float resolution ends far before.
+// Coordinates up to this many metres from the origin give finite results; float precision runs out long
+// before.
 inline constexpr float max_coordinate = 1e9f;
 constexpr float inverse_sphere_radius(float radius) {
   return 1 / (radius > min_sphere_radius ? radius : min_sphere_radius);
@@ -54,7 +55,7 @@ struct KeyPointSoa {
   std::uint32_t padded_count = 0;  // a multiple of key_point_group
 };
 
-// The outputs of pose_spheres and pose_key_points; the same arrays then serve as SphereSoa and KeyPointSoa.
+// The outputs of pose_spheres and pose_key_points; you can pass the same arrays as SphereSoa and KeyPointSoa.
 struct SphereTarget {
   float* x = nullptr;
   float* y = nullptr;
@@ -91,19 +92,21 @@ struct RestKeyPointView {
   std::uint32_t padded_count = 0;
 };
 
-// The nodes and spheres of a tree in a pose, nodes first, as the plain sum of the default kernel takes them
-// (shadow_nook_of_mass). World space, metres.
+// The nodes and spheres of a tree in a pose, nodes first, in the form that the plain sum of the default
+// kernel needs (shadow_nook_of_mass). World space, metres.
 struct PosedSphereTree {
-  static constexpr std::uint32_t max_spheres = 256, max_masses = 512;  // a node less than spheres
+  static constexpr std::uint32_t max_spheres = 256, max_masses = 512;  // there is one node less than there
+                                                                       // are spheres
 
   float x[max_masses], y[max_masses], z[max_masses];
   float softness[max_masses];  // square metres, of the horizon
   float core[max_masses];      // square metres, added to the squared distance
-  float mass[max_masses];      // square metres: 3/4 of the squared radius, or of their sum
-  float reach[max_spheres];    // square metres, of nodes: key points nearer than that need its halves
+  float mass[max_masses];      // square metres: 3/4 of the squared radius, for a node of the sum of squared
+                               // radii
+  float reach[max_spheres];    // square metres, of nodes: closer key points need the node's halves
 };
-// The two halves of a node of a tree of spheres, each a node or a sphere, as numbers of PosedSphereTree.
-// Nodes come before their halves.
+// The two halves of a node. Each is the number of a node or a sphere in PosedSphereTree. Nodes come before
+// their halves.
 struct SphereTreeNode {
   std::uint16_t half[2] = {};
 };
@@ -115,11 +118,11 @@ struct SphereTreeView {
 };
 
 // 16 vertices of the linear layer as a small dense matrix with one column for each key point that any of them
-// uses. A column takes few instructions for all 16 vertices, while looking up key points for each vertex
-// takes a load for each. Columns come in pairs, because processors have one instruction for the sum of two
-// products of 16-bit numbers. Pair p of the block has the two key points of key_points[first_pair + p]; the
-// two alphas of each of its 16 vertices are side by side from alpha[32 (first_pair + p)] on, their blend
-// weights from blend[32 (first_pair + p)] on. The last column may have no weights.
+// uses. A column takes few instructions for all 16 vertices; looking up key points for each vertex would take
+// a load each. Columns come in pairs, because processors sum two products of 16-bit numbers in one
+// instruction. Pair p of the block has the key points of key_points[first_pair + p]. The two alphas of each
+// vertex are side by side from alpha[32 (first_pair + p)] on, their blend weights from blend[32 (first_pair +
+// p)] on. The last column may have no weights.
 struct LinearBlock {
   std::uint32_t first_pair = 0;
   std::uint32_t pairs = 0;
@@ -127,25 +130,27 @@ struct LinearBlock {
 inline constexpr std::uint32_t linear_block_vertices = 16;
 inline constexpr std::uint32_t linear_pair_weights = 2 * linear_block_vertices;
 
-// Values at key points as whole numbers of a step, which encode_points chooses: the largest value is `limit`
-// steps. Each code is there as the lower and as the upper half of a word, whose other half is 0.
+// Values at key points as whole multiples of a step, which encode_points chooses so that the largest value is
+// `limit` steps. Each code is stored twice, as the lower and as the upper half of a word whose other half is
+// 0.
 struct PointCodes {
   std::int32_t* low = nullptr;
   std::int32_t* high = nullptr;
   float step = 0;
 };
 
-// The linear layer by slots, with the vertices in an order of its own. LinearLayer owns it.
+// The linear layer by slots, with its own order of the vertices. LinearLayer owns it.
 struct LinearView {
   const LinearBlock* blocks = nullptr;
   std::uint32_t block_count = 0;
-  // The first key point of a pair in the lower half, the second in the upper half, for one load.
+  // Each word holds the first key point of a pair in its lower half and the second in its upper half, so that
+  // one load reads both.
   const std::uint32_t* key_points = nullptr;
   const std::int16_t* alpha = nullptr;
   const std::int16_t* blend = nullptr;  // blend weights, in the layout of alpha
   float alpha_step = 1, blend_step = 1;
   const float* open_bias = nullptr;  // 1 - bias, for each slot
-  // The largest codes of shadows and of occlusions with which the sums of all vertices fit into 32 bits.
+  // With codes up to these limits, the sums of all vertices fit into 32 bits.
   float shadow_limit = 1, occlusion_limit = 1;
 };
 inline constexpr float max_code_limit = 32767;
@@ -154,24 +159,24 @@ struct ShadowKernels {
   Isa isa = Isa::scalar;
   const char* name = nullptr;
 
-  // sum[k] += sum over spheres of y^gamma. Several calls with the same key points join their spheres in one
-  // norm. SIMD tables use the processor's estimates of roots; the shadow after norm_root is within 2e-4 of
-  // the formulas in double precision, relative to shadows above 1.
+  // sum[k] += sum over spheres of y^gamma. Call it several times with the same key points to join spheres in
+  // one norm. SIMD tables use the processor's estimates of roots. The shadow after norm_root is within 2e-4
+  // of the formulas in double precision; above 1, the error is relative.
   void (*self_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
                         float* sum);
-  // The same for the default kernel and gamma 1, with nodes of a tree in place of far spheres: each group of
-  // key points takes the largest nodes out of whose reach its box is. Returns the number of pairs of a key
-  // point and a sphere or node that it evaluates.
+  // The same for the default kernel and gamma 1, with nodes of a tree in place of far spheres. Each group of
+  // key points uses the largest nodes whose reach its box does not touch. Returns the number of evaluated
+  // pairs of a key point and a sphere or node.
   std::uint64_t (*tree_sum)(const SphereTreeView& tree, const KeyPointSoa& points, float* sum);
   // shadow[k] = saturated(sum[k]^(1 / gamma), saturation[k]); sum and shadow may be the same array.
   void (*norm_root)(const float* sum, const float* saturation, std::uint32_t padded_count, float gamma,
                     float* shadow);
 
-  // depth[k] += solid_depth(sum over spheres of caster_weight * form factor), by the fast form. The spheres
-  // are those of one caster, points are the surface key points.
+  // depth[k] += solid_depth(sum over spheres of caster_weight * form factor), by the fast form. Pass the
+  // spheres of one caster, and the surface key points.
   void (*composed_depth)(const SphereSoa& spheres, const KeyPointSoa& points, float* depth);
-  // open[k] *= 1 - min(1, caster_weight * form factor) for each sphere, by the exact form. The spheres are
-  // the ground and free occluders. With caster_weight NULL all weights are 1.
+  // open[k] *= 1 - min(1, caster_weight * form factor) for each sphere, by the exact form. Pass the ground or
+  // free occluders. If caster_weight is NULL, all weights are 1.
   void (*exact_open)(const SphereSoa& spheres, const KeyPointSoa& points, float* open);
   // occlusion[k] = 1 - open[k] * exp(-depth[k]). depth NULL means 0, and open NULL means 1.
   void (*composed_occlusion)(const float* depth, const float* open, std::uint32_t padded_count,
@@ -180,18 +185,18 @@ struct ShadowKernels {
   // Rounds values to codes from -limit to limit. A code changes a value by at most half of the step.
   void (*encode_points)(const float* value, std::uint32_t padded_count, float limit, PointCodes& codes);
   // ao[slot] = clamp(1 - (sum alpha * shadow + bias), 0, 1) * clamp(1 - sum blend * occlusion, 0, 1) in the
-  // layer's slot order, with 16 entries for each block. occlusion NULL evaluates self-shadow only. For codes
-  // of any input, ao is a number in [0, 1].
+  // layer's slot order, with 16 entries for each block. occlusion NULL evaluates self-shadow only. Whatever
+  // was encoded, ao is a number in [0, 1].
   void (*linear_layer)(const LinearView& layer, const PointCodes& shadow, const PointCodes* occlusion,
                        float* ao);
 
-  // Transforms from rest space to world space. bones map rest space to world space; they are rigid or have a
-  // uniform scale, which scales radii. offset_ws is subtracted, so that a scene far from the world's origin
-  // keeps its precision near the instance.
+  // These transform from rest space to world space. bones map rest space to world space; they are rigid or
+  // have a uniform scale, which scales radii. offset_ws is subtracted, so that a scene far from the world's
+  // origin keeps its precision near the instance.
   void (*pose_spheres)(const RestSphereView& rest, const Mat3x4* bones, Vec3 offset_ws,
                        const SphereTarget& out);
-  // With surface NULL only the fitted positions and normals are transformed, otherwise also those of the
-  // surface, which composed_depth uses.
+  // If surface is NULL, only the fitted positions and normals are transformed. Otherwise the surface's, which
+  // composed_depth reads, are transformed too.
   void (*pose_key_points)(const RestKeyPointView& rest, const Mat3x4* bones, Vec3 offset_ws,
                           const KeyPointTarget& out, const KeyPointTarget* surface);
 
@@ -203,7 +208,7 @@ struct ShadowKernels {
   // inverse[k] = inverse_hemisphere at the key point, which the next two functions need.
   void (*directional_hemisphere)(const KeyPointSoa& points, const LightView& light, float* const* inverse);
   // rgb[k] += rho * solid_depth(sum over spheres of caster_weight * form factor): the coloured form of
-  // composed_depth. The spheres are those of one caster and share one rho.
+  // composed_depth. Pass the spheres of one caster, which share one rho.
   void (*directional_depth)(const SphereSoa& spheres, const KeyPointSoa& points, const LightView& light,
                             float* const* inverse, float* const* rgb);
   // rgb[k] *= 1 - min(1, form factor * rho) for each sphere: the coloured form of exact_open.
@@ -212,9 +217,9 @@ struct ShadowKernels {
   // The same for the sphere of a ground whose plane has the unit normal up.
   void (*directional_ground)(const SphereSoa& ground, const KeyPointSoa& points, const LightView& light,
                              Vec3 up, float* const* rgb);
-  // The coloured form of linear_layer. A vertex' self-shadow is that of linear_layer, times the ratio of the
-  // sum of alpha * coloured to the sum of alpha * shadow (vertex_light_ratio): the bias takes the same light
-  // as the key points, because where they are darker than their vertex it is the small difference of large
+  // The coloured form of linear_layer. A vertex' self-shadow is linear_layer's, times the ratio of the sum of
+  // alpha * coloured to the sum of alpha * shadow (vertex_light_ratio). This applies the key points' light to
+  // the bias, too. Where key points are darker than their vertex, the bias is the small difference of large
   // numbers. occlusion NULL evaluates self-shadow only. For any input the results are numbers in [0, 1].
   void (*directional_linear_layer)(const LinearView& layer, const float* shadow, const float* const* coloured,
                                    const float* const* occlusion, float* const* rgb);
@@ -228,7 +233,7 @@ const ShadowKernels& best_shadow_kernels();
 
 }  // namespace nook
 
-// The table of each instruction set's translation unit. A table may only be used on a processor that has the
+// The table of each instruction set's translation unit. Use a table only on a processor that has the
 // instruction set.
 #define NOOK_ISA_ENTRY(name, value, built, runs) \
   namespace nook::isa_##name {                   \

@@ -6,12 +6,12 @@
 //   Whole, as many whole numbers, and CodePair, two 16-bit numbers for all lanes: code_pair(low, high) of the
 //   halves of a word, add_products(p, codes, sum), which adds the products of each lane's two numbers from p
 //   on, load_pairs(p, first, second) of the same numbers, and store_codes(low, high, a) of PointCodes.
-// Everything here has internal linkage or a name that contains the instruction set's type, so that code for a
-// newer processor can never be merged into a function that an older one runs.
+// Everything here has internal linkage, or a name that contains the instruction set's type. Otherwise the
+// linker could merge code for a newer processor into a function that an older one runs.
 
 namespace {
 
-// Loads and stores of a number type, which is one vector or a pair of them.
+// Loads and stores a number type, which is one vector or a pair of them.
 template <class F>
 struct Lanes {
   static constexpr std::uint32_t count = width;
@@ -126,7 +126,7 @@ Float shadow_of_mass(const PosedSphereTree& tree, std::uint32_t i, const Points<
                              broadcast(tree.softness[i]), broadcast(tree.mass[i]));
 }
 
-// Groups of key points that choose their nodes together, one bit each.
+// The groups of key points that choose their nodes together, with one bit each.
 constexpr std::uint32_t batch_groups = 32;
 
 // The boxes of the groups of a batch along an axis.
@@ -160,7 +160,7 @@ struct Extents {
 struct GroupBoxes {
   Extents x, y, z;
 
-  // Groups after the last repeat it.
+  // Lanes after the last group repeat it.
   GroupBoxes(const KeyPointSoa& points, std::uint32_t first) {
     for (std::uint32_t g = 0; g < batch_groups; ++g) {
       const std::uint32_t last = points.padded_count - key_point_group;
@@ -170,7 +170,7 @@ struct GroupBoxes {
       z.put(g, points.z + k);
     }
   }
-  // Returns a bit for each group that is in the reach of a node.
+  // Returns a bit for each group within the reach of a node.
   std::uint32_t near(const PosedSphereTree& tree, std::uint32_t n) const {
     const Float at_x = broadcast(tree.x[n]), at_y = broadcast(tree.y[n]), at_z = broadcast(tree.z[n]),
                 reach = broadcast(tree.reach[n]);
@@ -195,8 +195,9 @@ void transpose_bits(std::uint32_t (&row)[32]) {
       }
 }
 
-// The choice of each group of a batch: a bit for each node out of whose reach it is while it is in the reach
-// of all nodes above, and for each sphere whose nodes are all near.
+// The masses that each group of a batch uses, one bit for each group. A group uses a node if it is outside
+// the node's reach but within the reach of all nodes above. It uses a sphere if it is within the reach of all
+// nodes above.
 struct ChosenMasses {
   static constexpr std::uint32_t words = PosedSphereTree::max_masses / 32;
 
@@ -216,7 +217,8 @@ struct ChosenMasses {
   }
 };
 
-// For a word that is not 0. std::countr_zero is a function of the C++ library, which the linker may merge.
+// Expects a word other than 0. It avoids std::countr_zero, a function of the C++ library that the linker may
+// merge.
 std::uint32_t lowest_bit(std::uint32_t word) {
 #ifdef NOOK_TRAILING_ZEROS
   return static_cast<std::uint32_t>(NOOK_TRAILING_ZEROS(word));
@@ -311,12 +313,12 @@ void composed_occlusion(const float* depth, const float* open, std::uint32_t pad
   }
 }
 
-// min and max return their second operand if one operand is NaN, so that a NaN becomes 1, open.
+// min and max return their second operand if one operand is NaN, so a NaN becomes 1, which is open.
 Float clamped_open(Float a) {
   return max(min(a, broadcast(1.0f)), broadcast(0.0f));
 }
 
-// max returns its second operand where the first is NaN, so that no NaN counts.
+// max returns its second operand if the first is NaN, so NaNs are ignored.
 float largest_size(const float* value, std::uint32_t padded_count) {
   Float largest = broadcast(0.0f);
   for (std::uint32_t k = 0; k < padded_count; k += width) {
@@ -354,7 +356,7 @@ struct BlockSums {
       add(*k++, w, codes);
       w += linear_pair_weights;
     }
-    // Two at a time, because the loop itself costs as much as a pair.
+    // Takes two pairs at a time, because the loop itself costs as much as a pair.
     for (; k != end; k += 2, w += 2 * linear_pair_weights) {
       add(k[0], w, codes);
       add(k[1], w + linear_pair_weights, codes);

@@ -1,5 +1,5 @@
-// The same layers with a colour: each term of a sphere is multiplied by the light behind it. This file must
-// be included after shadow_kernels_impl.inl, in the same namespace.
+// The same layers with a colour: each term of a sphere is multiplied by the light behind it. Include this
+// file after shadow_kernels_impl.inl, in the same namespace.
 
 namespace {
 

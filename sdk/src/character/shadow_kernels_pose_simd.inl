@@ -83,8 +83,7 @@ NOOK_INLINE void pose_four(const KeyPointSoa& rest, const FourMatrices& m, Vec3 
   store(out.y + k, p.y);
   store(out.z + k, p.z);
   const Three n = linear_part(m, {load_four(rest.nx + k), load_four(rest.ny + k), load_four(rest.nz + k)});
-  // The blend of opposite bones can cancel a normal. It then stays zero, and shadows treat it as no
-  // direction.
+  // Blending opposite bones can cancel a normal. It then stays zero, which shadows treat as no direction.
   const Four scale = inverse_root(max(squared_length(n), Four(1e-30f)));
   store(out.nx + k, n.x * scale);
   store(out.ny + k, n.y * scale);
@@ -109,7 +108,7 @@ void pose_key_points(const RestKeyPointView& rest, const Mat3x4* bones, Vec3 off
   }
 }
 
-// The lanes after the last sphere repeat it.
+// Lanes after the last sphere repeat it.
 void pose_spheres(const RestSphereView& rest, const Mat3x4* bones, Vec3 offset_ws, const SphereTarget& out) {
   for (std::uint32_t i = 0; i < rest.count; i += 4) {
     float x[4], y[4], z[4], radius[4];
@@ -125,7 +124,7 @@ void pose_spheres(const RestSphereView& rest, const Mat3x4* bones, Vec3 offset_w
     }
     const FourMatrices m = transposed(rows);
     const Three p = moved_point(m, {load_four(x), load_four(y), load_four(z)}, offset_ws);
-    // Under rigid or uniformly scaled matrices, the length of every row of the linear part is the scale.
+    // Under rigid or uniformly scaled matrices, each row of the linear part is as long as the scale.
     const Four scale = sqrt(squared_length({m.m[0], m.m[1], m.m[2]}));
     const Four scaled = max(load_four(radius) * scale, Four(min_sphere_radius));
     float ox[4], oy[4], oz[4], inverse[4];

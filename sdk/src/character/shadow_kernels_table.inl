@@ -1,5 +1,5 @@
-// The table of one instruction set. This file must be included after the other parts of the kernels, in the
-// same namespace.
+// The table of one instruction set. Include this file after the other parts of the kernels, in the same
+// namespace.
 
 namespace {
 

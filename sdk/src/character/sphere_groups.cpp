@@ -7,16 +7,16 @@
 namespace nook {
 namespace {
 
-// Spheres order[begin...end], their centre and second moments along the axes.
+// The spheres order[begin...end], their centre and second moments along the axes.
 struct Group {
   std::uint32_t begin = 0, end = 0;
   Vec3 centre, moment;
   float total() const { return moment.x + moment.y + moment.z; }
 };
 
-// So that spheres that darken nothing are split as well.
+// A minimum mass, so that spheres that darken nothing are split as well.
 constexpr float least_mass = 1e-12f;
-constexpr float least_squared_distance = 1e-6f;  // of a scale of 1, so that quotients stay finite
+constexpr float least_squared_distance = 1e-6f;  // at scale 1, so that quotients stay finite
 
 float mass_of(const ProxySphere& sphere) {
   return std::max(sphere.caster_weight * sphere.radius * sphere.radius, least_mass);
@@ -45,13 +45,13 @@ float along_longest(const Group& group, Vec3 p) {
   return m.x >= m.y && m.x >= m.z ? p.x : m.y >= m.z ? p.y : p.z;
 }
 
-// Both halves have at least one sphere.
+// Each half gets at least one sphere.
 std::array<Group, 2> split(const CharacterModel& model, Vector<std::uint32_t>& order, const Group& group) {
   const auto from = order.begin() + group.begin, to = order.begin() + group.end;
   const float middle = along_longest(group, group.centre);
   const auto before = [&](std::uint32_t s) { return along_longest(group, model.spheres[s].centre) < middle; };
   auto cut = std::stable_partition(from, to, before);
-  // Rounding can put all of equal places on one side.
+  // If all places are equal, rounding can put every sphere on one side.
   if (cut == from || cut == to) cut = from + (to - from) / 2;
   const auto at = static_cast<std::uint32_t>(cut - order.begin());
   return {measured(model, order, group.begin, at), measured(model, order, at, group.end)};
@@ -66,7 +66,8 @@ SphereGroups::SphereGroups(const CharacterModel& model, Memory* memory) {
   for (std::uint32_t i = 0; i < count; ++i) order[i] = i;
   Vector<Group> groups(memory);
   groups.push_back(measured(model, order, 0, count));
-  // From the coarsest tier to the finest; the begins of a tier's groups are among those of the finer ones.
+  // Goes from the coarsest tier to the finest. Wherever a coarse group begins, a group of each finer tier
+  // begins too.
   std::array<Vector<std::uint32_t>, group_tiers> begins{
       Vector<std::uint32_t>(memory), Vector<std::uint32_t>(memory), Vector<std::uint32_t>(memory)};
   for (std::uint32_t t = group_tiers; t-- > 0;) {
@@ -153,7 +154,7 @@ void merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const 
   for (std::uint32_t g = 0; g < out.count; ++g) {
     const std::uint32_t *const begin = tier.member.data() + tier.first[g], *const end = tier.member.data() +
                                                                                         tier.first[g + 1];
-    // A sphere of no mass gives its place to a group that has none.
+    // Without any mass, the group takes the place of its first part.
     float mass = 0, x = parts.x[*begin], y = parts.y[*begin], z = parts.z[*begin], own = 0;
     float sum_x = 0, sum_y = 0, sum_z = 0;
     for (const std::uint32_t* i = begin; i < end; ++i) {
@@ -175,7 +176,7 @@ void merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const 
       const float m = parts.caster_weight[*i] / (parts.inverse_radius[*i] * parts.inverse_radius[*i]);
       moment += m * (dx * dx + dy * dy + dz * dz);
     }
-    // The moment of the parts' middles decides the radius, because the parts have radii of their own.
+    // The moment of the parts' centres determines the radius, because the parts have radii of their own.
     const float squared = (own + (4.0f / 3) * moment) * inverse;
     out.x[g] = x;
     out.y[g] = y;

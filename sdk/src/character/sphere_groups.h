@@ -1,10 +1,10 @@
-// The spheres of a caster as a few, for receivers at a distance.
+// Merges the spheres of a caster into a few spheres for receivers at a distance.
 //
-// A far sphere darkens by weight * radius^2 * cos / d^2, the field of a charge of `mass` = weight * radius^2,
-// so that spheres which are close to each other, seen from the receiver, act like one of the sum of their
-// masses at its centre. The field is that of a dipole and harmonic: what a group changes is of second order
-// in its extent, and vanishes for an extent that is even in all directions. What that is to a receiver is
-// decided by its nearest part, so that two bodies whose arms cross keep their spheres.
+// A far sphere darkens by weight * radius^2 * cos / d^2, like the field of a charge of `mass` = weight *
+// radius^2. If spheres are close together as seen from the receiver, one sphere at their centre with the sum
+// of their masses acts like all of them. The field is a dipole's, which is harmonic. So the error of a group
+// is of second order in its extent, and vanishes if the extent is the same in all directions. The receiver's
+// nearest part decides how large the error is, so that two bodies whose arms cross keep their spheres.
 #pragma once
 
 #include <cmath>
@@ -21,11 +21,11 @@ inline constexpr std::uint32_t group_tiers = 3;
 // Tier 0 is the finest. A group of a tier is made of whole groups of the tier before.
 inline constexpr std::uint32_t tier_groups[group_tiers] = {16, 6, 2};
 
-// Which spheres of a model form groups; it does not depend on the pose.
+// The groups of a model's spheres, which do not depend on the pose.
 class SphereGroups {
  public:
-  // Splits the spheres in the rest pose: always the group of the largest moment, at its centre and across the
-  // axis along which it is longest.
+  // Splits the spheres in the rest pose. It always splits the group of the largest moment, at the group's
+  // centre and across its longest axis.
   explicit SphereGroups(const CharacterModel& model, Memory* memory = default_memory());
 
   // Group g of tier t is made of member[first[g]...first[g + 1]]: spheres for t = 0, otherwise groups of tier
@@ -51,8 +51,8 @@ struct GroupLanes {
   std::uint32_t count = 0;
 };
 
-// The places where a receiver feels its casters, metres: their box, which is empty without any place, and
-// some of them.
+// The places where a receiver feels its casters, in metres: their box, which is empty without any place, and
+// a sample of them.
 struct Receiver {
   static constexpr std::uint32_t samples = 16;
 
@@ -60,19 +60,20 @@ struct Receiver {
   float x[samples] = {}, y[samples] = {}, z[samples] = {};
   float scale = 1;  // of the body's place
 };
-// Samples are picked evenly from places that are in the order of with_near_key_points_together.
+// Takes samples at even steps from places in the order of with_near_key_points_together.
 Receiver receiver_of(const float* x, const float* y, const float* z, std::uint32_t count, float scale);
 
-// Merges `parts`, the spheres of a pose or the groups of the tier before, into the groups of a tier. A group
-// has the mass and the centre of its parts, and a radius that has their spread: that of a disc is a quarter
-// of its squared radius along each axis. part_moments are those of groups, or null for spheres. The pose
-// decides a group's moment, so that a group whose parts have moved apart counts as large.
+// Merges `parts`, which are the spheres of a pose or the groups of the tier before, into the groups of a
+// tier. A group has the mass and centre of its parts. Its radius gives it the spread of its parts: along each
+// axis, a disc's spread is a quarter of its squared radius. part_moments are the moments of groups, or null
+// for spheres. The pose decides a group's moment, so that a group whose parts have moved apart counts as
+// large.
 void merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const float* part_moments,
                   const GroupLanes& out);
 
-// Returns an estimate of the change of AO by groups, root mean square over a receiver; infinity where the
-// middle of a group of several spheres lies in its box. The largest second derivative of cos / d^2 is
-// 6 / d^4; half of the receiver faces away, and the mean square of cos over the other half is 1/3, so that
+// Estimates the error of AO that groups cause, root mean square over a receiver. Returns infinity if the
+// centre of a group of several spheres lies in the receiver's box. The largest second derivative of cos / d^2
+// is 6 / d^4; half of the receiver faces away, and the mean square of cos over the other half is 1/3, so that
 // half of 6 * moment / d^4 becomes 1.2 * moment / d^4. The mean is over the samples, and at least 1/16 of the
 // estimate for the nearest point of the box, because the samples can miss an arm that is near.
 float group_error(const GroupLanes& groups, const Receiver& receiver);

@@ -7,9 +7,8 @@
 namespace nook {
 namespace {
 
-// The estimate of each node may be so much of the allowed error. Measured on baked bodies the change of AO,
-// root mean square, is then 0.8 to 1.0 of the allowed error: nodes add up, and weights of key points take
-// less than their shadows.
+// A node's own estimate may be this many times the allowed error. On baked bodies, the rms error of AO is
+// then 0.8 to 1.0 of the allowed error. Errors of nodes add up, but the weights of key points reduce them.
 constexpr float share_of_node = 1.4f;
 
 using Spheres = std::span<std::uint32_t>;
@@ -19,7 +18,7 @@ float coordinate(const CharacterModel& model, std::uint32_t sphere, int axis) {
   return axis == 0 ? centre.x : axis == 1 ? centre.y : centre.z;
 }
 
-// Returns the number of spheres of the first half, which is neither none nor all of them.
+// Returns the number of spheres of the first half: at least one, but not all.
 std::uint32_t split(const CharacterModel& model, Spheres spheres) {
   int longest = 0;
   float extent = -1, middle = 0;
@@ -41,7 +40,7 @@ std::uint32_t split(const CharacterModel& model, Spheres spheres) {
   return first == 0 || first == spheres.size() ? static_cast<std::uint32_t>(spheres.size() / 2) : first;
 }
 
-// Breadth first: a processor merges nodes side by side if none waits for the one before.
+// Goes breadth first, because a processor merges nodes in parallel if none waits for the one before.
 Vector<SphereTreeNode> nodes_of(const CharacterModel& model, Spheres all, Memory* memory) {
   struct Range {
     std::uint32_t begin, end;
@@ -66,7 +65,7 @@ Vector<SphereTreeNode> nodes_of(const CharacterModel& model, Spheres all, Memory
   return nodes;
 }
 
-// Sums over the spheres of a node, or of one sphere.
+// Sums over the spheres of a node, or for one sphere.
 struct Moments {
   float mass = 0;    // square metres: the sum of squared radii
   Vec3 centre;       // by mass
@@ -75,7 +74,7 @@ struct Moments {
   float extent = 0;  // metres: no sphere reaches farther from the centre
 };
 
-// `inverse` is that of the sum of their masses.
+// `inverse` is 1 / the sum of their masses.
 Moments joined(const Moments& a, const Moments& b, float inverse) {
   const float share = b.mass * inverse;
   const Vec3 apart = b.centre - a.centre;
@@ -93,15 +92,18 @@ void put_mass(const Moments& m, std::uint32_t i, float softness, float radius_sq
   out.mass[i] = 0.75f * m.mass;
 }
 
-// Spheres that spread by sigma along the normal are, around the horizon, on average sigma / sqrt(2 pi) above
-// it, as one whose horizon is softened by 4 sigma^2 / (2 pi); sigma^2 is a third of the variance.
+// Spheres that spread by sigma along the normal are, near the horizon, on average sigma / sqrt(2 pi) above
+// it. A sphere whose horizon is softened by 4 sigma^2 / (2 pi) does the same; sigma^2 is a third of the
+// variance.
 constexpr float softness_of_variance = 0.21f;
 
-// The largest second derivative of cos / d^2 is 6 / d^4; half of all key points face away, and the mean
-// square of cos over the other half is 1/3, so that half of 6 * spread / d^4 becomes 1.2 * spread / d^4, root
-// mean square, which is the error at the squared distance sqrt(1.2 * spread / error). Nearer than three times
-// the deviation the series has no meaning, and nearer than the farthest sphere a key point may stand beside a
-// sphere so small that it hardly counts for the spread, and still be in the full shadow of it.
+// The largest second derivative of cos / d^2 is 6 / d^4. Half of all key points face away, and the mean
+// square of cos over the other half is 1/3. So half of 6 * spread / d^4 becomes 1.2 * spread / d^4, root mean
+// square, which equals the error at the squared distance sqrt(1.2 * spread / error).
+//
+// Two limits apply. Within three times the deviation, the series has no meaning. Within the distance of the
+// farthest sphere, a key point may stand beside a sphere that is too small to affect the spread, and still be
+// fully in its shadow.
 void put_node(const Moments& m, std::uint32_t n, float inverse, float inverse_error, PosedSphereTree& out) {
   const float variance = m.spread * inverse, radius_squared = m.fourth * inverse;
   put_mass(m, n, radius_squared + softness_of_variance * variance, radius_squared, out);

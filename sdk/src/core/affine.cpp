@@ -114,7 +114,8 @@ V3 rotate(const V3& axis, double angle, const V3& v) {
 }
 
 // Mueller, Bender, Chentanez, Macklin 2016, "A Robust Method to Extract the Rotational Part of Deformations",
-// equation 7: it stays a rotation for mirrored and flattened matrices, where the plain polar factor does not.
+// equation 7. The result is a rotation even for mirrored and flattened matrices, where the plain polar factor
+// is not.
 std::array<V3, 3> nearest_rotation(const std::array<V3, 3>& a) {
   std::array<V3, 3> r = gram_schmidt(a);
   for (int step = 0; step < 100; ++step) {

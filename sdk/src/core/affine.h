@@ -21,7 +21,7 @@ bool is_finite(const Affine& a);
 // The caller checks determinant(a) != 0 first.
 Affine inverse(const Affine& a);
 
-// Columns of a 4x4 matrix as glTF stores them; the last row is taken to be 0 0 0 1.
+// Reads the columns of a 4x4 matrix as glTF stores them; the last row is assumed to be 0 0 0 1.
 Affine from_columns(const double* columns_4x4);
 
 // Translation, unit quaternion (x, y, z, w), scale, applied in the order scale, rotation, translation.
@@ -36,11 +36,11 @@ Affine to_affine(const Trs& trs);
 struct Similarity {
   Affine matrix;
   double scale = 1;
-  double deviation = 0;  // |A - s R| / |s R| of the linear parts: 0 for a rigid or uniformly scaled matrix
+  double deviation = 0;  // relative deviation of the linear part, 0 for a rigid or evenly scaled matrix
 };
 
-// fixed is the point whose image stays the same: the joint's origin, so that removing shear does not move the
-// joint.
+// The image of the point `fixed` stays the same. Pass the joint's origin, so that removing shear does not
+// move the joint.
 Similarity nearest_similarity(const Affine& a, const std::array<double, 3>& fixed);
 
 Mat3x4 to_float(const Affine& a);

@@ -1,5 +1,5 @@
-// Writes little-endian bytes and packed bits to a vector, and reads them back with a check of every access
-// against the end. The bytes are the same on hosts of either byte order.
+// Writes little-endian bytes and packed bits to a vector, and reads them back. Every read is checked against
+// the end. The bytes are the same on hosts of either byte order.
 #pragma once
 
 #include <nook/nook.h>
@@ -32,7 +32,7 @@ class ByteWriter {
     for (const char c : value) u8(static_cast<unsigned char>(c));
   }
 
-  // Writes packed bits, low bits first. align() must be called before bytes follow.
+  // Writes packed bits, low bits first. Call align() before bytes follow.
   void bits(std::uint32_t value, int count) {
     for (int i = 0; i < count; ++i) {
       if (used_bits_ == 0) bytes_.push_back(std::byte{0});
@@ -99,7 +99,7 @@ class ByteReader {
   }
   void align() { left_bits_ = 0; }
 
-  // Throws if the rest of the section cannot hold count items, so that nothing is allocated for them.
+  // Throws if the rest of the section cannot hold count items, before anything is allocated for them.
   std::uint32_t check_count(std::uint32_t count, std::size_t bits_each, const char* what) const {
     if (count > remaining() * 8 / bits_each)
       throw Failure(NOOK_ERROR_BAD_FILE,
@@ -137,7 +137,7 @@ class ByteReader {
   int left_bits_ = 0;
 };
 
-// Returns the number of bits that hold every index below count.
+// Returns the number of bits needed for every index below count.
 constexpr int index_bits(std::size_t count) {
   return count > 1 ? std::bit_width(count - 1) : 0;
 }

@@ -1,4 +1,4 @@
-// The checks of what a host or a file gives. Each throws Failure with `code` unless the value fits; its
+// Checks what a host or a file passes. Each function throws Failure with `code` unless the value fits. The
 // message says the name of the value, what it is and what is needed.
 #pragma once
 
@@ -23,7 +23,7 @@ class NumberText {
     const auto bits = static_cast<std::uint64_t>(value);
     write(is_negative ? "-" : "", is_negative ? 0 - bits : bits);
   }
-  // Six digits.
+  // Prints six digits.
   explicit NumberText(double value) noexcept;
 
   const char* get() const noexcept { return text_; }
@@ -44,7 +44,7 @@ concept CheckedNumber = std::integral<Number> || std::floating_point<Number>;
 // Throws: NAME is unknown (got GOT, need 0 to LAST).
 [[noreturn]] void fail_unknown(const char* name, std::int32_t got, std::int32_t last);
 
-// fits: whether the value is what `need` says in words, such as "0 or more". Floats must be finite as well.
+// fits: whether the value is what `need` says in words, such as "0 or more". Floats must also be finite.
 template <CheckedNumber Number>
 void check_fits(const char* name, Number value, bool fits, const char* need,
                 nook_result code = NOOK_ERROR_INVALID_ARGUMENT) {
@@ -52,7 +52,7 @@ void check_fits(const char* name, Number value, bool fits, const char* need,
   if (!fits || !(value - value == 0)) fail_range(code, name, NumberText(value), need);
 }
 
-// low and high are within the range.
+// low and high are included.
 template <CheckedNumber Number>
 void check_range(const char* name, Number value, std::type_identity_t<Number> low,
                  std::type_identity_t<Number> high, nook_result code = NOOK_ERROR_INVALID_ARGUMENT) {
@@ -61,24 +61,24 @@ void check_range(const char* name, Number value, std::type_identity_t<Number> lo
     fail_range(code, name, NumberText(value), NumberText(low), NumberText(high));
 }
 
-// An index of `count` things.
+// Checks an index below `count`.
 void check_index(const char* name, std::size_t index, std::size_t count);
 
 void check_at_most(const char* name, std::uint32_t value, std::uint32_t most);
 
-// Returns the distance in bytes between `count` elements in an array of the caller's: stride, or
-// element_bytes where stride is 0. Throws INVALID_ARGUMENT where elements overlap, or where no memory can
-// hold so many that far apart, so that places beyond it are never computed. name: the stride's.
+// Returns the distance in bytes between `count` elements of the caller's array: stride, or element_bytes if
+// stride is 0. Throws INVALID_ARGUMENT if elements overlap. It also throws if no memory can hold so many
+// elements so far apart, so that addresses beyond it are never computed. name: the stride's name.
 std::size_t checked_stride(const char* name, std::size_t stride, std::size_t count,
                            std::size_t element_bytes);
 
-// The same for tightly packed arrays; name: the count's.
+// The same for tightly packed arrays; name: the count's name.
 void check_array(const char* name, std::size_t count, std::size_t element_bytes);
 
-// A switch, which is 0 or 1.
+// Checks a switch, which is 0 or 1.
 void check_switch(const char* name, std::int32_t value);
 
-// An enumerator from 0 to `last`.
+// Checks an enumerator, from 0 to `last`.
 inline void check_known(const char* name, std::int32_t value, std::int32_t last) {
   if (value < 0 || value > last) fail_unknown(name, value, last);
 }

@@ -24,7 +24,7 @@ constexpr FourLetters four_letters(const char (&text)[5]) {
 
 struct ContainerKind {
   FourLetters kind = 0;
-  const char* name = "";  // "character model"
+  const char* name = "";  // such as "character model"
   std::uint32_t oldest_version = 1;
   std::uint32_t newest_version = 1;
 };
@@ -36,7 +36,7 @@ struct ContainerSection {
 
 std::vector<std::byte> write_container(const ContainerKind& kind, std::span<const ContainerSection> sections);
 
-// Views the bytes of a file; it does not allocate.
+// Views the bytes of a file without allocating.
 class Container {
  public:
   // Checks everything except the contents of the sections. Throws Failure, with a different message for each
@@ -61,14 +61,14 @@ class Container {
   std::uint32_t sections_ = 0;
 };
 
-// Writes the correct checksum into changed bytes, for tests of the code behind the checksum.
+// Writes the correct checksum into modified bytes, for tests of the code behind the checksum.
 void repair_checksum(std::span<std::byte> bytes);
-// The bytes at the front of a file that tell its kind and its size.
+// This many bytes at the front of a file reveal its kind and size.
 inline constexpr std::size_t container_head_bytes = 40;
-// Returns the kind of a file, so that a tool can choose a reader, or 0 if the bytes are no .nook file. The
+// Returns the kind of a file, so that a tool can choose a reader, or 0 if the bytes are not a .nook file. The
 // head is enough.
 FourLetters container_kind(std::span<const std::byte> bytes);
-// Returns what the head says of the file's size, or 0 if the bytes are no .nook file.
+// Returns the file's size that the head states, or 0 if the bytes are not a .nook file.
 std::uint64_t container_size(std::span<const std::byte> bytes);
 
 }  // namespace nook

@@ -1,5 +1,4 @@
-// The standard containers over Memory. A container of containers gives its elements the memory that it has
-// itself.
+// The standard containers over Memory. A container of containers passes its memory on to its elements.
 #pragma once
 
 #include <cstddef>
@@ -16,15 +15,15 @@
 
 namespace nook {
 
-// An allocator stays with its container: it goes along only where a container is made from an rvalue. A copy
-// takes default_memory(), so that it can outlive the memory of the original.
+// An allocator stays with its container and moves only when a container is constructed from an rvalue. A copy
+// uses default_memory(), so that it can outlive the original's memory.
 template <class T>
 class Allocator {
  public:
   using value_type = T;
 
   Allocator() noexcept : memory_(default_memory()) {}
-  // Implicit, so that a container is made from a pointer.
+  // Implicit, so that you can construct a container from a pointer.
   Allocator(Memory* memory) noexcept : memory_(memory) {}
   template <class U>
   Allocator(const Allocator<U>& other) noexcept : memory_(other.memory()) {}
@@ -36,7 +35,8 @@ class Allocator {
   void deallocate(T* first, std::size_t count) noexcept {
     memory_->deallocate(first, count * sizeof(T), alignof(T));
   }
-  // Elements that take an allocator as their last argument get this one; all others are made without it.
+  // Passes this allocator to elements that take one as their last argument, and constructs all others without
+  // it.
   template <class U, class... Arguments>
   requires(std::uses_allocator<U, Allocator<U>>::value) void construct(U* place, Arguments&&... arguments) {
     ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)..., Allocator<U>(memory_));

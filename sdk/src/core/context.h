@@ -1,5 +1,4 @@
-// A context holds the host's callbacks. Everything that is created from a context refers to it and so keeps
-// it alive.
+// A context holds the host's callbacks. Every object created from it refers to it and so keeps it alive.
 #pragma once
 
 #include <nook/nook.h>
@@ -23,11 +22,11 @@ class Context : public RefCounted {
 
   Memory* memory() noexcept { return &memory_; }
   const Parallel& parallel() const noexcept { return parallel_; }
-  // The set that the host chose, which is available, or NOOK_ISA_AUTO.
+  // The instruction set that the host chose, which is available, or NOOK_ISA_AUTO.
   nook_isa isa() const noexcept { return isa_; }
-  // Lengths of the host for each metre.
+  // How many of the host's length units make a metre.
   float units_per_metre() const noexcept { return units_per_metre_; }
-  // Logs a printf-style text, which is cut at 512 characters. Does nothing if the host set no log.
+  // Logs a printf-style text, cut at 512 characters. Does nothing if the host set no log.
   void log(nook_log_severity severity, const char* format, ...) const noexcept NOOK_PRINTF(3, 4);
 
  protected:

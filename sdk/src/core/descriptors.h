@@ -1,5 +1,5 @@
-// The structs of the C interfaces grow, so that a caller compiled with an older or newer header passes fewer
-// or more bytes than the library's struct has.
+// The structs of the C interfaces grow with versions. A caller compiled with an older or newer header passes
+// fewer or more bytes than the library's struct has.
 #pragma once
 
 #include <nook/nook.h>
@@ -13,12 +13,12 @@
 
 namespace nook {
 
-// Throws VERSION unless headers of `version` fit this library: the major version must be the same, and the
-// minor version not newer.
+// Throws VERSION unless headers of `version` fit this library: the major version must be equal, and the minor
+// version must not be newer.
 void check_version(std::uint32_t version);
 
 // A descriptor's NOOK_DESC_ value, the name of its init function and its defaults. Each library specialises
-// these three for its descriptors, from one list: descriptor_list.h beside its C functions.
+// these three for its descriptors from one list, descriptor_list.h beside its C functions.
 template <class Desc>
 inline constexpr std::uint32_t descriptor_type = 0;
 template <class Desc>
@@ -30,7 +30,7 @@ Desc default_desc();
 template <class Struct>
 inline constexpr std::size_t first_size = sizeof(Struct);
 
-// Fills the caller's struct of `size` bytes with defaults, and bytes beyond the library's struct with 0.
+// Fills the caller's struct of `size` bytes with defaults, and any bytes beyond the library's struct with 0.
 template <class Desc>
 void init_descriptor(Desc* desc, std::size_t size, std::uint32_t version) {
   need(desc, "desc");
@@ -91,9 +91,9 @@ void check_extensions(const void* next) {
   }
 }
 
-// Returns the caller's struct in this library's version: fields beyond the caller's size keep their
-// defaults. Fields that only a newer header has must be 0. Its `next` may hold extensions of the types Ext,
-// which find_extension finds; an extension is read by this function too, with all types as its own Ext.
+// Returns the caller's struct in this library's version: fields beyond the caller's size keep their defaults.
+// Fields that only a newer header has must be 0. Its `next` may hold extensions of the types Ext, which
+// find_extension finds. Read an extension with this function too, and pass all types as its own Ext.
 template <class Desc, class... Ext>
 Desc read_descriptor(const Desc* desc) {
   need(desc, "desc");
@@ -118,7 +118,7 @@ Desc read_descriptor(const Desc* desc) {
   return known;
 }
 
-// Copies as much of `value` as the caller's struct holds. The caller's struct_size stays.
+// Copies as much of `value` as the caller's struct holds. The caller's struct_size stays unchanged.
 template <class Info>
 void write_info(Info* info, Info value) {
   need(info, "the struct for the answer");

@@ -11,7 +11,7 @@ namespace nook {
 
 class Failure : public std::exception {
  public:
-  // Takes a printf-style text: what is wrong, the value and what is needed. The api adds the name of the
+  // Takes a printf-style text: what is wrong, the value and what is needed. The api rooms add the name of the
   // function. The text is cut at the buffer's end, so that throwing does not allocate.
   Failure(nook_result code, const char* format, ...) noexcept NOOK_PRINTF(3, 4);
 

@@ -89,8 +89,8 @@ void shift(Interval& interval) {
   for (Whole* number : {&interval.value, &interval.below, &interval.above}) number->multiply(10);
 }
 
-// Scales the interval so that its upper end lies in [1/10, 1), and returns the power of ten that was divided
-// by.
+// Scales the interval so that its upper end lies in [1/10, 1), and returns the power of ten that it was
+// divided by.
 int normalise(Interval& interval) {
   int power = 0;
   for (; reaches(interval); ++power) interval.scale.multiply(10);
@@ -102,8 +102,8 @@ int normalise(Interval& interval) {
   }
 }
 
-// Takes the next digit out of a normalised interval and returns it. Sets `last` where the digits until now
-// lie in the interval, rounded to the nearer side of those that do.
+// Removes the next digit from a normalised interval and returns it. Sets `last` if the digits so far, rounded
+// to the nearer side, lie in the interval.
 int next_digit(Interval& interval, bool& last) {
   shift(interval);
   int digit = 0;
@@ -118,8 +118,8 @@ int next_digit(Interval& interval, bool& last) {
 
 }  // namespace
 
-// R. G. Burger, R. K. Dybvig, Printing Floating-Point Numbers Quickly and Accurately, PLDI 1996, in exact
-// whole numbers: a pass writes few literals, so that speed does not matter.
+// The method is from R. G. Burger, R. K. Dybvig, Printing Floating-Point Numbers Quickly and Accurately, PLDI
+// 1996, in exact whole numbers. Speed does not matter, because a pass writes few literals.
 FloatLiteral float_literal(float value) {
   FloatLiteral literal{};
   char* out = literal.text;

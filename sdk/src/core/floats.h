@@ -1,4 +1,4 @@
-// Floats as bits, as half floats and as text of shaders, the same on every machine.
+// Converts floats to bits, half floats and shader text, with the same result on every machine.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ To bit_cast(const From& from) noexcept {
   return to;
 }
 
-// IEEE half floats by integer arithmetic, with the same bits on every machine.
+// Converts to IEEE half floats by integer arithmetic, with the same bits on every machine.
 
 // Rounds to the nearest half, ties to even. Values beyond 65504 become infinity.
 inline std::uint16_t to_half(float value) {
@@ -46,16 +46,16 @@ inline float from_half(std::uint16_t half) {
   return sign ? -value : value;
 }
 
-// Numbers in the text of shaders.
+// Writes numbers into the text of shaders.
 
 // Holds the longest text, -1.17549435e-38, and the zero at its end.
 struct FloatLiteral {
   char text[16];
 };
 
-// Returns the shortest literal of GLSL that is read as the same float, such as 1.5e-01: the text of
-// std::to_chars in its scientific format. libc++ 13 has no std::to_chars for floats, and printf writes the
-// decimal sign of the host's locale. The value must be finite.
+// Returns the shortest GLSL literal that reads back as the same float, such as 1.5e-01, in the scientific
+// format of std::to_chars. libc++ 13 has no std::to_chars for floats, and printf uses the decimal sign of the
+// host's locale. The value must be finite.
 FloatLiteral float_literal(float value);
 
 }  // namespace nook

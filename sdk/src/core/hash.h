@@ -1,5 +1,5 @@
-// The 64-bit hash XXH64, written from its specification (github.com/Cyan4973/xxHash, doc/xxhash_spec.md). The
-// checksum of .nook files and the fingerprints of sources are values of it, so it never changes.
+// The 64-bit hash XXH64, written from its specification (github.com/Cyan4973/xxHash, doc/xxhash_spec.md).
+// Checksums of .nook files and fingerprints of sources use it, so it must never change.
 #pragma once
 
 #include <array>

@@ -1,10 +1,10 @@
-// The instruction sets of the CPU kernels, from the plainest to the best: NOOK_ISA_AUTO takes the last one
-// that runs. Each has a folder of its name in sdk/src/isa with its vector, its kernels and the flags of its
-// compiler. The file is included after a definition of
+// The instruction sets of the CPU kernels, from the simplest to the best: NOOK_ISA_AUTO takes the last one
+// that runs. Each has a folder of its name in sdk/src/isa with its vector, kernels and compiler flags. The
+// file is included after a definition of
 //   NOOK_ISA_ENTRY(name, value, built, runs)
-// name is that of the folder, of the namespace isa_name and of Isa::name; value is that of the public header;
-// built is 1 where this build has its kernels, as its isa.cmake decides; runs says whether the processor can
-// run them.
+// The folder, the namespace isa_name and Isa::name use the name; value is the public header's. built is 1 if
+// this build has the kernels, which isa.cmake of the folder decides; runs says whether the processor can run
+// them.
 
 NOOK_ISA_ENTRY(scalar, NOOK_ISA_SCALAR, NOOK_BUILT_SCALAR, true)
 NOOK_ISA_ENTRY(sse2, NOOK_ISA_SSE2, NOOK_BUILT_SSE2, processor_has_sse2())

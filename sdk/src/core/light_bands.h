@@ -1,10 +1,10 @@
-// Bands 0 to 2 of light that is a sum of lobes, and of densities over directions that are summed before they
-// meet the light. With bands the sum over what stands in the light is independent of the lobes: the mean of
-// the light under a density round d is
+// Bands 0 to 2 of light that is a sum of lobes, and of densities over directions. Densities are summed first
+// and then combined with the light, so the sum does not depend on the lobes. The mean of the light under a
+// density around d is
 //   scalar + A1 dot(vector, d) + A2 dot(d, tensor d),
-// where A1 and A2 are the density's own bands, the means of its cosine to d and of (3 cosine^2 - 1) / 2.
+// where A1 and A2 are the density's own bands: the means of its cosine to d and of (3 cosine^2 - 1) / 2.
 //
-// All functions of F are templates over a number type, as the kernels.
+// All functions of F are templates over a number type, like the kernels.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +42,7 @@ struct LobeBands {
   float scalar = 0, vector = 0, tensor = 0;
 };
 
-// Returns the zonal factors of a lobe's own bands, of its mean radiance over the sphere.
+// Returns the factors of a lobe's own bands, for its mean radiance over the sphere.
 inline LobeBands bands_of(float sharpness) {
   const std::array<float, 5> band = gaussian_bands(sharpness);
   return {gaussian_integral(sharpness) / gaussian_integral(0.0f), 3 * band[1], 7.5f * band[2]};
@@ -61,7 +61,7 @@ inline void add_lobe(LightBands& bands, Vec3 axis, Vec3 amplitude, const LobeBan
 }
 
 inline Vec3 darkest_of(std::span<const SphericalGaussian> lobes) {
-  // No hemisphere is taken for darker than this share of the mean radiance.
+  // No hemisphere counts as darker than this share of the mean radiance.
   constexpr float darkest_share = 0.02f;
   Vec3 mean;
   for (const SphericalGaussian& lobe : lobes)
@@ -78,16 +78,16 @@ struct GatheredBands {
     const F o(0.0f);
     return {o, o, o, o, o, o, o, o, o, o};
   }
-  // Adds the density exp(dot(b, s)), whose bands are A1 = 1 - 1 / |b| and A2 = 1 - 3 A1 / |b| without
-  // e^(-2 |b|), which is below 0.015 here: |b| >= directional_cosine unless the blend of bones cancels the
-  // normal.
+  // Adds the density exp(dot(b, s)). Its bands are A1 = 1 - 1 / |b| and A2 = 1 - 3 A1 / |b|, without a term
+  // e^(-2 |b|). This term is below 0.015 here, because |b| >= directional_cosine unless the blend of bones
+  // cancels the normal.
   void add(const Direction<F>& b, F weight) {
     const F t = rsqrt(max(fma(b.x, b.x, fma(b.y, b.y, b.z * b.z)), F(1.0f)));
     const F a1 = F(1.0f) - t, a2 = fma(F(-3.0f) * t, a1, F(1.0f));
     const Direction<F> d{b.x * t, b.y * t, b.z * t};
     add(d, weight, weight * a1, weight * a2);
   }
-  // Adds a density round the unit vector d whose bands are `first` and `second`, both times `weight`.
+  // Adds a density around the unit vector d. Its bands are `first` and `second`, both times `weight`.
   void add(const Direction<F>& d, F weight, F first, F second) {
     scalar = scalar + weight;
     x = fma(first, d.x, x);

@@ -1,5 +1,5 @@
-// Where every byte of the library comes from: an interface, the host's allocator behind it, and the global
-// operator new. std::pmr says the same, but some standard libraries lack it: libc++ before version 16, and so
+// Every byte of the library comes from here: an interface, the host's allocator behind it, and the global
+// operator new. std::pmr does the same, but some standard libraries lack it: libc++ before version 16, and so
 // Emscripten 3.1 and macOS before 14.
 #pragma once
 
@@ -18,7 +18,7 @@ class Memory {
   void* allocate(std::size_t bytes, std::size_t alignment = alignof(std::max_align_t)) {
     return do_allocate(bytes, alignment);
   }
-  // bytes and alignment are those of the allocation.
+  // Pass the bytes and alignment of the allocation.
   void deallocate(void* memory, std::size_t bytes, std::size_t alignment = alignof(std::max_align_t)) {
     do_deallocate(memory, bytes, alignment);
   }
@@ -55,7 +55,7 @@ class HostMemory final : public Memory {
   nook_allocator allocator_;
 };
 
-// Counts the bytes that one object holds of another memory.
+// Counts the bytes that one object allocates from another memory.
 class MeteredMemory final : public Memory {
  public:
   explicit MeteredMemory(Memory* source) noexcept : source_(source) {}

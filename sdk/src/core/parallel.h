@@ -1,4 +1,4 @@
-// Runs a function for every index, through the host's jobs if the host set them.
+// Runs a function for every index, with the host's jobs if the host set them.
 #pragma once
 
 #include <nook/nook.h>
@@ -13,7 +13,7 @@ struct Parallel {
   void* user = nullptr;
 };
 
-// body(index) must not throw, because nothing would catch the exception on a thread of the host.
+// body(index) must not throw, because nothing would catch the exception on a host's thread.
 template <class Body>
 void parallel_for(const Parallel& parallel, std::uint32_t count, Body& body) {
   static_assert(std::is_nothrow_invocable_v<Body&, std::uint32_t>);

@@ -3,7 +3,7 @@
 //   split(x, exponent, mantissa): x = mantissa * 2^exponent with mantissa in [1/sqrt(2), sqrt(2)), for normal
 //   x > 0; times_power_of_two(a, n): a * 2^n for whole n in [-126, 127], a normal and the result too;
 //   nearest(a): a rounded to a whole number.
-// The coefficients interpolate at Chebyshev nodes, which is near the best polynomial of each degree.
+// The coefficients interpolate at Chebyshev nodes, which comes close to the best polynomial of each degree.
 #pragma once
 
 namespace nook::simd {
@@ -24,8 +24,7 @@ F log2_of(F a) {
   return fma(p, f, exponent);
 }
 
-// For a <= 127. The relative error is at most 1e-7 plus rounding. The result stays normal: 2^-126 for
-// anything smaller.
+// For a <= 127. The relative error is at most 1e-7 plus rounding. The result stays normal: at least 2^-126.
 template <class F>
 F exp2_of_bounded(F a) {
   const F x = max(a, F(-126.0f));
@@ -40,7 +39,7 @@ F exp2_of_bounded(F a) {
   return times_power_of_two(p, whole);
 }
 
-// The same for any a; 2^127 for anything larger.
+// The same for any a; at most 2^127.
 template <class F>
 F exp2_of(F a) {
   return exp2_of_bounded(min(a, F(127.0f)));

@@ -1,4 +1,4 @@
-// The operations of the SIMD vectors for float and double, so that one formula over a number type serves the
+// The operations of the SIMD vectors for float and double. A formula over a number type then serves the
 // scalar reference, the double precision of the tests and every instruction set.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace nook {
 
-// Returns a * b + c. std::fma is a slow library call without an FMA instruction, and no caller needs its
+// Returns a * b + c. Without an FMA instruction std::fma is a slow library call, and no caller needs its
 // single rounding.
 template <std::floating_point T>
 constexpr T fma(T a, T b, T c) {
@@ -15,7 +15,7 @@ constexpr T fma(T a, T b, T c) {
 }
 template <std::floating_point T>
 constexpr T min(T a, T b) {
-  return a < b ? a : b;  // b where either is NaN, as in the x86 instruction
+  return a < b ? a : b;  // b if either is NaN, as in the x86 instruction
 }
 template <std::floating_point T>
 constexpr T max(T a, T b) {
@@ -37,8 +37,8 @@ template <std::floating_point T>
 T rsqrt(T a) {
   return 1 / std::sqrt(a);
 }
-// The SIMD versions of the next three functions use the processor's estimates, within 1e-4 of the value. This
-// one is the square root of a >= 1e-30.
+// In the SIMD versions, the next three functions use the processor's estimates, within 1e-4 of the value.
+// This one is the square root of a >= 1e-30.
 template <std::floating_point T>
 T sqrt_positive(T a) {
   return std::sqrt(a);

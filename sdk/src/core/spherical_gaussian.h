@@ -1,7 +1,7 @@
 // Spherical Gaussians, called lobes, and their closed forms:
 //   G(s) = amplitude exp(sharpness (dot(axis, s) - 1)).
-// Every function is safe from sharpness 0, a constant over the sphere, to far beyond the resolution of float
-// directions, because differences of large numbers are computed before exponentials.
+// Every function is accurate from sharpness 0, a constant over the sphere, to far beyond the resolution of
+// float directions, because it subtracts large numbers before it takes exponentials.
 #pragma once
 
 #include <algorithm>
@@ -94,7 +94,8 @@ inline SphericalGaussian product(const SphericalGaussian& a, const SphericalGaus
           by_channel(a.amplitude, b.amplitude) * shape.scale};
 }
 
-// Returns 1 - the mean cosine between a lobe's mass and its axis: 1 - (coth(sharpness) - 1 / sharpness).
+// Returns 1 minus the mean cosine to the lobe's axis, weighted by the lobe: 1 - (coth(sharpness) - 1 /
+// sharpness).
 template <std::floating_point T>
 T gaussian_spread(T sharpness) {
   if (sharpness < T(0.01)) return 1 - sharpness / 3;
@@ -102,8 +103,8 @@ T gaussian_spread(T sharpness) {
   return 1 / sharpness - 2 * e / (1 - e);
 }
 
-// Returns the sharpness whose gaussian_spread is `spread`, in (0, 1], by the estimate of A. Banerjee (2005)
-// and two Newton steps.
+// Returns the sharpness whose gaussian_spread is `spread`, in (0, 1]. It starts from the estimate of A.
+// Banerjee (2005) and takes two Newton steps.
 template <std::floating_point T>
 T gaussian_sharpness_of_spread(T spread) {
   const T mean = 1 - spread;
@@ -118,8 +119,8 @@ T gaussian_sharpness_of_spread(T spread) {
   return sharpness;
 }
 
-// Returns a convolved with b as a zonal filter: the lobe about the axis of a with the integral and the mean
-// cosine of the exact convolution, which is not a lobe.
+// Returns a convolved with b as a zonal filter. The exact result is not a lobe; this is the lobe around the
+// axis of a with the same integral and mean cosine.
 inline SphericalGaussian convolution(const SphericalGaussian& a, const SphericalGaussian& b) {
   const float spread_a = gaussian_spread(a.sharpness), spread_b = gaussian_spread(b.sharpness);
   const float sharpness = gaussian_sharpness_of_spread(spread_a + spread_b - spread_a * spread_b);
@@ -128,8 +129,8 @@ inline SphericalGaussian convolution(const SphericalGaussian& a, const Spherical
 }
 
 // Returns the factors by which convolution with a lobe of integral 1 scales bands 0 to 4 of a function on the
-// sphere: the ratios i_l / i_0 of the modified spherical Bessel functions. Their upward recurrence loses
-// digits below its middle, while the continued fraction of i_(l+1) / i_l does not.
+// sphere. They are the ratios i_l / i_0 of the modified spherical Bessel functions. Their upward recurrence
+// loses digits for small sharpness, while the continued fraction of i_(l+1) / i_l does not.
 template <std::floating_point T>
 std::array<T, 5> gaussian_bands(T sharpness) {
   std::array<T, 5> band{1, 1 - gaussian_spread(sharpness)};
@@ -159,8 +160,8 @@ inline float gaussian_unit_irradiance_bands(float sharpness, float cosine) {
   return std::max(0.25f + 0.5f * band[1] * cosine + even, 0.0f);
 }
 
-// S. Hill's fit is within 1.6e-2 of the irradiance of a perpendicular light from sharpness 3 on. Below, where
-// the fit is not defined, the bands are used.
+// S. Hill's fit is within 1.6e-2 of the irradiance of a perpendicular light from sharpness 3 on. Below, the
+// fit is not defined, and the bands are used.
 inline constexpr float hill_min_sharpness = float(NOOK_FITTED_IRRADIANCE_MIN_SHARPNESS);
 inline float gaussian_unit_irradiance_fitted(float sharpness, float cosine) {
   if (sharpness < hill_min_sharpness) return gaussian_unit_irradiance_bands(sharpness, cosine);
@@ -174,15 +175,15 @@ inline float gaussian_unit_irradiance_fitted(float sharpness, float cosine) {
   return std::max((1 - rest) * y + bias, 0.0f);
 }
 
-// The best form uses the bands up to this sharpness and the fit above.
+// The best form uses the bands up to this sharpness, and the fit above it.
 inline constexpr float bands_max_sharpness = float(NOOK_BANDS_MAX_SHARPNESS);
 inline float gaussian_unit_irradiance_best(float sharpness, float cosine) {
   return sharpness <= bands_max_sharpness ? gaussian_unit_irradiance_bands(sharpness, cosine)
                                           : gaussian_unit_irradiance_fitted(sharpness, cosine);
 }
 
-// The clamped cosine max(dot(n, s), 0) as a lobe about n, with B. Karis' values, which The Order: 1886 used.
-// The inner product with it is the cheapest form, and is never 0 behind a light.
+// The clamped cosine max(dot(n, s), 0) as a lobe around n, with B. Karis' values, which The Order: 1886 used.
+// The inner product with it is the cheapest form; it is never 0, even for light from behind.
 inline constexpr float cosine_lobe_sharpness = float(NOOK_COSINE_LOBE_SHARPNESS);
 inline constexpr float cosine_lobe_amplitude = float(NOOK_COSINE_LOBE_AMPLITUDE);
 inline float gaussian_irradiance_inner_product(Vec3 axis, float sharpness, Vec3 n) {

@@ -56,8 +56,8 @@ constexpr Vec3 transform_point(const Mat3x4& a, Vec3 p) {
           m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
 }
 
-// Transforms without the translation. This is correct for directions, and for normals under rigid or
-// uniformly scaled matrices, which must then be renormalised.
+// Transforms without the translation. This is correct for directions. It is correct for normals if the matrix
+// is rigid or uniformly scaled and you renormalise the result.
 constexpr Vec3 transform_vector(const Mat3x4& a, Vec3 v) {
   const float* m = a.m;
   return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,

@@ -25,7 +25,7 @@ void Device::read_limits() {
   GLint value = 0;
   if (gl.can.texture_buffers) {
     gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &value);
-    // A table of 2 GiB is as much as 32 bits count.
+    // A table of 2 GiB is as much as 32 bits can count.
     max_texels = static_cast<std::uint32_t>(std::clamp(value, 65536, 1 << 27));
   } else {
     gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &value);
@@ -65,14 +65,14 @@ void Device::need_alive() const {
 
 namespace {
 
-// The state of a vertex array that carries the mark: Nook draws with no attribute of this number.
+// The mark is stored in this attribute of a vertex array. Nook never draws with this attribute.
 constexpr GLuint marked_attribute = 3;
 
 }  // namespace
 
 GLuint Device::mark() const {
-  // Two objects that live at once have different addresses. The number must fit what queries of integers
-  // give.
+  // Two objects that are alive at the same time have different addresses. The number must fit what integer
+  // queries return.
   return static_cast<GLuint>((reinterpret_cast<std::uintptr_t>(this) >> 3) & 0x3fffffff) + 1;
 }
 

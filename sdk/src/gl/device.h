@@ -11,22 +11,22 @@
 namespace nook::gl {
 
 struct Device {
-  // Reads limits, for which the OpenGL context must be current. Throws Failure.
+  // Reads limits; the OpenGL context must be current. Throws Failure.
   Device(Context& host, const nook_gl_desc& desc);
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
   ~Device();
 
-  // Moves errors that the host left to the log, so that later errors are those of Nook.
+  // Moves errors that the host left to the log, so that later errors are Nook's.
   void report_host_errors() const;
   // Throws Failure if OpenGL has reported an error; `what` is the action for the message.
   void check(const char* what) const;
-  // Throws Failure after the OpenGL context was lost, and as need_current.
+  // Throws Failure if the OpenGL context was lost, or if need_current does.
   void need_alive() const;
   // With nook_gl_desc.debug, throws Failure unless the OpenGL context of nook_gl_create is current.
   void need_current() const;
-  // Returns whether objects may be deleted. What must not be deleted in another context stays behind, which
-  // the log says once.
+  // Returns whether objects may be deleted. Objects that must not be deleted in another context leak, and the
+  // log says so once.
   bool may_delete() const;
   void label(GLenum kind, GLuint name, const char* text) const {
     if (gl.ObjectLabel) gl.ObjectLabel(kind, name, -1, text);
@@ -37,12 +37,11 @@ struct Device {
   const Functions gl;
   const nook_gl_state_mode state_mode;
   const bool debug;
-  bool lost = false;  // no OpenGL call may be made any more
+  bool lost = false;  // OpenGL must not be called any more
   std::uint64_t buffer_bytes = 0;
   std::uint64_t ao_bytes = 0;
 
-  // The maximum size of a buffer that is bound as one piece: the limit of the context, and below 128 MiB in
-  // any case.
+  // The maximum size of a buffer that is bound as one piece: the limit of the context, but at most 128 MiB.
   std::uint64_t max_piece_bytes = std::uint64_t{128} << 20;
   std::uint64_t storage_alignment = 256;  // bytes
   std::uint32_t max_texels = 65536;       // of a table of texels
@@ -54,7 +53,8 @@ struct Device {
   const char* context_fault() const;
   GLuint mark() const;
 
-  // A vertex array with a number of its own in it, for no contexts share vertex arrays.
+  // A vertex array that stores a unique number. Contexts do not share vertex arrays, so it identifies this
+  // context.
   GLuint marked_array_ = 0;
   mutable bool told_objects_left_ = false;
 };

@@ -8,10 +8,10 @@
 namespace nook::gl {
 namespace {
 
-// The constants of EXT_disjoint_timer_query and of its functions are those of OpenGL 3.3.
+// The constants of EXT_disjoint_timer_query and its functions are the same as in OpenGL 3.3.
 constexpr const char* es_timer_extension = "GL_EXT_disjoint_timer_query";
 constexpr GLenum num_extensions = 0x821D;
-// Above what any context lists: OpenGL ES with all of its extensions has about a hundred.
+// More than any context lists: OpenGL ES with all of its extensions has about a hundred.
 constexpr std::size_t most_compressed_formats = 256;
 
 class Loader {
@@ -39,7 +39,7 @@ class Loader {
   void* user_;
 };
 
-// OpenGL ES says its name in GL_VERSION, and a WebGL context in a browser's build as well; no other query
+// OpenGL ES says its name in GL_VERSION, and so does a WebGL context in a browser's build. No other query
 // tells them apart from OpenGL.
 Profile profile_of(const Functions& gl) {
   const auto* version = reinterpret_cast<const char*>(gl.GetString(GL_VERSION));
@@ -64,7 +64,7 @@ void check_version(const Functions& gl) {
 void read_version(Functions& gl) {
   gl.profile = profile_of(gl);
   if (gl.profile == Profile::es) {
-    // OpenGL ES 2.0 answers the query with an error, which would be left to the host.
+    // OpenGL ES 2.0 answers the query with an error, which the host would then find.
     const char* const number = std::strstr(reinterpret_cast<const char*>(gl.GetString(GL_VERSION)), "ES 2.");
     if (number) gl.version = 20 + (number[5] - '0');
     if (number) return;
@@ -88,8 +88,8 @@ bool has_extension(const Functions& gl, const Loader& loader, const char* name) 
   return false;
 }
 
-// WebGL alone has no blocks of its own. Its list of extensions has those that a page may enable; this one has
-// the formats of those that it did enable.
+// Only WebGL lists formats of extensions that the page has enabled. Its list of extensions has those that a
+// page may enable, so this checks the list of formats.
 bool lists_compressed_format(const Functions& gl, GLenum format) {
   GLint count = 0;
   gl.GetIntegerv(GL_NUM_COMPRESSED_TEXTURE_FORMATS, &count);

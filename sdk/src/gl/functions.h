@@ -1,6 +1,6 @@
 // The OpenGL functions that Nook calls: one list for each tier, and one table for each context, which the
-// host's loader fills. glad supplies only the types and constants; its loader is not linked, so that none of
-// its symbols and none of its memory exists.
+// host's loader fills. glad supplies only types and constants. Its loader is not linked, so that Nook has
+// none of its symbols and memory.
 #pragma once
 
 #include <glad/gl.h>
@@ -103,7 +103,7 @@ namespace nook::gl {
   X(VertexAttribPointer)                 \
   X(Viewport)
 
-// The functions that OpenGL 3.3 has besides. OpenGL ES 3.2 has some of them, which are used there.
+// The functions that OpenGL 3.3 has in addition. OpenGL ES 3.2 has some of them, which are used there.
 #define NOOK_GL_FUNCTIONS_33(X) \
   X(ColorMaski)                 \
   X(Disablei)                   \
@@ -117,7 +117,7 @@ namespace nook::gl {
   X(QueryCounter)               \
   X(TexBuffer)
 
-// The functions that OpenGL ES 3.0 has besides.
+// The functions that OpenGL ES 3.0 has in addition.
 #define NOOK_GL_FUNCTIONS_ES30(X) X(TexStorage2D)
 
 // The functions that a tier with compute shaders needs in addition: OpenGL 4.3, OpenGL ES 3.1.
@@ -125,7 +125,7 @@ namespace nook::gl {
   X(DispatchCompute)                 \
   X(MemoryBarrier)
 
-// The functions of mapped buffers, which WebGL alone lacks.
+// The functions of mapped buffers, which only WebGL lacks.
 #define NOOK_GL_FUNCTIONS_MAPS(X) \
   X(MapBufferRange)               \
   X(UnmapBuffer)
@@ -168,10 +168,11 @@ namespace nook::gl {
 enum class Profile { desktop, es, webgl };
 
 // Abilities of a context beyond the minimum that Nook needs. load_functions derives them once from the
-// profile, the version, the loader and the host's limit; all other code reads them and compares no version.
+// profile, the version, the loader and the host's limit. All other code reads them and never compares
+// versions.
 struct Abilities {
   bool compute = false;           // compute shaders and shader storage
-  bool compute_images = false;    // compute shaders that write images, too
+  bool compute_images = false;    // compute shaders can also write images
   bool texture_buffers = false;   // otherwise tables of texels are 2D textures
   bool maps = false;              // buffers can be mapped; otherwise writes are copies
   bool buffer_reads = false;      // glGetBufferSubData; otherwise reads map
@@ -181,7 +182,7 @@ struct Abilities {
   bool texture_sizes = false;     // glGetTexLevelParameteriv
   bool sample_textures = false;   // GL_TEXTURE_2D_MULTISAMPLE
   bool sample_arrays = false;     // GL_TEXTURE_2D_MULTISAMPLE_ARRAY
-  bool timestamps = false;        // glQueryCounter, and fences that tell when its answers are there
+  bool timestamps = false;        // glQueryCounter, and fences that tell when its results are there
   bool indexed_draw_buffers = false;  // blending and colour mask exist once for each draw buffer
   bool indexed_viewports = false;     // viewport and scissor test exist once for each index
   bool desktop_raster =
@@ -199,7 +200,7 @@ struct Functions {
   Profile profile = Profile::desktop;
   int version = 0;  // of the context, 10 * major + minor
   Abilities can;
-  bool limited_by_host = false;  // could compute, if max_tier did not forbid it
+  bool limited_by_host = false;  // could use compute, but max_tier forbids it
 };
 
 // The values of nook_gl_info.tier.
@@ -207,8 +208,8 @@ int tier_of(const Functions& gl);
 // "OpenGL" or "OpenGL ES" of the context, for messages.
 const char* api_name(const Functions& gl);
 
-// Throws Failure: UNSUPPORTED names the function that get_proc did not return, or the version that is too
-// low. debug: with the functions of nook_gl_desc.debug.
+// Throws Failure. UNSUPPORTED names the function that get_proc did not return, or the version that is too
+// low. debug: also load the functions of nook_gl_desc.debug.
 Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier, bool debug);
 
 // Reads and sets single pieces of OpenGL state for the guard.

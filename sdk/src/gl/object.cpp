@@ -9,7 +9,7 @@ namespace nook::gl {
 
 Buffer::Buffer(Device& device, const char* label, std::uint64_t bytes, const void* data, GLenum usage,
                BufferUse use) {
-  Buffer made;  // deletes the name if the memory cannot be had
+  Buffer made;  // deletes the name if allocation fails
   made.device_ = &device;
   made.gl_usage_ = usage;
   made.use_ = use;
@@ -31,13 +31,13 @@ Buffer::~Buffer() {
   if (device_->may_delete()) device_->gl.DeleteBuffers(1, &name_);
 }
 
-// Gives the buffer a new store of at least so many bytes.
+// Gives the buffer a new store of at least this many bytes.
 void Buffer::renew(std::uint64_t bytes) {
   const Functions& gl = device_->gl;
   gl.BindBuffer(GL_ARRAY_BUFFER, name_);
-  // Half as much again where it grows, so that a growing scene seldom comes here.
+  // When it grows, it takes 50 % more, so that a growing scene rarely reallocates.
   const std::uint64_t kept = bytes > bytes_ ? bytes + bytes / 2 : bytes_;
-  // A new store rather than GL_MAP_INVALIDATE_BUFFER_BIT alone: Mesa's softpipe keeps cached texels of a
+  // Needs a new store: with GL_MAP_INVALIDATE_BUFFER_BIT alone, Mesa's softpipe keeps cached texels of a
   // mapped buffer.
   gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(kept), nullptr, gl_usage_);
   device_->buffer_bytes += kept - bytes_;

@@ -1,4 +1,4 @@
-// OpenGL names that are deleted with their owner, or forgotten if the OpenGL context is lost, buffers, and
+// OpenGL names that are deleted with their owner, or forgotten if the OpenGL context is lost; buffers; and
 // the objects of transform feedback.
 #pragma once
 
@@ -16,8 +16,8 @@ enum class BufferUse { working, ao };
 class Buffer {
  public:
   Buffer() = default;
-  // Binds GL_ARRAY_BUFFER, as every function here that writes. data may be NULL: the bytes are undefined
-  // then. Throws Failure.
+  // Binds GL_ARRAY_BUFFER, like every function here that writes. If data is NULL, the bytes are undefined.
+  // Throws Failure.
   Buffer(Device& device, const char* label, std::uint64_t bytes, const void* data, GLenum usage,
          BufferUse use = BufferUse::working);
   Buffer(Buffer&& other) noexcept { swap(other); }
@@ -30,10 +30,10 @@ class Buffer {
 
   GLuint name() const { return name_; }
   std::uint64_t bytes() const { return bytes_; }
-  // Replaces the contents: fill(memory) writes `bytes` bytes, and what the GPU still reads of the old ones
-  // stays as it was. Nothing waits, unless a texture reads the buffer: NVIDIA's driver then waits for the GPU
-  // when it is mapped. OpenGL may lose what was written, as when the display changes; fill is then called
-  // again. Throws Failure if OpenGL gives no memory or keeps losing the contents.
+  // Replaces the contents: fill(memory) writes `bytes` bytes. The GPU may still read the old contents, which
+  // stay intact. Nothing waits, with one exception: if a texture reads the buffer, NVIDIA's driver waits for
+  // the GPU when it is mapped. OpenGL may lose what was written, as when the display changes; then fill is
+  // called again. Throws Failure if OpenGL has no memory or keeps losing the contents.
   template <class Fill>
   void write(std::uint64_t bytes, Fill&& fill) {
     for (int attempt = 0; attempt < max_write_attempts; ++attempt) {
@@ -42,8 +42,8 @@ class Buffer {
     }
     fail_write(bytes);
   }
-  // The same from memory of the caller, for buffers that a texture reads: NVIDIA's driver does not wait here.
-  // Reports no failure: an update reads no error of OpenGL, which keeps it for the host.
+  // Does the same from the caller's memory, for buffers that a texture reads: NVIDIA's driver does not wait
+  // here. It reports no failure, because an update does not read OpenGL's errors; the host finds them.
   void send(std::uint64_t bytes, const void* data);
 
  private:
@@ -59,15 +59,15 @@ class Buffer {
   GLenum gl_usage_ = GL_STATIC_DRAW;
   BufferUse use_ = BufferUse::working;
   std::uint64_t bytes_ = 0;
-  std::optional<Vector<std::byte>> staging_;  // of writes where buffers cannot be mapped
+  std::optional<Vector<std::byte>> staging_;  // for writes if buffers cannot be mapped
 };
 
-// Copies bytes of a buffer to `out`, waiting for the GPU. Binds GL_ARRAY_BUFFER. Throws Failure if the buffer
-// cannot be mapped where OpenGL has no other way.
+// Copies bytes of a buffer to `out` and waits for the GPU. Binds GL_ARRAY_BUFFER. Throws Failure if the
+// buffer cannot be mapped and OpenGL has no other way.
 void read_buffer_bytes(const Device& device, GLuint buffer, std::uint64_t offset, std::uint64_t bytes,
                        void* out);
 
-// Any other kind of object; one owner type, since they differ only in the call that deletes them.
+// Any other kind of object. One owner type is enough, since kinds differ only in the call that deletes them.
 class Object {
  public:
   enum class Kind {
@@ -115,8 +115,8 @@ class FeedbackTarget {
   // Binds GL_DRAW_FRAMEBUFFER and GL_RENDERBUFFER. Throws Failure.
   explicit FeedbackTarget(Device& device);
 
-  // Binds the framebuffer and the transform-feedback object, and turns rasterization and primitive restart
-  // off. end turns rasterization on, and unbinds the buffer that was written.
+  // begin binds the framebuffer and the transform-feedback object, and turns rasterization and primitive
+  // restart off. end turns rasterization on, and unbinds the written buffer.
   void begin(const Device& device) const;
   static void end(const Device& device);
 

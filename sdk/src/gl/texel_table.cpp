@@ -43,7 +43,7 @@ void TexelTable::replace(Device& device, GLenum format, std::uint64_t texels, co
 }
 
 void TexelTable::make_texture_buffer(Device& device, std::uint64_t texels, const float* data, GLenum usage) {
-  // The texture keeps its name, which a host may have bound, and reads another buffer.
+  // The texture keeps its name, which a host may have bound, but reads another buffer.
   Buffer buffer(device, label_, texels * bytes_of_texel(), data, usage);
   if (!made()) texture_ = Object::make(device, Object::Kind::texture);
   bind(device);
@@ -107,7 +107,7 @@ void TexelTable::copy(const Device& device, GLuint buffer, std::uint64_t offset_
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
 }
 
-// The rest of the row in which the texels begin, whole rows, and the beginning of the last one.
+// Copies the rest of the first row, then whole rows, then the beginning of the last row.
 void TexelTable::copy_rows(const Device& device, std::uint64_t offset_bytes, std::uint64_t first_texel,
                            std::uint64_t texels) const {
   std::uint64_t done = 0;

@@ -1,5 +1,5 @@
-// The OpenGL state that Nook touches as one list, which the guard, docs/gl_state.md and the test of poisoned
-// state expand.
+// Lists the OpenGL state that Nook touches. The guard, docs/gl_state.md and the test of poisoned state expand
+// this list.
 #pragma once
 
 #include "shaders/character/layout.h"
@@ -8,12 +8,11 @@
 
 namespace nook::gl {
 
-// The users of an item: the characters' tiers, the screen-space pass, the reading of its timers, the upload
-// of probes and materials, the screen-space pass if its network is a compute shader, the writing of AO to
-// buffers and textures of the host, the recording of frames, and the screen-space pass with
-// nook_nnao_desc.views, depth_samples and both, the upload of grids, captures of probes, the binding of
-// uploads, and the upload of clips. OpenGL ES has tables of texels in 2D textures, whose upload is another
-// user.
+// The users of an item of state. Characters have one for each tier, and uploads one for each kind: probes and
+// materials, grids, clips, captures of probes, and the binding of uploads. The screen-space pass has several:
+// the pass itself, reading its timers, a network in a compute shader, and nook_nnao_desc.views, depth_samples
+// and both together. Two more are the writing of AO to the host's buffers and textures, and the recording of
+// frames. On OpenGL ES, tables of texels are 2D textures; their upload is another user.
 enum : unsigned {
   tier_33 = 1,
   tier_43 = 2,
@@ -38,8 +37,8 @@ enum : unsigned {
   draws = tier_33 | screen,
 };
 
-// X(name, users, the state as OpenGL names it, its purpose and default). An item needs a member of SavedState
-// and a query, a restore and a reset of that name in state_guard.cpp or state_guard_draw.cpp.
+// X(name, users, the state as OpenGL names it, its purpose and default). Each item needs a member of
+// SavedState, and a query, a restore and a reset of that name in state_guard.cpp or state_guard_draw.cpp.
 #define NOOK_GL_TOUCHED_STATE(X)                                                                            \
   X(program, everyone | outputs | captures, "GL_CURRENT_PROGRAM", "runs the passes; default 0")             \
   X(array_buffer, everyone | probes | outputs | captures, "GL_ARRAY_BUFFER_BINDING",                        \
@@ -125,7 +124,7 @@ inline constexpr int storage_binding_count = NOOK_BINDING_COUNT;
 inline constexpr int texture_unit_count = NOOK_UNIT_COUNT;  // of the screen-space pass
 inline constexpr int cube_map_unit = NOOK_CAPTURE_UNIT_CUBE;
 inline constexpr int host_depth_unit = NOOK_UNIT_HOST_DEPTH;
-// The units that the pass with layers binds arrays to.
+// The units to which the pass with layers binds arrays.
 inline constexpr int layer_units[] = {NOOK_UNIT_HOST_DEPTH, NOOK_UNIT_LAYER, NOOK_UNIT_MOTION};
 inline constexpr int filter_unit = NOOK_UNIT_FILTERS;
 inline constexpr int image_unit_index = NOOK_IMAGE_UNIT;

@@ -22,7 +22,8 @@ inline void store(float* p, Eight a) {
 inline Eight operator*(Eight a, Eight b) {
   return _mm256_mul_ps(a.v, b.v);
 }
-// Returns the product of the first two and the third. The name fma would hide that of plain floats.
+// Returns the product of the first two plus the third. A function named fma would hide the fma of plain
+// floats.
 inline Eight product_plus(Eight a, Eight b, Eight c) {
   return _mm256_fmadd_ps(a.v, b.v, c.v);
 }

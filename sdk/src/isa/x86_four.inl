@@ -1,4 +1,4 @@
-// Four floats for the transforms of x86-64, with FMA where the instruction set has it. The file is included
+// Four floats for the transforms of x86-64, with FMA if the instruction set has it. The file is included
 // inside an instruction set's namespace.
 
 struct Four {

@@ -1,5 +1,5 @@
-// The cost of decoding a pixel, counted from the sizes of the tables. A filtered fetch counts as one, and
-// multiply-adds are those of single numbers.
+// Estimates the cost of decoding a pixel from the sizes of the tables. A filtered fetch counts as one, and
+// multiply-adds count single numbers.
 #pragma once
 
 #include "sdk/src/material/tables.h"
@@ -11,15 +11,15 @@ struct DecodeCost {
   std::uint32_t multiply_adds = 0;
 };
 
-// The fetches that each further place of a footprint adds: those of spatial modes. A mode in blocks takes
-// two.
+// Returns the fetches that each further place of a footprint adds, all of spatial modes. A mode in blocks
+// takes two.
 inline std::uint32_t further_fetches(const TensorTables& t) {
   return t.terms * t.view_vec4_count * (t.light_modes + t.packed_modes);
 }
 
-// The cost of a BTF's light modes or a VOTF's value: the coefficients of each term, of three cells if cells
-// blend, the spatial mode for each coefficient and light mode, and the clusters of the terms if there are
-// several. Without tables the cost is 0.
+// Returns the cost of a BTF's light modes or a VOTF's value. It counts the coefficients of each term, for
+// three cells if cells blend, and the spatial mode of each coefficient and light mode. Several clusters add a
+// fetch for the clusters of the terms. Without tables the cost is 0.
 inline DecodeCost decode_cost(const TensorTables& t) {
   const std::uint32_t spatial = t.terms * t.view_vec4_count * t.light_modes;
   const std::uint32_t clusters = t.has_membership() ? vec4_count(t.memberships()) : 0;
@@ -28,12 +28,12 @@ inline DecodeCost decode_cost(const TensorTables& t) {
           4 * (spatial + (t.blended ? 3 * coefficients : 0))};
 }
 
-// The cost of one light: three rows of the light basis.
+// Returns the cost of one light: three rows of the light basis.
 inline DecodeCost light_cost(const TensorTables& btf) {
   return {3 * btf.light_modes / 4, 3 * btf.light_modes};
 }
 
-// The cost of a neural material's first layers, and of one light: the products of its matrices.
+// Return the cost of a neural material's first layers, and of one light: the products of its matrices.
 inline DecodeCost neural_decode_cost(const NeuralTables& t) {
   const NeuralShape& s = t.shape;
   return {(s.channels + s.offset_channels) / 4,
@@ -44,7 +44,8 @@ inline DecodeCost neural_light_cost(const NeuralTables& t) {
   return {0, neural_light_inputs * s.units + (s.layers - 1) * s.units * s.units + 3 * s.units};
 }
 
-// The cost of finding a point of the relief, at most: a height and a place for each plane of the march.
+// Returns the maximum cost of finding a point of the relief: a height and a place for each plane of the
+// march.
 inline DecodeCost relief_cost(const ReliefTables& relief) {
   if (!relief.moves()) return {};
   return {relief.steps ? relief.steps + 1 : 0, 2 * (relief.steps + 1)};

@@ -6,17 +6,17 @@
 namespace nook::material {
 namespace {
 
-// Rings of measured directions lie on common circles and lines, where Delaunay triangles are not unique. Each
-// point is moved by up to this distance, always in the same way, which makes them unique. It is far below the
-// minimum distance of two directions and far above rounding.
+// Rings of measured directions lie on common circles and lines, where Delaunay triangles are not unique.
+// Moving each point by up to this distance, always in the same way, makes them unique. The distance is far
+// below the minimum distance of two directions and far above rounding.
 constexpr double jitter = 1e-7;
 double jittered(float value, std::uint32_t number) {
   const std::uint32_t hash = (number + 1) * 2654435761u;
   return double(value) + jitter * (double(hash >> 8) / 8388608.0 - 1);
 }
 
-// The corners of a triangle around all points. They are so far away that the border of the set is nearly
-// convex; the remaining gaps at the border count as outside.
+// The corners of a triangle around all points are this far away. So the border of the set is nearly convex;
+// the remaining gaps at the border count as outside.
 constexpr double far_away = 1e3;
 
 template <class Point>
@@ -37,8 +37,8 @@ DirectionMesh::DirectionMesh(std::span<const Vec3> directions, Memory* memory)
   find_border();
 }
 
-// The method of Bowyer and Watson: each point removes the triangles whose circumcircle contains it, and fills
-// the hole.
+// Uses the method of Bowyer and Watson: each point removes the triangles whose circumcircle contains it, and
+// fills the hole.
 void DirectionMesh::triangulate(std::size_t directions) {
   const auto count = static_cast<std::uint16_t>(directions);
   points_.push_back({-far_away, -far_away});
@@ -101,7 +101,7 @@ DirectionMix DirectionMesh::locate(ParabolicPoint at, std::size_t& hint) const {
   const Point p{at.x, at.y};
   std::array<double, 3> weight{};
   for (std::size_t tried = 0; tried < triangles_.size(); ++tried) {
-    // The hint comes first, and the first triangle takes the hint's place in the order.
+    // Tries the hint first; the first triangle then takes the hint's place in the order.
     const std::size_t candidate =
         tried == 0 ? std::min(hint, triangles_.size() - 1) : tried - (tried <= hint);
     if (!weights_in(triangles_[candidate], p, weight)) continue;

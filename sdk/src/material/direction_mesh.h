@@ -22,7 +22,7 @@ struct DirectionMix {
 
 class DirectionMesh {
  public:
-  // There must be at least one direction, and all must be min_distance apart.
+  // Requires at least one direction, and directions that are min_distance apart.
   explicit DirectionMesh(std::span<const Vec3> directions, Memory* memory = default_memory());
 
   // Interpolates linearly inside the triangle that contains the point, and continuously everywhere. Beyond
@@ -51,8 +51,8 @@ class DirectionMesh {
   Vector<Edge> cavity_;  // the edges of the hole of an insertion
 };
 
-// Returns the ratio of the cosine of a light beyond the outermost sampled lights to that of the nearest
-// direction between them, `mix`, so that light fades to 0 at the horizon. It is 1 between the samples.
+// Returns the cosine of a light beyond the outermost sampled lights, divided by the cosine of the nearest
+// direction between them, `mix`. With it, light fades to 0 at the horizon. Between the samples it is 1.
 inline float low_light_share(std::span<const Vec3> lights, const DirectionMix& mix, float z) {
   ParabolicPoint nearest{};
   for (int i = 0; i < 3; ++i) {

@@ -13,14 +13,14 @@ struct Between {
   float t;
 };
 
-// Of a side that repeats; 0 to 1 is the side.
+// For a side that repeats, with coordinates 0 to 1.
 inline Between repeated(float at, std::uint32_t size) {
   const float place = (at - std::floor(at)) * float(size) - 0.5f, low = std::floor(place);
   const auto first = static_cast<std::uint32_t>(low + float(size)) % size;
   return {first, (first + 1) % size, place - low};
 }
 
-// Of a side that ends; beyond the middle of the outermost texel is that texel.
+// For a side that ends: beyond the centre of the outermost texel, the value is that texel's.
 inline Between edge_clamped(float at, std::uint32_t size) {
   const float place = std::clamp(at * float(size) - 0.5f, 0.0f, float(size - 1)), low = std::floor(place);
   const auto first = static_cast<std::uint32_t>(low);

@@ -6,12 +6,13 @@
 namespace nook::material {
 namespace {
 
-// A footprint in texels: the squares of its axes, and the direction of the longer one with any length.
+// An ellipse describes a footprint in texels by the squared lengths of its axes, and the direction of the
+// longer one at any length.
 struct Ellipse {
   float longer2, shorter2, x, y;
 };
 
-// Eigenvalues and the first eigenvector of J J^T, where J has the sides as its columns.
+// Computes the eigenvalues and the first eigenvector of J J^T, where J has the sides as its columns.
 Ellipse ellipse_of(float dx_x, float dx_y, float dy_x, float dy_y) {
   const float xx = dx_x * dx_x + dy_x * dy_x, yy = dx_y * dx_y + dy_y * dy_y, xy = dx_x * dx_y + dy_x * dy_y;
   const float mean = 0.5f * (xx + yy), half = 0.5f * (xx - yy), from_mean = std::sqrt(half * half + xy * xy);

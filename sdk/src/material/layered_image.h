@@ -1,4 +1,4 @@
-// Images with four numbers in each texel, in layers and mipmap levels: one level after another, layers x
+// Images have four numbers in each texel, in layers and mipmap levels: one level after another, layers x
 // height x width x 4. They are read as a texture of a tile that repeats.
 #pragma once
 
@@ -35,7 +35,7 @@ inline Four mix(const Four& a, const Four& b, float t) {
 struct ImageSize {
   std::uint32_t width = 0, height = 0, layers = 0, levels = 0;  // width and height of level 0
 
-  // Where a level begins; that behind the last is the number of numbers.
+  // Returns where a level begins. For the level after the last, this is the total number of values.
   std::size_t level_offset(std::uint32_t level) const {
     std::size_t offset = 0;
     for (std::uint32_t l = 0; l < level; ++l)
@@ -49,7 +49,7 @@ struct ImagePlace {
   float u = 0, v = 0, level = 0;
 };
 
-// Of texel(column, row) in an image of a level.
+// Filters texel(column, row) in an image of a level.
 template <class Texel>
 Four bilinear(std::uint32_t width, std::uint32_t height, const ImagePlace& place, Texel&& texel) {
   const Between x = repeated(place.u, width), y = repeated(place.v, height);
@@ -57,7 +57,7 @@ Four bilinear(std::uint32_t width, std::uint32_t height, const ImagePlace& place
              mix(texel(x.low, y.high), texel(x.high, y.high), x.t), y.t);
 }
 
-// Of at_level(level), the bilinear value of a level.
+// Mixes at_level(level), the bilinear value of a level.
 template <class AtLevel>
 Four between_levels(std::uint32_t levels, float wanted, AtLevel&& at_level) {
   const float level = std::clamp(wanted, 0.0f, float(levels - 1));
@@ -78,9 +78,9 @@ Four trilinear(const ImageSize& size, const Number* numbers, std::uint32_t layer
   });
 }
 
-// Images in blocks with four numbers in each texel, two layers of two channels each, in the layout of
-// textures: one level after another, layers x block rows x block columns x channels x a block of
-// signed_blocks.h. Blocks at the rim of a level hold its last texels once more.
+// Images in blocks with four numbers in each texel: two layers of two channels each, in the layout of
+// textures. One level follows another, as layers x block rows x block columns x channels x a block of
+// signed_blocks.h. Blocks at the edge of a level repeat its last texels.
 struct BlockSize {
   std::uint32_t width = 0, height = 0, layers = 0, levels = 0;  // layers of two channels
 
@@ -95,7 +95,7 @@ struct BlockSize {
   }
 };
 
-// layer is the first of the two.
+// layer is the first of the two layers.
 inline Four trilinear(const BlockSize& size, BlockForm form, const std::uint8_t* blocks, std::uint32_t layer,
                       const ImagePlace& place) {
   return between_levels(size.levels, place.level, [&](std::uint32_t level) {

@@ -102,7 +102,7 @@ class Cells {
   std::size_t source(std::size_t cell, Members members_of) const {
     return members_of == Members::of_row ? cell - 1 : cell - side_;
   }
-  // Returns the prediction of number i of a cell. The clusters of the cell are known, and those before it.
+  // Predicts number i of a cell. The clusters of the cell and the numbers before it must be known.
   std::int32_t predicted(std::size_t cell, Members members_of, std::size_t i) {
     if (members_of == Members::own) return 0;
     if (members_of == Members::of_column || !has_column(cell) || !same(cell, cell - side_) ||

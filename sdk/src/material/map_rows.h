@@ -1,5 +1,5 @@
-// Resampled view maps in few bytes: most cells mix the same clusters as a neighbour, with coefficients close
-// to those that their neighbours predict.
+// Stores resampled view maps in few bytes. Most cells mix the same clusters as a neighbour, with coefficients
+// close to a prediction from neighbours.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,9 @@
 
 namespace nook::material {
 
-// Golomb's and Rice's code of whole numbers, for which small ones take few bits. A multiple m becomes n = 2
-// m, or -2 m - 1 below 0, and n becomes n >> k ones, a zero and its k low bits; after 24 ones without a zero
-// n follows in 26 bits.
+// Golomb's and Rice's code of whole numbers, in which small numbers take few bits. A multiple m becomes n = 2
+// m, or -2 m - 1 below 0. n is written as n >> k ones, a zero and its k low bits. After 24 ones without a
+// zero, n follows in 26 bits.
 
 inline constexpr std::int32_t max_multiple = (1 << 24) - 1;
 inline constexpr int k_bits = 5;
@@ -27,15 +27,15 @@ void write_multiple(ByteWriter& out, std::int32_t multiple, std::uint32_t k);
 std::uint32_t read_k(ByteReader& in);
 std::int32_t read_multiple(ByteReader& in, std::uint32_t k);
 
-// Returns rows whose terms are in the order of their clusters.
+// Returns the rows with their terms sorted by cluster.
 ViewRows sorted_rows(const ViewRows& rows, const TensorShape& shape, Memory* memory = default_memory());
 
-// Writes the rows, sorted: f32 step, two k of the code above, and for each cell in packed bits: 0 and its
-// clusters, 8 bits each, or 16 above 256 clusters; or 1 if it has those of the cell before it in its row; or
-// 2 if it has those of the cell before it in its column. Then follow its coefficients as multiples of the
-// step, less a prediction: the multiples of that cell, or, if the two cells before it and the one before both
-// have the same clusters, the sum of the two less the third. The first k is that of cells without a
-// prediction.
+// Writes the sorted rows: f32 step, two k of the code above, then each cell in packed bits. A cell starts
+// with 0 and its clusters, 8 bits each or 16 above 256 clusters. Or it starts with 1 or 2 if it has the
+// clusters of the cell before it in its row or in its column. Then its coefficients follow as multiples of
+// the step, minus a prediction. The prediction is that cell's multiples. If the two cells before and the
+// diagonal one all have the same clusters, it is the sum of the two minus the third. The first k is for cells
+// without a prediction.
 void write_map_rows(ByteWriter& out, const ViewMap& map, const TensorShape& shape);
 
 // Returns the smallest number of bytes of cells.

@@ -1,6 +1,6 @@
 // A compressed material as plain data: a bidirectional texture function (BTF) and optionally a view-dependent
-// occlusion texture function (VOTF). N-SVD, CTA and K-CTA have one form; neural.h has another one of the BTF.
-// The method is that of Y.-T. Tsai, Z.-C. Shih: K-Clustered Tensor Approximation, 2012.
+// occlusion texture function (VOTF). N-SVD, CTA and K-CTA share one form; neural.h has another form of the
+// BTF. The method is by Y.-T. Tsai, Z.-C. Shih: K-Clustered Tensor Approximation, 2012.
 //
 // Directions are unit vectors in tangent space that point away from the surface: x along u, y along v, z >= 0
 // along the normal. Texel (x, y) has its centre at u = (x + 0.5) / I_x, v = (y + 0.5) / I_y; the tile
@@ -33,10 +33,10 @@ struct ViewRows {
   Vector<float> coefficients;        // rows x K x R_v: row i of U_{v,c}, c = membership[i, k]
 };
 
-// The view mode resampled over the hemisphere (section 6.3.2 of the paper) in the parabolic map. The row of
-// cell (column, row), with the number row * side + column, is that of the direction d with
+// The view mode resampled over the hemisphere (section 6.3.2 of the paper) in the parabolic map. Cell
+// (column, row) has row number row * side + column, which belongs to the direction d with
 //   d.xy / (1 + d.z) = 2 (cell + 0.5) / side - 1,
-// or of the nearest direction of the horizon if that lies outside the unit disc.
+// or to the nearest direction of the horizon if d lies outside the unit disc.
 struct ViewMap {
   explicit ViewMap(Memory* memory = default_memory()) : rows(memory) {}
 
@@ -61,7 +61,8 @@ struct ClusteredTensor {
 enum class VisibilityForm : std::uint32_t {
   none = 0,    // there is no VOTF; the surface is visible everywhere
   binary = 1,  // 1 where the view meets the meso-structure, 0 where it passes through
-  // Distance to the boundary of that mask, positive where the view meets the structure, scaled to [-1, 1].
+  // Distance to the boundary of the binary mask, positive where the view meets the structure, scaled to [-1,
+  // 1].
   distance = 2,
 };
 
@@ -76,17 +77,16 @@ constexpr VisibilityMapping paper_mapping(VisibilityForm form) {
   return form == VisibilityForm::binary ? VisibilityMapping{0.5f, 1} : VisibilityMapping{0.05f, 12};
 }
 
-// The relief whose points the texels of the BTF are: texel (x, y) of a view is what it sees at the relief's
-// point over that texel. So relief does not move between views, and mixing them does not blur it. The point
-// that a view sees through the plane z = 0 is found by relief_place of relief_tables.h. The VOTF stays on
-// that plane.
+// The relief on which the texels of the BTF lie: texel (x, y) of a view is what it sees at the relief's point
+// above that texel. So relief does not move between views, and mixing views does not blur it. relief_place of
+// relief_tables.h finds the point that a view sees through the plane z = 0. The VOTF stays on that plane.
 struct Relief {
   explicit Relief(Memory* memory = default_memory()) : levels(memory) {}
 
   float low = 0, high = 0;      // heights over z = 0 of the levels 0 and 255, tiles; both 0: no relief
-  float max_slope = 0;          // the tangent of the tilt of views beyond which texels move no further
-  std::uint32_t steps = 0;      // of the march; 0 of a plane, which is at low = high
-  Vector<std::uint8_t> levels;  // I_y x I_x of the BTF, row by row; empty of a plane
+  float max_slope = 0;          // the tangent of a view's tilt beyond which texels move no further
+  std::uint32_t steps = 0;      // of the march; 0 for a plane, which is at low = high
+  Vector<std::uint8_t> levels;  // I_y x I_x of the BTF, row by row; empty for a plane
 
   bool moves() const { return low != 0 || high != 0; }
 };
@@ -105,13 +105,13 @@ struct Material {
   Vector<Vec3> lights;  // I_l different directions to the light
   Vector<Vec3> views;   // I_v different directions to the viewer, for BTF and VOTF
 
-  // 3 I_l x R_l: the mode-light basis of all clusters; its row is 3 l + channel.
+  // 3 I_l x R_l: the mode-light basis that all clusters share; its row is 3 l + channel.
   Vector<float> light_basis;
   // The radiance towards the view, linear RGB, for a directional light whose irradiance on a plane that faces
   // it is 1. It includes the cosine of the light: a white Lambertian plane under a perpendicular light gives
   // 1 / pi.
   ClusteredTensor btf;
-  Neural neural;  // in the place of light_basis and btf, which are then empty
+  Neural neural;  // replaces light_basis and btf, which are then empty
 
   VisibilityForm visibility = VisibilityForm::none;
   VisibilityMapping mapping;  // not read if visibility is none
@@ -119,17 +119,17 @@ struct Material {
 
   Relief relief;
 
-  // The form of numbers in the file and in the tables of the decoder: 16 for half floats, 8 for small
-  // integers. The file's integers have steps, and those of the tables have 8 bits and scales.
+  // How numbers are stored in the file and in the decoder's tables: 16 for half floats, 8 for small integers.
+  // The file's integers have steps; the tables' integers have 8 bits and scales.
   std::uint32_t bits = 16;
-  // The squared error of rounding cores to integers in the file, relative to their squared norm.
+  // The squared error that rounding cores to integers causes in the file, relative to their squared norm.
   float core_rounding = 0x1p-14f;
 
   String recipe;  // settings of the bake, JSON; the runtime does not read it
 };
 
-// Returns the bytes of all compressed numbers without resampled view maps and directions, as Table I of the
-// paper counts them; integers are counted without their scales.
+// Returns the bytes of all compressed numbers as Table I of the paper counts them, without resampled view
+// maps and directions. Integers count without their scales.
 inline std::size_t compressed_bytes(const Material& material) {
   const std::uint32_t bits = material.bits;
   const std::size_t btf = material.neural.is_used()

@@ -157,7 +157,7 @@ void check_neural_shape(const NeuralShape& s, nook_result code) {
 }
 
 void check_block_bytes(const BlockSize& size) {
-  // Of 64 bits, also where a size_t has 32.
+  // Has 64 bits even if size_t has 32.
   std::uint64_t bytes = 0;
   for (std::uint32_t level = 0; level < size.levels; ++level)
     bytes += std::uint64_t(size.layer_bytes(level)) * size.layers;

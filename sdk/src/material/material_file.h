@@ -13,12 +13,11 @@
 //         u16 width, height; u8 channels, units, layers, offset channels, offset units;
 //         the blocks of its features and its weights, as in neural.h
 //   RECP  recipe
-// A file has the lowest version that can hold it: 4 of a neural material, 3 with a relief, else 2.
-// Packed numbers of the form 16 are an i8 exponent e, then each number as a half float h with the value
-// h 2^e. Those of the form 8 are multiples of a step, see packed_numbers.h; the slabs are those of the cores'
-// last two modes, a cluster's basis, or everything. Rows are memberships in u8, or u16 above 256 clusters,
-// and packed coefficients; with a single cluster there are no memberships. The rows of the maps of form 8 are
-// those of map_rows.h.
+// A file has the lowest version that can hold it: 4 for a neural material, 3 with a relief, else 2. Packed
+// numbers of form 16 are an i8 exponent e, then each number as a half float h with the value h 2^e. In form 8
+// they are multiples of a step (packed_numbers.h); a slab is the cores' last two modes, a cluster's basis, or
+// everything. Rows are memberships in u8, or u16 above 256 clusters, and packed coefficients. With a single
+// cluster there are no memberships. In form 8, map_rows.h describes the rows of maps.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +39,7 @@ std::vector<std::byte> write_material(const Material& material);
 // NOOK_ERROR_FILE_VERSION), and allocates in proportion to the file's size.
 Material read_material(std::span<const std::byte> bytes, Memory* memory = default_memory());
 
-// Returns the material after a write and a read: the numbers are rounded to those that the file stores.
+// Returns the material after a write and a read, with its numbers rounded as in the file.
 Material quantise(const Material& material);
 
 }  // namespace nook::material

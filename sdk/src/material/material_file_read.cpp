@@ -41,8 +41,8 @@ void read_directions(ByteReader& in, std::uint32_t count, Vector<Vec3>& directio
   }
 }
 
-// Reads count numbers of a form; slab is that of integers, whose step it returns. Throws if the section
-// cannot hold them, so that nothing is allocated for them.
+// Reads count numbers of a form. For integers, slab is their slab size, and the step is returned. Throws
+// before it allocates if the section cannot hold the numbers.
 float read_numbers(ByteReader& in, std::uint32_t bits, std::size_t count, std::size_t slab, const char* what,
                    Vector<float>& values) {
   if (bits == 16 ? count > in.remaining() / 2 : min_multiples_bytes(count) > in.remaining())
@@ -131,10 +131,10 @@ void read_neural(ByteReader in, Neural& neural) {
   for (std::uint16_t& weight : neural.weights) weight = std::uint16_t(in.u16());
 }
 
-// The light basis and the BTF.
+// Reads the light basis and the BTF.
 void read_btf(const Container& file, const Head& head, Material& material) {
   const float step = read_tensor(file.section("BTF_"), material, head.lights, "BTF", material.btf);
-  // A hundredth more, so that a material that is written again has the same step.
+  // Adds a hundredth, so that writing the material again uses the same step.
   if (const float error = error_of_step(material.btf.cores, step); error > 0 && error < 0.9f)
     material.core_rounding = 1.01f * error;
   ByteReader light = file.section("LGHT");

@@ -12,7 +12,7 @@ void write_numbers(ByteWriter& out, std::uint32_t bits, std::span<const float> v
              : write_multiples(out, values, slab, step_of_largest(values, steps_of_largest));
 }
 
-// The rounding of the VOTF's cores, which are small: far below the error of its compression.
+// The rounding of the VOTF's cores. They are small, so this is far below the error of their compression.
 constexpr float votf_rounding = 0x1p-16f;
 
 void write_rows(ByteWriter& out, std::uint32_t bits, const ViewRows& rows, const TensorShape& shape) {
@@ -77,7 +77,8 @@ ByteWriter write_light(const Material& material) {
   return out;
 }
 
-// Libraries of version 2 draw what has no relief, and those of version 3 what is a tensor.
+// Picks the lowest version, because libraries of version 2 can draw what has no relief, and libraries of
+// version 3 every tensor.
 ContainerKind kind_of(const Material& material) {
   ContainerKind kind = material_kind;
   kind.newest_version = material.neural.is_used() ? 4 : material.relief.moves() ? 3 : 2;

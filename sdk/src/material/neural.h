@@ -8,7 +8,7 @@
 //   units    = r(decoded + light_weights (light, half vector)), and for each further layer
 //   units    = r(hidden (units, 1))
 //   radiance = max(out (units, 1), 0)
-// So what does not depend on the light is computed once for a pixel.
+// So what does not depend on the light is computed once for each pixel.
 #pragma once
 
 #include <algorithm>
@@ -36,8 +36,8 @@ struct NeuralShape {
 
 inline constexpr std::uint32_t neural_view_inputs = 3, neural_light_inputs = 6;
 
-// Where the numbers of each layer stand in the weights: matrices of outputs x inputs, inputs slow, each
-// followed by the bias, which is the weight of an input of 1.
+// Where the numbers of each layer stand in the weights. A matrix is outputs x inputs, with inputs varying
+// slowly. Its bias follows it, as the weight of a constant input 1.
 struct NeuralLayout {
   explicit NeuralLayout(const NeuralShape& shape);
   std::size_t offset_in, offset_bias, offset_out, offset_level;  // features and view -> units -> height
@@ -48,7 +48,7 @@ struct NeuralLayout {
   std::size_t count;
 };
 
-// Where the numbers of a hidden layer begin; the first layer is 0 and has none there.
+// Returns where the numbers of a hidden layer begin. The first layer is 0 and has no numbers there.
 constexpr std::size_t neural_hidden_layer(const NeuralShape& s, const NeuralLayout& at, std::size_t layer) {
   return at.hidden + (layer - 1) * s.units * (s.units + 1);
 }
@@ -56,11 +56,11 @@ constexpr std::size_t neural_hidden_layer(const NeuralShape& s, const NeuralLayo
 // The slope of a unit below 0.
 inline constexpr float neural_leak = 0.01f;
 
-// Features lie in [-1, 1] as multiples of 1 / 127, the numbers of textures of signed bytes. A block of 4 x 4
-// texels of a channel takes eight bytes, those of RGTC in signed_blocks.h.
+// Features lie in [-1, 1] as multiples of 1 / 127, as in textures of signed bytes. A block of 4 x 4 texels of
+// a channel takes eight bytes, in the RGTC form of signed_blocks.h.
 inline constexpr int neural_feature_steps = signed_block_steps;
 inline constexpr std::size_t neural_block_bytes = signed_block_bytes;
-// The number of a code, rounded to the nearest; upper is not below lower.
+// Returns the number that a code stands for, rounded to the nearest. upper must not be below lower.
 constexpr int neural_level(int upper, int lower, std::uint32_t code) {
   const int down = sevenths_of(code);
   const int sum = upper * (7 - down) + lower * down;
@@ -71,14 +71,14 @@ struct Neural {
   explicit Neural(Memory* memory = default_memory()) : blocks(memory), weights(memory) {}
 
   NeuralShape shape;
-  // Channel x block row x block column, features before those of the offset.
+  // Channel x block row x block column; the features' channels come before the offset's.
   Vector<std::uint8_t> blocks;
   Vector<std::uint16_t> weights;  // half floats; empty: the material is a clustered tensor
 
   bool is_used() const { return !weights.empty(); }
 };
 
-// The bytes of blocks and of weights.
+// Returns the bytes of the blocks and of the weights.
 inline std::size_t neural_block_bytes_of(const NeuralShape& s) {
   return neural_block_bytes * s.blocks() * (s.channels + s.offset_channels);
 }
@@ -88,9 +88,9 @@ inline std::size_t neural_bytes(const NeuralShape& s) {
 
 // Functions of the training and of the decoder.
 
-// The shift of the place where features are read, over x and y of a view: of a height of 1, and of any. Views
-// along the plane would see features at any distance, and a height of a tile or more comes from a network
-// that has gone astray.
+// A view shifts the place where features are read, by x / z and y / z of the view times the height. These
+// limit z and the height. Otherwise, grazing views would read features at any distance, and a faulty network
+// could return heights of a tile or more.
 inline constexpr float neural_least_view_z = 0.01f;
 inline float neural_slope(Vec3 view) {
   return 1 / std::max(view.z, neural_least_view_z);

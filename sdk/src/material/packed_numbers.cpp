@@ -11,7 +11,7 @@
 namespace nook::material {
 namespace {
 
-// The largest magnitude becomes a number in [2^14, 2^15); after rounding up it is still below a half's 65504.
+// The largest magnitude is scaled to [2^14, 2^15). Even rounded up, it stays below a half's 65504.
 constexpr int top_exponent = 14;
 constexpr int max_exponent = 100;
 

@@ -1,4 +1,4 @@
-// The hemisphere as a square: W. Heidrich, H.-P. Seidel, Realistic, Hardware-accelerated Shading and
+// Maps the hemisphere to a square: W. Heidrich, H.-P. Seidel, Realistic, Hardware-accelerated Shading and
 // Lighting, 1999. shaders/material/parabolic.glsl has the same functions.
 #pragma once
 
@@ -20,7 +20,7 @@ inline ParabolicPoint to_parabolic(Vec3 d) {
   return {d.x * scale, d.y * scale};
 }
 
-// Points outside the disc give the nearest direction of the horizon.
+// Points outside the disc return the nearest direction of the horizon.
 inline Vec3 from_parabolic(ParabolicPoint p) {
   const float square = p.x * p.x + p.y * p.y;
   if (square >= 1) {

@@ -17,7 +17,7 @@ float dot(const Four& a, const Four& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-// The modes 4 f to 4 f + 3 of a cluster and a light mode.
+// Returns the modes 4 f to 4 f + 3 of a cluster and a light mode.
 Four mode_at(const TensorTables& tables, std::uint32_t cluster, std::uint32_t a, std::uint32_t f,
              const Fetches& at) {
   const std::uint32_t whole = tables.whole_modes();
@@ -70,7 +70,7 @@ Four blended(const TensorTables& tables, std::size_t layer, const CellBlend& ble
   return sum;
 }
 
-// The points of the relief that a view sees through places.
+// Returns the points of the relief that a view sees through places.
 Fetches on_relief(const MaterialTables& tables, Fetches at, Vec3 view) {
   for (std::uint32_t i = 0; i < at.count; ++i) {
     ImagePlace& place = at.place[i];
@@ -81,7 +81,7 @@ Fetches on_relief(const MaterialTables& tables, Fetches at, Vec3 view) {
   return at;
 }
 
-// Decodes the mean light modes of places for a view: each of the light_modes numbers is a sum over terms and
+// Decodes the mean light modes of places for a view. Each of the light_modes numbers is a sum over terms and
 // view modes.
 void decode(const TensorTables& tables, const Fetches& at, Vec3 view, float* modes) {
   const CellBlend blend = blend_of(tables, view);
@@ -192,8 +192,8 @@ float visibility_of(VisibilityForm form, const VisibilityMapping& mapping, float
 
 namespace {
 
-// Calls body(direction) for directions in strata of the unit disc, projected up: their plain mean is weighted
-// by the cosine (Malley's method).
+// Calls body(direction) for directions in strata of the unit disc, projected up to the hemisphere. Their
+// plain mean is weighted by the cosine (Malley's method).
 template <class Body>
 std::uint32_t over_disc(std::uint32_t across, Body&& body) {
   std::uint32_t count = 0;
@@ -222,7 +222,8 @@ Vec3 mean_reflectance(const MaterialTables& tables) {
     for (std::uint32_t i = 0; i < 3 * modes; ++i) lit[i] += double(values[i] / light.z);
   });
   Numbers seen{};
-  // Levels beyond the last are clamped to it; it has one texel along the shorter side, and at most a few.
+  // Levels beyond the last are clamped to the last, which has one texel along the shorter side and few along
+  // the other.
   const std::uint32_t across = 4;
   const std::uint32_t views = over_disc(16, [&](Vec3 view) {
     for (std::uint32_t i = 0; i < across * across; ++i) {

@@ -20,7 +20,7 @@ std::uint64_t rgtc_codes(const std::uint8_t* bytes) {
   return codes;
 }
 
-// The eight levels lowest + k step of a block of RGTC, in 127ths.
+// The eight levels lowest + k step of an RGTC block, in units of 1 / 127.
 struct Levels {
   int lowest = 0, step = 1;
 };
@@ -40,8 +40,8 @@ float error_of(const float (&numbers)[16], const Levels& levels) {
   return sum;
 }
 
-// Tries steps from the one that reaches from the lowest to the highest number down to three quarters of it,
-// with the lowest level at places a quarter of a step apart, and then those around the best.
+// Tries steps from the full range of the numbers down to three quarters of it, with the lowest level a
+// quarter of a step apart. Then it tries the neighbours of the best.
 Levels best_levels(const float (&numbers)[16]) {
   const auto [low, high] = std::minmax_element(std::begin(numbers), std::end(numbers));
   const int most = 2 * signed_block_steps / 7;
@@ -81,8 +81,8 @@ void encode_rgtc(const float (&given)[16], std::uint8_t* bytes) {
   write_rgtc(block, bytes);
 }
 
-// The modifiers of EAC, table C.12 of OpenGL ES 3.0: a number is 8 base + 8 multiplier modifier, in 1023rds,
-// or 8 base + modifier where the multiplier is 0.
+// The modifiers of EAC, table C.12 of OpenGL ES 3.0. In units of 1 / 1023, a number is 8 base + 8 multiplier
+// modifier, or 8 base + modifier if the multiplier is 0.
 constexpr std::int8_t modifiers[16][8] = {
     {-3, -6, -9, -15, 2, 5, 8, 14}, {-3, -7, -10, -13, 2, 6, 9, 12}, {-2, -5, -8, -13, 1, 4, 7, 12},
     {-2, -4, -6, -13, 1, 3, 5, 12}, {-3, -6, -8, -12, 2, 5, 7, 11},  {-3, -7, -9, -11, 2, 6, 8, 10},
@@ -114,8 +114,8 @@ float error_of(const float (&numbers)[16], const EacHead& head) {
   return sum;
 }
 
-// Tries all tables with the multiplier that reaches from the lowest to the highest number and the one below,
-// around the base that puts the middle of the table to the middle of the numbers.
+// Tries all tables with two multipliers: the one that spans the numbers' range, and the one below. It tries
+// bases around the one that aligns the table's centre with the numbers' centre.
 EacHead best_head(const float (&numbers)[16]) {
   const auto [low, high] = std::minmax_element(std::begin(numbers), std::end(numbers));
   EacHead best;
@@ -139,7 +139,7 @@ EacHead best_head(const float (&numbers)[16]) {
   return best;
 }
 
-// Codes stand column by column, the first in the highest bits.
+// Codes are stored column by column, the first in the highest bits.
 constexpr std::uint32_t eac_shift(std::uint32_t texel) {
   return 3 * (15 - (texel % 4 * 4 + texel / 4));
 }

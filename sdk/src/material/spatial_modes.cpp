@@ -62,7 +62,7 @@ void ModeExpansion::expand(std::uint32_t a, std::uint32_t b, std::span<float> sc
                            std::span<float> image) const {
   const TensorShape& s = tensor_.shape;
   const float* const z = core(a, b);
-  // The y mode is expanded first: scratch[p, y] = sum_q Z[p, q] Y[y, q].
+  // Expands the y mode first: scratch[p, y] = sum_q Z[p, q] Y[y, q].
   std::fill(scratch.begin(), scratch.end(), 0.0f);
   std::fill(image.begin(), image.end(), 0.0f);
   for (std::size_t p = 0; p < s.rank_x; ++p)
@@ -111,7 +111,7 @@ void halve(std::span<const float> image, std::uint32_t width, std::uint32_t heig
   const std::uint32_t w = level_size(width, 1), h = level_size(height, 1);
   for (std::uint32_t y = 0; y < h; ++y)
     for (std::uint32_t x = 0; x < w; ++x) {
-      // The area covers at most three texels along a side, which start here.
+      // The area covers at most three texels along a side, starting here.
       const auto u0 = std::uint32_t(std::uint64_t(x) * width / w);
       const auto v0 = std::uint32_t(std::uint64_t(y) * height / h);
       const float* const corner = &image[std::size_t(v0) * width + u0];

@@ -18,8 +18,8 @@ std::uint16_t finite_half(float value) {
   return to_half(std::clamp(value, -65504.0f, 65504.0f));
 }
 
-// Calls body(place, cluster, a, b, image, other, scratch) for all modes, `batch` at a time, with the expanded
-// mode in image and room for another. Bodies of different places run at once.
+// Calls body(place, cluster, a, b, image, other, scratch) for all modes, `batch` at a time. image holds the
+// expanded mode, and other has room for another. Bodies of different places run in parallel.
 constexpr std::uint32_t batch = 16;
 
 template <class Body>
@@ -72,7 +72,7 @@ void for_each_texel(const TensorTables& tables, std::uint32_t cluster, std::uint
                  });
 }
 
-// Encodes an image into every second of the blocks from `to` on.
+// Encodes an image into every other block from `to` on.
 template <class Scaled>
 void encode_image(BlockForm form, std::uint32_t width, std::uint32_t height, std::span<const float> image,
                   Scaled&& scaled, std::uint8_t* to) {
@@ -86,7 +86,7 @@ void encode_image(BlockForm form, std::uint32_t width, std::uint32_t height, std
     }
 }
 
-// Encodes all levels of a mode of which `a` counts light modes in blocks.
+// Encodes all levels of a mode into blocks; `a` counts the light modes in blocks.
 template <class Scaled>
 void encode_mode(TensorTables& tables, std::uint32_t cluster, std::uint32_t a, std::uint32_t b,
                  std::span<float> image, std::span<float> other, Scaled&& scaled) {
@@ -101,7 +101,7 @@ void encode_mode(TensorTables& tables, std::uint32_t cluster, std::uint32_t a, s
                  });
 }
 
-// Returns the exponent that scales the largest bound of a spatial mode to [2^14, 2^15), which is within a
+// Returns the exponent that scales the largest bound of a spatial mode to [2^14, 2^15). This is within a
 // half's range and far from its smallest numbers.
 int spatial_exponent(const ClusteredTensor& tensor, Memory* memory) {
   float bound = 0;
@@ -118,14 +118,14 @@ struct ModeScales {
   Vector<float> r;  // R_l
 };
 
-// The magnitudes below which a number counts as 0, so that no quotient overflows.
+// Smaller magnitudes count as 0, so that no quotient overflows.
 constexpr float smallest_scale = 1e-30f;
 
 float quotient(float value, float scale) {
   return scale > smallest_scale ? value / scale : 0;
 }
 
-// Sets p to the smallest for which no |mode| is above p r.
+// Sets p to the smallest values for which no |mode| is above p r.
 void tighten(std::span<const float> largest, const TensorShape& s, ModeScales& scales) {
   std::fill(scales.p.begin(), scales.p.end(), 0.0f);
   for (std::uint32_t c = 0; c < s.clusters; ++c)
@@ -137,11 +137,11 @@ void tighten(std::span<const float> largest, const TensorShape& s, ModeScales& s
       }
 }
 
-// Returns scales for which p_c[b] r[a] is close to the largest magnitude of each mode S_c[a, b], and not
-// below it. r starts with the means of these magnitudes. light has those of the columns of the light basis: r
-// goes half of the way, in logarithms, to where the columns times r are equal, because the rounding of the
-// light map counts as that of the modes does. Only sums, products and square roots, which all machines round
-// alike.
+// Returns scales such that p_c[b] r[a] is close to the largest magnitude of each mode S_c[a, b], and not
+// below it. r starts with the means of these magnitudes. `light` holds the largest magnitudes of the light
+// basis' columns. r then moves half of the way, in logarithms, to where the columns times r are equal,
+// because rounding the light map matters as much as rounding the modes. It uses only sums, products and
+// square roots, which all machines round alike.
 ModeScales mode_scales(const TensorShape& s, std::span<const float> largest, std::span<const float> light,
                        Memory* memory) {
   ModeScales scales(memory);
@@ -211,13 +211,13 @@ void pack_cells(const ViewCells& cells, std::uint32_t rank, Scale&& scale, Tenso
   }
 }
 
-// Numbers with scales: integers, and blocks.
+// True for forms with scales: integers, and blocks.
 bool has_scales(const Material& material, const ModeForm& form) {
   return material.bits == 8 || form.blocks != BlockForm::none;
 }
 
-// Modes from light mode `whole` on go into blocks, if there is a form of these. Throws Failure if they
-// would take too many bytes, and takes no memory before.
+// Modes from light mode `whole` on go into blocks, if there is a block form. Throws Failure if they would
+// take too many bytes, before it allocates.
 void set_sizes(const TensorShape& s, std::uint32_t light_modes, BlockForm form, std::uint32_t whole,
                TensorTables& tables) {
   tables.width = s.width;
@@ -232,7 +232,7 @@ void set_sizes(const TensorShape& s, std::uint32_t light_modes, BlockForm form, 
   check_block_bytes(tables.block_size());
 }
 
-// Modes that ranks do not fill are zeros.
+// Modes beyond the ranks are zeros.
 void make_blocks(TensorTables& tables) {
   if (tables.block_form == BlockForm::none) return;
   tables.blocks.resize(tables.block_size().level_offset(tables.levels));
@@ -258,7 +258,7 @@ std::int8_t as_integer(float value) {
   return std::int8_t(std::nearbyint(std::clamp(value, -1.0f, 1.0f) * 127));
 }
 
-// Integers and blocks.
+// Makes integers and blocks.
 void make_scaled_spatial(const ClusteredTensor& tensor, const ModeScales& scales, const Parallel& parallel,
                          TensorTables& tables, Memory* memory) {
   tables.bits = 8;
@@ -312,7 +312,7 @@ void add_floats(Hash64& hash, std::span<const float> values) {
   }
 }
 
-// The scales are those of the light map, and so belong to what was baked with it.
+// Includes the scales of the light map, which belong to everything baked with it.
 std::uint64_t hash_of_light(const Material& material, std::span<const float> columns, float scale) {
   Hash64 hash;
   add_floats(hash, {&scale, 1});
@@ -346,7 +346,7 @@ float largest_of(std::span<const float> values) {
   return largest;
 }
 
-// Replaces the light map by integers, of which 127 stands for `unit`.
+// Replaces the light map by integers, with 127 for `unit`.
 void round_light_map(MaterialTables& tables, float unit, Memory* memory) {
   tables.light_8.resize(tables.light.size());
   for (std::size_t i = 0; i < tables.light.size(); ++i)
@@ -354,8 +354,8 @@ void round_light_map(MaterialTables& tables, float unit, Memory* memory) {
   tables.light = Vector<float>(memory);
 }
 
-// Moves the texels around each light, in equal shares of the weights of a linear filter, until the filter
-// gives the light's row of the basis there (S. Kaczmarz, 1937).
+// Moves the texels around each light until linear filtering returns the light's row of the basis there.
+// Texels share the change by their filter weights (S. Kaczmarz, 1937).
 template <class Scale>
 void fit_light_map(const Material& material, Scale&& scale, MaterialTables& tables) {
   constexpr int sweeps = 8;
@@ -380,14 +380,14 @@ void fit_light_map(const Material& material, Scale&& scale, MaterialTables& tabl
   }
 }
 
-// The side in cells of a small light map: eight cells or more for each of up to 512 lights, and four for each
-// of 1,024, so that few lights share texels.
+// Returns the side in cells of a small light map. It has eight cells or more for each of up to 512 lights,
+// and four for each of 1,024, so that few lights share texels.
 std::uint32_t small_light_side(std::size_t lights) {
   return lights <= 128 ? 32 : 64;
 }
 
-// Makes the light map of integers, and returns the number that 127 stands for. It is that of the map of
-// default size, whose numbers others were baked with; fitted texels above it are clamped.
+// Makes the light map of integers, and returns the number that 127 stands for. That number comes from the map
+// of default size, because baked data depend on it. Larger fitted texels are clamped.
 template <class Scale>
 float make_light_map_8(const Material& material, Scale&& scale, bool is_small, MaterialTables& tables,
                        Memory* memory) {
@@ -437,7 +437,7 @@ void make_votf(const Material& material, std::uint32_t map_side, const ModeForm&
   const ViewCells cells = view_cells(votf, material.views, map_side, memory);
   tables.votf_hash = hash_of_votf(material);
   if (!has_scales(material, form)) {
-    // The inverse power of two multiplies the coefficients, so that it is used only where a half would
+    // The coefficients are multiplied by the inverse power of two, so it is used only where a half would
     // overflow.
     const int exponent = std::min(spatial_exponent(votf, memory), 0);
     make_spatial(votf, std::ldexp(1.0f, exponent), parallel, tables.votf, memory);

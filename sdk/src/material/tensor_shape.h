@@ -1,5 +1,5 @@
-// The sizes of a clustered tensor and of its storage. I, R, C and K are the symbols of Y.-T. Tsai, Z.-C.
-// Shih: K-Clustered Tensor Approximation, 2012.
+// The sizes of a clustered tensor and of its storage. I, R, C and K are symbols from Y.-T. Tsai, Z.-C. Shih:
+// K-Clustered Tensor Approximation, 2012.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Floats in the smallest of a few forms that holds each of them exactly: the numbers of a texture come from
-// few bits, and every number comes back with the same bits.
+// Stores floats in the smallest of a few forms that holds each of them exactly. Texels need few bits this
+// way, and every number comes back with the same bits.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace nook::nnao {
 
-// The way in which a driver turns an integer of a normalised format into a float.
+// How a driver turns an integer of a normalised format into a float.
 enum class Normalisation : std::uint8_t {
   division = 0,      // float(u) / largest
   product = 1,       // float(u) * (1.0f / largest)
@@ -21,7 +21,7 @@ struct ExactPacking {
   std::uint8_t bits = 32;  // 32: floats; 8, 10, 16, 24: normalised integers; 15: half floats
   Normalisation normalisation = Normalisation::division;
 
-  // Of one value: 4, 2 for half floats, else those of the bits rounded up.
+  // How many bytes a value takes: 4, 2 for half floats, else its bits rounded up.
   constexpr std::size_t bytes() const { return (std::size_t(bits) + 7) / 8; }
   bool operator==(const ExactPacking&) const = default;
 };
@@ -34,7 +34,7 @@ ExactPacking exact_packing(std::span<const float> values);
 void write_exact(ByteWriter& out, std::span<const float> values);
 
 // Reads what write_exact wrote, to the end of the section, into `values`, which gets `count` numbers. Throws
-// Failure(NOOK_ERROR_BAD_FILE) before anything is allocated if the section has another size.
+// Failure(NOOK_ERROR_BAD_FILE) before it allocates anything if the section has another size.
 void read_exact(ByteReader in, std::uint32_t count, Vector<float>& values);
 
 }  // namespace nook::nnao

@@ -6,19 +6,19 @@
 namespace nook::nnao {
 namespace {
 
-// Weights the slope of each side by the inverse of its square.
+// Averages the slopes of both sides, each weighted by the inverse of its square.
 float axis_slope(const Neighbours& neighbours, std::size_t first) {
   const float a = neighbours.slope[first], b = neighbours.slope[first + 1];
   const float steep_a = a * a + 1e-12f, steep_b = b * b + 1e-12f;
   return (a * steep_b + b * steep_a) / (steep_a + steep_b);
 }
 
-// Each 0 to 3.
+// Each value is 0 to 3.
 std::array<float, 4> unpacked(std::uint8_t bits) {
   return {float(bits >> 6), float(bits >> 4 & 3), float(bits >> 2 & 3), float(bits & 3)};
 }
 
-// The texel beside another one; on the screen's border the nearest that there is.
+// Returns the texel next to another one; at the border of the screen, the nearest texel on it.
 std::size_t near_texel(std::uint32_t width, std::uint32_t height, std::uint32_t x, std::uint32_t y, int aside,
                        int up) {
   return std::size_t(std::clamp(int(y) + up, 0, int(height) - 1)) * width +
@@ -37,7 +37,7 @@ Neighbours neighbours_of(const View& view, std::uint32_t x, std::uint32_t y, flo
   for (std::size_t i = 0; i < 4; ++i)
     found.slope[i] = (depths[i] - depth) / (orthographic ? 1 : depths[i]) * (i % 2 == 0 ? -1.0f : 1.0f);
   const std::array<bool, 4> inside{x > 0, x + 1 < view.width, y > 0, y + 1 < view.height};
-  // Beyond the border of the screen the surface is taken to continue.
+  // Beyond the border of the screen the surface is assumed to continue.
   for (std::size_t i = 0; i < 4; ++i)
     if (!inside[i]) found.slope[i] = found.slope[i ^ 1];
   for (std::size_t i = 0; i < 4; ++i) {
@@ -50,7 +50,7 @@ Neighbours neighbours_of(const View& view, std::uint32_t x, std::uint32_t y, flo
 }
 
 Vec3 rebuilt_normal(const View& view, std::uint32_t x, std::uint32_t y, const Neighbours& neighbours) {
-  // With d(x, y) depth and (u, v) the ray of a pixel, the plane's normal in a perspective is
+  // With the depth d(x, y) and the ray (u, v) of a pixel, the plane's normal in a perspective is
   //   (du d / d, dv d / d, 1 + u du d / d + v dv d / d).
   const ScreenRays& rays = view.rays;
   const float along_u = axis_slope(neighbours, 0) / rays.x_scale,
@@ -73,7 +73,7 @@ std::array<float, 9> filter_weights(std::span<const float> ao, std::span<const s
   const std::array<float, 4> own = unpacked(edges[centre]);
   std::array<float, 9> weights{};
   weights[4] = 1;
-  // aside, up: -1 to 1.
+  // aside and up are -1 to 1.
   const auto set = [&](int aside, int up, float connected) {
     const std::size_t texel = near_texel(width, height, x, y, aside, up);
     weights[std::size_t(4 + aside + 3 * up)] =

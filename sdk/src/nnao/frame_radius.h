@@ -1,4 +1,4 @@
-// The radius of a frame as the host gives it, and as the stages use it.
+// Converts the radius of a frame from the host's form to the stages' form.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace nook::nnao {
 
-// The values are those of nook_nnao_radius_kind.
+// The values match nook_nnao_radius_kind.
 enum class RadiusKind { metres = 0, screen = 1, scene = 2 };
 
 struct GivenRadius {
@@ -18,14 +18,15 @@ struct GivenRadius {
 };
 
 struct FrameRadius {
-  // Metres. A radius in pixels is that of geometry at every distance: the limit in pixels alone counts.
+  // In metres. A radius given in pixels means the same pixels at every distance: then only the limit in
+  // pixels applies.
   float metres = 0;
   float max_px = 0;  // at least 1
   bool in_pixels = false;
   float min_px = 0;  // at most max_px; 0: none
 };
 
-// No radius in metres is as large; its product with the pixels of a metre may be infinite.
+// Every radius in metres is smaller. Its product with pixels per metre may be infinite.
 inline constexpr float endless_radius = 1e30f;
 
 inline FrameRadius frame_radius(const GivenRadius& given, float height_px) {
@@ -37,13 +38,13 @@ inline FrameRadius frame_radius(const GivenRadius& given, float height_px) {
   return {metres, max_px, false, std::min(given.min_radius_px, max_px)};
 }
 
-// The share of AO that is left at a depth is per_metre * depth + offset, clamped to [0, 1].
+// The share of AO that remains at a depth is per_metre * depth + offset, clamped to [0, 1].
 struct DistanceFade {
   float per_metre = 0, offset = 1;
   float share(float depth) const { return std::clamp(per_metre * depth + offset, 0.0f, 1.0f); }
 };
 
-// AO fades from depth `begin` on and is gone from `end` on. end 0: it does not fade.
+// AO fades out between the depths `begin` and `end`. If end is 0, it does not fade.
 inline DistanceFade distance_fade(float begin, float end) {
   if (!(end > begin)) return {};
   return {-1 / (end - begin), end / (end - begin)};

@@ -10,7 +10,7 @@ float wrapped(float x) {
   return x - std::floor(x);
 }
 
-// The change of depth to the neighbours along both axes, each on the flatter side.
+// Returns the change of depth to the neighbours along both axes, each on the flatter side.
 float flat_steps(const View& view, int x, int y, float depth) {
   const auto step = [&](int aside, int up) {
     return std::min(std::abs(depth_near(view, x - aside, y - up) - depth),
@@ -23,8 +23,8 @@ struct Range {
   float low = 0, high = 1;
 };
 
-// The mean of the pixels that the edges connect, and twice their deviation to either side, but near the
-// pixel's own AO.
+// Returns the mean of the pixels that the edges connect, plus and minus twice their deviation, limited to a
+// range around the pixel's own AO.
 Range likely_range(const PresentAo& present, int x, int y) {
   const View& view = present.view;
   const std::size_t own = view.at(std::uint32_t(x), std::uint32_t(y));
@@ -63,7 +63,7 @@ Place earlier_place(const PresentAo& present, const History& history, std::uint3
           (earlier.y / extent - history.rays.y_offset) / history.rays.y_scale - 0.5f};
 }
 
-// The mean over those of the four pixels around the place that show the surface.
+// Averages the ones of the four pixels around the place that show the surface.
 MeanAo earlier_mean(const History& history, Place place, float depth, float tolerance) {
   const float base_x = std::floor(place.x), base_y = std::floor(place.y);
   MeanAo mean{0, 0};

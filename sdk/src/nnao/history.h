@@ -1,5 +1,5 @@
-// The mean of AO over frames, one pixel at a time. This is the reference of the tests of the OpenGL pass; the
-// stage is shaders/nnao/accumulate.frag.
+// Averages AO over frames, one pixel at a time. Tests compare the OpenGL pass with it; the stage is
+// shaders/nnao/accumulate.frag.
 #pragma once
 
 #include <array>
@@ -10,17 +10,18 @@
 
 namespace nook::nnao {
 
-// The remains of an earlier frame: its depths and, for each of its pixels, a mean of AO and the frames in it.
+// What remains of an earlier frame: its depths, and for each pixel a mean of AO and the number of frames in
+// it.
 struct History {
   std::uint32_t width = 0, height = 0;
   ScreenRays rays;
   std::span<const float> depth;   // metres, not finite for the sky
   std::span<const float> ao;      // means
   std::span<const float> frames;  // 0: none
-  Mat3x4 earlier_from_view;       // from the view space of the present frame to that of the earlier one
+  Mat3x4 earlier_from_view;       // from the view space of the current frame to the earlier frame's
 };
 
-// The present frame.
+// The current frame.
 struct PresentAo {
   View view;
   std::span<const float> ao;            // before the filter
@@ -30,11 +31,11 @@ struct PresentAo {
   float tolerance = 0.03f;  // metres; nook_nnao_desc: radius / blur_sharpness
 };
 
-// Returns the noise of a pixel in a frame, see frame_noise_step.
+// Returns the noise of a pixel in a frame; see frame_noise_step.
 TapNoise noise_of_frame(TapNoise noise, std::uint32_t frame);
 
-// The noise of the taps takes AO about so far from its mean. The mean of earlier frames may lie no farther
-// from a pixel's AO. Wider bounds flicker less and lose dark lines of a pixel.
+// The noise of the taps moves AO about this far from its mean. The mean of earlier frames may differ from a
+// pixel's AO by this much at most. Wider bounds flicker less, but lose dark lines that are one pixel wide.
 constexpr float noise_reach(std::uint32_t taps) {
   return taps < 16 ? 0.2f : taps < 32 ? 0.12f : 0.08f;
 }

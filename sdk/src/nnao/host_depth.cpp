@@ -9,12 +9,12 @@
 namespace nook::nnao {
 namespace {
 
-// The matrix is defined up to a factor; here clip w is -z or 1.
+// The matrix is defined up to a factor; with this one, clip w is -z or 1.
 double factor(const float (&projection)[16]) {
   return 1.0 / (is_perspective(projection) ? -double(projection[11]) : double(projection[15]));
 }
 
-// From here on a depth is no surface; its square is still a float.
+// Depths from here on are not surfaces; the square of this number is still a float.
 constexpr float no_surface = 1e15f;
 
 }  // namespace
@@ -45,8 +45,9 @@ ScreenRays projection_rays(const float (&projection)[16], std::uint32_t width, s
 
 namespace {
 
-// An oblique projection adds [2] x + [6] y to clip z. Over w these are multiples of the ray through the
-// pixel, which are taken away from the stored value. The multiples at pixel (0, 0) go into the constants.
+// An oblique projection adds [2] x + [6] y to clip z. Divided by w, this is a multiple of the ray through the
+// pixel, which the decode subtracts from the stored value. The multiples at pixel (0, 0) go into the
+// constants.
 void add_slope(DepthDecode& decode, const DepthSource& source, double stored_scale) {
   const auto& m = source.projection;
   const ScreenRays rays = projection_rays(m, source.width, source.height);
@@ -77,7 +78,7 @@ DepthDecode depth_decode(const DepthSource& source) {
   }
   const auto& m = source.projection;
   const double m10 = m[10] * factor(m), m14 = m[14] * factor(m);
-  // ndc = scale stored + offset.
+  // ndc = scale * stored + offset.
   const bool zero_to_one = source.clip == ClipRange::zero_to_one;
   const double scale = zero_to_one ? 1 : 2, offset = zero_to_one ? 0 : -1;
   bool grows = false;

@@ -1,12 +1,12 @@
-// The projection and the depth of a host as numbers: the meaning of a stored depth value, and what a matrix
-// must be. Matrices are column-major, as OpenGL takes them.
+// The projection and the depth of a host as numbers: what a stored depth value means, and what a matrix must
+// be. Matrices are column-major, as in OpenGL.
 #pragma once
 
 #include "sdk/src/nnao/network_evaluate.h"
 
 namespace nook::nnao {
 
-// The values are those of nook_depth_kind and nook_clip_space.
+// The values match nook_depth_kind and nook_clip_space.
 enum class DepthKind { hardware = 0, linear = 1, logarithmic = 2 };
 enum class ClipRange { negative_one_to_one = 0, zero_to_one = 1 };
 
@@ -14,38 +14,37 @@ struct DepthSource {
   const float (&projection)[16];
   DepthKind kind = DepthKind::hardware;
   ClipRange clip = ClipRange::negative_one_to_one;
-  float sky_depth = 0;  // metres, of linear depth: this depth and greater ones are sky; 0: no depth is
-  // Of logarithmic depth, as the C interface defines it: C, n, f.
+  float sky_depth = 0;  // metres; linear depths from here on are sky; 0: none
+  // For logarithmic depth, as the C interface defines it: C, n, f.
   float log_scale = 1, log_near = 0, log_far = 0;
   std::uint32_t width = 1, height = 1;  // of the image; only an oblique projection reads them
 };
 
-// The values are those of nook_nnao_sample.
+// The values match nook_nnao_sample.
 enum class SampleRule { median = 0, first = 1, nearest = 2 };
 
-// Returns the number of the sample whose depth is that of the pixel: of equal depths the first, and with the
-// median of an even number the nearer of two. depths are those of the samples in view space, infinite where
-// there is no surface. It is the reference of host_depth.glsl.
+// Returns which sample's depth the pixel gets. Of equal depths, the first one counts; the median of an even
+// number is the nearer of the middle two. depths are in view space, infinite if there is no surface. Tests
+// compare host_depth.glsl with it.
 std::size_t chosen_sample(SampleRule rule, std::span<const float> depths);
 
 bool is_perspective(const float (&projection)[16]);
 
-// As screen_rays, for a matrix that may be multiplied by any factor above 0.
+// Does what screen_rays does, for a matrix that may be multiplied by any factor above 0.
 ScreenRays projection_rays(const float (&projection)[16], std::uint32_t width, std::uint32_t height);
 
-// Depth = (x + y s) / (z + w s), and the stored value of the far plane. s is the stored value plus slope_x
-// and slope_y times the number of the pixel, which only an oblique projection has, or exp2(log_rate * stored)
-// if log_rate is not 0.
+// Depth = (x + y s) / (z + w s). If log_rate is not 0, s is exp2(log_rate * stored). Otherwise s is the
+// stored value plus slope_x and slope_y times the pixel's number; only an oblique projection has slopes.
 struct DepthDecode {
   float x = 0, y = 1, z = 1, w = 0;
   float log_rate = 0;
-  float far_stored = 1e30f;  // values from here on are no surface
-  float far_sign = 1;        // 1: stored values grow with the distance; -1: they fall
+  float far_stored = 1e30f;  // values from here on are not surfaces
+  float far_sign = 1;        // 1: stored values grow with distance; -1: they fall
   float slope_x = 0, slope_y = 0;
 };
 DepthDecode depth_decode(const DepthSource& source);
 
-// The view depth of a surface is above this: that of a perspective is positive.
+// The view depth of a surface is above this; in a perspective it is positive.
 constexpr float min_surface_depth(bool perspective) {
   return perspective ? 0 : -1e15f;
 }
@@ -54,18 +53,18 @@ struct Pixel {
   std::uint32_t x = 0, y = 0;
 };
 
-// Returns the view depth of a stored value in metres, or infinity where there is no surface. It is the
-// reference of host_depth.glsl.
+// Returns the view depth of a stored value in metres, or infinity if there is no surface. Tests compare
+// host_depth.glsl with it.
 float view_depth(const DepthDecode& decode, bool perspective, float stored, Pixel pixel = {});
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) that names the descriptor's field.
 void check_normal_matrix(const float (&matrix)[9]);
 
-// Shorter texels are not normals: nothing was drawn there. A target of normalised integers that is cleared to
-// 1/2 holds 128 / 255 or 512 / 1023, which are lengths of 0.007 and 0.002 once they are doubled.
+// Shorter texels are not normals; nothing was drawn there. A target of normalised integers that is cleared to
+// 1/2 holds 128 / 255 or 512 / 1023. Doubled, these are lengths of 0.007 and 0.002.
 inline constexpr float shortest_float_normal = 1e-3f, shortest_normalised_normal = 0.25f;
 
-// The factor by which a matrix scales lengths in the mean: the cubic root of its determinant.
+// Returns the mean factor by which a matrix scales lengths: the cube root of its determinant.
 float mean_scale(const float (&matrix)[9]);
 
 }  // namespace nook::nnao

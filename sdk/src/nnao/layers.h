@@ -1,5 +1,5 @@
-// The numbers of a network's small layers in the order that files and training share: the order of network.h,
-// and in each layer that of its members.
+// Visits the numbers of a network's small layers in the order that files and training share. It is the order
+// of network.h, and within a layer the order of its members.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// Lighting with AO and bent normals: the functions of shaders/nnao/host.glsl on the CPU, which is what tests
-// and measurements compare with.
+// Lighting with AO and bent normals: the functions of shaders/nnao/host.glsl on the CPU, for tests and
+// measurements.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct SpecularNumbers {
   std::array<float, units> bias{}, out{};
   float out_bias = 0;
 };
-// Those of the shader: the fit of `nook train specular`.
+// Returns the numbers that the shader uses, fitted by `nook train specular`.
 SpecularNumbers specular_numbers();
 
 // The input of a pixel. Directions have unit length.
@@ -36,7 +36,7 @@ float specular_occlusion(const SpecularNumbers& numbers, const LitPixel& pixel, 
 // Returns the cosine of the half angle of the cone around the bent normal that is as open as the pixel.
 float cone_cosine(float ao);
 
-// Returns AO with the light that the surroundings reflect, for one channel of the albedo.
+// Returns AO brightened by the light that the surroundings reflect, for one channel of the albedo.
 float multi_bounce(float ao, float albedo);
 
 }  // namespace nook::nnao

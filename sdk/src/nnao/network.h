@@ -1,6 +1,5 @@
 // The networks of the screen-space pass as plain data. View space is OpenGL's: x right, y up, the camera
-// looks along -z. The method is that of D. Holden, J. Saito, T. Komura: Neural Network Ambient Occlusion,
-// 2016.
+// looks along -z. The method is by D. Holden, J. Saito, T. Komura: Neural Network Ambient Occlusion, 2016.
 #pragma once
 
 #include <array>
@@ -34,7 +33,7 @@ struct Dense {
 // from the pixel's position p. It is projected to the screen, where the buffers give position p_t and normal
 // n_t. Its input is
 //   (n_t - n, (p_t.z - p.z) / r) clamp(1 - |p_t - p| / r, 0, 1).
-// The normalisation by mean and deviation is folded into filters and bias. With a subset of n taps, the sum
+// Filters and bias already contain the normalisation by mean and deviation. With a subset of n taps, the sum
 // over taps is scaled by grid_size^2 / n. taps.h has the positions of the taps.
 struct PaperNetwork {
   static constexpr int grid_size = NOOK_GRID_SIZE;
@@ -50,8 +49,8 @@ struct PaperNetwork {
   Dense<units, 1> layer_3;
 };
 
-// y = max(x, slope x), where x is a sum of products of the input, times 1 + a sum of products of the gate's
-// values. Each unit has its own gate and slope.
+// y = max(x, slope x). x is a sum of products of the input, times 1 + a sum of products of the gate's values.
+// Each unit has its own gate and slope.
 template <int inputs, int gates, int units>
 struct GatedDense {
   std::array<float, std::size_t(inputs) * units> weights{};      // weights[input * units + unit]
@@ -79,20 +78,20 @@ struct ThresholdDense {
 // w = max(1 - |v| / 2r, 0), where |v| is at least half a pixel, a tap's hidden units are tap(input) of
 //   input = (s, s c, s w, s c w).
 // The sky is a surface at infinity. The input of `direction` is the maximum and the mean of the units over
-// the steps of a direction; its gate is (dot(n, t), dot(n, o)), where t is the unit vector perpendicular to o
-// in the plane of the direction. The input of `join` is the mean over directions; its gate is dot(n, o) and
+// the steps of a direction. Its gate is (dot(n, t), dot(n, o)), where t is the unit vector perpendicular to o
+// in the plane of the direction. The input of `join` is the mean over directions. Its gate is dot(n, o) and
 // the distance of the pixel from the border of the screen in radii, at most 1. AO is
 //   1 - min(-dot(out, join), bound),
 // where bound is NOOK_HORIZON_BOUND times the mean over directions of the greatest max(s w, 0) of a
-// direction: without a tap that is near and above the plane nothing darkens, whatever lies behind a
+// direction. Without a tap that is near and above the plane, nothing darkens, whatever lies behind a
 // silhouette. bent has the input and the gate of `direction`, and two outputs (p, q) for each direction. The
-// bent normal, which is the mean of the open directions weighted by their cosine, points along
+// bent normal is the cosine-weighted mean of the open directions, and points along
 //   n + mean over directions of (p t + q o).
-// Only taps have a threshold, no other layer has a bias: where every tap lies on the pixel's plane, below it
-// or a little above it, all units are 0 and AO is 1. A plane is open from every angle, to the border of the
-// screen, also where depth and normals are rounded.
+// Only taps have a threshold, and no other layer has a bias. If no tap lies more than a little above the
+// pixel's plane, all units are 0 and AO is 1. So a plane is open from every angle, up to the border of the
+// screen, even with rounded depth and normals.
 struct HorizonNetwork {
-  static constexpr int revision = 8;  // of what the numbers mean
+  static constexpr int revision = 8;  // raise it when the meaning of the numbers changes
   static constexpr int tap_inputs = NOOK_HORIZON_TAP_INPUTS;
   static constexpr int units = NOOK_HORIZON_UNITS;
 

@@ -112,7 +112,7 @@ PaperUnits paper_units(const PaperNetwork& network, const View& view, Vec3 norma
   return sum;
 }
 
-// The input of the network's join and its gate, and the outputs that need no join.
+// The input and gate of the network's join, and the outputs that do not need the join.
 struct JoinInput {
   std::array<float, HorizonNetwork::units> mean{};
   std::array<float, 2> gate{};
@@ -198,8 +198,8 @@ TappedTexel clamped_texel(const View& view, std::uint32_t x, std::uint32_t y, Ta
 HorizonTapInput horizon_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal,
                                   Vec3 viewer, float radius) {
   const Vec3 v = texel_position(view, texel) - position;
-  // At the border of the screen a tap can be the pixel itself, which is a tap on its own plane. Half a pixel
-  // then stands for its distance, since v may be a rounding error.
+  // At the border of the screen a tap can be the pixel itself, on its own plane. Its distance then counts as
+  // half a pixel, since v may be a rounding error.
   const PixelScale scale = pixel_scale(view.rays, -position.z);
   const float away = std::max(length(v), 0.5f / std::max(std::abs(scale.x), std::abs(scale.y)));
   const float elevation = dot(v, normal) / away, angle = dot(v, viewer) / away;

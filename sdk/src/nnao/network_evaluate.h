@@ -1,5 +1,5 @@
-// The raw AO of a view by a network, one pixel at a time. This is the reference of the tests of the OpenGL
-// pass and of the errors of training. View space is OpenGL's; rows count from the bottom.
+// Computes the raw AO of a view with a network, one pixel at a time. Tests of the OpenGL pass and the errors
+// of training refer to it. View space is OpenGL's; rows count from the bottom.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +15,15 @@ namespace nook::nnao {
 
 // The mapping from pixels to view space. At depth w = -z, a perspective has
 //   x = (x_scale px + x_offset) w, y = (y_scale py + y_offset) w,
-// and an orthographic projection the same without the factor w. px, py are pixel coordinates; centres lie
-// at + 0.5.
+// and an orthographic projection has the same without the factor w. px and py are pixel coordinates; centres
+// are at + 0.5.
 struct ScreenRays {
   float x_scale = 1, x_offset = 0, y_scale = 1, y_offset = 0;
   bool orthographic = false;
 };
 
-// Derives the mapping from an OpenGL projection matrix (column-major), also off-centre, and the size of the
-// screen. Depth ranges and their direction have no effect.
+// Derives the mapping from an OpenGL projection matrix (column-major), which may be off-centre, and the size
+// of the screen. The range and direction of depth have no effect.
 ScreenRays screen_rays(const float (&projection)[16], std::uint32_t width, std::uint32_t height);
 
 inline Vec3 view_position(const ScreenRays& rays, float px, float py, float depth) {
@@ -51,10 +51,10 @@ struct View {
   std::size_t at(std::uint32_t x, std::uint32_t y) const { return std::size_t(y) * width + x; }
 };
 
-// The sky is a surface far beyond any radius; the square of this depth, metres, is still a float.
+// The sky is a surface far beyond any radius. The square of this depth, in metres, is still a float.
 inline constexpr float sky_depth = 1e15f;
 
-// Returns the depth of the nearest pixel on the screen.
+// Returns the depth of a pixel, or of the nearest pixel on the screen.
 inline float depth_near(const View& view, int x, int y) {
   const auto column = std::uint32_t(std::clamp(x, 0, int(view.width) - 1)),
              row = std::uint32_t(std::clamp(y, 0, int(view.height) - 1));
@@ -69,8 +69,8 @@ struct Sampling {
   DistanceFade fade = {};
 };
 
-// The radius of one pixel after the clamp, and the share of its darkness that counts: where the radius grows,
-// what is dark spreads over more pixels, and the share keeps its sum.
+// The radius of one pixel after the clamp, and the share of its darkness that counts. Where the radius grows,
+// darkness spreads over more pixels, and the share keeps its sum.
 struct PixelRadius {
   float metres = 0, px = 0, share = 1;
 };
@@ -99,7 +99,7 @@ inline float border_distance(const View& view, std::uint32_t x, std::uint32_t y,
   return std::min((std::min(across, up) + 0.5f) / radius_px, 1.0f);
 }
 
-// Computes a tap's input of the paper's form. Returns false if the input is 0.
+// Computes a tap's input for the paper's form. Returns false if the input is 0.
 bool paper_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal, float radius,
                      std::array<float, PaperNetwork::tap_inputs>& input);
 
@@ -109,14 +109,14 @@ inline Vec3 across_viewer(Vec3 viewer, float cosine, float sine) {
   return normalised(along - dot(along, viewer) * viewer);
 }
 
-// The outputs of the network for one pixel.
+// What the network returns for one pixel.
 struct Openness {
   float ao = 1;      // not clamped
-  Vec3 bent_normal;  // view space, unit length; the paper's form gives the normal
+  Vec3 bent_normal;  // view space, unit length; the paper's form returns the normal
 };
 
 // Returns the network's outputs for a given normal and noise of the pixel, which must have a surface. The
-// horizon form reads no other normal of the view. Training uses this function.
+// horizon form reads no other normals. Training uses this function.
 Openness evaluate_openness(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
                            std::uint32_t x, std::uint32_t y, TapNoise noise);
 
@@ -125,7 +125,7 @@ float evaluate_unclamped(const Network& network, const View& view, Vec3 normal, 
                          std::uint32_t x, std::uint32_t y, TapNoise noise);
 
 // Returns three units of a pixel with a surface, for pictures: the first ones of the paper's first layer, or
-// of the horizon form's means over directions.
+// of the means over directions in the horizon form.
 std::array<float, 3> first_units(const Network& network, const View& view, const Sampling& sampling,
                                  std::uint32_t x, std::uint32_t y);
 

@@ -31,7 +31,7 @@ Network read_network(std::span<const std::byte> bytes, Memory* memory = default_
 // Returns the form of a network without reading the rest of it. Throws as read_network does.
 NetworkForm network_form(std::span<const std::byte> bytes);
 
-// Returns the file that is compiled into the library: nnao/default_horizon.nook.
+// Returns the network file that is compiled into the library, nnao/default_horizon.nook.
 std::span<const std::byte> default_network_file();
 
 }  // namespace nook::nnao

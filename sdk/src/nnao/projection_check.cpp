@@ -9,15 +9,15 @@
 namespace nook::nnao {
 namespace {
 
-// An element is zero up to this share of the largest of its row. Rows differ: a wide orthographic projection
-// has small ones, a far near plane a large one.
+// An element counts as zero up to this share of its row's largest element. Rows differ: a wide orthographic
+// projection has small elements, a far near plane a large one.
 constexpr double equal_share = 1e-6;
 
-// The depths at both ends of the clip range agree with a camera up to this share: some infinite projections
-// put the far plane a little beyond infinity.
+// The depths at both ends of the clip range may deviate from a camera's by this share, because some infinite
+// projections put the far plane slightly beyond infinity.
 constexpr double plane_share = 1e-3;
 
-// The far plane of a camera lies at more than so many times the near one.
+// The far plane of a camera is more than this many times as far as the near one.
 constexpr double usual_depth_ratio = 50;
 
 // A projection as the check reads it: m[i] as OpenGL numbers the elements.
@@ -37,7 +37,7 @@ struct Matrix {
   bool oblique() const { return !zero(2) || !zero(6); }
 };
 
-// element: the value of each.
+// element(i) returns an element's value.
 template <class Element>
 Matrix matrix_of(const Element& element) {
   Matrix matrix{};
@@ -52,8 +52,8 @@ Matrix transposed(const Matrix& matrix) {
   return matrix_of([&](int i) { return matrix[4 * (i % 4) + i / 4]; });
 }
 
-// Clip x depends on x and z, clip y on y and z, and clip w on z or on nothing. An element that has to be 0
-// and is not, or -1.
+// Clip x depends on x and z, clip y on y and z, and clip w on z or on nothing. Returns an element that should
+// be 0 and is not, or -1.
 int stray_element(const Matrix& m) {
   const bool perspective = m.perspective();
   for (const int i : {1, 3, 4, 7, perspective ? 12 : 8, perspective ? 13 : 9, perspective ? 15 : 11})
@@ -61,7 +61,7 @@ int stray_element(const Matrix& m) {
   return -1;
 }
 
-// A camera that looks along -z, or along +z as left-handed ones do.
+// Accepts a camera that looks along -z, or along +z in left-handed systems.
 bool is_camera_of_any_hand(const Matrix& m) {
   return stray_element(m) < 0 && !m.zero(0) && !m.zero(5) && (m.perspective() || m[15] > 0) &&
          m[m.perspective() ? 14 : 10] != 0;
@@ -71,7 +71,7 @@ bool is_one(double value) {
   return std::abs(std::abs(value) - 1) <= 1e-5;
 }
 
-// 1 / depth where clip z of a perspective, over w, has this value.
+// Returns 1 / depth in a perspective where clip z / w has this value.
 double inverse_depth(const Matrix& m, double clip_z) {
   return (clip_z - m[10] / m[11]) / (-m[14] / m[11]);
 }
@@ -97,14 +97,14 @@ bool is_deep(const Matrix& m, ClipRange clip) {
   return !m.oblique() && depths.before_camera() && depths.ratio() > usual_depth_ratio;
 }
 
-// Clip w of a perspective is -z or z. A transposed matrix has this number in the place of the near
-// plane, and the near plane in the place of this number.
+// Clip w of a perspective is -z or z. A transposed matrix has this number where the near plane belongs, and
+// vice versa.
 bool is_transposed(const Matrix& m, ClipRange clip) {
   const Matrix turned = transposed(m);
   if (!is_camera_of_any_hand(turned)) return false;
   if (!is_camera_of_any_hand(m)) return true;
   if (!m.perspective()) return false;
-  // A projection may be multiplied by any number. Its range of depth shows what it is.
+  // A projection may be multiplied by any number. Its range of depth reveals it.
   if (!is_one(m[14]) && !is_one(m[11])) return !is_deep(m, clip) && is_deep(turned, clip);
   if (!is_one(m[14])) return false;
   return !is_one(m[11]) || (m.zeros({8, 9}) && m.oblique());
@@ -121,9 +121,9 @@ double dot(const Axis& a, const Axis& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// A rotation, a uniform scale and a translation, such as the matrices of objects and cameras. Orthographic
-// projections of a cube of depth are of this form as well: with a wide box, or one before the camera, they
-// are projections.
+// True for a rotation with a uniform scale and a translation, such as the matrix of an object or a camera.
+// Orthographic projections of a cube of depth look the same. A wide box, or a box in front of the camera,
+// marks a projection.
 bool is_placement(const Matrix& m) {
   if (!m.zeros({3, 7, 11}) || !is_one(m[15])) return false;
   const Axis axes[] = {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}};
@@ -142,8 +142,8 @@ const char* clip_name(ClipRange clip) {
                                         : "NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE";
 }
 
-// Reversed depth reveals the clip range: with the other one an end of it lies behind the camera, or the far
-// plane at twice the near one.
+// Reversed depth reveals the clip range. With the wrong one, an end of it lies behind the camera, or the far
+// plane is at twice the near plane's distance.
 void check_perspective_depth(const Matrix& m, ClipRange clip) {
   const bool zero_to_one = clip == ClipRange::zero_to_one;
   const ClipRange other = zero_to_one ? ClipRange::negative_one_to_one : ClipRange::zero_to_one;
@@ -170,7 +170,7 @@ void check_perspective_depth(const Matrix& m, ClipRange clip) {
       element, m[element]);
 }
 
-// The whole box of a left-handed orthographic projection lies behind a camera that looks along -z.
+// In a left-handed orthographic projection, the whole box lies behind a camera that looks along -z.
 void check_parallel_depth(const Matrix& m, ClipRange clip) {
   const double first = (m[14] / m[15] - (clip == ClipRange::zero_to_one ? 0 : -1)) / m[10] * m[15],
                last = (m[14] / m[15] - 1) / m[10] * m[15];
@@ -183,7 +183,7 @@ void check_hardware_depth(const Matrix& m, ClipRange clip) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.projection is singular: depth does not depend on the distance (got [%d] 0)",
                   element);
-  // The planes of an oblique projection lie at no single depth.
+  // The planes of an oblique projection do not lie at a single depth.
   if (m.oblique()) return;
   if (m.perspective())
     check_perspective_depth(m, clip);
@@ -191,7 +191,7 @@ void check_hardware_depth(const Matrix& m, ClipRange clip) {
     check_parallel_depth(m, clip);
 }
 
-// Names the matrices that hosts give by mistake.
+// Recognises and names the matrices that hosts pass by mistake.
 void check_kind_of_matrix(const Matrix& m, ClipRange clip) {
   if (m.all_zeros())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

@@ -1,4 +1,4 @@
-// Checks the projection of a host. A matrix that no camera has is refused, and the message names the likely
+// Checks the projection of a host. It rejects a matrix that no camera has, and the message names the likely
 // mistake.
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace nook::nnao {
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless the matrix is the projection of a camera that looks
-// along -z, without roll and shear. The clip range counts for hardware depth alone.
+// along -z, without roll and shear. The clip range matters only for hardware depth.
 void check_projection(const float (&projection)[16], DepthKind kind, ClipRange clip);
 
 }  // namespace nook::nnao

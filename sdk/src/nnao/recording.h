@@ -1,6 +1,5 @@
-// A frame of the screen-space pass as plain data: what the pass read, its settings, and the AO that it made.
-// The members of the frame and of the pass have the meaning and the numbers of nook_nnao_frame_desc and
-// nook_nnao_desc.
+// A frame of the screen-space pass as plain data: what the pass read, its settings, and the AO that it
+// produced. Members have the meanings and numbers of nook_nnao_frame_desc and nook_nnao_desc.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +15,7 @@
 
 namespace nook::nnao {
 
-// The values of nook_gbuffer_ao and nook_nnao_view that a recording can have.
+// A recording can have the values 0 to these of nook_gbuffer_ao and nook_nnao_view.
 inline constexpr std::int32_t last_recorded_layer = 4, last_recorded_view = 2, last_recorded_path = 2,
                               last_recorded_radius_kind = 1;
 inline constexpr std::uint32_t max_recorded_size_px = 16384;
@@ -37,8 +36,7 @@ struct RecordedFrame {
   float fade_begin = 0, fade_end = 0;  // metres; 0: no fade
 };
 
-// Copies the settings of a frame between this structure and those of the C interface, which have the same
-// members.
+// Copies the settings of a frame between this structure and the C interface's, which have the same members.
 template <class From, class To>
 void copy_frame_settings(const From& from, To& to) {
   to.depth_kind = from.depth_kind;
@@ -89,10 +87,10 @@ struct Recording {
   }
 
   std::uint32_t width = 0, height = 0;
-  std::uint32_t library_version = 0;  // of the library that made ao
+  std::uint32_t library_version = 0;  // of the library that computed ao
   RecordedFrame frame;
   RecordedPass pass;
-  // Texels as a shader reads them. Empty: there are none.
+  // Texels as a shader reads them; empty if there are none.
   Vector<float> depth;        // 1 for each pixel
   Vector<float> normals;      // 3
   Vector<float> layer;        // 2
@@ -102,10 +100,10 @@ struct Recording {
 };
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) that names the field. Depth, normals and layer may be any
-// numbers, as in a host's textures: a frame with a NaN in its depth is worth recording.
+// numbers, as in a host's textures: a frame with NaN in its depth is worth recording.
 void check_recording(const Recording& recording);
 
-// The network's file of a recording, as far as this library knows it.
+// What this library can tell about a recording's network file.
 struct RecordedNetwork {
   bool readable = false;  // this library evaluates it
   bool embedded = false;  // it is the one in this library
@@ -115,8 +113,8 @@ RecordedNetwork recorded_network(const Recording& recording);
 // View depths of a recording in metres, infinite where there is no surface.
 std::vector<float> view_depths(const Recording& recording);
 
-// Returns the normals that the network sees at full resolution: the host's, in view space, or those that
-// follow from depth. They are {0, 0, 1} where there is no surface.
+// Returns the normals that the network sees at full resolution, in view space: the host's, or normals derived
+// from depth. They are {0, 0, 1} where there is no surface.
 std::vector<Vec3> view_normals(const Recording& recording, std::span<const float> depths);
 
 }  // namespace nook::nnao

@@ -25,12 +25,12 @@ namespace nook::nnao {
 inline constexpr ContainerKind recording_kind{four_letters("FRAM"), "recorded frame of the screen-space pass",
                                               1, 3};
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for what check_recording refuses.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_recording does.
 std::vector<std::byte> write_recording(const Recording& recording);
 
 // Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
 // NOOK_ERROR_FILE_VERSION), and allocates no more than the images, the network and the texts of the file. The
-// network is not looked into: a later library may have written it.
+// call does not read the network's contents, because a later library may have written them.
 Recording read_recording(std::span<const std::byte> bytes, Memory* memory = default_memory());
 
 }  // namespace nook::nnao

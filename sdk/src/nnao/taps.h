@@ -1,5 +1,6 @@
-// The positions of a pixel's taps: pure functions of the pixel and the radius, which the shader has as well.
-// Pixels count from the lower left corner, y up; pixel (x, y) has its centre at (x + 0.5, y + 0.5).
+// Computes the positions of a pixel's taps with pure functions of the pixel and the radius, the same as in
+// the shader. Pixels count from the lower left corner, y up; pixel (x, y) has its centre at (x + 0.5, y +
+// 0.5).
 #pragma once
 
 #include <algorithm>
@@ -10,14 +11,14 @@
 
 namespace nook::nnao {
 
-// Two numbers in (0, 1). Each takes 9 evenly spaced values over a block of 3 x 3 pixels, and together they
-// form the Hammersley set in base 3, so that a filter over 3 x 3 pixels contains every value once.
+// Two numbers in (0, 1). Each takes 9 evenly spaced values over a block of 3 x 3 pixels. Together they form
+// the Hammersley set in base 3, so that a filter over 3 x 3 pixels contains every value once.
 struct TapNoise {
   float rotation = 0.5f, offset = 0.5f;
 };
 
-// The shift of the noise of a frame: the first two numbers of M. Roberts' sequence R2, so that a mean over
-// frames has more directions and distances.
+// Shifts the noise of a frame by the first two numbers of M. Roberts' sequence R2, so that a mean over frames
+// has more directions and distances.
 inline TapNoise frame_noise_step(std::uint32_t frame) {
   constexpr double rotation = 0.7548776662466927, offset = 0.5698402909980532;
   return {float(std::fmod(rotation * frame, 1.0)), float(std::fmod(offset * frame, 1.0))};
@@ -39,18 +40,19 @@ struct TapOffset {
   float x_px = 0, y_px = 0;
 };
 
-// Pixels per view-space metre at the pixel's depth. The signs are those of the screen's axes in view space.
+// Pixels per metre in view space at the pixel's depth. The signs are the directions of the screen's axes in
+// view space.
 struct PixelScale {
   float x = 1, y = 1;
 };
 
-// Taps of a pass unless its host chooses others, and of the best preset.
+// The number of taps by default, and in the best preset.
 inline constexpr std::uint32_t default_taps = 9, best_taps = 32;
 
 struct TapGrid {
   std::uint32_t directions = 0, steps = 0;
 };
-// 9 = 3 x 3, 16 = 4 x 4, 32 = 8 x 4, 64 = 8 x 8, 128 = 16 x 8, 256 = 16 x 16; nothing for other counts.
+// 9 = 3 x 3, 16 = 4 x 4, 32 = 8 x 4, 64 = 8 x 8, 128 = 16 x 8, 256 = 16 x 16; empty for other counts.
 constexpr TapGrid horizon_grid(std::uint32_t taps) {
   switch (taps) {
     case 9:
@@ -75,8 +77,9 @@ inline float direction_angle(std::uint32_t direction, std::uint32_t directions, 
   return 6.2831853f * (float(direction) + noise.rotation) / float(directions);
 }
 
-// Returns the distance of a step from the pixel, in pixels of the screen's y axis. Steps grow with the power
-// 3/2 of their number, because near occluders cover more of the hemisphere. No two steps share a pixel.
+// Returns the distance of a step from the pixel, in pixels of the screen's y axis. Distances grow with the
+// power 3/2 of the step's number, because near occluders cover more of the hemisphere. No two steps share a
+// pixel.
 inline float step_distance_px(std::uint32_t step, std::uint32_t steps, TapNoise noise, float radius_px) {
   const float share = (float(step) + noise.offset) / float(steps);
   return std::max(float(step) + 1, radius_px * share * std::sqrt(share));
@@ -94,8 +97,8 @@ constexpr std::uint32_t paper_tap_cell(std::uint32_t tap, std::uint32_t taps, Ta
   return std::min(std::uint32_t((float(tap) + noise.rotation) * (float(cells) / float(taps))), cells - 1);
 }
 
-// Returns the position of the tap of a cell. The taps of a subset move within half a cell; those of the whole
-// grid do not.
+// Returns the position of a cell's tap. Taps of a subset move within half a cell; taps of the whole grid do
+// not move.
 inline TapOffset paper_tap(std::uint32_t cell, std::uint32_t taps, TapNoise noise, float radius,
                            PixelScale scale) {
   constexpr std::uint32_t size = PaperNetwork::grid_size;

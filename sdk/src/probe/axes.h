@@ -10,18 +10,18 @@
 
 namespace nook::probe {
 
-// H. Vogel's spiral: azimuths apart by the golden angle, heights at the centres of equal areas. Over the
-// whole sphere round +z, or the hemisphere round `up`.
+// H. Vogel's spiral: azimuths differ by the golden angle, and heights are at the centres of equal areas. The
+// spiral covers the whole sphere around +z, or the hemisphere around `up`.
 void vogel_sphere(std::span<Vec3> axes);
 void vogel_hemisphere(Vec3 up, std::span<Vec3> axes);
 
-// Two unit vectors across a unit vector, right-handed with it as third axis.
+// Two unit vectors perpendicular to a unit vector, right-handed with it as the third axis.
 struct Frame {
   Vec3 x, y, z;
 };
 Frame frame_round(Vec3 z);
 
-// Ambient dice (M. Iwanicki & P.-P. Sloan 2017), the form with one value at each vertex of an icosahedron.
+// Ambient dice (M. Iwanicki & P.-P. Sloan 2017) have one value at each vertex of an icosahedron.
 
 // (0, +-1, +-golden ratio) and its cyclic permutations, at unit length.
 inline constexpr float dice_short = 0.525731112f, dice_long = 0.850650808f;
@@ -44,8 +44,8 @@ constexpr T dice_radiance(T c) {
   return c * c * (T(0.35) + T(0.25) * c * c);
 }
 
-// Irradiance of that function on a normal at cosine c, in [-1, 1], of the vertex. Exact: of the clamped
-// cosine's bands only 0, 1, 2 and 4 meet it.
+// Returns the irradiance of that function on a normal whose cosine to the vertex is c, in [-1, 1]. It is
+// exact: only bands 0, 1, 2 and 4 of the clamped cosine contribute.
 template <std::floating_point T>
 constexpr T dice_irradiance(T c) {
   return std::numbers::pi_v<T> *

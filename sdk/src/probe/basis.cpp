@@ -13,7 +13,7 @@
 namespace nook::probe {
 namespace {
 
-// From this correlation on two functions count as one: the fit would set their difference by rounding alone.
+// From this correlation on, two functions count as one: only rounding would decide their difference in a fit.
 constexpr double same_function = 1 - 1e-6;
 
 const char* lobe_name(const Basis& basis, std::uint32_t i) {

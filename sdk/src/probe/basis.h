@@ -1,5 +1,5 @@
-// The basis functions of a probe, with one interface for all kinds: values at a direction, the integral of
-// each function, and the Gram matrix of all, over the sphere or a hemisphere. Fits use nothing else.
+// The basis functions of a probe have one interface for all kinds: values at a direction, integrals, and the
+// Gram matrix, over the sphere or a hemisphere. Fits use nothing else.
 #pragma once
 
 #include <nook/nook_probe.h>
@@ -22,7 +22,7 @@ inline constexpr std::uint32_t dice_vertices = 12;
 enum class BasisKind : std::uint8_t { gaussians = 0, harmonics = 1, dice = 2 };
 enum class Domain : std::uint8_t { sphere = 0, hemisphere = 1 };
 
-// Plain data; it can be compared, which shows if two fits can be merged.
+// Plain data. Two fits can be merged if their bases compare equal.
 struct Basis {
   BasisKind kind = BasisKind::gaussians;
   Domain domain = Domain::sphere;
@@ -36,30 +36,32 @@ struct Basis {
   bool operator==(const Basis&) const = default;
 };
 
-// Lobes with these axes, and one of sharpness 0 after them if ambient. Throws INVALID_ARGUMENT for what
-// check_basis refuses.
+// Returns lobes with these axes, followed by one of sharpness 0 if ambient. Throws INVALID_ARGUMENT for what
+// check_basis rejects.
 Basis gaussian_basis(std::span<const Vec3> axes, std::span<const float> sharpnesses, bool ambient,
                      Domain domain = Domain::sphere, Vec3 up = {0, 0, 1});
-// The default set: a Vogel spiral of `lobes`, all of even_sharpness.
+// Returns the default set: a Vogel spiral of `lobes`, all with even_sharpness.
 Basis vogel_basis(std::uint32_t lobes, bool ambient = false, Domain domain = Domain::sphere,
                   Vec3 up = {0, 0, 1});
 Basis harmonic_basis(std::uint32_t order, Domain domain = Domain::sphere, Vec3 up = {0, 0, 1});
 Basis dice_basis(Domain domain = Domain::sphere, Vec3 up = {0, 0, 1});
 
-// Half as much as there are lobes on the sphere, which overlaps neighbours alike at every count: 6 for 12.
+// Returns half the number of lobes on the sphere, 6 for 12, with which neighbours overlap alike at every
+// count.
 float even_sharpness(std::uint32_t lobes, Domain domain);
 
 // Throws Failure(code) if a count, axis or sharpness is out of range, or if no fit can separate two lobes;
 // the message names both.
 void check_basis(const Basis& basis, nook_result code);
 
-// values[i] = B_i(direction), count of them; direction unit.
+// values[i] = B_i(direction), for all `count` functions. direction must be unit.
 void evaluate_basis(const Basis& basis, Vec3 direction, float* values);
 void evaluate_basis(const Basis& basis, const double direction[3], double* values);
 
 double domain_area(Domain domain);
 
-// integral[i] of B_i, and gram[i * count + k] of B_i B_k, over the domain.
+// Fills integral[i] with the integral of B_i and gram[i * count + k] with the integral of B_i B_k, over the
+// domain.
 Vector<double> basis_integrals(const Basis& basis, Memory* memory = default_memory());
 Vector<double> basis_gram(const Basis& basis, Memory* memory = default_memory());
 

@@ -1,5 +1,5 @@
-// Integrals of a basis over its domain: closed forms where there are, one-dimensional quadrature for lobes
-// cut by the horizon, a product rule for the smooth functions of the others.
+// Computes integrals of a basis over its domain, in closed form where one exists. Lobes that the horizon cuts
+// need one-dimensional quadrature, and the smooth functions of the other kinds a product rule.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,22 +25,22 @@ double cap_integral(double sharpness, double depth) {
   return 2 * pi * (sharpness < 1e-15 ? depth : -std::expm1(-sharpness * depth) / sharpness);
 }
 
-// Integral of a lobe over the hemisphere whose axis is at `cosine` from the lobe's. The circle at angle a
-// round the lobe's axis is complete up to a = |90 degrees - tilt|, then cut by the horizon, and then empty
-// (for a lobe below the horizon in reverse order).
+// Integral of a lobe over the hemisphere whose axis is at `cosine` from the lobe's axis. The circle at angle
+// a around the lobe's axis is complete up to a = |90 degrees - tilt|, then the horizon cuts it, then it is
+// empty. For a lobe below the horizon the order is reversed.
 double hemisphere_integral(double sharpness, double cosine) {
   const double tilt = std::acos(std::clamp(cosine, -1.0, 1.0));
   const double first = std::abs(pi / 2 - tilt), last = pi - first;
   const double to_first = 1 - std::cos(first), to_last = 1 - std::cos(last);
   const double whole = cosine > 0 ? cap_integral(sharpness, to_first)
                                   : cap_integral(sharpness, 2) - cap_integral(sharpness, to_last);
-  // Beyond this angle nothing is left of the lobe.
+  // Beyond this angle, the lobe is practically 0.
   const double depth = sharpness > 20 ? 40 / sharpness : 2;
   const double end = std::min(last, std::acos(1 - depth));
   if (!(end > first)) return whole;
   const double cotangent = cosine / std::max(std::sqrt(1 - cosine * cosine), 1e-300);
-  // angle = first + (end - first) (1 - cos u) / 2: the arc grows and ends like a root, which this makes
-  // smooth.
+  // angle = first + (end - first) (1 - cos u) / 2: the arc begins and ends like a square root, which this
+  // makes smooth.
   const double cut = rule(0, pi, [&](double u) {
     const double angle = first + (end - first) * (1 - std::cos(u)) / 2;
     const double half_arc = std::acos(std::clamp(-cotangent / std::tan(angle), -1.0, 1.0));
@@ -59,8 +59,8 @@ double gaussian_inner(const Basis& basis, std::uint32_t i, std::uint32_t k) {
          hemisphere_integral(shape.sharpness, shape.sharpness > 0 ? along / shape.sharpness : 1);
 }
 
-// visit(values, weight) at the points of a product rule over the domain: N circles of 2 N points, exact for
-// polynomials of degree 2 N - 1.
+// Calls visit(values, weight) at the points of a product rule over the domain. It has N circles of 2 N points
+// and is exact for polynomials of degree 2 N - 1.
 template <int N, class Visit>
 void over_circles(const GaussLegendre<N>& heights, const Basis& basis, Visit&& visit) {
   constexpr std::size_t azimuths = 2 * N;
@@ -86,7 +86,8 @@ void over_circles(const GaussLegendre<N>& heights, const Basis& basis, Visit&& v
   }
 }
 
-// Over the directions of the basis' domain; the functions of dice have edges, and take many points.
+// Integrates over the directions of the basis' domain. The functions of dice have edges, so they need many
+// points.
 template <class Visit>
 void over_domain(const Basis& basis, Visit&& visit) {
   if (basis.kind == BasisKind::harmonics)

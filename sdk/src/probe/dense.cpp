@@ -8,7 +8,8 @@
 
 namespace nook::probe {
 
-// Column by column, each of which the rows below subtract at once: their sums do not wait for each other.
+// Works column by column. The rows below a column subtract it independently, so their sums do not wait for
+// each other.
 std::uint32_t cholesky(double* a, std::uint32_t n, double relative) {
   std::array<double, max_functions> diagonal, column;
   for (std::size_t i = 0; i < n; ++i) diagonal[i] = a[i * n + i];
@@ -47,8 +48,8 @@ void cholesky_solve(const double* l, std::uint32_t n, double* x, std::uint32_t s
 
 namespace {
 
-// Solves for the variables of `set` alone; the others are 0. Keeps the set independent: a variable that
-// depends on the ones before it leaves. Returns the set's new size.
+// Solves only for the variables of `set`; the others are 0. It removes a variable that depends on the ones
+// before it, and returns the set's new size.
 std::uint32_t solve_subset(const double* g, const double* b, std::uint32_t n, std::uint32_t* set,
                            std::uint32_t size, double* answer, double* scratch) {
   for (;;) {
@@ -78,7 +79,7 @@ void non_negative_solve(const double* g, const double* b, std::uint32_t n, doubl
     x[i] = 0;
     largest = std::fmax(largest, std::abs(b[i]));
   }
-  // Each round lowers the error, so that no set comes twice; the bound is for rounding alone.
+  // Each round lowers the error, so no set comes twice. The bound guards only against rounding.
   for (std::uint32_t round = 0; round < 8 * n; ++round) {
     std::uint32_t best = n;
     for (std::uint32_t i = 0; i < n; ++i) {
@@ -90,9 +91,9 @@ void non_negative_solve(const double* g, const double* b, std::uint32_t n, doubl
     set[size++] = best;
     used[best] = true;
     for (;;) {
-      // A variable that is a mixture of those in use stays at 0 and is not tried again.
+      // A variable that is a mixture of the ones in use stays at 0 and is not tried again.
       size = solve_subset(g, b, n, set.data(), size, answer, scratch);
-      // The step towards the answer that keeps all variables non-negative.
+      // Steps towards the answer as far as all variables stay non-negative.
       double step = 1;
       std::uint32_t blocking = size;
       for (std::uint32_t i = 0; i < size; ++i) {

@@ -23,9 +23,10 @@ const FitKernels* fit_kernels(Isa isa) {
 namespace {
 
 constexpr float padding_sharpness = 1e4f;
-// A pivot of the Gram matrix below this share of its diagonal: coefficients would be rounding alone.
+// If a pivot of the Gram matrix is below this share of its diagonal, the coefficients would only be rounding
+// errors.
 constexpr double smallest_pivot = 1e-9;
-// Below this share, sums of floats need orthonormal functions.
+// Below this share, float sums need orthonormal functions.
 constexpr double least_plain_pivot = 0.01;
 
 void check_settings(const Basis& basis, const FitSettings& settings) {
@@ -40,7 +41,8 @@ void check_settings(const Basis& basis, const FitSettings& settings) {
                   int(settings.method));
 }
 
-// Rows of floats in fit order: what lobes_ and running_ point to. Behind them lies the whitening.
+// Rows of floats in the order of the fit, to which lobes_ and running_ point. The whitening matrix is stored
+// after them.
 enum Row : std::uint32_t { axis_x, axis_y, axis_z, sharpness, true_square, inverse_mean, rows };
 
 }  // namespace
@@ -68,7 +70,7 @@ Fit::Fit(const Basis& basis, const FitSettings& settings, Memory* memory)
   whitening_ = row(rows);
   state_ = AlignedArray<double>(state_size(), memory);
   spare_ = AlignedArray<double>(state_size(), memory);
-  // Whitening has four rows at a time, and the plain step padded ones.
+  // Whitening works on four rows at a time, and the plain step on padded rows.
   values_ = AlignedArray<float>(std::size_t(padded_) * sample_chunk, memory);
   recent_ = AlignedArray<RecentSamples>(1, memory);
   samples_ = AlignedArray<SampleColumns>(1, memory);

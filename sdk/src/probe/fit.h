@@ -1,16 +1,18 @@
 // Least-squares fits of a basis to samples of radiance while they arrive. nook_probe.h describes the methods.
 // All of them add samples, give coefficients at any time, and merge.
 //
-// The running averages' fast step is recursive least squares by blocks of samples. Of those before a block it
-// knows the coefficients b and the weight W, and takes the true Gram matrix G over the domain's area a for
-// theirs. With the block's own sums, S of products of functions and m of functions and radiance,
+// The fast step of running averages is recursive least squares by blocks of samples. Of the samples before a
+// block it knows the coefficients b and the weight W. It assumes that their Gram matrix is the true one, G,
+// divided by the domain's area a. The block itself has the sums S, of products of functions, and m, of
+// functions times radiance:
 //   (W G / a + S) (b' - b) = m - S b.
-// One system a block, and no sample can make it overshoot. Its errors, asymptotically those of batch least
-// squares, are measured in docs/probes.md. The plain step, as published, divides by each function's own
-// square alone: where functions overlap, its slowest direction forgets the start with a power of n below 1/2.
+// Each block solves one system, and no sample can make it overshoot. Its errors tend to the errors of batch
+// least squares; docs/probes.md has measurements. The plain step, as published, divides only by each
+// function's own square. If functions overlap, its slowest direction forgets the start with a power of n
+// below 1/2.
 //
-// Sums of a chunk are floats, whose rounding a nearly singular Gram matrix would magnify. Functions that are
-// so near to each other are summed as orthonormal ones, u = sqrt(a) L^-1 B with G = L L^T.
+// Sums of a chunk are floats, whose rounding a nearly singular Gram matrix would magnify. If functions are
+// that similar, sums are over orthonormal functions u = sqrt(a) L^-1 B with G = L L^T instead.
 #pragma once
 
 #include <nook/nook_probe.h>
@@ -44,10 +46,11 @@ enum class Constraint : std::uint8_t { bands = 0, none = 1 };
 
 struct FitSettings {
   FitMethod method = FitMethod::least_squares;
-  Step step = Step::fast;  // running averages, but the original form
+  Step step = Step::fast;  // for running averages other than the original form
   Constraint constraint = Constraint::bands;
   Denominator denominator = Denominator::lockstep;  // of the plain step
-  float growing_samples = 0;                        // sample k weighs 1 - exp(-k / this) more; 0: as it is
+  float growing_samples = 0;                        // sample k is weighted 1 - exp(-k / this) more; 0: as it
+                                                    // is
   nook_isa isa = NOOK_ISA_AUTO;
 };
 
@@ -56,19 +59,19 @@ constexpr bool is_running(FitMethod method) {
          method == FitMethod::running_average_non_negative;
 }
 
-// Weights are 1 in the mean. Up to so many samples the weight so far counts as at least their number: a first
-// sample of tiny weight and huge radiance, as a sampler by luminance draws, would otherwise be all that a
-// running average knows, and what it makes of that would not be forgotten for thousands of samples.
+// Weights are 1 on average. For this many samples, the weight so far counts as at least their number.
+// Samplers by luminance draw samples of tiny weight and huge radiance. If the first sample were one, a
+// running average would need thousands of samples to forget it.
 inline constexpr double first_weight = 256;
 
-// Returns true if coefficients are constrained to the light's bands 0 to 2 (fit_bands.h): Gaussians, except
-// for the two forms that exist for comparison.
+// Returns true if coefficients are constrained to the light's bands 0 to 2 (fit_bands.h). This applies to
+// Gaussians, except for the two forms that exist for comparison.
 constexpr bool meets_bands(const Basis& basis, const FitSettings& settings) {
   return settings.constraint == Constraint::bands && basis.kind == BasisKind::gaussians &&
          settings.method != FitMethod::naive && settings.method != FitMethod::running_average_original;
 }
 
-// Returns true if the functions' own bands are estimated from the samples as well.
+// Returns true if the samples also estimate the functions' own bands.
 constexpr bool has_sampled_bands(const Basis& basis, const FitSettings& settings) {
   return meets_bands(basis, settings) && basis.domain == Domain::sphere &&
          (settings.method == FitMethod::least_squares ||
@@ -90,21 +93,21 @@ struct SampleCounts {
 
 class Fit {
  public:
-  // Throws the failures of check_basis, also if several functions are linearly dependent, and UNSUPPORTED for
+  // Throws what check_basis throws, also if several functions are linearly dependent. Throws UNSUPPORTED for
   // an instruction set that the processor lacks.
   Fit(const Basis& basis, const FitSettings& settings, Memory* memory = default_memory());
 
-  // directions and radiance have three floats for each entry; with weights null all weights are 1. Allocates
-  // nothing. The result has the same bits for any distribution of the samples over calls. A call with few
-  // samples only copies them; they are checked and counted when a group is whole, or when they are needed.
+  // directions and radiance have three floats for each entry; if weights is null, all weights are 1.
+  // Allocates nothing. The result has the same bits however the samples are split over calls. A call with few
+  // samples only copies them. They are checked and counted when a group is full, or when they are needed.
   void add_samples(const float* directions, const float* radiance, const float* weights, std::size_t count);
-  // Starts a running average without samples from short_run, which counts as much as its samples. Both
-  // functions throw INVALID_ARGUMENT for a fit of another basis, and merge also for other settings.
+  // Starts a running average that has no samples from short_run, which counts as much as its samples. Both
+  // functions throw INVALID_ARGUMENT for a fit of another basis; merge also does for other settings.
   void seed(Fit& short_run);
   void merge(Fit& other);
   void reset();
 
-  // One coefficient for each function; 0 before the first sample. Allocates nothing.
+  // Reads one coefficient for each function; 0 before the first sample. Allocates nothing.
   void read(std::span<Vec3> coefficients);
 
   const Basis& basis() const { return basis_; }
@@ -112,7 +115,7 @@ class Fit {
   SampleCounts counts();
 
  private:
-  // The samples leave sums. Those over functions are over the orthonormal ones where whitens_ is set.
+  // What the samples add up to. If whitens_ is set, sums over functions use the orthonormal ones.
   struct State {
     double* sums;          // 3 x padded moments; count x padded Gram of the samples
     double* coefficients;  // 3 x padded, of a running average
@@ -125,14 +128,14 @@ class Fit {
     SampleCounts counts;
   };
 
-  // Memory for `present`, whose owner may be another fit of the same basis and settings.
+  // Memory for `present`. It may belong to another fit of the same basis and settings.
   struct Room {
     double* state;
     double* solver;
     float* values;
   };
 
-  // The last samples that came, as the caller has them: less than a group. read_group reads one float more.
+  // The latest samples as the caller passed them, less than a group. read_group reads one float more.
   struct RecentSamples {
     std::uint32_t count = 0;
     float directions[3 * sample_group + 1], radiance[3 * sample_group + 1], weights[sample_group];
@@ -145,11 +148,11 @@ class Fit {
   bool is_block() const;  // a running average by the fast step
   void append_recent(const float* directions, const float* radiance, const float* weights,
                      std::uint32_t count);
-  void take_recent();  // they wait with the others
+  void take_recent();  // moves them to the other waiting samples
   void take_group(const float* directions, const float* radiance, const float* weights, std::uint32_t count);
   void keep(const SampleFaults& faults, std::uint32_t count);
-  void flush();                              // samples that wait become part of the state
-  Gathered present(const Room& room) const;  // the state with them, and blocks closed
+  void flush();                              // makes waiting samples part of the state
+  Gathered present(const Room& room) const;  // the state including them, with closed blocks
   SampleCounts counts_with_waiting() const;
   void advance(SampleCounts& counts, std::uint32_t count) const;
   void absorb(std::uint32_t count, float* values, State into) const;
@@ -160,7 +163,7 @@ class Fit {
                    float* values, State into) const;
   void step_plainly(std::uint32_t count, float* values, State into) const;
   void total_weights(std::uint32_t count, float* total) const;
-  void unwhiten(State state) const;  // sums are over the functions themselves
+  void unwhiten(State state) const;  // converts sums to the functions themselves
   void close_block(State state, const SampleCounts& counts, double* scratch) const;
   void join(State mine, State theirs, double share) const;
   void seed_bands(const Vec3* start);
@@ -173,14 +176,14 @@ class Fit {
 
   Basis basis_;
   FitSettings settings_;
-  SampleCounts counts_;  // without the weights of those that wait
+  SampleCounts counts_;  // without the weights of waiting samples
   const FitKernels* kernels_;
   std::uint32_t padded_;
   bool whitens_ = false;
   double prior_weight_ = 0;    // of a seed
   std::uint32_t waiting_ = 0;  // samples until a chunk is whole
-  std::uint32_t open_ = 0;     // samples of a block so far
-  double closed_weight_ = 0;   // of the samples before it
+  std::uint32_t open_ = 0;     // samples in the current block so far
+  double closed_weight_ = 0;   // of the samples before the block
   LobeSoa lobes_;
   RunningView running_;  // constants alone
   const float* whitening_ = nullptr;
@@ -196,12 +199,13 @@ class Fit {
   AlignedArray<double> scratch_;  // for solving
 };
 
-// A fit's solution as one matrix: where the Gram matrix is exact, coefficients are a linear function of what
-// a fit gathers, so that any machine that multiplies can solve it.
+// A fit's solution as one matrix. If the Gram matrix is exact, coefficients depend linearly on what a fit
+// gathers, so a matrix product solves it.
 
-// basis.count rows of basis.count + band_functions columns. Row i gives coefficient i of the method `moments`
-// from the integrals over the sphere of the light times each function, and then times each harmonic of bands
-// 0 to 2; without the constraint the last columns are 0. Gaussians over the sphere only.
+// Returns basis.count rows of basis.count + band_functions columns. Row i gives coefficient i of the method
+// `moments`. Its columns apply to the integrals over the sphere of the light times each function, then times
+// each harmonic of bands 0 to 2. Without the constraint, the last columns are 0. Only for Gaussians over the
+// sphere.
 Vector<double> solution_map(const Basis& basis, Constraint constraint, Memory* memory = default_memory());
 
 }  // namespace nook::probe

@@ -1,4 +1,4 @@
-// The fast step of running averages: one system for a block of samples.
+// The fast step of running averages solves one system for a block of samples.
 #include <algorithm>
 #include <cmath>
 
@@ -8,8 +8,8 @@
 namespace nook::probe {
 namespace {
 
-// The knowledge before a block counts at least as much as one sample of weight 1, and as this share of all:
-// the start, 0, or coefficients that a few samples gave. It keeps the first solutions small.
+// What is known before a block counts at least as one sample of weight 1, and as this share of all. It is 0
+// at the start, or coefficients from a few samples. This keeps the first solutions small.
 constexpr double least_before = 1;
 constexpr double least_share_before = 1.0 / 512;
 

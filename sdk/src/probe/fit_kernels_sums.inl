@@ -7,7 +7,7 @@ NOOK_INLINE Four sums_of(Float first, Float second, Float third, Float fourth) {
   return (a + b) + (c + d);
 }
 
-// The lanes' sums of Left vectors are added to `sums`.
+// Adds the lanes' sums of Left vectors to `sums`.
 template <std::uint32_t Left>
 NOOK_INLINE void add_sums(const Float (&total)[Left], double* sums) {
   float sum_of[Left];
@@ -18,7 +18,7 @@ NOOK_INLINE void add_sums(const Float (&total)[Left], double* sums) {
   for (std::uint32_t i = 0; i < Left; ++i) sums[i] += double(sum_of[i]);
 }
 
-// Left by Right sums in registers, over at least one vector.
+// Keeps Left by Right sums in registers, over at least one vector.
 template <std::uint32_t Left, std::uint32_t Right>
 void block_products(const float* left, const float* right, std::uint32_t end, double* sums,
                     std::uint32_t stride) {

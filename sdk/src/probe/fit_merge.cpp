@@ -38,13 +38,13 @@ void Fit::seed(Fit& short_run) {
   if (state.bands) seed_bands(start.data());
 }
 
-// The bands that samples of the start itself would have left.
+// Adds the bands that samples of the start itself would have left.
 void Fit::seed_bands(const Vec3* start) {
   std::array<double, band_functions * max_functions> function;
   project_functions(basis_, function.data());
   const double scale = prior_weight_ / domain_area(basis_.domain);
   double* const bands = state_at(state_.data()).bands;
-  std::fill_n(bands, 3 * std::size_t(band_stride), 0.0);  // those of an earlier start
+  std::fill_n(bands, 3 * std::size_t(band_stride), 0.0);  // removes an earlier start's
   for (std::size_t j = 0; j < band_functions; ++j)
     for (std::uint32_t i = 0; i < basis_.count; ++i) {
       const double rgb[3] = {double(start[i].x), double(start[i].y), double(start[i].z)};
@@ -81,7 +81,7 @@ void Fit::merge(Fit& other) {
   }
 }
 
-// `share` is that of theirs in a mean.
+// `share` is the weight of `theirs` in a mean.
 void Fit::join(State mine, State theirs, double share) const {
   if (is_running(settings_.method)) {
     for (std::size_t i = 0; i < 3 * std::size_t(padded_); ++i)

@@ -1,4 +1,4 @@
-// Samples on their way into a fit: they wait until a chunk is whole, so that neither calls nor faulty samples
+// Takes samples into a fit. They wait until a chunk is full, so that neither the calls nor faulty samples
 // move the places where chunks begin.
 #include <algorithm>
 #include <array>
@@ -27,12 +27,12 @@ void clear_samples(SampleColumns& samples, std::uint32_t from, std::uint32_t to)
     std::fill(samples.*column + from, samples.*column + to, column == &SampleColumns::growth ? 1.0f : 0.0f);
 }
 
-// A running average takes so many samples at once: one solution of a system then costs little for each.
+// A running average takes this many samples at once, so that solving a system costs little for each.
 constexpr std::uint32_t block_samples = 4 * sample_chunk;
 
 }  // namespace
 
-// One sample a call is what a path tracer has, so that the short way is the first one here.
+// A path tracer passes one sample a call, so this checks the short path first.
 void Fit::add_samples(const float* directions, const float* radiance, const float* weights,
                       std::size_t count) {
   RecentSamples& recent = recent_[0];
@@ -179,7 +179,7 @@ void Fit::total_weights(std::uint32_t count, float* total) const {
   std::fill(total + count, total + sample_chunk, 1.0f);
 }
 
-// The waiting samples change the state; their counts stay the caller's.
+// Lets the waiting samples change the state; the caller updates their counts.
 void Fit::absorb(std::uint32_t count, float* values, State into) const {
   if (count == 0) return;
   const SampleColumns& samples = samples_[0];
@@ -209,8 +209,8 @@ void Fit::values_of(std::uint32_t count, std::uint32_t sample_stride, std::uint3
   }
 }
 
-// With a Gram matrix of its samples, least squares also sums the products of every function with every
-// harmonic, so that a light which lobes make exactly leaves no noise in the bands.
+// If it has a Gram matrix of its samples, least squares also sums the products of every function with every
+// harmonic. A light that lobes can represent exactly then leaves no noise in the bands.
 void Fit::sum_samples(std::uint32_t count, const float* scale, const float* light, const float* harmonics,
                       float* values, State into) const {
   const std::uint32_t n = basis_.count;

@@ -1,4 +1,4 @@
-// Coefficients from what a fit has gathered.
+// Computes coefficients from what a fit has gathered.
 
 #include <algorithm>
 #include <array>
@@ -12,20 +12,19 @@
 namespace nook::probe {
 namespace {
 
-// So much of the true Gram matrix joins that of the samples. It leaves nothing that could be seen.
+// This share of the true Gram matrix is added to the samples' matrix. Its effect is invisible.
 constexpr double regularisation = 1e-8;
-// Samples determine the coefficients where each pivot of their Gram matrix is at least this share of the true
-// one's. Below it lies the rounding of sums of floats, 1e-6 of the diagonal.
+// Samples determine the coefficients if each pivot of their Gram matrix is at least this share of the true
+// one's. The rounding of float sums, 1e-6 of the diagonal, lies below it.
 constexpr double least_share = 1e-4;
 
-// Enormous samples of lobes that are nearly mixtures of each other have sums beyond floats; what they give is
-// 0.
+// Huge samples of lobes that are nearly mixtures of each other have sums beyond floats; the result is then 0.
 float in_range(double value) {
   if (std::isnan(value)) return 0;
   return float(std::clamp(value, -double(max_coefficient), double(max_coefficient)));
 }
 
-// Each pivot of a Cholesky factor is at least `share` of the other's.
+// True if each pivot of a Cholesky factor is at least `share` of the other's.
 bool has_pivots(const double* factor, const double* other, std::uint32_t n, double share) {
   for (std::size_t i = 0; i < n; ++i) {
     const double pivot = factor[i * n + i], need = other[i * n + i];
@@ -75,9 +74,9 @@ void Fit::solve_moments(const Gathered& gathered, double* b) {
   if (gathered.state.bands) meet_bands(light_bands(gathered), factor_.data(), n, band_weight(), b);
 }
 
-// The Gram matrix of the samples and its Cholesky factor. With fewer samples than functions, or from few
-// directions, it is singular but for the rounding of its sums; then more of the true one joins it, which
-// leaves nearly the smallest of all exact answers.
+// Computes the Gram matrix of the samples and its Cholesky factor. With fewer samples than functions, or with
+// few directions, it is singular except for rounding. Then it adds more of the true matrix, which leads close
+// to the smallest of all exact answers.
 void Fit::factor_samples(const Gathered& gathered, double scale, double* gram, double* factor) const {
   const std::uint32_t n = basis_.count;
   const auto factor_with = [&](double prior) {
@@ -89,7 +88,7 @@ void Fit::factor_samples(const Gathered& gathered, double scale, double* gram, d
     return cholesky(factor, n, 0) == n;
   };
   if (factor_with(regularisation) && has_pivots(factor, factor_.data(), n, least_share * scale)) return;
-  // Without rounding the samples would only add to the pivots of the prior.
+  // Without rounding, the samples would only increase the pivots.
   for (double prior = least_share; prior < 1; prior *= 10)
     if (factor_with(prior) && has_pivots(factor, factor_.data(), n, 0.9 * prior * scale)) return;
   factor_with(1);
@@ -100,7 +99,7 @@ void Fit::solve_samples(const Gathered& gathered, double* b) {
   double* const gram = scratch_.data();
   double* const rest = gram + std::size_t(n) * n;
   const double scale =
-      gathered.counts.weight / domain_area(basis_.domain);  // of the samples' sums to integrals
+      gathered.counts.weight / domain_area(basis_.domain);  // converts the samples' sums to integrals
   factor_samples(gathered, scale, gram, rest);
   if (settings_.method == FitMethod::least_squares) {
     for (std::size_t c = 0; c < 3; ++c)
@@ -121,9 +120,9 @@ void Fit::solve_samples(const Gathered& gathered, double* b) {
   }
 }
 
-// The non-negative coefficients nearest to b in the mean square over the domain, and to the light's bands. As
-// b tends to least squares, they tend to its non-negative form. With the plain step and no bands they are b
-// itself: no sample has left it a negative one.
+// Finds the non-negative coefficients that are nearest to b in the mean square over the domain, and to the
+// light's bands. As b tends to least squares, they tend to non-negative least squares. With the plain step
+// and no bands they are b itself, because no sample leaves a negative coefficient.
 void Fit::make_non_negative(const Gathered& gathered, double* b) {
   const std::uint32_t n = basis_.count;
   bool negative = false;
@@ -153,8 +152,8 @@ double Fit::band_weight() const {
   return non_negative || basis_.domain == Domain::hemisphere ? soft_bands : exact_bands;
 }
 
-// As integrals: of the light under each harmonic, and of the functions under it over the same directions.
-// What lies below a hemisphere's horizon is dark, and counts.
+// Returns integrals of the light under each harmonic, and of the functions under it over the same directions.
+// Below a hemisphere's horizon, the light counts as dark.
 LightBands Fit::light_bands(const Gathered& gathered) const {
   LightBands bands;
   const std::uint32_t n = basis_.count;
@@ -183,7 +182,7 @@ Vector<double> solution_map(const Basis& basis, Constraint constraint, Memory* m
   LightBands bands;
   project_functions(basis, bands.function.data());
   Vector<double> map(std::size_t(n) * columns, 0.0, memory);
-  // The channels of a fit are independent: each carries the unit vector of one column.
+  // The channels of a fit are independent, so each can carry the unit vector of one column.
   std::array<double, 3 * max_functions> b;
   for (std::uint32_t first = 0; first < columns; first += 3) {
     const std::uint32_t end = std::min(first + 3, columns);

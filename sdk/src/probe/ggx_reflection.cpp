@@ -9,7 +9,7 @@
 namespace nook::probe {
 namespace {
 
-// Sum of k u^i v^j over i + j <= degree, j fastest.
+// Sums k u^i v^j over i + j <= degree, j fastest.
 template <int degree>
 float polynomial(const double (&k)[(degree + 1) * (degree + 2) / 2], float u, float v) {
   int at = (degree + 1) * (degree + 2) / 2;
@@ -39,13 +39,13 @@ constexpr double pair_across_k[] = {NOOK_GGX_PAIR_ACROSS};
 constexpr double pair_along_k[] = {NOOK_GGX_PAIR_ALONG};
 constexpr double pair_sharpness_k[] = {NOOK_GGX_PAIR_SHARPNESS};
 
-// The root of the isotropic width that stands for both.
+// Returns the root of the isotropic width that stands for both.
 float mean_roughness(const Surface& surface) {
   return std::sqrt(std::sqrt(surface.alpha_x * surface.alpha_y));
 }
 
-// A visible normal's stretched slopes, unit: the view's is `flat` along the plane of incidence and `openness`
-// up.
+// Returns a visible normal's stretched slopes as a unit vector. The view's stretched vector is `flat` along
+// the plane of incidence and `openness` up.
 Vec3 among_round_slopes(const SurfaceView& view, float across, float along) {
   // The rim of the disc reflects along the horizon.
   const float shrink = std::min(1.0f, 0.99f / std::max(std::hypot(across, along), 1e-6f));
@@ -83,13 +83,13 @@ SurfaceView view_of(const Surface& surface) {
 }
 
 float directional_albedo(const SurfaceView& view, const Surface& surface) {
-  // Of a surface that reflects everything, at the isotropic width that loses as much between its slopes.
+  // A surface that reflects everything, at the isotropic width that loses as much light between its slopes.
   const float mean2 = 0.5f * (view.alpha2_in_plane + view.alpha2_across);
   const float away = 1 - view.facing;
   const float alpha2 = mean2 - 0.5f * away * away * away * (view.alpha2_in_plane - mean2);
   const float whole = std::clamp(
       polynomial<4>(albedo_k, view.openness, std::sqrt(std::clamp(alpha2, 0.0f, 1.0f))), 0.0f, 1.0f);
-  // Fresnel at the cosine between normals and view that has its mean.
+  // Evaluates Fresnel at the cosine between normals and view that yields its mean.
   const float rho = view.roughness_in_plane;
   const float cosine = view.facing + rho * polynomial<4>(fresnel_k, std::sqrt(view.facing), rho);
   const float off = std::clamp(1 - cosine, 0.0f, 1.0f), off2 = off * off;
@@ -129,7 +129,7 @@ void reflect(const SurfaceView& view, const Surface& surface, std::span<const Vi
     const float hidden = std::sqrt(up * up + ax * ax * l.x * l.x + ay * ay * l.y * l.y);
     const float masking = up * (view.facing + masked) / (view.facing * hidden + up * masked);
     const float weight = std::max(normals[i].share, 0.0f) * std::max(masking, 1e-6f);
-    // The density of visible normals over four times the cosine is that of reflected directions.
+    // The density of reflected directions is the density of visible normals divided by four times the cosine.
     const float sharpness =
         std::max(normals[i].sharpness, 0.2f) * length2 * length2 / (ax * ay * (view.facing + masked));
     lobes[i] = {normalised(view.tangent * l.x + view.bitangent * l.y + surface.normal * l.z),

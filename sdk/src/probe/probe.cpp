@@ -36,7 +36,7 @@ void check_grid(const Grid& grid, nook_result code) {
 
 namespace {
 
-// The two probes along one axis that a coordinate lies between, and the weight of the second.
+// The two probes on either side of a coordinate along one axis, and the weight of the second.
 struct Between {
   std::uint32_t first, second;
   float weight;
@@ -54,7 +54,7 @@ float between(float value, float least) {
   return value > least ? std::min(value, 1 - least) : least;  // the bound also for NaN
 }
 
-// Whole files and textures hold planes as half floats, far below whose largest this is.
+// Files and textures hold planes as half floats; this is far below the largest one.
 constexpr float max_plane = 1024;
 
 void check_walls(const Probes& probes, nook_result code) {

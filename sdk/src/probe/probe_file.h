@@ -22,9 +22,9 @@ constexpr std::size_t packed_bytes(Packing packing) {
 inline constexpr float max_half = 65504.0f;
 inline constexpr float max_rgb9e5 = 65408.0f;  // 511 / 512 * 2^16
 
-// Three mantissas of 9 bits, red lowest, and one exponent of 5 above them: GL_RGB9_E5. Channels are clamped
-// to [0, max_rgb9e5], NaN to 0. The error of each channel is at most 2^-9 of the largest one, 2^-25 where
-// that is below 2^-15.
+// Three mantissas of 9 bits, red lowest, with one exponent of 5 bits above them: GL_RGB9_E5. Channels are
+// clamped to [0, max_rgb9e5], NaN to 0. The error of each channel is at most 2^-9 of the largest channel, or
+// of 2^-15 if that is greater.
 std::uint32_t to_rgb9e5(Vec3 rgb);
 Vec3 from_rgb9e5(std::uint32_t bits);
 
@@ -36,15 +36,15 @@ Vec3 from_rgb9e5(std::uint32_t bits);
 //   RECP recipe, JSON; may be empty
 //   WALL version 2, only of grids with walls: f32 bias; for each cell, as probe.h has them, its planes, 4 half
 //        floats each, and a byte for each side
-// A grid without walls is written as version 1, which older libraries read.
+// A grid without walls is written as version 1, which older libraries can read.
 
 inline constexpr ContainerKind probe_kind{four_letters("PROB"), "light probe", 1, 2};
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for what check_probes refuses, and for coefficients that the
-// packing cannot hold.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_probes does, or if the packing cannot hold a
+// coefficient.
 std::vector<std::byte> write_probes(const Probes& probes, Packing packing);
 
-// Safe on hostile bytes, also with a right checksum: throws Failure(NOOK_ERROR_BAD_FILE or
+// Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
 // NOOK_ERROR_FILE_VERSION), and allocates no more than the coefficients and the recipe.
 Probes read_probes(std::span<const std::byte> bytes, Memory* memory = default_memory());
 Packing packing_of(std::span<const std::byte> bytes);

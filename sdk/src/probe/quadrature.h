@@ -1,4 +1,4 @@
-// Numerical integrals in double precision, by rules that are constants of the program.
+// Integrates numerically in double precision, with rules that are compile-time constants.
 #pragma once
 
 #include <array>
@@ -7,7 +7,8 @@
 
 namespace nook::probe {
 
-// The cosine of an angle in [0, pi], within 1e-9: the start of an iteration, where std::cos is no constant.
+// Returns the cosine of an angle in [0, pi], within 1e-9. It starts an iteration, because std::cos is not
+// constexpr.
 constexpr double starting_cosine(double angle) {
   double term = 1, sum = 1;
   for (int n = 1; n <= 14; ++n) {

@@ -9,8 +9,8 @@
 namespace nook::synthesis {
 namespace {
 
-// Splits a place in texels into the texel of a row that repeats after `size` of them, and the fraction in it.
-// Beyond the precision of floats it is some texel of the row.
+// Splits a position in texels into a texel of a row that repeats after `size` texels, and a fraction. Beyond
+// the precision of floats it returns an arbitrary texel of the row.
 struct Place {
   std::uint32_t texel;
   float fraction;

@@ -1,9 +1,9 @@
 // The coordinate texture S of section 6.3.3 of Y.-T. Tsai, Z.-C. Shih: K-Clustered Tensor Approximation,
-// 2012, as plain data: for each texel of a periodic plane the texel of a material that is shown there.
+// 2012, as plain data. It says for each texel of a periodic plane which texel of a material is shown there.
 //
-// A point of the plane has coordinates in tiles of the material, so that it moves over as many texels as it
-// would without the texture. Within a texel of the plane the point moves through the material as well, and
-// where neighbours of the plane are neighbours in the material the picture is continuous.
+// Points of the plane have coordinates in tiles of the material, so that texels keep their size. Within a
+// texel of the plane, the point moves through the material too. The picture is continuous wherever neighbours
+// in the plane are neighbours in the material.
 #pragma once
 
 #include <nook/nook.h>
@@ -43,8 +43,8 @@ void check_coordinates(const Coordinates& coordinates, nook_result code);
 struct Point {
   float u = 0, v = 0;
 };
-// Returns the material's texture coordinates at a point of the plane, both in tiles of the material; u and v
-// of the plane are finite.
+// Returns the material's texture coordinates at a point of the plane, both in tiles of the material. u and v
+// of the plane must be finite.
 Point material_point(const Coordinates& coordinates, Point plane);
 
 // Coordinate textures as .nook files. Version 1 of the kind "SYNT" has the sections

@@ -1,4 +1,4 @@
-// Distant light in the forms that transfer takes: lobes, bands, and the cells of a cube from which lobes are
+// Distant light in the forms that transfer uses: lobes, bands, and the cells of a cube, from which lobes are
 // fitted.
 #pragma once
 
@@ -13,22 +13,22 @@
 namespace nook::transfer {
 
 inline constexpr std::uint32_t min_lobes = 12;
-// The largest number of the paper's Table II, whose factored Gram matrix has 25 MiB.
+// The largest number in the paper's Table II; its factored Gram matrix takes 25 MiB.
 inline constexpr std::uint32_t max_lobes = 2562;
 
-// Between sharpnesses of 0.2 and 0.5 times the number, wider lobes hold suns better and broad light worse;
-// 0.35 is the best compromise over made maps of a sun, of windows and of clouds (docs/transfer.md).
+// The factor may be between 0.2 and 0.5: wider lobes represent suns better and broad light worse. 0.35 is the
+// best compromise over maps of a sun, of windows and of clouds (docs/transfer.md).
 constexpr float sharpness_of(std::uint32_t lobes) {
   return 0.35f * float(lobes);
 }
 
-// H. Vogel's spiral: the azimuths are apart by the golden angle, and the heights z run from 1 to -1 at the
-// centres of equal areas.
+// H. Vogel's spiral: azimuths differ by the golden angle, and heights z run from 1 to -1 at the centres of
+// equal areas.
 void lobe_axes(std::span<Vec3> axes);
 
 // Distant light by its bands 0 to 2: nine real spherical harmonics, orthonormal over the sphere (P.-P. Sloan,
-// Stupid Spherical Harmonics Tricks, 2008). Inter-reflections of a shape are smooth, so that these hold the
-// light that they need.
+// Stupid Spherical Harmonics Tricks, 2008). Inter-reflections of a shape are smooth, so these bands are
+// enough for them.
 
 inline constexpr std::uint32_t band_count = 9;
 
@@ -44,15 +44,15 @@ constexpr std::array<float, band_count> bands_at(Vec3 d) {
           0.5462742f * (d.x * d.x - d.y * d.y)};
 }
 
-// Returns the bands of light that lobes of one sharpness hold; amplitudes has axes x RGB.
+// Returns bands 0 to 2 of the light of lobes with one sharpness; amplitudes has axes x RGB.
 std::array<Vec3, band_count> bands_of_lobes(std::span<const Vec3> axes, float sharpness,
                                             std::span<const float> amplitudes);
 
 // Distant light as the mean radiance of the cells of a cube around the origin, from which lobes are fitted in
 // any rotation.
 
-// The cells of a cube of side x side cells a face, the faces +x, -x, +y, -y, +z, -z. Cells are squares of a
-// face; their solid angles differ by up to a factor of 5.
+// A cube has side x side cells a face, and the faces +x, -x, +y, -y, +z, -z. Cells are squares of a face;
+// their solid angles differ by up to a factor of 5.
 struct CubeCells {
   explicit CubeCells(std::uint32_t side, Memory* memory = default_memory());
 
@@ -63,8 +63,8 @@ struct CubeCells {
   std::size_t size() const { return direction.size(); }
 };
 
-// Returns the mean radiance of each cell: that of the texels in it, or of the nearest texel where a map has
-// fewer texels than there are cells.
+// Returns the mean radiance of each cell, over the texels in it. If a map has fewer texels than there are
+// cells, the nearest texel counts.
 Vector<Vec3> cell_means(const MapView& map, const CubeCells& cells, Memory* memory);
 
 }  // namespace nook::transfer

@@ -1,5 +1,6 @@
-// The paper's form as what a shader mixes: under a light, every vertex has the sum of a few vectors, which
-// its cluster and the reflected light have in common, times numbers of its own that no light changes.
+// The paper's form in a shape that a shader can mix. Under a light, every vertex is a sum of a few vectors
+// times its own numbers. The vectors belong to the vertex's cluster and to reflected light; the numbers do
+// not depend on the light.
 #pragma once
 
 #include <array>
@@ -27,7 +28,7 @@ void write_vertex_numbers(const Transfer& transfer, std::size_t vertex, float* n
 
 // The light that a baked shape reflects onto itself, as transfer.h has it.
 
-// For each reflection b and band k the radiance a^b L_k / pi; those beyond `bounces` are 0.
+// For each reflection b and band k, the radiance a^b L_k / pi. Entries beyond `bounces` are 0.
 using ReflectedBands = std::array<Vec3, max_bounces * band_count>;
 
 // amplitudes has lobes x RGB.

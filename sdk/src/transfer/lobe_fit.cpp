@@ -9,7 +9,7 @@
 namespace nook::transfer {
 namespace {
 
-// Lobes count down to exp(-reach) of their height, 4e-7.
+// Lobes count until they fall to exp(-reach) of their height, 4e-7.
 constexpr float reach = 15;
 
 double dot_of(const double* a, const double* b, std::size_t count) {
@@ -37,8 +37,8 @@ void factor(Vector<double>& a, std::size_t n) {
   }
 }
 
-// Calls body(lobe, value) for the lobes that reach a direction. Axes lie on a spiral whose heights fall
-// evenly, so that those within reach are neighbours.
+// Calls body(lobe, value) for the lobes that reach a direction. Axes lie on a spiral with evenly falling
+// heights, so the lobes within reach are neighbours.
 template <class Body>
 void lobes_at(std::span<const Vec3> axes, float sharpness, Vec3 direction, Body&& body) {
   const float cap = std::max(1 - reach / sharpness, -1.0f);
@@ -177,7 +177,7 @@ const LobeFit& FitCache::of(std::uint32_t lobes) {
   }
   made->next = first;
   while (!first_.compare_exchange_weak(made->next, made, std::memory_order_acq_rel)) {
-    // Others have put entries in front of those that were searched.
+    // Other threads have added entries in front of the ones that were searched.
     if (const LobeFit* const known = find(made->next, first, lobes)) {
       drop(made);
       return *known;

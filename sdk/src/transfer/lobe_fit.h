@@ -21,11 +21,10 @@ class LobeFit {
   float sharpness() const { return sharpness_; }
   std::uint64_t bytes() const { return factor_.size() * sizeof(double); }
 
-  // amplitudes has lobes x RGB. light_from_shape turns directions of the shape's space to those of the
-  // light's.
+  // amplitudes has lobes x RGB. light_from_shape rotates directions from the shape's space to the light's.
   void fit(const CubeCells& cells, std::span<const Vec3> radiance, const Mat3x4& light_from_shape,
            std::span<float> amplitudes) const;
-  // A light from one direction in the shape's space, with this irradiance on a plane that faces it.
+  // Fits a light from one direction in the shape's space, with this irradiance on a plane that faces it.
   void fit_direction(Vec3 direction, Vec3 irradiance, std::span<float> amplitudes) const;
 
  private:
@@ -38,17 +37,18 @@ class LobeFit {
 
 // The quality of a fit.
 struct FitQuality {
-  double relative_error = 0;  // root of the integral of (R - L)^2 over that of L^2
-  double negative_share = 0;  // integral of max(-R, 0) over that of |R|, mean over channels by luminance
+  double relative_error = 0;  // root of the integral of (R - L)^2 divided by the integral of L^2
+  double negative_share = 0;  // integral of max(-R, 0) divided by the integral of |R|, mean over channels by
+                              // luminance
 };
 FitQuality fit_quality(const LobeFit& fit, std::span<const float> amplitudes, const CubeCells& cells,
                        std::span<const Vec3> radiance, const Mat3x4& light_from_shape);
 
-// The factored Gram matrices of a context, one for each number of lobes that it has projected light to.
+// The factored Gram matrices of a context, one for each number of lobes to which it has projected light.
 
 class LobeFit;
 
-// Any thread may ask at any time. Nothing is made until the first call, and nothing is freed before the
+// Any thread may call it at any time. Nothing is made until the first call, and nothing is freed before the
 // cache.
 class FitCache {
  public:
@@ -57,8 +57,8 @@ class FitCache {
   FitCache(const FitCache&) = delete;
   FitCache& operator=(const FitCache&) = delete;
 
-  // Makes the fit on the first call for a number of lobes. Two threads that both are the first both make it,
-  // and one of the two results is dropped: a lock would need threads, which some builds do not have.
+  // Makes the fit on the first call for a number of lobes. If two threads are first, both make it and one
+  // result is dropped: a lock would need threads, which some builds do not have.
   const LobeFit& of(std::uint32_t lobes);
 
  private:

@@ -8,10 +8,10 @@
 namespace nook::transfer {
 namespace {
 
-// Sums run in this many parts, which compilers turn into vectors.
+// Sums run in this many parts, so that compilers can vectorise them.
 constexpr std::size_t parts = 8;
 
-// Rows of halves as floats, padded with zeros to whole parts.
+// A row of halves converted to floats, padded with zeros to whole parts.
 struct alignas(32) FloatRow {
   std::array<float, max_lobe_rank> at{};
 };

@@ -1,4 +1,4 @@
-// Baked radiance transfer in the paper's form, as plain data: for each vertex a matrix from lobes to light
+// Baked radiance transfer in the paper's form, as plain data. Each vertex has a matrix from lobes to light
 // modes of one material, compressed by CTA (Y.-T. Tsai, Z.-C. Shih: K-Clustered Tensor Approximation, 2012,
 // section 6.3.4). A vertex p of cluster g has the matrix
 //   T_p[j, i] = sum over k < lobe_rank and q < vertex_rank of U_g[j, k] Z_g[i, q, k] u_p[q],
@@ -15,22 +15,23 @@
 namespace nook::transfer {
 
 inline constexpr std::uint32_t max_clusters = 256, max_lobe_rank = 256, max_vertex_rank = 64;
-// Of one channel, a multiple of 4.
+// For one channel, a multiple of 4.
 inline constexpr std::uint32_t max_light_modes = 1024;
 
-// With it, and bases and coefficients of magnitude 1 at most, vectors are finite for amplitudes up to 1e22.
+// Within this scale, and with bases and coefficients of magnitude 1 at most, vectors are finite for
+// amplitudes up to 1e22.
 inline constexpr float max_core_scale = 1000;
 
 struct PaperTransfer {
   explicit PaperTransfer(Memory* memory = default_memory())
       : lobe_basis(memory), cores(memory), cluster(memory), coefficients(memory) {}
 
-  std::uint32_t light_modes = 0;  // of one channel; 0: this is no transfer in the paper's form
+  std::uint32_t light_modes = 0;  // of one channel; 0: this is not a transfer in the paper's form
   std::uint32_t clusters = 0, lobe_rank = 0, vertex_rank = 0;
   std::uint64_t light_hash = 0;  // of the material, see material/tables.h
   float scale = 1;               // of the cores
 
-  // Half floats; those of bases and coefficients are between -1 and 1.
+  // Half floats; bases and coefficients are between -1 and 1.
   Vector<std::uint16_t> lobe_basis;  // clusters x lobes x lobe_rank
   Vector<std::uint16_t> cores;       // clusters x 3 light_modes x vertex_rank x lobe_rank, in units of scale
   Vector<std::uint8_t> cluster;      // of each vertex
@@ -48,7 +49,7 @@ constexpr std::uint64_t paper_bytes(std::uint64_t vertices, std::uint64_t cluste
          vertices * (2 * vertex_rank + 1);
 }
 
-// The matrices of all clusters under one light: 3 light_modes x vertex_rank numbers for each cluster.
+// Returns the matrices of all clusters under one light: 3 light_modes x vertex_rank numbers for each cluster.
 // amplitudes has lobes x RGB.
 Vector<float> paper_light(const PaperTransfer& paper, std::span<const float> amplitudes,
                           const Parallel& parallel, Memory* memory);

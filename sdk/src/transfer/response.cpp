@@ -10,7 +10,7 @@ namespace {
 
 // Points of a finer grid between two nodes.
 constexpr std::uint32_t parts = 4;
-// Nodes along a side: lobes are narrower the more there are, but light bases need no less than the first.
+// Nodes along a side. More lobes are narrower and need more nodes, but light bases need at least this many.
 constexpr std::uint32_t min_side = 28;
 std::uint32_t side_of(std::uint32_t lobes) {
   return std::clamp(std::uint32_t(std::lround(1.35 * std::sqrt(double(lobes)))), min_side, max_side);
@@ -20,11 +20,11 @@ std::uint32_t fine_side_of(std::uint32_t side) {
 }
 // Lobes count down to exp(-reach) of their height.
 constexpr float reach = 12;
-// A lobe whose axis lies so far below the horizon that all of its light above is below this share of its
-// height has no effect.
+// A lobe below the horizon has no effect if all of its light above the horizon is below this share of its
+// height.
 constexpr double lowest_share = 1e-4;
 
-// The inverse of the map; points beyond the disc of radius sqrt(2) give the direction down.
+// Inverts the map; points beyond the disc of radius sqrt(2) return the direction down.
 Vec3 direction_at(float x, float y) {
   const float square = x * x + y * y;
   if (square >= 2) return {0, 0, -1};
@@ -57,8 +57,8 @@ void sum_response(float sharpness, const HemisphereCells& cells, const LightMode
     }
 }
 
-// Solves the normal equations of bilinear mixing along one side, for all numbers of a row of `count` at once:
-// a tridiagonal matrix, by elimination. Sums over the parts between two nodes are its entries.
+// Solves the normal equations of bilinear mixing along one side, for all numbers of a row of `count` at once.
+// The matrix is tridiagonal and solved by elimination. Its entries are sums over the parts between two nodes.
 void to_nodes(std::uint32_t side, const float* fine, std::size_t fine_step, std::size_t count, float* nodes,
               std::size_t node_step) {
   float beside = 0, square = 0;
@@ -90,7 +90,7 @@ void to_nodes(std::uint32_t side, const float* fine, std::size_t fine_step, std:
   }
 }
 
-// The nodes that mixing in the disc of the map can touch.
+// Finds the nodes that mixing within the map's disc can touch.
 void find_rows(float radius, Response& response) {
   const std::uint32_t side = response.side;
   const float step = 2 * radius / float(side - 1), limit = radius + 1.5f * step;
@@ -106,7 +106,7 @@ void find_rows(float radius, Response& response) {
 }  // namespace
 
 HemisphereCells::HemisphereCells(float sharpness, Memory* memory) : direction(memory) {
-  // Cells of a third of a lobe's width, and of no more than the 3 degrees that light bases need.
+  // Cells are a third of a lobe's width, and at most the 3 degrees that light bases need.
   const auto across = std::uint32_t(std::clamp(std::ceil(4 * std::sqrt(double(sharpness))), 48.0, 256.0));
   for (std::uint32_t row = 0; row < across; ++row)
     for (std::uint32_t column = 0; column < across; ++column) {
@@ -114,7 +114,7 @@ HemisphereCells::HemisphereCells(float sharpness, Memory* memory) : direction(me
       const float y = 2 * (float(row) + 0.5f) / float(across) - 1;
       if (x * x + y * y < 1) direction.push_back(direction_at(x, y));
     }
-  // The map keeps areas up to the factor of 2.
+  // The map preserves areas up to a factor of 2.
   solid_angle = 2 * (2 / float(across)) * (2 / float(across));
 }
 

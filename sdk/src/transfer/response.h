@@ -1,8 +1,8 @@
 // The response of a material to a lobe from any direction of tangent space,
 //   P[c, a](d) = integral of exp(sharpness (dot(d, s) - 1)) phi[c, a](s) over the upper hemisphere,
 // on a square grid of the equal-area map p = d.xy / sqrt(1 + d.z), in which the hemisphere is the unit disc.
-// Between nodes the response is bilinear. The values at the nodes are those with the smallest squared error
-// over a finer grid, so that bilinear mixing does not blur.
+// Between nodes the response is bilinear. The nodes have the values with the smallest squared error over a
+// finer grid, so that bilinear mixing does not blur.
 #pragma once
 
 #include <cstdint>
@@ -55,7 +55,7 @@ struct Response {
   std::uint64_t light_hash = 0, votf_hash = 0;  // of the material
 };
 
-// cells are those of HemisphereCells(sharpness_of(lobes)).
+// Pass the cells HemisphereCells(sharpness_of(lobes)).
 Response make_response(std::uint32_t lobes, const HemisphereCells& cells, const LightModes& modes,
                        Memory* memory);
 

@@ -59,7 +59,7 @@ PackedFrame pack(const Frame& frame) {
     x = folded;
   }
   PackedFrame packed{step_of(x), step_of(y), 0};
-  // The angle counts from the axis of the rounded normal, which is all that a reader has.
+  // The angle starts from the axis of the rounded normal, which is all that a reader has.
   const Across axes = across(normal_of(packed.u, packed.v));
   const float angle = std::atan2(dot(frame.tangent, axes.y), dot(frame.tangent, axes.x));
   const auto step = std::lround((angle < 0 ? angle + two_pi : angle) / two_pi * angle_steps);

@@ -16,14 +16,14 @@ struct Frame {
   Vec3 bitangent() const { return cross(normal, tangent) * handedness; }
 };
 
-// Returns a frame whose tangent is perpendicular to the normal and of unit length. A tangent along the
-// normal, or of no length, is replaced by the x axis of T. Duff et al.: Building an Orthonormal Basis,
+// Returns a frame whose tangent is of unit length and perpendicular to the normal. If a tangent is along the
+// normal or has no length, it is replaced by the x axis of T. Duff et al.: Building an Orthonormal Basis,
 // Revisited, 2017.
 Frame orthonormal_frame(Vec3 normal, Vec3 tangent, float handedness);
 
-// A frame in six bytes: the normal on an octahedron, 16 bits a coordinate (Z. Cigolle et al.: A Survey of
-// Efficient Representations for Independent Unit Vectors, 2014), and the angle of the tangent to the x axis
-// of Duff et al., 15 bits and the bit of handedness. The error is at most 1e-4 radians.
+// A frame in six bytes. The normal is on an octahedron, 16 bits a coordinate (Z. Cigolle et al.: A Survey of
+// Efficient Representations for Independent Unit Vectors, 2014). The angle of the tangent to the x axis of
+// Duff et al. has 15 bits, and the handedness one bit. The error is at most 1e-4 radians.
 struct PackedFrame {
   std::uint16_t u = 0, v = 0, angle = 0;
   bool operator==(const PackedFrame&) const = default;

@@ -1,6 +1,6 @@
-// Baked radiance transfer of a static shape as plain data. Its separated form has for each vertex and lobe
-// the share of the lobe's light that reaches the vertex. The method follows Y.-T. Tsai, Z.-C. Shih:
-// K-Clustered Tensor Approximation, 2012, section 6.3, with the transfer matrix of a vertex replaced by a
+// Baked radiance transfer of a static shape as plain data. Its separated form stores, for each vertex and
+// lobe, the share of the lobe's light that reaches the vertex. The method follows Y.-T. Tsai, Z.-C. Shih:
+// K-Clustered Tensor Approximation, 2012, section 6.3. It replaces the transfer matrix of a vertex by a
 // product.
 //
 // A vertex with the frame F and the visibility V(s) under the light sum_j l_j G_j(s) has, for channel c and
@@ -11,11 +11,11 @@
 // belongs to a material alone. The radiance of a pixel is sum_a L_a r[c, a] with the light modes L_a that
 // the material decodes.
 //
-// Light that the shape reflects onto itself is kept apart, as irradiance for light of bands 0 to 2. With a
-// mean reflectance a of a channel, the vertex receives after up to B reflections the irradiance
+// Light that the shape reflects onto itself is stored separately, as irradiance for light of bands 0 to 2. If
+// a channel has the mean reflectance a, the vertex receives after up to B reflections the irradiance
 //   E[c] = sum_b a[c]^b sum_k L_k[c] m_(b,k),   b = 1 to B,
-// where m is what a shape that reflects all light would give. So the file holds no material's reflectance,
-// and any material can be put on it. The vector gets E[c] / pi times the integral of phi[c, a].
+// where m is for a shape that reflects all light. So the file does not depend on a material's reflectance,
+// and you can put any material on it. The vector gets E[c] / pi times the integral of phi[c, a].
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ namespace nook::transfer {
 inline constexpr std::uint32_t max_vertices = 10'000'000;
 inline constexpr std::uint32_t max_bounces = 2;
 
-// XXH64 of the arrays of the baked mesh, little-endian floats, where -0 counts as 0.
+// XXH64 of the arrays of the baked mesh, as little-endian floats; -0 counts as 0.
 struct MeshHashes {
   std::uint64_t position = 0;  // 3 floats for each vertex
   std::uint64_t normal = 0;    // 3
@@ -53,7 +53,7 @@ struct Transfer {
   std::uint32_t bounces = 0;    // reflections, up to max_bounces
   // vertices x bounces x band_count half floats m_(b,k), in the order of distant_light.h.
   Vector<std::uint16_t> indirect;
-  // The hash of the VOTF through whose holes light fell, see material/tables.h; 0: surfaces have no holes.
+  // The hash of the VOTF through whose holes light fell; see material/tables.h. 0: surfaces have no holes.
   std::uint64_t votf_hash = 0;
   String recipe;  // settings of the bake, JSON; the runtime does not read it
 

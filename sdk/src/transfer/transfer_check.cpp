@@ -10,7 +10,7 @@
 namespace nook::transfer {
 namespace {
 
-// A hemisphere of light of one band gives an irradiance up to pi times the harmonic's maximum, 0.64.
+// Light of one band over a hemisphere causes an irradiance of up to pi times the harmonic's maximum, 0.64.
 constexpr float max_indirect = 4;
 
 void need_size(std::size_t got, std::uint64_t need, const char* what, nook_result code) {

@@ -30,15 +30,15 @@ struct MeshArrays {
 // Throws Failure(INVALID_ARGUMENT) that names the first array that differs from the baked mesh.
 void check_same_mesh(const Transfer& transfer, const MeshArrays& mesh);
 
-// Throws Failure(INVALID_ARGUMENT) if light fell through the holes of another VOTF than that of a material.
+// Throws Failure(INVALID_ARGUMENT) if light fell through the holes of a VOTF other than the material's.
 void check_same_material(const Transfer& transfer, std::uint64_t votf_hash);
 // Throws Failure(INVALID_ARGUMENT) if the transfer has the paper's form for the light modes of another
 // material.
 void check_same_light(const Transfer& transfer, std::uint32_t light_modes, std::uint64_t light_hash);
-// Throws Failure(INVALID_ARGUMENT) unless the transfer has as many lobes.
+// Throws Failure(INVALID_ARGUMENT) unless the transfer has this many lobes.
 void check_same_lobes(const Transfer& transfer, std::uint32_t lobes);
-// Throws Failure(INVALID_ARGUMENT) unless amplitudes, `got` x RGB, are those of as many lobes and small
-// enough for vectors to be finite.
+// Throws Failure(INVALID_ARGUMENT) unless amplitudes, `got` x RGB, fit the number of lobes and are small
+// enough for finite vectors.
 void check_amplitudes(const float* amplitudes, std::uint32_t got, std::uint32_t lobes);
 
 }  // namespace nook::transfer

@@ -1,4 +1,4 @@
-// The work of vectors at vertices as a plain function for each instruction set. All arrays belong to the
+// Computes vectors at vertices, with a plain function for each instruction set. All arrays belong to the
 // caller; nothing allocates, locks or throws.
 #pragma once
 
@@ -51,18 +51,18 @@ struct VertexBlock {
 struct VectorKernels {
   Isa isa = Isa::scalar;
   const char* name = nullptr;
-  // Every lobe adds its light, times its share, to the four nodes around its place in the response's grid;
-  // the sums then weigh the table. A vertex so costs `lobes` mixes of four nodes and one product with the
-  // table, instead of a product with four rows of the table for each lobe.
+  // Every lobe adds its light, times its share, to the four nodes around its place in the response's grid.
+  // The sums then weight the table. So a vertex costs `lobes` mixes of four nodes and one product with the
+  // table. Looking up every lobe would cost a product with four rows of the table for each.
   void (*vectors)(const LightView& light, const VertexBlock& block);
 };
 
-// Returns the table of one instruction set, or NULL where the processor or the build lacks it.
+// Returns the table of one instruction set, or NULL if the processor or the build lacks it.
 const VectorKernels* vector_kernels(Isa isa);
 
 }  // namespace nook::transfer
 
-// The table of each instruction set's translation unit. A table may only be used on a processor that has the
+// The table of each instruction set's translation unit. Use a table only on a processor that has the
 // instruction set.
 #define NOOK_ISA_ENTRY(name, value, built, runs)     \
   namespace nook::isa_##name {                       \

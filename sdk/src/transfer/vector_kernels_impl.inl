@@ -7,12 +7,12 @@ namespace {
 using transfer::LightView;
 using transfer::VertexBlock;
 
-// The places of some lobes in the grid; few enough to stay in the first-level cache beside the grid, and one
-// bit each in a word.
+// The places of some lobes in the grid. They are few enough to stay in the first-level cache beside the grid,
+// and to have one bit each in a word.
 inline constexpr std::uint32_t chunk = 64;
 struct alignas(64) Places {
-  float node[chunk];                 // the number of the upper left of four nodes
-  float right[chunk];                // of that node, [0, 1]
+  float node[chunk];                 // the number of the upper left one of four nodes
+  float right[chunk];                // of that node, in [0, 1]
   float upper[chunk], lower[chunk];  // the lobe's share in the row of that node and in the next one
 };
 
@@ -30,7 +30,7 @@ void read_shares(const std::uint8_t* shares, std::uint32_t count, float* out) {
   for (std::uint32_t i = 0; i < chunk; ++i) out[i] = i >= count ? 0.0f : shares ? float(shares[i]) : 255.0f;
 }
 
-// Returns a bit for each lobe that is not dark. The places of dark ones are of no use, and may be NaN.
+// Returns a bit for each lobe that is not dark. The places of dark lobes are meaningless, and may be NaN.
 std::uint64_t place_lobes(const LightView& light, const float* frame, const std::uint8_t* shares,
                           std::uint32_t first, std::uint32_t count, Places& places) {
   alignas(64) float share[chunk];
@@ -62,8 +62,8 @@ std::uint64_t place_lobes(const LightView& light, const float* frame, const std:
   return bright;
 }
 
-// Adds the light of lobes to the nodes of one vertex; a node has red, green, blue and 0. Two nodes of a row
-// are added to at once.
+// Adds the light of lobes to the nodes of one vertex; a node has red, green, blue and 0. It adds to two nodes
+// of a row at once.
 void add_lobes(const LightView& light, const Places& places, std::uint64_t bright, std::uint32_t first,
                float* nodes) {
   alignas(32) constexpr float slopes[8] = {-1, -1, -1, -1, 1, 1, 1, 1}, starts[8] = {1, 1, 1, 1, 0, 0, 0, 0};
@@ -89,13 +89,13 @@ void spread(const LightView& light, const std::uint8_t* shares, const float* fra
   }
 }
 
-// Vectors of the table that are weighed at once.
+// This many vectors of the table are weighted at once.
 inline constexpr std::uint32_t group = width >= 16 ? 1 : 2;
 
-// A product needs its row of the table and a node's number from memory, and processors load no more than two
-// values for two products. Four vertices share the rows, so that a channel takes two rows and four numbers
-// for eight products. Wide vectors, and blocks of fewer vertices, take all channels at once, so that there
-// are enough sums in the works to hide the latency of each.
+// A product needs its row of the table and a node's number from memory, and processors load at most two
+// values for two products. If four vertices share the rows, a channel takes two rows and four numbers for
+// eight products. Wide vectors, and blocks of fewer vertices, take all channels at once, so that enough sums
+// are in flight to hide the latency of each.
 template <std::uint32_t Vertices>
 inline constexpr std::uint32_t channels_at_once = width >= 16 || Vertices < 4 ? 3 : 1;
 
@@ -131,7 +131,7 @@ Columns lit_columns(const LightView& light, const float* nodes, std::size_t node
   return lit;
 }
 
-// Adds one row of the table, weighed with the nodes of the vertices, for channels from `channel` and lanes
+// Adds one row of the table, weighted by the nodes of the vertices, for channels from `channel` and lanes
 // from `first` on.
 template <std::uint32_t Vertices>
 void weigh_row(const LightView& light, const float* nodes, std::size_t node_floats, std::uint32_t row,
@@ -178,7 +178,7 @@ void write(const LightView& light, const Sums<Vertices>& sums, std::uint32_t cha
     }
 }
 
-// Row by row over all channels, so that a row of nodes is read from the second-level cache once.
+// Goes row by row over all channels, so that a row of nodes is read from the second-level cache once.
 template <std::uint32_t Vertices>
 void weigh(const LightView& light, const VertexBlock& block, std::size_t node_floats,
            std::uint32_t first_vertex) {

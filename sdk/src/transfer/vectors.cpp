@@ -20,7 +20,7 @@ const VectorKernels* vector_kernels(Isa isa) {
 
 namespace {
 
-// Vertices that one thread takes at a time, whole blocks.
+// A thread takes this many vertices at a time, whole blocks.
 constexpr std::uint32_t piece = 256;
 
 AlignedArray<float> padded_amplitudes(const Response& response, std::span<const float> amplitudes,
@@ -86,8 +86,8 @@ class ReflectedLight {
   const ReflectedBands light_;
 };
 
-// frame_at(i) gives the frame and shares_at(i) the bytes of vertex i, or null; after(i, vector) may
-// change a vector.
+// frame_at(i) returns the frame of vertex i, and shares_at(i) its bytes or null; after(i, vector) may change
+// a vector.
 template <class FrameAt, class SharesAt, class After>
 void run(const Response& response, Isa isa, std::span<const float> amplitudes, std::uint32_t count,
          const VectorOutput& output, const Parallel& parallel, Memory* memory, FrameAt&& frame_at,

@@ -1,4 +1,4 @@
-// Vectors at vertices: light, visibility and a material's response together.
+// Computes vectors at vertices from light, visibility and a material's response.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +16,15 @@ struct VectorOutput {
   std::uint64_t stride = 0;  // floats between the vectors of two vertices
 };
 
-// Vertices first to first + count of baked transfer, whose lobes are those of the response. amplitudes has
-// lobes x RGB; in the paper's form the light modes are the response's. The result does not depend on
-// `parallel`. Nothing is allocated except for the padded amplitudes, and in the paper's form for the
-// clusters' matrices under the light, from `memory`.
+// Computes the vertices first to first + count of baked transfer, which must have the response's lobes; in
+// the paper's form, also its light modes. amplitudes has lobes x RGB. The result does not depend on
+// `parallel`. From `memory` it allocates only the padded amplitudes and, in the paper's form, the clusters'
+// matrices under the light.
 void baked_vectors(const Response& response, Isa isa, std::span<const float> amplitudes,
                    const Transfer& transfer, std::uint32_t first, std::uint32_t count,
                    const VectorOutput& output, const Parallel& parallel, Memory* memory);
 
-// Vertices without visibility: all light above their horizon reaches them.
+// Computes vertices without visibility: all light above their horizon reaches them.
 void open_vectors(const Response& response, Isa isa, std::span<const float> amplitudes,
                   std::span<const Frame> frames, const VectorOutput& output, const Parallel& parallel,
                   Memory* memory);

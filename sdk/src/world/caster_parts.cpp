@@ -89,17 +89,17 @@ Capsule merged(std::span<const PosedCaster> casters, std::span<const std::uint8_
         axis = v;
       }
   }
-  // The power method, from the longest step between casters or along one.
+  // Uses the power method, from the longest step between casters or along one.
   axis = normalised(axis);
   for (int step = 0; step < 6; ++step) {
     const Vec3 next = spread.times(axis);
     if (!(squared(next) > 1e-20f)) break;
     axis = normalised(next);
   }
-  // The variance along the axis beyond that across it is that of a segment.
+  // The variance along the axis in excess of the variance across it is a segment's variance.
   const float along2 = dot(axis, spread.times(axis)), across2 = 0.5f * (spread.trace() - along2);
-  // A bent part has a longer segment than itself. The capsule ends where the casters do, lest it reach
-  // through the surface that they stand on, and keeps their centre.
+  // A bent part has a segment longer than itself. The capsule ends where the casters do and keeps their
+  // centre, so that it does not reach through the surface that they stand on.
   float reach_below = 0, reach_above = 0;
   for (const std::uint8_t i : order) {
     const PosedCaster& c = casters[i];
@@ -123,8 +123,8 @@ Capsule merged(std::span<const PosedCaster> casters, std::span<const std::uint8_
 
 float merging_distance(float strength, float radius, float error_ao) {
   if (!(error_ao > 0)) return 1e15f;
-  // The difference falls with the fourth power of the distance; the factor is that of bodies in the test of
-  // this file.
+  // The difference falls with the fourth power of the distance. The test of this file measured the factor on
+  // bodies.
   const float far = std::sqrt(std::sqrt(0.1f * strength * radius * radius / error_ao));
   return std::max(far, 1.2f * radius);
 }

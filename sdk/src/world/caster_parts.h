@@ -1,5 +1,5 @@
-// Parts of a body, such as a limb, and the one capsule that stands for the casters of a part or of a body
-// where they are far away.
+// Splits a body into parts, such as limbs, and merges the casters of a part or body into one capsule, which
+// stands for them at a distance.
 #pragma once
 
 #include <array>
@@ -21,17 +21,17 @@ struct CasterParts {
   std::array<std::uint8_t, max_part_casters> order{};
 };
 
-// Five casters a part in the mean. middle: of the casters, at most max_part_casters. The parts' first casters
-// are as far from each other as they can be (Gonzalez 1985).
+// Makes parts with five casters on average. middle: centres of at most max_part_casters casters. The parts'
+// first casters are as far from each other as possible (Gonzalez 1985).
 CasterParts parts_of(std::span<const Vec3> middle);
 
-// The capsule, with its radii in AO, that has the mean projected area, the centre and the longest axis of the
-// casters that `order` picks.
+// Returns one capsule, with its radii for AO, for the casters that `order` picks. It has their mean projected
+// area, their centre and their longest axis.
 Capsule merged(std::span<const PosedCaster> casters, std::span<const std::uint8_t> order);
 
-// Where the merged capsule begins to stand for its casters: so many metres from its centre the rms of the
-// difference, over directions and normals, is about error_ao. strength: of the casters, see
-// caster_strength. radius: of a sphere round them.
+// Returns the distance in metres from its centre at which the merged capsule may stand for its casters.
+// There, the rms difference over directions and normals is about error_ao. strength: the casters'
+// caster_strength. radius: of a sphere around them.
 float merging_distance(float strength, float radius, float error_ao);
 
 }  // namespace nook::world

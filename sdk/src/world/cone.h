@@ -1,12 +1,12 @@
 // The share of a cone of directions that a capsule hides, such as the cone of a sun or a lamp.
 //
-// A cone is cut into `cone_parts` equal cones whose axes lie on a spiral (Vogel 1979), each with the same
-// solid angle. In the plane across a part's axis, at unit distance and in units of the part's radius, the
-// part is the unit disc and a capsule the stadium round a segment, which counts as a rectangle of the same
-// area. Its share of the disc is taken as the product of the shares along and across the segment. The rule of
-// overlap: in each part the product of what the capsules leave open counts, as if they covered it
-// independently; the cone's share is the mean of its parts'. Capsules that cover different parts thus add,
-// and those that cover the same part whole do not darken twice.
+// A cone is cut into `cone_parts` cones of equal solid angle whose axes lie on a spiral (Vogel 1979). Look at
+// the plane across a part's axis, at unit distance and in units of the part's radius. There the part is the
+// unit disc and a capsule the stadium around a segment, which counts as a rectangle of the same area. Its
+// share of the disc is approximated by the product of the shares along and across the segment. Overlap works
+// as follows: in each part, the product of what the capsules leave open counts, as if they covered it
+// independently. The cone's share is the mean over its parts. So capsules that cover different parts add up,
+// and capsules that fully cover the same part do not darken it twice.
 #pragma once
 
 #include <cmath>
@@ -24,7 +24,7 @@ struct ConeParts {
   float slope = 0;        // the tangent of a part's half angle
 };
 
-// axis: unit, towards the light. half_angle_radians: more than 0, less than pi / 2.
+// axis: unit, towards the light. half_angle_radians: above 0, below pi / 2.
 inline ConeParts cone_parts_of(Vec3 axis, float half_angle_radians) {
   const float sign = std::copysign(1.0f, axis.z), p = -1 / (sign + axis.z), q = axis.x * axis.y * p;
   const Vec3 x{1 + sign * axis.x * axis.x * p, sign * q, -sign * axis.x};  // Duff et al. 2017
@@ -42,21 +42,22 @@ inline ConeParts cone_parts_of(Vec3 axis, float half_angle_radians) {
   return parts;
 }
 
-// The share of a unit disc beyond a line at the signed distance s, within 0.01 of the segment of a circle.
+// Returns the share of a unit disc beyond a line at the signed distance s, within 0.01 of the exact circular
+// segment.
 template <class F>
 F share_beyond(F s) {
   const F x = min(max(s, F(-1.0f)), F(1.0f));
   return fma(x, fma(x * x, F(0.25f), F(-0.75f)), F(0.5f));
 }
 
-// The share of one part in [0, 1]; the receiver is at the origin. 0 where a number is NaN.
+// Returns the share of one part in [0, 1]; the receiver is at the origin. 0 if a number is NaN.
 template <class F>
 F part_coverage(const CapsuleLanes<F>& c, F lx, F ly, F lz, F slope) {
   const F one(1.0f), zero(0.0f);
   const F depth_a = fma(c.ax, lx, fma(c.ay, ly, c.az * lz)),
           depth_b = fma(c.bx, lx, fma(c.by, ly, c.bz * lz));
-  // The part behind the receiver is cut off; the cut is near its plane, where the rest is seen from far
-  // aside.
+  // Cuts off what is behind the receiver. The cut is close to the receiver's plane, where the rest appears
+  // far aside.
   const F deepest = max(depth_a, depth_b);
   const F least = F(0.02f) * deepest;
   const F range = depth_b - depth_a;
@@ -77,7 +78,7 @@ F part_coverage(const CapsuleLanes<F>& c, F lx, F ly, F lz, F slope) {
   const F xa = fma(ax, dx, fma(ay, dy, az * dz)) * inverse;
   const F a2 = fma(ax, ax, fma(ay, ay, az * az));
   const F aside = sqrt(max(a2 - xa * xa, zero));
-  // The radius where the segment is nearest to the axis.
+  // The radius at the point of the segment that is nearest to the axis.
   const F nearest = min(max((zero - xa) * inverse, zero), one);
   const F ra = fma(ta, c.radius_b - c.radius_a, c.radius_a) * scale_a;
   const F rb = fma(tb, c.radius_b - c.radius_a, c.radius_a) * scale_b;

@@ -1,6 +1,6 @@
-// The share of the cosine-weighted hemisphere above a surface point that a capsule covers. The formulas are
-// templates over a number type F, as those of the character's kernels: float, double, a SIMD vector or a dual
-// number.
+// The share of the cosine-weighted hemisphere above a surface point that a capsule covers. As in the
+// character's kernels, the formulas are templates over a number type F: float, double, a SIMD vector or a
+// dual number.
 //
 // Seen from a point, a capsule is the convex hull of two discs on the unit sphere: directions u and v to its
 // ends, sines s_u and s_v of their angular radii, and c = dot(u, v). Lambert's contour integral of this
@@ -11,13 +11,13 @@
 //   pi Phi = (lambda alpha + phi_u s_u^2 + gamma s beta) u + (lambda beta + phi_v s_v^2 + gamma s alpha) v,
 //   s = sqrt(1 - c^2), cos(lambda) = (c - s_u s_v) / (c_u c_v), cos(phi_u) = beta s / c_u,
 //   cos(phi_v) = alpha s / c_v, c_u = sqrt(1 - s_u^2).
-// dot(n, Phi) is the form factor, exact where the capsule is above the horizon. With the cosines clamped to
-// [-1, 1] it is that of the larger disc where one disc hides the other.
+// dot(n, Phi) is the form factor, exact where the capsule is above the horizon. If one disc hides the other,
+// clamping the cosines to [-1, 1] gives the larger disc's form factor.
 //
-// On the surface of a capsule the region is a half-space's. A point inside keeps the half-space of the
-// nearest surface, so that the share is continuous: the sine of an end that holds the point is held below 1,
-// and inside the round wall, where no great circle touches both ends and gamma^2 would be negative, Phi is
-// the unit vector towards the axis, (alpha u + beta v) / sqrt(alpha s_u + beta s_v).
+// On the surface of a capsule, the region is a half-space. A point inside keeps the half-space of the nearest
+// surface, so that the share is continuous. If an end contains the point, its sine is limited to below 1.
+// Inside the round wall, no great circle touches both ends and gamma^2 would be negative. There Phi is the
+// unit vector towards the axis, (alpha u + beta v) / sqrt(alpha s_u + beta s_v).
 #pragma once
 
 #include "sdk/src/core/light_bands.h"
@@ -26,7 +26,7 @@
 
 namespace nook::world {
 
-// The angle with the versine (1 - cosine) w in [0, 2]. The versine keeps the digits of small angles.
+// Returns the angle whose versine (1 - cosine) is w in [0, 2]. The versine keeps the digits of small angles.
 template <class F>
 F angle_of_versine(F w) {
   const F one(1.0f);
@@ -71,15 +71,16 @@ HullFactor<F> hull_factor(F su, F sv, F spread) {
   const F inverse_pi(0.318309886f);
   const F a = fma(lambda, alpha, fma(phi_u, su * su, gamma * s * beta)) * inverse_pi;
   const F b = fma(lambda, beta, fma(phi_v, sv * sv, gamma * s * alpha)) * inverse_pi;
-  // Where one disc hides the other gamma is 0 as well, but then the angle between the ends is small.
+  // If one disc hides the other, gamma is 0 as well, but then the angle between the ends is small.
   const F within = select(less(one, versine), across2, zero);
   const F inverse_across = rsqrt(max(across2, F(1e-12f)));
   return {select(less(one, within), alpha * inverse_across, a),
           select(less(one, within), beta * inverse_across, b)};
 }
 
-// The share above the horizon. factor: dot(n, Phi); size2: |Phi|^2; lowest: the height of the lowest part of
-// the capsule's two spheres above the horizon, in their radii, at least 1 where the capsule is above it.
+// Returns the share above the horizon. factor: dot(n, Phi); size2: |Phi|^2; lowest: the height of the lowest
+// part of the capsule's two spheres above the horizon, in their radii, at least 1 where the capsule is above
+// it.
 //
 // The region counts as the disc of the same vector Phi: its sine is sqrt(|Phi|), and t = dot(n, Phi) /
 // |Phi|^(3/2) is the height of its centre in radii. The disc's share above the horizon is |Phi|^(3/2) (t +
@@ -103,14 +104,14 @@ F above_horizon(F factor, F size2, F lowest) {
   return select(less(F(-1.0f), height), max(fma(cube, x, factor), zero), zero);
 }
 
-// A capsule as its receiver sees it: the vectors from the receiver to its ends.
+// A capsule seen from its receiver: the vectors from the receiver to its ends.
 template <class F>
 struct CapsuleLanes {
   F ax, ay, az, bx, by, bz, radius_a, radius_b;
 };
 
-// The share in [0, 1], for a receiver at the origin with a unit normal, and the vector Phi; 0 where a number
-// is NaN, as Phi then is.
+// Returns the share in [0, 1] for a receiver at the origin with a unit normal, and the vector Phi. If a
+// number is NaN, so is Phi, and the share is 0.
 template <class F>
 F coverage(const CapsuleLanes<F>& capsule, F nx, F ny, F nz, Direction<F>& phi) {
   const F one(1.0f), zero(0.0f), tiny(1e-24f);

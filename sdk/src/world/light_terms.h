@@ -1,11 +1,11 @@
-// Bands 0 to 4 of light that is a sum of lobes, as the factors of 25 harmonic polynomials, and the same of
-// densities over directions that are summed before they meet the light: the mean of the light under a density
-// round d is the sum over the bands l of A_l times the light's band at d, with A_l the density's mean of the
-// Legendre polynomial of l.
+// Bands 0 to 4 of light that is a sum of lobes, as factors of 25 harmonic polynomials, and of densities over
+// directions. Densities are summed first and then combined with the light. The mean of the light under a
+// density around d is the sum over the bands l of A_l times the light's band at d. A_l is the mean of the
+// Legendre polynomial of l under the density.
 //
-// The polynomials are spherical harmonics without their factors, which the light's terms hold. Bands 3 and 4
-// need as many lobes as have them: those of a fit by fewer lobes show the lobes' shape and not the light, so
-// that they are left out. They count by 0.8 and 0.6, which tapers the ringing at the last band.
+// The polynomials are spherical harmonics without their factors, which the light's terms contain. Bands 3 and
+// 4 need enough lobes: with fewer, they would show the shape of the lobes and not the light, so they are left
+// out. They are weighted by 0.8 and 0.6 to reduce ringing.
 #pragma once
 
 #include <span>
@@ -22,7 +22,7 @@ inline constexpr std::size_t lobes_for_all_bands = 24;
 // The components x, y, z are the channels red, green, blue.
 struct LightTerms {
   Vec3 term[light_term_count];
-  Vec3 darkest;  // as that of LightBands
+  Vec3 darkest;  // as in LightBands
 };
 
 // Calls visit(index, band, value) for each polynomial at the unit vector d.
@@ -84,9 +84,9 @@ struct GatheredTerms {
   }
 };
 
-// The light of the lobes, whose axes are unit, or zero where a lobe is constant.
+// Returns the light of the lobes. Their axes are unit, or zero if a lobe is constant.
 inline LightTerms terms_of(std::span<const SphericalGaussian> lobes) {
-  // 4 pi times the squares of the harmonics' factors.
+  // 4 pi times the squared factors of the harmonics.
   constexpr float square[light_term_count] = {1,      3,       3,         3,          1.25f,   15,     15,
                                               15,     3.75f,   4.375f,    105,        2.625f,  1.75f,  2.625f,
                                               26.25f, 4.375f,  9.0f / 64, 78.75f,     39.375f, 11.25f, 5.625f,
@@ -106,20 +106,21 @@ inline LightTerms terms_of(std::span<const SphericalGaussian> lobes) {
   return light;
 }
 
-// Light by colour channel: casters that cover the share f of a point's hemisphere take f rho of its light,
-// with rho the mean radiance behind them over that of the hemisphere, both weighted by the cosine. The light
-// and what stands in it are taken in bands 0 to 4 (light_terms.h).
+// Light by colour channel. Casters that cover the share f of a point's hemisphere take f rho of its light.
+// rho is the mean radiance behind them divided by the mean radiance of the hemisphere, both weighted by the
+// cosine. The light and the casters are reduced to bands 0 to 4.
 //
-// A caster counts as the disc of its vector Phi (coverage.h), s = |Phi| the squared sine of its radius. Round
-// its middle a disc of a cosine's weight has the bands A1 = 2 (1 - (1 - s)^(3/2)) / (3 s), here within 0.002
-// as 1 - s / 4 - s^2 / 12, A2 = 1 - 3 s / 4, A3 = (1 - s)^(3/2) and A4 = 1 - 5 s / 2 + 35 s^2 / 24. They are
-// those of the hemisphere, 2 / 3, 1 / 4, 0 and -1 / 24, where the caster fills it, so that rho is then 1. The
-// disc that the horizon cuts has its middle halfway up what is left.
+// A caster counts as the disc of its vector Phi (coverage.h); s = |Phi| is the squared sine of the disc's
+// radius. Around its centre a cosine-weighted disc has the bands A1 = 2 (1 - (1 - s)^(3/2)) / (3 s),
+// approximated within 0.002 by 1 - s / 4 - s^2 / 12, A2 = 1 - 3 s / 4, A3 = (1 - s)^(3/2) and A4 = 1 - 5 s /
+// 2 + 35 s^2 / 24. If the caster fills the hemisphere, they equal the hemisphere's bands 2 / 3, 1 / 4, 0 and
+// -1 / 24, so that rho is 1. If the horizon cuts the disc, its centre counts as halfway up the remaining
+// part.
 //
-// Overlap: with AO the product over the casters, the light's open share is 1 - (1 - AO) R, R the mean of rho
-// over the casters by their shares. Under constant light it is AO.
+// Where casters overlap, AO is the product over the casters, and the light's open share is 1 - (1 - AO) R. R
+// is the mean of rho over the casters, weighted by their shares. Under constant light the result is AO.
 
-// Adds a caster that covers `share` of the hemisphere round n.
+// Adds a caster that covers `share` of the hemisphere around n.
 template <class F>
 void gather(GatheredTerms<F>& gathered, const Direction<F>& n, const Direction<F>& phi, F share) {
   const F one(1.0f), half(0.5f);
@@ -139,7 +140,7 @@ void gather(GatheredTerms<F>& gathered, const Direction<F>& n, const Direction<F
   gathered.add(Direction<F>{d.x * t, d.y * t, d.z * t}, share, band);
 }
 
-// Returns the light's open share in each channel, in [0, 1]. ao: what the gathered casters leave open.
+// Returns the open share of the light in each channel, in [0, 1]. ao: what the gathered casters leave open.
 template <class F>
 Colour<F> open_light(const GatheredTerms<F>& gathered, const LightTerms& light, const Direction<F>& n, F ao) {
   const F one(1.0f), zero(0.0f);

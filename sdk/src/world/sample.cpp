@@ -18,7 +18,8 @@ const WorldKernels* world_kernels(Isa isa) {
 
 namespace {
 
-// Points that are evaluated together; a multiple of every vector's width, small enough for the stack.
+// The number of points that are evaluated together: a multiple of every vector's width, small enough for the
+// stack.
 constexpr std::uint32_t block_points = 128;
 
 struct Block {
@@ -30,7 +31,7 @@ struct Block {
   alignas(64) float rgb[3][block_points];
   bool sound[block_points];
   std::uint32_t count = 0;
-  Vec3 centre;  // of a sphere that holds the points
+  Vec3 centre;  // of a sphere that contains the points
   float radius = 0;
 
   GatheredSoa terms() {
@@ -78,15 +79,15 @@ void load_points(const SampleRequest& request, std::uint32_t first, Block& block
   block.radius = 0.5f * length(high - low);
 }
 
-// Returns whether the casters may take cutoff_error or more from any point of the block. False for NaN.
+// Returns whether the casters may take cutoff_error or more of AO at any point of the block. False for NaN.
 bool reaches(const CasterGroup& group, const Block& block, float cutoff_error) {
   const float gap = length(group.centre - block.centre) - group.radius - block.radius;
   if (gap <= 0) return true;
   return group.strength >= cutoff_error * gap * gap;
 }
 
-// Returns whether they may stand before the cone of any point of the block. The parts of a cone reach beyond
-// its edge by at most the radius of a part, half of which lies inside.
+// Returns whether the casters may stand before the cone at any point of the block. Parts of a cone reach
+// beyond its edge by at most half their width.
 bool stands_before(const CasterGroup& group, const Block& block, const SampleRequest& request, float wide) {
   const Vec3 d = group.centre - block.centre;
   const float reach = group.radius + block.radius, distance = length(d);
@@ -103,8 +104,7 @@ void sample(const WorldKernels& kernels, const Parallel& parallel, const SampleR
   ConeParts parts;
   const bool lit = request.has_light && light, coloured = request.terms && rgb;
   if (lit) parts = cone_parts_of(request.light_axis, request.light_half_angle_radians);
-  // A capsule counts as a rectangle, whose corners reach beyond its round ends by less than a third of a
-  // part.
+  // A capsule counts as a rectangle. Its corners reach beyond the round ends by less than a third of a part.
   const float wide = request.light_half_angle_radians + 2 * std::atan(parts.slope);
   const auto run = [&](std::uint32_t index) noexcept {
     Block block;

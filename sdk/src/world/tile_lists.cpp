@@ -10,8 +10,8 @@ constexpr std::uint32_t tiles_along(std::uint32_t length_px, std::uint32_t tile_
   return (length_px + tile_px - 1) / tile_px;
 }
 
-// Tangents of the directions between which a sphere lies, in the plane of an axis of the screen and the
-// camera's; the whole axis where the sphere reaches beside or behind the camera.
+// The tangents of the directions between which a sphere lies, in the plane of a screen axis and the camera's
+// axis. If the sphere reaches beside or behind the camera, they span the whole screen.
 struct Extent {
   float low = -INFINITY, high = INFINITY;
 };
@@ -25,12 +25,12 @@ Extent perspective_extent(float aside, float depth, float radius) {
           middle + half < ahead ? std::tan(middle + half) : INFINITY};
 }
 
-// Returns false where no pixel from 0 to size_px lies between.
+// Returns false if no pixel from 0 to size_px lies between them.
 bool tiles_between(Extent extent, float scale, float offset, std::uint32_t size_px, std::uint32_t tile_px,
                    std::uint32_t& first, std::uint32_t& last) {
   float low = (extent.low - offset) / scale, high = (extent.high - offset) / scale;
   if (low > high) std::swap(low, high);
-  // Also where a number is NaN.
+  // Also true if a number is NaN.
   if (!(high >= 0 && low <= float(size_px))) return std::isnan(low) || std::isnan(high);
   const auto tile = [&](float pixel) {
     return std::uint32_t(std::clamp(pixel, 0.0f, float(size_px - 1))) / tile_px;
@@ -67,7 +67,7 @@ TileRange covered_tiles(const TileGrid& grid, Vec3 centre, float radius) {
 }
 
 TileRange shaded_tiles(const TileGrid& grid, Vec3 centre, float radius, const Shadow& shadow) {
-  // Each step's spheres lie in one that is not much larger; the last step takes what is left.
+  // Each step's spheres fit in a sphere that is not much larger; the last step takes the rest.
   constexpr int most_steps = 12;
   TileRange all;
   float from = 0;
@@ -95,7 +95,7 @@ std::uint64_t most_list_texels(const TileGrid& grid, std::span<const TileRange> 
   for (const TileRange& r : ranges)
     if (!r.empty)
       entries += std::uint64_t{r.last_column - r.first_column + 1} * (r.last_row - r.first_row + 1);
-  // Each tile has a texel, and one that is not full.
+  // Each tile has a texel, and another that may not be full.
   return 2 * std::uint64_t{grid.columns()} * grid.rows() + entries / 4;
 }
 

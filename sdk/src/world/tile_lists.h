@@ -1,5 +1,5 @@
-// Which bodies may reach which tiles of the screen. Depth behind a tile has no part in it: a body is in
-// the list of each tile that the sphere of its reach covers on the screen.
+// Lists the bodies that may reach each tile of the screen. The depth behind a tile does not matter: a body is
+// in the list of each tile that the sphere of its reach covers on the screen.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace nook::world {
 
-// A viewport in tiles of tile_px pixels along a side. View space x is (x_scale pixel + x_offset) times the
-// depth, or times 1 in an orthographic view; y is alike.
+// A viewport divided into tiles of tile_px pixels a side. View space x is (x_scale pixel + x_offset) times
+// the depth, or times 1 in an orthographic view; y works the same way.
 struct TileGrid {
   std::uint32_t width_px = 0, height_px = 0, tile_px = 32;
   float x_scale = 1, x_offset = 0, y_scale = 1, y_offset = 0;
@@ -20,18 +20,19 @@ struct TileGrid {
   std::uint32_t rows() const;
 };
 
-// Tiles from first to last, both included; none where empty.
+// Tiles from first to last inclusive; none if empty.
 struct TileRange {
   std::uint32_t first_column = 0, last_column = 0, first_row = 0, last_row = 0;
   bool empty = true;
 };
 
-// The tiles that a sphere may cover. centre: view space, metres. Every point of the sphere in front of the
-// camera lies in them.
+// Returns the tiles that a sphere may cover. They contain every point of the sphere in front of the camera.
+// centre: view space, metres.
 TileRange covered_tiles(const TileGrid& grid, Vec3 centre, float radius);
 
-// The shadow of a body in a cone of light: the spheres whose centre moves from `centre` by up to reach along
-// `away`, which is unit and points from the light, and whose radius grows by `spread` metres a metre.
+// The shadow of a body in a cone of light. It is made of spheres whose centres move from `centre` by up to
+// reach along `away`, and whose radius grows by `spread` metres per metre. `away` is unit and points away
+// from the light.
 struct Shadow {
   Vec3 away;
   float spread = 0, reach = 0;
@@ -41,9 +42,9 @@ TileRange shaded_tiles(const TileGrid& grid, Vec3 centre, float radius, const Sh
 // Returns a bound of the texels of the lists.
 std::uint64_t most_list_texels(const TileGrid& grid, std::span<const TileRange> ranges);
 
-// Writes the texels of the lists: for each tile (first texel of its entries, counted from that of the first
-// tile; their number; 0; 0), then the entries, which are numbers of `ranges`, four to a texel. Resizes
-// texels. Throws std::bad_alloc.
+// Writes the texels of the lists: for each tile (first texel of its entries, counted from the first tile's;
+// their number; 0; 0), then the entries. Entries are indices into `ranges`, four to a texel. Resizes texels.
+// Throws std::bad_alloc.
 void write_tile_lists(const TileGrid& grid, std::span<const TileRange> ranges, Vector<float>& texels);
 
 }  // namespace nook::world

@@ -1,6 +1,6 @@
-// The openness that casters leave at many points, as a table of plain functions, one table for each
-// instruction set. Arrays of points belong to the caller and are padded to a multiple of simd_width; padding
-// holds finite numbers. None allocates, locks or throws.
+// Computes what casters leave open at many points, as a table of plain functions for each instruction set.
+// Arrays of points belong to the caller and are padded to a multiple of simd_width; padding must hold finite
+// numbers. None allocates, locks or throws.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ struct WorldKernels {
   // The same, and adds each caster to the terms.
   void (*gather_hemisphere)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points,
                             float* open, const GatheredSoa& gathered);
-  // Writes the open share of the light for each channel, with `open` that of AO.
+  // Writes the open share of the light for each channel; `open` is AO.
   void (*open_light)(const LightTerms& light, const PointSoa& points, const GatheredSoa& gathered,
                      const float* open, float* const* rgb);
   // open[i] *= the product over the casters of 1 - part_coverage, for one part of a cone.
@@ -43,12 +43,12 @@ struct WorldKernels {
                     float slope, float* open);
 };
 
-// The table of one instruction set; NULL where the processor or the build lacks it.
+// Returns the table of one instruction set, or NULL if the processor or the build lacks it.
 const WorldKernels* world_kernels(Isa isa);
 
 }  // namespace nook::world
 
-// The table of each instruction set's translation unit. A table may only be used on a processor that has the
+// The table of each instruction set's translation unit. Use a table only on a processor that has the
 // instruction set.
 #define NOOK_ISA_ENTRY(name, value, built, runs) \
   namespace nook::isa_##name {                   \

@@ -1,4 +1,4 @@
-// Cells of view maps and places of the tile, which the decoding of tensors and the decoding of networks use.
+// Cells of view maps and places of the tile, for decoding tensors and networks.
 #include "shaders/material/view_map.glsl"
 
 #include "shaders/material/footprint.glsl"

@@ -1,10 +1,11 @@
-// The network of a neural material; sdk/src/material/neural.h has its equations, and neural_tables.cpp the same functions.
-// Matrices are in blocks of 4 x 4, those of four inputs to all units beside each other, and the last inputs of a first
-// layer are the view and 1. The numbers of a pixel are the sums of the first layer without a light, then the view.
+// The network of a neural material; sdk/src/material/neural.h has its equations, and neural_tables.cpp the
+// same functions. Matrices are in blocks of 4 x 4; the blocks from four inputs to all units are adjacent. The
+// last inputs of a first layer are the view and 1. The numbers of a pixel are the sums of the first layer
+// without a light, then the view.
 
 vec4 nook_neural_rectified(vec4 sum) { return max(sum, nook_neural_leak * sum); }
 
-// Raises a direction to the lowest of the sampled ones.
+// Raises a direction to the lowest sampled one.
 vec3 nook_neural_raised(vec3 d, float lowest) {
   return d.z >= lowest ? d : vec3(d.xy * (sqrt(1.0 - lowest * lowest) / max(length(d.xy), 1e-6)), lowest);
 }
@@ -13,7 +14,7 @@ vec4 nook_neural_feature(int layer, vec2 uv, float level) {
   return textureLod(nook_neural_features, vec3(uv, float(layer)), level);
 }
 
-// The height, in tiles, at which a view reads the features.
+// Returns the height, in tiles, at which a view reads the features.
 float nook_neural_height(vec2 uv, float level, vec3 view) {
   vec4 units[NOOK_NEURAL_OFFSET_UNIT_VEC4S];
   for (int u = 0; u < NOOK_NEURAL_OFFSET_UNIT_VEC4S; ++u)
@@ -36,7 +37,7 @@ vec4 nook_neural_mean(int layer, NookMaterialFetches at) {
   return mean;
 }
 
-// Computes the numbers of places for the view, of the mean of their features. Each place has a height of its own.
+// Computes the numbers for the view from the mean features of places. Each place has its own height.
 void nook_material_decode_at(NookMaterialFetches at, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   view = nook_neural_raised(view, nook_neural_lowest_view_z);
   for (int i = 0; i < at.count; ++i) {
@@ -53,12 +54,14 @@ void nook_material_decode_at(NookMaterialFetches at, vec3 view, out vec4 modes[N
   modes[NOOK_NEURAL_UNIT_VEC4S] = vec4(view, 0.0);
 }
 
-// Computes the numbers of the point uv for the view, with features filtered over the pixel with the sides dx and dy.
+// Computes the numbers at the point uv for the view. dx and dy are the pixel's sides, over which it filters
+// the features.
 void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   nook_material_decode_at(nook_material_one_fetch(uv, dx, dy, NOOK_BTF_TEXELS), view, modes);
 }
 
-// The same with several fetches of each feature along the longer side of the pixel, which keep grazing views sharp.
+// The same with several fetches of each feature along the longer side of the pixel, which keeps grazing views
+// sharp.
 void nook_material_decode_anisotropic(vec2 uv, vec2 dx, vec2 dy, vec3 view, int fetches,
                                       out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   nook_material_decode_at(nook_material_fetches_along(uv, dx, dy, NOOK_BTF_TEXELS, fetches), view, modes);

@@ -2,7 +2,7 @@
 // "votf" in place of "tensor" and "BTF" or "VOTF" in place of "TENSOR". One function cannot serve both, because some materials
 // have no membership texture.
 
-// Returns four modes of a cluster, their mean over places.
+// Returns the mean over places of four modes of a cluster.
 vec4 nook_tensor_mean(int cluster, int mode, NookMaterialFetches at) {
   vec4 mean = nook_tensor_mode(cluster, mode, at.place[0], at.level);
   for (int i = 1; i < at.count; ++i)
@@ -10,7 +10,7 @@ vec4 nook_tensor_mean(int cluster, int mode, NookMaterialFetches at) {
   return mean;
 }
 
-// Finds the terms of a view. place is nook_parabolic_place of the view, and cell the cell that place lies in.
+// Finds the terms of a view. place is nook_parabolic_place of the view, and cell contains place.
 NookMaterialTerms nook_tensor_terms(vec2 place, ivec2 cell) {
 #if NOOK_TENSOR_BLENDED
   uvec4 last = texelFetch(nook_tensor_membership, ivec3(cell, NOOK_TENSOR_TERMS / 4), 0);

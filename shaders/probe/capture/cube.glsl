@@ -1,4 +1,4 @@
-// Texels of a cube map as samples of light: direction, solid angle, radiance.
+// Reads texels of a cube map as samples of light: direction, solid angle, radiance.
 #include "shaders/probe/constants.h"
 
 uniform highp samplerCube nook_cube;
@@ -11,23 +11,24 @@ struct NookCubeTexel {
   vec3 radiance;
 };
 
-// A place on a face of the cube from -1 to 1. Faces are +x, -x, +y, -y, +z, -z; their orientation does not
-// count, because all texels of a face are visited and each is looked up by its direction.
+// A place on a face of the cube, from -1 to 1. Faces are +x, -x, +y, -y, +z, -z. Their orientation does not
+// matter, because all texels of a face are visited and looked up by direction.
 vec3 nook_cube_place(int face, vec2 at) {
   float side = (face & 1) == 0 ? 1.0 : -1.0;
   if (face < 2) return vec3(side, at);
   return face < 4 ? vec3(at.x, side, at.y) : vec3(at, side);
 }
 
-// Half of the solid angle of a triangle, by A. van Oosterom and J. Strackee, The solid angle of a plane
-// triangle (1983), whose tangent is det / sum. Nothing cancels, and where texels are a quarter of a face or less, the
-// tangent is below 0.1 and three terms of its arcus are exact in floats.
+// Returns half of the solid angle of a triangle, by A. van Oosterom and J. Strackee, The solid angle of a
+// plane triangle (1983), whose tangent is det / sum. Nothing cancels. If texels are a quarter of a face or
+// less, the tangent is below 0.1, and three terms of its arctangent are exact in floats.
 float nook_half_angle(float det, float sum) {
   float t = det / sum, t2 = t * t;
   return t * (1.0 - t2 * (1.0 / 3.0 - t2 * 0.2));
 }
 
-// Of a texel with the centre `at` and the side 2 half_side: two triangles, which share a diagonal.
+// Returns the solid angle of a texel with the centre `at` and the side 2 half_side, from two triangles that
+// share a diagonal.
 float nook_texel_angle(vec2 at, float half_side) {
   vec3 a = vec3(at + vec2(-half_side, -half_side), 1.0), b = vec3(at + vec2(half_side, -half_side), 1.0);
   vec3 c = vec3(at + vec2(half_side, half_side), 1.0), d = vec3(at + vec2(-half_side, half_side), 1.0);
@@ -37,8 +38,8 @@ float nook_texel_angle(vec2 at, float half_side) {
                 nook_half_angle(det, la * lc * ld + ac * ld + dot(c, d) * la + dot(a, d) * lc));
 }
 
-// Radiance above 1e18 counts as infinite, as in fits. Bits of magnitudes have the order of the numbers, and NaN lies above
-// all of them; compilers may turn a comparison of floats round, which NaN survives.
+// As in fits, radiance above 1e18 counts as infinite. This compares bits, which sort like magnitudes, with
+// NaN above all of them. A compiler may invert a comparison of floats, and NaN would then pass.
 NookCubeTexel nook_cube_texel(int face, int column, int row) {
   float half_side = 1.0 / float(nook_face_size);
   vec2 at = vec2(2 * column + 1, 2 * row + 1) * half_side - 1.0;
@@ -56,7 +57,7 @@ float nook_cube_luminance(vec3 rgb) {
   return dot(rgb, vec3(NOOK_LUMINANCE_RED, NOOK_LUMINANCE_GREEN, NOOK_LUMINANCE_BLUE));
 }
 
-// The sky's share of a texel: its colour at a luminance of the limit or less.
+// Returns the sky's part of a texel: its colour, at the luminance of the limit or less.
 vec3 nook_cube_without_sun(vec3 rgb, float limit) {
   float bright = nook_cube_luminance(rgb);
   return bright > limit ? rgb * (limit / bright) : rgb;

@@ -1,11 +1,11 @@
-// Sums over one row of a face: of light times functions, times solid angle. One point a row; the sums leave by
-// transform feedback. w of each is the solid angle of the texels that count.
+// Sums light times functions times solid angle over one row of a face. There is one point for each row;
+// transform feedback writes the sums. w of each is the solid angle of the texels that count.
 #include "shaders/core/texels.glsl"
 #include "shaders/probe/capture/cube.glsl"
 #include "shaders/probe/capture/layout.h"
 
 uniform NOOK_TEXELS nook_table;
-uniform int nook_limited;        // the luminance where suns begin counts; the first texel has it
+uniform int nook_limited;        // limit luminance to where suns begin, which the first texel holds
 #if NOOK_CAPTURE_KIND == NOOK_CAPTURE_LOBES
 uniform int nook_first_lobe;     // the texel of the group's first lobe: axis and sharpness
 #endif

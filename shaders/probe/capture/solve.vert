@@ -1,4 +1,5 @@
-// A probe's numbers from its sums, as texels of the texture that hosts' shaders read. One point a texel.
+// Computes a probe's numbers from its sums, as texels of the texture that hosts' shaders read. There is one
+// point for each texel.
 #include "shaders/core/texels.glsl"
 #include "shaders/probe/capture/layout.h"
 #include "shaders/probe/constants.h"
@@ -9,7 +10,7 @@ uniform ivec4 nook_sums_map;  // the texel of the first sum, groups of 12 sums, 
 out vec4 nook_number;
 
 #if NOOK_CAPTURE_FORM == NOOK_CAPTURE_AMPLITUDES
-// A row of the map times the sums; a texel of the map has the factors of four.
+// Multiplies a row of the map by the sums; a texel of the map has four factors.
 vec4 nook_answer() {
   vec3 amplitude = vec3(0.0);
   int quads = 3 * nook_sums_map.y, row = nook_sums_map.z + gl_VertexID * quads;
@@ -28,7 +29,8 @@ vec3 nook_harmonic(int i) {
 }
 
 #if NOOK_CAPTURE_FORM == NOOK_CAPTURE_ZONAL
-// The part of band 2 that is symmetric about the direction of band 1's luminance, as harmonics.cpp.
+// Returns the part of band 2 that is symmetric around the direction of band 1's luminance, as in
+// harmonics.cpp.
 vec3 nook_zonal() {
   vec3 weight = vec3(NOOK_LUMINANCE_RED, NOOK_LUMINANCE_GREEN, NOOK_LUMINANCE_BLUE);
   vec3 axis = vec3(dot(nook_harmonic(3), weight), dot(nook_harmonic(1), weight), dot(nook_harmonic(2), weight));
@@ -41,7 +43,7 @@ vec3 nook_zonal() {
 }
 #endif
 
-// Colours lie one after another as a row of numbers, four a texel.
+// Colours follow one another as a row of numbers, four to a texel.
 float nook_number_at(int at) {
   int colour = at / 3, channel = at - 3 * colour;
 #if NOOK_CAPTURE_FORM == NOOK_CAPTURE_ZONAL

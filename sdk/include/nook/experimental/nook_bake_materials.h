@@ -94,7 +94,8 @@ typedef struct nook_bake_transfer_desc {
   void* progress_user;
   /* Reflections of the shape onto itself, 0 (default) to 2; each adds 18 bytes for a vertex. */
   uint32_t bounces;
-  /* Tiles of the material in one unit of texture coordinates, 0.01 to 1000, for `votf`; default 1. */
+  /* How many tiles of the material fit in one unit of texture coordinates, 0.01 to 1000, for `votf`; default
+     1. */
   float tiles;
   /* The bytes of the .nook file of the material that the shape wears: light falls through the holes of its
    * VOTF, which it must have. NULL (default): surfaces have no holes. */
@@ -107,7 +108,7 @@ typedef struct nook_bake_transfer_desc {
   /* Clusters of vertices of NOOK_FORM_PAPER, up to 256; 0 (default): one for each 360 vertices. */
   uint32_t clusters;
   /* Default NOOK_FORM_DEFAULT: transfer that is separate from materials, so that the shape can wear any.
-   * NOOK_FORM_PAPER: that of Tsai and Shih 2012, for the light modes of `material`. */
+     NOOK_FORM_PAPER follows Tsai and Shih 2012, for the light modes of `material`. */
   nook_form form;
 } nook_bake_transfer_desc;
 static inline nook_result nook_bake_transfer_desc_init(nook_bake_transfer_desc* desc) {

@@ -15,9 +15,9 @@ typedef struct nook_gl_capture_s* nook_gl_capture;
 /* The part of a cube map's light that probes take. */
 enum {
   NOOK_GL_CAPTURE_ALL = 0,
-  /* The map without its suns, which the host draws as lights of their own: texels keep their colour at the
-   * luminance of 100 times the mean of the map without suns, as `nook bake probe --direct sky` does.
-   * nook_gl_capture_read gives what was taken away. */
+  /* Leaves out the suns, which you draw as separate lights: their texels keep their colour, at 100 times the
+   * mean luminance of the map without suns, as with `nook bake probe --direct sky`. nook_gl_capture_read
+   * gives what was taken away. */
   NOOK_GL_CAPTURE_SKY = 1
 };
 typedef int32_t nook_gl_capture_light;
@@ -61,16 +61,16 @@ NOOK_API nook_result nook_gl_capture_create(nook_gl gl, const nook_gl_capture_de
                                             nook_gl_capture* out);
 
 /* Fits a probe to a cube map of radiance, and writes it to the textures: every texel is a sample, weighted by
- * its solid angle. The lobes are those of NOOK_PROBE_FIT_STUDY_MOMENTS (nook_sg.h), and the harmonics those
- * of the map; both are computed in 32-bit floats. Nothing is read back, and draws that were issued before
- * still see the old light. index is that of the probe, where x varies fastest, then y, then z. cube_map is
- * the name of a GL_TEXTURE_CUBE_MAP in a format of floats or normalised numbers, rendered from the probe's
- * position with the axes of OpenGL's cube maps as those of the world; the call changes none of its
- * parameters. Texels that are not finite, or above 1e18, do not count; a map of nothing else leaves the probe
- * as it is. restart 1 makes this map the first one of the average, as after a cut or where a light is
- * switched; 0 averages it with the earlier maps. Context thread. Errors: INVALID_ARGUMENT (also, the texture
- * is no cube map, or where OpenGL tells sizes and formats, which OpenGL ES does from 3.1 on, has another
- * size, level or format; or the textures were updated with another grid or other lobes), GL. */
+ * its solid angle. Lobes are fitted as NOOK_PROBE_FIT_STUDY_MOMENTS does (nook_sg.h), and harmonics are
+ * projected from the map, both in 32-bit floats. Nothing is read back, and draws that were issued before
+ * still see the old light. index is the probe's number; x varies fastest, then y, then z. cube_map is the
+ * name of a GL_TEXTURE_CUBE_MAP in a format of floats or normalised numbers. Render it from the probe's
+ * position, with OpenGL's cube map axes along the axes of the world. The call changes none of its parameters.
+ * Texels that are not finite, or above 1e18, do not count; a map of nothing else leaves the probe as it is.
+ * restart 1 makes this map the first one of the average, as after a cut or where a light is switched; 0
+ * averages it with the earlier maps. Context thread. Errors: INVALID_ARGUMENT (also, the texture is no cube
+ * map, or where OpenGL tells sizes and formats, which OpenGL ES does from 3.1 on, has another size, level or
+ * format; or the textures were updated with another grid or other lobes), GL. */
 NOOK_API nook_result nook_gl_capture_add(nook_gl_capture capture, uint32_t index, uint32_t cube_map,
                                          int32_t restart);
 
@@ -80,8 +80,8 @@ typedef struct nook_gl_capture_info {
   uint32_t maps;
   /* Bands 0 to 2 of the light, 9 x RGB in the order of nook_sg_to_sh. */
   float harmonics[27];
-  /* With NOOK_GL_CAPTURE_SKY: the RGB irradiance of all suns together on a surface that faces them, the
-   * unit direction towards the middle of their light, or 0, and their solid angle in steradians. */
+  /* With NOOK_GL_CAPTURE_SKY, these describe all suns together: the RGB irradiance on a surface that faces
+     them, the unit direction to the middle of their light (or 0), and their solid angle in steradians. */
   float sun_irradiance[3];
   float sun_direction[3];
   float sun_solid_angle;

@@ -1,12 +1,12 @@
 /* Shapes for debug drawing, the terms that updates evaluate, the memory of a model on the GPU, and debug
- * views and choices of the screen pass and the world pass. The shapes
- * show the parts that a scene evaluates: the proxy spheres and key points of an instance in its pose, its
- * links, and its level of detail. A host draws them over its own picture to see why a character is dark: a
- * sphere that sticks out of the body, a bone that does not follow, a neighbour that is not linked.
+ * views and choices of the screen pass and the world pass. The shapes show the parts that a scene evaluates:
+ * the proxy spheres and key points of an instance in its pose, its links, and its level of detail. Draw them
+ * over your own picture to see why a character is dark. A sphere may stick out of the body, a bone may not
+ * follow, or a neighbour may not be linked.
  *
  * Calls that describe or read do not allocate and change nothing. nook_scene_set_terms changes what the next
  * updates evaluate, and nook_gl_model_memory gives the memory of a model on the GPU. Spheres and points
- * follow the pose that is set; links and levels are those of the last update, on the CPU or on OpenGL. */
+ * follow the current pose; links and levels come from the last update, on the CPU or on OpenGL. */
 #ifndef NOOK_DEBUG_H
 #define NOOK_DEBUG_H
 
@@ -82,11 +82,10 @@ typedef struct nook_scene_key_point {
 NOOK_API nook_result nook_scene_read_key_points(nook_scene scene, nook_instance_id instance,
                                                 nook_scene_key_point* out, uint32_t* count);
 
-/* Writes the instances that darken an instance by links, those of nook_scene_link and the nearest ones. They
- * are the casters of its last update that matter; between the removal of an instance and the next update
+/* Writes the instances that darken an instance by links, from nook_scene_link or as its nearest neighbours.
+ * They are the casters of its last update that matter; between the removal of an instance and the next update
  * there are none. *count is the room in `out`, and becomes the number of casters; with out NULL only that is
- * written.
- * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT (there is too little room),
+ * written. Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT (there is too little room),
  * INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_read_links(nook_scene scene, nook_instance_id instance, nook_instance_id* out,
                                            uint32_t* count);
@@ -139,8 +138,8 @@ enum {
 };
 typedef int32_t nook_nnao_path;
 
-/* The sample of a multisampled depth texture whose depth, and with nook_nnao_desc.normal_samples whose
- * normal, is that of the pixel. */
+/* Which sample of a multisampled depth texture gives the pixel its depth and, with
+   nook_nnao_desc.normal_samples, its normal. */
 enum {
   /* The median of the depths, of two the nearer one: a surface that covers most of the pixel. */
   NOOK_NNAO_SAMPLE_MEDIAN = 0,
@@ -170,7 +169,7 @@ static inline nook_result nook_nnao_debug_desc_init(nook_nnao_debug_desc* desc) 
 enum {
   /* The result. */
   NOOK_NNAO_VIEW_AO = 0,
-  /* The AO of the network for this frame, without filter, intensity, power and G-buffer AO. */
+  /* The network's AO of this frame, before filter, intensity, power and G-buffer AO are applied. */
   NOOK_NNAO_VIEW_RAW = 1,
   /* The AO after the filter, without intensity, power and G-buffer AO. */
   NOOK_NNAO_VIEW_BLURRED = 2,
@@ -195,8 +194,8 @@ static inline nook_result nook_nnao_frame_debug_desc_init(nook_nnao_frame_debug_
 enum {
   /* The result. */
   NOOK_WORLD_VIEW_AO = 0,
-  /* The number of casters that a pixel evaluates, over 255; those of far bodies at half resolution count by
-   * the share of their pixels. */
+  /* The number of casters that a pixel evaluates, over 255. At half resolution, far bodies' casters count by
+     the share of their pixels. */
   NOOK_WORLD_VIEW_CASTERS = 1,
   /* The number of those casters that are capsules of the model or of nook_world_frame_desc, in place of the
    * capsule of a limb or a body; over 255. */

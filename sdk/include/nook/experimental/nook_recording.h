@@ -1,6 +1,6 @@
-/* Recorded frames of the screen-space pass: the depth, the normals, the matrices and the settings of one
- * frame, with the AO that the pass made of them, in one .nook file. `nook evaluate nnao --frame FILE.nook`
- * draws the frame anew on another machine, and `nook inspect FILE.nook` lists what it holds.
+/* Recorded frames of the screen-space pass. One .nook file has the depth, normals, matrices and settings of
+ * one frame, and the AO that the pass made of them. `nook evaluate nnao --frame FILE.nook` draws the frame
+ * anew on another machine, and `nook inspect FILE.nook` lists what it holds.
  *
  * nook_nnao_record records a frame of OpenGL. A host with another graphics interface, or a tool, fills
  * nook_nnao_recording_desc itself. Only nook_nnao_record makes OpenGL calls.
@@ -10,7 +10,7 @@
  *     nook_nnao_recording_save(recording, NULL, &size);
  *     nook_nnao_recording_save(recording, bytes = malloc(size), &size);
  *     nook_nnao_recording_destroy(&recording);
- * The host owns files: it writes the bytes beside their place and renames them, so that no half file
+ * You write the file: write the bytes to another name beside it and rename that, so that no half file
  * appears. nook.hpp has this as nook::Recording::write.
  *
  * A recording contains no picture of the scene, but its depth and normals show shapes. Whoever sends it
@@ -80,7 +80,7 @@ typedef struct nook_nnao_recording_desc {
   const char* note;
   /* 0 (default): radius is in metres; 1: it is a share of the height. */
   int32_t radius_kind;
-  /* As those of the frame; default 0: none. */
+  /* As in the frame; default 0: none. */
   float min_radius_px, fade_begin, fade_end;
 } nook_nnao_recording_desc;
 static inline nook_result nook_nnao_recording_desc_init(nook_nnao_recording_desc* desc) {
@@ -105,10 +105,10 @@ NOOK_API void nook_nnao_recording_destroy(nook_nnao_recording* recording);
 
 /* Writes the .nook file of a recording to bytes; the host stores it. *size is the buffer's size before the
  * call and the file's size afterwards. With bytes NULL the call gives only the size. A number of an image
- * takes 4 bytes, or 1 to 3 where these hold all numbers of the image exactly, as those of depth with 24 bits
- * or normals with 10: every number comes back with the same bits. It allocates from the C++ heap. Any thread.
+ * takes 4 bytes, or 1 to 3 if these hold all numbers of the image exactly. They do for depth with 24 bits or
+ * normals with 10. Every number comes back with the same bits. It allocates from the C++ heap. Any thread.
  * Errors: INVALID_ARGUMENT (also, the buffer is too small; *size is then the required size), OUT_OF_MEMORY.
- */
+ * */
 NOOK_API nook_result nook_nnao_recording_save(nook_nnao_recording recording, void* bytes, size_t* size);
 
 /* Fills *desc with what the recording holds, so that nook_nnao_recording_create makes an equal one of it. The

@@ -26,7 +26,7 @@ inline nook_nnao_recording_desc nnao_recording_desc() {
 class Recording : public Unique<nook_nnao_recording, nook_nnao_recording_destroy> {
  public:
   Recording() = default;
-  // Takes over a handle, such as that of nook_nnao_record.
+  // Takes over a handle, for example from nook_nnao_record.
   explicit Recording(nook_nnao_recording handle) noexcept : Unique(handle) {}
   Recording(const Context& context, const nook_nnao_recording_desc& desc) : Unique(create(context, desc)) {}
   Recording(const Context& context, const void* bytes, std::size_t size)

@@ -1,7 +1,8 @@
-/* The stages of the screen-space pass as data, for hosts whose graphics interface is not OpenGL, such as
- * Vulkan or Direct3D: shader text, images, and the numbers that the shaders read. The host makes the images
- * and pipelines, and draws. Only nook_nnao_read_timings makes OpenGL calls and needs an OpenGL context. The
- * library must have been built with its OpenGL half (NOOK_GL, the default), which holds the shaders.
+/* The stages of the screen-space pass as data, for graphics interfaces other than OpenGL, such as Vulkan or
+ * Direct3D. You get shader text, descriptions of images, and the numbers that the shaders read. You create
+ * the images and pipelines, and draw. Only nook_nnao_read_timings makes OpenGL calls and needs an OpenGL
+ * context. The library must have been built with its OpenGL half (NOOK_GL, the default), which holds the
+ * shaders.
  *
  * Once:
  *     nook_nnao_stages stages;
@@ -18,16 +19,16 @@
  * samples/vulkan does all this in Vulkan 1.1.
  *
  * The shaders are GLSL 4.50 for Vulkan (`glslangValidator -V`, from which SPIRV-Cross makes HLSL or MSL), and
- * of OpenGL 4.5 as well. Set 0 has, by binding: 0 a uniform buffer with nook_nnao_frame_values.constants; 1 a
- * uniform buffer with nook_nnao_stages_info.network, in the stage "occlusion" alone; from 2 on the input
- * images, with a sampler that does not filter: the shaders read texels. Location 0 is the output.
+ * of OpenGL 4.5 as well. In set 0, binding 0 is a uniform buffer with nook_nnao_frame_values.constants.
+ * Binding 1, only in the stage "occlusion", is a uniform buffer with nook_nnao_stages_info.network. From
+ * binding 2 on come the input images, with a sampler that does not filter, because the shaders read texels.
+ * Location 0 is the output.
  *
  * Row 0 of every image is where clip y is -1: in Vulkan its first row, with the projection as Vulkan takes
- * it. Direct3D's first row is where clip y is 1, and so is that of a Vulkan host whose viewports have a
- * negative height: there the second row of the projection (numbers 1, 5, 9 and 13) is negated, and the stages
- * are drawn with viewports of a positive height. In all of them, frame.clip_space is
- * NOOK_CLIP_SPACE_ZERO_TO_ONE, and view space looks along -z; for a view space that looks along +z the third
- * column (numbers 8 to 11) is negated, and z of normals by normal_matrix. */
+ * it. In Direct3D, and in Vulkan with viewports of negative height, the first row is where clip y is 1.
+ * There, negate the second row of the projection (numbers 1, 5, 9 and 13), and draw the stages with viewports
+ * of positive height. Always set frame.clip_space to NOOK_CLIP_SPACE_ZERO_TO_ONE. View space looks along -z.
+ * If yours looks along +z, negate the third column (numbers 8 to 11), and z of normals by normal_matrix. */
 #ifndef NOOK_STAGES_H
 #define NOOK_STAGES_H
 
@@ -56,14 +57,14 @@ enum {
   /* The same after filters; with two of them AO is written anew by the second. */
   NOOK_NNAO_IMAGE_FILTERED = 6,
   /* With max_history_frames: the mean over frames, and what it and linear depth were in the frame before.
-   * After each frame you swap NOOK_NNAO_IMAGE_DEPTH with NOOK_NNAO_IMAGE_HISTORY_DEPTH, and
+   * After each frame you must swap NOOK_NNAO_IMAGE_DEPTH with NOOK_NNAO_IMAGE_HISTORY_DEPTH, and
    * NOOK_NNAO_IMAGE_ACCUMULATED_AO with NOOK_NNAO_IMAGE_HISTORY_AO. Each view has four such images of its
    * own. */
   NOOK_NNAO_IMAGE_ACCUMULATED_AO = 7,
   NOOK_NNAO_IMAGE_HISTORY_DEPTH = 8,
   NOOK_NNAO_IMAGE_HISTORY_AO = 9,
-  /* The result. The format is that of the pass's own texture; any colour format of the host will do, and a
-   * blend of source times destination multiplies it in place of frame.blend. */
+  /* The result, in the format of the pass's own texture. Any colour format will do, and blending source times
+     destination multiplies it, in place of frame.blend. */
   NOOK_NNAO_IMAGE_TARGET = 10,
   NOOK_NNAO_IMAGE_COUNT = 11
 };

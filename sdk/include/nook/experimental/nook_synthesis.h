@@ -52,9 +52,9 @@ NOOK_API nook_result nook_synthesis_material_uvs(nook_synthesis synthesis, const
  * Coordinate textures in the host's shaders: a material on a plane without visible repeats.
  *
  * Call nook_gl_upload_synthesis once. Put its GLSL after the #version line of your fragment shader, beside
- * the material's. For each draw, call nook_gl_upload_bind for both uploads. Take the material's coordinates
- * from the coordinates of the plane, and the sides of a pixel from the plane, so that its mipmap level does
- * not depend on the jumps of the texture:
+ * the material's. For each draw, call nook_gl_upload_bind for both uploads. Compute the material's
+ * coordinates from the plane's. Take the pixel's sides from the plane, so that the mipmap level does not
+ * depend on the texture's jumps:
  *     vec2 at = nook_synthesis_material_uv(uv);
  *     nook_material_decode(at, dFdx(uv), dFdy(uv), view, modes);
  *     alpha = nook_material_visibility(nook_material_occlusion(at, dFdx(uv), dFdy(uv), view));

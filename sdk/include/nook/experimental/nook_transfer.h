@@ -17,10 +17,10 @@
  * a file, baked with `--form paper`, has the matrices from lobes to the light modes of one material in place
  * of shares; the calls are the same.
  *
- * The space of directions is that of the baked vertices. Frames have x along growing u, z along the normal,
- * and y = handedness * cross(normal, tangent) along growing v. The vectors of a vertex are 3 x light_modes
- * floats: the modes of red, then of green, then of blue. Least squares rings around bright sources, so that
- * light and vectors can be slightly negative; nook_transfer_projection_info gives the share.
+ * Directions are in the space of the baked vertices. Frames have x along growing u, z along the normal, and y
+ * = handedness * cross(normal, tangent) along growing v. The vectors of a vertex are 3 x light_modes floats:
+ * the modes of red, then of green, then of blue. Least squares rings around bright sources, so that light and
+ * vectors can be slightly negative; nook_transfer_projection_info gives the share.
  *
  * nook_gl_upload_transfer keeps vectors in a buffer, and nook_gl_upload_describe gives the GLSL. The method
  * follows section 6.3 of Y.-T. Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012, in a
@@ -74,7 +74,8 @@ typedef struct nook_transfer_info {
   nook_form form;
   /* Of the paper's form: the light modes of the material that it was baked with; else 0. */
   uint32_t light_modes;
-  /* Of the paper's form: bytes of its compressed matrices in memory, and in the file; else 0. */
+  /* For the paper's form, the bytes of its compressed matrices in memory, and in the file; otherwise these
+     are 0. */
   uint64_t paper_bytes;
 } nook_transfer_info;
 
@@ -96,7 +97,7 @@ typedef struct nook_transfer_mesh_desc {
   /* Required. */
   uint32_t vertex_count;
   /* 3, 3, 4 and 2 floats for each vertex; arrays that are NULL (default) are not compared. The numbers must
-   * be equal bit for bit to those of the bake, which are in the space of the file's scene. */
+     equal the baked ones bit for bit, in the space of the file's scene. */
   const float* positions;
   const float* normals;
   const float* tangents;
@@ -106,15 +107,14 @@ static inline nook_result nook_transfer_mesh_desc_init(nook_transfer_mesh_desc* 
   return nook_desc_init(NOOK_DESC_TRANSFER_MESH, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Checks that a mesh and a material are those of the bake. Pass NULL for what you do not want to check. Call
- * it once after loading; nook_transfer_read_vectors does not compare meshes.
+/* Checks that a mesh and a material are the baked ones. Pass NULL for what you do not want to check. Call it
+ * once after loading; nook_transfer_read_vectors does not compare meshes.
  *
  * The mesh must have the baked number of vertices, and the same checksum of each array. The material must
  * have the baked light modes in the paper's form, and the baked VOTF if light fell through its holes. You can
- * nevertheless draw a material with another VOTF; the shadows are then those of the baked holes, and `nook
- * evaluate transfer` measures the error. Reflected light follows any material.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the first array or the part of the material that
- * differs). */
+ * nevertheless draw a material with another VOTF; the shadows then show the baked holes, and `nook evaluate
+ * transfer` measures the error. Reflected light follows any material. Any thread. Errors: INVALID_ARGUMENT
+ * (the message names the first array or the part of the material that differs). */
 NOOK_API nook_result nook_transfer_check(nook_transfer transfer, const nook_transfer_mesh_desc* mesh,
                                          nook_material material);
 
@@ -149,9 +149,7 @@ typedef struct nook_transfer_light_desc {
   nook_probe probe;
   /* 3 floats, as in nook_probe_read_lobes. Default NULL. */
   const float* position_ws;
-  /* The light from one direction: a unit vector of 3 floats towards the light. Default NULL. The sharpest
-   * light that lobes can hold is one lobe, which is 5 degrees wide at 642 lobes, and it rings;
-   * nook_material_radiance with a shadow map is exact. */
+  /* The direction that the light comes from, a unit vector of 3 floats. */
   const float* direction;
   /* With a direction: RGB on a surface that faces the light, finite numbers up to 1e15. */
   float irradiance[3];

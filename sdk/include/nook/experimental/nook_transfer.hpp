@@ -25,7 +25,7 @@ class Transfer : public Unique<nook_transfer, nook_transfer_destroy> {
     check(nook_transfer_describe(get(), &info));
     return info;
   }
-  // Throws unless the mesh and the material are those of the bake; either may be NULL.
+  // Throws unless the mesh and the material are the baked ones; either may be NULL.
   void check_baked(const nook_transfer_mesh_desc* mesh, const Material* material) const {
     check(nook_transfer_check(get(), mesh, material ? material->get() : nullptr));
   }

@@ -12,7 +12,7 @@ extern "C" {
 typedef struct nook_model_capsule {
   nook_capsule capsule;
   uint32_t bone;
-  /* The radii in AO over those of the capsule, > 0. */
+  /* AO uses the capsule's radii times this scale, > 0. */
   float ao_scale;
 } nook_model_capsule;
 
@@ -54,8 +54,8 @@ static inline nook_result nook_world_sample_desc_init(nook_world_sample_desc* de
 }
 
 /* Computes at each point the AO that the casters leave, in [0, 1], and the open share of the light, for
- * lightmaps, particles and whatever a pass cannot see. scene may be NULL if only desc->capsules cast. The
- * poses are those of the last nook_scene_set_pose; no nook_scene_update is needed. ao and light have room for
+ * lightmaps, particles and whatever a pass cannot see. scene may be NULL if only desc->capsules cast. It uses
+ * the poses of the last nook_scene_set_pose; you need not call nook_scene_update. ao and light have room for
  * point_count floats; either may be NULL. An occluder with a receiver casts on that receiver only.
  *
  * A body is left out of a block of points if it takes less AO than the scene's cutoff_error from any of them:
@@ -71,7 +71,7 @@ NOOK_API nook_result nook_world_sample(nook_scene scene, const nook_world_sample
 /* Poses the capsules that nook_model_read_capsules gives at a time of a clip, and writes them in world space.
  * They are for the field capsules of nook_world_sample_desc and nook_world_frame_desc, where no scene holds
  * the character. *count is the room in `out`, and becomes the number of the model's; with out NULL only that
- * is written. The radii are those of AO. Any thread. Errors: INVALID_ARGUMENT (also, there is too little
+ * is written. The radii are the ones for AO. Any thread. Errors: INVALID_ARGUMENT (also, there is too little
  * room), UNSUPPORTED (the model was baked without; *count becomes 0). */
 NOOK_API nook_result nook_clips_read_capsules(nook_clips clips, const nook_clip_time* time,
                                               const float* place_3x4, nook_capsule* out, uint32_t* count);

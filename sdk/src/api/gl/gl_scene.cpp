@@ -44,7 +44,7 @@ void check_target(const nook_gl_ao_target& target, std::uint32_t count) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "target.buffer and target.texture are %u and %u; need exactly one of them", target.buffer,
                   target.texture);
-  // Far beyond any buffer, and sums stay in 64 bits.
+  // Larger than any buffer, yet sums stay within 64 bits.
   constexpr std::uint64_t max_offset = std::uint64_t{1} << 40;
   if (target.offset > max_offset || target.instance_stride > max_offset || count > (1u << 20))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -134,7 +134,7 @@ nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const nook_instanc
     need(instances, "instances");
     need(target, "target");
     check_target(*target, count);
-    // Everything is looked up before anything is written.
+    // Looks up every instance before it writes anything.
     for (uint32_t i = 0; i < count; ++i) gl->characters->place(scene->scene, instances[i]);
     gl->guarded(gl::output_users(gl->device.gl), [&] {
       for (uint32_t i = 0; i < count; ++i) {

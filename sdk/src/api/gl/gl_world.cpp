@@ -17,8 +17,8 @@ using namespace nook;
 
 namespace {
 
-// The users of the OpenGL state that the pass touches: it uploads casters and draws, and its stages may be
-// compute shaders.
+// Returns the users of the OpenGL state that the pass touches. It uploads casters and draws, and its stages
+// may be compute shaders.
 unsigned world_users(const gl::Functions& gl, bool computes) {
   return gl::screen_creation_users(gl) | (computes ? unsigned{gl::screen_compute} : 0u);
 }
@@ -49,7 +49,7 @@ nook_world_desc checked(const nook_world_desc* given) {
   return desc;
 }
 
-// The frame as the screen pass has it, with what this pass does not read at its defaults.
+// Returns the frame in the screen pass's form, with defaults for what this pass does not read.
 gl::NnaoFrame screen_of(const nook_gl_frame_desc* given, const nook_world_frame_desc& desc,
                         const nook_world_desc& pass) {
   gl::NnaoFrame screen{read_descriptor(given), default_desc<nook_nnao_frame_desc>()};
@@ -77,7 +77,8 @@ nook_world_view shown(const void* next) {
   return show;
 }
 
-// The light of a coloured pass: lobes in view space, the cone in world space. The view has passed its check.
+// Sets the light of a coloured pass: lobes in view space, the cone in world space. The view must have passed
+// its check.
 void put_light(gl::WorldFrame& drawn, const nook_world_frame_desc& desc, bool coloured,
                float units_per_metre) {
   constexpr float default_reach_m = 30;
@@ -94,7 +95,7 @@ void put_light(gl::WorldFrame& drawn, const nook_world_frame_desc& desc, bool co
   drawn.cone = gl::LightCone{axis, api::half_angle_radians(desc.light_degrees), reach};
 }
 
-// The groups of the scene with their reach.
+// The groups of the scene and how far they reach.
 struct Reaching {
   const api::Casting* casting;
   float cutoff_error;

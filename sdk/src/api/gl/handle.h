@@ -13,8 +13,7 @@
 struct nook_gl_s : nook::RefCounted {
   nook_gl_s(nook_context_s* made_by, const nook_gl_desc& desc);
 
-  // Runs body with the OpenGL state of these users (touched_state.h) treated in the way that was chosen at
-  // creation.
+  // Runs body and treats the OpenGL state of these users (touched_state.h) as chosen at creation.
   template <class Body>
   void guarded(unsigned users, Body&& body) {
     device.need_alive();

@@ -37,7 +37,7 @@ struct nook_nnao_s : RefCounted {
            (pass->path() == NOOK_NNAO_PATH_COMPUTE ? gl::screen | gl::screen_compute : gl::screen);
   }
 
-  // Those of the host's images.
+  // Returns the users of the OpenGL state that reading the host's images touches.
   unsigned image_users() const {
     const unsigned samples = desc.views ? gl::screen_sample_layers : gl::screen_samples;
     return (desc.views ? unsigned{gl::screen_layers} : 0u) | (desc.depth_samples ? samples : 0u);
@@ -161,7 +161,7 @@ nook_result nook_nnao_record(nook_nnao pass, const nook_gl_frame_desc* frame,
     pass->gl->guarded(pass->users() | gl::screen_reads, [&] {
       recorded.emplace(gl::record_frame(device, *pass->pass, pass->desc, pass->network(), known, note));
     });
-    // The owner is the context, so that a recording is destroyed on any thread.
+    // The context owns the recording, so that you can destroy it on any thread.
     *out = Owned<nook_nnao_recording_s>::make(device.memory, Ref<const Context>::share(&device.context),
                                               std::move(*recorded))
                .detach();

@@ -28,7 +28,7 @@ struct nook_nnao_stages_s : RefCounted {
 
 namespace {
 
-// The frame with what the host's graphics interface takes the place of: textures and target.
+// Returns the checked frame without textures and target, which the host's graphics interface replaces.
 gl::NnaoFrame checked_frame(const nook_gl_frame_desc* given, const nook_nnao_frame_desc* settings,
                             const nook_nnao_desc& desc) {
   gl::NnaoFrame frame = read_nnao_frame(given, settings);
@@ -46,7 +46,7 @@ gl::NnaoFrame checked_frame(const nook_gl_frame_desc* given, const nook_nnao_fra
         "debug.show %d does not go with the pass's max_history_frames %d here; read NOOK_NNAO_IMAGE_AO",
         frame.show, desc.max_history_frames);
   frame.blend = blend;
-  // The host's format is unknown. Where 0 is stored as another number, the format has integers.
+  // The host's format is unknown. But a bias other than 0 shows that the format has integers.
   frame.normalised_normals = frame.normal_bias != 0;
   return frame;
 }

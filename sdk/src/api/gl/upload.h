@@ -32,7 +32,7 @@ struct PaperUpload {
 }  // namespace nook::api
 
 struct nook_gl_upload_s : nook::RefCounted {
-  // Makes the content of a type from its arguments under a guard for these users of the OpenGL state.
+  // Makes content of a type from its arguments, under a guard for these users of the OpenGL state.
   template <class Content, class... Arguments>
   nook_gl_upload_s(std::in_place_type_t<Content>, nook_gl_s* made_by, unsigned users,
                    Arguments&&... arguments)
@@ -65,7 +65,7 @@ nook_gl_upload make_upload(nook_gl gl, unsigned users, Arguments&&... arguments)
       .detach();
 }
 
-// max_layers is the maximum of one texture array, 0 for the limit of this OpenGL. Tests give another limit.
+// max_layers is the maximum of one texture array, or 0 for this OpenGL's limit. Tests set smaller limits.
 nook_gl_upload upload_material(nook_gl gl, nook_material material, std::uint32_t max_layers);
 
 }  // namespace nook::api

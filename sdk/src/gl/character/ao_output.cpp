@@ -25,7 +25,7 @@ struct PackDefines {
   }
 };
 
-// The size of a host's buffer. Throws Failure if it has none.
+// Returns the size of a host's buffer. Throws Failure if it has none.
 std::uint64_t size_of_buffer(const Device& device, GLuint buffer) {
   GLint64 size = 0;
   device.gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
@@ -70,8 +70,8 @@ void AoOutput::make_draw_objects() {
   gl.EnableVertexAttribArray(0);
 }
 
-// One vertex of a draw makes one word. The last word may have fewer values; they are drawn apart, so that no
-// value beyond the source is read.
+// Each vertex of a draw makes one word. The last word may have fewer values. It is drawn separately, so that
+// nothing beyond the source is read.
 void AoOutput::write_packed(const VertexValues& source, const BufferTarget& target) {
   const Functions& gl = device_.gl;
   Object& program = packing_[static_cast<std::size_t>(target.format)];
@@ -137,7 +137,7 @@ void AoOutput::write_strided(const VertexValues& source, const BufferTarget& tar
 
 namespace {
 
-// The width of a texture, whose size is checked where OpenGL tells it. Throws Failure.
+// Returns the width of a texture, and checks its size where OpenGL reports it. Throws Failure.
 std::uint32_t checked_width(const Device& device, const VertexValues& source, const TextureTarget& target) {
   const Functions& gl = device.gl;
   if (!gl.can.texture_sizes) {
@@ -163,7 +163,7 @@ std::uint32_t checked_width(const Device& device, const VertexValues& source, co
   return static_cast<std::uint32_t>(width);
 }
 
-// Uploads of OpenGL ES take the type of the texture's format, which versions from 3.1 on tell.
+// Uploads of OpenGL ES need the type of the texture's format, which ES 3.1 and later report.
 void check_format(const Device& device, const TextureTarget& target) {
   const Functions& gl = device.gl;
   if (gl.profile == Profile::desktop || !gl.can.texture_sizes) return;
@@ -205,7 +205,7 @@ void AoOutput::write(const VertexValues& source, const TextureTarget& target) {
     write_rows(source, {target.texture, target.first_texel, target.width, NOOK_FORMAT_FLOAT});
     return;
   }
-  // Uploads of OpenGL ES convert nothing: the values take the texture's form before.
+  // OpenGL ES does not convert on upload, so we convert first.
   const std::uint64_t bytes = packed_bytes(target.format, source.vertices);
   if (packed_.bytes() < bytes) packed_ = Buffer(device_, "nook: packed AO", bytes, nullptr, GL_DYNAMIC_COPY);
   write_packed(source, {packed_.name(), 0, 0, target.format});
@@ -225,7 +225,7 @@ void AoOutput::write_rows(const VertexValues& source, const TextureTarget& targe
   PixelStore tight;
   tight.values[0] = 1;
   set_pixel_store(gl, tight);
-  // The rest of the row in which the values begin, whole rows, and the beginning of the last one.
+  // Writes the rest of the first row, then whole rows, then the beginning of the last row.
   std::uint32_t written = 0;
   while (written < source.vertices) {
     const std::uint64_t texel = target.first_texel + written;

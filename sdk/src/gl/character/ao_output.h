@@ -21,21 +21,21 @@ struct BufferTarget {
 struct TextureTarget {
   GLuint texture = 0;
   std::uint64_t first_texel = 0;           // row by row
-  std::uint32_t width = 0;                 // texels; 0: looked up
-  nook_format format = NOOK_FORMAT_FLOAT;  // of the texture; counts on OpenGL ES alone
+  std::uint32_t width = 0;                 // texels; 0: query it
+  nook_format format = NOOK_FORMAT_FLOAT;  // of the texture; only OpenGL ES needs it
 };
 
-// The bytes of tightly packed values, whole words.
+// Returns the bytes of tightly packed values, rounded up to whole words.
 std::uint64_t packed_bytes(nook_format format, std::uint32_t values);
 
-// Each kind of target makes its program when it is first written. The caller holds a StateGuard for
+// Makes the program for each kind of target when it is first written. The caller must hold a StateGuard for
 // output_users.
 class AoOutput {
  public:
   explicit AoOutput(Device& device) : device_(device) {}
 
-  // Both throw Failure: the target is no buffer or texture, or too small; UNSUPPORTED for a stride without
-  // compute shaders.
+  // Both throw Failure if the target is not a buffer or texture, or too small; UNSUPPORTED for a stride
+  // without compute shaders.
   void write(const VertexValues& source, const BufferTarget& target);
   void write(const VertexValues& source, const TextureTarget& target);
 
@@ -52,10 +52,10 @@ class AoOutput {
   std::array<Object, format_count> strided_;
   Object vertex_array_;
   FeedbackTarget feedback_;
-  Buffer packed_;  // of a texture on OpenGL ES
+  Buffer packed_;  // for textures on OpenGL ES
 };
 
-// The users of touched state that a write has.
+// Returns the users of touched state that a write has.
 unsigned output_users(const Functions& gl);
 
 }  // namespace nook::gl

@@ -1,4 +1,4 @@
-// Characters on the GPU: everything that one nook_gl holds for the scenes it evaluates.
+// Characters on the GPU: everything that one nook_gl holds for its scenes.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,8 @@ struct SceneHandle {
   Scene* scene = nullptr;
 };
 
-// The best tier of the device, and the scenes that it was handed. What may change touched state says Tier.
+// The best tier of the device, and the scenes it evaluates. Tier says which functions may change touched
+// state.
 class CharacterGl {
  public:
   // Throws Failure.
@@ -36,7 +37,7 @@ class CharacterGl {
   AoOutput& output() { return output_; }
   ModelMemory memory_of(const LoadedModel& model) const { return tier_->memory_of(model); }
   void release(const Scene& scene);
-  // Scenes that the host destroyed.
+  // Releases scenes that the host destroyed.
   void release_destroyed();
 
  private:

@@ -8,13 +8,14 @@ namespace nook::gl {
 
 class ClipTextures {
  public:
-  // Changes the state of the user `clips` in touched_state.h; the caller holds a StateGuard. Throws Failure.
+  // Changes the state of the user `clips` in touched_state.h; the caller must hold a StateGuard. Throws
+  // Failure.
   ClipTextures(Device& device, const LoadedClips& clips, std::uint32_t mode_count);
 
   GLuint modes() const { return modes_.name(); }
   GLuint weights() const { return weights_.name(); }
   std::uint64_t bytes() const { return bytes_; }
-  // The texels of a vertex and of a frame: the uniform nook_clip_vec4s.
+  // Returns the texels of a vertex and of a frame, for the uniform nook_clip_vec4s.
   std::uint32_t vec4s() const { return vec4s_; }
 
  private:

@@ -23,7 +23,7 @@ Vec3 origin(const Instance& instance) {
   return instance.input.bound.centre;
 }
 
-// Calls visit(slot) for the instances that are evaluated, level by level, then for those that only moved.
+// Calls visit(slot) for the evaluated instances, level by level, then for instances that only moved.
 template <class Visit>
 void for_selected(const Scene& scene, const ComputeChunk& chunk, Visit&& visit) {
   for (std::uint32_t level = 0; level < chunk.model->level_count(); ++level)
@@ -42,7 +42,8 @@ std::uint64_t aligned(const Device& device, std::uint64_t offset) {
   return (offset + device.storage_alignment - 1) / device.storage_alignment * device.storage_alignment;
 }
 
-// Places the arrays of a chunk's piece one after another. Throws Failure if OpenGL binds no piece so large.
+// Places the arrays of a chunk's piece one after another. Throws Failure if OpenGL cannot bind a piece this
+// large.
 void lay_out_piece(const Device& device, ComputeChunk& chunk, std::uint64_t casters, std::uint64_t lights) {
   ComputeChunk::Frame& frame = chunk.frame;
   const std::uint64_t bones = std::uint64_t{frame.selected} * NOOK_RECORD_UVEC4S;
@@ -62,7 +63,7 @@ void lay_out_piece(const Device& device, ComputeChunk& chunk, std::uint64_t cast
   frame.lights = static_cast<std::uint32_t>(first_light);
 }
 
-// The bytes that the whole frame takes.
+// Lays out the whole frame and returns its bytes.
 std::uint64_t lay_out(const Device& device, ComputeScene& placed) {
   const Scene& scene = *placed.scene;
   std::uint64_t end = 0;
@@ -109,8 +110,8 @@ std::uint32_t first_sphere(const ComputeScene& placed, std::uint32_t slot) {
   return placement.chunk->first_sphere + placement.place * placement.chunk->model->spheres();
 }
 
-// Casters are seen at the receiver's level. Appends the casters of an instance from `next` on and describes
-// them in the record.
+// Appends the casters of an instance from `next` on, at the receiver's level, and describes them in the
+// record.
 void write_casters(const ComputeScene& placed, const Instance& instance, Word4* piece, std::uint32_t& next,
                    InstanceRecord& record) {
   const Scene& scene = *placed.scene;

@@ -1,5 +1,4 @@
-// Characters as the compute tier keeps them: models, which do not change while they live, scenes, and the
-// data of one update.
+// How the compute tier stores characters: models, which do not change, scenes, and the data of one update.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +14,7 @@ namespace nook::gl {
 // Where one level of detail lies in the arrays of its model; level 0 is full detail.
 struct LevelRange {
   std::uint32_t first_sphere = 0, spheres = 0;
-  std::uint32_t first_key_point = 0, key_points = 0;  // those that are evaluated
+  std::uint32_t first_key_point = 0, key_points = 0;  // only the evaluated ones
 };
 
 struct ComputeModel : ModelData {
@@ -29,11 +28,12 @@ struct ComputeModel : ModelData {
   std::uint32_t spheres() const {
     return levels[level_count() - 1].first_sphere + levels[level_count() - 1].spheres;
   }
-  // Places for shadows that an instance has: one for each key point, and behind them one for each key point
-  // that a coarser level evaluates.
+  // Returns how many shadows an instance stores: one for each key point, then one for each key point that a
+  // coarser level evaluates.
   std::uint32_t shadows() const;
   std::uint32_t influence_pairs() const { return (model->model.influences + 1) / 2; }
-  // Bytes of one instance, with a light, in any buffer that is bound as one piece: the largest.
+  // Returns the largest number of bytes that one instance with a light takes in any buffer that is bound as
+  // one piece.
   std::uint64_t largest_share() const;
 
   std::array<LevelRange, CharacterModel::max_levels + 1> levels;
@@ -42,14 +42,14 @@ struct ComputeModel : ModelData {
   Buffer spheres_rest;
   Buffer key_points_rest;
   Buffer linear;
-  Buffer spread;  // from the evaluated key points of coarser levels to all; none without such levels
+  Buffer spread;  // spreads coarser levels' evaluated key points to all; none without such levels
 };
 
-// The sizes of the buffers of a model and of its instances.
+// Returns the sizes of the buffers of a model and of its instances.
 ModelMemory compute_memory(const LoadedModel& model);
 
-// A scene as the compute tier keeps it: spheres, shadows and AO of its instances, and what the CPU sends for
-// one update.
+// A scene in the compute tier: spheres, shadows and AO of its instances, and what the CPU sends for one
+// update.
 
 struct ComputeChunk : ChunkData {
   using Model = ComputeModel;
@@ -60,7 +60,7 @@ struct ComputeChunk : ChunkData {
   Buffer colours;                  // two vec4 for each of `shadows`; none before the first light
   std::uint32_t first_sphere = 0;  // of place 0, in ComputeScene::spheres
 
-  // The pose whose spheres the GPU has, by place.
+  // For each place, the pose whose spheres the GPU has.
   struct Pose {
     nook_instance_id instance = 0;
     std::uint64_t revision = 0;
@@ -70,11 +70,11 @@ struct ComputeChunk : ChunkData {
 
   // The CPU's inputs of the current update.
   struct Frame {
-    // Instances that are evaluated come first, level by level; of the others only the spheres are needed.
+    // Evaluated instances come first, level by level. The others only need their spheres.
     std::array<std::uint32_t, CharacterModel::max_levels + 1> due_at_level{};
     std::uint32_t due = 0;
-    std::uint32_t lit = 0;                // of these, those with a light
-    std::uint32_t selected = 0;           // all of them
+    std::uint32_t lit = 0;                // evaluated instances with a light
+    std::uint32_t selected = 0;           // all selected instances
     std::uint64_t offset = 0, bytes = 0;  // of the chunk's piece of ComputeScene::stream
     // Elements of 16 bytes from the start of the piece, which begins with the records.
     std::uint32_t bones = 0, casters = 0, lights = 0;
@@ -84,7 +84,7 @@ struct ComputeChunk : ChunkData {
 struct ComputeScene : PlacedScene<ComputeChunk> {
   ComputeScene(Device& device, const Scene& of);
 
-  // Makes all buffers for the places that were given. Throws Failure.
+  // Makes all buffers for the assigned places. Throws Failure.
   void make_buffers(Device& device);
 
   Buffer stream;   // what one update sends, a piece for each chunk
@@ -95,13 +95,13 @@ struct ComputeScene : PlacedScene<ComputeChunk> {
   void make_light_buffers(Device& device);
 };
 
-// Returns the present pose of an instance.
+// Returns the current pose of an instance.
 inline ComputeChunk::Pose pose_of(const Instance& instance) {
   return {instance.id, instance.input.pose_revision};
 }
 
-// The data of one update of the compute tier: the records, poses, casters and lights of each chunk's
-// instances as one piece of a buffer that is filled from the start each time.
+// The data of one update of the compute tier. The records, poses, casters and lights of each chunk's
+// instances form one piece of a buffer, which is filled from the start each time.
 
 // Two uvec4, as instance.glsl reads them.
 struct InstanceRecord {
@@ -114,8 +114,8 @@ struct InstanceRecord {
 };
 static_assert(sizeof(InstanceRecord) == NOOK_RECORD_UVEC4S * 4 * sizeof(std::uint32_t));
 
-// Lays out and writes what is due or has moved; false if that is nothing. Throws Failure if OpenGL gives no
-// memory.
+// Lays out and writes what is due or has moved. Returns false if there is nothing to do. Throws Failure if
+// OpenGL has no memory.
 bool upload_frame(const Device& device, ComputeScene& placed);
 
 }  // namespace nook::gl

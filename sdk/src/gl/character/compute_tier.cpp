@@ -33,7 +33,7 @@ struct OutputDefine {
   explicit OutputDefine(int output) { std::snprintf(text, sizeof text, "#define NOOK_OUTPUT %d\n", output); }
 };
 
-// Decides who is due. Should the update fail from here on, the next one makes up for it.
+// Decides who is due. If the update fails after this, the next one makes up for it.
 void decide(ComputeScene& placed, Scene& scene) {
   placed.notice_lights();
   ++scene.frame;
@@ -155,8 +155,8 @@ void ComputeTier::release(const Scene& scene) {
   drop_unused(models_);
 }
 
-// Each pass runs for all chunks before the next one, since casters may live in any chunk, and so that one
-// barrier serves all.
+// Each pass runs for all chunks before the next pass: casters may live in any chunk, and one barrier then
+// serves all.
 void ComputeTier::run(const Update& update) const {
   const Functions& gl = device_.gl;
   run_spheres(update);
@@ -293,7 +293,7 @@ void ComputeTier::run_vertices(const Update& update) const {
     if (chunk.frame.due) blend_vertices(update, chunk, chunk.shadows, chunk.ao);
 }
 
-// For all instances of a chunk where one has a light: the others get AO in all channels.
+// Runs for all instances of a chunk if one of them has a light. The others get AO in all channels.
 void ComputeTier::run_lit_vertices(const Update& update) const {
   const Functions& gl = device_.gl;
   for (const ComputeChunk& chunk : update.placed.chunks) {

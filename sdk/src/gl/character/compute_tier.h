@@ -19,9 +19,9 @@ class ComputeTier final : public Tier {
   void release(const Scene& scene) override;
 
  private:
-  // Compiles the programs that the models and lights of the scene need and that do not exist yet.
+  // Compiles the missing programs that the models and lights of the scene need.
   void make_programs(const ComputeScene& placed);
-  // The decisions of the scene's update that the passes need.
+  // What the passes need to know about the scene's update.
   struct Update {
     const ComputeScene& placed;
     bool composed;  // NOOK_FORM_DEFAULT
@@ -45,7 +45,7 @@ class ComputeTier final : public Tier {
   Object shadows_[kernel_form_count];  // name 0 until a model needs it
   Object spread_;                      // name 0 until a model has levels of detail
   Object vertices_;
-  Object colours_[kernel_form_count];  // these: name 0 until an instance has a light
+  Object colours_[kernel_form_count];  // name 0 until an instance has a light
   Object colours_spread_;
   Object lit_vertices_, grey_vertices_;
   List<ComputeModel> models_;

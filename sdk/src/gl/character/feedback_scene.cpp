@@ -7,13 +7,13 @@
 namespace nook::gl {
 namespace {
 
-// A vertex's attributes lie together: bias, then for each four influences the key points as 16-bit numbers,
+// A vertex's attributes lie together: bias, then for every four influences the key points as 16-bit numbers,
 // the alphas and the blend weights.
 constexpr std::size_t alpha_offset = 4 * sizeof(std::uint16_t);
 constexpr std::size_t blend_offset = alpha_offset + 4 * sizeof(float);
 constexpr std::size_t quad_bytes = blend_offset + 4 * sizeof(float);
 
-// Of each welded vertex, or of each file vertex where draws cannot have indices.
+// Packs the attributes of each welded vertex, or of each file vertex if draws cannot have indices.
 Vector<std::byte> pack_attributes(const FeedbackModel& sizes, bool welded, Memory* memory) {
   const CharacterModel& model = sizes.model->model;
   const std::size_t stride = sizeof(float) + sizes.influence_quads() * quad_bytes;
@@ -76,7 +76,7 @@ ModelMemory feedback_memory(const LoadedModel& loaded, bool indexed) {
   ModelMemory memory;
   memory.shared = indexed ? model.vertex_count() * stride + file_vertices * sizeof(std::uint32_t)
                           : file_vertices * stride;
-  // With the share of the page, which stops to grow at a million key points.
+  // Includes the share of the page, which stops growing at a million key points.
   memory.instance = file_vertices * sizeof(float) + key_points * 2 * sizeof(float);
   memory.light = file_vertices * 3 * sizeof(float) + key_points * NOOK_COLOUR_VEC4S * 4 * sizeof(float);
   return memory;
@@ -93,8 +93,8 @@ void FeedbackScene::make_shadow_page(Device& device) {
     texels += std::uint64_t{chunk.capacity} * chunk.model->key_points();
     largest = std::max<std::uint64_t>(largest, chunk.model->key_points());
   }
-  // A million texels, 8 MB, are enough for the cost of a page not to matter. Key points have 16-bit numbers,
-  // so that the 65,536 texels of every OpenGL hold at least one instance.
+  // With a million texels, 8 MB, the cost of a page no longer matters. Key points have 16-bit numbers, so
+  // even 65,536 texels, which every OpenGL has, hold at least one instance.
   constexpr std::uint64_t enough = 1 << 20;
   texels = std::max(largest, std::min({texels, std::uint64_t{device.max_texels}, enough}));
   shadows.reserve(device, GL_RG32F, texels, "nook: shadows");
@@ -109,7 +109,7 @@ void FeedbackScene::make_light_buffers(Device& device) {
   if (lights.made()) make_colour_page(device);
 }
 
-// Shadows and added occlusion by channel, as many instances as fit.
+// Makes room for shadows and added occlusion by channel, for as many instances as fit.
 void FeedbackScene::make_colour_page(Device& device) {
   std::uint64_t texels = 0, largest = 0;
   for (const FeedbackChunk& chunk : chunks) {

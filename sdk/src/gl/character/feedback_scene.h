@@ -1,5 +1,4 @@
-// Characters as the transform-feedback tier keeps them: models, which do not change while they live, and
-// scenes.
+// How the transform-feedback tier stores characters: models, which do not change, and scenes.
 #pragma once
 
 #include "sdk/src/gl/character/placed_scene.h"
@@ -13,7 +12,8 @@ struct FeedbackModel : ModelData {
   FeedbackModel(Device& device, Ref<const LoadedModel> loaded);
 
   std::uint32_t influence_quads() const { return (model->model.influences + 3) / 4; }
-  // Bytes of one instance, with a light, in any buffer that is bound as one piece: the largest.
+  // Returns the largest number of bytes that one instance with a light takes in any buffer that is bound as
+  // one piece.
   std::uint64_t largest_share() const { return std::uint64_t{file_vertices()} * 3 * sizeof(float); }
 
   // Attributes of welded vertices, and the map from file order as an index buffer.
@@ -22,11 +22,11 @@ struct FeedbackModel : ModelData {
   Object vertex_array;
 };
 
-// The sizes of the buffers of a model and of its instances; indexed: draws have indices.
+// Returns the sizes of the buffers of a model and of its instances. indexed: draws use indices.
 ModelMemory feedback_memory(const LoadedModel& model, bool indexed);
 
-// A scene as the transform-feedback tier keeps it: AO of its instances, and pages that carry shadows at key
-// points to the GPU.
+// A scene in the transform-feedback tier: the AO of its instances, and pages that carry shadows at key points
+// to the GPU.
 
 struct FeedbackChunk : ChunkData {
   using Model = FeedbackModel;
@@ -40,17 +40,17 @@ struct FeedbackScene : PlacedScene<FeedbackChunk> {
   FeedbackScene(Device& device, const Scene& of)
       : PlacedScene(of, device.memory), shadows(device.memory), colours(device.memory) {}
 
-  // Makes all buffers for the places that were given. Throws Failure.
+  // Makes all buffers for the assigned places. Throws Failure.
   void make_buffers(Device& device);
-  // The AO in this place is due.
+  // Returns whether the AO in this place is due.
   bool waits(const FeedbackChunk& chunk, std::uint32_t place) const {
     const std::uint32_t slot = chunk.slots[place];
     return slot != FeedbackChunk::empty && !placements[slot].evaluated;
   }
 
-  // Pages, which are filled several times in an update, each with as many whole instances as fit.
+  // Pages are filled several times in an update, each time with as many whole instances as fit.
   TexelTable shadows;  // one texel for each key point
-  TexelTable colours;  // two, by channel; none before the first light
+  TexelTable colours;  // two texels by channel; none before the first light
 
  private:
   void make_shadow_page(Device& device);

@@ -13,7 +13,7 @@ namespace {
 static_assert(CharacterModel::max_influences <= 8,
               "vertices.vert has attributes for two quads of influences");
 
-// Shadow and added occlusion: two floats for each key point.
+// Shadow and added occlusion, two floats for each key point.
 struct Shadows {
   static constexpr std::uint32_t floats = 2, texels = 1;
   static void write(const Scene& scene, const Instance& instance, float* out) {
@@ -44,7 +44,7 @@ struct Colours {
   }
 };
 
-// Sends the shadows of the waiting places from `first` on, in their order and as many as fit; returns the end
+// Sends the shadows of the waiting places from `first` on, in their order and as many as fit. Returns the end
 // of these places, or `first` if none is left.
 template <class Kind>
 std::uint32_t fill_page(Device& device, const FeedbackScene& placed, TexelTable& page,
@@ -106,7 +106,7 @@ void FeedbackTier::update(Scene& scene) {
   FeedbackScene& placed = *placed_scene(scenes_, scene);
   placed.notice_lights();
   nook::update(scene);
-  // Should an upload fail, the next update makes up for this one.
+  // If an upload fails, the next update makes up for this one.
   for (std::size_t slot = 0; slot < placed.placements.size(); ++slot)
     placed.placements[slot].evaluated &= !scene.instances[slot].plan.due;
   placed.lights.upload(device_, scene);
@@ -141,7 +141,7 @@ void FeedbackTier::release(const Scene& scene) {
 void FeedbackTier::draw_scene(FeedbackScene& placed) const {
   const Functions& gl = device_.gl;
   target_.begin(device_);
-  // WebGL lets no buffer be written while it is bound to another point.
+  // WebGL forbids writing a buffer while it is bound to another point.
   gl.BindBuffer(GL_ARRAY_BUFFER, 0);
   gl.ActiveTexture(GL_TEXTURE0);
   for (const FeedbackChunk& chunk : placed.chunks) {
@@ -169,8 +169,8 @@ void FeedbackTier::draw_chunk(const FeedbackScene& placed, const FeedbackChunk& 
   }
 }
 
-// Neighbouring places are neighbours in the page as well, and one draw serves a run of them that all have, or
-// all lack, self-shadow.
+// Neighbouring places are also neighbours in the page. One draw serves a run of them if all have self-shadow,
+// or none has.
 void FeedbackTier::draw_page(const FeedbackScene& placed, const FeedbackChunk& chunk, std::uint32_t first,
                              std::uint32_t end, const Program& program, const Target& target) const {
   const auto has_self = [&](std::uint32_t place) {

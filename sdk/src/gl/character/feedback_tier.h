@@ -1,4 +1,5 @@
-// The tier of OpenGL 3.3: shadows at key points on the CPU; vertices by transform feedback on the GPU.
+// The tier for OpenGL 3.3: the CPU computes shadows at key points, and transform feedback computes vertices
+// on the GPU.
 #pragma once
 
 #include "sdk/src/gl/character/feedback_scene.h"
@@ -9,7 +10,7 @@ namespace nook::gl {
 
 class FeedbackTier final : public Tier {
  public:
-  // Makes a framebuffer and a transform-feedback object too. Throws Failure.
+  // Also makes a framebuffer and a transform-feedback object. Throws Failure.
   explicit FeedbackTier(Device& device);
 
   void prepare(const Scene& scene) override;
@@ -25,7 +26,7 @@ class FeedbackTier final : public Tier {
     Object object;
     GLint first_key_point = -1, key_point_count = -1, self = -1;
   };
-  // Where values of vertices come from and go to.
+  // Where values of vertices come from and where they go.
   struct Target {
     const Program* programs;  // for one and two quads of influences
     TexelTable* page;
@@ -34,13 +35,13 @@ class FeedbackTier final : public Tier {
   };
   Program make_program(int quads, bool lit);
   void draw_scene(FeedbackScene& placed) const;
-  // All waiting places of a chunk, as many as a page holds at a time.
+  // Evaluates all waiting places of a chunk, as many at a time as a page holds.
   template <class Kind>
   void draw_chunk(const FeedbackScene& placed, const FeedbackChunk& chunk, const Target& target) const;
-  // The waiting places of [first, end), whose shadows are in the page in this order.
+  // Draws the waiting places of [first, end); their shadows must be in the page in this order.
   void draw_page(const FeedbackScene& placed, const FeedbackChunk& chunk, std::uint32_t first,
                  std::uint32_t end, const Program& program, const Target& target) const;
-  // Places [first, end) of a chunk, all evaluated in this update.
+  // Draws places [first, end) of a chunk, all evaluated in this update.
   void draw(const FeedbackChunk& chunk, std::uint32_t first, std::uint32_t end, const Target& target) const;
 
   Device& device_;

@@ -1,5 +1,5 @@
-// The lights of a scene's instances as the texels that shaders/character/light_layout.h describes, and in one
-// table of them for the host's shaders.
+// Stores the lights of a scene's instances as texels in the layout of shaders/character/light_layout.h, in
+// one table for the host's shaders.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ struct LightTexel {
   float x, y, z, w;
 };
 
-// 0 for an instance without light.
+// Returns the number of texels; 0 for an instance without light.
 std::uint32_t light_texels(const InstanceLight& light);
-// Writes as many.
+// Writes that many texels.
 void write_light(const Instance& instance, LightTexel* out);
 
 class LightTexture {
@@ -26,16 +26,16 @@ class LightTexture {
 
   static constexpr std::uint32_t no_light = UINT32_MAX;
 
-  // Makes the texture; nothing the second time. Throws Failure.
+  // Makes the texture on the first call. Throws Failure.
   void make(Device& device);
   bool made() const { return table_.made(); }
-  // Room for the instances of the scene, so that upload allocates nothing.
+  // Makes room for the instances of the scene, so that upload does not allocate.
   void resize(std::size_t slots) { first_texels_.resize(slots, no_light); }
-  // Sends all lights as shaders/character/light_layout.h has them. Throws Failure if OpenGL gives no memory
-  // or a texture buffer of it cannot hold them.
+  // Sends all lights in the layout of shaders/character/light_layout.h. Throws Failure if OpenGL has no
+  // memory or if its texture buffer cannot hold them.
   void upload(Device& device, const Scene& scene);
 
-  // Of the last upload: where the light of the instance in a slot lies, or no_light.
+  // Returns where the last upload put the light of the instance in a slot, or no_light.
   std::uint32_t first_texel(std::size_t slot) const {
     return slot < first_texels_.size() ? first_texels_[slot] : no_light;
   }
@@ -46,7 +46,7 @@ class LightTexture {
   Vector<std::uint32_t> first_texels_;  // by slot
 };
 
-// Returns the text for the host's shaders: shaders/character/host.glsl with everything that it includes.
+// Returns the text for the host's shaders: shaders/character/host.glsl and everything it includes.
 const char* scene_light_glsl();
 
 }  // namespace nook::gl

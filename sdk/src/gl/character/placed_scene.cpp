@@ -15,10 +15,10 @@ Buffer static_buffer(Device& device, const char* label, const void* data, std::u
 
 namespace {
 
-// The size that OpenGL guarantees for one dimension of a dispatch.
+// The number of groups that OpenGL guarantees in each dimension of a dispatch.
 constexpr std::uint64_t max_groups = 65535;
 
-// AO that is open until the first update.
+// Makes AO that is fully open until the first update.
 Buffer open_buffer(Device& device, const char* label, std::uint64_t floats) {
   const std::uint64_t bytes = floats * sizeof(float);
   Buffer buffer(device, label, bytes, nullptr, GL_DYNAMIC_COPY, BufferUse::ao);

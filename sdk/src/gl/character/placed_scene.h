@@ -1,5 +1,4 @@
-// Where models and the instances of a scene live on the GPU, the same for every tier but for what its chunks
-// hold.
+// Where models and the instances of a scene live on the GPU. Tiers differ only in what their chunks hold.
 #pragma once
 
 #include <algorithm>
@@ -31,14 +30,15 @@ struct ModelData {
   std::uint32_t users = 0;  // chunks of instances
 };
 
-// A buffer that holds `data` for good. Throws Failure: UNSUPPORTED if this OpenGL binds no piece so large.
+// Makes a buffer whose data never change. Throws Failure, UNSUPPORTED if this OpenGL cannot bind a piece this
+// large.
 Buffer static_buffer(Device& device, const char* label, const void* data, std::uint64_t bytes);
 template <class T>
 Buffer static_buffer(Device& device, const char* label, const Vector<T>& data) {
   return static_buffer(device, label, data.data(), data.size() * sizeof(T));
 }
 
-// The tier's copy of a model, made at its first use. Throws Failure.
+// Returns the tier's copy of a model, and makes it on first use. Throws Failure.
 template <class Model>
 Model& model_data(Device& device, List<Model>& models, const Ref<const LoadedModel>& loaded) {
   for (Model& known : models)
@@ -46,19 +46,19 @@ Model& model_data(Device& device, List<Model>& models, const Ref<const LoadedMod
   return models.emplace_back(device, loaded);
 }
 
-// Models that no chunk uses any more.
+// Releases models that no chunk uses any more.
 template <class Model>
 void drop_unused(List<Model>& models) {
   models.remove_if([](const Model& model) { return model.users == 0; });
 }
 
-// Where the instances of a scene live on the GPU: instances of one model side by side in chunks, whose
-// buffers stay below what OpenGL guarantees. The same for every tier, but for what its chunks hold.
+// Instances of one model live side by side in chunks, whose buffers stay below the size that OpenGL
+// guarantees.
 
-// The common part of every tier's chunk: its instances and their results for the host. A tier's own Chunk
+// The part of a chunk that all tiers share: its instances and their results for the host. A tier's own Chunk
 // derives from it, has a member `Model* model`, and is made from (device, model, capacity).
 struct ChunkData {
-  // Open everywhere. Throws Failure.
+  // AO starts fully open. Throws Failure.
   ChunkData(Device& device, ModelData& model, std::uint32_t instance_capacity);
   ChunkData(const ChunkData&) = delete;
   ChunkData& operator=(const ChunkData&) = delete;
@@ -72,15 +72,15 @@ struct ChunkData {
 
   ModelData& data;
   std::uint32_t capacity;
-  Vector<std::uint32_t> slots;  // of each place: the scene's slot that lives there, or `empty`
+  Vector<std::uint32_t> slots;  // for each place, the slot of the scene that lives there, or `empty`
   std::uint32_t living = 0;
   std::uint32_t first_free = 0;  // no place before it is empty
   Buffer ao;                     // capacity * file vertices
   Buffer directional_ao;         // capacity * file vertices * 3; none before the first light
 };
 
-// The instances that fit in one chunk, whose largest share of a buffer is `share` bytes each. Throws Failure
-// if that is none.
+// Returns how many instances fit in one chunk if each takes at most `share` bytes of a buffer. Throws Failure
+// if none fits.
 std::uint32_t max_in_chunk(const Device& device, std::uint64_t share);
 
 // Where an instance of the scene lives; indexed by the scene's slot.
@@ -89,7 +89,7 @@ struct Placement {
   nook_instance_id id = 0;
   Chunk* chunk = nullptr;
   std::uint32_t place = 0;
-  bool evaluated = false;  // the AO in the chunk is of some update
+  bool evaluated = false;  // the AO in the chunk comes from an update
   bool lit = false;        // the last update saw a light
 };
 
@@ -108,10 +108,10 @@ class PlacedScene {
   PlacedScene(const Scene& of, Memory* memory)
       : scene(&of), chunks(memory), placements(memory), lights(memory) {}
 
-  // The structure of the scene has changed since the places were given.
+  // True if the structure of the scene has changed since places were assigned.
   bool outdated() const { return !prepared_ || structure_revision_ != scene->structure_revision; }
 
-  // Gives every instance a place; instances that had one keep it. Throws Failure.
+  // Assigns a place to every instance; instances that have one keep it. Throws Failure.
   void place_all(Device& device, List<Model>& models) {
     prepared_ = false;
     vacate_removed();
@@ -121,13 +121,13 @@ class PlacedScene {
       if (scene->instances[slot].id && !placements[slot].id) place_new(device, models, slot);
     drop_unused(models);
   }
-  // The rest of the preparation is done as well.
+  // Call it when the rest of the preparation is done.
   void finish() {
     structure_revision_ = scene->structure_revision;
     prepared_ = true;
   }
 
-  // Before it is decided who is due: an instance that got a light since the last update is.
+  // Call it before deciding who is due: an instance that got a light since the last update is due.
   void notice_lights() noexcept {
     for (std::size_t slot = 0; slot < placements.size(); ++slot) {
       const bool lit = scene->instances[slot].light.count > 0;
@@ -143,7 +143,7 @@ class PlacedScene {
   }
   LightPlace light_place(nook_instance_id instance) const {
     const Placement<Chunk>* placement = find(instance);
-    // Without `lit` the texel is that of an instance that lived in the slot before.
+    // Without `lit`, the texel belongs to an instance that lived in the slot before.
     const std::uint32_t texel =
         placement && placement->lit ? lights.first_texel(slot_of(*placement)) : LightTexture::no_light;
     if (texel == LightTexture::no_light) fail_without_light(instance);
@@ -194,8 +194,8 @@ class PlacedScene {
     chunk.slots[placements[slot].place] = slot;
     ++chunk.living;
   }
-  // A chunk of the model with room, or a new one for all instances of the model that still wait, with room to
-  // grow by half once there are others.
+  // Returns a chunk of the model with room, or a new one for all waiting instances of the model. If the model
+  // already has chunks, a new one has room to grow by half.
   Chunk& chunk_with_room(Device& device, List<Model>& models, const Ref<const LoadedModel>& model) {
     std::uint32_t living = 0, waiting = 0;
     for (Chunk& chunk : chunks) {
@@ -212,11 +212,11 @@ class PlacedScene {
                                std::min(wanted, max_in_chunk(device, shared.largest_share())));
   }
 
-  std::uint64_t structure_revision_ = 0;  // of the scene that the placements show
+  std::uint64_t structure_revision_ = 0;  // of the scene, when the places were assigned
   bool prepared_ = false;
 };
 
-// The tier's data of a scene; none yet: NULL.
+// Returns the tier's data of a scene, or NULL if there are none yet.
 template <class Placed>
 Placed* placed_scene(List<Placed>& scenes, const Scene& scene) {
   for (Placed& known : scenes)

@@ -1,6 +1,6 @@
 // The interface of a tier, which evaluates characters on one kind of OpenGL. A tier owns the buffers of every
-// scene that it evaluates and of the models of these scenes. It depends on abilities of the context
-// (functions.h), so that another kind, such as OpenGL ES or WebGL 2, is another implementation.
+// scene that it evaluates and of the models of these scenes. Which tier runs depends on the context's
+// abilities (functions.h).
 #pragma once
 
 #include "sdk/src/character/scene.h"
@@ -8,12 +8,12 @@
 
 namespace nook::gl {
 
-// Values of an instance's vertices in a buffer.
+// The values of an instance's vertices in a buffer.
 struct VertexValues {
   GLuint buffer = 0;
   std::uint64_t offset = 0;    // bytes
-  std::uint32_t vertices = 0;  // in the model's file
-  std::uint32_t channels = 1;  // floats of a vertex
+  std::uint32_t vertices = 0;  // as in the model's file
+  std::uint32_t channels = 1;  // floats for each vertex
 
   std::uint64_t bytes() const { return std::uint64_t{vertices} * channels * sizeof(float); }
 };
@@ -31,7 +31,7 @@ struct ModelMemory {
   std::uint64_t light = 0;  // what a light adds to an instance
 };
 
-// Every call but the const ones may change any of the touched state; the caller holds a StateGuard.
+// Every call except const ones may change any of the touched state; the caller must hold a StateGuard.
 class Tier {
  public:
   Tier() = default;
@@ -39,22 +39,21 @@ class Tier {
   Tier& operator=(const Tier&) = delete;
   virtual ~Tier() = default;
 
-  // Gives every instance of the scene a place, and makes all buffers and programs that its update needs;
-  // costs little where nothing has changed. Throws Failure; what was made until then stays, and the next call
-  // goes on.
+  // Assigns a place to every instance of the scene, and makes all buffers and programs that its update needs.
+  // It is cheap if nothing has changed. Throws Failure; the next call goes on with what was made until then.
   virtual void prepare(const Scene& scene) = 0;
-  // Evaluates a scene that is prepared. Throws Failure; the next update makes up for this one.
+  // Evaluates a prepared scene. Throws Failure; the next update makes up for this one.
   virtual void update(Scene& scene) = 0;
 
   // Throws Failure unless the instance has a place.
   virtual VertexValues place(const Scene& scene, nook_instance_id instance) const = 0;
-  // Throws Failure unless the last update saw a light of the instance.
+  // Throws Failure unless the last update saw a light on the instance.
   virtual LightPlace light_place(const Scene& scene, nook_instance_id instance) const = 0;
 
-  // Copies values to `out`, waiting for the GPU. Throws Failure.
+  // Copies values to `out` and waits for the GPU. Throws Failure.
   virtual void read(const VertexValues& values, float* out) const = 0;
 
-  // The memory of a model, which need not have been used yet.
+  // Returns the memory of a model, even if it was not used yet.
   virtual ModelMemory memory_of(const LoadedModel& model) const = 0;
 
   // Drops everything of the scene.

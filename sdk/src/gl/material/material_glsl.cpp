@@ -17,7 +17,7 @@ namespace {
 using material::NeuralLayout;
 using material::NeuralShape;
 
-// Appends up to 199 characters of printf's format.
+// Appends up to 199 characters in printf's format.
 void add(String& out, const char* format, ...) NOOK_PRINTF(2, 3);
 void add(String& out, const char* format, ...) {
   char line[200];
@@ -28,15 +28,15 @@ void add(String& out, const char* format, ...) {
   out += line;
 }
 
-// A block of a matrix: `inputs` columns of `outputs` rows, or a vector of a single column. Digits give each
-// half float.
+// A matrix has blocks with `inputs` columns and `outputs` rows; a vector has a single column. The digits keep
+// each half float exact.
 struct Block {
   const char* type;
   std::uint32_t inputs, outputs;
 };
 
-// Writes the blocks of a matrix of which all outputs of an input stand beside each other: those of the first
-// inputs, then those of the next ones.
+// Writes the blocks of a matrix in which all outputs of an input are adjacent: the blocks of the first
+// inputs, then the blocks of the next ones.
 void add_blocks(const char* name, const Block& block, std::span<const float> matrix, std::uint32_t outputs,
                 String& out) {
   const std::size_t size = std::size_t(block.inputs) * block.outputs, count = matrix.size() / size;
@@ -54,7 +54,7 @@ void add_blocks(const char* name, const Block& block, std::span<const float> mat
   out += ");\n";
 }
 
-// Biases of all hidden layers behind the first, which stand behind the matrix of each.
+// Returns the numbers of all hidden layers after the first; each layer's biases follow its matrix.
 Vector<float> hidden_numbers(const material::NeuralTables& tables, bool biases) {
   const NeuralShape& s = tables.shape;
   const NeuralLayout at(s);
@@ -68,8 +68,8 @@ Vector<float> hidden_numbers(const material::NeuralTables& tables, bool biases) 
   return numbers;
 }
 
-// The declarations of a neural material: sizes, weights as constants, and the sampler of its features. They
-// stand before shaders/material/neural/host.glsl.
+// Writes the declarations of a neural material: sizes, weights as constants, and the sampler of its features.
+// They precede shaders/material/neural/host.glsl.
 void add_neural_declarations(const material::NeuralTables& tables, String& out) {
   const NeuralShape& s = tables.shape;
   const NeuralLayout at(s);
@@ -103,7 +103,7 @@ void add_neural_declarations(const material::NeuralTables& tables, String& out) 
       float_literal(bias[1]).text, float_literal(bias[2]).text);
 }
 
-// Writes the fetch of a layer from the arrays of `most` layers each that it may be in.
+// Writes the fetch of a layer that may be in any of several arrays of `most` layers each.
 template <class Fetch>
 void add_choice(String& out, std::uint32_t arrays, std::uint32_t most, Fetch&& fetch) {
   for (std::uint32_t i = 0; i < arrays; ++i) {
@@ -112,8 +112,8 @@ void add_choice(String& out, std::uint32_t arrays, std::uint32_t most, Fetch&& f
   }
 }
 
-// The samplers of spatial modes, and the function that fetches four of them: `mode` counts those of a
-// cluster, whole ones first.
+// Writes the samplers of spatial modes, and the function that fetches four modes. `mode` counts the modes of
+// a cluster, modes that are not in blocks first.
 void add_modes(String& out, const material::TensorTables& t, const char* name, std::uint32_t max_layers) {
   const std::uint32_t whole = t.whole_modes() * t.view_vec4_count,
                       packed = t.packed_modes * t.view_vec4_count;
@@ -157,14 +157,14 @@ void add_terms(String& out, std::string_view name, std::string_view capital_name
     const std::size_t at = std::min(text.find("nook_tensor_"), text.find("NOOK_TENSOR_"));
     out += text.substr(0, at);
     if (at == text.npos) return;
-    constexpr std::size_t head = 5, length = 11;  // of "nook_" and of "nook_tensor"
+    constexpr std::size_t head = 5, length = 11;  // of "nook_", and of "nook_tensor"
     out += text.substr(at, head);
     out += text[at] == 'n' ? name : capital_name;
     text.remove_prefix(at + length);
   }
 }
 
-// name is "btf" and prefix "NOOK_BTF", or the same of the VOTF.
+// name and prefix are "btf" and "NOOK_BTF", or the VOTF's.
 void add_tensor(String& out, const material::TensorTables& t, const char* name, const char* prefix,
                 std::uint32_t max_layers) {
   add(out, "#define %s_TERMS %u\n#define %s_VIEW_VEC4_COUNT %u\n", prefix, t.terms, prefix,
@@ -203,7 +203,7 @@ String material_source(const material::MaterialTables& tables, std::uint32_t max
   if (!is_neural) add_relief(out, tables.relief);
   add(out, "#define NOOK_MATERIAL_MAX_FETCHES %u\n", material::max_fetches);
   if (tables.votf.terms != 0)
-    // OpenGL ES gives uniforms no first value.
+    // OpenGL ES has no initial values for uniforms.
     add(out, "#ifdef GL_ES\nconst\n#else\nuniform\n#endif\nvec2 nook_visibility_mapping = vec2(%s, %s);\n",
         float_literal(tables.mapping.threshold).text, float_literal(tables.mapping.weight).text);
   out += host_text("material/base/host.glsl");

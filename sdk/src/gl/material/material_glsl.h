@@ -1,5 +1,5 @@
-// The GLSL of a material: constants and samplers for its sizes, then shaders/material/host.glsl, or the file
-// of neural ones.
+// The GLSL of a material: constants and samplers for its sizes, then shaders/material/host.glsl, or
+// neural/host.glsl for neural materials.
 #pragma once
 
 #include <cstdint>

@@ -34,7 +34,7 @@ void check_blocks(const Functions& gl, const TensorTables& t) {
                   gl.can.rgtc_textures  ? "NOOK_MATERIAL_BLOCKS_RGTC or PLAIN"
                   : gl.can.eac_textures ? "NOOK_MATERIAL_BLOCKS_EAC or PLAIN"
                                         : "NOOK_MATERIAL_BLOCKS_NONE");
-  // A rule of WebGL's extension alone, for the finest level.
+  // WebGL's extension has this rule, for the finest level.
   if (is_rgtc && gl.profile == Profile::webgl && (t.width % 4 != 0 || t.height % 4 != 0))
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "WebGL has no RGTC textures of the material's size (got %u x %u texels, need multiples of "

@@ -22,8 +22,8 @@ class MaterialTextures {
     char uniform[40] = "";
   };
 
-  // max_layers is the maximum for one array, 0 for the limit of this OpenGL. Changes the state of the user
-  // `materials` in touched_state.h; the caller holds a StateGuard. Throws Failure.
+  // max_layers is the maximum for one array, or 0 for this OpenGL's limit. Changes the state of the user
+  // `materials` in touched_state.h; the caller must hold a StateGuard. Throws Failure.
   MaterialTextures(Device& device, const material::MaterialTables& tables, std::uint32_t max_layers);
 
   const Vector<Texture>& textures() const { return textures_; }
@@ -44,7 +44,7 @@ class MaterialTextures {
 
 class CoordinateTexture {
  public:
-  // Changes the state of the user `materials` in touched_state.h; the caller holds a StateGuard. Throws
+  // Changes the state of the user `materials` in touched_state.h; the caller must hold a StateGuard. Throws
   // Failure.
   CoordinateTexture(Device& device, const synthesis::Coordinates& coordinates);
 

@@ -11,12 +11,12 @@ namespace {
 
 struct Layout {
   GLint internal_format;
-  GLenum format, type;      // 0 of blocks
-  std::size_t texel_bytes;  // 0 of blocks
+  GLenum format, type;      // 0 for blocks
+  std::size_t texel_bytes;  // 0 for blocks
   GLint min_filter, mag_filter, wrap;
 };
 
-// OpenGL ES filters no textures of 32-bit floats.
+// OpenGL ES cannot filter textures of 32-bit floats.
 Layout layout_of(const Functions& gl, ArrayUse use) {
   switch (use) {
     case ArrayUse::spatial:

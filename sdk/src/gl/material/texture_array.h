@@ -1,4 +1,4 @@
-// A texture array of a material, or of the coordinates of one, and its contents.
+// Holds a texture array of a material or of its coordinates.
 #pragma once
 
 #include "sdk/src/gl/object.h"
@@ -11,25 +11,25 @@ enum class ArrayUse {
   membership,    // 16-bit integers, nearest
   membership_8,  // 8-bit integers, nearest
   light,         // floats, linear, clamped to the edge
-  spatial_8,     // signed 8-bit integers as -1 to 1, else as spatial
-  light_8,       // signed 8-bit integers as -1 to 1, else as light
-  rgtc,          // blocks of two numbers of -1 to 1, else as spatial
+  spatial_8,     // signed 8-bit integers for -1 to 1; otherwise like spatial
+  light_8,       // signed 8-bit integers for -1 to 1; otherwise like light
+  rgtc,          // blocks of two numbers from -1 to 1; otherwise like spatial
   eac,           // the same in another form
   coordinates,   // pairs of 16-bit integers, nearest
-  heights        // one half float, else as spatial
+  heights        // one half float; otherwise like spatial
 };
 
 struct ArrayPlan {
   ArrayUse use = ArrayUse::spatial;
   GLsizei width = 0, height = 0;
   GLsizei first_layer = 0, layers = 0;
-  GLsizei all_layers = 0;  // of the data, of which the layers above are a part
+  GLsizei all_layers = 0;  // in the data; this array has some of them
   GLsizei levels = 1;
 };
 
-// Creates a GL_TEXTURE_2D_ARRAY with four numbers in each texel, two of coordinates and blocks, or a height.
-// `data` has all layers of level 0, then those of level 1 and so on. Binds the array of unit 0, and expects
-// plain pixel unpacking. Throws Failure.
+// Creates a GL_TEXTURE_2D_ARRAY with four numbers in each texel, two for coordinates and blocks, or one
+// height. `data` has all layers of level 0, then all layers of level 1, and so on. Binds the array of unit 0,
+// and expects plain pixel unpacking. Throws Failure.
 Object make_texture_array(Device& device, const ArrayPlan& plan, const void* data, const char* label);
 
 // Sets pixel unpacking from host memory without gaps.

@@ -30,7 +30,7 @@ void CheckedImages::add(const HostImages& images, const ImageFacts& facts) {
     bring_forward(place);
     return;
   }
-  // Other answers for names that were known: the host has made its textures anew.
+  // Known names now have other properties: the host has recreated its textures.
   if (known) clear();
   count_ = std::min(count_ + 1, most_sets);
   bring_forward(count_ - 1);

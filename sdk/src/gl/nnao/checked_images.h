@@ -1,4 +1,5 @@
-// The sets of host images that a pass has checked. It does not query OpenGL about names that it knows.
+// Remembers the sets of host images that a pass has checked, so that it need not query OpenGL about them
+// again.
 #pragma once
 
 #include <cstddef>
@@ -7,15 +8,15 @@
 
 namespace nook::gl {
 
-// The last four different sets, as names rotate in a swap chain. A host may delete a texture and get its name
-// again for one of another format, while other sets are in use. So a set that comes back for the first time
-// is checked once more before it counts as known.
+// The last four different sets, since names rotate in a swap chain. A host may delete a texture and get its
+// name again for another format while other sets are in use. So a set that returns for the first time is
+// checked once more before it counts as known.
 class CheckedImages {
  public:
   static constexpr std::size_t most_sets = 4;
 
-  // Returns what is known of the set, which is the newest one from now on, or null: check the images, then
-  // call add.
+  // Returns what is known about the set, and makes it the newest one. If it returns null, check the images,
+  // then call add.
   const ImageFacts* find(const HostImages& images);
   void add(const HostImages& images, const ImageFacts& facts);
   // Forgets all sets, as after a failed check.

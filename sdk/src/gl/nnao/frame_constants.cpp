@@ -20,8 +20,8 @@ nnao::ScreenRays half_rays(nnao::ScreenRays rays) {
   return rays;
 }
 
-// The length from which on a texel of the host is a normal; 0: there are no normals. A matrix that scales,
-// scales the bound as well.
+// Returns the minimum length of a normal in the host's texels; 0: there are no normals. A matrix that scales
+// also scales this bound.
 float shortest_normal(const NnaoFrame& frame) {
   if (frame.normal_texture == 0) return 0;
   if (!frame.normalised_normals) return nnao::shortest_float_normal;
@@ -54,7 +54,7 @@ FrameConstants frame_constants(const NnaoFrame& frame, const nook_nnao_desc& pas
     const std::array values{x, y, z, w};
     std::copy(values.begin(), values.end(), &constants.values[std::size_t(4 * row)]);
   };
-  // From the number of a pixel to the ray through its centre.
+  // Sets the mapping from a pixel's number to the ray through its centre.
   const auto set_rays = [&](int row, const nnao::ScreenRays& rays) {
     set(row, rays.x_scale, rays.x_offset + 0.5f * rays.x_scale, rays.y_scale,
         rays.y_offset + 0.5f * rays.y_scale);
@@ -73,7 +73,8 @@ FrameConstants frame_constants(const NnaoFrame& frame, const nook_nnao_desc& pas
       nnao::frame_radius({nnao::RadiusKind(frame.radius_kind), frame.radius, frame.scene_size,
                           frame.max_radius_px, frame.min_radius_px},
                          float(viewport.height));
-  // The extent of the radius in pixels at a depth is this times the extent at that depth.
+  // A radius of max_px pixels covers this many metres at the depth 1, and in proportion at other depths of a
+  // perspective.
   const float radius_extent = radius.max_px * std::abs(screen.y_scale);
   const int surface_width = surface_length(viewport.width, half),
             surface_height = surface_length(viewport.height, half);
@@ -163,7 +164,7 @@ Mat3x4 earlier_from_view(const float (&earlier)[16], const float (&view)[16]) {
 HistoryConstants history_constants(const NnaoFrame& frame, const nook_nnao_desc& pass,
                                    const FrameConstants& constants, const EarlierFrame& earlier) {
   HistoryConstants values{};
-  // A cut reads no history.
+  // After a cut, no history is read.
   const Mat3x4 motion = earlier.drawn ? earlier_from_view(earlier.view, frame.view) : Mat3x4{};
   std::copy_n(motion.m, 12, values.begin());
   const auto set = [&](int index, std::array<float, 4> four) {

@@ -45,7 +45,7 @@ Vector<float> TexelReader::read(GLuint texture, const Viewport& viewport, int ch
     set_viewport(gl, {0, 0, float(viewport.width), float(rows)});
     gl.Uniform2i(first, viewport.x, viewport.y + y);
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
-    // OpenGL ES reads integers in this form alone.
+    // OpenGL ES reads integers only in this form.
     gl.ReadPixels(0, 0, viewport.width, rows, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bits_.data());
     device_.check("reading texels back");
     const std::size_t texels = std::size_t(viewport.width) * std::size_t(rows);
@@ -58,7 +58,7 @@ Vector<float> TexelReader::read(GLuint texture, const Viewport& viewport, int ch
 
 namespace {
 
-// A driver's text as a recording may hold it.
+// Copies a driver's text in the form that a recording may hold.
 void copy_driver_text(const Functions& gl, GLenum name, String& text) {
   const auto* given = reinterpret_cast<const char*>(gl.GetString(name));
   if (!given) return;
@@ -76,7 +76,7 @@ void copy_note(const char* note, String& text) {
   text.assign(note, static_cast<const char*>(end));
 }
 
-// The frame that is drawn in place of the host's, so that no target of the host is written.
+// Returns a frame to draw in place of the host's, so that none of the host's targets is written.
 NnaoFrame own_target(NnaoFrame frame) {
   frame.target = NOOK_TARGET_OWN;
   frame.target_name = 0;
@@ -105,8 +105,8 @@ void copy_settings(const NnaoFrame& from, nnao::RecordedFrame& to) {
   to.fade_end = from.fade_end;
 }
 
-// Puts simpler kinds in place of those that follow from them: linear depth for logarithmic depth,
-// metres for a share of the scene.
+// Replaces settings by simpler ones with the same result: linear depth for logarithmic depth, metres for a
+// share of the scene.
 void simplify(nnao::Recording& recording, const NnaoFrame& frame) {
   if (frame.radius_kind == NOOK_NNAO_RADIUS_SCENE) {
     recording.frame.radius = frame.radius * frame.scene_size;
@@ -121,8 +121,8 @@ void simplify(nnao::Recording& recording, const NnaoFrame& frame) {
   recording.frame.sky_depth = 0;
 }
 
-// Texels of normalised integers that are too short for a normal become those of a zero vector, which has no
-// normal in any format: a recording does not keep the host's format.
+// If texels of normalised integers are too short for a normal, they become the texel of a zero vector, which
+// no format takes for a normal. A recording does not keep the host's format.
 void zero_short_normals(const NnaoFrame& frame, Vector<float>& texels) {
   const double shortest = double(nnao::shortest_normalised_normal) * nnao::mean_scale(frame.normal_matrix);
   const float* const m = frame.normal_matrix;
@@ -166,7 +166,7 @@ nnao::Recording record_frame(Device& device, NnaoPass& pass, const nook_nnao_des
   if (frame.gbuffer_ao != NOOK_GBUFFER_AO_NONE)
     recording.layer = reader.read(frame.gbuffer_ao_texture, viewport, 2);
   recording.ao = ao_of(reader, pass, made_with, viewport);
-  // AO has 8 bits; some drivers divide by 255 inexactly.
+  // AO has 8 bits, and some drivers divide by 255 inexactly.
   for (float& ao : recording.ao) ao = std::round(255 * std::clamp(ao, 0.0f, 1.0f)) / 255;
   recording.width = std::uint32_t(viewport.width);
   recording.height = std::uint32_t(viewport.height);

@@ -61,8 +61,8 @@ void add(Floats& out, const nnao::GatedDense<inputs, gates, units>& layer) {
   add(out, layer.slope);
 }
 
-// Four weights of one output in each vec4: of maxima, for both outputs, then of sums, then both gates. The
-// means over the directions are sums in the shader too.
+// Each vec4 has four weights of one output: for maxima, for both outputs, then for sums, then both gates. The
+// shader also sums over the directions instead of averaging.
 template <int inputs>
 void add_bent(Floats& out, const nnao::GatedLinear<inputs, 2, 2>& layer, nnao::TapGrid grid) {
   for (int first = 0; first < inputs; first += 4)

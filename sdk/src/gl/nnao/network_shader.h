@@ -14,8 +14,8 @@ struct PassDefines {
 // horizon: the network has the horizon form.
 PassDefines pass_defines(const NnaoSettings& desc, bool horizon, const nnao::TapGrid& grid);
 
-// Returns the uniform array nook_network of horizon.glsl or paper.glsl; its length is a multiple of four.
-// The weights of the horizon form's means are those of sums over the grid.
+// Returns the uniform array nook_network of horizon.glsl or paper.glsl; its length is a multiple of four. In
+// the horizon form, weights of means are divided by the counts, because the shader sums over the grid.
 Vector<float> network_constants(const nnao::Network& network, nnao::TapGrid grid, Memory* memory);
 
 }  // namespace nook::gl

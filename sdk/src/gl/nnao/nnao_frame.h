@@ -18,7 +18,7 @@ struct NnaoFrame : nook_gl_frame_desc, nook_nnao_frame_desc {
   bool normalised_normals = false;  // normal_texture has normalised integers
 };
 
-// The settings of a pass, with the preset's numbers in place of -1.
+// The settings of a pass. Where the descriptor has -1, they have the preset's number.
 struct NnaoSettings : nook_nnao_desc {
   nook_nnao_path path = NOOK_NNAO_PATH_AUTOMATIC;
   nook_nnao_sample depth_sample = NOOK_NNAO_SAMPLE_MEDIAN;
@@ -38,7 +38,7 @@ struct Viewport {
 };
 Viewport viewport_of(const NnaoFrame& frame);
 
-// The length of the surface, which is the image at the resolution at which AO is computed.
+// Returns the length of the surface, the image at the resolution at which AO is computed.
 constexpr int surface_length(int length, bool half) {
   return half ? (length + 1) / 2 : length;
 }
@@ -48,22 +48,21 @@ struct FrameConstants {
   std::array<float, NOOK_FRAME_VEC4S * 4> values{};
 };
 
-// The frame must have passed check_frame. count: the frames that the pass has drawn, which turns the noise of
-// the taps of passes with max_history_frames.
-// layer: of the host's texture arrays, for passes with views.
+// The frame must have passed check_frame. count: the frames that the pass has drawn; with max_history_frames,
+// it shifts the noise of the taps. layer: of the host's texture arrays, for passes with views.
 FrameConstants frame_constants(const NnaoFrame& frame, const nook_nnao_desc& pass, std::uint32_t count,
                                int layer = 0);
 
-// Returns the frame of one layer: its matrices are those of the layer.
+// Returns the frame of one layer, with the layer's matrices.
 NnaoFrame layer_frame(const NnaoFrame& frame, int layer);
 
-// The layers that a frame of the pass has: 1 unless its images are texture arrays.
+// Returns the number of layers in a frame: 1 unless its images are texture arrays.
 constexpr int drawn_layers(const nook_nnao_desc& pass) {
   return pass.views > 0 ? pass.views : 1;
 }
 inline constexpr int max_layers = 8;
 
-// The frame before, as the pass keeps it.
+// What the pass keeps of the frame before.
 struct EarlierFrame {
   std::uint32_t count = 0;  // frames since the pass was made
   bool drawn = false;       // false: there is none
@@ -74,8 +73,8 @@ struct EarlierFrame {
 
 using HistoryConstants = std::array<float, 4 * NOOK_EARLIER_VEC4S>;
 
-// From the view space of the present frame to the view space of the one before: the earlier view matrix times
-// the inverse of this one.
+// Returns the map from the current frame's view space to the earlier one's: the earlier view matrix times the
+// inverse of this one.
 Mat3x4 earlier_from_view(const float (&earlier)[16], const float (&view)[16]);
 
 // Fills the uniform array nook_earlier. A cut, see nook_nnao_frame_desc.reset, has a mean of one frame.

@@ -36,7 +36,7 @@ void NnaoPass::run_network(const FrameConstants& constants, const Viewport& surf
     return;
   }
   set_frame(occlusion_stage_, constants);
-  // occlusion.comp declares the image in this way. OpenGL 4.3 has images of GL_RG8, OpenGL ES 3.1 of
+  // occlusion.comp declares the image in this format. OpenGL 4.3 has GL_RG8 images, OpenGL ES 3.1 only
   // GL_RGBA8, which bent normals need as well.
   dispatch(ao_[0], device_.gl.can.r8_images && !desc_.bent_normals ? GL_RG8 : GL_RGBA8, surface.width,
            surface.height, NOOK_OCCLUSION_GROUP_SIZE);
@@ -102,7 +102,7 @@ void NnaoPass::render_layer(const NnaoFrame& frame, int layer) {
 
   if (frame.show == NOOK_NNAO_VIEW_NORMALS) {
     bind_normals(frame.normal_texture);
-    // The timer counts four stages in every frame. This view has no occlusion and no blur, so both end at
+    // The timer expects four stages in every frame. This view has neither occlusion nor blur, so both end at
     // once.
     end_stage();
     end_stage();

@@ -4,8 +4,8 @@
 //   full resolution  host depth -> depth -> AO and edges -> [mean ->] [filter ->] filter and resolve
 //   half resolution  host depth -> depth of every fourth pixel -> AO and edges -> [mean ->] filter ->
 //                    [filter ->] upsample and resolve
-// The mean over frames belongs to passes with max_history_frames. Passes with views draw them one after the
-// other. The paper's form reads the normals of its taps: a stage between depth and AO writes them.
+// Passes with max_history_frames have the mean over frames. Passes with views draw them one after the other.
+// The paper's form has a stage between depth and AO that writes normals, because it reads them at its taps.
 #pragma once
 
 #include <nook/nook_nnao.h>
@@ -21,24 +21,24 @@
 
 namespace nook::gl {
 
-// Returns the functions of a host's shader that lights with the result.
+// Returns the GLSL functions with which a host's shader lights from the result.
 const char* screen_ao_glsl();
 
 // Returns the memory of all textures of a pass.
 std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form);
 
-// Returns how often the filter is a draw of its own: at full resolution the last one is a part of resolve.
+// Returns how often the filter is a separate draw: at full resolution, the last filter is part of resolve.
 constexpr int drawn_filters(const nook_nnao_desc& desc) {
   return desc.half_resolution || desc.blur == 0 ? desc.blur : desc.blur - 1;
 }
 
-// Every call may change any of the touched state; the caller holds a StateGuard.
+// Every call may change any of the touched state; the caller must hold a StateGuard.
 class NnaoPass : public ScreenPass {
  public:
   // Throws Failure.
   NnaoPass(Device& device, const NnaoSettings& desc, const nnao::Network& network);
 
-  // Draws a frame that passed check_frame, and sets what it learns of the images. Throws Failure before
+  // Draws a frame that passed check_frame, and stores what it learns about the images. Throws Failure before
   // anything is drawn.
   void render(NnaoFrame& frame);
 
@@ -54,27 +54,27 @@ class NnaoPass : public ScreenPass {
 
   bool temporal() const { return desc_.max_history_frames != 0; }
   bool half() const { return desc_.half_resolution != 0; }
-  // Binds a texture of the host; 0: nothing is bound. samples: it is multisampled.
+  // Binds a texture of the host, or nothing for 0. samples: it is multisampled.
   void bind_host(GLuint unit, GLuint texture, bool samples = false) const;
   void bind_depth(GLuint texture) const;
   void bind_normals(GLuint texture) const;
-  // Draws a stage into a texture of the pass, of which nothing is needed afterwards but what it draws.
+  // Draws a stage into a texture of the pass. The texture's old contents are discarded.
   void draw_stage(const ScreenStage& stage, const FrameConstants& constants, const RenderTexture& target,
                   const Viewport& viewport) const;
   void run_network(const FrameConstants& constants, const Viewport& surface) const;
-  // The textures that passes with max_history_frames keep for each layer; all layers of others share one.
+  // With max_history_frames, each layer has its own textures; otherwise all layers share one set.
   struct LayerTextures {
     RenderTexture depth[2];    // of the surface; two for means over frames, which use them in turns
     RenderTexture history[2];  // means over frames, in turns
     EarlierFrame earlier;
   };
   LayerTextures& textures_of(int layer) { return layers_[temporal() ? std::size_t(layer) : 0]; }
-  // The one of two textures that the present frame writes.
+  // Returns which of two textures the current frame writes.
   std::size_t turn(const LayerTextures& layer) const { return temporal() ? layer.earlier.count % 2 : 0; }
 
   // Draws one layer of a frame that has its matrices.
   void render_layer(const NnaoFrame& frame, int layer);
-  // Blends the frame with those before it, and returns the texture of the mean.
+  // Blends the frame with the frames before it, and returns the texture of the mean.
   GLuint accumulate(const NnaoFrame& frame, const FrameConstants& constants, const Viewport& surface,
                     LayerTextures& kept);
   void end_stage() {
@@ -82,13 +82,13 @@ class NnaoPass : public ScreenPass {
   }
 
   nook_nnao_path path_;
-  // The stage of normals belongs to the paper's form, that of the filter where it is a draw.
+  // Only the paper's form has a stage of normals. The filter has a stage if it is a separate draw.
   ScreenStage depth_stage_, apart_depth_stage_, normals_stage_, occlusion_stage_, accumulate_stage_,
       filter_stage_, resolve_stage_, layered_stage_, show_normals_stage_;
   GLint earlier_location_ = -1;  // of accumulate_stage_
   std::array<LayerTextures, max_layers> layers_;
   RenderTexture normals_;  // of the surface
-  RenderTexture ao_[2];    // of the surface; the second where the filter is a draw
+  RenderTexture ao_[2];    // of the surface; the second if the filter is a separate draw
   TexelTable filters_;     // of the paper's form
   std::optional<StageTimer> timer_;
 };

@@ -36,7 +36,7 @@ nook_nnao_path chosen_path(const Functions& gl, nook_nnao_path asked) {
   const bool can_compute = gl.can.compute_images;
   if (asked == NOOK_NNAO_PATH_COMPUTE && !can_compute) refuse_compute(gl);
   if (asked != NOOK_NNAO_PATH_AUTOMATIC) return asked;
-  // Where AO needs four bytes in place of one to be written by a compute shader, the draw is the better way.
+  // If a compute shader must write four bytes of AO in place of one, drawing is better.
   return can_compute && gl.can.r8_images ? NOOK_NNAO_PATH_COMPUTE : NOOK_NNAO_PATH_FRAGMENT;
 }
 
@@ -48,14 +48,14 @@ struct TexturePlan {
   const char* label;
 };
 
-// The textures of a pass. Those without a width are not made.
+// The textures of a pass. A texture without a width is not made.
 struct PassPlan {
-  // own has one texture a layer, and depth and history those of each layer where means over frames keep them.
+  // `own` has one texture for each layer. depth and history also do, if means over frames keep them.
   TexturePlan depth[2], normals, ao[2], history[2], own;
   int own_layers = 1, kept_layers = 1;
 };
 
-// The formats in which a context draws depth, normals and AO.
+// The formats in which a context can draw depth, normals and AO.
 struct PassFormats {
   TextureFormat depth = TextureFormat::depth;
   TextureFormat normal = TextureFormat::normal, ao = TextureFormat::ao_edges, own = TextureFormat::ao;
@@ -121,7 +121,7 @@ NnaoPass::NnaoPass(Device& device, const NnaoSettings& desc, const nnao::Network
   make_programs(network);
   make_textures(network.form);
   if (network.form == nnao::NetworkForm::paper) upload_filters(network);
-  // AO in red, or the direction to the viewer and AO in alpha.
+  // Shows AO in red, or the direction to the viewer with AO in alpha.
   const GLfloat aside = desc.bent_normals ? 0.5f : 1;
   make_objects({aside, aside, 1, 1});
   if (desc.timers && !device.gl.can.timestamps)
@@ -181,7 +181,7 @@ void NnaoPass::make_programs(const nnao::Network& network) {
   layered_stage_ = drawn("nnao/resolve.frag", layered);
   show_normals_stage_ = drawn("nnao/show_normals.frag", defines);
   if (device_.debug) make_watch(drawn("nnao/surface.frag", defines));
-  // Both forms have the same number of groups with the same number of taps.
+  // Both forms have the same number of groups for the same number of taps.
   device_.gl.UseProgram(occlusion_stage_.program.name());
   device_.gl.Uniform1i(uniform_location(device_, occlusion_stage_.program, "nook_tap_groups"),
                        static_cast<GLint>(grid.directions));

@@ -25,18 +25,19 @@ struct PassStages {
 
   String vertex;
   Vector<StageText> stages;
-  Vector<float> network;  // the uniform block, whose last vec4 has the directions as an integer
+  Vector<float> network;  // the uniform block, whose last vec4 holds the number of directions as an integer
 };
 
-// The descriptor must be checked, and the network have the horizon form.
+// The descriptor must have been checked, and the network must have the horizon form.
 PassStages pass_stages(const NnaoSettings& desc, const nnao::Network& network, Memory* memory);
 
 nook_nnao_image_info stage_image(const nook_nnao_desc& desc, nook_nnao_image image);
 
-// The stages that a frame with this G-buffer AO draws, as bits; count is that of the pass.
+// Returns the stages that a frame with this G-buffer AO draws, as bits. count is the number of the pass's
+// stages.
 std::uint32_t drawn_stages(std::size_t count, nook_gbuffer_ao layer);
 
-// frame has passed check_frame, and earlier may be null. drawn_stages stays 0.
+// frame must have passed check_frame; earlier may be null. drawn_stages stays 0.
 nook_nnao_frame_values frame_values(const nook_nnao_desc& desc, const NnaoFrame& frame,
                                     const NnaoFrame* earlier, std::uint32_t number, int layer);
 

@@ -58,7 +58,7 @@ void RenderTexture::begin(Device& device, TextureFormat format, GLenum target, G
   gl.TexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-// Checks the texture and the framebuffer that is bound.
+// Checks the texture and the bound framebuffer.
 void RenderTexture::end(Device& device, const char* label) {
   const GLenum status = device.gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
@@ -70,7 +70,7 @@ RenderTexture::RenderTexture(Device& device, TextureFormat format, int width, in
   const Functions& gl = device.gl;
   const Layout layout = layout_of(format);
   begin(device, format, GL_TEXTURE_2D, 0);
-  // OpenGL ES binds immutable textures alone as images.
+  // OpenGL ES can only bind immutable textures as images.
   if (gl.TexStorage2D)
     gl.TexStorage2D(GL_TEXTURE_2D, 1, static_cast<GLenum>(layout.internal_format), width, height);
   else

@@ -11,7 +11,7 @@ enum class TextureFormat {
   ao_edges,       // GL_RG8
   ao_image,       // GL_RGBA8, for bent normals, and for compute shaders that cannot write GL_RG8
   depth,          // GL_R32UI, a float's bits
-  sampled_depth,  // GL_RG32UI, the same and the number of a sample
+  sampled_depth,  // GL_RG32UI, the same plus the number of a sample
   normal,         // GL_RG16
   normal_bits,    // GL_RG16UI, for contexts that cannot draw into GL_RG16
   texel_bits,     // GL_RGBA32UI, the bits of four floats
@@ -38,11 +38,11 @@ class RenderTexture {
   Object texture_, framebuffer_;
 };
 
-// Tells OpenGL that the colours of the draw framebuffer that is bound are not needed, so that a GPU with
-// tiles does not load them. Does nothing where OpenGL has no such function.
+// Tells OpenGL that the colours of the bound draw framebuffer are not needed, so that a GPU with tiles does
+// not load them. Does nothing if OpenGL lacks the function.
 void discard_colours(const Functions& gl);
 
-// Attaches a layer to the draw framebuffer that is bound.
+// Attaches a layer to the bound draw framebuffer.
 void attach_layer(const Functions& gl, GLuint texture, int layer);
 
 }  // namespace nook::gl

@@ -59,7 +59,7 @@ void ScreenPass::make_stage(ScreenStage& stage, Object program, std::span<const 
   stage.program = std::move(program);
   stage.frame = uniform_location(device_, stage.program, "nook_frame");
   device_.gl.UseProgram(stage.program.name());
-  // Where a stage has no such sampler the location is -1, which OpenGL ignores.
+  // If a stage lacks the sampler, the location is -1, which OpenGL ignores.
   for (const SamplerUnit& sampler : samplers)
     device_.gl.Uniform1i(uniform_location(device_, stage.program, sampler.name), sampler.unit);
 }
@@ -122,7 +122,7 @@ void ScreenPass::dispatch(const RenderTexture& target, GLenum format, int width,
   const Functions& gl = device_.gl;
   const auto groups = [&](int length) { return GLuint((length + group_size - 1) / group_size); };
   gl.BindImageTexture(image_unit_index, target.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY, format);
-  // Pending reads and draws, also of the host, end before the texture is written.
+  // Waits for pending reads and draws, including the host's, before the texture is written.
   gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   gl.DispatchCompute(groups(width), groups(height), 1);
   // The next stage reads the texture.

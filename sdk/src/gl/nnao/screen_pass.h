@@ -1,5 +1,5 @@
-// The common part of the screen-space pass and the world pass. Both draw triangles over a host's images, and
-// write AO to the host's target or to a texture of their own.
+// What the screen-space pass and the world pass share. Both draw triangles over a host's images, and write AO
+// to the host's target or to their own texture.
 #pragma once
 
 #include <nook/nook_nnao.h>
@@ -15,7 +15,7 @@
 
 namespace nook::gl {
 
-// Returns whether the frame writes every texel of a target that is no framebuffer of the host: its old
+// Returns true if the frame writes every texel of a target that is not a framebuffer of the host. The old
 // contents are not needed then.
 bool replaces_target(const NnaoFrame& frame, const nook_nnao_desc& pass);
 
@@ -30,30 +30,30 @@ struct SamplerUnit {
   GLint unit;
 };
 
-// Every call may change any of the state that the users of screen_creation_users touch; the caller holds a
-// StateGuard.
+// Every call may change any of the state that the users of screen_creation_users touch; the caller must hold
+// a StateGuard.
 class ScreenPass {
  public:
   GLuint ao_texture() const { return own_.texture(); }
 
  protected:
-  // desc: of the screen-space pass, or with the values that another pass gives to the frame's constants.
-  // Network and next of it are not kept. Makes no OpenGL call.
+  // desc: the screen-space pass's, or the values that another pass uses for the frame's constants. Its
+  // network and next are not kept. Makes no OpenGL call.
   ScreenPass(Device& device, const NnaoSettings& desc);
 
   // Throws Failure if the pass is larger than this OpenGL's textures.
   void check_size() const;
-  // Makes the objects of all draws. own_ must have been made: it begins with this colour.
+  // Makes the objects of all draws. own_ must exist already; it starts with this colour.
   void make_objects(const GLfloat (&open)[4]);
-  // Finds the frame's constants of a program and sets its samplers, of which it may lack some.
+  // Finds the frame's constants in a program and sets its samplers; the program may lack some of them.
   void make_stage(ScreenStage& stage, Object program, std::span<const SamplerUnit> samplers) const;
 
-  // Returns what is known of the images of a frame. Throws Failure unless they are sound, before anything is
-  // drawn.
+  // Returns what is known about the images of a frame. Throws Failure before anything is drawn unless they
+  // are sound.
   ImageFacts check(const HostImages& images, bool changed);
-  // Makes the stage that draws a pixel for each surface. Only with nook_gl_desc.debug.
+  // Makes the stage that draws a pixel for each surface; only with nook_gl_desc.debug.
   void make_watch(ScreenStage stage);
-  // If the stage was made, counts the surfaces of the frame. bind_depth(frame) binds the depth of a layer.
+  // If that stage exists, counts the surfaces of the frame. bind_depth(frame) binds the depth of a layer.
   // Draws into the pass's own texture, which the frame overwrites.
   template <class BindDepth>
   void watch_surfaces(const NnaoFrame& frame, const BindDepth& bind_depth) {
@@ -69,14 +69,14 @@ class ScreenPass {
   // Sets the state that all draws of a frame share.
   void begin_frame() const;
   void bind_texture(GLuint unit, GLuint texture) const;
-  // Takes the program into use.
+  // Makes the program current.
   void set_frame(const ScreenStage& stage, const FrameConstants& constants) const;
-  // Draws the program in use. discards: nothing outside the viewport is needed afterwards.
+  // Draws the current program. discards: nothing outside the viewport is needed afterwards.
   void draw(GLuint framebuffer, const Viewport& viewport, bool discards) const;
-  // Runs the compute shader in use, which writes texels of the target as an image of `format`, in groups of
+  // Runs the current compute shader, which writes texels of the target as an image of `format`, in groups of
   // group_size x group_size.
   void dispatch(const RenderTexture& target, GLenum format, int width, int height, int group_size) const;
-  // Draws the program in use into the frame's target; layer: of the target's texture array, of passes with
+  // Draws the current program into the frame's target. layer: of the target's texture array, for passes with
   // views.
   void draw_output(const NnaoFrame& frame, int layer) const;
 

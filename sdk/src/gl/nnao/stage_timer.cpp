@@ -15,7 +15,7 @@ StageTimer::~StageTimer() {
 }
 
 void StageTimer::mark(int stage) {
-  // Time stamps are used instead of elapsed-time queries, because the host may have one of these active.
+  // Uses time stamps, because the host may have an elapsed-time query active.
   device_.gl.QueryCounter(marks_[frames_ % kept_frames][std::size_t(stage)].name(), GL_TIMESTAMP);
 }
 
@@ -33,9 +33,9 @@ void StageTimer::end_stage() {
   fence = device_.gl.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
 
-// A fence rather than GL_QUERY_RESULT_AVAILABLE: Mesa's zink records commands for that query, so that it
-// never becomes true for a host that reads times in each frame. A nanosecond rather than none: with none,
-// zink does not look whether the work has ended.
+// Uses a fence, because with GL_QUERY_RESULT_AVAILABLE Mesa's zink records commands, and the result never
+// becomes available to a host that reads times in each frame. Waits for a nanosecond, because with zero zink
+// does not check whether the work has ended.
 bool StageTimer::finished(std::uint64_t frame) const {
   const GLenum status = device_.gl.ClientWaitSync(fences_[frame % kept_frames], 0, 1);
   return status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED;
@@ -43,7 +43,7 @@ bool StageTimer::finished(std::uint64_t frame) const {
 
 std::optional<StageTimer::Milliseconds> StageTimer::newest() const {
   const Functions& gl = device_.gl;
-  // Otherwise the answers would go into the host's buffer.
+  // Otherwise the results would go into the host's buffer.
   if (gl.can.query_buffers) gl.BindBuffer(GL_QUERY_BUFFER, 0);
   const std::uint64_t oldest = frames_ > kept_frames ? frames_ - kept_frames : 0;
   for (std::uint64_t frame = frames_; frame > oldest; --frame) {

@@ -1,4 +1,5 @@
-// The GPU time of the stages of a frame. It is read several frames later, and no call waits for it.
+// Measures the GPU time of the stages of a frame. The times are read several frames later, and no call waits
+// for them.
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@ class StageTimer {
   StageTimer(const StageTimer&) = delete;
   StageTimer& operator=(const StageTimer&) = delete;
 
-  // Starts a frame, which passes through its stages and ends with the last of them.
+  // Begins a frame, which passes through its stages and ends with the last.
   void begin_frame();
   void end_stage();
   // Returns the times of the newest finished frame, or nothing before the first. Binds the query buffer.
@@ -31,7 +32,7 @@ class StageTimer {
 
   Device& device_;
   std::array<std::array<Object, stage_count + 1>, kept_frames> marks_;
-  // After the last mark of each kept frame; null before.
+  // After the last mark of each kept frame; null before it.
   std::array<GLsync, kept_frames> fences_{};
   std::uint64_t frames_ = 0;  // number of frames that began
   int stage_ = 0;

@@ -1,4 +1,4 @@
-// With nook_gl_desc.debug: tells the log of a frame whose depth shows no surface, once its answer is there.
+// With nook_gl_desc.debug, logs a frame whose depth shows no surface, as soon as its result is there.
 #pragma once
 
 #include "sdk/src/gl/nnao/nnao_frame.h"
@@ -10,8 +10,7 @@ class SurfaceWatch {
  public:
   explicit SurfaceWatch(Device& device) : query_(Object::make(device, Object::Kind::query)) {}
 
-  // Looks for the answer of an earlier frame. Returns whether to draw this frame's surfaces, after which end
-  // must be called.
+  // Checks the result of an earlier frame. If it returns true, draw this frame's surfaces and then call end.
   bool begin(const Device& device, const NnaoFrame& frame);
   void end(const Device& device);
 

@@ -43,8 +43,8 @@ namespace {
 
 constexpr std::uint64_t texel_bytes = 4 * sizeof(float);
 constexpr float sphere = 4 * std::numbers::pi_v<float>;
-// Rounds that find the luminance where suns begin. Each takes away what was above the limit before; the light
-// of a sun that is 1e-4 of the sphere counts a hundredth of its last limit in the next one.
+// The number of rounds that find the luminance where suns begin. Each removes the light above the limit so
+// far. The light of a sun that covers 1e-4 of the sphere adds a hundredth of the last limit to the next one.
 constexpr int limit_rounds = 4;
 
 CapturePlan plan_of(const CaptureTargets& targets, const CaptureSettings& settings) {
@@ -184,7 +184,7 @@ void ProbeCapture::use(const Object& program) const {
   table_.bind(device_);
 }
 
-// Unbinds the buffer, which the next step copies from.
+// Unbinds the buffer, because the next step copies from it.
 void ProbeCapture::draw(const Draw& draw) const {
   const Functions& gl = device_.gl;
   gl.BindBuffer(GL_ARRAY_BUFFER, 0);
@@ -197,7 +197,7 @@ void ProbeCapture::draw(const Draw& draw) const {
   gl.BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
 }
 
-// The limit is sun_ratio times the mean luminance of what lies below it, as in map_suns.cpp.
+// As in map_suns.cpp, the limit is sun_ratio times the mean luminance of everything below it.
 void ProbeCapture::find_limit() const {
   const Functions& gl = device_.gl;
   for (int round = 0; round < limit_rounds; ++round) {

@@ -1,4 +1,4 @@
-// Probes from cube maps that a host has rendered, on the GPU.
+// Makes probes on the GPU from cube maps that a host has rendered.
 #pragma once
 
 #include <array>
@@ -21,17 +21,17 @@ struct CubeMap {
   std::uint32_t level = 0;
 };
 
-// Binds the cube map to the active unit. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT): it is no cube map, or
-// has another size, levels that lack this one, or colours that are neither floats nor normalised. OpenGL ES
-// 3.0 and WebGL tell neither sizes nor formats.
+// Binds the cube map to the active unit. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if it is not a cube map
+// or has another size, if its levels lack this one, or if its colours are neither floats nor normalised.
+// OpenGL ES 3.0 and WebGL report neither sizes nor formats.
 void bind_checked(const Device& device, const CubeMap& cube);
 
-// The table of texels that the shaders of captures work in: constants, sums over the rows of a cube map, and
-// the average of each probe's sums. shaders/probe/capture has its readers.
+// The shaders of captures work in a table of texels: constants, sums over the rows of a cube map, and the
+// average of each probe's sums. The shaders in shaders/probe/capture read it.
 
-// Texels of four floats, from the first: the luminance where suns begin; axis and sharpness of the lobes in
-// whole groups; the rows of the solution map, whose columns lie as the sums do; sums of one group over all
-// rows; then the sums of each probe, groups of lobes and one of harmonics.
+// The table has texels of four floats. First comes the luminance where suns begin, then axis and sharpness of
+// the lobes in whole groups. Then come the rows of the solution map, with columns in the order of the sums.
+// The sums of one group over all rows follow, then each probe's sums, groups of lobes and one of harmonics.
 struct CapturePlan {
   std::uint32_t lobes = 0;  // 0: harmonics alone
   std::uint32_t face_size_px = 0;
@@ -40,7 +40,7 @@ struct CapturePlan {
   std::uint32_t lobe_groups() const { return (lobes + NOOK_CAPTURE_GROUP - 1) / NOOK_CAPTURE_GROUP; }
   std::uint32_t groups() const { return lobe_groups() + 1; }
   std::uint32_t rows() const { return 6 * face_size_px; }
-  std::uint32_t sums() const { return groups() * NOOK_CAPTURE_GROUP; }  // of a probe
+  std::uint32_t sums() const { return groups() * NOOK_CAPTURE_GROUP; }  // of one probe
   std::uint32_t map_row() const { return sums() / 4; }                  // texels
 
   static constexpr std::uint64_t first_lobe = 1;
@@ -52,19 +52,20 @@ struct CapturePlan {
   std::uint64_t texels() const { return first_sum(probes); }
 };
 
-// The table before the first map: constants, and no light. A plan with lobes is that of the basis.
+// Returns the table before the first map: constants, and no light. If the plan has lobes, they are the
+// basis's.
 Vector<float> capture_texels(const CapturePlan& plan, const probe::Basis& basis, probe::Constraint constraint,
                              Memory* memory);
 
-// Cube maps that a host renders become probes on the GPU: sums over texels by transform feedback, which every
-// OpenGL and OpenGL ES has in 32 bits, then the solution of the fit as a matrix, then copies to the textures
+// Turns cube maps that a host renders into probes on the GPU. Transform feedback sums over texels, because
+// every OpenGL and OpenGL ES has it in 32 bits. A matrix then solves the fit, and copies go to the textures
 // that shaders read. Nothing is read back.
 //
-// A map is summed in three kinds of draws: a point for each row of a face and group of functions
-// (rows.vert), a point for each sum (mean.vert), which also takes the running average over maps, and a point
-// for each texel of the result (solve.vert).
+// A map is summed in three kinds of draws. rows.vert draws a point for each row of a face and group of
+// functions. mean.vert draws a point for each sum, and also takes the running average over maps. solve.vert
+// draws a point for each texel of the result.
 
-// The textures that a capture writes; one of both may be null, and neither dies before the capture.
+// The textures that a capture writes. One of both may be null; both must outlive the capture.
 struct CaptureTargets {
   const ProbeTexture* lobes = nullptr;
   const GridVolume* grid = nullptr;
@@ -76,11 +77,11 @@ struct CaptureSettings {
   std::uint32_t face_size_px = 64;
   std::uint32_t level = 0;
   std::uint32_t history = 1;  // maps
-  bool sky = false;           // suns stay out
+  bool sky = false;           // leaves suns out
   probe::Constraint constraint = probe::Constraint::bands;
 };
 
-// The light of a probe, as means over its maps.
+// The light of a probe, averaged over its maps.
 struct CaptureResult {
   std::uint32_t maps = 0;
   std::array<Vec3, probe::band_functions> harmonics{};
@@ -94,10 +95,10 @@ class ProbeCapture {
   // The functions change the state of the user `captures` in touched_state.h. All throw Failure.
   ProbeCapture(Device& device, const CaptureTargets& targets, const CaptureSettings& settings);
 
-  // Replaces what the targets hold of a probe, which exists, by its average over maps with this one. With
-  // restart, this map is the first one of the average.
+  // Replaces what the targets hold of an existing probe by its average over maps, including this one. With
+  // restart, this map begins a new average.
   void add(std::size_t probe, GLuint cube_map, bool restart);
-  // Both wait for the GPU. Without lobes the probes are of harmonics. Probes without a map are 0.
+  // Both wait for the GPU. Without lobes, the probes have harmonics. Probes without a map are 0.
   CaptureResult read(std::size_t probe) const;
   probe::Probes read_all() const;
 
@@ -128,7 +129,7 @@ class ProbeCapture {
   Device& device_;
   const CaptureTargets targets_;
   const CaptureSettings settings_;
-  const probe::Basis basis_;  // of the lobes, else harmonics of order 2
+  const probe::Basis basis_;  // with lobes, else harmonics of order 2
   const probe::Grid grid_;
   const CapturePlan plan_;
   FeedbackTarget feedback_;
@@ -139,7 +140,7 @@ class ProbeCapture {
   GLint mean_rows_ = -1, mean_scale_share_ = -1;
   TexelTable table_;
   Buffer rows_, sums_, numbers_;
-  Vector<std::uint32_t> maps_;  // of each probe
+  Vector<std::uint32_t> maps_;  // for each probe
 };
 
 }  // namespace nook::gl

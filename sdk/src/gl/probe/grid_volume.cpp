@@ -182,7 +182,7 @@ void GridVolume::update(const probe::Probes& probes) {
   grid_ = probes.grid;
 }
 
-// The texels of a probe are one in each layer.
+// A probe has one texel in each layer.
 void GridVolume::copy_probe(std::size_t index, GLuint buffer, std::uint64_t offset_bytes) const {
   const Functions& gl = device_.gl;
   gl.ActiveTexture(GL_TEXTURE0);

@@ -1,5 +1,5 @@
-// Grids of diffuse light as the half floats that shaders/probe/volume/host.glsl reads, and in a 3D texture of
-// them.
+// Stores grids of diffuse light as the half floats that shaders/probe/volume/host.glsl reads, and in a 3D
+// texture.
 #pragma once
 
 #include <array>
@@ -13,11 +13,12 @@
 namespace nook::gl {
 
 enum class GridForm : std::uint8_t { harmonics = 0, zonal = 1 };
-// The texels of a probe.
+// Returns the number of texels of a probe.
 std::uint32_t texels_of(GridForm form);
 
-// Layers as large as the grid, one behind the other along z: those of a probe's numbers, four a texel, then,
-// if there are walls, those of a cell's planes and of its sides' masks.
+// The texture has layers as large as the grid, one behind the other along z. First come the layers of a
+// probe's numbers, four to a texel. If there are walls, the layers of a cell's planes and of its sides' masks
+// follow.
 struct GridTexelPlan {
   GridForm form = GridForm::harmonics;
   std::uint32_t layers = 0;
@@ -27,20 +28,21 @@ struct GridTexelPlan {
 };
 GridTexelPlan plan_grid(const probe::Probes& probes, GridForm form);
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT): dice, or a coefficient that no half float holds.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for dice, or for a coefficient that does not fit into a half
+// float.
 Vector<std::uint16_t> grid_texels(const probe::Probes& probes, const GridTexelPlan& plan, Memory* memory);
 
-// The uniform nook_grid_frame.
+// Returns the uniform nook_grid_frame.
 std::array<float, 16> grid_frame(const probe::Probes& probes, const GridTexelPlan& plan);
 
 class GridVolume {
  public:
-  // Binds GL_TEXTURE_3D of unit 0. Both functions throw Failure; the texture keeps its old texels then.
+  // Binds GL_TEXTURE_3D of unit 0. Both functions throw Failure, and the texture then keeps its old texels.
   GridVolume(Device& device, const probe::Probes& probes, GridForm form);
   void update(const probe::Probes& probes);
 
-  // Replaces the numbers of one probe by a buffer's, as many texels of four floats as the form has; nothing
-  // waits. Binds GL_TEXTURE_3D of unit 0, GL_ARRAY_BUFFER and GL_PIXEL_UNPACK_BUFFER.
+  // Replaces the numbers of one probe by a buffer's, with as many texels of four floats as the form has.
+  // Nothing waits. Binds GL_TEXTURE_3D of unit 0, GL_ARRAY_BUFFER and GL_PIXEL_UNPACK_BUFFER.
   void copy_probe(std::size_t index, GLuint buffer, std::uint64_t offset_bytes) const;
 
   GridForm form() const { return form_; }

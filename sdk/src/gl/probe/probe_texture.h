@@ -1,4 +1,4 @@
-// Probes as the texels that shaders/probe/grid.glsl reads, and a probe or a grid in a table of them.
+// Stores probes as the texels that shaders/probe/grid.glsl reads, in a table for a probe or a grid.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,22 @@
 
 namespace nook::gl {
 
-// The texels, four floats each: counts and number of lobes; origin; 1 / spacing; axis and sharpness of each
-// lobe; then the amplitudes of each probe, where x varies fastest, then y, then z.
+// Returns the number of texels, which hold four floats each. They are counts and number of lobes; origin; 1 /
+// spacing; axis and sharpness of each lobe; then the amplitudes of each probe. x varies fastest, then y, then
+// z.
 std::uint64_t probe_texel_count(const probe::Probes& probes);
-// The texel of a probe's first amplitude.
+// Returns the texel of a probe's first amplitude.
 std::uint64_t first_amplitude_texel(std::uint32_t lobes, std::size_t probe);
 Vector<float> probe_texels(const probe::Probes& probes, Memory* memory);
 
 class ProbeTexture {
  public:
-  // Binds GL_ARRAY_BUFFER, and the table's target of unit 0. Both functions throw Failure; a texture buffer
-  // keeps its old texels then.
+  // Binds GL_ARRAY_BUFFER, and the table's target of unit 0. Both functions throw Failure, and a texture
+  // buffer then keeps its old texels.
   ProbeTexture(Device& device, const probe::Probes& probes);
   void update(const probe::Probes& probes);
 
-  // Replaces the amplitudes of one probe by texels of a buffer of the GPU, as TexelTable::copy does.
+  // Replaces the amplitudes of one probe by texels of a GPU buffer, as TexelTable::copy does.
   void copy_probe(std::size_t index, GLuint buffer, std::uint64_t offset_bytes) const;
 
   const probe::Basis& basis() const { return basis_; }
@@ -39,7 +40,7 @@ class ProbeTexture {
   probe::Grid grid_;
 };
 
-// Returns the text for the host's shaders: shaders/probe/host.glsl with everything that it includes.
+// Returns the text for the host's shaders: shaders/probe/host.glsl and everything it includes.
 const char* probe_glsl();
 
 }  // namespace nook::gl

@@ -1,4 +1,4 @@
-// The vectors of a shape's vertices in a table of texels, and the GLSL that reads them.
+// Stores the vectors of a shape's vertices in a table of texels, and returns the GLSL that reads them.
 #pragma once
 
 #include <span>
@@ -29,14 +29,14 @@ class TransferTexture {
   String source_;
 };
 
-// The paper's form in two tables of texels, one of the light and one of the vertices, and the GLSL that mixes
-// them.
+// Stores the paper's form in two tables of texels, one for the light and one for the vertices, and returns
+// the GLSL that mixes them.
 
 class PaperTexture {
  public:
   // Binds GL_ARRAY_BUFFER, and the tables' target of unit 0. Both functions throw Failure.
   PaperTexture(Device& device, const transfer::Transfer& transfer);
-  // fill(rows) writes what transfer::write_lit_rows does.
+  // fill(rows) writes the same as transfer::write_lit_rows.
   template <class Fill>
   void update(Fill&& fill) {
     light_.write(device_, light_texels_, [&](void* memory) {

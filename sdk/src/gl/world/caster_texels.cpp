@@ -16,10 +16,10 @@ constexpr std::array<std::uint8_t, world::max_part_casters> every_caster = [] {
   return order;
 }();
 
-// The parts of a prop or an occluder.
+// A prop or an occluder is a single part.
 constexpr world::CasterParts one_caster{1, {0, 1}, {}};
 
-// A sphere round the casters that `order` picks and the AO that they take far away, as caster_strength.
+// A sphere around the casters that `order` picks, and the AO they take far away, as in caster_strength.
 struct Bound {
   Vec3 centre;
   float radius = 0, strength = 0;
@@ -40,12 +40,12 @@ Bound bound_of(std::span<const PosedCaster> casters, std::span<const std::uint8_
   return bound;
 }
 
-// Strength and radius as casters.glsl unpacks them, both rounded up.
+// Packs strength and radius for casters.glsl, both rounded up.
 float packed_bound(const ReachingGroup& group) {
   const float strength = group.strength_over_cutoff;
   if (!(strength < NOOK_LARGEST_STRENGTH && group.radius < 0.99f * NOOK_LARGEST_RADIUS))
     return NOOK_ENDLESS_BOUND;
-  // 32,768 steps leave eight bits of the fraction, which the summand covers.
+  // 32,768 steps leave eight bits for the fraction; the added 0.005 covers their rounding.
   return std::ceil(strength * NOOK_STRENGTH_STEPS) + 0.005f + group.radius / NOOK_LARGEST_RADIUS;
 }
 

@@ -1,4 +1,4 @@
-// The table of casters that shaders/world/casters.glsl reads.
+// Writes the table of casters that shaders/world/casters.glsl reads.
 #pragma once
 
 #include <cstdint>
@@ -7,16 +7,16 @@
 
 namespace nook::gl {
 
-// From world to view space by a rotation and a translation, column-major.
+// Transforms from world to view space by a rotation and a translation, column-major.
 Vec3 viewed(const float* view, Vec3 p);
 
-// The same of a direction.
+// Transforms a direction.
 Vec3 turned(const float* view, Vec3 direction);
 
-// The texels of a group.
+// Returns the number of texels of a group.
 std::uint64_t texels_of(const ReachingGroup& group);
 
-// The texels of a group that casts the shadow of a cone.
+// Returns the number of texels of a group that casts the shadow of a cone.
 std::uint64_t shade_texels_of(const ReachingGroup& group);
 
 class CasterTexels {
@@ -24,10 +24,10 @@ class CasterTexels {
   // table: four floats for each texel of all bodies.
   CasterTexels(float* table, const float* view, std::uint32_t bodies);
 
-  // Bodies come in the order of their numbers.
+  // Call it for bodies in the order of their numbers.
   void put(std::uint32_t body, const ReachingGroup& group, float level_error);
 
-  // Begins the bodies that cast the shadow of a cone at a texel behind all others; they come in the order of
+  // Begins the bodies that cast the shadow of a cone, at a texel after all others. Pass them in the order of
   // their numbers.
   void begin_shades(std::uint64_t first, std::uint32_t bodies);
   void put_shade(std::uint32_t body, const ReachingGroup& group);

@@ -36,7 +36,7 @@ world::TileGrid grid_of(const WorldFrame& frame, std::uint32_t tile_px) {
   return grid;
 }
 
-// The groups that have casters.
+// Visits the groups that have casters.
 template <class Visit>
 void each_group(const ReachingGroups& groups, Visit&& visit) {
   for (std::uint32_t g = 0; g < groups.count; ++g) {

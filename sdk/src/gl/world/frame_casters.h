@@ -1,5 +1,6 @@
-// The casters of a frame in the table that shaders/world/casters.glsl reads: which groups reach what the view
-// shows, which cast the shadow of a cone into it, and for each tile of the picture the lists of both.
+// Writes the casters of a frame to the table that shaders/world/casters.glsl reads. It chooses the groups
+// that reach what the view shows and the groups that cast the shadow of a cone into it. For each tile of the
+// picture it lists both.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +11,10 @@
 
 namespace nook::gl {
 
-// The lists of a pass.
+// How a pass makes its lists.
 struct ListForm {
-  std::uint32_t tile_px = 32;  // along a side, at least
-  bool near = false;           // a second list, of what is nearer than its merging distance
+  std::uint32_t tile_px = 32;  // minimum number of pixels along a side
+  bool near = false;           // adds a second list, of what is nearer than its merging distance
 };
 
 class FrameCasters {
@@ -21,7 +22,7 @@ class FrameCasters {
   // unit: the texture unit of the table.
   FrameCasters(Memory* memory, GLuint unit, ListForm form);
 
-  // Makes room for so many casters. Throws Failure.
+  // Makes room for this many casters. Throws Failure.
   void reserve(Device& device, std::uint32_t casters);
 
   // Chooses the groups of a frame, and writes them and their lists to the table. Throws Failure before
@@ -32,10 +33,10 @@ class FrameCasters {
   const TexelTable& table() const { return table_; }
   std::uint32_t group_count() const { return static_cast<std::uint32_t>(reaching_.groups.size()); }
   std::uint32_t caster_count() const { return caster_count_; }
-  // A body may be beyond its merging distance.
+  // True if a body may be beyond its merging distance.
   bool far() const { return far_; }
 
-  // Where the lists begin in the table, texels, and the columns of their tiles; 0 without a list.
+  // Where the lists begin in the table, in texels, and how many columns of tiles they have; 0 without a list.
   std::uint32_t tile_px() const { return tile_px_; }
   std::uint32_t columns() const { return columns_; }
   std::uint32_t first_tile() const { return reaching_.first_tile; }
@@ -45,11 +46,11 @@ class FrameCasters {
   std::uint32_t first_shade() const { return first_shade_; }
 
  private:
-  // Groups with the tiles that they reach.
+  // Groups and the tiles they reach.
   struct TileLists {
     explicit TileLists(Memory* memory) : groups(memory), ranges(memory), texels(memory) {}
     void clear();
-    // Writes the lists behind the first `used` texels of the table, and adds theirs.
+    // Writes the lists after the first `used` texels of the table, and adds their texels to `used`.
     void write(const world::TileGrid& grid, std::uint64_t& used);
 
     Vector<std::uint32_t> groups;
@@ -58,12 +59,12 @@ class FrameCasters {
     std::uint32_t first_tile = 0;
   };
 
-  // Each returns the texels of the groups that it chose.
+  // Each returns the texels of the groups it chose.
   std::uint64_t choose_reaching(const WorldFrame& frame, const world::TileGrid& grid,
                                 const ReachingGroups& groups);
   std::uint64_t choose_shades(const WorldFrame& frame, const world::TileGrid& grid,
                               const ReachingGroups& groups);
-  // Doubles the tiles until their lists fit the table behind `texels`. Throws Failure.
+  // Doubles the size of the tiles until their lists fit the table after `texels`. Throws Failure.
   void fit_tiles(const Device& device, world::TileGrid& grid, std::uint64_t texels);
   // Chooses groups and tiles, and returns the texels of the whole table.
   std::uint64_t choose(const Device& device, const WorldFrame& frame, const ReachingGroups& groups);
@@ -71,13 +72,14 @@ class FrameCasters {
 
   TexelTable table_;
   ListForm form_;
-  TileLists reaching_, near_, shades_;  // near_ has no groups of its own: its ranges are of those that reach
+  TileLists reaching_, near_, shades_;  // near_ has no groups of its own: it shares reaching_'s
   bool far_ = false;
   std::uint32_t caster_count_ = 0, tile_px_ = 32, columns_ = 0, light_columns_ = 0, first_shade_ = 0;
 };
 
-// The half angle, radians, in which a cone's light counts: each part of a cone takes a capsule as a
-// rectangle, whose corners reach beyond its round ends by less than a third of a part. slope: of the parts.
+// Returns the half angle, in radians, within which a cone's light counts. Each part of a cone takes a capsule
+// for a rectangle, whose corners reach beyond its round ends by less than a third of a part. slope: of the
+// parts.
 float angle_round(const LightCone& cone, float slope);
 
 }  // namespace nook::gl

@@ -17,29 +17,29 @@ namespace nook::gl {
 struct ReachingGroup {
   std::span<const PosedCaster> casters;
   Vec3 centre;
-  float radius = 0;    // of a sphere round them
-  float reach = 0;     // metres from the centre; no point beyond it is darkened
-  float strength = 0;  // square metres, see caster_strength
-  // Square metres; the AO that they take at the distance d is at most cutoff_error times this / d^2.
+  float radius = 0;    // of a sphere around them
+  float reach = 0;     // metres from the centre; points beyond it are not darkened
+  float strength = 0;  // square metres; see caster_strength
+  // In square metres. At the distance d, the casters take at most cutoff_error times this / d^2 of AO.
   float strength_over_cutoff = 0;
   const world::CasterParts* parts = nullptr;  // NULL: one caster
 
-  // Metres from the centre where one capsule begins to stand for the casters.
+  // Returns the distance in metres from the centre at which one capsule begins to stand for the casters.
   float merging_distance(float level_error) const {
-    // One caster has no level below it.
+    // A single caster cannot be merged any further.
     return world::merging_distance(strength, radius, parts ? level_error : 0);
   }
 };
 
-// The groups of a frame. group(index) is called for each at most twice, and what it returns lives until the
-// next call.
+// The groups of a frame. group(index) is called at most twice for each, and its result lives until the next
+// call.
 struct ReachingGroups {
   std::uint32_t count = 0;
   const void* user = nullptr;
   ReachingGroup (*group)(const void* user, std::uint32_t index, PosedCaster& room) = nullptr;
 };
 
-// No point is beyond this reach; its square is still a float.
+// Every point is within this reach; its square is still a float.
 inline constexpr float endless_reach = 1e15f;
 
 // A cone of light, in world space.
@@ -51,13 +51,13 @@ struct LightCone {
 
 // A frame that passed its checks.
 struct WorldFrame {
-  NnaoFrame& screen;  // whose images the pass learns about
+  NnaoFrame& screen;  // the pass stores what it learns about its images
   const float* view;  // column-major
   std::uint32_t ao_texture = 0;
   nook_world_combine composition = NOOK_WORLD_COMBINE_MULTIPLY;
   float level_error = 0;
   nook_world_view show = NOOK_WORLD_VIEW_AO;
-  world::LightTerms light;  // in view space; of coloured passes
+  world::LightTerms light;  // in view space, for coloured passes
   std::optional<LightCone> cone;
 };
 

@@ -15,13 +15,13 @@
 namespace nook::gl {
 namespace {
 
-// Textures that only this pass has. Those that are not read by the same stage share a unit. The upsample
-// reads the depth of every fourth pixel beside a layer, the stages of AO beside normals.
+// Textures that only this pass has. Textures that no stage reads together share a unit. The upsample reads
+// the depth of every fourth pixel beside a layer; the stages of AO read it beside normals.
 constexpr GLuint caster_unit = filter_unit, half_ao_unit = filter_unit;
 constexpr GLuint upsample_depth_unit = NOOK_UNIT_NORMAL, darkening_depth_unit = NOOK_UNIT_LAYER;
 constexpr GLuint other_ao_unit = NOOK_UNIT_MOTION, far_unit = NOOK_UNIT_MOTION;
 
-// The frame's constants of the screen pass that this pass does not use have the values of such a pass.
+// Returns default values for the screen pass's constants that this pass does not use.
 NnaoSettings plain_pass(const nook_world_desc& world) {
   NnaoSettings desc{};
   desc.max_width = world.max_width;
@@ -36,13 +36,13 @@ TextureFormat result_format(bool coloured) {
   return coloured ? TextureFormat::bent_ao : TextureFormat::ao;
 }
 
-// Pixels along a side for each texel of the far bodies' AO. A texel stands for about so much of the picture
-// that a body's merging distance has several, also where the floor is seen at a grazing angle.
+// A texel of the far bodies' AO has this many pixels along a side. It covers so little of the picture that a
+// body's merging distance spans several texels, even where the floor is seen at a grazing angle.
 constexpr int far_step(int max_height) {
   return max_height >= 1000 ? NOOK_FAR_STEP : max_height >= 500 ? 4 : 2;
 }
 
-// Pixels along a side of a tile of lists; a group of threads lies in one.
+// Pixels along a side of a tile of lists; each group of threads lies in one tile.
 constexpr std::uint32_t tile_px(bool computes, int far_step) {
   return computes ? std::max(32u, std::uint32_t(NOOK_WORLD_GROUP_SIZE * far_step)) : 32u;
 }
@@ -139,7 +139,7 @@ WorldPass::Stage WorldPass::make_stage(Object program) const {
 }
 
 TextureFormat WorldPass::half_format() const {
-  // OpenGL ES 3.1 writes no GL_R8 from a compute shader.
+  // OpenGL ES 3.1 cannot write GL_R8 from a compute shader.
   const bool red = computes_ && !device_.gl.can.r8_images && !coloured_;
   return red ? TextureFormat::ao_image : result_format(coloured_);
 }
@@ -199,7 +199,7 @@ void WorldPass::set_light(const Stage& stage, const WorldFrame& frame) const {
   gl.Uniform1i(stage.first_light_tile, static_cast<GLint>(casters_.first_light_tile()));
   gl.Uniform1i(stage.first_shade, static_cast<GLint>(casters_.first_shade()));
   if (!frame.cone) return;
-  // The parts lie as in nook_world_sample, whatever the view.
+  // The parts are the same as in nook_world_sample, whatever the view.
   const world::ConeParts parts = world::cone_parts_of(frame.cone->axis, frame.cone->half_angle_radians);
   std::array<float, 4 * NOOK_CONE_VEC4S> cone{};
   const auto put = [&](std::size_t i, Vec3 v, float w) {

@@ -1,9 +1,9 @@
-// Casters darken what a depth buffer shows.
+// Draws how casters darken what a depth buffer shows.
 //   full resolution  host depth -> AO and result
 //   half resolution  host depth -> depth of every fourth pixel; AO by far bodies of fewer still; AO of every
 //                    fourth by near bodies, times that -> upsample and result
-// Where there are compute shaders that write images, both stages of AO at half resolution are dispatches
-// whose groups leave out the bodies that reach none of their surfaces.
+// If compute shaders can write images, both stages of AO at half resolution are dispatches. Their groups skip
+// bodies that reach none of their surfaces.
 #pragma once
 
 #include <nook/nook_world.h>
@@ -17,7 +17,7 @@
 
 namespace nook::gl {
 
-// Every call may change any of the touched state of the user `screen`, and of uploads; the caller holds a
+// Every call may change any of the touched state of the user `screen`, and of uploads; the caller must hold a
 // StateGuard.
 class WorldPass : public ScreenPass {
  public:
@@ -29,7 +29,7 @@ class WorldPass : public ScreenPass {
 
   // Returns true if the pass has stages that are compute shaders.
   bool computes() const { return computes_; }
-  // Those of the last frame.
+  // Returns the last frame's casters.
   const FrameCasters& casters() const { return casters_; }
   std::uint64_t bytes() const;
 
@@ -51,14 +51,14 @@ class WorldPass : public ScreenPass {
   void set_light(const Stage& stage, const WorldFrame& frame) const;
   void set_frame(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants) const;
   void draw_depth(const WorldFrame& frame, const FrameConstants& constants) const;
-  // Runs the stage of AO at half resolution whose program is in use.
+  // Runs the current program, a stage of AO at half resolution.
   void darken(const RenderTexture& target, int width, int height) const;
   void darken_half(const WorldFrame& frame, const FrameConstants& constants) const;
   const Stage& output_of(const WorldFrame& frame) const;
 
   bool half_, coloured_, computes_;
   int far_step_;                                             // pixels
-  Stage output_, layered_output_, counts_;                   // at half resolution the upsample
+  Stage output_, layered_output_, counts_;                   // at half resolution, these upsample
   Stage half_depth_, masked_half_depth_, half_ao_, far_ao_;  // masked: without replaced pixels
   RenderTexture far_texture_;
   RenderTexture depth_, ao_;  // depth and AO of every fourth pixel

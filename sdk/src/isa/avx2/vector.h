@@ -99,8 +99,8 @@ inline Float select(Mask m, Float yes, Float no) {
 inline Float sqrt(Float a) {
   return _mm256_sqrt_ps(a.v);
 }
-// The divider is idle beside the other ports, so that its square root costs less than an estimate with a
-// Newton step.
+// The divider is idle beside the other ports, so its square root costs less than an estimate with a Newton
+// step.
 inline Float sqrt_positive(Float a) {
   return _mm256_sqrt_ps(a.v);
 }

@@ -26,7 +26,7 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return _mm512_loadu_ps(p);
 }
-// Whole numbers of 32 bits, in halves: products of 16 bits in vectors of 512 are no part of AVX-512F.
+// Whole numbers of 32 bits, in halves: AVX-512F does not multiply 16-bit numbers in 512-bit vectors.
 struct Whole {
   __m256i a, b;
 };

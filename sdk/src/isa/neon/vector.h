@@ -1,4 +1,4 @@
-// Four floats for NEON (Advanced SIMD) of 64-bit ARM, which each of its processors has.
+// Four floats for NEON (Advanced SIMD), which every 64-bit ARM processor has.
 #pragma once
 
 #include <arm_neon.h>
@@ -77,8 +77,8 @@ inline Float operator/(Float a, Float b) {
 inline Float fma(Float a, Float b, Float c) {
   return vfmaq_f32(c.v, a.v, b.v);
 }
-// These return the number where the other operand is NaN. Those of x86 return the second operand if either is
-// NaN, which is the same for all callers: their second operand is never NaN.
+// These return the number if the other operand is NaN. The x86 versions return the second operand if either
+// is NaN. For all callers that is the same: their second operand is never NaN.
 inline Float min(Float a, Float b) {
   return vminnmq_f32(a.v, b.v);
 }
@@ -106,8 +106,8 @@ inline Float sqrt(Float a) {
 }
 
 // The processor's estimate r of 1 / sqrt(a) has 8 bits. The functions below multiply it by a power of a r^2 =
-// 1 - e, with |e| < 0.008, as three terms of its series in e, written in powers of a r^2: one multiplication
-// less than in powers of e. The relative errors are 5/16 e^3 and 35/16 e^3, below 2e-7 and 2e-6.
+// 1 - e, with |e| < 0.008. They use three terms of its series in e, written in powers of a r^2, which saves
+// one multiplication. The relative errors are 5/16 e^3 and 35/16 e^3, below 2e-7 and 2e-6.
 
 // Returns (1 - e)^(-1/2) for u = 1 - e.
 inline Float inverse_root_near_one(Float u) {

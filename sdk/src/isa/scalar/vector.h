@@ -1,5 +1,5 @@
-// One float at a time: the reference of the other instruction sets, and what processors without one of them
-// run.
+// One float at a time: the reference for the other instruction sets, and the fallback for processors without
+// any of them.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ inline void load_pairs(const std::int16_t* p, Float& first, Float& second) {
   first = p[0];
   second = p[1];
 }
-// To the nearest, as the vectors round.
+// Rounds to the nearest, as the vectors do.
 inline void store_codes(std::int32_t* low, std::int32_t* high, Float a) {
   const auto code = static_cast<std::uint32_t>(std::lrint(a));
   *low = static_cast<std::int32_t>(code & 0xffff);

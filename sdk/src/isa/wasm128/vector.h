@@ -1,4 +1,4 @@
-// Four floats for the fixed-width SIMD of WebAssembly. It has no multiply-add and no estimates of roots.
+// Four floats for the fixed-width SIMD of WebAssembly, which has neither multiply-add nor estimates of roots.
 #pragma once
 
 #include <wasm_simd128.h>
@@ -109,7 +109,7 @@ inline Float power_three_halves(Float a) {
 inline Float rsqrt(Float a) {
   return Float(1.0f) / sqrt(a);
 }
-// One root and one division. Beyond 5e25 a^(3/2) is infinite and the result 0.
+// Takes one root and one division. Beyond 5e25, a^(3/2) is infinite and the result is 0.
 inline Float rsqrt_cubed(Float a, float scale) {
   return Float(scale) / (a * sqrt(a));
 }
@@ -123,8 +123,8 @@ inline void split(Float a, Float& exponent, Float& mantissa) {
 inline Float nearest(Float a) {
   return wasm_f32x4_nearest(a.v);
 }
-// The conversion to integers saturates, which takes several instructions. The sum with 1.5 * 2^23 has n in
-// its lowest bits instead.
+// The conversion to integers saturates, which takes several instructions. Adding 1.5 * 2^23 puts n into the
+// lowest bits instead.
 inline Float times_power_of_two(Float a, Float n) {
   const v128_t bits = (n + Float(12582912.0f)).v;
   return a * Float(wasm_i32x4_shl(wasm_i32x4_add(bits, wasm_i32x4_splat(127)), 23));
