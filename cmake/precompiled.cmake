@@ -1,14 +1,17 @@
-# Precompiled headers for everything but the product. Most of what a translation unit costs is the parsing of the standard
-# library, of Catch2, of Eigen and of nlohmann-json. The library itself is compiled plainly, as who builds it does, but under the
-# sanitizers, where it is all that is built, and with NOOK_PRECOMPILE_LIBRARY, which samples/run.sh sets.
+# Precompiled headers for everything but the product. Most of the cost of a translation unit is parsing the
+# standard library, Catch2, Eigen and nlohmann-json. The library itself is compiled plainly, as its users
+# compile it. There are two exceptions: under the sanitizers, where nothing else is built, and with
+# NOOK_PRECOMPILE_LIBRARY, which samples/run.sh sets.
 #
-# Programs (the tool, samples and tests) are compiled with -O1: they wait for the rooms, which keep their optimisation, and a third
-# of the time to compile them went into optimising. Those that measure time keep theirs, and have no precompiled header.
+# Programs (the tool, samples and tests) are compiled with -O1. They only wait for the rooms, which keep their
+# optimisation, and optimising took a third of their compile time. Programs that measure time keep their
+# optimisation, and have no precompiled header.
 #
-# A library with the property NOOK_PROGRAM_PART is compiled as programs are.
+# A library with the property NOOK_PROGRAM_PART is compiled like a program.
 #
-# One precompiled header serves all targets whose flags are the same: position-independent code of libraries is not that of
-# programs. Each target below compiles one empty source, from which the others take the header.
+# One precompiled header serves all targets with the same flags; libraries and programs differ in
+# position-independent code. Each target below compiles one empty source, and the others take the header from
+# it.
 
 # nook_precompiled(NAME TYPE HEADER...): the headers, compiled with the flags of all targets. CMake wants a header for C as well
 # where targets have sources in C.
@@ -29,8 +32,8 @@ function(nook_precompiled name type)
   target_precompile_headers(${name} PRIVATE ${ARGN} $<$<COMPILE_LANGUAGE:C>:<stddef.h$<ANGLE-R>>)
 endfunction()
 
-# nook_cxx_options(RESULT TARGET): the target's options for C++. Those of both languages in bakers/ and tests/bakers under the
-# sanitizers are in CMAKE_CXX_FLAGS as well.
+# nook_cxx_options(RESULT TARGET): the target's options for C++. Under the sanitizers, bakers/ and
+# tests/bakers also have options for both languages in CMAKE_CXX_FLAGS.
 function(nook_cxx_options result target)
   get_target_property(options ${target} COMPILE_OPTIONS)
   string(REGEX REPLACE "\\$<\\$<COMPILE_LANGUAGE:C>:[^>]*>" "" options "${options}")
@@ -48,8 +51,8 @@ function(nook_kind result target)
   set(${result} ${type} PARENT_SCOPE)
 endfunction()
 
-# nook_precompiled_name(RESULT TARGET): the target that has the precompiled headers of this one, or nothing where none has its
-# options.
+# nook_precompiled_name(RESULT TARGET): the target that has the precompiled headers of this one; nothing if no
+# target has its options.
 function(nook_precompiled_name result target)
   set(${result} "" PARENT_SCOPE)
   get_target_property(standard ${target} CXX_STANDARD)
@@ -73,7 +76,7 @@ function(nook_precompiled_name result target)
   endforeach()
 endfunction()
 
-# nook_precompile_directory(DIRECTORY): the targets of this directory and of those below take precompiled headers.
+# nook_precompile_directory(DIRECTORY): the targets of this directory and below take precompiled headers.
 function(nook_precompile_directory directory)
   get_property(targets DIRECTORY ${directory} PROPERTY BUILDSYSTEM_TARGETS)
   foreach(target IN LISTS targets)
@@ -93,10 +96,10 @@ function(nook_precompile_directory directory)
     add_dependencies(${target} ${precompiled})
     # These warnings of gcc 12 see faults inside the standard library's own strings once its headers come precompiled.
     target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread>)
-    # Not those in C, and not those with flags of their own.
+    # Skips targets in C, and targets with their own flags.
     get_target_property(sources ${target} SOURCES)
     list(FILTER sources INCLUDE REGEX "\\.(c|cpp)$")
-    # Properties of relative names would be those of files in the folder of this script.
+    # Relative names would mean files in the folder of this script.
     get_target_property(folder ${target} SOURCE_DIR)
     foreach(name IN LISTS sources)
       cmake_path(ABSOLUTE_PATH name BASE_DIRECTORY ${folder} OUTPUT_VARIABLE source)

@@ -7,8 +7,8 @@ function(nook_target_options target)
   if(NOOK_WERROR)
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Werror>)
   endif()
-  # MSVC reads sources in the code page of the machine, accepts what is no C++ and hides the version of the language, without
-  # these options. It warns of standard functions of C, such as fopen.
+  # Without these options, MSVC reads sources in the code page of the machine, accepts what is not C++ and
+  # hides the version of the language. It warns of standard C functions, such as fopen.
   if(MSVC)
     target_compile_options(${target} PRIVATE /utf-8 $<$<COMPILE_LANGUAGE:CXX>:/permissive- /Zc:__cplusplus>)
     target_compile_definitions(${target} PRIVATE _CRT_SECURE_NO_WARNINGS)

@@ -69,7 +69,7 @@ notices() {
 
 source_archive() {
   archive "$out/release/$name.tar.gz" "$out" "$name"
-  # The archive holds the tree, no file more and none less.
+  # The archive must hold exactly the files of the tree.
   rm -rf "$out/from-archive"
   mkdir -p "$out/from-archive"
   tar xz -C "$out/from-archive" < "$out/release/$name.tar.gz"
@@ -78,13 +78,13 @@ source_archive() {
 
 python_module() {
   local python=python3 module=$out/python-consumer
-  # numpy may belong to the system's interpreter alone.
+  # Only the system's interpreter may have numpy.
   "$python" -c "import numpy" 2> /dev/null || python=/usr/bin/python3
   "$python" "$tree/packaging/python/read_headers.py" --check
   "$python" "$tree/packaging/python/make_wheel.py" "$version" "$out/release"
   mkdir -p "$module"
   "$python" -m zipfile -e "$out"/release/nook_ao-*.whl "$module"
-  # Layouts need a C compiler alone; with a library in NOOK_LIBRARY the whole module runs.
+  # Layouts need only a C compiler; with a library in NOOK_LIBRARY, the whole module runs.
   (cd "$module" && PYTHONPATH=$module "$python" "$tree/tests/python/layouts_test.py")
   if [ -n "${NOOK_LIBRARY:-}" ]; then (cd "$module" && PYTHONPATH=$module "$python" "$tree/tests/python/module_test.py"); fi
 }

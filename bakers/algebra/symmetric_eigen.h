@@ -1,5 +1,5 @@
-// Eigenvalues of symmetric matrices, for every room that makes or measures data. Eigen's solver stands in one
-// source, because each source that instantiates it takes seconds longer to compile.
+// Eigenvalues of symmetric matrices, for every room that makes or measures data. Only one source uses Eigen's
+// solver, because each source that instantiates it takes seconds longer to compile.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ struct SymmetricEigen {
 // Reads the lower triangle of a square matrix.
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& symmetric);
 
-// The values alone.
+// Returns only the values.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& symmetric);
 
 }  // namespace nook::bake

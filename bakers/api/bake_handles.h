@@ -35,7 +35,7 @@ nook_bake_job_s* start_job(const Desc& d, BakeJob::Bake bake) {
 
 using Starter = nook_bake_job_s* (*)(const void* desc);
 
-// Returns nullptr for a type that is no bake. bake_starters.cpp knows every bake; a library of characters
+// Returns nullptr for a type that is not a bake. bake_starters.cpp knows every bake. A library of characters
 // alone links character_starters.cpp instead, and with it none of the other bakers.
 Starter starter_of(std::uint32_t type);
 

@@ -1,4 +1,4 @@
-// The starts of all bakes but that of a character, which job.cpp has. What a job reads lives as long as the
+// Starts all bakes except the bake of a character, which is in job.cpp. What a job reads lives as long as the
 // job.
 #include <nook/experimental/nook_bake_materials.h>
 #include <nook/nook_bake.h>

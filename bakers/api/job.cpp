@@ -1,4 +1,4 @@
-// Bake jobs: their start by the type of a descriptor, the bake of a character's model, and the life of a job.
+// Starts a bake by the type of its descriptor, bakes a character's model, and owns the life of a job.
 #include <nook/nook_bake.h>
 
 #include "bakers/api/bake_descriptors.h"

@@ -20,12 +20,14 @@ namespace {
 // ridge and from 0 to 2 per square metre for the positions.
 constexpr double ridge = 3e-3;
 constexpr double position_weight_per_m2 = 1;
-// Of the spheres. The error of neighbours falls by a fifth with 3, and hardly further with 30.
+// The weight of the spheres' term. A weight of 3 lowers the error of neighbours by a fifth, and 30 hardly
+// lowers it further.
 constexpr double sphere_weight = 10;
 constexpr std::size_t spheres_per_pose = 16;
-// In radii of the body: from a hand's breadth to where a body is seen under a small angle.
+// In radii of the body. The nearest sphere is a hand's breadth away; from the farthest, the body is a small
+// angle.
 constexpr float nearest_sphere = 0.15f, farthest_sphere = 4, sphere_radius = 0.15f;
-// Many times more than a vertex has entries.
+// Many times more poses than a vertex has entries.
 constexpr std::size_t max_poses = 64;
 
 struct Frame {
@@ -61,7 +63,8 @@ std::vector<PosedBody> posed_bodies(const CharacterModel& model, const SkinnedMe
   return bodies;
 }
 
-// Normal equations of the weights, sum to one included: (gram, 1; 1, 0) (w, multiplier) = (right, 1).
+// Normal equations of the weights. They include the constraint that the weights sum to 1: (gram, 1; 1, 0) (w,
+// multiplier) = (right, 1).
 struct Equations {
   Eigen::MatrixXd gram;
   Eigen::VectorXd right;
@@ -72,7 +75,7 @@ struct TestSphere {
   float radius = 0;
   double weight = 0;
 
-  // Of the hemisphere above a place, clipped at its horizon.
+  // Returns the share of the hemisphere above a place that the sphere covers, clipped at the horizon.
   double share(const Frame& frame) const {
     const Vec3 d = (centre - frame.position) * (1 / radius);
     return double(form_factor_exact(dot(d, frame.normal), dot(d, d)));
@@ -90,7 +93,7 @@ TestSphere random_sphere(Random& random, Vec3 vertex, float body_radius) {
   return sphere;
 }
 
-// Adds the spheres round a vertex of one pose. `share` has room for its key points.
+// Adds the spheres around a vertex in one pose. `share` has room for the vertex's key points.
 void add_spheres(Equations& e, const PosedBody& body, std::size_t vertex,
                  std::span<const std::uint16_t> key_point, float body_radius, Random& random,
                  Eigen::VectorXd& share) {
@@ -117,7 +120,7 @@ Equations equations_of(const std::vector<PosedBody>& bodies, std::size_t vertex,
     const Frame& own = body.vertex[vertex];
     for (Eigen::Index k = 0; k < n; ++k) {
       const Frame& f = body.key_point[key_point[std::size_t(k)]];
-      // Positions relative to the vertex: those of a sum of weights 1 then ought to vanish.
+      // Positions are relative to the vertex. Weights with the sum 1 then should make them vanish.
       const Vec3 away = f.position - own.position;
       rows.col(k) << double(f.normal.x), double(f.normal.y), double(f.normal.z), c * double(away.x),
           c * double(away.y), c * double(away.z);
@@ -126,7 +129,8 @@ Equations equations_of(const std::vector<PosedBody>& bodies, std::size_t vertex,
     wanted << double(own.normal.x), double(own.normal.y), double(own.normal.z), 0, 0, 0;
     e.gram += rows.transpose() * rows;
     e.right += rows.transpose() * wanted;
-    // The same spheres for all vertices of a pose, as seen from each, so that those side by side blend alike.
+    // All vertices of a pose use the same spheres relative to themselves, so that vertices side by side blend
+    // alike.
     Random random(b);
     add_spheres(e, body, vertex, key_point, body_radius, random, share);
   }
@@ -136,7 +140,7 @@ Equations equations_of(const std::vector<PosedBody>& bodies, std::size_t vertex,
   return e;
 }
 
-// The first `free` weights, the others as they are.
+// Solves for the first `free` weights and leaves the others as they are.
 void solve_free(const Equations& e, Eigen::Index free, Eigen::VectorXd& weight) {
   const Eigen::Index fixed = weight.size() - free;
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(free + 1, free + 1);
@@ -155,7 +159,7 @@ Eigen::VectorXd rounded_weights(const Equations& e) {
     solve_free(e, free, weight);
     weight[free - 1] = double(decode_blend(encode_blend(float(weight[free - 1]))));
   }
-  // All others are whole steps, so this one is as well.
+  // All other weights are whole steps, so this one is a whole step as well.
   weight[0] = 1 - weight.tail(weight.size() - 1).sum();
   return weight;
 }

@@ -9,12 +9,12 @@
 namespace nook::bake {
 namespace {
 
-// Poses of one task; each has sums of its own, added in order afterwards, so that threads do not change the
-// bits.
+// Poses of one task. Each task has its own sums, which are added in order afterwards, so that threads do not
+// change the bits.
 constexpr std::size_t block_poses = 32;
 
-// Returns the quadratic form of a block's shadows (count x padded) without its constant, and turns them, in
-// place, into its gradient by them.
+// Returns the quadratic form of a block's shadows (count x padded) without its constant. Replaces the shadows
+// by the gradient of the form with respect to them.
 double quadratic_form(const CachedObjective& cache, std::size_t first, std::size_t count, float* shadow) {
   const auto rows = Eigen::Index(count);
   Eigen::Map<CachedObjective::RowMatrix> x(shadow, rows, cache.a.rows());
@@ -72,7 +72,7 @@ double evaluate_cached(const FitState& state, const TrainingSet& set, const Cach
     partial[b].assign(state.parameters.size(), 0.0f);
     std::vector<float> again(padded);
     for (std::size_t t = 0; t < count; ++t) {
-      // The workspace holds one pose; a second forward is cheaper than keeping all of them.
+      // The workspace holds one pose. A second forward pass costs less than memory for all of them.
       layer.forward(set.poses[first + t], state.parameters, workspace, again.data());
       layer.backward(set.poses[first + t], state.parameters, workspace, &shadow[t * padded], 1, partial[b]);
     }
@@ -119,7 +119,7 @@ double descend_non_linear(FitState& state, const TrainingSet& set, const LbfgsSe
   try {
     solver.minimize(objective, x, reached);
   } catch (const std::runtime_error&) {
-    // A line search that finds no better point ends the block; the best point so far stands.
+    // A line search that finds no better point ends the block. The best point so far is kept.
   } catch (const std::logic_error&) {
   }
   state.parameters = best;

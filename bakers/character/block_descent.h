@@ -11,7 +11,7 @@
 namespace nook::bake {
 
 // The squared error as a quadratic form of the shadows, with the linear layer folded into matrices (Le et al.
-// 2019, slides 55 to 57): what block coordinate descent minimises over the non-linear layer.
+// 2019, slides 55 to 57). Block coordinate descent minimises it over the non-linear layer.
 
 // E = sum over poses of  shadow^T A shadow - 2 B_t^T shadow + constant, divided by poses * vertices, with
 // A = sum_i w_i alpha_i alpha_i^T and B_t = sum_i w_i alpha_i (1 - beta_i - target_ti). The paper prints + 2
@@ -25,9 +25,9 @@ struct CachedObjective {
 
 CachedObjective cache_linear_layer(const FitState& state, const TrainingSet& set);
 
-// Error over the fitted poses, unclamped and weighted by set.vertex_weight, and its gradient by the
-// non-linear parameters (resized and overwritten; may be null). It costs poses x key points^2, where a sum
-// over vertices would cost poses x vertices x entries with a scattered gather.
+// Returns the error over the fitted poses, unclamped and weighted by set.vertex_weight. Overwrites and
+// resizes its gradient with respect to the non-linear parameters, which may be null. The cost is poses x key
+// points^2. A sum over vertices would cost poses x vertices x entries, with a scattered gather.
 double evaluate_cached(const FitState& state, const TrainingSet& set, const CachedObjective& cache,
                        std::vector<double>* gradient);
 
@@ -36,8 +36,8 @@ struct LbfgsSettings {
   int history = 10;
 };
 
-// One block: lowers the cached objective over the non-linear parameters. Returns the error it ends with;
-// parameters never get worse than they came.
+// Runs one block: lowers the cached objective over the non-linear parameters. Returns the final error, which
+// is never above the first.
 double descend_non_linear(FitState& state, const TrainingSet& set, const LbfgsSettings& settings);
 
 }  // namespace nook::bake

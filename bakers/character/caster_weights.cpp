@@ -20,7 +20,7 @@ struct Point {
   Vec3 position, normal;
 };
 
-// A direction spread evenly over the sphere from two uniform numbers.
+// Maps two uniform numbers to a direction that is uniform over the sphere.
 Vec3 sphere_direction(float u, float v) {
   const float z = 2 * u - 1, r = std::sqrt(std::max(0.0f, 1 - z * z)), a = 2 * std::numbers::pi_v<float> * v;
   return {r * std::cos(a), r * std::sin(a), z};
@@ -30,7 +30,7 @@ std::vector<Point> points_round(Vec3 centre, float radius, std::size_t count, st
   std::vector<Point> points(count);
   Random random(seed);
   for (Point& p : points) {
-    // Even in the logarithm of the distance: every scale counts alike.
+    // The distances are uniform in the logarithm, so that every scale counts alike.
     const float distance = radius * 0.3f * std::pow(8 / 0.3f, random.unit());
     const float u = random.unit(), v = random.unit();
     p.position = centre + distance * sphere_direction(u, v);
@@ -42,7 +42,7 @@ std::vector<Point> points_round(Vec3 centre, float radius, std::size_t count, st
   return points;
 }
 
-// In front of random vertices, 0.03 to 0.5 body radii away, turned towards the surface.
+// Returns points in front of random vertices, 0.03 to 0.5 body radii away, turned towards the surface.
 std::vector<Point> points_near(std::span<const Vec3> position, std::span<const Vec3> normal, float radius,
                                std::size_t count, std::uint64_t seed) {
   std::vector<Point> points(count);
@@ -66,7 +66,7 @@ std::vector<Point> fit_points(std::span<const Vec3> position, std::span<const Ve
   return points;
 }
 
-// The sum over spheres whose solid_depth is `depth`.
+// Returns the sum over spheres whose solid_depth is `depth`.
 double sum_of_solid_depth(double depth) {
   constexpr double c = NOOK_SOLID_DEPTH;
   return (std::sqrt(1 + 4 * c * depth) - 1) / (2 * c);
@@ -110,11 +110,12 @@ void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::spa
             (transform_point(pose[sphere.bone], sphere.centre) - points[i].position) * inverse_radius;
         row[Eigen::Index(h)] = double(form_factor_fast(dot(d, points[i].normal), dot(d, d)));
       }
-      // Points inside the body see nothing and say nothing about it from outside.
+      // Points inside the body are fully occluded and say nothing about the body from outside.
       const double occlusion = 1 - double(ao[i]);
       if (occlusion > 0.97) continue;
       const double depth = sum_of_solid_depth(-std::log1p(-occlusion));
-      // The expected depth, not the noisy traced one, sets the weight, or lucky rays would count more.
+      // The weight depends on the expected depth and not on the noisy traced one, or lucky rays would count
+      // more.
       const double expected = std::max(row.sum() * 0.5, 1e-4);
       const double weight = 1 / ((expected + 0.003) * (expected + 0.003));
       gram += weight * row * row.transpose();
@@ -123,7 +124,8 @@ void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::spa
     }
   }
   if (equations == 0) return;
-  // Pulled a little towards one common factor, so that spheres which always act together share evenly.
+  // The ridge pulls the weights a little towards one common factor, so that spheres that always act together
+  // share evenly.
   const double common = std::max(0.0, right.sum() / std::max(gram.sum(), 1e-30));
   const double pull = 1e-3 * gram.trace() / double(spheres);
   gram.diagonal().array() += pull;

@@ -1,5 +1,4 @@
-// The weights of proxy spheres when the character darkens something else, which are fitted against ray
-// tracing.
+// Fits the weights of proxy spheres for darkening other things, against ray tracing.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +11,11 @@
 namespace nook::bake {
 
 struct CasterFitSettings {
-  std::size_t poses = 48;  // at most this many of those given, evenly chosen
-  // Random points and normals: most are 0.3 to 8 body radii away from the body's middle, a tenth near its
-  // surface, where neighbours that touch it are.
+  std::size_t poses = 48;  // at most this many poses, evenly chosen
+  // Random points and normals. Most are 0.3 to 8 body radii away from the body's middle. A tenth is near its
+  // surface, for neighbours that touch it.
   std::size_t points_per_pose = 600;
-  std::uint32_t rays = 256;  // a point
+  std::uint32_t rays = 256;  // per point
   std::uint64_t seed = 1;
 };
 

@@ -47,7 +47,7 @@ Eigen::MatrixXf orthonormal(const Eigen::MatrixXf& columns) {
 }  // namespace
 
 LowRank factorise(const Eigen::MatrixXf& values, std::size_t count, std::uint64_t seed) {
-  // Vectors beyond the modes that are kept, and rounds, by which the last modes converge.
+  // Extra vectors beyond the modes that are kept, and the number of rounds, make the last modes converge.
   constexpr Eigen::Index spare = 16;
   constexpr int rounds = 3;
   const Eigen::Index smaller = std::min(values.rows(), values.cols());
@@ -75,7 +75,7 @@ LowRank factorise(const Eigen::MatrixXf& values, std::size_t count, std::uint64_
 Eigen::MatrixXf fitted_weights(const Eigen::MatrixXf& values, const Eigen::MatrixXf& modes) {
   const Eigen::MatrixXd wide = modes.cast<double>();
   Eigen::MatrixXd gram = wide.transpose() * wide;
-  // Modes that are zero, where the matrix has a lower rank, keep zero weights.
+  // Where the matrix has a lower rank, modes are zero and keep zero weights.
   gram.diagonal().array() += 1e-9 * gram.trace() / double(gram.rows()) + 1e-30;
   const Eigen::MatrixXd right = transposed_product(values, modes).cast<double>();
   return gram.ldlt().solve(right.transpose()).transpose().cast<float>();
@@ -145,10 +145,11 @@ Eigen::MatrixXf value_of(const FrameTable<Number>& table, std::size_t frames) {
   return outer_product(modes, weights);
 }
 
-// For each bone the mean of what it carries, and the distance from it at which an error of the rotation moves
-// a point as far as the carried points on average: the rms distance over sqrt(3).
+// Returns for each bone the mean of what it carries, and a radius. At this distance from the mean, an error
+// of the rotation moves a point as far as the carried points on average. The radius is the rms distance over
+// sqrt(3).
 std::vector<BoneSpan> bone_spans(const SkinnedMesh& mesh) {
-  // Metres; bones without vertices, and those whose vertices are all at one place.
+  // Metres; for bones without vertices, and for bones whose vertices are all at one place.
   constexpr float least_radius = 0.02f;
   const std::size_t bones = mesh.bones.size();
   std::vector<double> weight(bones, 0), square(bones, 0);
@@ -203,7 +204,8 @@ Eigen::MatrixXf ao_values(const AoTargets& targets) {
   return values;
 }
 
-// A target that is black or open becomes the product where that is beyond it, because the result is clamped.
+// Replaces a target that is black or fully open by the product where the product goes beyond it, because the
+// result is clamped.
 void relax(const Eigen::MatrixXf& values, const Eigen::MatrixXf& product, Eigen::MatrixXf& relaxed) {
   tbb::parallel_for(Eigen::Index(0), values.cols(), [&](Eigen::Index f) {
     for (Eigen::Index i = 0; i < values.rows(); ++i) {
@@ -221,15 +223,15 @@ double clamped_mse(const Eigen::MatrixXf& values, const Eigen::MatrixXf& product
   return sum / double(values.size());
 }
 
-// The mse of the product against the truth behind noisy values: a fit of `count` modes takes over as much of
-// the noise as it has free numbers.
+// Returns the mse of the product against the truth behind noisy values. A fit of `count` modes takes over as
+// much of the noise as it has free numbers.
 double true_mse(double residual_mse, double noise_mse, std::size_t count, double rows, double columns) {
   const double k = double(count), taken = std::min(k * (rows + columns - k) / (rows * columns), 1.0);
   return std::max(residual_mse - noise_mse * (1 - 2 * taken), 0.0);
 }
 
-// The smallest number of modes, a multiple of `step`, whose error is within the bound. If none is, the number
-// with the smallest error: further modes only hold noise.
+// Returns the smallest number of modes, a multiple of `step`, whose error is within the bound. If there is
+// none, returns the number with the smallest error: further modes only hold noise.
 std::size_t modes_for(const LowRank& low, double size, double max_mse, double noise_mse, std::size_t step,
                       double rows, double columns, std::vector<double>* curve) {
   double left = low.total;
@@ -249,13 +251,14 @@ std::size_t modes_for(const LowRank& low, double size, double max_mse, double no
   return found ? found : best;
 }
 
-// The modes of a byte budget: a mode has a scale, a weight for each frame and a number for each row.
+// Returns the modes that a byte budget pays for: a mode has a scale, a weight for each frame and a number for
+// each row.
 std::size_t affordable(double bytes, double frames, double rows, double number_bytes) {
   const double each = 4 + 2 * frames + number_bytes * rows;
   return std::size_t(std::max(bytes / each, 0.0));
 }
 
-// Zero modes up to a multiple of four.
+// Adds zero modes up to a multiple of four.
 void pad_modes(FrameTable<std::int8_t>& table, std::size_t frames) {
   const std::uint32_t padded = (table.modes + 3) / 4 * 4;
   if (padded == table.modes) return;
@@ -299,7 +302,7 @@ ClipSet make_clip_set(const SkinnedMesh& mesh, const CharacterModel& model, cons
   const std::vector<BoneSpan> spans = bone_spans(mesh);
   set.bones.assign(spans.begin(), spans.end());
   const double rows = double(spans.size() * pose_rows_per_bone);
-  // Head, names, bones and the container itself, and half of the rest at most for poses.
+  // The head, names, bones and container come first. Poses get at most half of the rest.
   double budget = settings.max_bytes * vertices * count - 400 - 16 * double(spans.size());
   for (const ClipRange& clip : frames.clips) budget -= double(clip.name.size() + 8);
   const Eigen::MatrixXf poses = pose_values(spans, frames.poses);
@@ -320,7 +323,8 @@ ClipSet make_clip_set(const SkinnedMesh& mesh, const CharacterModel& model, cons
   const std::size_t modes =
       std::min(most, modes_for(low, vertices * count, settings.max_error * settings.max_error, noise_mse, 4,
                                vertices, count, &report.error_of_modes));
-  // Each round lets black vertices be darker than black, which leaves more of the modes to what is seen.
+  // Each round lets black vertices be darker than black, which leaves more of the modes to visible
+  // differences.
   constexpr int relaxations = 3;
   Eigen::MatrixXf relaxed = values;
   for (int round = 0; round < relaxations; ++round) {

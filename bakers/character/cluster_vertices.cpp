@@ -77,7 +77,7 @@ float body_size(std::span<const Vec3> positions) {
   return std::max(length(high - low), 1e-6f);
 }
 
-// Pairs of vertices nearer than reach whose weights are near too: parts of one body that share no edge
+// Returns pairs of vertices nearer than reach with near weights: parts of one body that share no edge
 // (appendix B).
 std::vector<std::pair<std::uint32_t, std::uint32_t>> near_pairs(const SkinnedMesh& mesh,
                                                                 const std::vector<Cluster>& clusters,
@@ -89,7 +89,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> near_pairs(const SkinnedMes
   };
   for (std::uint32_t i = 0; i < mesh.vertex_count(); ++i) cells[cell(mesh.position[i])].push_back(i);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  constexpr std::size_t most = 6;  // extra edges a vertex, enough to connect parts
+  constexpr std::size_t most = 6;  // extra edges per vertex, enough to connect parts
   for (std::uint32_t i = 0; i < mesh.vertex_count(); ++i) {
     const auto c = cell(mesh.position[i]);
     std::vector<std::pair<float, std::uint32_t>> near;
@@ -110,7 +110,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> near_pairs(const SkinnedMes
   return pairs;
 }
 
-// The graph of clusters, whose neighbours collapse into one, the cheapest pair first.
+// A graph of clusters. Neighbours collapse into one, the cheapest pair first.
 class ClusterGraph {
  public:
   // Each vertex is a cluster of its own, and vertices that share an edge or are near are neighbours.
@@ -141,7 +141,7 @@ class ClusterGraph {
         if (a < b) offer(a, b);
   }
 
-  // Leaves more clusters than count only where they have no neighbours.
+  // Stops with more clusters than count only if no neighbours are left.
   void collapse_to(std::size_t count) {
     while (alive_ > count && !queue_.empty()) {
       const Collapse top = queue_.top();
@@ -193,7 +193,7 @@ class ClusterGraph {
     queue_.push({cost(clusters_[a], clusters_[b]), a, b, clusters_[a].version, clusters_[b].version});
   }
 
-  // Takes `gone` into `kept`, with its neighbours.
+  // Merges `gone` and its neighbours into `kept`.
   void merge(std::uint32_t kept, std::uint32_t gone) {
     Cluster &a = clusters_[kept], &b = clusters_[gone];
     const float total = a.size + b.size, wa = a.size / total, wb = b.size / total;
@@ -216,7 +216,7 @@ class ClusterGraph {
   float position_scale2_, normal_scale2_, weight_scale2_;
   std::size_t alive_;
   std::vector<Cluster> clusters_;
-  std::vector<std::uint32_t> parent_;  // of a cluster that has collapsed; of any other, itself
+  std::vector<std::uint32_t> parent_;  // the cluster that took this one over, or itself
   std::priority_queue<Collapse> queue_;
 };
 

@@ -11,9 +11,9 @@
 namespace nook::bake {
 namespace {
 
-// A flat bone's spheres stand for patches of a surface, and those of a bone whose vertices lie on a line for
-// stretches of it: as small as its thickness they would cast no shadow at all. These shares of its breadth
-// and length are thinner than any limb, ear or finger.
+// A flat bone's spheres stand for patches of a surface. Where the vertices lie on a line, they stand for
+// stretches of the line. Spheres as small as the thickness would cast no shadow at all. So a radius is at
+// least these shares of breadth and length, which are thinner than any limb, ear or finger.
 float least_radius(const float (&spread)[3]) {
   return std::max({0.05f * spread[1], 0.02f * spread[2], 1e-4f});
 }
@@ -21,7 +21,7 @@ float least_radius(const float (&spread)[3]) {
 struct BoneShape {
   double area = 0;
   Vec3 mean;
-  Vec3 axis;          // of the largest spread, unit length
+  Vec3 axis;          // direction of the largest spread, unit length
   float spread[3]{};  // standard deviations, ascending, metres
 };
 
@@ -75,7 +75,8 @@ std::vector<InitialSphere> initial_spheres(const SkinnedMesh& mesh, std::span<co
     return shapes[a].area != shapes[b].area ? shapes[a].area > shapes[b].area : a < b;
   });
   if (order.size() > sphere_count) order.resize(sphere_count);
-  // Elongation decides how many; a flat bone (l1 near 0) would ask for endless small ones, hence the cap.
+  // The elongation decides the number of spheres. A flat bone (l1 near 0) would get endless small ones, so we
+  // cap it.
   std::vector<double> wish(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     const BoneShape& s = shapes[order[i]];
@@ -87,7 +88,7 @@ std::vector<InitialSphere> initial_spheres(const SkinnedMesh& mesh, std::span<co
   double carried = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const BoneShape& s = shapes[order[i]];
-    // Rounding is carried to the next bone, so that the sum comes out right.
+    // The rounding error is carried to the next bone, so that the sum is right.
     carried += total > double(order.size()) ? extra * (wish[i] - 1) / (total - double(order.size())) : 0;
     const auto more = std::size_t(std::floor(carried + 1e-9));
     carried -= double(more);
@@ -171,7 +172,8 @@ FitState initial_state(const Kernel& kernel, std::span<const InitialSphere> sphe
 
 std::vector<float> placement_weights(std::span<const float> vertex_weight, const AoTargets& targets,
                                      std::size_t poses) {
-  constexpr double least_share = 0.05;  // of the mean variance, so that every part of a body has key points
+  constexpr double least_share = 0.05;  // share of the mean variance, so that every part of a body has key
+                                        // points
   const std::size_t vertices = vertex_weight.size();
   std::vector<double> sum(vertices, 0.0), squares(vertices, 0.0);
   for (std::size_t t = 0; t < poses; ++t) {
@@ -198,8 +200,8 @@ NearKeyPoints nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> 
   count = std::min(count, key_points.size());
   NearKeyPoints nearest{std::vector<std::uint16_t>(mesh.vertex_count() * count),
                         std::vector<float>(mesh.vertex_count() * count)};
-  // A turn of the normal by 90 degrees or a full change of bone counts like this many metres, in a body
-  // about 1.7 m tall.
+  // A turn of the normal by 90 degrees, or a full change of bone, counts as this many metres in a body about
+  // 1.7 m tall.
   constexpr float normal_metres = 0.04f, weight_metres = 0.15f;
   constexpr std::size_t block = 256;
   tbb::parallel_for(std::size_t(0), (mesh.vertex_count() + block - 1) / block, [&](std::size_t b) {
@@ -220,7 +222,8 @@ NearKeyPoints nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> 
       }
       for (int s = 0; s < SkinWeights::max_bones; ++s) dense[own.bone[s]] = 0;
       std::partial_sort(distance.begin(), distance.begin() + std::ptrdiff_t(count), distance.end());
-      // Falls to a half at the distance of the third, so that weights change smoothly where clusters meet.
+      // The nearness falls to a half at the distance of the third key point, so that weights change smoothly
+      // between clusters.
       const float reach2 = std::max(distance[std::min<std::size_t>(2, count - 1)].first, 1e-8f);
       for (std::size_t c = 0; c < count; ++c) {
         nearest.key_point[i * count + c] = distance[c].second;
@@ -237,7 +240,7 @@ std::vector<Vec3> centre_of_rotation_normals(const SkinnedMesh& mesh, std::span<
   std::vector<float> squared(vertices);
   for (std::size_t i = 0; i < vertices; ++i)
     for (float w : mesh.weights[i].weight) squared[i] += w * w;
-  // Width of the Gaussian on the distance of weight vectors, whose largest value is sqrt(2).
+  // Width of the Gaussian on the distance of weight vectors, which is at most sqrt(2).
   constexpr float inverse_width2 = 1 / 0.1f;
   std::vector<Vec3> normal(vertices);
   constexpr std::size_t block = 64;
@@ -252,7 +255,7 @@ std::vector<Vec3> centre_of_rotation_normals(const SkinnedMesh& mesh, std::span<
         float shared = 0;
         for (int s = 0; s < SkinWeights::max_bones && mesh.weights[j].weight[s] > 0; ++s)
           shared += dense[mesh.weights[j].bone[s]] * mesh.weights[j].weight[s];
-        if (shared == 0) continue;  // no common bone: the Gaussian is nothing there
+        if (shared == 0) continue;  // without a common bone the Gaussian is negligible
         const float distance2 = std::max(0.0f, squared[i] + squared[j] - 2 * shared);
         const float similarity = vertex_area[j] * std::exp(-distance2 * inverse_width2);
         sum += similarity * mesh.position[j];

@@ -1,5 +1,5 @@
-// The model before the fit (Le et al. 2019, appendix B): proxy spheres along each bone's flesh, key points by
-// clustering.
+// The model before the fit (Le et al. 2019, appendix B): proxy spheres along each bone's flesh, and key
+// points by clustering.
 #pragma once
 
 #include <cstdint>
@@ -17,52 +17,51 @@ struct InitialSphere {
   std::uint16_t bone = 0;
 };
 
-// Eigen-analysis of the geometry each bone moves, weighted by skin weight and Voronoi area: spheres of radius
-// sqrt(l1) spread along the major axis, about sqrt(l3 / l1) of them; the numbers are scaled so that all bones
-// together get at most `sphere_count`, each bone with geometry at least one while they last (largest area
-// first).
+// Places spheres by eigen-analysis of the geometry that each bone moves, weighted by skin weight and Voronoi
+// area. About sqrt(l3 / l1) spheres of radius sqrt(l1) are spread along the major axis. The numbers are
+// scaled so that all bones together get at most `sphere_count` spheres. Each bone with geometry gets at least
+// one, largest area first, while they last.
 std::vector<InitialSphere> initial_spheres(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                                            std::size_t sphere_count);
 
-// Unit vectors from each vertex's optimised centre of rotation (Le & Hodgins 2016, with the Gaussian weight
-// similarity of appendix B) to the vertex; where they coincide, the mesh normal.
+// Returns unit vectors from each vertex's optimised centre of rotation to the vertex (Le & Hodgins 2016, with
+// the Gaussian weight similarity of appendix B). Where both coincide, it returns the mesh normal.
 std::vector<Vec3> centre_of_rotation_normals(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                                              std::span<const Vec3> mesh_normal);
 
-// The weights by which key points are placed: those given times the variance of each vertex' AO
-// over the first `poses` rows of the targets, over its mean. What never changes needs no key point of its
-// own: a constant holds it.
+// Returns the weights for placing key points: each given weight times the variance of the vertex's AO over
+// the first `poses` rows of the targets, relative to the mean variance. AO that never changes needs no key
+// point: a constant holds it.
 std::vector<float> placement_weights(std::span<const float> vertex_weight, const AoTargets& targets,
                                      std::size_t poses);
 
 struct ClusterSettings {
   std::size_t count = 500;
-  float position_scale = 1;  // of a feature of about unit size over a tenth of the body's height
+  float position_scale = 1;  // scale of a feature with about unit size over a tenth of the body's height
   float normal_scale = 0.7f;
   float weight_scale = 1.0f;
 };
 
-// Edge-collapse clustering of the vertices (Schaefer & Yuksel 2007) in the space of position, normal and skin
-// weights, over mesh edges and extra edges between near vertices with near weights. Returns the cluster of
-// each vertex; the number of clusters is settings.count, or fewer when the mesh has fewer vertices, or more
-// when that many parts never touch.
+// Clusters the vertices by edge collapse (Schaefer & Yuksel 2007) in the space of position, normal and skin
+// weights. The edges are mesh edges, and extra edges between near vertices with near weights. Returns the
+// cluster of each vertex. There are settings.count clusters, fewer if the mesh has fewer vertices, and more
+// if more parts never touch.
 std::vector<std::uint32_t> cluster_vertices(const SkinnedMesh& mesh, std::span<const float> vertex_weight,
                                             std::span<const Vec3> normal, const ClusterSettings& settings);
 
-// One key point a cluster: mean position, normal and skin weights (the four largest).
+// Returns one key point per cluster: mean position, normal and skin weights (the four largest).
 std::vector<KeyPoint> key_points_of_clusters(const SkinnedMesh& mesh, std::span<const std::uint32_t> cluster,
                                              std::span<const float> vertex_weight,
                                              std::span<const Vec3> normal);
 
-// Packs spheres and key points into a structure and its parameter vector; the linear layer is left empty.
+// Packs spheres and key points into a structure and its parameter vector. Leaves the linear layer empty.
 FitState initial_state(const Kernel& kernel, std::span<const InitialSphere> spheres,
                        std::span<const KeyPoint> key_points);
 
-// For each vertex the `count` key points nearest to it in position, normal and skin weights, with their
-// nearness.
+// The `count` key points nearest to each vertex in position, normal and skin weights.
 struct NearKeyPoints {
   std::vector<std::uint16_t> key_point;  // vertices x count, nearest first
-  std::vector<float> nearness;           // the same: 1 at distance 0, falling with the squared distance
+  std::vector<float> nearness;           // same shape: 1 at distance 0, falls with the squared distance
 };
 NearKeyPoints nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> normal,
                                  std::span<const KeyPoint> key_points, std::size_t count);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float degree = std::numbers::pi_v<float> / 180;
 
-// Upper arm and forearm have more than this share of the length of both: shorter ones do not bend an arm.
+// Upper arm and forearm each need at least this share of the length of both. Shorter ones do not bend an arm.
 constexpr float least_bone = 0.1f;
 
 Vec3 normal3(Random& random) {
@@ -30,7 +30,7 @@ Mat3x4 turn_part(const Mat3x4& a) {
   return rotation(turn_of(r));
 }
 
-// The rotation that takes one right-handed or left-handed frame of unit vectors to another of the same kind.
+// Returns the rotation that takes one frame of unit vectors to another of the same handedness.
 Mat3x4 frame_turn(const Vec3 (&from)[3], const Vec3 (&to)[3]) {
   Mat3x4 r;
   for (int i = 0; i < 12; ++i) r.m[i] = 0;
@@ -42,7 +42,7 @@ Mat3x4 frame_turn(const Vec3 (&from)[3], const Vec3 (&to)[3]) {
   return r;
 }
 
-// The part of a rotation that turns about an axis, radians.
+// Returns the angle by which a rotation turns about an axis, in radians.
 float twist_about(const Mat3x4& turn, Vec3 axis) {
   const Vec3 v = turn_of(turn);
   const float angle = length(v);
@@ -52,18 +52,18 @@ float twist_about(const Mat3x4& turn, Vec3 axis) {
 
 }  // namespace
 
-// Lengths are in units of the arm (place) and of the hand from wrist to knuckles (the others).
+// The unit of place is the arm's length. The unit of other lengths is the hand from wrist to knuckles.
 struct JoinedHands::Grip {
-  Vec3 place;       // left, up and forward of the middle between the shoulders
-  Vec3 handle;      // direction, the same axes
-  float apart[2];   // of the knuckles from the handle, to the back of the hand
-  float along[2];   // of the knuckles along the handle
-  Vec3 miss[2];     // by which a hand misses its place, as hands of retargeted clips do
+  Vec3 place;       // left, up and forward from the middle between the shoulders
+  Vec3 handle;      // direction of the handle, same axes
+  float apart[2];   // distance of the knuckles from the handle, towards the back of the hand
+  float along[2];   // position of the knuckles along the handle
+  Vec3 miss[2];     // offset by which a hand misses its place, as in retargeted clips
   float thumb[2];   // 1: the thumb's side lies towards the handle's end, -1: away from it
   Vec3 aim[2];      // added to the direction of the fingers
   Vec3 elbow[2];    // added to the direction to which elbows point
-  float curl[2];    // of the fingers: 0 stretched, 1 a fist
-  float pronation;  // share of a hand's turn about its forearm that the forearm takes over
+  float curl[2];    // fingers: 0 stretched, 1 a fist
+  float pronation;  // the forearm's share of the hand's turn about it
 };
 
 struct JoinedHands::ArmPose {
@@ -122,7 +122,7 @@ JoinedHands::Arm JoinedHands::find_arm(Side side) const {
 
 JoinedHands::Grip JoinedHands::draw(Random& random) const {
   Grip g{};
-  // From the lap to above the head, and from the belly to stretched arms.
+  // Places reach from the lap to above the head, and from the belly to stretched arms.
   g.place = {0.25f * random.normal(), random.between(-0.9f, 0.5f), random.between(0.25f, 0.9f)};
   g.handle = normalised(normal3(random) + Vec3{0, 0.6f, 0});
   const float kind = random.unit();
@@ -136,10 +136,10 @@ JoinedHands::Grip JoinedHands::draw(Random& random) const {
     g.elbow[s] = 0.4f * normal3(random);
     g.curl[s] = 0.85f + 0.15f * random.normal();
   }
-  if (kind < 0.45f) {  // one hand round the other
+  if (kind < 0.45f) {  // one hand around the other
     g.apart[1 - inner] = random.between(0.5f, 1.1f);
     g.curl[1 - inner] = 0.65f + 0.2f * random.normal();
-  } else if (kind < 0.8f) {  // one behind the other on a handle
+  } else if (kind < 0.8f) {  // one hand behind the other on a handle
     g.along[inner] += 0.5f * random.between(0.7f, 1.4f);
     g.along[1 - inner] -= 0.5f * random.between(0.7f, 1.4f);
   } else {  // flat hands
@@ -204,7 +204,7 @@ JoinedHands::ArmPose JoinedHands::solve(const Pose& pose, const Grip& grip, int 
 void JoinedHands::close_fingers(const Arm& arm, float curl, std::vector<JointMotion>& motions,
                                 Random& random) const {
   const float thumb = random.unit();
-  // A trigger or a pointing finger.
+  // The index finger is on a trigger or points.
   const bool stretched = random.chance(0.25f);
   const float index = random.between(-0.05f, 0.5f);
   for (const std::uint32_t b : arm.fingers) {
@@ -219,7 +219,7 @@ void JoinedHands::close_fingers(const Arm& arm, float curl, std::vector<JointMot
 }
 
 void JoinedHands::join(std::vector<JointMotion>& motions, bool with_fingers, Random& random) const {
-  // The upper arms hang on clavicles, which keep their turns.
+  // The clavicles that carry the upper arms keep their turns.
   for (const Arm& arm : arms_) motions[std::size_t(arm.upper)].turn = {};
   const Pose pose = pose_of(mesh_, tree_, motions);
   constexpr int tries = 12;
@@ -241,7 +241,7 @@ void JoinedHands::join(std::vector<JointMotion>& motions, bool with_fingers, Ran
   for (int s = 0; s < 2; ++s) {
     const Arm& arm = arms_[s];
     const ArmPose wish = solve(pose, best, s);
-    // A joint's turn is against its parent; between upper arm, forearm and hand others may stand.
+    // A joint's turn is relative to its parent. Other joints may lie between upper arm, forearm and hand.
     const auto set = [&](std::int32_t bone, const Mat3x4& turn) {
       const Pose now = pose_of(mesh_, tree_, motions);
       const std::int32_t parent = tree_.parent[std::size_t(bone)];

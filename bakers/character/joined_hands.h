@@ -1,5 +1,5 @@
-// Poses in which both hands hold one thing, or each other: a grip, a handle, a prayer. Most of what tools,
-// weapons and gestures ask of hands is of this kind, and arms that are drawn apart never meet so closely.
+// Makes poses in which both hands hold one thing or each other, such as a grip, a handle or a prayer. Most
+// uses of tools, weapons and gestures look like this, and arms that are drawn apart never meet so closely.
 #pragma once
 
 #include <array>
@@ -14,13 +14,13 @@ namespace nook::bake {
 
 class JoinedHands {
  public:
-  explicit JoinedHands(const SkinnedMesh& mesh);  // which is kept by reference
+  explicit JoinedHands(const SkinnedMesh& mesh);  // keeps a reference to the mesh
 
-  // False where the rig has no two arms with hands and fingers.
+  // False if the rig does not have two arms with hands and fingers.
   bool possible() const { return arms_[0].index_knuckle >= 0 && arms_[1].index_knuckle >= 0; }
 
-  // Draws a place before the trunk and moves both arms there; with_fingers closes the fingers as well. All
-  // else stays. possible() must hold.
+  // Draws a place in front of the trunk and moves both arms there. with_fingers closes the fingers as well.
+  // Nothing else moves. possible() must be true.
   void join(std::vector<JointMotion>& motions, bool with_fingers, Random& random) const;
 
  private:
@@ -28,7 +28,7 @@ class JoinedHands {
     std::int32_t upper = -1, fore = -1, hand = -1;  // bones
     Vec3 shoulder, elbow, wrist;                    // joints at rest, metres
     HandFrame frame;
-    std::vector<std::uint32_t> fingers;  // and thumbs; each behind its parent
+    std::vector<std::uint32_t> fingers;  // includes thumbs; parents first
     std::int32_t index_knuckle = -1;     // the first joint of the finger beside the thumb
   };
   struct Grip;

@@ -1,5 +1,5 @@
-// Poses as the motion of each joint relative to its parent, in which poses of one rig can be mixed, blended
-// and mirrored.
+// Poses as the motion of each joint relative to its parent. In this form, poses of one rig can be mixed,
+// blended and mirrored.
 #pragma once
 
 #include <span>
@@ -10,22 +10,21 @@
 
 namespace nook::bake {
 
-// The motion of a joint beyond that of its parent in the body's tree, in rest-space axes.
+// The motion of a joint relative to its parent in the body's tree, in rest-space axes.
 struct JointMotion {
-  Vec3 turn;   // about the joint's rest origin: axis times angle, radians
-  Vec3 shift;  // of the joint's origin, metres
-  float scale =
-      1;  // about the same origin; other scales than uniform ones are rounded to one of equal volume
+  Vec3 turn;        // about the joint's rest origin: axis times angle, radians
+  Vec3 shift;       // moves the joint's origin, metres
+  float scale = 1;  // about the same origin; uneven scales become the even scale of equal volume
 };
 
-// The axis times the angle of the rotation nearest to the matrix's three rows, made orthonormal in order. The
-// quaternion's largest part is found first (Shepperd 1978), so that half turns are exact.
+// Returns the axis times the angle of the rotation nearest to the matrix's three rows, made orthonormal in
+// order. It finds the quaternion's largest part first (Shepperd 1978), so that half turns are exact.
 Vec3 turn_of(const Mat3x4& matrix);
 
 std::vector<JointMotion> joint_motions(const SkinnedMesh& mesh, const BodyTree& tree, const Pose& pose);
 Pose pose_of(const SkinnedMesh& mesh, const BodyTree& tree, std::span<const JointMotion> motions);
 
-// The motion at a share of the way from one to another: 0 and 1 are the ends, shares beyond them extrapolate.
+// Interpolates between two motions: 0 and 1 are the ends, and shares beyond them extrapolate.
 JointMotion between(const JointMotion& from, const JointMotion& to, float share);
 
 }  // namespace nook::bake

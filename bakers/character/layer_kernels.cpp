@@ -13,7 +13,7 @@ struct Value {
   float y, dy_ddelta2, dy_dxi;
 };
 
-// Slide 18. The absolute distance has no derivative at the centre: the small number keeps it finite.
+// Slide 18. The absolute distance has no derivative at the centre; the small number keeps it finite.
 struct PaperForm {
   static NOOK_INLINE Value value(float delta2, float xi) {
     const float delta = std::sqrt(delta2 + 1e-12f);
@@ -46,13 +46,13 @@ struct NookForm {
   }
 };
 
-// Keeps powers and their slopes finite where rounding leaves nothing. It is a plain comparison, because
-// fmax also has to handle NaNs, which stops the compiler from vectorising.
+// Keeps powers and their slopes finite where rounding leaves nothing. It is a plain comparison, because fmax
+// also handles NaNs, which stops the compiler from vectorising.
 NOOK_INLINE float at_least(float y) {
   return y > 1e-9f ? y : 1e-9f;
 }
 
-// y^gamma and its derivative by y.
+// y^gamma and its derivative with respect to y.
 struct Power {
   float value, slope;
 };

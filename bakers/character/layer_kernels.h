@@ -11,7 +11,7 @@
 namespace nook::bake {
 
 // The inner loops of the non-linear layer: one sphere against all key points, and the gradient. The
-// arithmetic is that of sdk/src/character/kernel.h, kept apart because it carries derivatives.
+// arithmetic is the same as in sdk/src/character/kernel.h. It is separate because it carries derivatives.
 
 // Arrays of count values (a multiple of 16), one for each coordinate.
 struct KeyPointArrays {
@@ -25,22 +25,22 @@ struct SphereGradient {
   float x = 0, y = 0, z = 0, log_radius = 0;
 };
 
-// Adds y^gamma of one sphere (world centre, metres; inverse radius) to sum.
+// Adds y^gamma of one sphere (world centre and inverse radius, metres) to sum.
 void add_sphere(const Kernel& kernel, const float centre[3], float inverse_radius, const KeyPointArrays& keys,
                 float* sum);
 
-// Given d(loss)/d(sum), adds to the key points' gradients and returns the sphere's.
+// Takes d(loss)/d(sum), adds to the gradients of the key points and returns the gradient of the sphere.
 SphereGradient sphere_gradient(const Kernel& kernel, const float centre[3], float inverse_radius,
                                const KeyPointArrays& keys, const float* gradient_sum,
                                const KeyPointGradients& gradient);
 
-// The linear layer's inner loop over a batch of poses, one SIMD lane each: error, and gradients of both its
-// sides.
+// The linear layer's inner loop over a batch of poses, with one SIMD lane for each pose. It computes the
+// error, and the gradients of the layer's weights and of its shadows.
 
-// For vertices [first, last) of a batch of batch_poses poses: shadow is key points x lanes, target[lane] a
-// pose's row. Adds to gradient_shadow (key points x lanes), writes gradient_alpha and gradient_bias of these
-// vertices. The loss is the weighted squared error of the clamped AO, halved, mean over lanes; where the
-// clamp holds a right answer there is none.
+// Processes vertices [first, last) of a batch of batch_poses poses. shadow is key points x lanes, and
+// target[lane] is the row of a pose. Adds to gradient_shadow (key points x lanes), and writes gradient_alpha
+// and gradient_bias of these vertices. The loss is half the weighted squared error of the clamped AO, as a
+// mean over lanes. It is 0 where clamping makes the answer right.
 void linear_layer_gradient(const LinearLayerFit& linear, std::span<const float> vertex_weight,
                            const std::uint16_t* const* target, const float* shadow, std::size_t first,
                            std::size_t last, float* gradient_shadow, float* gradient_alpha,

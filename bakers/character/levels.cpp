@@ -138,9 +138,9 @@ class Regression {
 };
 
 // Returns the cost of a key point that follows another: the error in the vertices, and a penalty for the
-// distance between the two and the angle between their normals, because the follower also takes over the
-// occlusion by casters that no pose contains. A distance of 0.1 m counts as 0.01 of shadow, and an angle of
-// 60 degrees as 0.05.
+// distance between the two and the angle between their normals. The penalty is there because the follower
+// also takes over occlusion by casters that no pose contains. A distance of 0.1 m counts as 0.01 of shadow,
+// and an angle of 60 degrees as 0.05.
 std::vector<float> following_cost(const CharacterModel& model, const Regression& regression) {
   const std::size_t points = model.key_points.size();
   std::vector<float> weight(points, 0.0f);

@@ -17,10 +17,10 @@ struct LevelShare {
 };
 inline constexpr LevelShare default_level_shares[] = {{0.5f, 0.35f}, {0.3f, 0.12f}};
 
-// Makes one level for each share. poses holds about 50 to 300 poses of model.bone_count() matrices each, such
-// as those of the bake. The even ones make the level, and the odd ones only measure error_rms. The same input
-// gives the same levels. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for fewer than four poses or a pose of
-// another length.
+// Makes one level for each share. poses holds about 50 to 300 poses of model.bone_count() matrices each, for
+// example the poses of the bake. The even poses make the level, and the odd ones only measure error_rms. The
+// same input gives the same levels. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for fewer than four poses or
+// a pose of another length.
 std::vector<CharacterLevel> make_levels(const CharacterModel& model,
                                         std::span<const std::vector<Mat3x4>> poses,
                                         std::span<const LevelShare> shares = default_level_shares);

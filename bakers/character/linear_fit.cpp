@@ -24,8 +24,8 @@ std::vector<double> anchor_floors(const Candidates& candidates, std::size_t vert
   return floor;
 }
 
-// Non-negative least squares on the chosen key points by an active set: solves freely, drops the most
-// negative weight until none is left. Chosen entries with weight 0 afterwards were dropped.
+// Non-negative least squares on the chosen key points by an active set. It solves without bounds and drops
+// the most negative weight until none is negative. A chosen entry whose weight is 0 afterwards was dropped.
 Eigen::VectorXd solve_non_negative(const Eigen::MatrixXd& gram, const Eigen::VectorXd& correlation) {
   const Eigen::Index n = correlation.size();
   std::vector<Eigen::Index> active(static_cast<std::size_t>(n));
@@ -45,8 +45,8 @@ Eigen::VectorXd solve_non_negative(const Eigen::MatrixXd& gram, const Eigen::Vec
 
 // The shadows of the fitted poses, which all vertices share.
 struct ShadowStatistics {
-  Eigen::RowVectorXf mean;  // of each key point
-  RowMatrix centred;        // poses x key points, less their means
+  Eigen::RowVectorXf mean;  // per key point
+  RowMatrix centred;        // poses x key points, mean removed
   Eigen::MatrixXd gram;     // covariances of the key points, with the ridge
 };
 
@@ -58,7 +58,8 @@ ShadowStatistics statistics_of(std::span<const float> shadows, std::size_t poses
   s.mean = all.colwise().mean();
   s.centred = all.rowwise() - s.mean;
   s.gram = Eigen::MatrixXd::Zero(columns, columns);
-  // Blocks of rows in floats, summed in doubles: fast, and exact enough for a well-scaled Gram matrix.
+  // Blocks of rows are products in floats, summed in doubles. This is fast, and exact enough for a
+  // well-scaled Gram matrix.
   const Eigen::Index block = 256;
   for (Eigen::Index first = 0; first < rows; first += block) {
     const auto part = s.centred.middleRows(first, std::min(block, rows - first));
@@ -70,10 +71,10 @@ ShadowStatistics statistics_of(std::span<const float> shadows, std::size_t poses
   return s;
 }
 
-// The darkness of the vertices first, first + 1, ... in the fitted poses.
+// The darkness of consecutive vertices in the fitted poses.
 struct DarknessBlock {
-  Eigen::RowVectorXf mean;      // of each vertex
-  RowMatrix centred;            // poses x vertices, less their means
+  Eigen::RowVectorXf mean;      // per vertex
+  RowMatrix centred;            // poses x vertices, mean removed
   Eigen::MatrixXd correlation;  // key points x vertices
 };
 
@@ -97,7 +98,7 @@ DarknessBlock darkness_of(const TrainingSet& set, const ShadowStatistics& shadow
 struct Choice {
   std::vector<Eigen::Index> key_point;
   Eigen::VectorXd weight;
-  double explained = 0;  // part of the variance
+  double explained = 0;  // explained part of the variance
 
   double weight_of(Eigen::Index k) const {
     const auto found = std::find(key_point.begin(), key_point.end(), k);
@@ -108,7 +109,7 @@ struct Choice {
 // Chooses key points for one vertex one by one, and solves for their weights.
 class KeyPointChoice {
  public:
-  // allowed: the vertex's candidates, of which the first `anchors` always have an entry.
+  // allowed: the vertex's candidates. The first `anchors` of them always have an entry.
   KeyPointChoice(const Eigen::MatrixXd& gram, std::span<const std::uint16_t> allowed, std::size_t anchors,
                  std::size_t entries)
       : gram_(gram), allowed_(allowed), anchors_(anchors), entries_(entries) {}
@@ -118,7 +119,7 @@ class KeyPointChoice {
     return std::find(allowed_.begin(), end, k) != end;
   }
 
-  // Ends where another key point would explain less than `minimum_gain` more.
+  // Stops when another key point would explain less than `minimum_gain` more.
   Choice run(const Eigen::VectorXd& correlation, double minimum_gain) const {
     Choice choice;
     for (;;) {
@@ -131,7 +132,7 @@ class KeyPointChoice {
   }
 
  private:
-  // Returns the key point that would explain most of what is left, were it added alone; -1 if none would.
+  // Returns the key point that would explain most of the rest if it were added alone; -1 if there is none.
   Eigen::Index best_addition(const Choice& choice, const Eigen::VectorXd& correlation) const {
     const auto others = std::count_if(choice.key_point.begin(), choice.key_point.end(),
                                       [&](Eigen::Index k) { return !is_anchor(k); });
@@ -152,7 +153,7 @@ class KeyPointChoice {
     return best;
   }
 
-  // Solves with one key point more, and leaves out those whose weights become 0.
+  // Solves with one more key point, and leaves out key points whose weights become 0.
   Choice with(const Choice& choice, Eigen::Index added, const Eigen::VectorXd& correlation) const {
     std::vector<Eigen::Index> trial = choice.key_point;
     trial.push_back(added);
@@ -189,11 +190,11 @@ LinearLayerFit empty_fit(std::size_t vertices, std::size_t entries) {
 void fit_vertex(std::size_t vertex, Eigen::Index column, const ShadowStatistics& shadows,
                 const DarknessBlock& darkness, const Candidates& candidates,
                 const LinearFitSettings& settings, LinearLayerFit& fit) {
-  constexpr double constant_variance = 1e-8;  // the bias alone explains a vertex below it
+  constexpr double constant_variance = 1e-8;  // below this variance, the bias alone explains a vertex
   const std::size_t anchors =
       settings.anchor_floor > 0 ? std::min({settings.anchors, candidates.count, settings.entries}) : 0;
   const std::span allowed(&candidates.key_point[vertex * candidates.count], candidates.count);
-  // The anchors' minimum weights are taken off the target; what remains is solved with weights >= 0.
+  // We subtract the anchors' minimum weights from the target and solve the rest with weights >= 0.
   const std::vector<double> floor = anchor_floors(candidates, vertex, settings, anchors);
   Eigen::VectorXd correlation = darkness.correlation.col(column);
   for (std::size_t a = 0; a < anchors; ++a) correlation -= floor[a] * shadows.gram.col(allowed[a]);
@@ -217,7 +218,7 @@ void fit_vertex(std::size_t vertex, Eigen::Index column, const ShadowStatistics&
   for (std::size_t a = 0; a < anchors; ++a) store(allowed[a], floor[a]);
   for (const Eigen::Index k : choice.key_point)
     if (!chooser.is_anchor(k)) store(k, 0);
-  // An unused entry keeps a near key point at weight 0, so that mini-batches may still wake it.
+  // An unused entry keeps a near key point at weight 0, so that mini-batches can still raise it.
   for (std::size_t next = anchors; entry < (vertex + 1) * settings.entries; ++next, ++entry)
     fit.key_point[entry] = allowed[std::min(next, candidates.count - 1)];
   fit.bias[vertex] = float(bias);

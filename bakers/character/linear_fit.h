@@ -1,4 +1,4 @@
-// The linear layer by constrained least squares: few key points a vertex, non-negative weights, free bias.
+// The linear layer by constrained least squares: few key points per vertex, non-negative weights, free bias.
 #pragma once
 
 #include <cstdint>
@@ -9,27 +9,27 @@
 
 namespace nook::bake {
 
-// For each vertex, the key points it may use, nearest first: vertices x count.
+// The key points that each vertex may use, nearest first: vertices x count.
 struct Candidates {
   std::size_t count = 0;
   std::vector<std::uint16_t> key_point;
-  std::vector<float> nearness;  // the same shape, > 0, falling; empty: all alike
+  std::vector<float> nearness;  // same shape, > 0, falling; empty: all alike
 };
 
 struct LinearFitSettings {
-  std::size_t entries = 7;   // at most this many key points a vertex
+  std::size_t entries = 7;   // at most this many key points per vertex
   double ridge = 1e-4;       // on alpha, relative to the mean variance of the shadows
   double least_gain = 1e-3;  // an entry must lower the vertex's squared error by this share of its variance
-  // The first `anchors` candidates of a vertex, the key points nearest to it, always take part, with weights
-  // of at least anchor_floor in all, by nearness: what other casters take away is blended from the same
-  // entries, and needs near ones.
+  // The first `anchors` candidates of a vertex are the key points nearest to it. They always take part, with
+  // weights of at least anchor_floor in all, shared by nearness. The darkening by other casters is blended
+  // from the same entries, and needs near ones.
   std::size_t anchors = 3;
   double anchor_floor = 0.06;
 };
 
-// Solves for alpha and bias of every vertex over the fitted poses of the set. The Gram matrix of the shadows
-// is shared by all vertices (the paper's caching, slides 55 to 57, seen from the linear layer): a vertex
-// costs no more than its candidates.
+// Solves for alpha and bias of every vertex over the fitted poses of the set. All vertices share the Gram
+// matrix of the shadows, so that a vertex costs no more than its candidates. This is the paper's caching
+// (slides 55 to 57), applied to the linear layer.
 LinearLayerFit fit_linear_layer(std::span<const float> shadows, std::size_t padded, const TrainingSet& set,
                                 const Candidates& candidates, const LinearFitSettings& settings);
 

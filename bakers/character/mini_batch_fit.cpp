@@ -35,15 +35,15 @@ class Adam {
   std::vector<float> first_, second_;
 };
 
-// Learning rates in the parameters' own units: metres, log radius, unit normals, roots. A step moves
-// each by about this much; they were chosen by scale, not searched.
+// Learning rates in the parameters' own units: metres, log radius, unit normals, roots. A step moves each
+// parameter by about this much. We chose the rates by scale and did not search for them.
 constexpr float sphere_rate[LayerStructure::sphere_parameters] = {2e-3f, 2e-3f, 2e-3f, 1e-2f};
 constexpr float key_point_rate[LayerStructure::key_point_parameters] = {
     2e-3f, 2e-3f, 2e-3f, 2e-2f, 2e-2f, 2e-2f, 1e-2f, 1e-2f, 1e-2f, 1e-2f, 1e-2f};
 constexpr float alpha_rate = 5e-3f;
 constexpr float bias_rate = 2e-3f;
 
-// Visits every pose once in a random order, then anew.
+// Visits every pose once in a random order, then starts over in a new order.
 class PoseOrder {
  public:
   PoseOrder(std::size_t count, std::uint64_t seed) : order_(count), random_(seed) {
@@ -51,7 +51,8 @@ class PoseOrder {
   }
   std::size_t next() {
     if (at_ == 0) {
-      // Fisher and Yates by hand: std::shuffle differs between standard libraries.
+      // This is the Fisher-Yates shuffle. We do not use std::shuffle, because it differs between standard
+      // libraries.
       for (std::size_t i = order_.size(); i > 1; --i) std::swap(order_[i - 1], order_[random_() % i]);
     }
     const std::size_t pose = order_[at_];

@@ -7,15 +7,15 @@
 namespace nook::bake {
 namespace {
 
-// Padding key points sit here: far enough to receive nothing, near enough to stay finite when squared.
+// Place of padding key points: far enough to receive nothing, near enough to stay finite when squared.
 constexpr float far_away = 1e6f;
 
 struct BlendedKeyPoint {
   float weight[KeyPoint::max_bones];
   float root_sum;                      // sum of squared roots
-  Vec3 position[KeyPoint::max_bones];  // by each bone
+  Vec3 position[KeyPoint::max_bones];  // one per bone
   Vec3 normal[KeyPoint::max_bones];
-  Vec3 blended_normal;  // before it is made unit length
+  Vec3 blended_normal;  // before normalisation
 };
 
 BlendedKeyPoint blend(std::span<const Mat3x4> bones,
@@ -47,7 +47,8 @@ float uniform_scale(const Mat3x4& a) {
   return length({a.m[0], a.m[4], a.m[8]});
 }
 
-// The derivatives of a key point's shadow by the sum of its terms and by the root of the saturation.
+// The derivatives of a key point's shadow with respect to the sum of its terms and to the root of the
+// saturation.
 struct ShadowSlope {
   float by_sum, by_root;
 };

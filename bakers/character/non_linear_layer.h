@@ -1,5 +1,6 @@
-// The non-linear layer of the model with its gradient: bone matrices -> shadow at every key point, and back
-// to the parameters (Le et al. 2019, slides 13 to 20). One pose at a time; callers parallelise over poses.
+// The non-linear layer of the model with its gradient: from bone matrices to the shadow at every key point,
+// and back to the parameters (Le et al. 2019, slides 13 to 20). It handles one pose at a time; callers
+// parallelise over poses.
 #pragma once
 
 #include <array>
@@ -21,7 +22,7 @@ struct LayerStructure {
 
   std::size_t sphere_count() const { return sphere_bone.size(); }
   std::size_t key_point_count() const { return key_point_bone.size(); }
-  // Rows of shadows are padded to whole SIMD vectors.
+  // The padding fills whole SIMD vectors.
   std::size_t padded_count() const { return (key_point_count() + 15) / 16 * 16; }
 
   // Parameters in one flat vector, unconstrained, so that any optimiser can walk it:
@@ -47,7 +48,7 @@ class LayerWorkspace {
   std::vector<float> sphere_;        // 5 arrays: x y z radius inverse_radius
   std::vector<float> key_;           // position x y z, normal x y z
   std::vector<float> sum_;           // sum of y^gamma
-  std::vector<float> gradient_key_;  // as key_
+  std::vector<float> gradient_key_;  // same layout as key_
   std::vector<float> gradient_sum_;
 };
 
@@ -55,7 +56,8 @@ class NonLinearLayer {
  public:
   explicit NonLinearLayer(const LayerStructure& structure) : structure_(structure) {}
 
-  // shadow: padded_count() values, stride apart (1: a row). The workspace keeps what backward needs.
+  // Writes padded_count() values to shadow, `stride` apart (1: a row). The workspace keeps what backward
+  // needs.
   void forward(std::span<const Mat3x4> bones, std::span<const float> parameters, LayerWorkspace& workspace,
                float* shadow, std::size_t stride = 1) const;
 

@@ -28,9 +28,9 @@ Vec3 reflected_point(Vec3 point, const Plane& plane) {
   return point - 2 * (dot(point, plane.normal) - plane.offset) * plane.normal;
 }
 
-// A joint with all below it, by which joints at one place differ.
+// A joint with all joints below it, which tell apart joints at one place.
 struct Branch {
-  Vec3 middle;  // of the joint and all below it, metres
+  Vec3 middle;  // mean over the joint and all joints below it, metres
   float count = 1;
 };
 
@@ -49,7 +49,7 @@ std::vector<Branch> branches(const SkinnedMesh& mesh, const BodyTree& tree) {
   return branch;
 }
 
-// Pairs joints from the roots down; empty where one finds no twin.
+// Pairs joints from the roots down. Returns nothing if one joint has no twin.
 std::vector<std::uint32_t> twins(const SkinnedMesh& mesh, const BodyTree& tree, const Plane& plane,
                                  float tolerance_m) {
   const std::size_t count = mesh.bones.size();
@@ -75,7 +75,7 @@ std::vector<std::uint32_t> twins(const SkinnedMesh& mesh, const BodyTree& tree, 
     if (twin[b] == nobody) return {};
     twin[twin[b]] = b;
   }
-  // A rig whose joints all lie in the plane shows by nothing that its sides are equal.
+  // If all joints of a rig lie in the plane, nothing shows that its sides are equal.
   for (std::uint32_t b = 0; b < count; ++b)
     if (twin[b] != b) return twin;
   return {};
@@ -105,7 +105,7 @@ std::vector<JointMotion> mirrored(const MirrorRig& mirror, std::span<const Joint
   std::vector<JointMotion> image(motions.size());
   for (std::size_t b = 0; b < motions.size(); ++b) {
     const JointMotion& from = motions[b];
-    // A reflection turns the sense of a turn about.
+    // A reflection reverses the direction of a turn.
     image[mirror.twin[b]] = {-reflected(from.turn, mirror.normal), reflected(from.shift, mirror.normal),
                              from.scale};
   }
@@ -116,10 +116,10 @@ namespace {
 
 using Motions = std::vector<JointMotion>;
 
-// Joints with a notable part of the body behind them: what can be exchanged between two poses.
+// Returns joints that carry a notable part of the body. These parts can be exchanged between two poses.
 std::vector<std::uint32_t> limb_roots(const SkinnedMesh& mesh, const BodyTree& tree,
                                       std::span<const float> vertex_area) {
-  constexpr double least_share = 0.02, most_share = 0.9;  // of the body's area
+  constexpr double least_share = 0.02, most_share = 0.9;  // share of the body's area
   std::vector<double> area(mesh.bones.size(), 0.0);
   double total = 0;
   for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
@@ -135,7 +135,7 @@ std::vector<std::uint32_t> limb_roots(const SkinnedMesh& mesh, const BodyTree& t
   return roots;
 }
 
-// Copies the motions of a joint and of all below it.
+// Copies the motions of a joint and of all joints below it.
 void take_limb(const BodyTree& tree, std::uint32_t root, const Motions& from, Motions& to) {
   for (std::size_t b = 0; b < to.size(); ++b)
     if (b == root || is_below(tree, b, root)) to[b] = from[b];
@@ -158,7 +158,7 @@ class Maker {
 
   Pose make(Random& random) const {
     constexpr int tries = 8;
-    // Joined hands keep the fingers of their pose, as those of one rig's clips are alike.
+    // Joined hands keep the fingers of their pose, because all clips of a rig tend to have similar fingers.
     constexpr float allowed = 0.6f, mirrored_share = 0.5f, joined_share = 0.15f;
     Pose best;
     float least = 0;
@@ -180,7 +180,8 @@ class Maker {
   }
 
  private:
-  // limit: raised to the depth of what is used, so that a pose that touches itself may go on to.
+  // Raises limit to the depth of the chosen pose, so that variants of a pose that touches itself may touch as
+  // well.
   const Motions& pick(Random& random, float& limit) const {
     const std::size_t i = random.below(std::uint32_t(given_.size()));
     limit = std::max(limit, depth_[i]);
@@ -189,7 +190,7 @@ class Maker {
 
   Motions draw(Random& random, float& limit) const {
     constexpr float blended_share = 0.4f, mixed_share = 0.6f;
-    // Of the way from one pose to the other; what is below 0 leads away from it.
+    // Shares of the way from one pose to the other. Negative shares lead away from it.
     constexpr float least = -0.3f, most = 0.7f;
     constexpr int most_limbs = 3;
     Motions motions = pick(random, limit);

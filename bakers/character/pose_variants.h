@@ -11,25 +11,25 @@
 
 namespace nook::bake {
 
-// The mirror symmetry of a rig, found from where its joints rest.
+// Finds the mirror symmetry of a rig from the places where its joints rest.
 
 struct MirrorRig {
-  Vec3 normal;                      // of the plane of symmetry, unit length
-  std::vector<std::uint32_t> twin;  // a bone's mirror image; its own index in the middle of the body
+  Vec3 normal;                      // normal of the plane of symmetry, unit length
+  std::vector<std::uint32_t> twin;  // mirror image of each bone; a bone in the middle of the body is its own
 };
 
-// The symmetry about an upright plane across x or z: the mirrored rest position of every joint is that of
-// its twin, within 2 % of the rig's extent, twins have twin parents, and not all joints are their own twins.
-// Nothing where there is none.
+// Finds the symmetry about an upright plane across x or z. The mirrored rest position of every joint must be
+// at its twin, within 2 % of the rig's extent. Twins must have twin parents, and not all joints may be their
+// own twins. Returns nothing for other rigs.
 std::optional<MirrorRig> find_mirror(const SkinnedMesh& mesh, const BodyTree& tree);
 
-// The mirror image of a pose. Twice gives the pose back.
+// Returns the mirror image of a pose. Mirroring twice gives the pose back.
 std::vector<JointMotion> mirrored(const MirrorRig& mirror, std::span<const JointMotion> motions);
 
-// New poses made of given ones: mirrored, with limbs of one on the body of another, and between and beyond
-// two.
+// Makes poses from given ones: mirrors them, puts limbs of one on the body of another, and goes between and
+// beyond two.
 
-// count poses; the same seed gives the same poses. Empty where no pose is given.
+// Makes count poses. The same seed gives the same poses. Returns nothing if no pose is given.
 std::vector<Pose> pose_variants(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                                 std::span<const Pose> poses, std::size_t count, std::uint64_t seed);
 

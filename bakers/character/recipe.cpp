@@ -17,7 +17,7 @@
 namespace nook::bake {
 
 PresetValues preset_values(Preset preset, FitMethod fit) {
-  // Steps of mini-batches are cheap, rounds of block descent are not.
+  // Steps of mini-batches are cheap, but rounds of block descent are not.
   const bool paper = fit == FitMethod::paper;
   PresetValues v;
   v.settings.fit = fit;
@@ -30,8 +30,8 @@ PresetValues preset_values(Preset preset, FitMethod fit) {
       v.single_joint_steps = 3;
       break;
     case Preset::standard:
-      // Few rays on many poses: the noise of a target averages out over the poses, what no pose shows is
-      // never learned.
+      // Few rays on many poses are best. The noise of a target averages out over the poses, but a model never
+      // learns what no pose shows.
       v.settings.rays = 16;
       v.settings.steps = paper ? 20 : 20000;
       v.auto_poses = 2700;
@@ -43,11 +43,11 @@ PresetValues preset_values(Preset preset, FitMethod fit) {
       v.auto_poses = 10000;
       v.clip_poses = 4000;
       if (!paper) {
-        // More key points have lower errors (docs/character.md); an update takes a fifth longer.
+        // More key points have lower errors (docs/character.md), but an update takes a fifth longer.
         v.settings.key_points = 800;
         v.settings.spheres = 100;
       }
-      // Few clips keep their share of the poses.
+      // The limit rises, so that a file with few clips still gets its share of the poses.
       v.max_samples_per_clip = 256;
       break;
   }
@@ -91,7 +91,7 @@ std::string hash_of_names(const ImportedCharacter& character) {
   return hex(hash64(std::as_bytes(std::span(all))));
 }
 
-// One hexadecimal digit for four clips, the first clip in the lowest bit of the first digit.
+// Returns one hexadecimal digit for each four clips. The first clip is the lowest bit of the first digit.
 std::string clip_bits(const ImportedCharacter& character, const std::vector<std::size_t>& chosen) {
   const std::vector<std::size_t> order = clips_by_name(character);
   std::vector<unsigned> digits((order.size() + 3) / 4, 0);
@@ -207,7 +207,7 @@ Recipe read_recipe(const ImportedCharacter& character, std::string_view text) {
       r.clips = clips_of_bits(character, j.at("clips"));
     }
     r.samples_per_clip = j.at("samples_per_clip");
-    // Files from before variants have neither.
+    // Older files without variants have neither key.
     r.variant_poses = j.value("variant_poses", std::size_t(0));
     r.generation = j.value("generation", 1);
     r.single_joint_steps = j.at("single_joint_steps");
@@ -219,7 +219,7 @@ Recipe read_recipe(const ImportedCharacter& character, std::string_view text) {
     r.settings.steps = j.at("steps");
     r.settings.kernel.form = KernelForm(index_of(kernel_names, j.at("kernel")));
     r.settings.fit = FitMethod(index_of(fit_names, j.at("fit")));
-    // Recipes of character files up to version 3 have none.
+    // Recipes of character files up to version 3 have no saturation.
     r.settings.saturation = j.value("saturation", 0.0f);
     r.settings.time_limit_s = j.at("time_limit_s");
     return r;

@@ -1,4 +1,4 @@
-// The recipe of a model, as text inside its file: enough to make the same training poses again.
+// The recipe of a model, as text inside its file. It is enough to make the same training poses again.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ enum class Preset : std::uint8_t { draft, standard, production };
 struct PresetValues {
   BakeSettings settings;
   std::size_t auto_poses = 0;
-  std::size_t clip_poses = 0;  // over all fitted clips together
+  std::size_t clip_poses = 0;  // of all fitted clips together
   std::size_t max_samples_per_clip = 64;
-  int single_joint_steps = 5;  // a side of the grid of rotations
+  int single_joint_steps = 5;  // per side of the grid of rotations
 };
 
 // draft: about 20 s on two cores, for a first look. standard: within 5 minutes and 2 GB, for shipping.
@@ -28,13 +28,13 @@ struct PresetValues {
 // points in place of 500.
 PresetValues preset_values(Preset preset, FitMethod fit);
 
-// Poses of each clip, so that all of them together come near the preset's number: short enough lists still
-// show a whole clip, long ones do not outgrow the preset.
+// Returns the number of poses of each clip, so that all clips together come near the preset's number. A clip
+// gets at least 4 and at most max_samples_per_clip poses.
 std::size_t samples_per_clip(const PresetValues& values, std::size_t clips);
 
 enum class PoseMode : std::uint8_t { automatic, single_joint, clips, all, extra };
 
-// Rises whenever the same recipe begins to make other automatic poses or variants.
+// Raise it when the same recipe begins to make other automatic poses or variants.
 inline constexpr int pose_generation = 3;
 
 struct Recipe {
@@ -43,28 +43,30 @@ struct Recipe {
   std::size_t auto_poses = 0;      // 0: none
   std::vector<std::size_t> clips;  // indices into the character's clips, in byte order of their names
   std::size_t samples_per_clip = 0;
-  std::size_t variant_poses = 0;  // made of those of the clips
+  std::size_t variant_poses = 0;  // made from the clips' poses
   int generation = pose_generation;
   int single_joint_steps = 0;   // 0: none
-  std::size_t extra_poses = 0;  // given by the host; they cannot be made again
+  std::size_t extra_poses = 0;  // given by the host; a recipe cannot make them again
   std::uint64_t source_hash = 0;
   BakeSettings settings;
 };
 
 inline constexpr float single_joint_range = 0.785398163f;  // radians: +-45 degrees
 
-// Clips of a character in byte order of their names, reference poses included: what the recipe's bits count.
+// Returns the clips of a character in byte order of their names, reference poses included. The recipe's bits
+// count in this order.
 std::vector<std::size_t> clips_by_name(const ImportedCharacter& character);
 
-// The training poses: automatic ones, clips, their variants, single joints, in this order; without the host's
-// extra poses. Fails with BAD_FILE where an earlier generation made poses that this one cannot make again.
+// Makes the training poses in this order: automatic ones, clips, their variants, single joints. The host's
+// extra poses are not included. Fails with BAD_FILE if an earlier generation made poses that this one cannot
+// make again.
 std::vector<Pose> recipe_poses(const ImportedCharacter& character, const Recipe& recipe);
 
-// One line of JSON. Clips are stored as bits over clips_by_name and a hash of all names, so that it stays
-// short.
+// Returns one line of JSON. Clips are stored as bits over clips_by_name with a hash of all names, so that the
+// line stays short.
 std::string recipe_text(const ImportedCharacter& character, const Recipe& recipe);
 
-// Fails with BAD_FILE where the text is no recipe, or was made for a file with other clips.
+// Fails with BAD_FILE if the text is not a recipe, or was made for a file with other clips.
 Recipe read_recipe(const ImportedCharacter& character, std::string_view text);
 
 const char* name_of(Preset preset);

@@ -23,7 +23,7 @@ inline Mat3x4 rotation(Vec3 axis_angle) {
   return r;
 }
 
-// The turn that takes one unit vector to another by the shortest way: axis times angle, radians.
+// Returns the turn that takes one unit vector to another by the shortest way: axis times angle, radians.
 inline Vec3 shortest_arc(Vec3 from, Vec3 to) {
   const Vec3 axis = cross(from, to);
   const float s = length(axis), c = dot(from, to);

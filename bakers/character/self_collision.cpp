@@ -24,7 +24,7 @@ bool related(const BodyTree& tree, std::size_t a, std::size_t b) {
   return false;
 }
 
-// The hand that a bone belongs to, by a number: all bones below one forearm have the same. -1: none.
+// Returns a number for the hand that each bone belongs to: all bones below one forearm share it. -1: none.
 std::vector<std::int32_t> hands_of_bones(const BodyTree& tree, std::span<const Joint> joints) {
   std::vector<std::int32_t> hand(joints.size(), -1);
   for (const std::uint32_t b : tree.order) {
@@ -51,7 +51,7 @@ SelfCollision::SelfCollision(const SkinnedMesh& mesh, std::span<const float> ver
   const std::vector<std::int32_t> hand = hands_of_bones(tree, joints);
   for (std::size_t i = 0; i < spheres_.size(); ++i)
     for (std::size_t j = i + 1; j < spheres_.size(); ++j) {
-      // Fingers lie on each other and on the palm in every fist.
+      // In every fist, fingers lie on each other and on the palm.
       if (hand[spheres_[i].bone] >= 0 && hand[spheres_[i].bone] == hand[spheres_[j].bone]) continue;
       if (related(tree, spheres_[i].bone, spheres_[j].bone)) continue;
       pairs_.push_back({std::uint16_t(i), std::uint16_t(j)});

@@ -32,8 +32,8 @@ LinearLayerFit fitted_layer(const CharacterModel& model, const FitState& state, 
                           settings);
 }
 
-// Copies all that is the same for each mesh of the rig: also the caster weights, and the places where key
-// points take the shadow of casters.
+// Copies all that is the same for each mesh of the rig. This includes the caster weights, and the places
+// where key points take the shadow of casters.
 void take_rig(const CharacterModel& model, CharacterModel& out) {
   out.kernel = model.kernel;
   out.bone_names = model.bone_names;
@@ -86,8 +86,8 @@ CharacterModel refit_vertices(const CharacterModel& model, const SkinnedMesh& me
 
 namespace {
 
-// Of the two observations that hold for every vertex, in poses. A traced one has the noise of its rays and of
-// what AO does not say, so that some ten poses that differ in AO outweigh these.
+// Weight, in poses, of the two observations that hold for every vertex. A traced observation has noise from
+// its rays and from what AO does not say. Some ten poses that differ in AO outweigh these two.
 constexpr double known_weight = 0.1;
 
 Mat3x4 blended_bones(const SkinWeights& weights, const Pose& pose) {
@@ -99,7 +99,7 @@ Mat3x4 blended_bones(const SkinWeights& weights, const Pose& pose) {
   return sum;
 }
 
-// Returns v before a turn: the transpose of the matrix, without its scale.
+// Undoes a turn of v: multiplies by the transpose of the matrix, without its scale.
 Vec3 turned_back(const Mat3x4& turn, Vec3 v) {
   const float* m = turn.m;
   const Vec3 back{m[0] * v.x + m[4] * v.y + m[8] * v.z, m[1] * v.x + m[5] * v.y + m[9] * v.z,

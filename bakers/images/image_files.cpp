@@ -48,8 +48,9 @@ std::vector<fs::path> images_below(const fs::path& folder) {
 
 void check_image_size(const char* what, int width, int height, std::size_t max_texels,
                       std::uintmax_t file_bytes) {
-  // Deflate packs 1032 bytes into one, which are 8256 texels of one bit; a block of 64 texels takes a bit or
-  // more of a JPEG, and an EXR file packs at most 11,000 of one colour into a byte.
+  // The limit is above what each format packs into a byte. Deflate packs 1032 bytes, which are 8256 texels of
+  // one bit. A block of 64 texels takes a bit or more of a JPEG. An EXR file packs at most 11,000 texels of
+  // one colour.
   constexpr std::uintmax_t max_texels_per_byte = std::uintmax_t{1} << 14;
   if (width < 1 || height < 1 || std::size_t(width) > max_texels / std::size_t(height))
     throw Failure(NOOK_ERROR_BAD_FILE, "%.250s has %d x %d texels (need 1 to %zu); make it smaller", what,
@@ -64,12 +65,12 @@ void check_image_size(const char* what, int width, int height, std::size_t max_t
 namespace {
 
 constexpr std::uint32_t exr_magic = 20000630;
-constexpr std::uint32_t is_tiled = 0x200, is_multipart = 0x1000;  // of the version field
+constexpr std::uint32_t is_tiled = 0x200, is_multipart = 0x1000;  // bits of the version field
 // OpenEXR takes memory for up to 256 whole rows when it opens a file.
 constexpr std::int64_t max_columns = 1 << 16;
-constexpr std::size_t max_name_length = 255;  // of an attribute and of its type, bytes
+constexpr std::size_t max_name_length = 255;  // for an attribute and its type, bytes
 
-// Little endian, as all numbers of the format; 0 beyond the end of the file.
+// Little endian, like all numbers of the format. Returns 0 beyond the end of the file.
 std::uint32_t read_u32(std::istream& file) {
   unsigned char bytes[4] = {};
   file.read(reinterpret_cast<char*>(bytes), 4);
@@ -78,14 +79,14 @@ std::uint32_t read_u32(std::istream& file) {
               : 0;
 }
 
-// Reads up to a zero byte. A longer name than the format allows is cut there: the reader refuses it.
+// Reads up to a zero byte. Cuts a name that is longer than the format allows; the reader refuses it.
 std::string read_name(std::istream& file) {
   std::string name;
   for (char c = 0; name.size() <= max_name_length && file.get(c) && c != 0;) name.push_back(c);
   return name;
 }
 
-// The types whose values OpenEXR reads by their own size, whatever the attribute says, bytes.
+// Types with a fixed size in bytes. OpenEXR reads their values by this size, whatever the attribute says.
 struct FixedType {
   std::string_view name;
   std::uint32_t size;
@@ -100,8 +101,8 @@ constexpr std::array fixed_types{
     FixedType{"v2d", 16},     FixedType{"v2f", 8},         FixedType{"v2i", 8},
     FixedType{"v3d", 24},     FixedType{"v3f", 12},        FixedType{"v3i", 12}};
 
-// Returns the bytes of the value where the file is, as OpenEXR reads one of this type; `said` for types that
-// it reads by what the attribute says.
+// Returns the bytes of the value at the file's position, as OpenEXR reads this type. `said` is what the
+// attribute says, which counts for the other types.
 std::uint64_t value_size(std::istream& file, const std::string& type, std::uint32_t said) {
   for (const FixedType& fixed : fixed_types)
     if (type == fixed.name) return fixed.size;
@@ -115,7 +116,7 @@ std::uint64_t value_size(std::istream& file, const std::string& type, std::uint3
   return file ? std::uint64_t(file.tellg() - at) : UINT64_MAX;
 }
 
-// Moves behind one attribute, whose name is read.
+// Moves past one attribute whose name is read already.
 void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t file_bytes,
                     const char* what) {
   const std::string type = read_name(file);
@@ -126,7 +127,7 @@ void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t 
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "%.250s is a damaged EXR file: its attribute \"%.60s\" says %u bytes, and %ju follow", what,
                   name.c_str(), size, file_bytes - at);
-  // OpenEXR would go on at another place than this does, and take what it finds there for a size.
+  // OpenEXR would continue at another place than we do, and take what it finds there for a size.
   if (value_size(file, type, size) != size)
     throw Failure(
         NOOK_ERROR_BAD_FILE,
@@ -137,8 +138,8 @@ void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t 
   file.seekg(std::streamoff(at + size));
 }
 
-// Checks the rows and columns that the attribute of the image's extent says; its name is read. A file of
-// scanlines has the place of each block of rows, 8 bytes for at most 256 rows.
+// Checks the rows and columns that the attribute of the image's extent declares. Its name is read already. A
+// file of scanlines has 8 bytes for the place of each block of at most 256 rows.
 void check_extent(std::istream& file, std::uint32_t version, std::uintmax_t file_bytes, const char* what) {
   const auto at = file.tellg();
   read_name(file);  // its type

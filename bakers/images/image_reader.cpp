@@ -27,10 +27,10 @@ constexpr std::array magics{Magic{"\x89PNG"sv, "png"},
                             Magic{"BM"sv, "bmp"}};
 constexpr std::size_t longest_magic = 10;
 
-// The bitmaps of Netpbm: P1 to P6, and those of floats.
+// Netpbm bitmaps: P1 to P6, and the two kinds with floats.
 constexpr std::string_view netpbm_kinds = "123456fF";
 
-// Formats whose reader is taken by a name's ending.
+// Formats that a name's ending can select.
 constexpr std::array endings{"png"sv, "jpg"sv, "jpeg"sv, "exr"sv, "hdr"sv, "tif"sv, "tiff"sv,
                              "bmp"sv, "ppm"sv, "pgm"sv,  "pbm"sv, "pfm"sv, "tga"sv};
 
@@ -43,7 +43,7 @@ std::string ending_of(const std::filesystem::path& path) {
 
 std::unique_ptr<OIIO::ImageInput> open_as(const std::string& format, const std::string& name,
                                           const OIIO::ImageSpec& config, std::string& why) {
-  // A format's name in place of a file's makes a reader and opens nothing.
+  // Given the name of a format, OpenImageIO makes a reader and opens nothing.
   auto input = OIIO::ImageInput::create(format);
   if (!input) {
     why = OIIO::geterror();
@@ -92,7 +92,7 @@ std::unique_ptr<OIIO::ImageInput> open_image_in_memory(const char* format, const
 bool read_rows(OIIO::ImageInput& image, int top, int bottom, int channels, OIIO::TypeDesc type,
                void* values) {
   const OIIO::ImageSpec& spec = image.spec();
-  // Channels of several types have no type of their own.
+  // The image has no single type if its channels have several.
   if (!spec.channelformats.empty())
     return image.read_scanlines(0, 0, top, bottom, spec.z, 0, channels, type, values);
   const std::size_t count = std::size_t(channels) * std::size_t(spec.width) * std::size_t(bottom - top);

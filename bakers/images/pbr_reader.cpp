@@ -25,7 +25,7 @@ bool is_letter(char c) {
   return std::isalpha(static_cast<unsigned char>(c)) != 0;
 }
 
-// "Bricks090_4K_NormalGL" is bricks, k, normal, gl.
+// Splits "Bricks090_4K_NormalGL" into bricks, k, normal, gl.
 std::vector<std::string> words_of(std::string_view name) {
   std::vector<std::string> words;
   char before = 0;
@@ -40,7 +40,7 @@ std::vector<std::string> words_of(std::string_view name) {
 
 struct Word {
   std::string_view text;
-  std::optional<PbrMap> map;  // none: a map without use here
+  std::optional<PbrMap> map;  // none: a map that we do not use
 };
 
 constexpr std::array words{Word{"albedo", PbrMap::base_colour},
@@ -98,7 +98,7 @@ std::string list_of(std::span<const std::string> names) {
   return list + (names.size() > most ? ", ..." : "");
 }
 
-// The places that files take, before some give way to others.
+// The files chosen for each map, before some give way to others.
 struct Places {
   std::optional<std::size_t> base_colour, normal_up, normal_down, roughness, gloss, metalness, height, packed;
 
@@ -175,9 +175,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// 8192 x 8192, of which three channels of floats are 0.8 GB.
+// 8192 x 8192. Three channels of floats then take 0.8 GB.
 constexpr std::size_t most_texels = std::size_t{1} << 26;
-// Of a normal against the plane: flatter directions are noise of the image.
+// The least cosine of a normal against the plane's normal. Flatter directions are noise of the image.
 constexpr float least_upright = 0.1f;
 
 struct MapImage {
@@ -187,7 +187,7 @@ struct MapImage {
   std::size_t channels = 0;  // 1 or 3
   std::vector<float> texels;
 
-  // A channel of a texel; one channel stands for three.
+  // Returns a channel of a texel; one channel stands for three.
   float at(std::size_t texel, std::size_t channel) const {
     return texels[texel * channels + (channels == 3 ? channel : 0)];
   }
@@ -208,14 +208,14 @@ void check_finite(const MapImage& image) {
 MapImage read_image(const fs::path& path, bool needs_colour) {
   check_exr_head(path.c_str(), path);
   OIIO::ImageSpec config;
-  // Colours would otherwise be multiplied by alpha.
+  // Otherwise OpenImageIO would multiply colours by alpha.
   config["oiio:UnassociatedAlpha"] = 1;
   std::string why;
   const auto input = open_image(path, config, why);
   if (!input) fail(path, why);
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.nchannels < 1 || spec.depth > 1) fail(path, "it is no flat image");
-  std::error_code unknown;  // the size is then the largest number
+  std::error_code unknown;  // on an error, the size is the largest number
   check_image_size(path.c_str(), spec.width, spec.height, most_texels, fs::file_size(path, unknown));
   if (spec.width != spec.height)
     throw Failure(NOOK_ERROR_BAD_FILE,
@@ -235,7 +235,7 @@ MapImage read_image(const fs::path& path, bool needs_colour) {
   return image;
 }
 
-// Averages numbers that each texel gives, `count` of them.
+// Averages `count` numbers per texel.
 std::vector<float> averages(const MapImage& image, std::uint32_t side, std::uint32_t count,
                             const std::function<void(std::size_t texel, float* numbers)>& numbers_of) {
   TileFilter filter(image.side, image.side, side, count);

@@ -140,9 +140,9 @@ void write_png(const std::filesystem::path& path, const Picture& picture) {
 namespace nook::bake::probe {
 namespace {
 
-constexpr float mean_shade = 0.35f;  // where the map's mean luminance ends, linear
+constexpr float mean_shade = 0.35f;  // value of the map's mean luminance on the picture, linear
 
-// Extended by a shoulder, so that a sun keeps its shape; then the sRGB curve.
+// Compresses bright values by a shoulder, so that a sun keeps its shape, and applies the sRGB curve.
 float display(float value) {
   const float x = std::max(value, 0.0f);
   const float shown = x * (1 + x / 16) / (1 + x);
@@ -171,7 +171,7 @@ Picture map_picture(const Environment& map, const Basis& basis, std::span<const 
   const Channels light = integrate(map, {}).radiance;
   const float mean =
       luminance({float(light[0]), float(light[1]), float(light[2])}) / (4 * std::numbers::pi_v<float>);
-  // A mean m ends at m e / (1 + m e) = mean_shade.
+  // A mean m becomes m e / (1 + m e) = mean_shade.
   const float exposure = mean > 0 ? mean_shade / ((1 - mean_shade) * mean) : 1.0f;
   std::array<Picture, 4> panels;
   const int width = int(panel_width), height = width / 2;

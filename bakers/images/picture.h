@@ -1,4 +1,4 @@
-// Pictures of a body with a value at each vertex, by primary rays, such as the error on the body.
+// Draws a body with a value at each vertex by primary rays, for example the error on the body.
 #pragma once
 
 #include <array>
@@ -29,32 +29,32 @@ enum class BodySide { front, back };  // seen from +z or from -z, +y up
 // A parallel view of a body. +y is up in the picture, or -z where the view is along y.
 struct BodyCamera {
   Vec3 centre_ws;  // in the middle of the picture
-  Vec3 towards;    // from the body to the viewer, unit length
+  Vec3 towards;    // unit length
   float metres_per_pixel = 1;
 };
 
-// The triangle that every sample of an orthographic picture sees. Rays are cast once, and the view is drawn
-// with any values.
+// Stores the triangle that each sample of an orthographic picture sees. Rays are cast once, and you can draw
+// the view with any values.
 class BodyView {
  public:
-  // The body fills the picture up to a margin; both sides of one body have the same scale.
+  // The body fills the picture up to a margin. Both sides of one body have the same scale.
   BodyView(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const Vec3> positions_ws,
            BodySide side, int width, int height);
 
   BodyView(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const Vec3> positions_ws,
            const BodyCamera& camera, int width, int height);
 
-  // Interpolates one value for each vertex and colours it. relief: by how much a surface that is seen from
-  // the side is darker than one that faces the viewer, 0 to 1.
+  // Interpolates one value for each vertex and colours it. relief (0 to 1) is how much darker a surface seen
+  // from the side is than one that faces the viewer.
   Picture draw(std::span<const float> vertex_value, Colour (*colour)(float), float relief = 0) const;
 
  private:
-  static constexpr int samples = 3;  // along the side of a pixel
+  static constexpr int samples = 3;  // per side of a pixel
 
   struct Hit {
     std::uint32_t triangle;
     float u, v;
-    float cosine;  // between the view and the face
+    float cosine;  // cosine of the angle between the view and the face's normal
   };
   static constexpr std::uint32_t nothing = ~0u;
 
@@ -78,12 +78,15 @@ void write_png(const std::filesystem::path& path, const Picture& picture);
 
 namespace nook::bake::probe {
 
-// Pictures of a map beside what a probe makes of it.
+// Draws a map beside what a probe makes of it.
 
-// Four panels in a row, latitude-longitude, panel_width by half of it: the map; the probe's radiance; its
-// irradiance over pi, as a white surface would look; and the luminance of its radiance error, e / (e + the
-// map's mean luminance), from violet (0) over green to yellow (large). The colours of the first three have
-// one exposure, by the map's mean luminance.
+// Draws four latitude-longitude panels in a row, panel_width by half of it:
+//   1. the map;
+//   2. the probe's radiance;
+//   3. its irradiance over pi, as a white surface would look;
+//   4. the luminance of its radiance error, e / (e + the map's mean luminance), from violet (0) over green to
+//      yellow (large).
+// The first three have one exposure, by the map's mean luminance.
 Picture map_picture(const Environment& map, const Basis& basis, std::span<const Vec3> coefficients,
                     std::uint32_t panel_width = 512);
 

@@ -21,7 +21,7 @@ using namespace std::string_view_literals;
 
 constexpr std::size_t most_texels = std::size_t{1} << 26;
 
-// Null for what glTF does not allow.
+// Returns null for formats that glTF does not allow.
 const char* format_of(const std::vector<std::byte>& bytes) {
   const char* format = image_format_of(bytes);
   return format && (format == "png"sv || format == "jpg"sv) ? format : nullptr;
@@ -35,7 +35,8 @@ Texture decode_texture(const EncodedImage& image) {
     throw Failure(NOOK_ERROR_BAD_FILE, "%s is neither PNG nor JPEG; convert it", image.name.c_str());
   OIIO::Filesystem::IOMemReader reader(image.bytes.data(), image.bytes.size());
   OIIO::Filesystem::IOProxy* proxy = &reader;
-  // The reader is passed in the configuration; OpenImageIO 2.4 loses a reader that is passed beside one.
+  // The configuration passes the reader. OpenImageIO 2.4 loses a reader that is passed beside a
+  // configuration.
   OIIO::ImageSpec config;
   config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
   config["oiio:UnassociatedAlpha"] = 1;
@@ -116,7 +117,7 @@ Environment read_environment(const std::filesystem::path& path) {
   if (!image) throw Failure(NOOK_ERROR_BAD_FILE, "cannot be read as an image (%s)", why.c_str());
   const OIIO::ImageSpec spec = image->spec();
   check_layout(spec, image->format_name());
-  std::error_code unknown;  // the size is then the largest number
+  std::error_code unknown;  // on an error, the size is the largest number
   check_image_size("the map", spec.width, spec.height, std::size_t{most_columns} * (most_columns / 2),
                    std::filesystem::file_size(path, unknown));
   std::vector<float> rgb(3 * std::size_t(spec.width) * std::size_t(spec.height));

@@ -28,14 +28,14 @@ struct Pair {
   Angles light, view;
 };
 
-// Lights are moved by less than the distance of neighbouring directions.
+// A light is moved by less than the distance between neighbouring directions.
 constexpr float most_moved_deg = 15;
 
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-// The number behind a two-letter key that no other letter precedes.
+// Returns the number after a two-letter key that no other letter precedes.
 std::optional<float> number_behind(std::string_view text, std::string_view key) {
   std::optional<float> found;
   for (std::size_t at = text.find(key); at != std::string_view::npos; at = text.find(key, at + 1)) {
@@ -51,7 +51,7 @@ std::optional<float> number_behind(std::string_view text, std::string_view key) 
   return found;
 }
 
-// All azimuths are one direction at a tilt of 0.
+// At a tilt of 0, all azimuths are one direction.
 Angles canonical(float tilt, float azimuth) {
   return {tilt, tilt == 0 ? 0 : azimuth};
 }
@@ -91,8 +91,8 @@ std::vector<Pair> read_pairs(std::span<const std::string> names) {
   return pairs;
 }
 
-// A lamp cannot stand in the camera: where light and view would be equal, it is moved. Such a light is of one
-// view alone, and the image takes the place of the pair that is missing.
+// A lamp cannot stand in the camera, so the database moves it where light and view would be equal. Such a
+// light exists for one view only. Its image replaces the missing pair.
 void put_moved_lights_back(std::vector<Pair>& pairs) {
   std::map<Angles, std::set<Angles>> views_of;
   for (const Pair& p : pairs) views_of[p.light].insert(p.view);
@@ -121,7 +121,7 @@ void put_moved_lights_back(std::vector<Pair>& pairs) {
 }  // namespace
 
 std::optional<UboAngles> parse_ubo_name(std::string_view name) {
-  // The extension's dot must not pass for a decimal point.
+  // The extension's dot must not count as a decimal point.
   if (const std::size_t dot = name.rfind('.'); dot != std::string_view::npos) name = name.substr(0, dot);
   const auto tl = number_behind(name, "tl"), pl = number_behind(name, "pl");
   const auto tv = number_behind(name, "tv"), pv = number_behind(name, "pv");
@@ -161,7 +161,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr float max_half = 65504;  // the largest half float
-// Of one image: 32 million texels take 0.8 GB while all of them are read.
+// For one image: 32 million texels take 0.8 GB while all of them are read.
 constexpr std::size_t most_image_texels = std::size_t{1} << 25;
 
 struct Size {
@@ -170,13 +170,13 @@ struct Size {
   bool operator==(const Size&) const = default;
 };
 
-// A part of an image, texels from the upper left.
+// A part of an image, in texels from the upper left.
 struct Region {
   int left = 0, top = 0;
   Size size;
 };
 
-// One image of the set, whose head is read when it is opened.
+// One image of the set. Opening it reads its head.
 class UboImage {
  public:
   UboImage(const fs::path& path, FloatColours colours) : path_(path) {
@@ -186,15 +186,15 @@ class UboImage {
     if (!input_) fail(why);
     const OIIO::ImageSpec& spec = input_->spec();
     if (spec.nchannels < 1 || spec.depth > 1) fail("it is no flat image");
-    std::error_code unknown;  // the size is then the largest number
+    std::error_code unknown;  // on an error, the size is the largest number
     check_image_size(path.c_str(), spec.width, spec.height, most_image_texels, fs::file_size(path, unknown));
     find_channels(spec, colours);
   }
 
   Size size() const { return {input_->spec().width, input_->spec().height}; }
 
-  // Returns the texels of a region, linear, rows top first. Only the rows or the tiles that hold it are kept
-  // in memory.
+  // Returns the texels of a region, linear, rows top first. Keeps in memory only the rows or tiles that hold
+  // the region.
   std::vector<float> read(const Region& region) {
     const Region held = held_region(region);
     std::vector<float> raw(channels_read_ * std::size_t(held.size.width) * std::size_t(held.size.height));
@@ -216,7 +216,7 @@ class UboImage {
     throw Failure(NOOK_ERROR_BAD_FILE, "%.250s: cannot be read (%.150s)", path_.c_str(), why.c_str());
   }
 
-  // One channel stands for three; those above the third are not read, unless X, Y and Z are among them.
+  // One channel stands for three. Channels above the third are not read, unless X, Y and Z are among them.
   void find_channels(const OIIO::ImageSpec& spec, FloatColours colours) {
     if (spec.nchannels < 3) return;
     channel_ = {0, 1, 2};
@@ -225,7 +225,7 @@ class UboImage {
         const auto& names = spec.channelnames;
         return std::size_t(std::find(names.begin(), names.end(), name) - names.begin());
       };
-      constexpr std::size_t most_channels = 8;  // those before X, Y and Z are held in memory too
+      constexpr std::size_t most_channels = 8;  // channels before X, Y and Z also take memory
       const std::array<std::size_t, 3> xyz{place("X"), place("Y"), place("Z")};
       const bool has_xyz = std::ranges::max(xyz) < std::min(spec.channelnames.size(), most_channels);
       if (has_xyz) channel_ = xyz;
@@ -234,7 +234,7 @@ class UboImage {
     channels_read_ = std::ranges::max(channel_) + 1;
   }
 
-  // The rows or the tiles that hold a region.
+  // Returns the rows or tiles that hold a region.
   Region held_region(const Region& region) const {
     const OIIO::ImageSpec& spec = input_->spec();
     if (spec.tile_width == 0) return {0, region.top, {spec.width, region.size.height}};
@@ -265,7 +265,7 @@ class UboImage {
       colour = {linear_from_srgb(colour.x), linear_from_srgb(colour.y), linear_from_srgb(colour.z)};
     if (is_xyz_) colour = linear_rgb_from_xyz(colour);
     for (const float value : {colour.x, colour.y, colour.z})
-      // Raw materials hold half floats.
+      // Raw materials store half floats.
       if (!(std::abs(value) <= max_half))
         throw Failure(
             NOOK_ERROR_BAD_FILE,
@@ -277,12 +277,12 @@ class UboImage {
 
   fs::path path_;
   std::unique_ptr<OIIO::ImageInput> input_;
-  std::array<std::size_t, 3> channel_{};  // of red, green and blue, or X, Y and Z
+  std::array<std::size_t, 3> channel_{};  // index of red, green and blue, or X, Y and Z
   std::size_t channels_read_ = 1;
   bool is_xyz_ = false;
 };
 
-// Of the raw material, y counts from the bottom; images begin at the top.
+// In a raw material, y counts from the bottom; images begin at the top.
 void copy_image(const std::vector<float>& rgb, std::size_t light, std::size_t view, RawMaterial& raw) {
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t x = 0; x < raw.width; ++x) {
@@ -322,7 +322,7 @@ RawMaterial read_ubo_folder(const fs::path& folder, std::uint32_t texels, const 
                   names.size(), raw.width, raw.height, double(values) * sizeof(float) / double(1 << 30));
   raw.btf.resize(values);
 
-  // The fault of the first image is reported, for any order of threads.
+  // We report the fault of the first image, whatever the order of threads.
   std::vector<std::string> fault(names.size());
   std::atomic<bool> failed{false}, stopped{false};
   std::mutex turn;

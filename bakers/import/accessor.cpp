@@ -104,7 +104,7 @@ struct Strided {
   std::size_t stride = 0;
 };
 
-// `count` elements of element_size bytes in a buffer view, each of them inside the buffer.
+// `count` elements of element_size bytes in a buffer view. Each must be inside the buffer.
 Strided checked_view(const tinygltf::Model& model, int view_index, std::size_t offset, std::size_t count,
                      std::size_t element_size, bool may_stride, const std::string& what) {
   if (view_index < 0 || static_cast<std::size_t>(view_index) >= model.bufferViews.size())

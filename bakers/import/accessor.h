@@ -10,8 +10,8 @@
 
 namespace nook::bake {
 
-// The contents that an accessor declares. Callers check them before they read it, because an accessor without
-// a buffer view costs no bytes in the file. Fails with BAD_FILE where there is no such accessor.
+// Returns the number of elements that an accessor declares. Check it before you read, because an accessor
+// without a buffer view costs no bytes in the file. Fails with BAD_FILE if there is no such accessor.
 std::size_t element_count(const tinygltf::Model& model, int accessor, const std::string& what);
 
 // Components in a row as floats: normalised integers become [0, 1] or [-1, 1], plain integers keep their
@@ -23,8 +23,7 @@ struct Floats {
 };
 Floats read_floats(const tinygltf::Model& model, int accessor, const std::string& what);
 
-// As read_floats, and the accessor must have this many components. Only the first elements are read where
-// there are more than `most`.
+// Like read_floats, but the accessor must have this many components. Reads only the first `most` elements.
 Floats read_floats(const tinygltf::Model& model, int accessor, int components, const std::string& what,
                    std::size_t most = ~std::size_t{0});
 

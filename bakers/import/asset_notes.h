@@ -1,4 +1,4 @@
-// The words of a glTF file about itself: whose it is, and under which licence.
+// What a glTF file says about its owner and its licence.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace nook::bake {
 
-// As in the file; empty where it says nothing.
+// Texts are as in the file, and empty where it says nothing.
 struct AssetNotes {
   std::string copyright;  // asset.copyright
   std::string generator;  // asset.generator

@@ -33,7 +33,7 @@ Value unit_quaternion(const Value& q) {
   return length > 1e-12 ? mixed(q, 1 / length, q, 0) : Value{0, 0, 0, 1};
 }
 
-// Shoemake 1985, "Animating Rotation with Quaternion Curves": spherical interpolation along the shorter arc.
+// Spherical interpolation along the shorter arc (Shoemake 1985, "Animating Rotation with Quaternion Curves").
 Value slerp(Value a, Value b, double t) {
   a = unit_quaternion(a);
   b = unit_quaternion(b);

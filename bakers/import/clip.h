@@ -33,12 +33,12 @@ struct Clip {
   std::vector<Channel> channels;
 };
 
-// Overwrites what the clip animates; the rest stays. Time is from the clip's first key and is clamped to its
-// length.
+// Overwrites what the clip animates and leaves the rest. Time counts from the clip's first key and is clamped
+// to its length.
 void apply_clip(const Clip& clip, float time_s, std::vector<Trs>& locals);
 
-// Bone matrices, rest space to world, rigid or uniformly scaled: shear and uneven scale are taken out, and
-// `deviation` (may be null) says for each bone how much there was of them, relative.
+// Returns bone matrices from rest space to world, rigid or uniformly scaled. Shear and uneven scale are
+// removed, and `deviation` (may be null) receives how much each bone had, relative.
 Pose bone_matrices(const ImportedCharacter& character, const std::vector<Trs>& locals,
                    std::vector<double>* deviation);
 
@@ -47,7 +47,7 @@ Pose sample_clip(const ImportedCharacter& character, std::size_t clip, float tim
 // Identity matrices.
 Pose rest_pose(const ImportedCharacter& character);
 
-// Fails with INVALID_ARGUMENT and the list of names there are.
+// Fails with INVALID_ARGUMENT and lists the names that exist.
 std::size_t find_clip(const ImportedCharacter& character, std::string_view name);
 
 }  // namespace nook::bake

@@ -17,10 +17,10 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr std::size_t all_samples = std::size_t{1} << 16, most_of_part = 512, fewest_of_part = 16;
 constexpr std::size_t most_parts = std::size_t{1} << 16;
-// Bounds the time on files whose triangles all lie on each other: what is found until then is enough.
+// Limits the time on files whose triangles all lie on each other. What is found until then is enough.
 constexpr std::size_t most_candidates = 256, most_tests = std::size_t{1} << 26;
-constexpr float reach_of_size = 0.02f;  // of the diagonal of a part
-constexpr float least_cosine = 0.7f;    // of surfaces that face the same way
+constexpr float reach_of_size = 0.02f;  // relative to the diagonal of a part
+constexpr float least_cosine = 0.7f;    // for surfaces that face the same way
 
 struct Box {
   Vec3 low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
@@ -34,7 +34,7 @@ struct Box {
   }
 };
 
-// The nearest crossing of a sample's normal with another part.
+// The point nearest to a sample where its normal crosses another part.
 struct Hit {
   std::uint32_t part = 0;
   float height = 0;  // along the sample's normal, in units of its reach
@@ -43,7 +43,7 @@ struct Hit {
 struct Sample {
   Vec3 at, normal;
   float reach = 0;
-  double area = 0;  // that it stands for
+  double area = 0;  // area that the sample stands for
   std::uint32_t part = 0;
   std::vector<Hit> hits;  // one for each other part, the nearest
 };
@@ -154,7 +154,7 @@ void add_samples(const Mesh& mesh, std::size_t part, std::size_t count, std::vec
   }
 }
 
-// The parameter of a line where it goes through a triangle; not a number where it does not.
+// Returns the parameter of a line where it goes through a triangle, or NaN.
 float crossing(Vec3 at, Vec3 direction, Vec3 a, Vec3 b, Vec3 c) {
   constexpr float slack = 1e-5f;  // for points on an edge that two triangles share
   const Vec3 ab = b - a, ac = c - a, p = cross(direction, ac);
@@ -216,7 +216,7 @@ void find_hits(const Mesh& mesh, std::vector<Sample>& samples) {
   }
 }
 
-// A surface of its own: a node, or a primitive where two primitives of one node are compared.
+// A node, or a primitive where two primitives of one node are compared.
 using Surface = std::array<std::uint32_t, 2>;
 constexpr std::uint32_t whole_node = ~0u;
 
@@ -288,23 +288,25 @@ bool share_vertices(const Mesh& mesh, const Surface& a, const Surface& b) {
   return 2 * shared >= few.size();
 }
 
-// A copy or a level of detail. Clothes on a body and pictures on a wall stay on one side, and cover a part.
+// True for a copy or a level of detail. Clothes on a body and pictures on a wall stay on one side, and cover
+// only a part.
 bool is_coincident(const Mesh& mesh, const Surface& a, const Surface& b, const Contact& from_a,
                    const Contact& from_b, const float (&cover)[2]) {
-  constexpr double same_plane = 0.01;  // of the reach
+  constexpr double same_plane = 0.01;  // relative to the reach
   const double area = from_a.area + from_b.area;
   const double mean = std::abs(from_a.height - from_b.height) / area;
   const double rms = std::sqrt((from_a.height_square + from_b.height_square) / area);
   const float least = std::min(cover[0], cover[1]), most = std::max(cover[0], cover[1]);
-  // Clothes keep their distance: mean / rms is 0.93 and more. Levels of detail lie on both sides, or with
-  // their corners on the surface of a convex body and the rest inside: 0.05 to 0.86, the more the coarser.
+  // Clothes keep their distance: their mean / rms is 0.93 or more. Levels of detail lie on both sides, or
+  // have their corners on the surface of a convex body and the rest inside. Their mean / rms is 0.05 to 0.86,
+  // and rises as they get coarser.
   const double one_sided = rms < same_plane ? 0 : mean / rms;
   if (least >= 0.9f) return one_sided < 0.9 || share_vertices(mesh, a, b);
   if (least >= 0.5f) return one_sided < 0.8 || share_vertices(mesh, a, b);
   return most >= 0.9f && rms >= same_plane && one_sided < 0.7;
 }
 
-// The name by which a node of a pair can be chosen apart from the other.
+// Returns a name by which you can choose one node of a pair apart from the other.
 std::string chosen_name(const tinygltf::Model& model, const CoincidentPair& pair, std::size_t which) {
   const std::size_t own = pair.node[which], other = pair.node[1 - which];
   if (node_label(model, own) != node_label(model, other)) return node_label(model, own);

@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The parser walks "extras" by recursion, so that deep nesting would exhaust the stack, and a value takes
-// some 60 bytes in memory where two bytes of text will do.
+// The parser walks "extras" by recursion, so that deep nesting would exhaust the stack. A value takes some 60
+// bytes in memory, but only two bytes of text.
 void check_structure(std::span<const std::byte> json) {
   constexpr int max_depth = 128;
   constexpr std::size_t max_values = std::size_t{1} << 24;
@@ -43,7 +43,7 @@ void check_structure(std::span<const std::byte> json) {
   }
 }
 
-// Read here, or without any bearing on geometry, poses and the colours that are read.
+// True for an extension that we read, or that does not affect geometry, poses and the colours that we read.
 bool is_readable(std::string_view extension) {
   constexpr std::array<std::string_view, 16> names = {
       "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization",   "KHR_node_visibility",
@@ -72,7 +72,7 @@ void check_extensions(const Json& document) {
     const std::string& name = entry.get_ref<const std::string&>();
     if (is_readable(name)) continue;
     if (!advice) advice = advice_for(name);
-    // The first few say enough.
+    // The first few names say enough.
     if (names.size() < 120) names += (names.empty() ? "" : ", ") + name.substr(0, 60);
   }
   if (advice)
@@ -128,8 +128,8 @@ void check_version(const Json& document) {
         written("minVersion").c_str());
 }
 
-// True where the parser decodes a URI as we do. It takes any two characters after % for digits, and + for a
-// space.
+// True if the parser decodes a URI as we do. The parser takes any two characters after % for digits, and +
+// for a space.
 bool is_decoded_alike(const std::string& uri) {
   for (std::size_t i = 0; i < uri.size(); ++i) {
     if (uri[i] == '+') return false;
@@ -139,7 +139,7 @@ bool is_decoded_alike(const std::string& uri) {
   return true;
 }
 
-// The URI of a file, null for data and for what has none.
+// Returns the URI of a file; null for a data URI and for an entry without a URI.
 const std::string* file_uri(const Json& entry) {
   if (!entry.is_object()) return nullptr;
   const auto uri = entry.find("uri");
@@ -194,8 +194,8 @@ std::vector<Json*> draco_primitives(Json& document) {
   return out;
 }
 
-// Takes indices without bytes from them: the parser refuses those, and the decompressed ones replace them.
-// Returns whether there were some.
+// Removes indices without bytes from them. The parser refuses such indices, and the decompressed ones replace
+// them. Returns whether there were some.
 bool drop_draco_indices(Json& document) {
   bool dropped = false;
   const auto accessors = document.find("accessors");
@@ -328,7 +328,7 @@ bool LinkedFileReader::refuse(const std::string& name, const char* why) {
   return false;
 }
 
-// Links are followed to their end: the file must lie where the folder does.
+// Links are followed to their end: the file must really lie in the folder.
 bool LinkedFileReader::leaves_folder(const std::string& name) const {
   std::error_code no_folder, no_file;
   const std::filesystem::path folder = std::filesystem::canonical(folder_, no_folder);
@@ -338,8 +338,8 @@ bool LinkedFileReader::leaves_folder(const std::string& name) const {
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first != folder.end();
 }
 
-// tinygltf looks for every name twice, in the folder given and in the current one, where nothing is to be
-// read.
+// tinygltf looks for every name twice, in the given folder and in the current one. We read nothing from the
+// current one.
 bool LinkedFileReader::may_open(const std::string& path) {
   if (is_room(path)) return true;
   if (folder_.empty()) {
@@ -348,7 +348,7 @@ bool LinkedFileReader::may_open(const std::string& path) {
   }
   const std::string name = name_of(path);
   if (name.empty() || (only_buffers_ && !preflight_.buffer_files.contains(name))) return false;
-  // A C string ends there, so that another file would be opened than was checked.
+  // A C string ends at the NUL, so that we would open another file than we checked.
   if (name.find('\0') != std::string::npos) return refuse(name.c_str(), "with a NUL character; rename it");
   if (linked_ == LinkedFiles::folder && climbs(name))
     return refuse(name,

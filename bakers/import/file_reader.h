@@ -17,45 +17,47 @@
 
 namespace nook::bake {
 
-// The demands of a glTF file, checked before anything is allocated for it or another file is opened.
+// Checks what a glTF file demands, before anything is allocated for it or another file is opened.
 
-// Of a file, of the buffers that it declares, and of the files that it names, added up each.
+// Limits the file, the buffers that it declares, and the sum of the files that it names, each by itself.
 constexpr std::uint64_t max_file_bytes = std::uint64_t{1} << 31;
 
 struct GltfPreflight {
   std::set<std::string> buffer_files;  // URIs of the buffers in other files, decoded
   std::vector<CompressedView> compressed_views;
-  std::vector<std::size_t> matrix_beside_trs;  // nodes, of whose two transforms the parser drops one
-  // The JSON that the parser gets instead of the file's; empty: the file's own. The parser decodes URIs in
-  // its own way, and needs bytes for buffers that are only room for decompressed views and for indices.
+  std::vector<std::size_t> matrix_beside_trs;  // nodes with two transforms; the parser drops one
+  // The JSON that the parser gets; empty: the file's own. The parser decodes URIs in its own way. It needs
+  // bytes even for buffers that are only room for decompressed views, and for indices.
   std::string replacement;
-  std::map<std::string, std::string> names;  // of files, by their URI in the replacement
+  std::map<std::string, std::string> names;  // names of files, by their URI in the replacement
   std::set<std::string> rooms;               // URIs of the buffers without bytes
 };
 
-// Looks at the JSON of a file. Fails with BAD_FILE on nesting deeper than 128 levels, on more than 2^24
-// values, on versions other than 2.x or a minimum above 2.0, on extensions that the file requires and nobody
-// reads here, which are named with the tool that takes them out, and on buffers of more than max_file_bytes
-// in all. Anything else that is wrong is left to the parser. The time is linear in the text.
+// Checks the JSON of a file. Fails with BAD_FILE on
+//   - nesting deeper than 128 levels, or more than 2^24 values;
+//   - versions other than 2.x, or a minimum above 2.0;
+//   - extensions that the file requires and that we do not read; the message names a tool that removes them;
+//   - buffers of more than max_file_bytes in all.
+// The parser reports anything else. The time is linear in the text.
 GltfPreflight check_before_parsing(std::span<const std::byte> json);
 
 // Reads a glTF file and the files that it names, each within limits.
 
-// The bytes of a file that a user named, up to max_file_bytes; it may be a pipe. Fails with BAD_FILE.
+// Reads a file that a user named, up to max_file_bytes. It may be a pipe. Fails with BAD_FILE.
 std::vector<std::byte> read_file_bytes(const std::filesystem::path& path);
 
 // The reader that tinygltf opens files through. It opens regular files of at most max_file_bytes in all.
 class LinkedFileReader {
  public:
-  // folder empty: no file is opened. only_buffers: files with other names are passed over unopened. The
-  // preflight must outlive this.
+  // An empty folder means that no file is opened. With only_buffers, files with other names are skipped
+  // unopened. The preflight must outlive this object.
   LinkedFileReader(std::string folder, LinkedFiles linked, const GltfPreflight& preflight, bool only_buffers)
       : folder_(std::move(folder)), linked_(linked), preflight_(preflight), only_buffers_(only_buffers) {}
 
   // They point to this object.
   tinygltf::FsCallbacks callbacks();
 
-  // Returns why the last file that could not be read was refused; empty: none was.
+  // Returns why the last unreadable file was refused; empty: no file was refused.
   const std::string& fault() const { return fault_; }
 
  private:

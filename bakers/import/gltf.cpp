@@ -105,11 +105,12 @@ MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes, c
   return out;
 }
 
-// Nodes and bones over all sampled poses: those of thousands of clips of usual characters, so that the work
-// does not grow with clips times nodes.
+// Limits nodes and bones over all sampled poses, so that the work does not grow with clips times nodes.
+// Thousands of clips of usual characters stay below it.
 constexpr std::size_t max_checked_matrices = std::size_t{1} << 24;
 
-// Bones that a clip shears or scales unevenly: their matrices are replaced by the nearest similarity.
+// Warns of bones that a clip shears or scales unevenly. Their matrices are replaced by the nearest
+// similarity.
 void warn_of_uneven_bones(ImportedCharacter& character) {
   constexpr int samples = 8;
   constexpr double tolerance = 1e-3;
@@ -148,7 +149,7 @@ void warn_of_uneven_bones(ImportedCharacter& character) {
   }
 }
 
-// The length unit of glTF is the metre, but some exporters write what they have.
+// The length unit of glTF is the metre, but some exporters write other units.
 void warn_of_size(const SkinnedMesh& mesh, std::vector<std::string>& warnings) {
   Vec3 low = mesh.position[0];
   Vec3 high = low;
@@ -172,7 +173,7 @@ std::uint64_t hash_of(std::span<const std::byte> bytes, const tinygltf::Model& m
   return hash;
 }
 
-// A file in which no mesh has a skin and no clip moves a mesh is a prop: each root of the meshes is a bone.
+// If no mesh has a skin and no clip moves a mesh, the file is a prop. Each root of its meshes becomes a bone.
 Skeleton skeleton_of(ImportedCharacter& character, const MeshNodes& mesh_nodes) {
   const NodeTree& nodes = character.nodes;
   std::vector<bool> moves = animated_nodes(character.clips, nodes.size());

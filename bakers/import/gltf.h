@@ -1,8 +1,8 @@
-// A rigged character out of a glTF 2.0 file (.glb or .gltf): welded mesh, bones, clips.
+// Imports a rigged character from a glTF 2.0 file (.glb or .gltf): welded mesh, bones, clips.
 //
 // Rest space is the bind-posed body in metres where the file's default root puts it: for the skin's top-most
-// joint r, rest = world_default(r) * inverse_bind(r) * v. Node transforms above the skeleton (a 0.01 scale, a
-// 90 degree turn) are thus part of it, and a default pose that is not the bind pose does not matter.
+// joint r, rest = world_default(r) * inverse_bind(r) * v. So node transforms above the skeleton (a 0.01
+// scale, a 90 degree turn) are part of rest space, and the default pose need not be the bind pose.
 #pragma once
 
 #include <cstddef>
@@ -19,14 +19,14 @@
 
 namespace nook::bake {
 
-// Where a bone's matrix comes from: world(node) * node_from_rest.
+// A bone's matrix is world(node) * node_from_rest.
 struct BoneBinding {
   std::uint32_t node = 0;
   Affine node_from_rest;
   std::array<double, 3> origin_rest{};  // the joint's origin in rest space
 };
 
-// A skin as the file has it, with the way of its meshes to rest space.
+// A skin as in the file, with the transforms of its meshes to rest space.
 struct BoundSkin {
   std::uint32_t file_index = 0;
   Affine rest_from_mesh;
@@ -38,7 +38,7 @@ struct ImportedCharacter {
   std::vector<Clip> clips;
   NodeTree nodes;
   std::vector<BoneBinding> bindings;  // one for each bone of the mesh
-  std::vector<BoundSkin> skins;       // those that a shown mesh uses
+  std::vector<BoundSkin> skins;       // skins that a shown mesh uses
   // For each primitive of the mesh the matrix from its POSITION attribute to rest space.
   std::vector<Affine> rest_from_primitive;
   // For each vertex of the file its POSITION, morph targets included; empty: the character came as arrays.
@@ -52,7 +52,7 @@ struct ImportedCharacter {
 // Fails with BAD_FILE; the message names the fault, and the caller adds the name of the file.
 ImportedCharacter import_gltf(const std::filesystem::path& path, const ImportOptions& options = {});
 
-// From memory, without access to any file: buffers must be in the bytes or in data URIs.
+// Imports from memory, without access to any file: buffers must be in the bytes or in data URIs.
 ImportedCharacter import_gltf(std::span<const std::byte> bytes, const MeshSelection& meshes = {});
 
 }  // namespace nook::bake

@@ -24,7 +24,7 @@ std::optional<AccessorUse> use_of(std::string_view attribute) {
   return std::nullopt;
 }
 
-// Those that every import reads. Others are refused by the reader that needs them.
+// True for uses that every import reads. The reader that needs another use checks it.
 bool decides_shape(AccessorUse use) {
   return use == AccessorUse::position || use == AccessorUse::joints || use == AccessorUse::weights;
 }
@@ -61,7 +61,7 @@ void check_animation_types(const tinygltf::Model& model, const tinygltf::Animati
     const tinygltf::AnimationSampler& sampler = animation.samplers[std::size_t(channel.sampler)];
     const std::string what = name + " channel " + std::to_string(c);
     const std::string& path = channel.target_path;
-    // Weights of morph targets are not read.
+    // We do not read weights of morph targets.
     if (path != "translation" && path != "rotation" && path != "scale") continue;
     require_allowed_type(model, sampler.input, AccessorUse::key_times, what + " input");
     if (path == "translation" || path == "scale")
@@ -153,8 +153,8 @@ bool is_there(const tinygltf::Model& model, int accessor) {
   return accessor >= 0 && std::size_t(accessor) < model.accessors.size();
 }
 
-// Accessors that are looked at once each, until they are many more elements than an import takes: accessors
-// may share their bytes, or have none.
+// Accessors that were not looked at yet. The checks look at each once, and stop at many more elements than an
+// import takes. Accessors may share their bytes, or have none.
 class Unseen {
  public:
   explicit Unseen(const tinygltf::Model& model) : model_(model) {}

@@ -1,5 +1,5 @@
-// Checks a parsed document against the specification. Faults that decide shapes or poses are refused;
-// faults that leave one way to read the file give a warning.
+// Checks a parsed document against the specification. It refuses faults that decide shapes or poses. It warns
+// of faults that leave one way to read the file.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -13,11 +13,14 @@ namespace nook::bake {
 // matrices and animations. The time is linear in primitives, skins and channels.
 void check_types(const tinygltf::Model& model);
 
-// One sentence for each kind of fault that the import repairs or passes over: rotations that are not unit
-// quaternions, a matrix beside translation, rotation or scale, indices that mean a primitive restart, bounds
-// that do not match, attributes of forbidden types. Nothing here fails; whoever reads an accessor reports
-// what cannot be read. Looks at each accessor once, and at 2^26 elements at most: the time is linear in the
-// file.
+// Returns one sentence for each kind of fault that the import repairs or ignores:
+//   - rotations that are not unit quaternions;
+//   - a matrix beside translation, rotation or scale;
+//   - indices that mean a primitive restart;
+//   - bounds that do not match;
+//   - attributes of forbidden types.
+// Nothing here fails; whoever reads an accessor reports what cannot be read. Looks at each accessor once, and
+// at 2^26 elements at most, so that the time is linear in the file.
 std::vector<std::string> document_warnings(const tinygltf::Model& model);
 
 }  // namespace nook::bake

@@ -13,7 +13,7 @@ namespace nook::bake {
 namespace {
 
 constexpr std::size_t max_key_floats = std::size_t{1}
-                                       << 26;  // all clips together; bounds memory on hostile input
+                                       << 26;  // for all clips together; bounds memory on hostile input
 
 std::optional<ChannelPath> path_of(const std::string& text) {
   if (text == "translation") return ChannelPath::translation;
@@ -30,12 +30,12 @@ Interpolation interpolation_of(const std::string& text, const std::string& what)
                 what.c_str(), text.c_str());
 }
 
-// Faults of keys that have one reading; counted over all channels.
+// Faults of keys with only one sensible repair, counted over all channels.
 struct KeyRepairs {
   std::size_t equal_times = 0, not_unit = 0, twice = 0;
 };
 
-// Rotations in bytes are off by up to 2 %, those in floats by rounding.
+// Rotations in bytes are off by up to 2 %, and rotations in floats only by rounding.
 bool has_not_unit_rotation(const Channel& channel) {
   if (channel.path != ChannelPath::rotation) return false;
   const bool is_cubic = channel.interpolation == Interpolation::cubic_spline;
@@ -65,7 +65,7 @@ void add_warnings(const KeyRepairs& repairs, std::vector<std::string>& warnings)
        " animation channels move what another channel of their clip moves; the last one counts");
 }
 
-// left: of max_key_floats; what the channel takes is taken off.
+// left: what remains of max_key_floats. The channel subtracts what it takes.
 Channel read_channel(const tinygltf::Model& model, const tinygltf::Animation& animation,
                      const tinygltf::AnimationChannel& source, ChannelPath path, const std::string& what,
                      std::size_t& left) {

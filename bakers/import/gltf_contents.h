@@ -11,13 +11,13 @@
 
 namespace nook::bake {
 
-// A primitive of a mesh as a node shows it.
+// A primitive of a mesh, as shown by one node.
 struct ContentsMesh {
   std::string node, mesh;
-  std::int64_t primitive = -1;  // its number in a bake of the character, of the first instance; -1: not in it
+  std::int64_t primitive = -1;  // number in a bake of the character (first instance); -1: not baked
   std::size_t vertices = 0, triangles = 0, instances = 1;
   int skin = -1;
-  std::string state = {};  // "in", or why it is not
+  std::string state = {};  // "in", or why it is left out
 };
 
 struct ContentsSkin {
@@ -34,7 +34,7 @@ struct GltfContents {
   std::vector<ContentsMesh> meshes;  // in the order of nodes and primitives
   std::vector<ContentsSkin> skins;
   std::vector<ContentsClip> clips;
-  std::vector<std::string> warnings;  // of the import as a character; its fault if it fails
+  std::vector<std::string> warnings;  // warnings of the import as a character, or its error
 };
 
 // Fails with BAD_FILE where the file cannot be read as glTF, and with INVALID_ARGUMENT as node_states does.

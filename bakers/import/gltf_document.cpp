@@ -62,7 +62,7 @@ std::string one_line(std::string text) {
   return text;
 }
 
-// A C string ends there, so that different names would be equal.
+// A C string ends at the NUL, so that different names would be equal.
 void refuse_nul(const std::string& name, const char* what, std::size_t index) {
   if (name.find('\0') != std::string::npos)
     throw Failure(NOOK_ERROR_BAD_FILE, "the name of %s %zu (\"%s...\") holds a NUL character; rename it",
@@ -106,7 +106,7 @@ Node read_node(const tinygltf::Node& source, std::size_t index) {
   return node;
 }
 
-// The bytes of the file with another JSON chunk. glTF 2.0, section 4.4: chunks are padded to 4 bytes.
+// Returns the bytes of the file with another JSON chunk. glTF 2.0, section 4.4: chunks are padded to 4 bytes.
 std::vector<std::byte> with_json(std::span<const std::byte> bytes, std::string json) {
   const auto* text = reinterpret_cast<const std::byte*>(json.data());
   if (!is_binary(bytes)) return {text, text + json.size()};
@@ -126,9 +126,9 @@ std::vector<std::byte> with_json(std::span<const std::byte> bytes, std::string j
   return out;
 }
 
-// Brings back names that the parser got in another form. URIs become those of the file, decoded; buffers
-// that were only room for decompressed views lose name and bytes. Where a node has two transforms, its
-// matrix counts, and a translation beside the matrix tells the checks that there were two.
+// Restores names that the parser got in another form. URIs become the URIs of the file, decoded. Buffers that
+// were only room for decompressed views lose name and bytes. If a node has two transforms, its matrix counts.
+// A translation beside the matrix tells the checks that there were two.
 void restore(const GltfPreflight& preflight, tinygltf::Model& model) {
   const auto restore_uri = [&](std::string& uri) {
     const auto name = preflight.names.find(uri);

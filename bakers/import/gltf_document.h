@@ -13,19 +13,18 @@
 
 namespace nook::bake {
 
-// Images are not decoded. skip: those in files of their own are not opened. keep: what URIs name is in
-// tinygltf::Image::image, as encoded; empty where it could not be read.
+// Images are not decoded. skip: image files are not opened. keep: tinygltf::Image::image holds the encoded
+// bytes that URIs name; empty if they could not be read.
 enum class Images { skip, keep };
 
-// Where the files lie that a document names.
+// The folder of the files that a document names.
 struct FileAccess {
   std::string folder;  // empty: no file is opened
   LinkedFiles linked = LinkedFiles::folder;
 };
 
-// Compressed views and primitives come decompressed, and positions, joints, weights, indices and animations
-// have types that glTF allows. Fails with BAD_FILE. The time is linear in the file and in what it
-// decompresses to.
+// Decompresses views and primitives, and checks that positions, joints, weights, indices and animations have
+// types that glTF allows. Fails with BAD_FILE. The time is linear in the file and in its decompressed size.
 tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const FileAccess& files,
                            Images images = Images::skip);
 

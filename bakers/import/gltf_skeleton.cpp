@@ -12,21 +12,22 @@
 namespace nook::bake {
 namespace {
 
-// A skin compares its joints with each of their bind poses so far.
+// Limits the bind poses of a node, because a skin compares its joints with each of their bind poses so far.
 constexpr std::size_t max_binds_of_node = 1024;
 
 struct Builder {
   const NodeTree& nodes;
   std::vector<Affine> world;  // default pose
   std::vector<std::uint32_t> depth;
-  // Frame of each joint in rest space, with its scale; of other nodes only once they became bones.
+  // The frame of each joint in rest space, with its scale. Other nodes get one only when they become bones.
   std::vector<std::optional<Affine>> bind_rest;
-  // The results of implied_bind, once the skins are in; empty before.
+  // The results of implied_bind, once all skins are in; empty before.
   std::vector<Affine> implied;
-  std::vector<std::int32_t> anchor;  // with them: the nearest node upwards that has a bone or moves, -1: none
+  std::vector<std::int32_t> anchor;        // filled with implied: the nearest node upwards that has a bone or
+                                           // moves, -1: none
   std::vector<std::int32_t> bone_of_node;  // the first bone of a node, -1: none
   std::vector<BoneBinding> bindings;
-  std::vector<Affine> rest_from_node;  // of bindings
+  std::vector<Affine> rest_from_node;  // per binding
   std::vector<std::vector<std::uint32_t>> bones_of_node;
 
   explicit Builder(const NodeTree& tree)
@@ -40,8 +41,8 @@ struct Builder {
       if (nodes.nodes[i].parent >= 0) depth[i] = depth[nodes.nodes[i].parent] + 1;
   }
 
-  // Rest frame of a node that is no joint itself: it hangs on its nearest ancestor with a bind pose, or
-  // stands where the default pose has it.
+  // Returns the rest frame of a node that is not a joint itself. The node hangs on its nearest ancestor with
+  // a bind pose, or stands where the default pose has it.
   Affine implied_bind(std::uint32_t node) const {
     if (!implied.empty()) return implied[node];
     Affine below;
@@ -52,9 +53,9 @@ struct Builder {
     return world[node];
   }
 
-  // One walk down the tree, so that a deep chain of mesh nodes costs no walk up for each.
+  // Walks down the tree once, so that a deep chain of mesh nodes does not cost a walk up for each.
   void settle_rigid_nodes(const std::vector<bool>& moves) {
-    std::vector<bool> hangs(nodes.size(), false);  // on a bind pose
+    std::vector<bool> hangs(nodes.size(), false);  // true for nodes below a bind pose
     implied = world;
     anchor.assign(nodes.size(), -1);
     for (const std::uint32_t i : nodes.order) {
@@ -72,7 +73,7 @@ struct Builder {
   }
 
   void require_invertible(const Affine& a, const char* what, std::uint32_t node) const {
-    // Relative to the matrix's own size, because a 0.01 scale alone gives a determinant of 1e-6.
+    // The size is relative to the matrix, because a 0.01 scale alone gives a determinant of 1e-6.
     double size = 0;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) size = std::max(size, std::abs(a.m[4 * i + j]));
@@ -82,7 +83,7 @@ struct Builder {
                     node, nodes.nodes[node].name.c_str());
   }
 
-  // The same matrix in every pose: equal up to 0.1 % and 0.1 mm at the joint.
+  // True for the same matrix in every pose: equal up to 0.1 % and 0.1 mm at the joint.
   bool same_binding(const Affine& a, std::uint32_t bone) const {
     const BoneBinding& b = bindings[bone];
     const Affine difference = rest_from_node[bone] * a;
@@ -121,8 +122,8 @@ std::uint32_t top_depth(const Builder& b, const Skin& skin) {
   return top;
 }
 
-// S of a skin. Skins of one skeleton must agree about rest space, so a joint that an earlier skin has bound
-// decides where there is one; else the top-most joint.
+// Returns the S of a skin. Skins of one skeleton must agree about rest space. So a joint that an earlier skin
+// has bound decides; without one, the top-most joint decides.
 Affine rest_from_mesh(const Builder& b, const Skin& skin) {
   std::size_t reference = 0;
   bool is_shared = false;
@@ -164,7 +165,7 @@ void add_rigid_part(Builder& b, std::uint32_t mesh_node, MeshBinding& out) {
   out.bone = {static_cast<std::uint16_t>(b.bone_of_node[node])};
 }
 
-// For each bone the first bone of its nearest ancestor that has one, -1 for none.
+// Returns for each bone the first bone of its nearest ancestor that has one; -1 for none.
 std::vector<std::int32_t> parent_bones(const Builder& b) {
   std::vector<std::int32_t> above(b.nodes.size(), -1);
   for (const std::uint32_t i : b.nodes.order) {
@@ -176,7 +177,7 @@ std::vector<std::int32_t> parent_bones(const Builder& b) {
   return parent;
 }
 
-// New order of the bones: as the skins list them, except that ancestors come first.
+// Returns the new order of the bones: as the skins list them, except that ancestors come first.
 std::vector<std::uint32_t> parents_first(const Builder& b, const std::vector<std::int32_t>& parent_bone) {
   std::vector<std::uint32_t> order;
   std::vector<bool> is_placed(b.bindings.size(), false);

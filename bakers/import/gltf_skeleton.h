@@ -1,4 +1,5 @@
-// Bones out of the skins and the rigid parts of a file, and the matrices that bring its meshes to rest space.
+// Builds bones from the skins and rigid parts of a file, and the matrices that bring its meshes to rest
+// space.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ struct Skin {
   std::vector<Affine> inverse_bind;  // one a joint, invertible
 };
 
-// The transformation of one mesh node to rest space, and the bones of its joints; a rigid part has one joint,
+// The transform of one mesh node to rest space, and the bones of its joints. A rigid part has one joint,
 // number 0.
 struct MeshBinding {
   Affine rest_from_mesh;
@@ -25,12 +26,11 @@ struct MeshBinding {
 struct Skeleton {
   std::vector<Bone> bones;
   std::vector<BoneBinding> bindings;
-  std::vector<MeshBinding> skins;  // one for each skin given
-  std::vector<MeshBinding>
-      rigid_parts;  // one for each rigid node given; without a bone: it is static and belongs to nobody
+  std::vector<MeshBinding> skins;        // one for each skin given
+  std::vector<MeshBinding> rigid_parts;  // one for each rigid node given; without a bone, it is static
 };
 
-// `moves` is true for nodes that a clip animates, `rigid_nodes` are mesh nodes without a skin. The time is
+// `moves` is true for nodes that a clip animates. `rigid_nodes` are mesh nodes without a skin. The time is
 // linear in nodes and joints, times the bind poses of one joint (at most 1,024), plus skins times the depth
 // of the tree (at most 4,096).
 Skeleton build_skeleton(const NodeTree& nodes, const std::vector<Skin>& skins, const std::vector<bool>& moves,

@@ -1,5 +1,5 @@
-// The colour textures of glTF materials, their images collected once each. The time is linear in the textures
-// and in the bytes of the images.
+// Collects the colour textures of glTF materials and each of their images once. The time is linear in the
+// textures and in the bytes of the images.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -14,14 +14,14 @@ namespace nook::bake {
 
 class GltfTextures {
  public:
-  // The document must have been parsed with Images::keep and outlive this.
+  // The document must be parsed with Images::keep and outlive this object.
   explicit GltfTextures(const tinygltf::Model& model) : model_(model) {}
 
   // `what` names the texture in messages. Fails with BAD_FILE on indices out of range, images without bytes
   // and coordinate sets above 1.
   TextureUse use(const tinygltf::TextureInfo& info, const std::string& what);
 
-  // In the order of their first use, which TextureUse::image counts.
+  // Returns the images in the order of their first use. TextureUse::image counts in this order.
   std::vector<EncodedImage> take_images() { return std::move(images_); }
 
  private:
@@ -29,8 +29,9 @@ class GltfTextures {
 
   const tinygltf::Model& model_;
   std::vector<EncodedImage> images_;
-  std::unordered_map<int, std::uint32_t> place_of_source_;  // of an image of the file in images_
-  std::size_t bytes_ = 0;                                   // of images_
+  std::unordered_map<int, std::uint32_t> place_of_source_;  // place in images_, by the image's index in the
+                                                            // file
+  std::size_t bytes_ = 0;                                   // bytes of images_
 };
 
 }  // namespace nook::bake

@@ -38,7 +38,7 @@ constexpr std::array<TypeName, 10> names{{{f32, "FLOAT"},
                                           {i16n, "normalized SHORT"},
                                           {u32, "UNSIGNED_INT"}}};
 
-// Element types: the other one is equal where there is only one.
+// Element types; both are equal where only one is allowed.
 struct Allowed {
   AccessorUse use;
   int element, other_element;

@@ -29,12 +29,12 @@ enum class AccessorUse {
 // and component type.
 bool has_allowed_type(const tinygltf::Model& model, const tinygltf::Accessor& accessor, AccessorUse use);
 
-// Fails with BAD_FILE where it does not. `what` names the use, as in `mesh 0 primitive 1.JOINTS_0`. Does
-// nothing where there is no such accessor, which readers report.
+// Fails with BAD_FILE if the type is not allowed. `what` names the use, as in `mesh 0 primitive 1.JOINTS_0`.
+// Does nothing if there is no such accessor, because readers report it.
 void require_allowed_type(const tinygltf::Model& model, int accessor, AccessorUse use,
                           const std::string& what);
 
-// As "VEC4 of FLOAT", for messages.
+// Returns text such as "VEC4 of FLOAT", for messages.
 std::string type_name(const tinygltf::Accessor& accessor);
 
 }  // namespace nook::bake

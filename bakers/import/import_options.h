@@ -8,11 +8,11 @@
 
 namespace nook::bake {
 
-// Patterns of names of nodes and of meshes: * stands for any text and ? for any character; upper and lower
-// case differ. A node without a name is node_0, node_1 and so on, by its index; a mesh is mesh_0, mesh_1.
+// Patterns for names of nodes and meshes: * stands for any text and ? for any character. Case matters. A node
+// without a name is node_0, node_1 and so on, by its index; a mesh is mesh_0, mesh_1.
 struct MeshSelection {
   std::vector<std::string> only;     // empty: all but lower levels of detail
-  std::vector<std::string> without;  // of those, what is left out
+  std::vector<std::string> without;  // left out of these
 };
 
 struct ImportOptions {

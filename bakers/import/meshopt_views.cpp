@@ -21,7 +21,7 @@ using Json = nlohmann::json;
                 view, fault.c_str());
 }
 
-// The entry of a view for the extension, null without it.
+// Returns the extension's entry in a view; null without it.
 const Json* extension_of(const Json& view) {
   if (!view.is_object()) return nullptr;
   const auto extensions = view.find("extensions");
@@ -79,7 +79,7 @@ CompressedView read_view(const Json& object, std::size_t view) {
   return out;
 }
 
-// The extension's rules for strides and counts; the decoder relies on them.
+// Checks the extension's rules for strides and counts. The decoder relies on them.
 void check_layout(const CompressedView& view) {
   using Mode = CompressedView::Mode;
   using Filter = CompressedView::Filter;
@@ -94,8 +94,8 @@ void check_layout(const CompressedView& view) {
   if ((view.filter == Filter::octahedral && stride != 4 && stride != 8) ||
       (view.filter == Filter::quaternion && stride != 8))
     refuse(view.view, "byteStride " + std::to_string(stride) + " does not fit the filter");
-  // The codec of attributes spends at least a bit on 8 bytes, those of indices a byte on a triangle or an
-  // index.
+  // The codec of attributes spends at least a bit on 8 bytes. The codecs of indices spend at least a byte on
+  // a triangle or an index.
   const std::uint64_t most_per_byte = is_index ? 12 : 64, room = 16384;
   if (view.count > max_file_bytes ||
       view.count * stride > most_per_byte * std::min(view.byte_length, max_file_bytes) + room)
@@ -103,7 +103,7 @@ void check_layout(const CompressedView& view) {
                           " bytes cannot be in " + std::to_string(view.byte_length) + " bytes");
 }
 
-// The compressed bytes, inside their buffer.
+// Returns the compressed bytes and checks that they are inside their buffer.
 const unsigned char* source_of(const CompressedView& view, const tinygltf::Model& model) {
   if (view.buffer >= model.buffers.size())
     refuse(view.view, "names buffer " + std::to_string(view.buffer) + " (file has " +
@@ -160,7 +160,7 @@ bool is_fallback_buffer(const Json& buffer) {
 }
 
 void decompress_views(const std::vector<CompressedView>& views, tinygltf::Model& model) {
-  // Views that share compressed bytes would let a small file take any amount of memory.
+  // Without this limit, views that share compressed bytes would let a small file take any amount of memory.
   std::uint64_t left = max_file_bytes, unread = 0;
   for (const tinygltf::Buffer& buffer : model.buffers) unread += buffer.data.size();
   for (const CompressedView& view : views) {

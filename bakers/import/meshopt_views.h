@@ -10,12 +10,12 @@
 
 namespace nook::bake {
 
-// A compressed view as the file describes it, with nothing checked against the buffers.
+// A compressed view as the file describes it, not yet checked against the buffers.
 struct CompressedView {
   enum class Mode { attributes, triangles, indices };
   enum class Filter { none, octahedral, quaternion, exponential };
-  std::size_t view = 0;    // of the file
-  std::size_t buffer = 0;  // which holds the compressed bytes
+  std::size_t view = 0;    // index in the file
+  std::size_t buffer = 0;  // buffer with the compressed bytes
   std::uint64_t byte_offset = 0, byte_length = 0, byte_stride = 0, count = 0;
   Mode mode = Mode::attributes;
   Filter filter = Filter::none;
@@ -24,12 +24,12 @@ struct CompressedView {
 // Fails with BAD_FILE on numbers and names that the extension does not have.
 std::vector<CompressedView> find_compressed_views(const nlohmann::json& document);
 
-// True for buffers that hold nothing but the room for decompressed views.
+// True for buffers that are only room for decompressed views.
 bool is_fallback_buffer(const nlohmann::json& buffer);
 
 // Decompresses the views into buffers that it appends, and points the views to them. Fails with BAD_FILE; the
-// message names the view. Memory is bounded by the compressed bytes before it is taken, and by 2 GiB in all;
-// the time is linear in it.
+// message names the view. The size of the compressed bytes bounds the memory before it is taken, and 2 GiB
+// bound it in all. The time is linear in the memory.
 void decompress_views(const std::vector<CompressedView>& views, tinygltf::Model& model);
 
 }  // namespace nook::bake

@@ -8,8 +8,8 @@
 namespace nook::bake {
 
 void sort_parents_first(NodeTree& tree) {
-  // Walks up the ancestry are repeated for every bone, so that endless chains would cost their length
-  // squared.
+  // Limits the depth: walks up to the root happen for every bone, so that an endless chain would cost its
+  // length squared.
   constexpr std::uint32_t max_depth = 4096;
   const std::size_t count = tree.size();
   std::vector<std::uint32_t> depth(count, 0);
@@ -59,7 +59,7 @@ std::vector<Trs> default_locals(const NodeTree& tree) {
 }
 
 std::vector<std::string> unique_names(const std::vector<std::string>& names, std::string_view stem) {
-  // Names as the file has them keep precedence over the ones made here.
+  // Names from the file take precedence over the names made here.
   std::unordered_set<std::string> taken(names.begin(), names.end());
   std::unordered_set<std::string> used;
   std::unordered_map<std::string, std::size_t> next_suffix;

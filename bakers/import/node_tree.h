@@ -1,4 +1,4 @@
-// The nodes of a file: their default local transforms and their ancestry, apart from any skin.
+// The nodes of a file: their default local transforms and their parents, without skins.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct Node {
   std::string name;
   std::int32_t parent = -1;
   Trs local;                     // default pose
-  std::optional<Affine> matrix;  // given instead of local; such a node is never animated
+  std::optional<Affine> matrix;  // given instead of local; no clip animates such a node
 };
 
 struct NodeTree {
@@ -35,12 +35,12 @@ Affine default_local(const Node& node);
 std::vector<Affine> world_transforms(const NodeTree& tree, const std::vector<Trs>& locals);
 std::vector<Affine> default_world_transforms(const NodeTree& tree);
 
-// Default local transforms of all nodes, where a clip's sampling begins.
+// Returns the default local transforms of all nodes. Sampling a clip begins with them.
 std::vector<Trs> default_locals(const NodeTree& tree);
 
-// Names that can be looked up: never empty, never twice.
+// Makes names that can be looked up: never empty, never twice.
 
-// An empty name becomes `stem` and its index ("clip_0"); one that came before gets the first free suffix
+// An empty name becomes `stem` and its index ("clip_0"). A name that came before gets the first free suffix
 // "_2", "_3", ...
 std::vector<std::string> unique_names(const std::vector<std::string>& names, std::string_view stem);
 

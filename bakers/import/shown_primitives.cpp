@@ -29,7 +29,7 @@ int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
   return found == primitive.attributes.end() ? -1 : found->second;
 }
 
-// glTF 2.0, section 3.7.2.1: how strips and fans turn into triangles that all face the same way.
+// glTF 2.0, section 3.7.2.1 defines how strips and fans become triangles that all face the same way.
 void append_triangles(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                       std::size_t vertices, const std::string& what,
                       std::vector<std::array<std::uint32_t, 3>>& out) {

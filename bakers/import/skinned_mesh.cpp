@@ -45,7 +45,7 @@ void vertex_normals(std::span<const std::array<std::uint32_t, 3>> triangles, std
       total[v] += size;
     }
   }
-  // A sum that is only the rounding left by faces that cancel out has no direction of its own.
+  // If the faces cancel out, the sum is only rounding and has no direction.
   const auto has_direction = [&](std::size_t v) { return length(out[v]) > 1e-6f * total[v]; };
   bool needs_face = false;
   for (std::size_t v = 0; v < out.size(); ++v) {
@@ -87,8 +87,8 @@ std::vector<float> vertex_areas(const SkinnedMesh& mesh, std::span<const Vec3> p
       if (is_obtuse) {
         area[t[i]] += at_corner[i] < 0 ? twice / 4 : twice / 8;
       } else {
-        // Equation 7 of the paper: 1/8 of each edge's square times the cotangent opposite; cot = dot /
-        // |cross|.
+        // Equation 7 of the paper: 1/8 of each edge's square times the opposite cotangent. The cotangent is
+        // the dot product over the length of the cross product.
         const int j = (i + 1) % 3;
         const int k = (i + 2) % 3;
         area[t[i]] += (opposite[j] * at_corner[j] + opposite[k] * at_corner[k]) / (8 * twice);
@@ -100,7 +100,7 @@ std::vector<float> vertex_areas(const SkinnedMesh& mesh, std::span<const Vec3> p
 
 namespace {
 
-// Calls fault(i) for all i and reports the first and the number of those that are true.
+// Calls fault(i) for all i. Reports the first i that is true and how many are.
 template <typename Fault>
 void refuse_any(std::size_t count, const char* what, nook_result code, Fault fault) {
   std::size_t first = 0;

@@ -25,7 +25,7 @@ struct SkinWeights {
 struct Bone {
   std::string name;
   std::int32_t parent =
-      -1;  // index of the nearest ancestor that is a bone, always smaller than the bone's own; -1: a root
+      -1;             // index of the nearest ancestor bone, always smaller than the bone's own; -1: a root
   Mat3x4 frame_rest;  // joint frame (orthonormal axes, origin at the joint) in rest space
 };
 
@@ -54,8 +54,8 @@ using Pose = std::vector<Mat3x4>;
 // Linear blend skinning. `out_ws` is resized to the mesh's vertices; reuse it between poses.
 void skin_positions(const SkinnedMesh& mesh, const Pose& pose, std::vector<Vec3>& out_ws);
 
-// Area-weighted unit normals. A vertex whose faces cancel out takes the normal of one of them, +y where all
-// its faces are degenerate or where it has none.
+// Returns area-weighted unit normals. A vertex whose faces cancel out takes the normal of one of them. It
+// takes +y if all its faces are degenerate or it has none.
 void vertex_normals(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const Vec3> positions,
                     std::vector<Vec3>& out);
 
@@ -63,7 +63,7 @@ void vertex_normals(std::span<const std::array<std::uint32_t, 3>> triangles, std
 // Operators for Triangulated 2-Manifolds", section 3.3). They add up to the surface's area.
 std::vector<float> vertex_areas(const SkinnedMesh& mesh, std::span<const Vec3> positions);
 
-// The check of a mesh before a bake, for meshes from files and from memory.
+// Checks a mesh before a bake, for meshes from files and from memory.
 
 struct FileMesh;
 
@@ -71,9 +71,10 @@ constexpr std::size_t max_bone_count = 65535;  // bone indices are 16 bits
 constexpr std::size_t max_file_vertices =
     10'000'000;  // bounds memory on hostile input, far above any character
 
-// Bones: 1 to max_bone_count, parents before children, finite orthonormal frames. Positions finite, weights
-// finite, non-negative, sum 1 and not all zero, bones and indices in range, primitives in a row over all
-// vertices, at least one triangle. Fails with `code`, naming the first fault and how many there are.
+// Checks that there are 1 to max_bone_count bones, parents before children, with finite orthonormal frames.
+// Positions must be finite. Weights must be finite, non-negative, with sum 1. Bones and indices must be in
+// range. Primitives must follow each other over all vertices, with at least one triangle. Fails with `code`;
+// the message names the first fault and how many there are.
 void validate(const FileMesh& mesh, nook_result code = NOOK_ERROR_INVALID_ARGUMENT);
 void validate(const SkinnedMesh& mesh, nook_result code = NOOK_ERROR_INVALID_ARGUMENT);
 

@@ -69,7 +69,7 @@ void read_surfaces(const tinygltf::Model& model, SceneTextures textures, StaticS
   scene.image = used.take_images();
 }
 
-// One set of coordinates of the vertices from `first` on.
+// Reads one set of texture coordinates for the vertices from `first` on.
 void read_uv(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const TextureUse& use,
              std::size_t first, const std::string& what, StaticScene& scene) {
   if (!use.is_used()) return;

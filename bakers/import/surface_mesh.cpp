@@ -19,15 +19,16 @@
 namespace nook::bake {
 namespace {
 
-// The arrays of the primitives so far, and what is still to be made.
+// The arrays of the primitives so far, and what must still be made.
 struct Building {
   SurfaceMesh mesh;
-  std::vector<bool> makes_normal, makes_tangent;  // of each vertex
+  std::vector<bool> makes_normal, makes_tangent;  // per vertex
   std::size_t opposite = 0;                       // tangents whose w contradicts the texture coordinates
   std::size_t not_unit = 0;                       // normals that were normalised
 };
 
-// Reads an attribute of one number of components for each of `count` vertices; empty if there is none.
+// Reads an attribute with this number of components for each of `count` vertices. Returns nothing if there is
+// none.
 std::vector<float> read_attribute(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                                   const char* name, AccessorUse use, int components, std::size_t count,
                                   const std::string& what) {
@@ -55,8 +56,8 @@ Vec3 turn(const Affine& a, Vec3 v) {
   return {row(0), row(4), row(8)};
 }
 
-// The matrix of normals, up to its scale: the cofactors of the linear part, which are the cross products of
-// its columns and keep the side of a mirrored surface.
+// Turns a normal by the cofactors of the linear part, up to their scale. They are the cross products of its
+// columns and keep the side of a mirrored surface.
 Vec3 turn_normal(const Affine& a, Vec3 n) {
   const auto& m = a.m;
   const auto cofactor = [&](std::size_t r, std::size_t c) {
@@ -118,7 +119,7 @@ void append_primitive(const tinygltf::Model& model, const ShownPrimitive& shown,
     mesh.normal.push_back(has_normal && std::abs(length(n) - 1) > 1e-3f ? normalised(n) : n);
     Tangent t;
     if (!tangent.empty()) {
-      // The normal maps of glTF have y up, against growing v, and so their w has the other sign.
+      // Normal maps of glTF have y up, against growing v. So their w has the other sign.
       t.direction = {tangent[4 * v], tangent[4 * v + 1], tangent[4 * v + 2]};
       if (!stays) t.direction = turn(world_from_mesh, t.direction);
       t.handedness = (tangent[4 * v + 3] < 0) == is_mirrored ? -1.0f : 1.0f;
@@ -209,7 +210,7 @@ ImportedSurface import_surface(std::span<const std::byte> bytes, const MeshSelec
 
 namespace {
 
-// Groups of equal vertices: group[v] is the smallest vertex whose numbers equal those of v; -0 equals 0.
+// Groups equal vertices: group[v] is the smallest vertex with the same numbers as v; -0 equals 0.
 std::vector<std::uint32_t> equal_vertices(const std::vector<std::array<float, 8>>& key) {
   std::vector<std::uint32_t> order(key.size()), group(key.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -226,8 +227,8 @@ double corner_angle(Vec3 normal, Vec3 to_next, Vec3 to_previous) {
   return std::acos(std::clamp(double(dot(a, b)), -1.0, 1.0));
 }
 
-// The direction of growing u in a triangle's plane and the sign of its area in texture coordinates; 0 if one
-// of the areas is not above 0.
+// The direction of growing u in a triangle's plane, and the sign of its area in texture coordinates. Both are
+// 0 if one of the areas is not above 0.
 struct Slope {
   Vec3 along_u;
   int sign = 0;
@@ -241,7 +242,7 @@ Slope slope_of(const SurfaceMesh& mesh, const std::array<std::uint32_t, 3>& t) {
   Slope slope;
   if (!(length(cross(a, b)) > 0) || !(std::abs(area) > 0)) return slope;
   const float sign = area > 0 ? 1.0f : -1.0f;
-  // The scale does not matter, and the larger of the two factors becomes 1.
+  // The scale does not matter, so the larger of the two factors becomes 1.
   const double most = std::max(std::abs(v1), std::abs(v2));
   slope.along_u = normalised((a * float(v2 / most) - b * float(v1 / most)) * sign);
   if (dot(slope.along_u, slope.along_u) > 0) slope.sign = int(sign);
@@ -249,7 +250,7 @@ Slope slope_of(const SurfaceMesh& mesh, const std::array<std::uint32_t, 3>& t) {
 }
 
 struct Sums {
-  Vec3 direction[2];  // of mirrored triangles, and of the others
+  Vec3 direction[2];  // mirrored triangles, and others
 };
 
 void warn(std::vector<std::string>& warnings, std::size_t count, const char* text) {
@@ -294,8 +295,8 @@ std::vector<Tangent> surface_tangents(const SurfaceMesh& mesh, std::vector<std::
               n.y + 0.0f, n.z + 0.0f, mesh.uv[v].u + 0.0f, mesh.uv[v].v + 0.0f};
   }
   const std::vector<std::uint32_t> group = equal_vertices(key);
-  std::vector<Sums> sums(count);                     // of groups
-  std::vector<std::array<double, 2>> angles(count);  // of vertices: mirrored, others
+  std::vector<Sums> sums(count);                     // per group
+  std::vector<std::array<double, 2>> angles(count);  // per vertex: mirrored, others
   std::size_t degenerate = 0;
   for (const auto& t : mesh.triangle) {
     const Slope slope = slope_of(mesh, t);

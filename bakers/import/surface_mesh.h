@@ -1,5 +1,5 @@
-// A static textured shape of a glTF 2.0 file: the triangles of its default scene with the normal, the tangent
-// and the texture coordinates of each vertex, in the file's own vertex order.
+// Imports a static textured shape from a glTF 2.0 file: the triangles of its default scene. Each vertex has a
+// normal, a tangent and texture coordinates, in the file's own vertex order.
 #pragma once
 
 #include <array>
@@ -37,16 +37,16 @@ struct ImportedSurface {
   std::vector<std::string> warnings;  // what was made or repaired, one sentence each
 };
 
-// Skins are ignored, and morph targets have their default weights. NORMAL is made by vertex_normals where a
-// primitive has none or is morphed. Tangents are made by surface_tangents where a primitive lacks TANGENT, or
-// its normals are made. Fails with BAD_FILE, also where a primitive has no TEXCOORD_0; the message names the
-// fault, and the caller adds the name of the file.
+// Ignores skins, and gives morph targets their default weights. Makes normals by vertex_normals where a
+// primitive has no NORMAL or is morphed. Makes tangents by surface_tangents where a primitive lacks TANGENT,
+// or its normals are made. Fails with BAD_FILE, also where a primitive has no TEXCOORD_0; the message names
+// the fault, and the caller adds the name of the file.
 ImportedSurface import_surface(const std::filesystem::path& path, const ImportOptions& options = {});
 
-// From memory, without access to any file: buffers must be in the bytes or in data URIs.
+// Imports from memory, without access to any file: buffers must be in the bytes or in data URIs.
 ImportedSurface import_surface(std::span<const std::byte> bytes, const MeshSelection& meshes = {});
 
-// Normals and tangents of vertices that have none.
+// Makes normals and tangents for vertices without them.
 
 // Returns normals weighted by area and averaged over vertices at exactly the same position. A vertex without
 // a triangle of positive area gets +z.
@@ -54,17 +54,17 @@ std::vector<Vec3> smooth_normals(std::span<const Vec3> position,
                                  std::span<const std::array<std::uint32_t, 3>> triangle);
 
 // Returns tangents by the rule of M. Mikkelsen's tangent space (Simulation of Wrinkled Surfaces Revisited,
-// 2008), of which this is an own implementation: the tangent of a triangle at a corner is the direction of
-// growing u in its plane, projected across the vertex's normal and normalised. A vertex takes the mean over
-// its corners, weighted by the corners' angles, of all vertices with equal position, normal and texture
-// coordinates, but only of triangles with its own handedness. A vertex that triangles of both handedness
-// share takes that with the larger sum of angles. Triangles whose area, or area in texture coordinates, is
-// not above 0 do not count; a vertex without others gets an arbitrary tangent across its normal. Adds a
-// sentence to warnings for each kind of repair.
+// 2008), in an implementation of our own. The tangent of a triangle at a corner is the direction of growing u
+// in its plane, projected across the vertex's normal and normalised. A vertex takes the mean over all
+// vertices with equal position, normal and texture coordinates, weighted by the corners' angles. Only
+// triangles with its own handedness count. A vertex shared by triangles of both takes the handedness with the
+// larger sum of angles. Triangles do not count if their area, or their area in texture coordinates, is not
+// above 0. A vertex without others gets an arbitrary tangent across its normal. Adds a sentence to warnings
+// for each kind of repair.
 std::vector<Tangent> surface_tangents(const SurfaceMesh& mesh, std::vector<std::string>& warnings);
 
-// Returns the tangent across a unit normal that is nearest to a direction, or an arbitrary one for a
-// direction along the normal.
+// Returns the tangent across a unit normal that is nearest to a direction. If the direction is along the
+// normal, the tangent is arbitrary.
 Vec3 across_normal(Vec3 normal, Vec3 direction);
 
 }  // namespace nook::bake

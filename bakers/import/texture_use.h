@@ -1,4 +1,4 @@
-// Colour textures as a file has them: images still encoded, and how surfaces read them.
+// Colour textures as in a file: images still encoded, and how surfaces read them.
 #pragma once
 
 #include <array>

@@ -15,17 +15,17 @@
 namespace nook::bake {
 namespace {
 
-// Which vertices at one place belong to faces that look opposite ways, as on the two sides of a card.
+// Finds vertices at one place whose faces look opposite ways, as on the two sides of a card.
 
 // Vertices that share a place, and the triangles between them.
 struct PlacedVertices {
-  std::span<const Vec3> position;        // one a vertex
-  std::span<const std::uint32_t> place;  // the same: equal numbers, equal places; 0 and up
+  std::span<const Vec3> position;        // one per vertex
+  std::span<const std::uint32_t> place;  // one per vertex, from 0 up: equal numbers mean equal places
   std::size_t place_count = 0;
   std::span<const std::array<std::uint32_t, 3>> triangle;
 };
 
-// The cosine of 135 degrees: nearer to opposite than to a right angle.
+// The cosine of 135 degrees, which is halfway between opposite and a right angle.
 constexpr double opposite_cosine = -0.70710678;
 constexpr std::size_t max_corners = 256;
 
@@ -35,14 +35,14 @@ double dot(const Direction& a, const Direction& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Zero where the length is no more than the rounding left by terms of this size that cancel out.
+// Returns zero if the length is only the rounding of terms of this size that cancel out.
 Direction normalised(const Direction& a, double size) {
   const double length = std::sqrt(dot(a, a));
   if (!(length > 1e-6 * size)) return {};
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 
-// Twice the area long.
+// The result is twice as long as the area.
 Direction face_normal(std::span<const Vec3> position, const std::array<std::uint32_t, 3>& t) {
   const auto edge = [&](int end) {
     const Vec3 a = position[t[0]], b = position[t[end]];
@@ -60,7 +60,7 @@ struct Corner {
   Direction direction{};                 // unit length
 };
 
-// Vertices joined into sheets: each names another of its sheet, or itself.
+// Vertices joined into sheets. Each names another vertex of its sheet, or itself.
 class Sheets {
  public:
   explicit Sheets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -85,7 +85,7 @@ struct Sheet {
   std::uint32_t side = 0;
 };
 
-// The two sheets of a side that are furthest apart, if they are opposite; equal pairs are ordered by their
+// The two sheets of a side that are furthest apart, if they are opposite. Equal pairs are ordered by their
 // directions, never by their place in the list.
 struct Pair {
   Direction first{}, second{};
@@ -118,8 +118,8 @@ void divide(std::span<Sheet> sheets) {
           sheet.side = sides;
 }
 
-// The smallest bend of a surface where it goes on over the two edges of a corner, as a cosine, less the
-// rounding of equal bends.
+// The smallest bend of a surface where it goes on over the two edges of a corner, as a cosine, with a margin
+// for rounding.
 struct Neighbour {
   double over_next = -1, over_previous = -1;
 };
@@ -136,7 +136,7 @@ std::vector<Neighbour> straightest_neighbours(std::span<const Corner> corners) {
   return best;
 }
 
-// The vertices that corners touch, ascending. Others have no face, and so no side but 0.
+// Returns the vertices that corners touch, ascending. Other vertices have no face, and only side 0.
 std::vector<std::uint32_t> touched_vertices(std::span<const Corner> corners) {
   std::vector<std::uint32_t> vertices;
   for (const Corner& corner : corners) vertices.push_back(corner.vertex);
@@ -145,7 +145,7 @@ std::vector<std::uint32_t> touched_vertices(std::span<const Corner> corners) {
   return vertices;
 }
 
-// The sides of the vertices at one place.
+// Finds the sides of the vertices at one place.
 void divide_place(std::span<const Corner> corners, std::vector<std::uint32_t>& side) {
   const std::vector<std::uint32_t> vertices = touched_vertices(corners);
   const auto local = [&](std::uint32_t vertex) {
@@ -171,8 +171,7 @@ void divide_place(std::span<const Corner> corners, std::vector<std::uint32_t>& s
   for (std::uint32_t i = 0; i < vertices.size(); ++i) side[vertices[i]] = sheet[joined.find(i)].side;
 }
 
-// Items grouped by a number: those of group g are item[first[g]] to item[first[g + 1] - 1], in ascending
-// order.
+// Items grouped by a number: group g has item[first[g]] to item[first[g + 1] - 1], in ascending order.
 struct Groups {
   std::vector<std::uint32_t> first, item;
   std::span<const std::uint32_t> of(std::size_t group) const {
@@ -191,14 +190,18 @@ Groups group(std::size_t items, std::size_t groups, GroupOf group_of) {
   return out;
 }
 
-// For each vertex the side of its place that it lies on: 0 for nearly all, 1 and up where faces at one place
-// look opposite ways. Vertices at one place whose faces meet at an edge form a sheet, so that the tip of a
-// cone is one sheet however its faces split it; over an edge of more than two faces each goes on to the one
-// at the smallest angle, and no sheet folds back on itself. Two sheets are opposite where their
-// area-weighted normals are more than 135 degrees apart. A place with opposite sheets is divided between the
-// two that are furthest apart, each other sheet going to the nearer one, until no side holds opposite sheets.
-// The order of vertices and triangles decides nothing but which side is 0. A place where more than 256
-// corners of triangles meet is left whole, which bounds the work on hostile input.
+// Returns for each vertex the side of its place: 0 for nearly all, 1 and up where faces at one place look
+// opposite ways.
+//
+// Vertices at one place whose faces meet at an edge form a sheet, so that the tip of a cone is one sheet
+// however its faces split it. Over an edge of more than two faces, each goes on to the face at the smallest
+// angle, and no sheet folds back on itself. Two sheets are opposite if their area-weighted normals are more
+// than 135 degrees apart.
+//
+// A place with opposite sheets is divided between the two that are furthest apart. Each other sheet goes to
+// the nearer one, until no side holds opposite sheets. The order of vertices and triangles decides only which
+// side is 0. A place where more than 256 corners of triangles meet is left whole, which bounds the work on
+// hostile input.
 std::vector<std::uint32_t> sides_of_vertices(const PlacedVertices& mesh) {
   std::vector<std::uint32_t> side(mesh.place.size(), 0);
   const Groups vertices =
@@ -239,7 +242,7 @@ Vec3 without_negative_zero(Vec3 p) {
   return {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};
 }
 
-// Equal numbers for equal positions with equal weights, counted from 0 in the order of their first vertex.
+// Equal positions with equal weights get equal numbers, counted from 0 in the order of their first vertex.
 struct Places {
   std::vector<std::uint32_t> of_vertex;
   std::size_t count = 0;
@@ -258,7 +261,8 @@ Places find_places(const FileMesh& file) {
   return places;
 }
 
-// Corners on one line within the rounding of float positions: height below 1e-7 of the longest edge.
+// True if the corners are on one line within the rounding of float positions: the height is below 1e-7 of the
+// longest edge.
 bool is_degenerate(const std::vector<Vec3>& position, const std::array<std::uint32_t, 3>& t) {
   const auto edge = [&](int a, int b) {
     const Vec3 p = position[t[a]];
@@ -274,13 +278,13 @@ bool is_degenerate(const std::vector<Vec3>& position, const std::array<std::uint
   return std::sqrt(normal) <= 1e-7 * longest;
 }
 
-// The file's vertices as welded ones, numbered in the order in which the file first has them.
+// Welds the file's vertices and numbers them in the order of their first appearance.
 void weld_vertices(const FileMesh& file, SkinnedMesh& mesh) {
   const Places places = find_places(file);
   const std::vector<std::uint32_t> side =
       sides_of_vertices({file.position, places.of_vertex, places.count, file.triangle});
   constexpr std::uint32_t none = ~0u;
-  std::vector<std::uint32_t> first(places.count, none);  // of the welded vertices of a place, one a side
+  std::vector<std::uint32_t> first(places.count, none);  // welded vertices of a place, one per side
   std::vector<std::uint32_t> next, side_of_welded;
   mesh.file_to_welded.reserve(file.position.size());
   for (std::size_t v = 0; v < file.position.size(); ++v) {
@@ -323,7 +327,7 @@ SkinWeights make_weights(std::span<const std::pair<std::uint16_t, float>> influe
     out.bone[i] = kept[i].first;
     out.weight[i] = static_cast<float>(kept[i].second / sum);
   }
-  // A weight that rounds to nothing beside the others would leave a bone index behind an unused entry.
+  // A weight may round to nothing beside the others. It would leave a bone index behind an unused entry.
   for (std::size_t i = 0; i < kept.size(); ++i)
     if (!(out.weight[i] > 0)) out.bone[i] = 0;
   return out;

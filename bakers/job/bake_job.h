@@ -1,4 +1,4 @@
-// One bake on a thread of its own, with its outcome and its progress as the C interface has them.
+// Runs one bake on a thread of its own, with its outcome and progress as the C interface reports them.
 #pragma once
 
 #include <nook/nook.h>
@@ -25,7 +25,7 @@ struct Outcome {
 
 Outcome outcome_of(const std::exception_ptr& exception) noexcept;
 
-// One bake on a thread of its own.
+// Runs one bake on a thread of its own.
 
 // The stage of a job; it is finished once its result is known.
 struct JobProgress {

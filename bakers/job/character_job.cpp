@@ -191,7 +191,7 @@ Recipe recipe_of(const nook_bake_character_desc& desc, const nook_bake_character
     recipe.auto_poses = desc.auto_pose_count ? desc.auto_pose_count : preset.auto_poses;
   if (recipe.poses == PoseMode::all) {
     recipe.variant_poses = recipe.clips.size() * recipe.samples_per_clip;
-    // They take the place of automatic poses, so that the time of a bake does not grow with them.
+    // Variants replace automatic poses, so that they do not make a bake longer.
     if (!desc.auto_pose_count) recipe.auto_poses -= std::min(recipe.variant_poses, recipe.auto_poses / 2);
   }
   if (recipe.poses == PoseMode::single_joint) recipe.single_joint_steps = preset.single_joint_steps;
@@ -312,7 +312,7 @@ std::string report_text(const ImportedCharacter& character, const Recipe& recipe
   return dumped(j, 2);
 }
 
-// A draft takes a few seconds for the casters, the others a share of their time.
+// For a draft, casters take a few seconds. For the other presets, they take a share of the time.
 WorldCasterSettings caster_settings(const Recipe& recipe) {
   WorldCasterSettings settings;
   settings.seed = recipe.settings.seed;
@@ -366,7 +366,7 @@ BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recip
                                     });
   fit_constants(baked.model, character, recipe, calibration, progress);
   WorldCasterReport caster_report;
-  // An object of one bone has no poses but places: it is turned before walls and lights.
+  // An object with one bone has places instead of poses: we turn it in front of walls and lights.
   const std::vector<Pose> caster_poses =
       character.mesh.bones.size() == 1 ? turned_poses(caster_settings(recipe).poses, 0) : std::move(poses);
   const std::vector<WorldCaster> casters = fit_world_casters(

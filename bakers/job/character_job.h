@@ -1,4 +1,4 @@
-// The bake of a character: the recipe of a descriptor, and the file and the report that a recipe makes.
+// Bakes a character: makes the recipe of a descriptor, and the file and report of a recipe.
 #pragma once
 
 #include <nook/experimental/nook_trace.h>
@@ -10,7 +10,7 @@
 
 namespace nook::bake {
 
-// The recipe of a job's descriptor, with the preset's values filled in.
+// Makes the recipe of a job's descriptor, with the preset's values filled in.
 
 // Throws INVALID_ARGUMENT for unknown enum values, numbers out of range, unknown clips, and if there are no
 // poses.

@@ -48,7 +48,8 @@ Method method_of(nook_bake_method method) {
   }
 }
 
-// The heights of a structure are known, and those of measured data where the caller gives them.
+// The heights of a structure are always known. The heights of measured data are known if the caller gives
+// them.
 ReliefSource relief_source_of(const nook_bake_material_desc& desc) {
   check_range("desc.relief", desc.relief, 0, 1);
   if (desc.heights && desc.relief == 0)
@@ -58,7 +59,7 @@ ReliefSource relief_source_of(const nook_bake_material_desc& desc) {
   return desc.meso || desc.heights ? ReliefSource::known : ReliefSource::estimated;
 }
 
-// Of measured data; ray tracing finds those of a structure.
+// Reads the heights of measured data. For a structure, ray tracing finds them.
 void read_heights(const nook_bake_material_desc& desc, RawMaterial& raw) {
   if (!desc.heights) return;
   for (std::size_t x = 0; x < raw.width; ++x)
@@ -127,7 +128,7 @@ void read_measured(const nook_bake_material_desc& desc, MaterialTask& task) {
   try {
     check_raw_material(task.raw);
   } catch (const Failure& failure) {
-    // The fault is not that of a file here.
+    // Here the fault is the caller's and not a file's.
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.btf or its directions: %s", failure.what());
   }
 }
@@ -287,8 +288,8 @@ RawMaterial obtain(MaterialTask& task, const StageReport& progress) {
   return raw;
 }
 
-// Chooses the defaults of `nook bake material`. raw has the images that are fitted: on the relief, if there
-// is one.
+// Chooses the same defaults as `nook bake material`. raw holds the images to fit: on the relief, if there is
+// one.
 CompressionSettings settings_for(const MaterialTask& task, const RawMaterial& raw) {
   CompressionSettings s = task.settings;
   const bool has_ranks = s.method != Method::neural || has_votf(raw, s);

@@ -1,4 +1,4 @@
-// The bake of a material: its task from a descriptor or a source, its file and its report.
+// Bakes a material: makes its task from a descriptor or a source, its file and its report.
 #pragma once
 
 #include <nook/nook_bake.h>
@@ -18,12 +18,12 @@
 
 namespace nook::bake {
 
-// Where a raw material comes from: a traced meso-structure or a file; and the settings of its compression.
+// Says where a raw material comes from, and how to compress it: a traced meso-structure or a file.
 
 struct MesoSource {
-  material::MesoParameters meso;                        // of a built-in structure
-  std::optional<material::MesoSurface> tile;            // in its place
-  std::uint32_t views = 100, lights = 0;                // directions; lights 0: as many as views
+  material::MesoParameters meso;                        // a built-in structure
+  std::optional<material::MesoSurface> tile;            // replaces meso
+  std::uint32_t views = 100, lights = 0;                // numbers of directions; lights 0: as many as views
   float max_tilt_deg = material::default_max_tilt_deg;  // their largest angle to the normal, degrees
   material::TraceSettings trace;
 };
@@ -32,12 +32,12 @@ struct MesoSource {
 // when it returns false.
 material::RawMaterial trace_meso_source(const MesoSource& source, const Progress& progress);
 
-// The task of a material job, from its descriptor.
+// Makes the task of a material job from its descriptor.
 
 struct MaterialTask {
   std::optional<material::MesoParameters> meso;  // empty: measured data
-  material::TraceSettings trace;                 // of meso
-  // Directions and sizes, and all measured data except for the gaps, which coverage defines; see fill_gaps()
+  material::TraceSettings trace;                 // for meso
+  // Directions and sizes, and all measured data except the gaps. The coverage defines them; see fill_gaps()
   // in raw_material.h.
   material::RawMaterial raw;
   std::vector<float> coverage;  // empty: all 1
@@ -54,14 +54,14 @@ MaterialTask material_task_of(const nook_bake_material_desc& desc);
 
 struct CompressedMaterial {
   std::vector<std::byte> file;
-  nlohmann::ordered_json row;     // the figures of the file, as reports show them
-  nlohmann::ordered_json recipe;  // of the file
+  nlohmann::ordered_json row;     // figures of the file, for reports
+  nlohmann::ordered_json recipe;  // recipe stored in the file
 };
 
-// Chooses the settings by the images that are fitted: on the relief, if there is one.
+// Chooses the settings from the images to fit: on the relief, if there is one.
 using ChooseSettings = std::function<material::CompressionSettings(const material::RawMaterial& fitted)>;
 
-// The recipe names `source` and, where it is not null, `relief_source`, the file of the heights. Throws what
+// The recipe names `source`, and `relief_source`, the file of the heights, if it is not null. Throws what
 // choose throws, and Failure: CANCELLED.
 CompressedMaterial compress_to_file(const material::RawMaterial& raw, material::ReliefSource relief,
                                     const ChooseSettings& choose, const nlohmann::ordered_json& source,

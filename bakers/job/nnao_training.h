@@ -1,4 +1,4 @@
-// Training of what screen-space passes embed.
+// Trains what screen-space passes embed.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,14 @@
 
 namespace nook::bake {
 
-// Everything that the network's bits depend on beside the program itself, as one line of JSON.
+// Returns all that the network's bits depend on, apart from the program itself, as one line of JSON.
 std::string network_recipe(const nnao::DatasetSettings& data, const nnao::TrainingSettings& training);
 
-// The error of the network on the points that no training saw: a row of the constant predictor, then one for
-// each number of taps.
+// Returns the error of the network on points that no training used: a row of the constant predictor, then one
+// for each number of taps.
 nlohmann::ordered_json validation_rows(const nook::nnao::Network& network, const nnao::Dataset& data);
 
-// The fit of specular occlusion from samples to the header that shaders and the runtime include.
+// Fits specular occlusion to samples and writes the header that shaders and the runtime include.
 
 struct SpecularTraining {
   std::string header;
@@ -30,7 +30,7 @@ struct SpecularTraining {
 };
 
 // Traces samples with the embedded network and fits them. Return false from progress to stop, which throws
-// Failure(CANCELLED). The same bits on any number of threads.
+// Failure(CANCELLED). Any number of threads gives the same bits.
 SpecularTraining train_specular(const nnao::SpecularFitSettings& settings,
                                 const nnao::DatasetProgress& progress);
 

@@ -1,4 +1,4 @@
-// Bakes of probes, from settings to what a file holds: one probe of a map, or a grid in a scene.
+// Bakes probes, from settings to what a file holds: one probe of a map, or a grid in a scene.
 #pragma once
 
 #include <functional>
@@ -24,12 +24,12 @@ struct GridRefinement {
   double error = 0.01;         // the statistical error that ends the bake, see probe::GridBake::error
   double preview_every_s = 0;  // seconds; 0: no previews
   Progress progress;           // counts passes; false stops with Failure (CANCELLED)
-  std::function<void(double error)> preview;  // the bake stands between two passes
+  std::function<void(double error)> preview;  // called between two passes
 };
-// Adds passes until the error is small enough or all passes are done; returns the error that is left.
+// Adds passes until the error is small enough or all passes are done. Returns the remaining error.
 double refine_grid(probe::GridBake& bake, const GridRefinement& refinement);
 
-// Gives a baked grid walls, and fits its coefficients to surfaces behind them. probes: of harmonics of
+// Adds walls to a baked grid, and fits its coefficients to surfaces behind them. probes must be harmonics of
 // order 2. progress counts places.
 void add_walls(nook::probe::Probes& probes, const LitScene& scene, const probe::TrainingSettings& settings,
                const Progress& progress = {});

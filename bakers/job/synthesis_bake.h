@@ -1,4 +1,4 @@
-// The bake of a coordinate texture, from a material to the bytes of a file and its report.
+// Bakes a coordinate texture, from a material to the bytes of a file and its report.
 #pragma once
 
 #include <nook/experimental/nook_bake_materials.h>
@@ -18,16 +18,16 @@ struct Crop {
 };
 
 struct SynthesisTask {
-  std::uint32_t width = 0, height = 0;  // of the material, in texels
-  synthesis::Exemplar exemplar;         // of the crop
+  std::uint32_t width = 0, height = 0;  // size of the material, texels
+  synthesis::Exemplar exemplar;         // made from the crop
   Crop crop;
   synthesis::SynthesisSettings settings;
   std::string source;  // the name of the file, if there is one
 };
 
-// Takes the looks of texels from the bytes of a .nook file, of a material or a raw material. is_tiling: the
-// material repeats without a seam; a crop never does. Throws Failure: INVALID_ARGUMENT (the crop exceeds the
-// material, settings are out of range), BAD_FILE, FILE_VERSION.
+// Reads the looks of texels from the bytes of a .nook file that holds a material or a raw material.
+// is_tiling: the material repeats without a seam. A crop never repeats. Throws Failure: INVALID_ARGUMENT (the
+// crop exceeds the material, settings are out of range), BAD_FILE, FILE_VERSION.
 SynthesisTask synthesis_task(std::span<const std::byte> material, const Crop& crop, bool is_tiling,
                              const synthesis::SynthesisSettings& settings);
 // Throws what synthesis_task throws, and INVALID_ARGUMENT for a NULL material.

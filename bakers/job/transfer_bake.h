@@ -1,4 +1,4 @@
-// The bake of radiance transfer, from a mesh to the bytes of a file and its report.
+// Bakes radiance transfer, from a mesh to the bytes of a file and its report.
 #pragma once
 
 #include <nook/experimental/nook_bake_materials.h>
@@ -13,15 +13,15 @@ namespace nook::bake {
 struct TransferTask {
   SurfaceMesh mesh;
   transfer::BakeSettings settings;
-  // Of the paper's form, which is baked if there is a material.
+  // If there is a material, the paper's form is baked for it.
   std::shared_ptr<const nook::material::MaterialTables> material;
   transfer::PaperSettings paper;
   std::string source;                 // the name of the file, if there is one
-  std::vector<std::string> warnings;  // of the import
+  std::vector<std::string> warnings;  // warnings of the import
 };
 
-// Makes the mesh of a descriptor; tangents are made where it has none. Throws INVALID_ARGUMENT with the first
-// fault, also for what transfer::check_bake refuses.
+// Makes the mesh of a descriptor, and tangents if it has none. Throws INVALID_ARGUMENT with the first fault,
+// also for what transfer::check_bake refuses.
 TransferTask transfer_task_of(const nook_bake_transfer_desc& desc);
 
 // Makes the tables of the material in the bytes of a .nook file. Throws Failure: what read_material throws.
@@ -31,8 +31,8 @@ std::shared_ptr<const nook::material::MaterialTables> tables_of_material(std::sp
 std::shared_ptr<const transfer::HoleTable> holes_of_material(std::span<const std::byte> bytes);
 
 // The stage is JobStage::raytrace and counts vertices, once for the direct light and once for each
-// reflection; in the paper's form JobStage::fit counts clusters after that. Throws Failure:
-// INVALID_ARGUMENT, CANCELLED.
+// reflection. In the paper's form, JobStage::fit then counts clusters. Throws Failure: INVALID_ARGUMENT,
+// CANCELLED.
 BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progress);
 
 }  // namespace nook::bake

@@ -1,4 +1,4 @@
-// Bakes that add to the model of a baked character: bent normals, and the model of another mesh.
+// Adds to the model of a baked character: bent normals, or the model of another mesh.
 #pragma once
 
 #include <nook/nook_bake.h>
@@ -15,11 +15,11 @@ namespace nook::bake {
 
 // The baked model of an imported character, for bakes that add to it.
 
-// Reads the character's baked model. Throws Failure: BAD_FILE (no model, or that of another character),
+// Reads the character's baked model. Throws Failure: BAD_FILE (no model, or a model of another character),
 // FILE_VERSION.
 CharacterModel model_of_character(std::span<const std::byte> bytes, const ImportedCharacter& character);
 
-// Bent normals for a model that is already baked.
+// Adds bent normals to a model that is already baked.
 
 struct BentTask {
   std::uint32_t auto_poses = 48;
@@ -31,14 +31,14 @@ struct BentTask {
 // Throws Failure(INVALID_ARGUMENT) for a number out of its range.
 BentTask bent_task_of(const nook_bake_bent_desc& desc);
 
-// Adds occluded directions to the model of `character`, fitted to ray tracing in
-// automatic poses and those of the clips that the model was fitted to, or of all clips where it has no
-// recipe. What the model has besides stays as it is. The stage is JobStage::raytrace and counts poses.
-// Throws Failure: BAD_FILE (a recipe that is not that of the character), CANCELLED.
+// Adds occluded directions to the model of `character`, fitted to ray tracing in automatic poses and clips.
+// The clips are the ones that the model was fitted to, or all clips if it has no recipe. The rest of the
+// model stays as it is. The stage is JobStage::raytrace and counts poses. Throws Failure: BAD_FILE (a recipe
+// of another character), CANCELLED.
 BakedFile bake_bent_file(const ImportedCharacter& character, CharacterModel model, const BentTask& task,
                          const StageReport& progress);
 
-// The model of a mesh of less detail, from the bake of the full mesh.
+// Makes the model of a mesh with less detail from the bake of the full mesh.
 
 struct LodTask {
   std::size_t auto_poses = 200;
@@ -47,9 +47,9 @@ struct LodTask {
   std::uint64_t seed = 1;
 };
 
-// `lod` has the bones of the model in the same order, as a mesh of the same rig has. The result has the
-// spheres, key points, levels and casters of the model, and vertices that are fitted to ray tracing of `lod`
-// in automatic poses and those of its clips. The stage is JobStage::raytrace and counts poses. Throws
+// `lod` needs the bones of the model in the same order, as meshes of one rig have. The result has the
+// spheres, key points, levels and casters of the model. Its vertices are fitted to ray tracing of `lod` in
+// automatic poses and in poses of its clips. The stage is JobStage::raytrace and counts poses. Throws
 // Failure: BAD_FILE (no model, other bones), CANCELLED.
 BakedFile bake_lod_file(const ImportedCharacter& lod, std::span<const std::byte> model_bytes,
                         const LodTask& task, const StageReport& progress);

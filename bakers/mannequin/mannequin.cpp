@@ -19,9 +19,9 @@ namespace {
 constexpr double keys_per_second = 24.0;
 constexpr int fewest_keys = 24;
 
-// The file has z up and a unit of its own, and a node above the skeleton that turns and scales it into the
-// world, as files from Blender and Mixamo do. So the skinning matrices of the file are not rest-to-world
-// matrices, and a sample that confuses them shows it. A power of two and a quarter turn cost no digit.
+// The file has z up and its own unit. A node above the skeleton turns and scales it into the world, as in
+// files from Blender and Mixamo. So the skinning matrices of the file are not rest-to-world matrices, and a
+// sample that confuses them shows it. A power of two and a quarter turn cost no digit.
 constexpr double units_per_metre = 128.0;
 
 /// From model space, y up, to the axes of the file, z up.
@@ -148,7 +148,7 @@ Vec3 local_offset_m(const Skeleton& skeleton, const Bone& bone) {
   return glm::conjugate(parent.orientation) * (bone.position_m - parent.position_m);
 }
 
-/// The inverse bind matrix of a bone: from the mesh's axes and units to those of the bone.
+/// Appends the inverse bind matrix of a bone: from the mesh's axes and units to the bone's.
 void append_inverse_bind(std::vector<float>& to, const Bone& bone) {
   const Mat3 turn = glm::transpose(glm::mat3_cast(bone.orientation));
   for (const Vec3& column : {turn[0], -turn[2], turn[1]}) {

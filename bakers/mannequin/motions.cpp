@@ -88,8 +88,8 @@ Pose pose_idle(const Skeleton& skeleton, double phase) {
 Pose pose_walk(const Skeleton& skeleton, double phase) {
   const Gait gait{0.27, 0.60, 0.055, 20.0, 38.0, -0.02, 0.055};
   Pose pose(skeleton);
-  // The left heel strikes at phase 0, the right one half a cycle later. The body is lowest just after each
-  // strike.
+  // The left heel touches down at phase 0, the right one half a cycle later. The body is lowest just after
+  // each.
   pose.shift_pelvis({0.016 * swing(phase, -0.05), -0.026 + 0.014 * swing(2.0 * phase, -0.30), 0.0});
   const double lead = swing(phase, 0.25);  // +1 with the left leg ahead
   pose.turn("pelvis", y_axis, -6.0 * lead);

@@ -151,7 +151,7 @@ void place_foot(Pose& pose, Side side, const FootPlan& plan) {
   const int foot = skeleton.find(sided("foot", side)), ball = skeleton.find(sided("ball", side));
   const auto bind_m = [&](int bone) { return skeleton.bones()[static_cast<std::size_t>(bone)].position_m; };
 
-  // Roll over the ball with the heel up, or over the heel with the toes up.
+  // Rolls over the ball with the heel up, or over the heel with the toes up.
   const Quat yaw = about(y_axis, plan.yaw_deg * sign_of(side));
   const Quat pitch = about(x_axis, plan.pitch_deg);
   const Vec3 flat_ball = bind_ball_m(side);
@@ -235,7 +235,7 @@ void make_fist(Pose& pose, Side side) {
   for (const char* finger : {"index", "middle", "ring", "pinky"}) {
     curl_finger(pose, side, finger, 76.0, 80.0);
   }
-  // The thumb's root swings under the palm, then the thumb folds across the curled fingers.
+  // Swings the thumb's root under the palm, then folds the thumb across the curled fingers.
   bend_thumb(pose, side, 42.0, 0.0, Vec3(0.0, -0.8, -0.8));
   bend_thumb(pose, side, 0.0, 34.0, Vec3(0.0, 0.0, -1.0));
 }

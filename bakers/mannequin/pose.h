@@ -8,7 +8,7 @@
 
 namespace nook::mannequin {
 
-/// A side of the body, of which left is +x. It addresses everything that exists twice.
+/// A side of the body; left is +x. It addresses everything that exists twice.
 enum class Side { left, right };
 
 /// A pose, as rotations away from the bind pose. The rotation of a bone is relative to its parent. It is

@@ -20,7 +20,7 @@ using tensor::Matrix;
 
 constexpr std::uint32_t radiance_sums = 256, visibility_sums = 64;
 
-// The sum that a value is added to, and its sign.
+// The sum that a value is added to, and the value's sign.
 struct Place {
   std::uint32_t sum;
   float sign;
@@ -64,7 +64,7 @@ Matrix lengths_of(const nook::material::Material& material) {
   return Matrix(shifted.llt().matrixL().transpose().toDenseMatrix().cast<float>());
 }
 
-// Returns the weights of the modes S_c[a, b] of one cluster in the sums, a row for each sum.
+// Returns the weights of the modes S_c[a, b] of one cluster in the sums, one row per sum.
 Matrix weights_of(const ClusteredTensor& t, std::uint32_t cluster, const Matrix& lengths, std::uint32_t sums,
                   std::uint64_t seed) {
   const TensorShape& s = t.shape;

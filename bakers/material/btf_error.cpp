@@ -41,7 +41,7 @@ NeuralTables neural_tables(const nook::material::Material& material) {
   return make_neural_tables(material.neural, material.views, material.lights, default_memory());
 }
 
-// sum_k sum_b coefficient Z_c[a, b], expanded to texels: R_l x (I_x I_y).
+// Returns sum_k sum_b coefficient Z_c[a, b], expanded to texels: R_l x (I_x I_y).
 Matrix light_modes(const ClusteredTensor& t, std::size_t view) {
   const auto& s = t.shape;
   const std::size_t slice = std::size_t(s.rank_x) * s.rank_y, core = nook::material::core_size(s);
@@ -63,7 +63,7 @@ Matrix light_modes(const ClusteredTensor& t, std::size_t view) {
   return modes;
 }
 
-// Images of the relief's points as a view sees them.
+// Returns images of the relief's points as a view sees them.
 Matrix seen(const nook::material::Material& material, std::size_t view, const Matrix& images) {
   if (!material.relief.moves()) return images;
   const auto& shape = material.btf.shape;
@@ -76,7 +76,7 @@ Matrix seen(const nook::material::Material& material, std::size_t view, const Ma
   return out;
 }
 
-// Adds up the errors of views, decode(view) being all rows of one.
+// Adds up the errors of views. decode(view) returns all rows of one view.
 template <class Decode>
 BtfError error_of_views(const RawMaterial& raw, const Decode& decode) {
   const std::size_t views = raw.views.size(), texels = raw.texels();

@@ -17,10 +17,10 @@ namespace {
 
 using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 constexpr std::string_view signature = "!DFMF08FC";
-// Far above any use, small enough that their products cannot overflow.
+// Far above any use, but small enough that products cannot overflow.
 constexpr std::uint32_t most_directions = 65536, most_texels_a_side = 65536;
 
-// The rest of the file.
+// The part of the file that is not read yet.
 class Rest {
  public:
   explicit Rest(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -54,7 +54,7 @@ std::uint32_t Rest::u32(const char* what) {
   return std::uint32_t(little(take(4, what)));
 }
 
-// Returns whether rotations follow the size.
+// Returns whether the file has rotations after the size.
 bool read_signature(Rest& rest, std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                               std::min(bytes.size(), signature.size() + 1));
@@ -128,7 +128,7 @@ Size read_size(Rest& rest, bool rotated) {
   return size;
 }
 
-// The model that made colours independent of one another.
+// The transform that decorrelates colours.
 struct ColourModel {
   int model = 0;
   Eigen::RowVector3f mean;
@@ -157,7 +157,7 @@ Eigen::RowVector3f from_yuv(const Eigen::RowVector3f& c) {
 
 // Linear RGB of the three channels.
 Eigen::RowVector3f to_rgb(const ColourModel& colour, Eigen::RowVector3f c) {
-  constexpr float least = 1e-5f;  // what was added before a logarithm was taken
+  constexpr float least = 1e-5f;  // added before the logarithm
   const float exponential = std::exp(c[0]);
   const auto from_signed_logarithm = [](float v) {
     return std::copysign(v == 0 ? 0.0f : least * std::exp(std::abs(v)), v);
@@ -211,7 +211,7 @@ Matrix all_rows(const Rows& rows, std::size_t count) {
   return matrix;
 }
 
-// Of the raw material, y counts from the bottom; the file begins at the top.
+// In a raw material, y counts from the bottom; the file begins at the top.
 Matrix middle_rows(const Rows& rows, Size size, const RawMaterial& raw) {
   Matrix matrix(Eigen::Index(raw.texels()), Eigen::Index(rows.columns));
   const std::size_t left = (size.width - raw.width) / 2, top = (size.height - raw.height) / 2;

@@ -1,6 +1,7 @@
-// Measured BTFs in the file format of the University of Bonn's database of 2014 (UBO2014), signature
-// "!DFMF08FC": each channel of a decorrelated colour is a matrix of light and view pairs times texels, kept
-// as a truncated singular value decomposition (decorrelated full matrix factorisation). Little-endian:
+// Reads measured BTFs in the file format of the University of Bonn's database of 2014 (UBO2014), signature
+// "!DFMF08FC". Each channel of a decorrelated colour is a matrix of light and view pairs times texels. The
+// file keeps it as a truncated singular value decomposition (decorrelated full matrix factorisation).
+// Little-endian:
 //   10 bytes  "!DFMF08FCR", or 9 without the R
 //   head      u32 bytes of the head from here on, u32 version; three texts of 80 bytes; f32 texels per mm;
 //             three f32 scales of RGB, which are not applied; from version 2 on u32 1 where the data include
@@ -22,11 +23,12 @@
 
 namespace nook::bake::material {
 
-// `texels` above 0 takes the square of that side from the middle. Where the data are without the cosine of
-// the light, it is multiplied in. There is no VOTF. Throws Failure(BAD_FILE): another signature, a fault of
-// the layout, other than three channels, lights that differ between views, a model of colours whose
-// definition is not public, a number that is not finite, more than `most_bytes` of BTF;
-// Failure(INVALID_ARGUMENT): `texels` larger than the file's.
+// If `texels` is above 0, reads the square of this side in the middle. If the data lack the cosine of the
+// light, it is multiplied in. The result has no VOTF.
+//
+// Throws Failure(BAD_FILE) for another signature, a fault of the layout, other than three channels, a number
+// that is not finite, or more than `most_bytes` of BTF. Throws it also if lights differ between views, or the
+// colour model has no public definition. Throws Failure(INVALID_ARGUMENT) if `texels` exceeds the file's.
 RawMaterial read_btf_file(std::span<const std::byte> bytes, std::uint32_t texels,
                           std::size_t most_bytes = std::size_t{6} << 30);
 

@@ -1,5 +1,4 @@
-// From a raw material to a compressed one, by N-SVD, CTA or K-CTA, or by a neural network whose VOTF is that
-// of K-CTA.
+// Compresses a raw material by N-SVD, CTA or K-CTA, or by a neural network whose VOTF uses K-CTA.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +13,10 @@ namespace nook::bake::material {
 // Returns false to stop. stage names what goes on.
 using StageProgress = std::function<bool(const char* stage, std::size_t done, std::size_t total)>;
 
-// Both throw Failure(NOOK_ERROR_CANCELLED) when progress returns false. The same bits for the same seed on
-// any number of threads.
+// Both functions throw Failure(NOOK_ERROR_CANCELLED) when progress returns false. The same seed gives the
+// same bits on any number of threads.
 struct CompressedBtf {
-  std::vector<float> light_basis;  // as Material::light_basis
+  std::vector<float> light_basis;  // like Material::light_basis
   nook::material::ClusteredTensor tensor;
   int iterations = 0;
 };
@@ -29,10 +28,10 @@ nook::material::ClusteredTensor compress_votf(const RawMaterial& raw, const std:
                                               const CompressionSettings& settings,
                                               const StageProgress& progress = {});
 
-// The VOTF's values in a form: the mask, or its signed distances.
+// Returns the VOTF's values in a form: the mask, or its signed distances.
 std::vector<float> votf_values(const RawMaterial& raw, nook::material::VisibilityForm form);
 
-// A relief, and the raw material with its images on it; without one that moves texels raw is empty.
+// A relief, and the raw material with its images moved onto it. raw is empty if the relief moves no texels.
 struct MovedMaterial {
   nook::material::Relief relief;
   RawMaterial raw;
@@ -41,23 +40,23 @@ struct MovedMaterial {
 };
 MovedMaterial move_views(const RawMaterial& raw, ReliefSource source, const StageProgress& progress = {});
 
-// Both, and the directions, as a whole; without a mask in raw there is no VOTF. Numbers are not yet rounded:
-// quantise() in sdk's material/material_file.h does.
+// Compresses BTF, VOTF and directions as a whole. Without a mask in raw there is no VOTF. Numbers are not yet
+// rounded: quantise() in sdk's material/material_file.h rounds them.
 nook::material::Material compress(const RawMaterial& raw, const CompressionSettings& settings,
                                   const StageProgress& progress = {});
 
-// The same of views that move_views() has moved already; settings.relief is not read.
+// The same for views that move_views() has moved already. Ignores settings.relief.
 nook::material::Material compress_moved(const RawMaterial& raw, const MovedMaterial& moved,
                                         const CompressionSettings& settings,
                                         const StageProgress& progress = {});
 
-// Sets the rounding of the cores of a material that is not rounded yet, so that it adds a hundredth to the
-// squared error of the compression: 0.04 dB.
+// Sets the rounding of the cores of an unrounded material, so that it adds a hundredth to the squared error
+// of the compression: 0.04 dB.
 void set_core_rounding(const RawMaterial& raw, nook::material::Material& material);
 
-// Chooses ranks as in section 6 of the paper, for light, view, x, y, and x, y of the VOTF: in each mode alone
-// the smallest multiple of 4 at which the squared error stays below a share of the squared norm. Of a
-// material with a relief, raw is what move_views() returns.
+// Chooses ranks as in section 6 of the paper, for light, view, x, y, and x, y of the VOTF. In each mode
+// alone, it takes the smallest multiple of 4 whose squared error stays below a share of the squared norm. If
+// the material has a relief, pass what move_views() returns as raw.
 CompressionSettings ranks_by_threshold(const RawMaterial& raw, double share, CompressionSettings settings);
 
 }  // namespace nook::bake::material

@@ -11,8 +11,8 @@ namespace {
 
 using nook::material::VisibilityForm;
 
-// Checks the limits of a file before hours of tracing and fitting, as check_shape() of sdk's
-// material/material_check.h does.
+// Checks the limits of a file before hours of tracing and fitting, like check_shape() of sdk's
+// material/material_check.h.
 void check_file_limits(const CompressionSettings& s, const RawMaterial& raw) {
   const bool clustered = s.method != Method::n_svd;
   const std::uint64_t rank = clustered ? s.cluster_rank_view : s.rank_view;
@@ -38,7 +38,7 @@ struct DefaultRanks {
   std::uint32_t light, view, x, y, votf_x, votf_y;
 };
 
-// The paper's Table I for the first two, for 96 x 96 texels.
+// The first two are from the paper's Table I, for 96 x 96 texels.
 constexpr DefaultRanks builtin_ranks[] = {{"fiber", 16, 80, 64, 64, 80, 80},
                                           {"roughhole", 28, 44, 96, 96, 80, 80},
                                           {"weave", 20, 40, 48, 48, 48, 48}};

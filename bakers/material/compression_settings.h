@@ -1,4 +1,4 @@
-// The settings of a compression, and whether a material allows them.
+// The settings of a compression, and checks whether a material allows them.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ enum class Seeding : std::uint8_t {
   values,      // k-means of the views' sub-tensors
 };
 
-// Where the relief comes from on which views are moved; see raw_relief.h.
+// The source of the relief onto which views are moved; see raw_relief.h.
 enum class ReliefSource : std::uint8_t {
   none,
   estimated,  // from what the views agree on
@@ -26,36 +26,36 @@ enum class ReliefSource : std::uint8_t {
 
 inline constexpr std::uint32_t max_neural_steps = 1000000;
 
-// The form of numbers of a bake that sets none.
+// The default bits of stored numbers.
 inline constexpr std::uint32_t default_bits = 8;
 
 struct CompressionSettings {
   Method method = Method::k_cta;
   std::uint32_t rank_light = 16;
-  std::uint32_t rank_view = 80;  // of N-SVD; of CTA and K-CTA in total, C times that of a cluster
+  std::uint32_t rank_view = 80;  // for N-SVD; for CTA and K-CTA the total, C times the rank of a cluster
   std::uint32_t rank_x = 64, rank_y = 64;
   std::uint32_t votf_rank_x = 80, votf_rank_y = 80;
   std::uint32_t cluster_rank_view = 4;
   std::uint32_t clusters = 0;  // C; 0: rank_view / cluster_rank_view
   std::uint32_t mixture = 3;   // K of K-CTA
-  // Fits of the VOTF after the first, to targets that count the sides of values; see visibility_values.h.
+  // Further fits of the VOTF, to targets that count the sides of values; see visibility_values.h.
   std::uint32_t votf_refits = 2;
   Seeding seeding = Seeding::directions;
   nook::material::VisibilityForm visibility = nook::material::VisibilityForm::distance;
   std::optional<nook::material::VisibilityMapping> mapping;  // none: default_mapping() below
   std::uint32_t map_side = 64;  // cells of the resampled view maps of K-CTA; 0: none
-  double step_penalty = 0;      // of the steps in the BTF's view map, see tensor/resample.h; 0: none
+  double step_penalty = 0;      // penalty of steps in the BTF's view map, see tensor/resample.h; 0: none
   bool is_cta_mapped = false;   // CTA has view maps as well, whose cells show one cluster each
-  std::uint32_t bits = 16;      // form of the numbers, see Material in sdk's material/material.h
+  std::uint32_t bits = 16;      // bits of stored numbers, see Material in sdk's material/material.h
   ReliefSource relief = ReliefSource::none;
-  // Of a neural material: channels of its features, a multiple of 4, and steps of its training.
+  // For a neural material: the number of feature channels, a multiple of 4, and of training steps.
   std::uint32_t neural_channels = 16, neural_steps = 8000;
   std::uint64_t seed = 1;
 
   std::uint32_t cluster_count() const {
     return clusters ? clusters : std::max(rank_view / cluster_rank_view, 1u);
   }
-  // Cells along a side of the view maps that the method makes; 0: none.
+  // Returns the cells along a side of the view maps that the method makes; 0: none.
   std::uint32_t made_map_side() const {
     return method == Method::k_cta || (method == Method::cta && is_cta_mapped) ? map_side : 0;
   }
@@ -69,7 +69,7 @@ inline bool has_votf(const RawMaterial& raw, const CompressionSettings& s) {
   return will_have_votf(!raw.mask.empty(), s);
 }
 
-// Returns the settings of the VOTF, which a neural material has by K-CTA.
+// Returns the settings of the VOTF. A neural material compresses it by K-CTA.
 inline CompressionSettings votf_settings(CompressionSettings s) {
   if (s.method == Method::neural) s.method = Method::k_cta;
   return s;
@@ -81,14 +81,14 @@ inline CompressionSettings votf_settings(CompressionSettings s) {
 nook::material::VisibilityMapping default_mapping(nook::material::VisibilityForm form, std::uint32_t width,
                                                   std::uint32_t height);
 
-// Throws Failure INVALID_ARGUMENT for settings that no neural material has, whatever its data are.
+// Throws Failure INVALID_ARGUMENT for settings that are wrong for any neural material, whatever its data are.
 void check_neural(const CompressionSettings& s);
 
-// Ranks, clusters and mixture against the material's sizes; throws Failure(INVALID_ARGUMENT) that names the
-// first that does not fit.
+// Checks ranks, clusters and mixture against the material's sizes. Throws Failure(INVALID_ARGUMENT) that
+// names the first that does not fit.
 void check_settings(const CompressionSettings& settings, const RawMaterial& raw);
 
-// The same before a material is traced, of which only the sizes and directions are there. has_mask: its views
+// The same before a material is traced, when only its sizes and directions are known. has_mask: its views
 // will have a mask.
 void check_settings(const CompressionSettings& settings, const RawMaterial& sizes, bool has_mask);
 
@@ -96,8 +96,8 @@ void check_settings(const CompressionSettings& settings, const RawMaterial& size
 // before the threshold has values to choose by.
 void set_lowest_ranks(const RawMaterial& sizes, CompressionSettings& settings);
 
-// Sets the ranks of a built-in meso-structure by its name; of a smaller version as many as it allows. False,
-// and nothing set, where the name is none of those in meso_surface.h.
+// Sets the ranks of a built-in meso-structure by its name. A smaller version gets as many as it allows.
+// Returns false and sets nothing if the name is not in meso_surface.h.
 bool set_builtin_ranks(const RawMaterial& raw, CompressionSettings& settings);
 
 }  // namespace nook::bake::material

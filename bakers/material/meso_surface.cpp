@@ -101,7 +101,8 @@ void check_bounds(const Bounds& b) {
                   double(b.x.length()), double(b.y.length()), double(most_width));
 }
 
-// Surfaces share vertices where their primitives do, and a vertex has one colour: that of its last triangle.
+// Surfaces share vertices where their primitives do. A vertex has one colour, which it takes from its last
+// triangle.
 std::vector<Vec3> colours_of(const StaticScene& scene) {
   std::vector<Vec3> colours(scene.position.size());
   for (std::size_t t = 0; t < scene.triangle.size(); ++t)
@@ -110,7 +111,7 @@ std::vector<Vec3> colours_of(const StaticScene& scene) {
   return colours;
 }
 
-// A place of the torus, in steps of 1e-5 tiles.
+// A position on the torus, in steps of 1e-5 tiles.
 using Place = std::array<long, 3>;
 Place place_of(Vec3 p) {
   constexpr double steps = 1e5;
@@ -121,8 +122,8 @@ Place place_of(Vec3 p) {
   return {on_circle(p.x), on_circle(p.y), std::lround(double(p.z) * steps)};
 }
 
-// Adds to each normal those of the vertices that lie a whole tile away, so that a surface that goes on there
-// has no edge; normals more than 60 degrees apart belong to other faces.
+// Adds to each normal the normals of vertices that lie a whole tile away, so that a surface that continues
+// there has no edge. Normals more than 60 degrees apart belong to other faces.
 void join_across_border(MesoSurface& surface) {
   std::map<Place, std::vector<std::size_t>> vertices_at;
   for (std::size_t v = 0; v < surface.position.size(); ++v)

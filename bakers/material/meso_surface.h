@@ -22,8 +22,8 @@ struct MesoSurface {
   std::vector<std::array<std::uint32_t, 3>> triangle;
   float specular = 0;   // normal reflectance of a Blinn-Phong lobe on top of the diffuse one; 0: none
   float shininess = 1;  // its exponent
-  // In the place of Blinn-Phong, for each vertex: the GGX width and the reflectance at normal incidence,
-  // linear RGB, as in pbr_maps.h. Both are empty, or neither is.
+  // Replaces Blinn-Phong if it is not empty. For each vertex: the GGX width and the reflectance at normal
+  // incidence, linear RGB, as in pbr_maps.h. Both arrays are empty, or neither is.
   std::vector<float> ggx_width;
   std::vector<Vec3> reflectance;
 };
@@ -44,21 +44,21 @@ struct MesoParameters {
 
 std::vector<std::string_view> meso_names();
 
-// Throws Failure(INVALID_ARGUMENT) that lists the names where this one is unknown.
+// Throws Failure(INVALID_ARGUMENT) that lists the names if this one is unknown.
 MesoParameters meso_parameters(std::string_view name);
 
-// Throws Failure(INVALID_ARGUMENT) for parameters outside of what the structure can be built from.
+// Throws Failure(INVALID_ARGUMENT) for parameters that the structure cannot be built from.
 MesoSurface make_meso_surface(const MesoParameters& parameters);
 
 MesoSurface make_fiber(const MesoParameters& parameters);
 MesoSurface make_rough_hole(const MesoParameters& parameters);
 MesoSurface make_weave(const MesoParameters& parameters);
 
-// A mesh of one's own as a meso-structure.
+// Makes a meso-structure from a user's mesh.
 
 // Takes the triangles of a scene, y up, as one tile of a structure that repeats after side_m metres along x
-// and z: x becomes the tile's x, -z its y, and y its height, with the middle of the scene's heights at z = 0.
-// Normals are averages over faces that share a vertex, also across the border of the tile; the front side of
+// and z. x becomes the tile's x, -z its y, and y its height, with the middle of the scene's heights at z = 0.
+// Normals are averages over faces that share a vertex, also across the border of the tile. The front side of
 // a triangle is outside of the solid. Diffuse colours are the base colours of the materials, and there is no
 // specular part. Throws Failure(INVALID_ARGUMENT) if the scene is flat, higher than half a tile or wider than
 // two, or the side is not above 0.

@@ -17,14 +17,14 @@ void rectify(Columns& values) {
   values = values.cwiseMax(neural_leak * values);
 }
 
-// The gradient before the rectifier, of that after it.
+// Turns the gradient after the rectifier into the gradient before it.
 void rectify_back(const Columns& after, Columns& gradient) {
   gradient.array() *=
       (after.array() > 0).select(Eigen::ArrayXXf::Ones(after.rows(), after.cols()), neural_leak);
 }
 
-// A direction's place on the square map of views: the disc of equal solid angles, then P. Shirley's and K.
-// Chiu's concentric map, 1997.
+// A direction's place on the square map of views: a disc of equal solid angles, mapped to the square by P.
+// Shirley's and K. Chiu's concentric map, 1997.
 struct Place {
   float x, y;
 };
@@ -105,7 +105,7 @@ void gather(NeuralPass& pass, const NeuralNumbers& n) {
   }
 }
 
-// The gradient of a layer's matrix, and that of its bias.
+// Sets the gradients of a layer's matrix and bias.
 void set_product(std::vector<float>& weights, std::size_t where, const Columns& gradient,
                  const Columns& input) {
   WeightGradient(&weights[where], gradient.rows(), input.rows()).noalias() = gradient * input.transpose();
@@ -114,7 +114,7 @@ void set_sum(std::vector<float>& weights, std::size_t where, const Columns& grad
   Eigen::Map<Eigen::VectorXf>(&weights[where], gradient.rows()) = gradient.rowwise().sum();
 }
 
-// A height moves the place where the features of a position are read.
+// Returns the gradient of a height, which moves the place where the features of a position are read.
 float height_gradient(const NeuralNumbers& n, Vec3 view, const NeuralPass::Tap& tap,
                       const Eigen::Ref<const Eigen::VectorXf>& gradient) {
   float along_x = 0, along_y = 0;

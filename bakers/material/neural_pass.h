@@ -1,4 +1,4 @@
-// A neural tile forwards and backwards, on a few texels of views under the same number of lights each.
+// Runs a neural tile forwards and backwards, on a few texels of views with the same number of lights each.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,14 +18,14 @@ struct NeuralNumbers {
   std::span<const float> features, offset_features, weights;
 };
 
-// Columns are positions, or samples: the lights of a position stand beside each other.
+// Columns are positions or samples. The lights of a position are adjacent samples.
 struct NeuralPass {
   using Columns = Eigen::MatrixXf;
-  // Where the features of a position are read.
+  // The texels where the features of a position are read.
   struct Tap {
     std::uint32_t node[4], texel[4];
     float node_share[4], texel_share[4];
-    float slope_x[4], slope_y[4];  // of texel_share, over texels
+    float slope_x[4], slope_y[4];  // derivatives of texel_share, per texel
   };
 
   std::vector<NeuralPosition> positions;
@@ -33,17 +33,17 @@ struct NeuralPass {
   std::vector<Tap> taps;
   Columns offset_input, offset_units, heights, input, at_position, light_input, out;
   std::vector<Columns> units;  // of each hidden layer
-  // Gradients: of the numbers of the networks, and channel x position.
+  // Gradients of the networks' numbers, and of features: channel x position.
   std::vector<float> weights;
   Columns features, offset_features;
 
-  // Sets the heights of the positions alone.
+  // Sets only the heights of the positions.
   void find_heights(const NeuralNumbers& numbers);
-  // Sets out: RGB of the samples.
+  // Sets out to the RGB of the samples.
   void forward(const NeuralNumbers& numbers);
-  // Of the gradient in `out`, where the caller has put it.
+  // Goes back from the gradient that the caller puts in `out`.
   void backward(const NeuralNumbers& numbers);
-  // Of the gradient in `heights`, where the caller has put it: adds to weights, and sets offset_features.
+  // Goes back from the gradient that the caller puts in `heights`. Adds to weights, and sets offset_features.
   void heights_backward(const NeuralNumbers& numbers);
   // Adds the gradients of features where they were read.
   void scatter(const NeuralShape& shape, std::span<float> feature_gradient,

@@ -24,8 +24,7 @@ std::size_t NeuralTile::bytes() const {
 
 namespace {
 
-// The places of the features of a channel in a block, row by row. Beyond the rim are those of the last
-// texels.
+// The places of a channel's features in a block, row by row. Beyond the rim, the last texels repeat.
 struct BlockPlaces {
   std::size_t at[16];
 };

@@ -1,4 +1,4 @@
-// The same tile as a neural material: a small network over block-compressed features, after A. Kuznetsov, K.
+// A tile as a neural material: a small network over block-compressed features. It follows A. Kuznetsov, K.
 // Mullia, Z. Xu, M. Hasan, R. Ramamoorthi: NeuMIP, 2021 (the neural offset) and C. Weinreich, L. de Oliveira,
 // A. Houdard, G. Nader: Real-Time Neural Materials using Block-Compressed Features, 2023.
 #pragma once
@@ -13,10 +13,10 @@
 
 namespace nook::bake::material {
 
-// Sizes of a neural tile. Features may depend on the view, which those of a file do not.
+// Sizes of a neural tile. Its features may depend on the view; features in a file may not.
 struct NeuralShape : nook::material::NeuralShape {
-  // Features are blended between as many nodes of a square map of views on each side; 1: they do not depend
-  // on the view.
+  // Nodes on each side of a square map of views. Features are blended between them; 1: they do not depend on
+  // the view.
   std::uint32_t view_side = 1;
   float widest_view_z = 0;  // at the rim of the map of views
 
@@ -34,18 +34,19 @@ struct NeuralTile {
   std::size_t bytes() const;
 };
 
-// Blocks of eight bytes and numbers of two.
+// Blocks take eight bytes and numbers take two.
 std::size_t neural_bytes(const NeuralShape& shape);
 
-// The features that are decoded after encoding: each block of 4 x 4 texels of a channel has two ends and
-// eight levels between them, all of them multiples of 1 / 127.
+// Returns the features as decoded after encoding. Each block of 4 x 4 texels of a channel has two ends and
+// eight levels between them, all multiples of 1 / 127.
 void round_to_blocks(const NeuralShape& shape, std::uint32_t channels, std::span<const float> features,
                      std::span<float> rounded);
 
-// The radiance of the plane's texels in a view for each light, 3 lights x texels, as in RawMaterial::btf.
+// Returns the radiance of the plane's texels in a view for each light, 3 lights x texels, as in
+// RawMaterial::btf.
 tensor::Matrix draw_neural_tile(const NeuralTile& tile, Vec3 view, std::span<const Vec3> lights);
 
-// The tile as a file holds it, with channels and units that are multiples of 4. Throws
+// Returns the tile as stored in a file. Channels and units become multiples of 4. Throws
 // Failure(NOOK_ERROR_INVALID_ARGUMENT) if features depend on the view.
 nook::material::Neural encoded(const NeuralTile& tile);
 

@@ -16,8 +16,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t part_positions = 64;  // of a batch, evaluated together
-constexpr std::uint32_t warm_steps = 200;   // with a rising rate
+constexpr std::size_t part_positions = 64;  // part of a batch, evaluated together
+constexpr std::uint32_t warm_steps = 200;   // steps with a rising rate
 
 // Numbers under training. Features stay in [-1, 1], which blocks encode.
 struct Trained {
@@ -35,7 +35,7 @@ struct Trained {
   }
 };
 
-// Radiance over its root mean square: view x texel x light x RGB, as a position needs it.
+// Radiance over its root mean square: view x texel x light x RGB, in the order that a position needs.
 struct Targets {
   std::vector<float> value;
   float scale = 1;  // radiance of 1
@@ -61,8 +61,7 @@ Targets targets_of(const RawMaterial& raw) {
   return targets;
 }
 
-// The last layer holds the scale in half floats: beyond these bounds its weights lose their digits or
-// overflow.
+// The last layer holds the scale in half floats. Beyond these bounds its weights lose digits or overflow.
 void check_scale(float scale) {
   constexpr float least = 1.0f / 4096, most = 4096;
   if (!(scale >= least && scale <= most))
@@ -92,8 +91,8 @@ struct Trainer {
   }
 };
 
-// The variance of a rectified layer's outputs is that of its inputs: K. He and others, 2015. All nodes of the
-// map of views begin alike.
+// A rectified layer keeps the variance of its inputs: K. He and others, 2015. All nodes of the map of views
+// start equal.
 void set_first_numbers(Trainer& t) {
   const NeuralShape& s = t.shape;
   Random random(mix_bits(t.settings.seed));
@@ -148,7 +147,7 @@ void add_gradients(Trainer& t) {
   }
 }
 
-// Trains the network of the offset alone to the first hits of the relief at which views agree.
+// Trains only the network of the offset, to the first hits of the relief at which views agree.
 void fit_offsets(Trainer& t, const StageProgress& progress) {
   const NeuralShape& s = t.shape;
   const std::vector<float> heights = heights_of_views(t.raw, [&](std::size_t, std::size_t) {
@@ -191,7 +190,8 @@ void fit_offsets(Trainer& t, const StageProgress& progress) {
   t.offset_features.adam = Adam(t.offset_features.value.size());
 }
 
-// The lights of a position: from a random one on around the list, one out of each of as many stretches.
+// Chooses the lights of a position: cuts the list into equal stretches from a random light on, and takes one
+// from each.
 void choose_lights(const RawMaterial& raw, std::uint64_t seed, std::uint32_t each,
                    std::vector<std::uint32_t>& chosen, std::vector<Vec3>& lights) {
   Random random(seed);
@@ -204,7 +204,7 @@ void choose_lights(const RawMaterial& raw, std::uint64_t seed, std::uint32_t eac
   }
 }
 
-// The gradient of a part of a batch.
+// Computes the gradient of a part of a batch.
 void part_gradient(const Trainer& t, const Targets& targets, const NeuralNumbers& numbers, std::uint64_t seed,
                    std::size_t first, std::size_t last, NeuralPass& pass) {
   const std::size_t texels = t.raw.texels(), rows = t.raw.light_rows();
@@ -227,7 +227,7 @@ void part_gradient(const Trainer& t, const Targets& targets, const NeuralNumbers
 
 void train(Trainer& t, const Targets& targets, const StageProgress& progress) {
   const NeuralSettings& s = t.settings;
-  constexpr float offset_share = 0.3f;  // of the features' rate
+  constexpr float offset_share = 0.3f;  // relative to the features' rate
   for (std::uint32_t step = 0; step < s.steps; ++step) {
     const NeuralNumbers numbers = 2 * step >= s.steps ? t.rounded() : t.numbers();
     const std::uint64_t seed = mix_bits(s.seed ^ mix_bits(step + 1));

@@ -47,7 +47,7 @@ namespace {
 
 constexpr float most_height = 0.5f;  // tiles
 
-// Central differences of the heights, across the border of the tile too.
+// Returns central differences of the heights, across the border of the tile too.
 MapSlope slope_of(const std::vector<float>& z, std::uint32_t side, std::uint32_t x, std::uint32_t y) {
   const auto at = [&](std::uint32_t column, std::uint32_t row) {
     return z[std::size_t(row % side) * side + column % side];
@@ -119,7 +119,7 @@ MesoSurface surface_of_maps(const PbrMaps& maps, float height_scale_m, float sid
   for (std::uint32_t y = 0; y < side; ++y)
     for (std::uint32_t x = 0; x < side; ++x) {
       const std::uint32_t a = y * across + x, b = a + 1, c = a + across, d = c + 1;
-      // The flatter diagonal, so that ridges and valleys keep their course.
+      // Takes the flatter diagonal, so that ridges and valleys keep their course.
       const auto z_of = [&](std::uint32_t v) { return surface.position[v].z; };
       if (std::abs(z_of(a) - z_of(d)) <= std::abs(z_of(b) - z_of(c))) {
         surface.triangle.push_back({a, b, d});

@@ -11,7 +11,7 @@
 
 namespace nook::bake::material {
 
-// Linear reads of images of a tile that repeats, texel x * height + y as in RawMaterial.
+// Reads images of a repeating tile with linear interpolation, texel x * height + y as in RawMaterial.
 
 // The four texels around a point and their shares.
 struct Taps {
@@ -44,19 +44,19 @@ Value mean_of(const Taps& taps, const Value* map) {
   return sum;
 }
 
-// Averages of an image over the points of another grid on a tile that repeats.
+// Averages an image over the points of another grid on a repeating tile.
 
 // Takes rows one by one, so that no second image is held. A point of the grid, ((x + 0.5) / side, (y + 0.5) /
-// side), receives the mean of the image under a tent as wide as two points or, where the image is the coarser
-// one, two texels: there it is the bilinear interpolation.
+// side), receives the mean of the image under a tent as wide as two points. If the image is coarser than the
+// grid, the tent is as wide as two texels, which is bilinear interpolation.
 class TileFilter {
  public:
   TileFilter(std::uint32_t width, std::uint32_t height, std::uint32_t side, std::uint32_t channels);
 
-  // row: width x channels, of the texels whose centres lie at y = (index + 0.5) / height.
+  // row: width x channels, for texels whose centres lie at y = (index + 0.5) / height.
   void add_row(std::uint32_t index, std::span<const float> row);
 
-  // Returns y * side + x, channels, after all rows were added.
+  // Call it after all rows were added. Returns y * side + x, channels.
   std::vector<float> result() const;
 
  private:
@@ -64,7 +64,7 @@ class TileFilter {
     std::uint32_t point;
     double weight;
   };
-  // For each texel along an axis the points that it counts for.
+  // Returns for each texel along an axis the points that it counts for.
   static std::vector<std::vector<Share>> shares_of(std::uint32_t size, std::uint32_t side);
 
   std::uint32_t channels_;
@@ -74,11 +74,11 @@ class TileFilter {
 
 // Gradient noise that repeats along x and y.
 
-// Perlin's noise, about -1 to 1, with `cells` lattice cells along a tile's side; repeats after 1 along x and
-// y, not along z.
+// Perlin's noise, about -1 to 1, with `cells` lattice cells along a tile's side. It repeats after 1 along x
+// and y, but not along z.
 float tile_noise(Vec3 p, std::uint32_t cells, std::uint64_t seed);
 
-// Octaves of it, each of twice the frequency and half the amplitude.
+// Adds octaves of tile_noise, each with twice the frequency and half the amplitude.
 float tile_fractal_noise(Vec3 p, std::uint32_t cells, std::uint32_t octaves, std::uint64_t seed);
 
 }  // namespace nook::bake::material

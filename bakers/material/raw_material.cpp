@@ -37,7 +37,7 @@ std::vector<Vec3> spiral_directions(std::uint32_t count, float max_tilt_deg) {
 
 namespace {
 
-// Far above any use, small enough that their product cannot overflow.
+// Far above any use, but small enough that their product cannot overflow.
 constexpr std::uint32_t most_directions = 65536, most_texels_a_side = 16384;
 
 std::vector<std::byte> as_half_bytes(const std::vector<float>& values) {
@@ -178,7 +178,7 @@ std::vector<Size> sizes_of(Size size) {
   return sizes;
 }
 
-// Each level the sums of 2 x 2 texels of the one before.
+// Each level holds the sums of 2 x 2 texels of the level before.
 void pull(const std::vector<Size>& sizes, Levels& levels) {
   levels.resize(sizes.size());
   for (std::size_t l = 1; l < sizes.size(); ++l) {
@@ -190,12 +190,12 @@ void pull(const std::vector<Size>& sizes, Levels& levels) {
   }
 }
 
-// The texel of the coarser level that lies on the other side of a texel, the nearer one being at / 2.
+// Returns the second nearest texel of the coarser level; the nearest is at / 2.
 std::size_t beside(std::size_t at, std::size_t size) {
   return (at / 2 + (at % 2 ? 1 : size - 1)) % size;
 }
 
-// Sums become means; empty texels take the coarser level's value, linear between its texels.
+// Sums become means. Empty texels take the coarser level's value, linear between its texels.
 void push(const std::vector<Size>& sizes, const Levels& weights, Levels& levels) {
   for (std::size_t l = sizes.size(); l-- > 0;) {
     const Size fine = sizes[l];

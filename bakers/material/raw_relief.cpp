@@ -17,7 +17,7 @@ namespace {
 using nook::material::Relief;
 using nook::material::ReliefTables;
 
-constexpr float largest_slope = 5.67f;  // of a tilt of 80 degrees
+constexpr float largest_slope = 5.67f;  // slope of a tilt of 80 degrees
 
 ReliefTables tables_of(const Relief& relief, std::uint32_t width, std::uint32_t height) {
   return nook::material::make_relief_tables(relief, width, height, default_memory());
@@ -27,7 +27,7 @@ float middle(std::size_t texel, std::uint32_t side) {
   return (float(texel) + 0.5f) / float(side);
 }
 
-// Where the view sees the relief's points if nothing stands before them.
+// Returns where the view sees the relief's points if nothing hides them.
 std::vector<Taps> unhidden_taps(const Relief& relief, const ReliefTables& tables, std::uint32_t width,
                                 std::uint32_t height, Vec3 view) {
   const nook::material::TexturePlace slope = nook::material::relief_slope(tables, view);
@@ -41,12 +41,12 @@ std::vector<Taps> unhidden_taps(const Relief& relief, const ReliefTables& tables
   return taps;
 }
 
-// Images of a view and its sums, of as many numbers as there are texels.
+// Images of a view and their sums; each has as many numbers as there are texels.
 struct ConjugateWork {
   std::vector<float> step, rest, along, image;
 };
 
-// Sets out to S in, or adds S^T in to it.
+// Either sets out to S in, or adds S^T in to it.
 void gather(const std::vector<Taps>& taps, const float* in, float* out) {
   for (std::size_t t = 0; t < taps.size(); ++t) out[t] = mean_of(taps[t], in);
 }
@@ -60,7 +60,7 @@ double square(const std::vector<float>& values) {
 }
 
 // Minimises |S x - shown|^2 + stiffness |x - first|^2 by conjugate gradients from x = first. Rows of S sum to
-// 1, so that the stiffness bounds how much a few rounds leave.
+// 1, so that the stiffness bounds the error after a few rounds.
 void fit_image(const std::vector<Taps>& taps, const std::vector<float>& shown, std::vector<float>& x,
                ConjugateWork& w) {
   constexpr float stiffness = 0.05f;
@@ -92,8 +92,8 @@ void fit_image(const std::vector<Taps>& taps, const std::vector<float>& shown, s
   }
 }
 
-// The blur of a tile that repeats, by a Gaussian of a width in texels, along one side: stride and count of
-// texels along it.
+// Blurs a repeating tile along one side by a Gaussian, whose width is in texels. stride and count describe
+// the texels along this side.
 std::vector<float> blurred(const std::vector<float>& image, std::size_t count, std::size_t stride,
                            float texels) {
   const auto reach = long(std::ceil(3 * texels)), side = long(count);
@@ -116,7 +116,7 @@ std::vector<float> smooth(const RawMaterial& raw, const std::vector<float>& heig
   return blurred(blurred(heights, raw.height, 1, texels), raw.width, raw.height, texels);
 }
 
-// Sums of red, green and blue of at most eight lights: enough to judge a relief.
+// Returns sums of red, green and blue for at most eight lights, which are enough to judge a relief.
 std::vector<float> few_rows(const RawMaterial& raw) {
   const std::size_t each = raw.views.size() * raw.texels();
   const std::size_t stride = std::max<std::size_t>((raw.lights.size() + 7) / 8, 1);
@@ -130,7 +130,7 @@ std::vector<float> few_rows(const RawMaterial& raw) {
 
 constexpr std::size_t folds = 4;
 
-// The squared error with which the views of a fold are predicted from the others on a relief.
+// Returns the squared error of predicting the views of a fold from the other views on a relief.
 double fold_error(const RawMaterial& raw, const Relief& relief, const std::vector<float>& shown,
                   const std::vector<float>& moved, std::size_t fold) {
   std::vector<Vec3> known, held;
@@ -217,7 +217,7 @@ Relief relief_of_heights(const RawMaterial& raw, const std::vector<float>& heigh
 
 namespace {
 
-// The count of a search whose parts count on their own: as many steps for each.
+// The overall count of a search. Each of its parts counts by itself and has the same number of steps.
 class SearchProgress {
  public:
   SearchProgress(const ReliefProgress& progress, std::size_t parts) : progress_(progress), parts_(parts) {}
@@ -235,11 +235,11 @@ class SearchProgress {
   std::size_t parts_, part_ = 0;
 };
 
-// No relief and a plane, beside the smoothed heights.
+// no relief, and a plane
 constexpr std::size_t other_candidates = 2;
 
-// Of a plane at the heights' mean, the heights smoothed over some numbers of texels, 0 for as they are, and
-// no relief.
+// Returns the best of several reliefs: a plane at the heights' mean, the heights smoothed over some numbers
+// of texels (0: not smoothed), and no relief.
 Relief best_relief(const RawMaterial& raw, const std::vector<float>& heights,
                    std::initializer_list<float> smoothings, SearchProgress& progress) {
   const std::vector<float> shown = few_rows(raw);

@@ -1,4 +1,5 @@
-// RoughHole: a plate of rough stone with holes right through it, of uneven outlines and rounded rims.
+// RoughHole is a plate of rough stone with holes right through it, which have uneven outlines and rounded
+// rims.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 namespace nook::bake::material {
 namespace {
 
-// The zero surface of a periodic function, by marching tetrahedra.
+// Extracts the zero surface of a periodic function by marching tetrahedra.
 
 struct IsoGrid {
   std::uint32_t cells = 64;   // along a tile's side
@@ -60,7 +61,7 @@ class Marching {
 
   Corner corner(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
     const std::uint32_t n = grid_.cells;
-    // Beyond the last cell the values are those of the first one, the position is not.
+    // Beyond the last cell, the values repeat from the first one, but the position does not.
     return {(std::uint64_t(z) * (n + 1) + y) * (n + 1) + x, point(x, y, z),
             value_[(std::size_t(z) * n + y % n) * n + x % n]};
   }
@@ -101,7 +102,7 @@ class Marching {
     add({a, b, edge_vertex(*apex, base[2], surface)}, inside[0].position, surface);
   }
 
-  // Turns the triangle so that the inner point lies behind it.
+  // Turns the triangle so that the inner point is on its back.
   void add(std::array<std::uint32_t, 3> t, Vec3 inner, MesoSurface& surface) const {
     const Vec3 a = surface.position[t[0]];
     const Vec3 normal = cross(surface.position[t[1]] - a, surface.position[t[2]] - a);
@@ -114,9 +115,8 @@ class Marching {
   std::unordered_map<std::uint64_t, std::uint32_t> vertex_;
 };
 
-// field is positive inside, has the period 1 along x and y, and is negative at bottom and top. Normals are
-// those of its gradient. albedo is evaluated at each vertex. Opposite sides of the tile match vertex by
-// vertex.
+// field is positive inside, has the period 1 along x and y, and is negative at bottom and top. Its gradient
+// gives the normals. albedo is evaluated at each vertex. Opposite sides of the tile match vertex by vertex.
 MesoSurface extract_isosurface(const std::function<float(Vec3)>& field,
                                const std::function<Vec3(Vec3)>& albedo, const IsoGrid& grid) {
   MesoSurface surface;
@@ -178,7 +178,7 @@ MesoSurface make_rough_hole(const MesoParameters& p) {
     return (Vec3{0.30f, 0.27f, 0.25f} + Vec3{0.34f, 0.24f, 0.14f} * std::clamp(patch, 0.0f, 1.0f)) * grain;
   };
   IsoGrid grid;
-  // Noise of three octaves reaches 1.75 amplitudes; one cell more keeps the field negative at both ends.
+  // Noise of three octaves reaches 1.75 amplitudes. One more cell keeps the field negative at both ends.
   grid.top = half + 1.8f * p.roughness;
   grid.cells = std::uint32_t(std::lround(96 * p.detail));
   grid.layers = std::uint32_t(std::ceil(2 * grid.top * float(grid.cells))) + 2;

@@ -14,10 +14,10 @@ namespace nook::bake::material {
 namespace {
 
 // Tiles on each side of the middle one. A ray of 80 degrees tilt crosses a structure of half a tile's height
-// within three; flatter ones, which only inter-reflection casts, are open beyond.
+// within three tiles. Only inter-reflection casts flatter rays, which count as open beyond.
 constexpr int copies = 3;
 
-// Tiles; far below a texel, far above the rounding of coordinates up to `copies`.
+// In tiles. It is far below a texel, and far above the rounding of coordinates up to `copies`.
 constexpr float origin_offset = 2e-5f;
 
 std::vector<Vec3> copy_offsets() {
@@ -110,7 +110,7 @@ class Reflection {
   Reflector point_;
 };
 
-// Returns the triangles that the rays of each vertex hit, from which it gathers light.
+// Returns the triangles that the rays of each vertex hit. The vertex gathers light from them.
 std::vector<SurfaceHit> gather_hits(const MesoSurface& surface, const TiledScene& scene, std::uint32_t rays,
                                     std::uint64_t seed) {
   const HemispherePatterns patterns(rays, seed);

@@ -1,5 +1,6 @@
-// The light that a point of a meso-surface sends to a viewer, for many light directions at once. Radiance for
-// a light of irradiance 1 on a plane facing it: a white diffuse plane lit from above gives 1 / pi.
+// Computes the light that a point of a meso-surface sends to a viewer, for many light directions at once. The
+// radiance is for a light with irradiance 1 on a plane that faces it: a white diffuse plane lit from above
+// gives 1 / pi.
 #pragma once
 
 #include <span>
@@ -20,7 +21,7 @@ struct SurfaceHit {
   Vec3 normal;         // geometric, unit, out of the solid
 };
 
-// The BVH of one tile, in as many copies as a ray of the largest tilt can cross; any thread may trace.
+// The BVH of one tile, in as many copies as a ray of the largest tilt can cross. Any thread may trace.
 // Callers flush denormals (FlushDenormals).
 class TiledScene {
  public:
@@ -31,10 +32,10 @@ class TiledScene {
   float bottom() const { return bottom_; }
 
   SurfaceHit nearest(Vec3 origin, Vec3 direction) const;
-  // Sets open[i] where nothing lies along directions[i] from just above a hit.
+  // Sets open[i] if nothing lies along directions[i] from just above a hit.
   void open_directions(const SurfaceHit& from, std::span<const Vec3> directions,
                        std::span<unsigned char> open) const;
-  // A point just outside of the solid, moved by whole tiles into the middle one.
+  // Returns a point just outside of the solid, moved by whole tiles into the middle one.
   Vec3 outside(Vec3 position, Vec3 normal) const;
 
  private:
@@ -63,9 +64,9 @@ struct LightScratch {
 void direct_cosines(const TiledScene& scene, const SurfaceHit& hit, Vec3 shading_normal,
                     std::span<const Vec3> lights, std::span<float> cosine, LightScratch& scratch);
 
-// Light of the meso-surface on itself: for each vertex and light the irradiance after up to `bounces` diffuse
-// reflections, RGB, vertex-major. `rays` cosine-weighted rays leave each vertex; the same seed gives the same
-// bits on any number of threads.
+// The light of the meso-surface on itself. It has the irradiance after up to `bounces` diffuse reflections
+// for each vertex and light, RGB, vertex-major. `rays` cosine-weighted rays leave each vertex. The same seed
+// gives the same bits on any number of threads.
 class InterReflection {
  public:
   InterReflection(const MesoSurface& surface, const TiledScene& scene, std::span<const Vec3> lights,
@@ -80,7 +81,7 @@ class InterReflection {
   std::vector<float> irradiance_;  // empty without bounces
 };
 
-// value[3 l + channel] of one hit, seen along `view`.
+// Sets value[3 l + channel] for one hit, seen along `view`.
 void shade(const MesoSurface& surface, const TiledScene& scene, const InterReflection& indirect,
            const SurfaceHit& hit, Vec3 view, std::span<const Vec3> lights, std::span<float> value,
            LightScratch& scratch);

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Index;
 using tensor::Matrix;
 
-// Sums of the values of views, for their variance.
+// Sums of the views' values, for their variance.
 struct Spread {
   double sum = 0, squares = 0;
   int count = 0;
@@ -27,7 +27,7 @@ float level_height(float level) {
   return largest_height * (2 * level / (height_levels - 1) - 1);
 }
 
-// The variance over views of what is seen at a texel, if it had a height.
+// Returns the variance over views of what is seen at a texel if it had this height.
 float disagreement(const RawMaterial& raw, std::size_t texel, float height) {
   constexpr float lowest_view = 0.6f;  // views beyond 53 degrees see too little of the same points
   const float x = (float(texel / raw.height) + 0.5f) / float(raw.width),
@@ -59,7 +59,7 @@ float disagreement(const RawMaterial& raw, std::size_t texel, float height) {
 
 }  // namespace
 
-// A parabola places the smallest difference between levels.
+// A parabola places the minimum between levels.
 std::vector<float> heights_of_views(const RawMaterial& raw, const ReliefProgress& progress) {
   constexpr std::size_t texels_at_once = 512;  // between two calls of progress
   const std::size_t texels = raw.texels();
@@ -101,7 +101,7 @@ HeightRange range_of(const HeightMap& map) {
   return {*low, *high};
 }
 
-// Steps of a march over the whole range of heights: no more than half a texel along the map.
+// Returns the steps of a march over the whole range of heights. A step is at most half a texel along the map.
 int steps_of(const HeightMap& map, Vec3 direction, float depth) {
   const float along = depth * std::hypot(direction.x, direction.y) / direction.z;
   return std::clamp(int(2 * along * float(std::max(map.width, map.height))) + 4, 4, 256);

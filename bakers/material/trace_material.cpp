@@ -35,7 +35,7 @@ void check(const TraceSettings& s, std::span<const Vec3> lights, std::span<const
                       double(d.y), double(d.z));
 }
 
-// Checks the memory before it is taken: the BTF, and at each vertex the light and the rays of
+// Checks the memory before it is taken, for the BTF and, at each vertex, for the light and rays of
 // inter-reflection.
 void check_memory(const TraceSettings& s, std::size_t lights, std::size_t views, std::size_t vertices) {
   constexpr double most_bytes = 16.0 * (1u << 30);
@@ -104,7 +104,7 @@ class Column {
   std::uint32_t samples_;
 };
 
-// Where vertical rays through the samples of a texel meet the surface first.
+// Returns the heights where vertical rays through the samples of a texel first meet the surface.
 std::vector<float> heights_from_above(const TiledScene& scene, const TraceSettings& s) {
   const float start = scene.top() + 1e-3f;
   std::vector<float> heights(std::size_t(s.width) * s.height), coverage(heights.size());

@@ -1,4 +1,4 @@
-// Tubes swept along curves, and the meso-structures that are made of them: fibres and yarns.
+// Tubes swept along curves, and the meso-structures made of them: fibres and yarns.
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -72,8 +72,8 @@ struct Wave {
 
 }  // namespace
 
-// Fiber: a loose mat of thin round fibres that wander over and under each other; the gaps let the ground
-// through.
+// Fiber is a loose mat of thin round fibres that wander over and under each other. The ground shows through
+// the gaps.
 MesoSurface make_fiber(const MesoParameters& p) {
   MesoSurface surface;
   surface.specular = 0.06f;
@@ -86,7 +86,7 @@ MesoSurface make_fiber(const MesoParameters& p) {
     const float span = std::hypot(float(course[0]), float(course[1]));
     const Vec3 along = normalised({float(course[0]), float(course[1]), 0}), across{-along.y, along.x, 0};
     const Vec3 start{random.unit(), random.unit(), 0};
-    // Even layers, in a random order of courses, so that the mat has its height with any count.
+    // Layers are even and courses are random, so that the mat has its height with any count.
     const float layer = (float(i) + random.unit()) / float(p.count) - 0.5f;
     const float centre_height = (p.thickness - 2 * p.radius) * layer * 0.8f;
     Wave sideways[3], up[2];
@@ -116,7 +116,7 @@ MesoSurface make_fiber(const MesoParameters& p) {
   return surface;
 }
 
-// Weave: a plain weave of two sets of plied yarns, warp along y and weft along x, with gaps between them.
+// Weave is a plain weave of two sets of plied yarns, warp along y and weft along x, with gaps between them.
 
 MesoSurface make_weave(const MesoParameters& p) {
   if (p.count % 2 != 0)
@@ -133,7 +133,7 @@ MesoSurface make_weave(const MesoParameters& p) {
     const std::uint32_t index = i % p.count;
     const float offset = (float(index) + 0.5f) / float(p.count);
     const float parity = (index % 2 == 0) == warp ? 1.0f : -1.0f;
-    // Over one crossing, under the next: crossings lie at (k + 1/2) / count.
+    // A yarn goes over one crossing and under the next: crossings lie at (k + 1/2) / count.
     const float turns = float(p.count) / 2, lift = 0.5f * p.thickness;
     const float phase = random.unit(), tone = 0.85f + 0.3f * random.unit();
     const float twist = plies * twists_per_yarn_spacing * float(p.count);

@@ -11,8 +11,8 @@ namespace {
 
 constexpr float far_away = 1e12f;
 
-// Squared distances to the lower envelope of the parabolas f(q) + (p - q)^2 (Felzenszwalb and Huttenlocher
-// 2012), over three periods so that the middle one sees its neighbours.
+// Computes squared distances to the lower envelope of the parabolas f(q) + (p - q)^2 (Felzenszwalb and
+// Huttenlocher 2012). It works on three periods, so that the middle one sees its neighbours.
 void transform_line(const float* f, std::size_t n, std::size_t stride, float* out, std::vector<double>& bound,
                     std::vector<int>& parabola) {
   const int size = int(3 * n);
@@ -44,7 +44,8 @@ void transform_line(const float* f, std::size_t n, std::size_t stride, float* ou
   }
 }
 
-// Distance of each texel to the nearest one of a class, squared texels; far_away where there is none.
+// Returns the squared distance, in texels, from each texel to the nearest of a class; far_away if there is
+// none.
 std::vector<float> squared_distances(std::span<const float> mask, std::size_t width, std::size_t height,
                                      bool visible) {
   std::vector<float> d(mask.size()), out(mask.size());

@@ -136,7 +136,7 @@ Vec3 point_in(const Box& box, Random& random) {
 
 struct Line {
   Vec3 eye, target;
-  float nearest;  // surfaces before it are in the way, metres
+  float nearest;  // surfaces nearer than this are in the way, metres
   float widest = 100 * degree;
 };
 
@@ -225,7 +225,7 @@ Camera place_training_camera(const RayScene& rays, const TrainingScene& scene, R
   const float relief_share = random.between(0.06f, 0.3f);
   Camera best;
   float best_worth = -10;
-  // A kind that finds no place in the scene gives way to the first kind.
+  // A kind without a place in the scene is replaced by the first kind.
   for (int attempt = 0; attempt < 40 && best_worth < 0.999f; ++attempt) {
     const Kind tried = attempt < 25 || best_worth > 0.75f ? kind : Kind::inside;
     const auto line = any_line(tried, rays, scene, random);

@@ -31,7 +31,7 @@ Camera look_at(Vec3 eye, Vec3 target, float roll, float vertical_fov, std::uint3
 Camera place_camera(const RayScene& rays, const TrainingScene& scene, Random& random, std::uint32_t width,
                     std::uint32_t height);
 
-// A G-buffer by one primary ray for each pixel.
+// A G-buffer with one primary ray per pixel.
 struct TracedView {
   Camera camera;
   std::vector<float> depth;  // -z, metres; infinite where the ray hits nothing
@@ -44,7 +44,7 @@ TracedView trace_view(const RayScene& rays, const Camera& camera);
 // Transforms to view space, without the translation.
 Vec3 view_direction(const Camera& camera, Vec3 direction_ws);
 
-// The cameras of the training set, which stand where players and viewers do.
+// Places the cameras of the training set where players and viewers stand.
 
 // Returns a camera of one of six kinds. Lengths are multiples of the scene's size:
 //   0.30  in the scene's camera box
@@ -54,9 +54,9 @@ Vec3 view_direction(const Camera& camera, Vec3 direction_ws);
 //   0.10  from afar, 2.5 to 10 times the distance of the first kind, through a long lens
 //   0.08  from above, by 35 to 75 degrees, 2 to 12 m away
 // The vertical field of view has a uniform logarithm from 25 to 100 degrees, if the horizontal one is below
-// 125. Of the screens 55 % have the sides that are given; the others have as many pixels, with sides as 4:3,
-// 21:9, 3:4 and 9:16. Most of the screen shows surfaces, of which 6 to 30 % lie at edges or bends where such
-// a place is found.
+// 125. 55 % of the screens have the given sides. The others have as many pixels, with sides like 4:3, 21:9,
+// 3:4 and 9:16. Most of the screen shows surfaces. If there is such a place, 6 to 30 % of them lie at edges
+// or bends.
 Camera place_training_camera(const RayScene& rays, const TrainingScene& scene, Random& random,
                              std::uint32_t width, std::uint32_t height);
 

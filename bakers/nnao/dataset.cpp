@@ -15,7 +15,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// Returns the radius of a point at which a metre covers so many pixels.
+// Returns a random radius for a point where a metre covers this many pixels.
 float any_radius(Random& random, float px_per_metre) {
   constexpr float low_px = Dataset::min_radius_px, high_px = Dataset::max_radius_px;
   const bool in_metres = random.chance(0.5f);
@@ -25,8 +25,8 @@ float any_radius(Random& random, float px_per_metre) {
   return std::clamp(metres * px_per_metre, low_px, limit_px) / px_per_metre;
 }
 
-// Returns whether the screen shows one plane around a point. Its AO is then known well enough: a choice by
-// what a network sees leaves the mean AO of equal inputs as it is.
+// Returns whether the screen shows one plane around a point. Its AO is then known well enough. The choice
+// depends only on what a network sees, so that the mean AO of equal inputs stays the same.
 bool is_flat(const TracedView& view, const DataPoint& point, float radius_px) {
   const Camera& camera = view.camera;
   const auto position = [&](std::uint32_t x, std::uint32_t y) {
@@ -126,7 +126,7 @@ std::vector<DataPoint> trace_points(const RayScene& rays, const TracedView& view
 
 namespace {
 
-// Replaces the normals of a view and its points by those of a host.
+// Replaces the normals of a view and its points by a host's normals.
 void set_host_normals(const HostNormals& normals, const RayScene& rays, bool all_pixels, TracedView& view,
                       std::vector<DataPoint>& points) {
   const FlushDenormals flush;
@@ -166,7 +166,7 @@ Dataset make_dataset(const DatasetSettings& settings, const DatasetProgress& pro
       if (Random(mix_bits(~seed)).chance(settings.host_normal_share))
         set_host_normals(HostNormals(scene.soup, scene.size, seed), rays, settings.normals, data.views[v],
                          points[v]);
-      // An assignment of {} would keep the memory.
+      // Assigning {} would keep the memory.
       if (!settings.normals) data.views[v].normal = std::vector<Vec3>();
     }
     if (!progress) return;

@@ -1,4 +1,4 @@
-// The part of training that depends on the form: its numbers in a row, their initial values, their gradient
+// What depends on the network's form in training: its numbers in a row, their initial values, their gradient
 // over a minibatch, and the conversion to a network.
 #pragma once
 

@@ -29,7 +29,7 @@ struct HorizonBatch {
   LaneArray tangent;                  // t of each direction, x, y, z
   Lanes normal[3]{}, view_axis[3]{};  // n, o
   Lanes join[join_gates]{};
-  Lanes bound{};  // of 1 - AO
+  Lanes bound{};  // upper bound of 1 - AO
 
   void set(int lane, const View& view, const DataPoint& point, TapNoise noise);
 };
@@ -39,12 +39,12 @@ struct HorizonTrace {
   explicit HorizonTrace(TapGrid grid);
 
   LaneArray pooled, direction_sums, bent_sums;
-  std::vector<int> most_step;  // the step of each direction's maximum, by unit and lane
+  std::vector<int> most_step;  // step of each direction's maximum, by unit and lane
   Lanes darkness;              // before the bound
   Lanes joined[HorizonNetwork::units], join_sums[HorizonNetwork::units], join_output[HorizonNetwork::units];
 };
 
-// The network's outputs, and gradients of a loss for each of them.
+// Outputs of the network, or gradients of a loss with respect to them.
 struct HorizonOutput {
   Lanes ao{};       // before the clamp to [0, 1]
   Lanes bent[3]{};  // x, y, z, not normalised
@@ -54,7 +54,7 @@ struct HorizonOutput {
 void horizon_forward(const float* parameters, const HorizonBatch& batch, HorizonTrace& trace,
                      HorizonOutput& output);
 
-// Adds the gradient of the output times output_gradient for each parameter and lane.
+// Adds the gradient of the output, times output_gradient, for each parameter and lane.
 void horizon_backward(const float* parameters, const HorizonBatch& batch, const HorizonTrace& trace,
                       const HorizonOutput& output_gradient, Lanes* gradient);
 

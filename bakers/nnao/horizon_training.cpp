@@ -11,21 +11,21 @@
 namespace nook::bake::nnao {
 namespace {
 
-// AO is clamped when it is written. The gradient passes through the clamp, so that samples outside the range
-// still contribute.
+// AO is clamped when written. The gradient passes through the clamp, so that samples outside the range still
+// contribute.
 float error_of(float output, float ao) {
   return std::clamp(output, 0.0f, 1.0f) - ao;
 }
 
-// Depth buffers of 24 bits and normals of 8 bits are off by some tenths of a degree. Returns a normal that is
-// turned by as much, so that the network does not answer to it.
+// Depth buffers of 24 bits and normals of 8 bits are off by some tenths of a degree. Returns a normal turned
+// by as much, so that the network does not respond to it.
 Vec3 rounded_normal(Vec3 normal, Random& random) {
   constexpr float reach = 0.01f;  // radians
   return normalised(normal + Vec3{random.between(-reach, reach), random.between(-reach, reach),
                                   random.between(-reach, reach)});
 }
 
-// The loss of two outputs, and its gradient for each of them.
+// The loss of two outputs. It comes with the gradient for each of them.
 struct PairLoss {
   float loss = 0, g_one = 0, g_two = 0;
 };
@@ -43,13 +43,13 @@ Vec3 lane_vector(const Lanes (&from)[3], int lane) {
   return {from[0][lane], from[1][lane], from[2][lane]};
 }
 
-// Returns the gradient of a loss for a vector from that for its unit vector.
+// Turns the gradient for a unit vector into the gradient for the vector before normalisation.
 Vec3 before_normalising(Vec3 gradient, Vec3 unit, float size) {
   return (gradient - dot(gradient, unit) * unit) * (1 / size);
 }
 
-// The same for the bent normal: squared distances of unit vectors, weighted by 1 - AO, because the direction
-// of a nearly open point hardly departs from its normal.
+// The same for the bent normal. The error is the squared distance of unit vectors, weighted by 1 - AO. The
+// weight is small for a nearly open point, because its direction hardly departs from the normal.
 float bent_loss(const TrainingSettings& settings, const DataPoint& point, const HorizonOutput& one,
                 const HorizonOutput& two, int lane, HorizonOutput& g_one, HorizonOutput& g_two) {
   const Vec3 bent_one = lane_vector(one.bent, lane), bent_two = lane_vector(two.bent, lane);
@@ -109,7 +109,7 @@ double block_gradient(const Dataset& data, const TrainingSettings& settings, con
   return loss;
 }
 
-// Each of these returns the place of the next layer.
+// Each function returns the place of the next layer.
 template <int inputs, int units>
 float* start_weights(float* layer, Random& random) {
   // Glorot's bounds.
@@ -136,7 +136,7 @@ std::size_t horizon_parameter_count() {
 void start_horizon(std::span<float> parameters, Random& random) {
   constexpr int units = HorizonNetwork::units;
   float* next = start_weights<HorizonNetwork::tap_inputs, units>(parameters.data(), random);
-  // Taps above the plane are those that occlude: units begin by answering them, whatever their distance.
+  // Taps above the plane occlude, so units begin by responding to them at any distance.
   for (int u = 0; u < units; ++u)
     for (const int input : {0, 2})
       parameters[std::size_t(input * units + u)] = std::abs(parameters[std::size_t(input * units + u)]);
@@ -173,7 +173,7 @@ double horizon_step_gradient(const Dataset& data, const TrainingSettings& settin
                   "the minibatch has no whole blocks (got %zu points, need a multiple of %d)", points.size(),
                   lane_count);
   // The grids of 9, 16 and 64 taps, and the 16 steps of 256 taps. The number of directions only changes the
-  // noise. The smallest is drawn twice as often: it has the largest error.
+  // noise. The smallest grid is drawn twice as often, because it has the largest error.
   constexpr TapGrid grids[] = {{3, 3}, {3, 3}, {4, 4}, {8, 8}, {4, 16}};
   const TapGrid grid = grids[Random(step_seed).below(std::size(grids))];
   const std::size_t blocks = points.size() / lane_count, count = horizon_parameter_count();

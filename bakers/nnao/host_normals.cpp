@@ -26,10 +26,10 @@ Places weld(std::span<const Vec3> positions) {
 
 namespace {
 
-// Triangles that meet at a sharper angle do not share a normal, as exporters do it.
+// Triangles that meet at a sharper angle do not share a normal, as in exporters.
 constexpr float cos_crease = 0.5f;  // 60 degrees
 
-// Returns the normal, turned towards the face's where the angle between them is too large.
+// Returns the normal, turned towards the face's normal if the angle between them is too large.
 Vec3 within_tilt(Vec3 normal, Vec3 face) {
   const float cosine = dot(normal, face);
   if (cosine >= std::cos(max_normal_tilt)) return normal;
@@ -68,7 +68,7 @@ HostNormals::HostNormals(const TriangleSoup& soup, float size, std::uint64_t see
 Vec3 HostNormals::corner_normal(std::uint32_t place, Vec3 face) const {
   Vec3 sum;
   for (std::uint32_t i = first_[place]; i < first_[place + 1]; ++i) {
-    // Triangles of a soup are wound either way.
+    // Triangles of a soup have either winding.
     const Vec3 area = area_[around_[i]];
     const float along = dot(area, face);
     if (std::abs(along) > cos_crease * length(area)) sum += along > 0 ? area : -area;

@@ -1,5 +1,5 @@
-// Normals as hosts draw them to their G-buffers, which are not those of the triangles: smooth ones that are
-// interpolated over a coarse mesh, and normal maps.
+// Normals as hosts draw them to their G-buffers. They differ from the normals of triangles: they are
+// interpolated over a coarse mesh, or come from normal maps.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,25 @@
 
 namespace nook::bake::nnao {
 
-// Vertices that lie at one place.
+// Finds vertices at one place.
 
-// Returns for each position the index of a place; equal positions have equal indices, which count from 0.
+// Returns for each position the index of its place, from 0 up. Equal positions have equal indices.
 struct Places {
   std::vector<std::uint32_t> of;
   std::uint32_t count = 0;
 };
 Places weld(std::span<const Vec3> positions);
 
-// The largest angle between a host's normal and the triangle's, radians: 25 degrees.
+// The largest angle between a host's normal and the triangle's is 25 degrees, in radians.
 inline constexpr float max_normal_tilt = 0.436332f;
 
 class HostNormals {
  public:
-  // The soup must outlive this. size is that of the scene's things; seed draws the map's pattern and depth,
-  // and whether there are a map, smooth normals or both.
+  // The soup must outlive this. size is the size of the scene's things. seed draws the map's pattern and
+  // depth, and whether there are a map, smooth normals or both.
   HostNormals(const TriangleSoup& soup, float size, std::uint64_t seed);
 
-  // The normal at a hit of a ray, world space, unit length. It faces the viewer.
+  // Returns the normal at a hit of a ray, in world space and with unit length. It faces the viewer.
   Vec3 at(const RayHit& hit, Vec3 origin, Vec3 direction) const;
 
  private:
@@ -39,10 +39,10 @@ class HostNormals {
   const TriangleSoup& soup_;
   std::uint64_t seed_;
   bool smooth_ = false;
-  float map_depth_ = 0, map_scale_ = 1;        // the tangent of the largest tilt; waves a metre
-  std::vector<std::uint32_t> place_;           // of each vertex
+  float map_depth_ = 0, map_scale_ = 1;        // tangent of the largest tilt; waves per metre
+  std::vector<std::uint32_t> place_;           // per vertex
   std::vector<std::uint32_t> first_, around_;  // the triangles around each place
-  std::vector<Vec3> area_;                     // of each triangle, along its normal
+  std::vector<Vec3> area_;                     // per triangle, along its normal
 };
 
 }  // namespace nook::bake::nnao

@@ -131,7 +131,7 @@ NOOK_INLINE void gated_backward(const float* layer, const Number* input, const N
   }
 }
 
-// The numbers of GatedLinear: those of GatedDense without slopes.
+// The numbers of GatedLinear, which are the numbers of GatedDense without slopes.
 template <int inputs, int gates, int units>
 struct LinearOrder {
   static constexpr int gate = GatedOrder<inputs, gates, units>::gate, count = gate + gates * units;
@@ -151,7 +151,7 @@ NOOK_INLINE void linear_forward(const float* layer, const Number* input, const N
   }
 }
 
-// Adds the gradient of the layer's numbers to `gradient`, and that of the inputs to input_gradient.
+// Adds the gradient of the layer's numbers to `gradient`, and the gradient of the inputs to input_gradient.
 template <int inputs, int gates, int units, class Number>
 NOOK_INLINE void linear_backward(const float* layer, const Number* input, const Number* gate,
                                  const Number* sums, const Number* output_gradient, Number* gradient,

@@ -43,7 +43,7 @@ void gather(const Dataset& data, const DataPoint& point, float* inputs) {
 
 NOOK_CLONES void dots(const float* weights, const float* inputs, float* sums) {
   for (int u = 0; u < units; ++u) {
-    // Sixteen parallel sums have the same order for any width of registers.
+    // Sixteen parallel sums have the same order for any register width.
     Lanes sum{};
     const float* w = weights + std::size_t(u) * input_count;
     std::size_t i = 0;
@@ -158,8 +158,8 @@ PaperNormalisation paper_normalisation(const Dataset& data) {
     largest[i % tap_inputs] = std::max(largest[i % tap_inputs], variance(i));
   for (std::size_t i = 0; i < input_count; ++i) {
     normalisation.mean[i] = float(sum[i] / double(count));
-    // The weight of a tap falls to 0 at the rim, and so does its deviation; divided by it, the rim would
-    // dominate the filters. So no deviation counts as less than a quarter of the largest of its kind.
+    // The weight of a tap falls to 0 at the rim, and so does its deviation. Division by it would let the rim
+    // dominate the filters. So each deviation counts as at least a quarter of the largest of its kind.
     const double deviation = std::sqrt(std::max(variance(i), largest[i % tap_inputs] / 16));
     normalisation.inverse_deviation[i] = deviation > 0 ? float(1 / deviation) : 0;
   }

@@ -19,7 +19,7 @@ void add_pillar(TriangleSoup& soup, const Mat3x4& frame, const Order& order) {
     add_bevelled_box(soup, moved(frame, {0, half + 0.4f * foot, 0}), {r, half, r}, 0.2f * r);
     return;
   }
-  // The base's two rolls, and the bell of the capital.
+  // Adds the base's two rolls, and the bell of the capital.
   add_torus(soup, moved(frame, {0, 0.6f * foot, 0}), 1.15f * r, 0.2f * foot, 28);
   add_torus(soup, moved(frame, {0, 0.95f * foot, 0}), 1.02f * r, 0.12f * foot, 28);
   add_lathe(soup, frame,
@@ -41,7 +41,7 @@ void add_pillar(TriangleSoup& soup, const Mat3x4& frame, const Order& order) {
   });
 }
 
-// A wall with an arched opening between x = -half and half, from the springing line to the top.
+// Adds a wall with an arched opening between x = -half and half, from the springing line to the top.
 void add_arch(TriangleSoup& soup, const Mat3x4& frame, float half, float opening, float spring, float top,
               float thick, bool pointed) {
   const int parts = 18;

@@ -6,7 +6,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// The skin of a limb or a trunk about the frame's y axis: a radius for each height and angle.
+// The skin of a limb or a trunk about the frame's y axis has a radius for each height and angle.
 struct Skin {
   float length, waist, swell, flat;
   std::uint64_t seed;
@@ -39,7 +39,7 @@ void add_plate(TriangleSoup& soup, const Mat3x4& frame, const Skin& skin, float 
   }
 }
 
-// Bands of plates that overlap the band below, like a breastplate's skirt or an insect's body.
+// Adds bands of plates that overlap the band below, like a breastplate's skirt or an insect's body.
 void add_lames(TriangleSoup& soup, const Mat3x4& frame, const Skin& skin, Random& random) {
   const int bands = random.whole(3, 12), across = random.whole(1, 5);
   const float overlap = random.between(0.05f, 0.5f), flare = skin.waist * random.between(0.03f, 0.2f),

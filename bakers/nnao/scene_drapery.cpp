@@ -49,7 +49,7 @@ void add_tablecloth(TriangleSoup& soup, const Mat3x4& frame, bool round, Random&
                       random.between(0.03f, 0.1f), random);
 }
 
-// A sheet that was thrown over some boxes: the highest of their smooth tops, with crumples.
+// Adds a sheet thrown over some boxes: the highest of their smooth tops, with crumples.
 void add_dust_sheet(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   struct Bump {
     float x, z, half_x, half_z, height;

@@ -1,6 +1,5 @@
-// Procedural training scenes with one family of shapes in each file: seeded, in metres, y up, the
-// floor at y = 0. They are not made to look good; they contain the occlusions that images
-// contain.
+// Procedural training scenes with one family of shapes in each file: seeded, in metres, y up, the floor at y
+// = 0. They are not made to look good, but contain the occlusions that images contain.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +17,7 @@ struct TrainingScene {
   Box cameras;  // the camera is inside
   Box subject;  // the camera looks at a point inside
 
-  // The size of the scene's things: 1 where they have the sizes of a room's. Distances of cameras follow it.
+  // The size of the scene's things: 1 for the sizes in a room. Distances of cameras scale with it.
   float size = 1;
 };
 
@@ -50,8 +49,8 @@ TrainingScene make_wires(Random& random);        // nets, chain link, cables, sc
 inline constexpr std::uint32_t family_count = 24;
 const char* family_name(std::uint32_t family);
 
-// The families alternate. The first round of them is plain. In later rounds, some scenes also have objects of
-// another family, and some are 0.2 to 5 times as large, with their cameras.
+// The families alternate. The first round is plain. In later rounds, some scenes also have objects of another
+// family, and some are 0.2 to 5 times as large, with their cameras.
 TrainingScene make_scene(std::uint64_t seed, std::uint32_t index);
 
 // Copies a group of neighbouring small objects of the guest to places on the host's surfaces.

@@ -84,7 +84,7 @@ void add_cable_tray(TriangleSoup& soup, const Mat3x4& frame, float length, Rando
   }
 }
 
-// Wall panels of a corridor: ribs, recessed plates, vents, boxes with lids and bolts.
+// Adds the wall panels of a corridor: ribs, recessed plates, vents, boxes with lids and bolts.
 void add_panel_wall(TriangleSoup& soup, const Mat3x4& frame, float length, float height, float bay,
                     Random& random) {
   add_block(soup, frame, {0, 0, -0.2f}, {length, height, 0});

@@ -25,7 +25,7 @@ void add_plating(TriangleSoup& soup, Vec3 middle, Vec3 half, int axis, float out
       place.z += out * half.z;
       place.y += random.between(-0.9f, 0.9f) * half.y;
     }
-    // Both halves of the body are equal, as with hulls.
+    // Both halves of the body are equal, as in hulls.
     for (const float mirror : {1.0f, -1.0f}) add_box(soup, at({place.x, place.y, mirror * place.z}), piece);
   }
 }

@@ -39,7 +39,7 @@ void add_screw(TriangleSoup& soup, const Mat3x4& frame, float radius, Random& ra
   }
 }
 
-// A gear: teeth, a web with holes or spokes, a hub with a bore.
+// Adds a gear, which has teeth, a web with holes or spokes, and a hub with a bore.
 void add_gear(TriangleSoup& soup, const Mat3x4& frame, float radius, float thick, Random& random) {
   const int teeth = random.whole(10, 36);
   const float tooth = 6.2831853f * radius / float(teeth) * 0.45f, bevel = 0.1f * tooth;
@@ -103,7 +103,7 @@ void add_spring(TriangleSoup& soup, const Mat3x4& frame, float radius, float hei
   add_tube(soup, path, radius * random.between(0.1f, 0.22f), 8);
 }
 
-// A block of housing with steps, pockets, fins, bosses and screws, symmetric or not.
+// Adds a block of housing with steps, pockets, fins, bosses and screws, symmetric or not.
 void add_casting(TriangleSoup& soup, const Mat3x4& frame, Vec3 half, Random& random) {
   const float bevel = half.y * random.log_between(0.02f, 0.3f);
   add_bevelled_box(soup, moved(frame, {0, half.y, 0}), half, bevel);
@@ -184,7 +184,7 @@ TrainingScene make_parts(Random& random) {
   TrainingScene scene;
   TriangleSoup& soup = scene.soup;
   add_floor(soup, 2);
-  // A base plate with rows of parts. The scene is as large as a work bench; sizes are those of the hand.
+  // Adds a base plate with rows of parts. The scene is as large as a work bench, and parts are hand-sized.
   const float plate = random.between(0.012f, 0.03f);
   add_bevelled_box(soup, standing_frame({0, 0.5f * plate, 0}, 0), {0.4f, 0.5f * plate, 0.3f}, 0.3f * plate);
   for (const float x : {-0.36f, 0.36f})

@@ -15,7 +15,7 @@ void add_fence(TriangleSoup& soup, Vec3 from, Vec3 to, float height, float spaci
 
 namespace {
 
-// A lattice of flat bars in the plane spanned by u and v.
+// Adds a lattice of flat bars in the plane spanned by u and v.
 void add_grille(TriangleSoup& soup, Vec3 corner, Vec3 u, Vec3 v, int columns, int rows, float thickness) {
   for (int i = 0; i <= columns; ++i) {
     const Vec3 foot = corner + (float(i) / float(columns)) * u;

@@ -61,7 +61,7 @@ void add_planks(TriangleSoup& soup, const Wall& wall, Random& random) {
     }
 }
 
-// Rows of tiles that overlap the row below; half pipes or flat ones.
+// Adds rows of tiles that overlap the row below. They are half pipes or flat.
 void add_tiles(TriangleSoup& soup, const Wall& wall, Random& random) {
   const float tile = random.between(0.12f, 0.3f), row = tile * random.between(0.8f, 1.4f),
               bend = random.chance(0.6f) ? 0.5f : 0.03f;

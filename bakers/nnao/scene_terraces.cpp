@@ -26,7 +26,7 @@ struct Land {
   }
 };
 
-// Cubes of one size that follow the land, as games of blocks have them.
+// Adds cubes of one size that follow the land, as in games of blocks.
 void add_voxels(TriangleSoup& soup, const Land& land, float reach, int cells) {
   const float cube = 2 * reach / float(cells);
   const auto level = [&](int i, int j) {

@@ -55,7 +55,7 @@ void add_net_of_rope(TriangleSoup& soup, const Mat3x4& frame, float width, float
             10);
 }
 
-// A bundle of cables along a wall or over the ground, with ties.
+// Adds a bundle of cables along a wall or over the ground, with ties.
 void add_bundle(TriangleSoup& soup, const Mat3x4& frame, float length, Random& random) {
   const int cables = random.whole(3, 14);
   const float r = random.log_between(0.004f, 0.025f),

@@ -65,7 +65,7 @@ void add_block(TriangleSoup& soup, const Mat3x4& frame, Vec3 low, Vec3 high) {
 void add_bevelled_box(TriangleSoup& soup, const Mat3x4& frame, Vec3 half, float bevel) {
   const float size[3] = {half.x, half.y, half.z};
   bevel = std::min({bevel, 0.9f * half.x, 0.9f * half.y, 0.9f * half.z});
-  // The corner with these signs, on the face of one axis.
+  // Returns the corner with these signs, on the face of one axis.
   const auto corner = [&](std::array<float, 3> sign, std::size_t face) {
     float p[3];
     for (std::size_t i = 0; i < 3; ++i) p[i] = sign[i] * (i == face ? size[i] : size[i] - bevel);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int inputs = SpecularNumbers::inputs, units = SpecularNumbers::units;
 
-// The numbers in a row, as Adam takes them, in the order of SpecularNumbers.
+// The parameters of the fit, in the order of SpecularNumbers for Adam.
 constexpr std::size_t number_count = sizeof(SpecularNumbers) / sizeof(float);
 static_assert(number_count == (inputs + 2) * units + 1);
 
@@ -36,7 +36,7 @@ SpecularNumbers numbers_of(std::span<const float> parameters) {
   return numbers;
 }
 
-// Adds the gradient of the squared error of one value for each number, and returns the error squared. The
+// Adds the gradient of one value's squared error for each parameter, and returns the squared error. The
 // gradient passes through the clamp, so that values outside it come back.
 double add_gradient(std::span<const float> parameters, const LitPixel& pixel, float roughness, float visible,
                     float weight, std::span<float> gradient) {
@@ -76,11 +76,11 @@ namespace {
 constexpr std::uint32_t batch = 512;
 constexpr float rate = 1e-2f;
 
-// A fit under way.
+// A fit in progress.
 struct Fit {
   std::vector<float> parameters;
   Adam adam{number_count};
-  double loss = 0;  // of the last steps
+  double loss = 0;  // mean over the last steps
 };
 
 Fit start_fit(Random& random) {
@@ -107,7 +107,7 @@ double step_fit(Fit& fit, const std::vector<SpecularSample>& samples, Random& ra
   return error;
 }
 
-// Units whose sums are below 0 everywhere learn nothing, so that fits differ by their first numbers. Returns
+// A unit whose sums are below 0 everywhere learns nothing, so fits differ by their initial values. Returns
 // the best of several after a part of the steps.
 Fit best_fit(const std::vector<SpecularSample>& samples, const SpecularFitSettings& settings) {
   constexpr std::uint32_t starts = 16;

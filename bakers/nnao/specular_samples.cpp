@@ -35,7 +35,7 @@ Surface surface_at(const RayScene& rays, const TracedView& view, std::uint32_t x
           depth};
 }
 
-// Pixels with a surface; a view that shows little but sky has fewer.
+// Returns pixels with a surface. A view of mostly sky has fewer.
 std::vector<Surface> any_surfaces(const RayScene& rays, const TracedView& view, std::uint32_t count,
                                   Random& random) {
   std::vector<Surface> chosen;
@@ -46,14 +46,14 @@ std::vector<Surface> any_surfaces(const RayScene& rays, const TracedView& view, 
   return chosen;
 }
 
-// Metres: so long on the screen where the depth is the median of those that are chosen.
+// Returns a radius in metres. It spans 12 to 110 pixels at the median depth of the chosen pixels.
 float any_radius(const TracedView& view, std::vector<Surface> surfaces, Random& random) {
   const auto middle = surfaces.begin() + std::ptrdiff_t(surfaces.size() / 2);
   std::ranges::nth_element(surfaces, middle, {}, &Surface::depth);
   return random.log_between(12, 110) / std::abs(nook::nnao::pixel_scale(view.camera.rays, middle->depth).y);
 }
 
-// AO and bent normal of a pixel after the pass's filter.
+// Returns AO and bent normal of a pixel after the pass's filter.
 LitPixel filtered_pixel(const nook::nnao::Network& network, const RayScene& rays, const TracedView& traced,
                         const Surface& surface, float radius, std::uint32_t taps) {
   // nook_nnao_desc.blur_sharpness, and a radius of half the screen at most.

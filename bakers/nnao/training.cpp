@@ -69,7 +69,7 @@ Network network_of(const TrainingState& state, const Dataset& data, const Traini
 
 namespace {
 
-// A training under way. Batches depend on the epoch and their number alone, not on the state.
+// A training in progress. Batches depend only on the epoch and their number, not on the state.
 struct Trainer {
   const Dataset& data;
   const TrainingSettings& settings;
@@ -93,8 +93,8 @@ struct Trainer {
   }
 };
 
-// A network of few units depends on its first numbers: some starts leave units that answer nothing. Each
-// round trains the starts that are left on the same batches and keeps the best quarter.
+// A network of few units depends on its initial values, because some starts leave units without effect. Each
+// round trains the remaining starts on the same batches and keeps the best quarter.
 constexpr std::size_t first_starts = 16, last_starts = 4;
 
 std::size_t steps_of_starts(std::size_t length) {
@@ -185,7 +185,7 @@ std::uint64_t fingerprint(std::string_view recipe) {
   return hash64(std::as_bytes(std::span(recipe)));
 }
 
-// Far above any training; each of these steps takes its time.
+// Far above any training, because each step takes time.
 constexpr std::uint64_t max_steps = std::uint64_t{1} << 48;
 
 // Returns whether a training can have left these numbers, so that the next step is finite. Adam's decay rates

@@ -1,6 +1,6 @@
-// Training of the screen-space networks: Adam on minibatches of the data set, with a rate that falls to 0
-// along a half cosine. The same seed gives the same bits on any number of threads, also if the training is
-// stopped and resumed.
+// Trains the screen-space networks: Adam on minibatches of the data set, with a rate that falls to 0 along a
+// half cosine. The same seed gives the same bits on any number of threads, also if the training is stopped
+// and resumed.
 #pragma once
 
 #include <cstddef>
@@ -23,17 +23,17 @@ struct TrainingSettings {
   NetworkForm form = NetworkForm::horizon;
   std::uint32_t epochs = 0;  // 0: the form's default
   std::uint32_t batch = 0;   // samples in each step, a multiple of 16; 0: the form's default
-  float rate = 0;            // at the start; 0: the form's default
+  float rate = 0;            // initial rate; 0: the form's default
   std::uint64_t seed = 1;
 
   // Horizon form. A pass blurs, so that the visible value is the mean over the noise of neighbouring pixels.
-  // The loss is (1 - w) (bias of the mean)^2 + w (error of one pixel)^2, of which the first is the product of
+  // The loss is (1 - w) (bias of the mean)^2 + w (error of one pixel)^2. The first square is the product of
   // the errors with two independent noise values.
   float unblurred_weight = 0.3f;
-  // The weight of a sample is 1 + dark_weight (1 - AO)^2. The mean error alone leaves dark parts too bright:
-  // they are few, and a network that cannot tell them apart from brighter ones gives both the mean.
+  // The weight of a sample is 1 + dark_weight (1 - AO)^2. With equal weights, dark parts would be too bright.
+  // They are few, and a network that cannot tell them apart from brighter ones gives both the mean.
   float dark_weight = 8;
-  // Of the squared error of the bent normal, times 1 - AO.
+  // Weight of the bent normal's squared error, times 1 - AO.
   float bent_weight = 0.1f;
 
   // Paper form, equation 2: gamma times the mean of |theta|. The sum over 15,500 numbers would exceed any
@@ -54,10 +54,10 @@ struct TrainingState {
 
 struct TrainingProgress {
   std::uint32_t epoch = 0, epochs = 0;
-  std::size_t steps_done = 0, steps = 0;  // of all epochs
+  std::size_t steps_done = 0, steps = 0;  // over all epochs
   double validation_mse = 0;              // after the last finished epoch, at 64 taps; 0 before
 };
-// Returns false to stop after the step.
+// Return false to stop after the step.
 using OnTraining = std::function<bool(const TrainingProgress&)>;
 
 // Runs after every epoch.
@@ -69,7 +69,7 @@ TrainingState start_training(const Dataset& data, const TrainingSettings& settin
 Network network_of(const TrainingState& state, const Dataset& data, const TrainingSettings& settings);
 
 // Continues from the state to the last epoch. Throws Failure(NOOK_ERROR_CANCELLED) if progress returned
-// false; the state is then that of the last complete epoch.
+// false. The state is then the state after the last complete epoch.
 Network train(const Dataset& data, const TrainingSettings& settings, TrainingState& state,
               const OnTraining& progress = {}, const OnEpoch& epoch_done = {});
 
@@ -79,7 +79,7 @@ Network train(const Dataset& data, const TrainingSettings& settings, TrainingSta
 
 inline constexpr ContainerKind checkpoint_kind{four_letters("NNCP"), "training checkpoint", 1, 1};
 
-// recipe contains everything that the result depends on; a checkpoint fits no other recipe.
+// recipe contains everything that the result depends on. A checkpoint fits only its own recipe.
 std::vector<std::byte> write_checkpoint(const TrainingState& state, std::string_view recipe);
 
 // Throws Failure(NOOK_ERROR_BAD_FILE), also if the recipe or the number of parameters differs.

@@ -38,7 +38,7 @@ double degrees_between(Vec3 a, Vec3 b) {
   return std::acos(std::clamp(double(dot(a, b)), -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
-// The middle one, the upper of two; 0 of none.
+// Returns the middle value, the upper of two; 0 for none.
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);

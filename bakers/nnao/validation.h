@@ -10,13 +10,13 @@ namespace nook::bake::nnao {
 
 struct ValidationRow {
   std::uint32_t taps = 0;
-  double mse = 0;  // of one pixel's AO before the blur
-  // Of the mean over the noise values: the error after a perfect filter over 3 x 3 pixels.
+  double mse = 0;  // for one pixel's AO before the blur
+  // For the mean over the noise values: the error after a perfect filter over 3 x 3 pixels.
   double mse_blurred = 0;
-  // Of that mean, AO minus reference, where the reference is below 0.35.
+  // The mean of AO minus reference after this filter, where the reference is below 0.35.
   double dark_bias = 0;
-  // Degrees, the median angle from the reference where its AO is below 0.7: of the bent normal, as the mean
-  // over the noise values, and of the normal.
+  // Median angle from the reference in degrees, where its AO is below 0.7. One is for the bent normal, as the
+  // mean over the noise values, and one for the normal.
   double bent_angle = 0, normal_angle = 0;
 };
 

@@ -93,7 +93,7 @@ nook::probe::Probes GridBake::probes() {
 }
 
 nook::probe::Grid grid_in_box(const std::array<std::uint32_t, 3>& counts, Vec3 low_ws, Vec3 high_ws) {
-  constexpr float least_spacing = 1e-3f;  // metres; flat boxes have no other
+  constexpr float least_spacing = 1e-3f;  // metres, for boxes that are flat
   const auto spacing = [=](float low, float high, std::uint32_t count) {
     return std::max((high - low) / float(count), least_spacing);
   };

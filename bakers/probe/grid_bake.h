@@ -17,31 +17,31 @@ struct GridBakeSettings {
   nook::probe::Basis basis;
   nook::probe::FitSettings fit;
   nook::probe::Grid grid;
-  bool move_probes = false;             // out of solids and away from walls, see inside_probes.h
-  std::uint32_t samples_per_pass = 64;  // of each probe
+  bool move_probes = false;             // moves probes out of solids and away from walls, see inside_probes.h
+  std::uint32_t samples_per_pass = 64;  // per probe
   std::uint64_t seed = 1;
   PathSettings path;
 };
 
 class GridBake {
  public:
-  // The scene must outlive it. Throws what Fit and check_probes throw.
+  // The scene must outlive this object. Throws what Fit and check_probes throw.
   GridBake(const LitScene& scene, const GridBakeSettings& settings);
 
-  // Every probe gets samples_per_pass paths more, over all threads; the same bits on any number of them.
+  // Adds samples_per_pass paths to every probe, over all threads. Any number of threads gives the same bits.
   void pass();
   std::uint32_t passes() const { return passes_; }
   std::uint64_t samples() const {
     return std::uint64_t(passes_) * settings_.samples_per_pass;
   }  // of each probe
 
-  // The statistical error that is left, relative to the light there is: the root of the integrals of (R -
-  // R_limit)^2 over those of R^2, both added over all probes, from the difference between fits of the odd and
-  // of the even passes. 1 before there are two.
+  // Returns the remaining statistical error relative to the light: the root of the integrals of (R -
+  // R_limit)^2 over the integrals of R^2. Both are sums over all probes. The difference between fits of the
+  // odd and of the even passes gives the error. It is 1 before there are two passes.
   double error();
 
-  // As far as it has come; at any time between passes. Probes inside solids, which get no paths, have the
-  // mean of those round them.
+  // Returns the present state; call it at any time between passes. Probes inside solids get no paths; they
+  // have the mean of their neighbours.
   nook::probe::Probes probes();
   const std::vector<Vec3>& positions_ws() const { return positions_ws_; }
   std::size_t inside_count() const { return std::size_t(std::count(inside_.begin(), inside_.end(), true)); }
@@ -63,7 +63,7 @@ class GridBake {
   std::uint32_t passes_ = 0;
 };
 
-// counts probes at the centres of equal cells that fill a box.
+// Places counts probes at the centres of equal cells that fill a box.
 nook::probe::Grid grid_in_box(const std::array<std::uint32_t, 3>& counts, Vec3 low_ws, Vec3 high_ws);
 
 }  // namespace nook::bake::probe

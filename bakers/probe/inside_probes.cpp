@@ -49,7 +49,7 @@ void fill_inside(nook::probe::Probes& probes, std::vector<bool> inside) {
   const std::size_t row = grid.counts[0], slice = row * grid.counts[1], count = probes.basis.count;
   const auto left = [&] { return std::find(inside.begin(), inside.end(), true) != inside.end(); };
   while (left()) {
-    // All probes of one layer at once, so that the order in which they come does not matter.
+    // Finds all probes of one layer at once, so that their order does not matter.
     const std::vector<bool> before = inside;
     for (std::size_t p = 0; p < grid.size(); ++p) {
       if (!before[p]) continue;
@@ -77,9 +77,9 @@ void fill_inside(nook::probe::Probes& probes, std::vector<bool> inside) {
 
 namespace {
 
-constexpr float clearance_share = 0.1f;  // of the shortest spacing
+constexpr float clearance_share = 0.1f;  // share of the shortest spacing
 constexpr int steps = 4;                 // to each side along each axis
-constexpr float reach = 0.45f;           // spacings, of the last step
+constexpr float reach = 0.45f;           // distance of the last step, in spacings
 
 float clearance(const LitScene& scene, Vec3 position_ws) {
   std::array<Vec3, 64> direction;

@@ -11,10 +11,10 @@
 
 namespace nook::bake::probe {
 
-// Samples of a map as fits take them.
+// Samples of a map for fits.
 
 struct Samples {
-  std::vector<float> direction, radiance;  // 3 a sample
+  std::vector<float> direction, radiance;  // 3 per sample
   std::vector<float> weight;               // 1 / (area of the region * density)
 
   std::size_t size() const { return weight.size(); }
@@ -23,22 +23,22 @@ struct Samples {
 
 void add_samples(nook::probe::Fit& fit, const Samples& samples, std::size_t first, std::size_t count);
 
-// Independent directions, uniform over the region.
+// Draws independent directions, uniform over the region.
 Samples uniform_samples(const Environment& map, const Region& region, std::size_t count, std::uint64_t seed);
 
-// Independent directions, half of them by luminance, so that no weight is above twice that of a uniform
+// Draws independent directions, half of them by luminance. So no weight exceeds twice the weight of a uniform
 // sample.
 inline constexpr float uniform_share = 0.5f;
 Samples luminance_samples(const Environment& map, const LightSampler& sampler, const Region& region,
                           std::size_t count, std::uint64_t seed);
 
-// Every texel of the region once, in random order, weighted by its solid angle.
+// Takes every texel of the region once, in random order, weighted by its solid angle.
 Samples texel_samples(const Environment& map, const Region& region, std::uint64_t seed);
 
 enum class Sampling : std::uint8_t {
   automatic =
-      0,  // texels for the forms that solve, luminance for running averages, which a late sun would shake
-  texels = 1,     // every texel once, in random order
+      0,       // texels for forms that solve; luminance for running averages, which a late sun would disturb
+  texels = 1,  // every texel once, in random order
   luminance = 2,  // half of the directions by luminance
   uniform = 3
 };
@@ -47,15 +47,15 @@ struct MapBakeSettings {
   nook::probe::Basis basis;
   nook::probe::FitSettings fit;
   Sampling sampling = Sampling::automatic;
-  std::uint32_t samples = 1u << 20;  // of luminance and uniform
+  std::uint32_t samples = 1u << 20;  // for luminance and uniform
   std::uint64_t seed = 1;
 };
 
-// Which samples a bake takes.
+// Returns the samples for a bake.
 Samples bake_samples(const Environment& map, const MapBakeSettings& settings);
 
-// The coefficients, one for each function. progress counts samples; throws Failure(NOOK_ERROR_CANCELLED) when
-// it returns false.
+// Returns one coefficient per function. progress counts samples; throws Failure(NOOK_ERROR_CANCELLED) when it
+// returns false.
 std::vector<Vec3> bake_map(const MapBakeSettings& settings, const Samples& samples,
                            const std::function<bool(std::size_t done, std::size_t total)>& progress = {});
 inline std::vector<Vec3> bake_map(

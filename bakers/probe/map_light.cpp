@@ -9,12 +9,12 @@
 namespace nook::bake::probe {
 namespace {
 
-// The maximum change of a function of the basis within a part of a texel: the midpoint rule then errs by a
+// The maximum change of a basis function within a part of a texel. The error of the midpoint rule is then a
 // 24th of its square.
 constexpr double finest_step = 0.1;
 
 std::uint32_t divisions(const Environment& map, const Basis& basis) {
-  float sharpest = 16;  // of harmonics and dice, which vary no faster
+  float sharpest = 16;  // for harmonics and dice, which vary no faster
   for (std::uint32_t i = 0; i < basis.count && basis.kind == nook::probe::BasisKind::gaussians; ++i)
     sharpest = std::max(sharpest, basis.sharpness[i]);
   const double texel = std::numbers::pi / map.height();
@@ -78,7 +78,7 @@ MapIntegrals integrate(const Environment& map, const Region& region) {
 std::vector<Channels> moments(const Environment& map, const Basis& basis) {
   const std::uint32_t parts = divisions(map, basis);
   const Region region = region_of(basis);
-  // Row by row, added in order afterwards: the same bits on any number of threads.
+  // Rows are added in order afterwards, which gives the same bits on any number of threads.
   std::vector<std::vector<Channels>> of_row(map.height(), std::vector<Channels>(basis.count));
   tbb::parallel_for(std::uint32_t(0), map.height(), [&](std::uint32_t row) {
     std::array<float, nook::probe::max_functions> value;

@@ -1,4 +1,4 @@
-// The light of a whole map, exactly: integrals weighted by solid angle, and irradiance by summing over every
+// The exact light of a whole map: integrals weighted by solid angle, and irradiance by summing over every
 // texel.
 #pragma once
 
@@ -34,14 +34,15 @@ struct MapIntegrals {
 };
 MapIntegrals integrate(const Environment& map, const Region& region);
 
-// Integrals of B_i f. Texels are divided until the sharpest function varies little within a part.
+// Returns integrals of B_i f. Divides texels until the sharpest function varies little within a part.
 std::vector<Channels> moments(const Environment& map, const Basis& basis);
 
-// Irradiance on surfaces with these unit normals, of the light in the region; texels count at their centres.
+// Returns the irradiance on surfaces with these unit normals, from the light in the region. Texels count at
+// their centres.
 std::vector<Vec3> map_irradiance(const Environment& map, const Region& region, std::span<const Vec3> normals);
 
-// Returns the same light in fewer texels: the map is halved while it has more columns than the maximum, and
-// an even number of rows and columns.
+// Returns the same light in fewer texels. Halves the map while it has more columns than the maximum, and an
+// even number of rows and columns.
 Environment reduced(Environment map, std::uint32_t most_columns);
 
 }  // namespace nook::bake::probe

@@ -1,4 +1,4 @@
-// Places in the cells of a grid with their path-traced irradiance: what walls and coefficients are fitted to.
+// Places in the cells of a grid with their path-traced irradiance. Walls and coefficients are fitted to them.
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@
 namespace nook::bake::probe {
 
 struct TrainingSettings {
-  std::uint32_t origins = 24;  // of rays, in each cell
+  std::uint32_t origins = 24;  // per cell, for rays
   std::uint32_t rays =
-      8;  // from each origin; every hit is a place on a surface, every fourth ray one in the open
-  std::uint32_t paths = 128;  // for each place
+      8;  // per origin; each hit is a place on a surface, and every fourth ray has one in the open
+  std::uint32_t paths = 128;  // per place
   std::uint64_t seed = 1;
   PathSettings path;
 };
@@ -25,8 +25,8 @@ struct TrainingPlaces {
   std::size_t size() const { return normal.size(); }
 };
 
-// Places on surfaces that open space in the grid's box sees, and in the open with random normals. The result
-// does not depend on the number of threads. progress counts places.
+// Chooses places on surfaces that are visible from open space in the grid's box, and in the open with random
+// normals. The result does not depend on the number of threads. progress counts places.
 TrainingPlaces training_places(const LitScene& scene, const nook::probe::Grid& grid,
                                const TrainingSettings& settings, const Progress& progress = {});
 

@@ -1,6 +1,6 @@
-// Walls of a grid's cells, learned: the planes and masks (sdk/src/probe/probe.h) whose interpolation has the
-// smallest error of irradiance at places where it was path traced, instead of planes and masks from distances
-// or visibility: what counts is whose light is right there.
+// Learns the walls of a grid's cells: the planes and masks (sdk/src/probe/probe.h) with the smallest error of
+// interpolated irradiance at path-traced places. Planes and masks from distances or visibility would not know
+// whose light is right at a place.
 #pragma once
 
 #include "bakers/probe/training_places.h"
@@ -8,23 +8,22 @@
 
 namespace nook::bake::probe {
 
-// Metres along the normal, by which places are looked up: a fiftieth of the shortest spacing.
+// Returns the offset of lookups along the normal in metres: a fiftieth of the shortest spacing.
 float wall_bias(const nook::probe::Grid& grid);
 
-// probes: of harmonics, with coefficients; their walls are not read. The same result on any number of
-// threads.
+// probes: harmonics with coefficients; ignores their walls. Any number of threads gives the same result.
 nook::probe::GridWalls fit_walls(const nook::probe::Probes& probes, const TrainingPlaces& places);
 
-// Coefficients of a grid, fitted so that what is interpolated between its probes has the smallest error at
-// places where irradiance was path traced.
+// Fits the coefficients of a grid, so that interpolation between its probes has the smallest error at
+// path-traced places.
 
 struct SurfaceFitSettings {
-  // The number of places that a probe's own samples count as; without places it stays as it was baked.
+  // A probe's own samples count as this number of places. Without places, the probe stays as baked.
   double own_share = 4;
 };
 
-// probes: of harmonics of order 2, with walls or without. The difference to the present coefficients
-// minimises the squared error over all places, each relative to the light there, by conjugate gradients.
+// probes: harmonics of order 2, with or without walls. Changes the present coefficients by conjugate
+// gradients, so that the squared error over all places is smallest, each relative to the light there.
 void fit_to_surfaces(nook::probe::Probes& probes, const TrainingPlaces& places,
                      const SurfaceFitSettings& settings = {});
 

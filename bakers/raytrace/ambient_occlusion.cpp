@@ -18,7 +18,7 @@
 namespace nook::bake {
 namespace {
 
-// open_sum, where given, receives the sum of the directions of open rays.
+// If open_sum is given, it receives the sum of the directions of open rays.
 float trace_point(const RayScene& scene, Vec3 position, Vec3 normal, const HemispherePatterns& patterns,
                   float radius, float origin_offset, std::uint64_t random, Vec3* open_sum = nullptr) {
   const float angle = 6.2831853f * unit_float(random);

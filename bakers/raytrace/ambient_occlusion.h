@@ -1,5 +1,5 @@
-// Ray-traced ambient occlusion, the reference of all AO in Nook: cosine-weighted visibility over the
-// hemisphere around a normal. Both sides of triangles occlude; 1 is open.
+// Traces ambient occlusion, the reference of all AO in Nook: cosine-weighted visibility over the hemisphere
+// around a normal. Both sides of triangles occlude; 1 is open.
 #pragma once
 
 #include <algorithm>
@@ -21,13 +21,14 @@ namespace nook::bake {
 struct Receivers {
   std::span<const Vec3> position;
   std::span<const Vec3> normal;
-  std::span<const float> radius = {};  // metres, replaces the settings' radius; empty: that one for all
+  std::span<const float> radius = {};  // metres, replaces the settings' radius; empty: use the settings'
+                                       // radius
   std::span<const float> origin_offset =
-      {};  // metres, replaces the settings' offset; empty: that one for all
+      {};  // metres, replaces the settings' offset; empty: use the settings' offset
 };
 
 struct AoSettings {
-  std::uint32_t rays = 64;  // for each point
+  std::uint32_t rays = 64;  // per point
   std::uint64_t seed = 1;
   float radius = std::numeric_limits<float>::infinity();  // metres; hits beyond it count as open
   float origin_offset = 0;                                // metres along the normal
@@ -44,13 +45,13 @@ std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& rece
 std::vector<float> trace_ao(const RayScene& scene, const Receivers& receivers, const AoSettings& settings,
                             const Progress& progress = {});
 
-// The AO of receivers, and the mean of the directions of their open rays: cosine-weighted, in world space,
-// and shorter the wider the opening is (2/3 over a plane); zero where no ray is open.
+// The AO of receivers, and the mean direction of their open rays: cosine-weighted, in world space. It is
+// shorter the wider the opening is (2/3 over a plane), and zero if no ray is open.
 struct Openness {
   std::vector<float> ao;
   std::vector<Vec3> direction;
 };
-// The AO is that of trace_ao, bit for bit.
+// Returns the same AO as trace_ao, bit for bit.
 Openness trace_openness(const RayScene& scene, const Receivers& receivers, const AoSettings& settings);
 
 // Receivers for each task: some 10 ms of work, which bounds the wait of a caller who stops.
@@ -59,8 +60,8 @@ inline std::size_t receivers_per_task(std::uint32_t rays) {
   return std::clamp(most_rays / std::max(rays, 1u), 1u, most_receivers);
 }
 
-// The AO targets of a character: poses x vertices in 16-bit fixed point (value / 65535), which has half the
-// size of floats and a step far below the noise of the rays.
+// The AO targets of a character: poses x vertices in 16-bit fixed point (value / 65535). They take half the
+// size of floats, and their step is far below the noise of the rays.
 struct AoTargets {
   std::size_t vertex_count = 0;
   std::vector<std::uint16_t> value;

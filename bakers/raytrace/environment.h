@@ -1,4 +1,4 @@
-// Light from infinity: a latitude-longitude map of radiance, and samples of it in proportion to luminance.
+// Light from infinity: a latitude-longitude map of radiance, sampled in proportion to luminance.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace nook::bake {
 
-// The maximum radiance of a map's texel and of an emissive surface. With it, sums of squares over any number
-// of paths stay far below the maximum of a float.
+// The maximum radiance of a map's texel and of an emissive surface. It keeps sums of squares over any number
+// of paths far below the maximum of a float.
 inline constexpr double max_radiance = 1e15;
 
 // Rows go from +y to -y, and columns around y: the middle column looks along +x, and the column a quarter of
@@ -33,7 +33,7 @@ class Environment {
   std::size_t texel_at(Vec3 direction) const;  // of any non-zero length
   Vec3 radiance(Vec3 direction) const { return texel(texel_at(direction)); }
 
-  double solid_angle(std::uint32_t row) const;  // of one texel, steradians; the sum over the map is 4 pi
+  double solid_angle(std::uint32_t row) const;  // steradians per texel; the sum over the map is 4 pi
   // u points to the right and v down, each in [0, 1) over a texel, uniform in solid angle.
   Vec3 direction(std::uint32_t column, std::uint32_t row, float u, float v) const;
 
@@ -57,8 +57,8 @@ struct LightSample {
 // uniform) * luminance / integral of luminance + uniform / (4 pi).
 class LightSampler {
  public:
-  // The environment must outlive the sampler. uniform_share is in [0, 1]. A map that is black, or so dark
-  // that its density is no float, is sampled uniformly.
+  // The environment must outlive the sampler. uniform_share is in [0, 1]. A black map is sampled uniformly.
+  // So is a map so dark that its density is not a float.
   explicit LightSampler(const Environment& environment, float uniform_share = 0);
 
   // Takes four numbers in [0, 1). The choice is a double, which reaches every texel of large maps.
@@ -74,15 +74,15 @@ class LightSampler {
   std::vector<std::uint32_t> other_;
 };
 
-// The suns of an environment, by the rule of the runtime: sdk/src/core/light_map.h.
+// Finds the suns of an environment by the rule of the runtime: sdk/src/core/light_map.h.
 
 using Sun = MapSun;
 
-// The luminance where suns begin.
+// Returns the luminance where suns begin.
 double sun_limit(const Environment& environment);
-// Without the brightest ones, at most so many.
+// Returns the map without at most max_count of its brightest suns.
 Environment without_suns(const Environment& environment, std::size_t max_count = ~std::size_t(0));
-// The brightest ones, by luminance.
+// Returns the brightest suns, by luminance.
 std::vector<Sun> find_suns(const Environment& environment, std::size_t max_count);
 
 }  // namespace nook::bake

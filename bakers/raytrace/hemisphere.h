@@ -1,5 +1,4 @@
-// Stratified cosine-weighted directions over the hemisphere, the samples of ray-traced ambient occlusion and
-// irradiance.
+// Stratified cosine-weighted directions over the hemisphere, which sample ambient occlusion and irradiance.
 #pragma once
 
 #include <cmath>

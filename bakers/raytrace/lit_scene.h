@@ -17,7 +17,7 @@ struct LitTriangles {
   std::vector<Surface> surface;
   std::vector<std::uint32_t> triangle_surface = {};  // an index of surface for each triangle
   std::vector<Texture> texture = {};                 // the textures that surfaces refer to
-  std::vector<std::array<TexturePoint, 2>> uv = {};  // of each vertex; empty if no surface has a texture
+  std::vector<std::array<TexturePoint, 2>> uv = {};  // per vertex; empty if no surface has a texture
 };
 
 // A surface at one point.
@@ -39,7 +39,7 @@ class LitScene {
 
   const Environment& environment() const { return environment_; }
   const LightSampler& light() const { return light_; }
-  double sun_limit() const { return sun_limit_; }  // of the environment, see environment.h
+  double sun_limit() const { return sun_limit_; }  // see environment.h
 
  private:
   const Surface& surface(const RayHit& hit) const { return surface_[triangle_surface_[hit.triangle]]; }
@@ -58,7 +58,7 @@ class LitScene {
   double sun_limit_;
 };
 
-// textures are the decoded ones of scene.image.
+// textures: the decoded textures of scene.image.
 LitTriangles lit_triangles(StaticScene scene, std::vector<Texture> textures);
 
 }  // namespace nook::bake

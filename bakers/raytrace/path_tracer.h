@@ -1,4 +1,4 @@
-// Unbiased path tracing of diffuse scenes, the reference of all light probes.
+// Traces paths in diffuse scenes without bias, as the reference of all light probes.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace nook::bake {
 
-// The part of the environment's light that counts where it comes straight to the receiving point. Its light
-// by way of surfaces always counts, suns included, and so does light that surfaces emit.
+// Which part of the environment's light counts if it arrives directly at the receiving point. Its light by
+// way of surfaces always counts, suns included, and so does light that surfaces emit.
 enum class DirectLight : std::uint8_t {
   none = 0,
   sky = 1,  // the environment without its suns, see environment.h
@@ -26,7 +26,7 @@ DirectLight direct_of(const std::string& name);
 
 struct PathSettings {
   std::uint32_t max_bounces = ~0u;  // maximum number of reflections; 0: direct light only
-  float origin_offset = 1e-4f;      // metres along the normal, of rays that leave a surface
+  float origin_offset = 1e-4f;      // metres along the normal, for rays that leave a surface
   DirectLight direct = DirectLight::all;
 };
 
@@ -36,7 +36,7 @@ Vec3 trace_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, const Pa
                     Random& random);
 
 struct IrradianceSettings {
-  std::uint32_t rays = 64;  // paths for each point
+  std::uint32_t rays = 64;  // per point
   std::uint64_t seed = 1;
   PathSettings path;
 };

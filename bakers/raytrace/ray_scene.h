@@ -11,10 +11,10 @@
 
 namespace nook::bake {
 
-// Denormals as zero, for threads that trace.
+// Treats denormals as zero, in threads that trace.
 
-// Keep one on every thread that traces: Embree is much slower on denormals. The destructor restores the
-// caller's mode. Processors other than x86 and ARM64 keep their mode.
+// Keep one on every thread that traces, because Embree is much slower on denormals. The destructor restores
+// the caller's mode. Processors other than x86 and ARM64 keep their mode.
 class FlushDenormals {
  public:
   FlushDenormals();
@@ -48,8 +48,8 @@ struct RayHit {
   bool from_behind = false;  // the ray hit the side from which the vertices are clockwise
 };
 
-// Embree's device. Scenes that are built one after the other share one, because it takes longer to make than
-// a small scene. Any thread may use it.
+// Embree's device. Scenes that are built one after the other share one, because making it takes longer than
+// making a small scene. Any thread may use it.
 class RayDevice {
  public:
   RayDevice();
@@ -74,9 +74,9 @@ class RayScene {
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  // Hits up to and at `beyond`, in lengths of the direction, do not count. Both sides of triangles count.
+  // Ignores hits up to and at `beyond`, in lengths of the direction. Both sides of triangles count.
   RayHit nearest(Vec3 origin, Vec3 direction, float beyond = 0) const;
-  bool occluded(Vec3 origin, Vec3 direction) const;  // by any triangle at any distance
+  bool occluded(Vec3 origin, Vec3 direction) const;  // true for any triangle at any distance
 
   // Traces up to 16 rays from one origin. Bit i of the result is 1 if no triangle is within `reach` along
   // directions[i], in lengths of the direction.

@@ -8,8 +8,7 @@
 namespace nook::bake {
 namespace {
 
-// Returns a microfacet normal, of those that the viewer sees. View and result are in the frame of the
-// surface.
+// Returns a random microfacet normal that the viewer sees. View and result are in the frame of the surface.
 Vec3 visible_normal(Vec3 view, float alpha, float u, float v) {
   const Vec3 stretched = normalised(Vec3{alpha * view.x, alpha * view.y, view.z});
   const float across2 = stretched.x * stretched.x + stretched.y * stretched.y;

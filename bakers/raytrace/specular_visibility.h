@@ -1,4 +1,4 @@
-// The reference of specular occlusion: the share of a glossy reflection of uniform light that reaches the
+// The reference of specular occlusion: which share of a glossy reflection of uniform light reaches the
 // viewer.
 #pragma once
 
@@ -19,16 +19,15 @@ struct GlossyPoint {
 
 // Returns the mean visibility over the directions that a GGX surface without Fresnel's term reflects to the
 // viewer, weighted by its radiance of uniform light. roughness is perceptual, in (0, 1]: the GGX width is its
-// square. Directions are drawn from the visible normals (E. Heitz, Sampling the GGX Distribution of Visible
-// Normals, 2018); their weight is the masking of the light's side given that of the viewer's, G2 / G1.
-// The same seed gives the same result. Needs FlushDenormals on the calling thread.
+// square. Directions come from the visible normals (E. Heitz, Sampling the GGX Distribution of Visible
+// Normals, 2018). Their weight is the masking on the light's side given the viewer's side, G2 / G1. The same
+// seed gives the same result. Needs FlushDenormals on the calling thread.
 float trace_specular_visibility(const RayScene& scene, const GlossyPoint& point, float roughness,
                                 std::uint32_t rays, std::uint64_t seed);
 
 inline constexpr std::size_t max_glossy_maps = 8;
 
-// The same reflection under maps: the mean radiance that the viewer sees, and what it would be if nothing
-// were hidden.
+// The same reflection under maps: the mean radiance that the viewer sees, and the radiance without occlusion.
 struct GlossyLight {
   float visible = 1;  // trace_specular_visibility
   Vec3 seen[max_glossy_maps], open[max_glossy_maps];

@@ -13,7 +13,7 @@ float linear_of_srgb(float value) {
   return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
 }
 
-// Moves a coordinate to within two widths of the first image, so that it is not too large for integers.
+// Moves a coordinate to within two widths of the first image, so that it fits into an integer.
 float near_first(float u) {
   return u - 2 * std::floor(u / 2);
 }

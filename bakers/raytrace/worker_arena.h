@@ -11,7 +11,7 @@
 
 namespace nook::bake {
 
-// Far above any machine's cores: it keeps a hostile number from allocating all memory.
+// Far above any machine's cores. It keeps a hostile number from allocating all memory.
 constexpr std::uint32_t max_threads = 1024;
 
 // Refuses the field `threads` of a descriptor when it is out of range.

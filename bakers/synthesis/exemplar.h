@@ -1,4 +1,4 @@
-// A material as the example of a plane: its looks, their averages, and what one level of the synthesis
+// A material as the example of a plane: its looks, their averages, and what a level of the synthesis
 // compares.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace nook::bake::synthesis {
 
-// The looks of the texels that a synthesis takes from.
+// The looks of an exemplar's texels.
 
 // A texel of an exemplar, or a step between two.
 struct Texel {
@@ -32,20 +32,20 @@ constexpr std::int32_t wrapped(std::int32_t i, std::int32_t size) {
   const std::int32_t rest = i % size;
   return rest < 0 ? rest + size : rest;
 }
-// Mirrors i at both ends of a row, whose last texel has no copy beside it.
+// Mirrors i at both ends of a row. The last texel has no copy beside it.
 constexpr std::int32_t mirrored(std::int32_t i, std::int32_t size) {
   if (size == 1) return 0;
   const std::int32_t at = wrapped(i, 2 * size - 2);
   return at < size ? at : 2 * size - 2 - at;
 }
 
-// The shape of an exemplar. Beyond the border of one that tiles lies its other side; beyond that of one that
-// does not, its mirror image.
+// The shape of an exemplar. Beyond the border, a tiling exemplar continues on its other side, and any other
+// exemplar is mirrored.
 struct ExemplarShape {
   std::int32_t width = 0, height = 0;
   bool is_tiling = true;
-  // Texels along the border of an exemplar that does not tile which a plane does not show, because their
-  // surroundings are not known.
+  // Border of an exemplar that does not tile, in texels. A plane does not show it, because its surroundings
+  // are not known.
   std::int32_t margin = 0;
 
   Texel inside(Texel t) const {
@@ -59,7 +59,7 @@ struct ExemplarShape {
     return {std::clamp(t.x, margin, width - 1 - margin), std::clamp(t.y, margin, height - 1 - margin)};
   }
   bool is_shown(Texel t) const { return is_tiling || shown(t) == t; }
-  // Row of the texel in matrices; the texel lies inside.
+  // Returns the texel's row in matrices. The texel must lie inside.
   Eigen::Index row(Texel t) const { return Eigen::Index(t.y) * width + t.x; }
   Eigen::Index texels() const { return Eigen::Index(width) * height; }
 };
@@ -69,10 +69,10 @@ struct Exemplar {
   tensor::Matrix values;  // a row for each texel, y * width + x
 };
 
-// The Gaussian stack of an exemplar: versions of growing blur, all with as many texels as the exemplar.
+// Makes the Gaussian stack of an exemplar: versions of growing blur with the same number of texels.
 
-// Returns levels + 1 versions. The first is the exemplar; each further one is the last, filtered along both
-// axes with (1, 4, 6, 4, 1) / 16 at a spacing of 1, 2, 4, ... texels.
+// Returns levels + 1 versions. The first is the exemplar. Each further version filters the one before along
+// both axes with (1, 4, 6, 4, 1) / 16, at a spacing of 1, 2, 4, ... texels.
 std::vector<tensor::Matrix> gaussian_stack(const Exemplar& exemplar, std::uint32_t levels);
 
 // Appearance vectors: short vectors that describe the surroundings of an exemplar's texels.
@@ -84,10 +84,10 @@ inline constexpr std::uint32_t appearance_channels = 8;
 tensor::Matrix appearance_vectors(const tensor::Matrix& values, const ExemplarShape& shape,
                                   std::int32_t spacing);
 
-// The weight of small details beside large forms.
+// Balances small details and large forms.
 
-// Returns the exemplar with each channel divided by the root of its standard deviation, and the total
-// variance kept. Principal components of a material with holes are the holes above all, and a synthesis that
+// Returns the exemplar with each channel divided by the root of its standard deviation, and with the same
+// total variance. In a material with holes, the principal components mostly show the holes. A synthesis that
 // sees nothing else makes the rest flat.
 Exemplar balanced(const Exemplar& exemplar);
 

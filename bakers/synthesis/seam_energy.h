@@ -1,4 +1,4 @@
-// The visibility of seams in a plane that is put together from pieces of an exemplar.
+// Measures how visible seams are in a plane made of pieces of an exemplar.
 #pragma once
 
 #include <span>
@@ -8,10 +8,11 @@
 namespace nook::bake::synthesis {
 
 struct Seams {
-  // The share of pairs of neighbours in the plane that are no neighbours in the exemplar.
+  // The share of pairs of neighbours in the plane that are not neighbours in the exemplar.
   double jumps = 0;
-  // The sum over those pairs of the squared difference of their looks beyond the mean one of neighbours in
-  // the exemplar, for a texel of the plane; 0 where the exemplar goes on without a seam.
+  // For each such pair, takes the squared difference of their looks beyond the mean for neighbours in the
+  // exemplar. The energy is their sum over the texels of the plane. It is 0 if the exemplar continues without
+  // a seam.
   double energy = 0;
 };
 

@@ -17,7 +17,7 @@ namespace {
 using tensor::Matrix;
 
 constexpr Eigen::Index rows_of_task = 256;
-// Bounds the comparisons of a large exemplar.
+// Limits the comparisons for a large exemplar.
 constexpr double max_pairs = 1.5e9;
 constexpr Eigen::Index max_candidates = 16384, fewest_candidates = 1024;
 
@@ -39,7 +39,7 @@ Matrix surroundings(const Matrix& appearance, const ExemplarShape& shape, std::i
   return out;
 }
 
-// Returns the squared distance of two texels, the shorter way round in an exemplar that tiles.
+// Returns the squared distance of two texels, the shorter way around if the exemplar tiles.
 double squared_distance(const ExemplarShape& shape, Texel a, Texel b) {
   double dx = std::abs(a.x - b.x), dy = std::abs(a.y - b.y);
   if (shape.is_tiling) {
@@ -69,7 +69,7 @@ std::vector<Texel> similar_texels(const Matrix& appearance, const ExemplarShape&
   std::vector<Texel> out(static_cast<std::size_t>(texels));
   tbb::parallel_for(Eigen::Index{0}, (texels + rows_of_task - 1) / rows_of_task, [&](Eigen::Index i) {
     const Eigen::Index first = i * rows_of_task, rows = std::min(rows_of_task, texels - first);
-    // Squared distances up to those of the rows to the origin.
+    // The squared distances lack the rows' own squared lengths, which do not change the order.
     Matrix distances = -2 * all.middleRows(first, rows) * candidates.transpose();
     distances.rowwise() += squares;
     for (Eigen::Index r = 0; r < rows; ++r) {
@@ -93,7 +93,7 @@ namespace {
 
 using tensor::Matrix;
 
-// A plane of n x n coordinates of the exemplar, which repeats.
+// A plane of n x n coordinates of the exemplar. The plane repeats.
 struct Plane {
   std::int32_t side = 0;
   std::vector<Texel> texels;
@@ -108,7 +108,7 @@ struct Level {
   ExemplarShape shape;
   std::int32_t spacing = 1;
   Matrix appearance;
-  Matrix looks;  // of single texels
+  Matrix looks;  // looks of single texels
   std::vector<Texel> similar;
 };
 
@@ -119,7 +119,7 @@ std::array<float, 2> random_pair(std::uint64_t seed, std::uint32_t level, Texel 
   return {2 * unit_float(bits) - 1, 2 * unit_float(mix_bits(bits)) - 1};
 }
 
-// Returns the place in a row of the exemplar that a texel of the coarsest plane shows. random is in [-1, 1).
+// Returns the position in a row of the exemplar for a texel of the coarsest plane. random is in [-1, 1).
 std::int32_t coarsest_place(const ExemplarShape& shape, std::int32_t size, std::int32_t texel,
                             std::int32_t block, std::int32_t spacing, float random, float jitter) {
   const float moved = jitter * random / 2;
@@ -128,9 +128,9 @@ std::int32_t coarsest_place(const ExemplarShape& shape, std::int32_t size, std::
   return shape.margin + std::int32_t(std::lround((0.5f + moved) * float(room))) + texel % block * spacing;
 }
 
-// Covers the plane with square blocks of half the exemplar's size, each moved at random: an exemplar that
-// tiles goes on from block to block without the movement, and another one is put beside itself. Without any
-// order to begin with, the corrections would find the mean of everything.
+// Covers the plane with square blocks of half the exemplar's size, each moved at random. Without the
+// movement, a tiling exemplar would continue from block to block, and any other would lie beside itself.
+// Without an initial order, the corrections would find the mean of everything.
 Plane coarsest_plane(const Level& level, std::int32_t side, std::uint32_t number, float jitter,
                      std::uint64_t seed) {
   const ExemplarShape& s = level.shape;
@@ -155,7 +155,7 @@ Plane upsampled(const Plane& coarse, const Level& level, std::uint32_t number, f
   tbb::parallel_for(0, side, [&](std::int32_t y) {
     for (std::int32_t x = 0; x < side; ++x) {
       const Texel parent = coarse.at({x / 2, y / 2});
-      // The middle of the four children is that of the parent; at a spacing of 1 they lie to its left.
+      // The four children are centred on the parent. At a spacing of 1, they lie to its left.
       const auto place = [h](std::int32_t child) { return child == 0 ? -((h + 1) / 2) : h / 2; };
       const auto [a, b] = random_pair(seed, number, {x, y});
       const float reach = jitter * float(h);
@@ -169,8 +169,8 @@ Plane upsampled(const Plane& coarse, const Level& level, std::uint32_t number, f
 
 constexpr std::array<Texel, 4> diagonals{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
 
-// The surroundings of a texel of the plane: for each diagonal neighbour the mean of what three texels near it
-// expect there, equation (2) of the paper of 2006.
+// The surroundings of a texel of the plane. For each diagonal neighbour, it has the mean of what three texels
+// near it expect there, equation (2) of the paper of 2006.
 using Surroundings = Eigen::Matrix<float, 4, Eigen::Dynamic, Eigen::RowMajor, 4, appearance_channels>;
 Surroundings surroundings(const Plane& plane, const Level& level, Texel p) {
   Surroundings out = Surroundings::Zero(4, level.appearance.cols());
@@ -193,12 +193,13 @@ float difference(const Surroundings& wanted, const Level& level, Texel candidate
   return sum;
 }
 
-// Of seams beside differences of surroundings, which are the leading components of windows and do not hold
-// every texel. More of it would join texels that lie in the wrong surroundings.
+// The weight of seams relative to differences of surroundings. Surroundings are leading components of windows
+// and do not describe every texel. A larger weight would join texels in the wrong surroundings.
 constexpr float seam_weight = 4;
 
-// The visible seams between a candidate and its four neighbours in the plane: where one is not the
-// candidate's neighbour in the exemplar too, what each side shows against what the other side expects there.
+// Returns the visible seams between a candidate and its four neighbours in the plane. If a neighbour is not
+// the candidate's neighbour in the exemplar too, compares what each side shows with what the other side
+// expects there.
 float seams(const Plane& plane, const Level& level, Texel p, Texel candidate) {
   constexpr std::array<Texel, 4> sides{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
   const ExemplarShape& s = level.shape;
@@ -215,8 +216,8 @@ float seams(const Plane& plane, const Level& level, Texel p, Texel candidate) {
   return sum;
 }
 
-// The best of the candidates that the 3 x 3 texels round p propose: each continues its own piece of the
-// exemplar to p, or the piece that is the most like it.
+// Returns the best candidate from the 3 x 3 texels around p. Each proposes to continue its own piece of the
+// exemplar to p, or the most similar piece.
 Texel corrected(const Plane& plane, const Level& level, Texel p) {
   const Surroundings wanted = surroundings(plane, level, p);
   Texel best = plane.at(p);
@@ -241,7 +242,8 @@ Texel corrected(const Plane& plane, const Level& level, Texel p) {
   return best;
 }
 
-// Corrects the texels whose coordinates are `phase` modulo 2; all of them see the plane as it was.
+// Corrects the texels whose coordinates are `phase` modulo 2. All of them read the plane before the
+// corrections.
 void correct(const Level& level, Texel phase, const Plane& before, Plane& after) {
   tbb::parallel_for(0, (before.side - phase.y + 1) / 2, [&](std::int32_t row) {
     const std::int32_t y = 2 * row + phase.y;
@@ -251,7 +253,7 @@ void correct(const Level& level, Texel phase, const Plane& before, Plane& after)
   });
 }
 
-// Counts finished work, and stops it.
+// Counts finished work, and can stop it.
 class Count {
  public:
   Count(std::size_t total, const Progress& progress) : total_(total), progress_(progress) {}
@@ -274,8 +276,8 @@ std::uint32_t level_count(const ExemplarShape& shape) {
   return levels - 1;
 }
 
-// Returns the shape of a level whose texels have a spacing. The windows of texels nearer to the border than
-// two spacings are mirror images in part, and a plane of such texels repeats the border.
+// Returns the shape of a level whose texels have this spacing. Near the border, within two spacings, windows
+// are partly mirror images, and a plane of such texels would repeat the border.
 ExemplarShape shape_of_level(ExemplarShape shape, std::int32_t spacing) {
   if (!shape.is_tiling) shape.margin = std::min(2 * spacing, std::min(shape.width, shape.height) / 4);
   return shape;
@@ -321,7 +323,7 @@ std::vector<Texel> synthesise(const Exemplar& exemplar, const SynthesisSettings&
   check_synthesis(exemplar, settings);
   const std::uint32_t levels = level_count(exemplar.shape);
   const std::vector<Matrix> stack = gaussian_stack(exemplar, levels);
-  // The search for similar texels of a level counts as many texels as the exemplar has.
+  // The search for similar texels of a level counts for as many texels as the exemplar has.
   std::size_t total = 0;
   for (std::uint32_t l = 0; l <= levels; ++l) {
     const std::size_t side = settings.side >> l;

@@ -1,4 +1,4 @@
-// Work in blocks whose bounds depend only on the size, so that results that are combined in order have the
+// Runs work in blocks whose bounds depend only on the size. Results that are combined in order then have the
 // same bits on any number of threads.
 #pragma once
 

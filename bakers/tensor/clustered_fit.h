@@ -15,43 +15,44 @@ namespace nook::bake::tensor {
 // The search of the clustering stage for the K clusters of a sub-tensor.
 enum class Pursuit : std::uint8_t {
   greedy,      // one after another, (9) and (13), as in Algorithm 1
-  exchange,    // greedy, then single clusters exchanged while that lowers the error
+  exchange,    // greedy, then exchanges single clusters while that lowers the error
   exhaustive,  // every set of K clusters: exact, and affordable while C choose K is a few thousand
 };
 
 struct ClusteredSettings {
   std::size_t mode = 0;                   // the clustered mode m
-  std::vector<std::size_t> ranks;         // R_n for each mode; for mode m that of a cluster
+  std::vector<std::size_t> ranks;         // R_n for each mode; for mode m, the rank of a cluster
   std::size_t clusters = 1;               // C, 1 to I_m
   std::size_t mixture = 1;                // K, 1 to C; 1 for CTA
   std::vector<std::size_t> global_modes;  // G: modes with one basis for all clusters, equation (23); never m
-  // The first cluster of each mode-m sub-tensor; no cluster is empty. See tensor/seed_clusters.h.
+  // The first cluster of each mode-m sub-tensor, see tensor/seed_clusters.h. No cluster may be empty.
   std::vector<std::uint32_t> seeds;
 
-  int iterations = 40;  // maximum number in Algorithm 1; 0: the start, with one cluster for each sub-tensor
+  int iterations = 40;  // maximum number in Algorithm 1; 0: only the start, with one cluster for each
+                        // sub-tensor
   // The fit ends when an iteration lowers the squared error by less than this share of it. Algorithm 1 tests
   // the sum of the cores' norms, which for K > 1 can be stationary by chance while the error still falls.
   double tolerance = 3e-4;
-  int sweeps = 1;  // of the N-SVD of one cluster in an update stage; more change little
+  int sweeps = 1;  // sweeps in the N-SVD of one cluster in an update stage; more change little
   Pursuit pursuit = Pursuit::greedy;
-  // Of CTA: each sub-tensor tries this number of clusters, those whose means are nearest, and its own; 0:
+  // For CTA: each sub-tensor tries its own cluster and this number of clusters with the nearest means; 0:
   // all.
   std::size_t nearest = 0;
   // A sub-tensor keeps its previous clusters if the search found worse ones. false: exactly Algorithm 1,
-  // which then has to undo iterations more often.
+  // which must then undo iterations more often.
   bool keep_better_clusters = true;
 };
 
 // The clusters that each sub-tensor of mode m mixes, in the order in which they were found, and the rows of
-// their mixing matrices, which are all non-zero entries of U_{m,c}.
+// their mixing matrices. These rows are all non-zero entries of U_{m,c}.
 struct Mixture {
   std::size_t count = 0;                  // K
-  std::vector<std::uint32_t> membership;  // I_m x K, all different within a row
+  std::vector<std::uint32_t> membership;  // I_m x K, all different in a row
   Matrix coefficients;                    // I_m x (K R_m)
 };
 
-// An empty basis is the identity, for a mode with full rank. A cluster of fewer than R_m members has zeros in
-// the last mode-m slices of its core and in the corresponding columns of U_{m,c}.
+// An empty basis is the identity, for a mode with full rank. If a cluster has fewer than R_m members, the
+// last mode-m slices of its core and the corresponding columns of U_{m,c} are zero.
 struct ClusteredFit {
   std::size_t mode = 0;
   Dimensions dimensions, ranks;
@@ -64,36 +65,36 @@ struct ClusteredFit {
   std::vector<Cluster> clusters;
   Mixture mixture;
 
-  std::vector<double> objective;  // || A - A^ ||^2 after the start and each iteration; never rises
-  bool undone = false;            // the last iteration raised the error, and the result is the one before
-  std::size_t splits = 0;         // clusters that became empty and were filled by splitting another one
+  std::vector<double> objective;  // squared norm of A - A^ after the start and each iteration; never rises
+  bool undone = false;            // the last iteration raised the error, so the result is the one before
+  std::size_t splits = 0;         // empty clusters that were filled by splitting another one
 };
 
 struct ClusteredProgress {
   int iteration = 0, iterations = 0;  // iteration 0: the start
-  std::size_t cluster = 0;            // of the update stage
-  double objective = 0;               // after the last iteration, 0 before
+  std::size_t cluster = 0;            // in the update stage
+  double objective = 0;               // after the last iteration; 0 before
 };
-// Returns false to stop. The calling thread runs it.
+// Return false to stop. The calling thread runs it.
 using OnClustered = std::function<bool(const ClusteredProgress&)>;
 
-// Both functions give the same bits for the same seeds on any number of threads (those of the caller's TBB
-// arena). They throw INVALID_ARGUMENT if check_tensor fails or settings do not fit, and CANCELLED if progress
-// returned false. Memory: the input, three tensors of the input's size after its global modes are reduced,
-// and smaller parts.
+// Both functions give the same bits for the same seeds on any number of threads of the caller's TBB arena.
+// They throw INVALID_ARGUMENT if check_tensor fails or settings do not fit, and CANCELLED if progress
+// returned false. They need memory for the input, three tensors of the input's size after its global modes
+// are reduced, and smaller parts.
 ClusteredFit fit_cta(const TensorView& a, const ClusteredSettings& settings,
                      const OnClustered& progress = {});
 ClusteredFit fit_k_cta(const TensorView& a, const ClusteredSettings& settings,
                        const OnClustered& progress = {});
 
-// An N-SVD as one cluster, of which every sub-tensor is a member: C = K = 1.
+// Returns an N-SVD as one cluster with every sub-tensor as a member: C = K = 1.
 ClusteredFit as_one_cluster(const Nsvd& fit, std::size_t mode);
 
 Tensor reconstruct(const ClusteredFit& fit);
 
-// Checks of settings, with messages that name them.
+// Checks settings, with messages that name them.
 
-// All of them throw INVALID_ARGUMENT. Messages count modes from 1, as the paper does.
+// All throw INVALID_ARGUMENT. Messages count modes from 1, like the paper.
 void check_ranks(const Dimensions& dimensions, const std::vector<std::size_t>& ranks);
 void check_iterations(int iterations, double tolerance);
 void check_clustered(const Dimensions& dimensions, const ClusteredSettings& settings);

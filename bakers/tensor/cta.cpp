@@ -17,10 +17,10 @@ namespace {
 // The loop of Algorithm 1, which CTA shares.
 
 struct StepResult {
-  double error = 0;        // || A_G - A^ ||^2
+  double error = 0;        // squared norm of A_G - A^
   std::size_t splits = 0;  // empty clusters that were filled
 };
-// One iteration: both stages, from the fit that it changes. objective is that of the iteration before.
+// Changes a fit by one iteration, which is both stages. objective is from the iteration before.
 using Step =
     std::function<StepResult(WorkingFit& fit, const TensorView& reduced, int iteration, double objective)>;
 
@@ -47,8 +47,8 @@ ClusteredFit as_result(WorkingFit&& fit, Reduction&& reduction, const TensorView
   return result;
 }
 
-// Checks the input, reduces global modes, fits the seeds, and then steps until the error hardly falls any
-// more, or a step makes it rise, which is undone and ends it.
+// Checks the input, reduces global modes and fits the seeds. Then it steps until the error hardly falls. If a
+// step makes the error rise, the step is undone and ends the fit.
 ClusteredFit iterate(const TensorView& a, const ClusteredSettings& settings, const OnClustered& progress,
                      const Step& step) {
   check_tensor(a);
@@ -79,15 +79,15 @@ ClusteredFit iterate(const TensorView& a, const ClusteredSettings& settings, con
   return result;
 }
 
-// The projected square norm of each sub-tensor in cluster c, the objective of (6).
+// Returns the projected square norm of each sub-tensor in cluster c, the objective of (6).
 Eigen::VectorXd projected_norms(const TensorView& reduced, const WorkingCluster& cluster, std::size_t mode) {
   const Tensor projected = project(reduced, cluster.parts.basis);
   const Matrix v = unfold(dual_basis(cluster.parts.core, mode).v, mode);
   return (unfold(projected, mode) * v.transpose()).rowwise().squaredNorm().cast<double>();
 }
 
-// The sub-tensors of mode 1 that try each cluster: those to which its mean is one of the nearest, and its
-// members.
+// Returns the sub-tensors of mode 1 that try each cluster: its members, and those to which its mean is one of
+// the nearest.
 std::vector<std::vector<std::size_t>> tries(const WorkingFit& fit, const TensorView& reduced,
                                             std::size_t nearest) {
   const auto count = Eigen::Index(fit.membership.size()), clusters = Eigen::Index(fit.clusters.size());
@@ -126,8 +126,8 @@ std::vector<std::vector<std::size_t>> tries(const WorkingFit& fit, const TensorV
   return lists;
 }
 
-// Each sub-tensor goes to the cluster that keeps most of its norm; empty clusters are filled. Returns their
-// number.
+// Moves each sub-tensor to the cluster that keeps most of its norm, and fills empty clusters. Returns the
+// number of filled clusters.
 std::size_t classify(WorkingFit& fit, const TensorView& reduced, std::size_t nearest) {
   const std::size_t sub_tensors_count = fit.membership.size();
   std::vector<double> kept(sub_tensors_count, -1), error(sub_tensors_count);
@@ -155,11 +155,11 @@ std::size_t classify(WorkingFit& fit, const TensorView& reduced, std::size_t nea
     cluster.fitted = false;
   }
   list_members(fit);
-  for (WorkingCluster& cluster : fit.clusters) cluster.mixing = Matrix();  // of the members before
+  for (WorkingCluster& cluster : fit.clusters) cluster.mixing = Matrix();  // rows of the previous members
   return filled;
 }
 
-// Each cluster's N-SVD from its bases; the sweep, which begins with them, gives the mixing rows of new
+// Fits each cluster's N-SVD from its bases. The sweep begins with them and gives the mixing rows of new
 // members. Returns the squared error.
 double update(WorkingFit& fit, const TensorView& reduced, const ClusteredSettings& settings,
               const OnClustered& progress, int iteration, double objective) {

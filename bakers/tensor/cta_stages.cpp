@@ -11,7 +11,7 @@
 namespace nook::bake::tensor {
 namespace {
 
-// Entries of the membership by cluster.
+// Lists the entries of the membership by cluster.
 std::vector<std::vector<std::size_t>> entries_of(const std::vector<std::uint32_t>& membership,
                                                  std::size_t clusters) {
   std::vector<std::vector<std::size_t>> entries(clusters);
@@ -70,7 +70,8 @@ std::vector<double> sub_tensor_norms(const TensorView& a, std::size_t mode) {
   return norms;
 }
 
-// The clusters of each sub-tensor. The old ones stay where a search as long as theirs found none better.
+// Returns the clusters of each sub-tensor. The old ones stay if a search of the same length found none
+// better.
 std::vector<SubTensorMix> search_all(const AtomGram& atoms, const MatrixXd& products,
                                      const WorkingFit& before, const ClusteredSettings& settings) {
   std::vector<SubTensorMix> mixes(std::size_t(products.rows()));
@@ -85,8 +86,8 @@ std::vector<SubTensorMix> search_all(const AtomGram& atoms, const MatrixXd& prod
   return mixes;
 }
 
-// Sub-tensors that were moved to an empty cluster: what they keep is projected anew, and the empty cluster,
-// which has no atoms yet, takes weight 0 until the update stage.
+// Handles sub-tensors that moved to an empty cluster: projects what they keep again. The empty cluster has no
+// atoms yet and gets weight 0 until the update stage.
 void reweigh(std::vector<SubTensorMix>& mixes, const std::vector<std::size_t>& changed, const WorkingFit& fit,
              const AtomGram& atoms, const MatrixXd& products) {
   const Index rank = Index(atoms.rank);
@@ -111,8 +112,8 @@ void reweigh(std::vector<SubTensorMix>& mixes, const std::vector<std::size_t>& c
   }
 }
 
-// Post-processing, 4.2.3, with U_{m,c} relative to V_{m,c}: U = P S Q^T, the mixing rows become P,
-// orthonormal columns, and the core S Q^T V.
+// Post-processing, 4.2.3, with U_{m,c} relative to V_{m,c}: U = P S Q^T. The mixing rows become P with
+// orthonormal columns, and the core becomes S Q^T V.
 void orthonormalise(WorkingCluster& cluster, const MatrixXd& weights, const Tensor& v, std::size_t mode) {
   if (weights.rows() == 0) {  // a cluster that stays empty explains nothing
     cluster.mixing = Matrix(0, weights.cols());
@@ -128,7 +129,7 @@ void orthonormalise(WorkingCluster& cluster, const MatrixXd& weights, const Tens
   cluster.parts.core = mode_product(v, mode, w.cast<float>());
 }
 
-// Clusters that were filled begin anew. Returns their number.
+// Clusters that were filled start anew. Returns their number.
 std::size_t mark_filled(WorkingFit& fit, const std::vector<std::size_t>& changed) {
   std::size_t splits = 0;
   for (std::size_t e : changed) {
@@ -139,7 +140,7 @@ std::size_t mark_filled(WorkingFit& fit, const std::vector<std::size_t>& changed
   return splits;
 }
 
-// Weights of a cluster's members: members x R_m.
+// Returns the weights of a cluster's members: members x R_m.
 MatrixXd rows_of(const WorkingCluster& cluster, std::uint32_t c, const std::vector<SubTensorMix>& mixes,
                  Index rank) {
   MatrixXd rows(Index(cluster.members.size()), rank);
@@ -151,7 +152,7 @@ MatrixXd rows_of(const WorkingCluster& cluster, std::uint32_t c, const std::vect
   return rows;
 }
 
-// All weights: I_m x (C R_m).
+// Returns all weights: I_m x (C R_m).
 Matrix all_rows(const std::vector<SubTensorMix>& mixes, std::size_t clusters, Index rank) {
   Matrix weights = Matrix::Zero(Index(mixes.size()), Index(clusters) * rank);
   for (std::size_t i = 0; i < mixes.size(); ++i)
@@ -234,7 +235,7 @@ void update_stage(WorkingFit& fit, Tensor& residual, const ClusteredSettings& se
     WorkingCluster& cluster = fit.clusters[c];
     report(progress, iteration, settings, c, objective);
     if (cluster.members.empty()) continue;
-    // R'_c: the residual of all clusters and this one's own part, of its members only.
+    // R'_c: the residual of all clusters plus this cluster's own part, for its members only.
     Tensor shrunk = sub_tensors(residual, fit.mode, cluster.members);
     add(shrunk, expand_members(cluster, fit.mode), 1);
     fit_members(cluster, shrunk, settings);

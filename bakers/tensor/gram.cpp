@@ -13,13 +13,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Rows = Eigen::Map<const Matrix, 0, Eigen::OuterStride<>>;
 
-// Columns of an unfolding that are summed in floats: the error of such a sum, about 1e-7 times the root of
-// their number, stays below the rounding of the data.
+// Columns of an unfolding that are summed in floats. The error of such a sum is about 1e-7 times the root of
+// their number, which is below the rounding of the data.
 constexpr std::size_t float_columns = 512;
-// Parts of the sum, each a task with a sum of its own.
+// Parts of the sum. Each is a task with its own sum.
 constexpr std::size_t most_parts = 32;
 
-// The unfolding of mode n in pieces: matrices of I_n x columns, one after another.
+// Holds the unfolding of mode n in pieces: matrices of I_n x columns, one after another.
 struct Pieces {
   explicit Pieces(const ModeLayout& mode_layout) : layout(mode_layout) {
     if (layout.inner == 1) {
@@ -129,7 +129,7 @@ std::vector<std::size_t> ranks_for_error(const TensorView& a, const std::vector<
                   share.size(), multiple, a.order());
   std::vector<std::size_t> ranks(a.order());
   for (std::size_t n = 0; n < a.order(); ++n) {
-    // The loss at rank r is the sum of all eigenvalues except for the r largest; they are in ascending order.
+    // The loss at rank r is the sum of all eigenvalues except the r largest. They are in ascending order.
     const Eigen::VectorXd energy = symmetric_eigenvalues(gram(a, n)).cwiseMax(0.0);
     const double allowed = share[n] * energy.sum();
     double lost = 0;

@@ -16,8 +16,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Directions of less than this share of the greatest eigenvalue are linear dependence between clusters, seen
-// through products summed in floats.
+// Directions below this share of the greatest eigenvalue are linear dependence between clusters, because
+// products are summed in floats.
 constexpr double dependence = 1e-6;
 
 VectorXd solve_by_pseudo_inverse(const MatrixXd& gram, const VectorXd& products) {
@@ -31,7 +31,7 @@ VectorXd solve_by_pseudo_inverse(const MatrixXd& gram, const VectorXd& products)
 
 VectorXd solve(const MatrixXd& gram, const VectorXd& products) {
   const Eigen::LLT<MatrixXd> factor(gram);
-  // Atoms have norm 1: a small pivot says that one depends on those before it.
+  // Atoms have norm 1. A small pivot means that one depends on those before it.
   if (factor.info() == Eigen::Success &&
       factor.matrixLLT().diagonal().array().square().minCoeff() > 10 * dependence)
     return factor.solve(products);
@@ -54,7 +54,8 @@ SubTensorMix project_on(const AtomGram& atoms, const VectorXd& products,
   }
   SubTensorMix mix;
   mix.weights = solve(gram, chosen);
-  // || A ||^2 - || A - sum w O ||^2; equal to w . p where w solves the normal equations exactly.
+  // The squared norm of A decreases by this to the squared norm of A - sum w O. It equals w . p if w solves
+  // the normal equations exactly.
   mix.explained = 2 * mix.weights.dot(chosen) - mix.weights.dot(gram * mix.weights);
   mix.clusters = std::move(clusters);
   return mix;
@@ -90,7 +91,7 @@ SubTensorMix search_greedy(const AtomGram& atoms, const VectorXd& products, std:
 
 SubTensorMix exchange(const AtomGram& atoms, const VectorXd& products, SubTensorMix mix) {
   const std::size_t count = mix.clusters.size();
-  // Ends after `count` exchanges in a row that gain nothing.
+  // Stops after `count` exchanges in a row without a gain.
   for (std::size_t k = 0, idle = 0; idle < count; k = (k + 1) % count) {
     SubTensorMix best = mix;
     for (std::uint32_t c = 0; c < atoms.clusters; ++c) {
@@ -98,7 +99,7 @@ SubTensorMix exchange(const AtomGram& atoms, const VectorXd& products, SubTensor
       std::vector<std::uint32_t> clusters = mix.clusters;
       clusters[k] = c;
       SubTensorMix other = project_on(atoms, products, std::move(clusters));
-      // More than rounding, or two equal mixes would be exchanged for ever.
+      // The gain must exceed rounding, or two equal mixes would be exchanged for ever.
       if (other.explained > best.explained * (1 + 1e-9)) best = std::move(other);
     }
     idle = best.clusters == mix.clusters ? idle + 1 : 0;
@@ -108,7 +109,7 @@ SubTensorMix exchange(const AtomGram& atoms, const VectorXd& products, SubTensor
 }
 
 SubTensorMix search_exhaustive(const AtomGram& atoms, const VectorXd& products, std::size_t mixture) {
-  // All sets in lexical order; of equals, the first.
+  // Tries all sets in lexical order; of equals, the first wins.
   std::vector<std::uint32_t> set(mixture);
   std::iota(set.begin(), set.end(), 0u);
   SubTensorMix best = project_on(atoms, products, set);

@@ -1,12 +1,12 @@
-// The clustering stage for one sub-tensor: which clusters, and with which coefficients.
+// The clustering stage for one sub-tensor chooses clusters and their coefficients.
 //
-// Everything is in coordinates of the dual bases V_{m,c} of equation (7), whose rows are orthonormal: with
-// O_c = fold(V_{m,c}) x_{n != m} U_{n,c}, the atoms of cluster c, a sub-tensor is sum_k w_k O_{c_k}. Then the
-// search reads nothing but inner products, and (9), (11), (13), (15) become, with p_c = <A_<m_i>, O_c>,
+// Everything is in coordinates of the dual bases V_{m,c} of equation (7), whose rows are orthonormal. The
+// atoms of cluster c are O_c = fold(V_{m,c}) x_{n != m} U_{n,c}, and a sub-tensor is sum_k w_k O_{c_k}. So
+// the search reads only inner products. With p_c = <A_<m_i>, O_c>, (9), (11), (13), (15) become
 //   (9)   max || p_c ||^2
 //   (11)  w = p_c
 //   (13)  max || p_c - sum_j w_j <O_{c_j}, O_c> ||^2  (the proof, (34), has V of the new cluster c_{i_k} in
-//         the second term, where (13) prints that of c_{i_j})
+//         the second term, where (13) prints V of c_{i_j})
 //   (15)  w = <O, O>^+ p over the clusters chosen.
 #pragma once
 
@@ -24,19 +24,19 @@ struct AtomGram {
 
 struct SubTensorMix {
   std::vector<std::uint32_t> clusters;
-  Eigen::VectorXd weights;  // in the order of clusters, R_m each
-  double explained = 0;     // by how much they lower || A_<m_i> ||^2
+  Eigen::VectorXd weights;  // by cluster, R_m each
+  double explained = 0;     // how much they lower || A_<m_i> ||^2
 };
 
-// Optimal projection (15) of a sub-tensor, given by its inner products with all atoms (C R_m), on clusters.
+// Projects a sub-tensor optimally on clusters (15), from its inner products with all atoms (C R_m).
 SubTensorMix project_on(const AtomGram& atoms, const Eigen::VectorXd& products,
                         std::vector<std::uint32_t> clusters);
 
-// The next cluster by (13), not among those of the mix.
+// Returns the next cluster by (13) that is not in the mix yet.
 std::uint32_t next_cluster(const AtomGram& atoms, const Eigen::VectorXd& products, const SubTensorMix& mix);
 
 SubTensorMix search_greedy(const AtomGram& atoms, const Eigen::VectorXd& products, std::size_t mixture);
-// The mix with single clusters exchanged for others, the best exchange of each in turn, until none lowers the
+// Exchanges single clusters of the mix for others, the best exchange of each in turn, until none lowers the
 // error.
 SubTensorMix exchange(const AtomGram& atoms, const Eigen::VectorXd& products, SubTensorMix mix);
 
@@ -45,18 +45,18 @@ SubTensorMix search_exhaustive(const AtomGram& atoms, const Eigen::VectorXd& pro
 SubTensorMix search(Pursuit pursuit, const AtomGram& atoms, const Eigen::VectorXd& products,
                     std::size_t mixture);
 
-// The dual bases of clusters and their atoms.
+// Dual bases of clusters and their atoms.
 
 // Relative to the largest eigenvalue of uf(Z) uf(Z)^T; smaller eigenvalues are rounding of a core in floats.
 inline constexpr double rounded_eigenvalue = 1e-12;
 
 // V_{m,c} of equation (7), folded like the core, and the inverse transformation (uf(Z) uf(Z)^T)^(-1/2). If
-// the core lacks rank, the root is that of the pseudo-inverse, and rows of V span fewer dimensions.
+// the core lacks rank, it is the root of the pseudo-inverse, and rows of V span fewer dimensions.
 struct DualBasis {
   Tensor v;                      // R_1 x ... x R_N
   Eigen::MatrixXd inverse_root;  // R_m x R_m
 };
-// Directions whose eigenvalue is below `lowest` of the largest are left out of V.
+// V leaves out directions whose eigenvalue is below `lowest` of the largest.
 DualBasis dual_basis(const Tensor& core, std::size_t mode, double lowest = rounded_eigenvalue);
 
 // Returns O_c = V_{m,c} x_{n != m} U_{n,c} of all clusters, joined along mode m, whose size is C R_m. Global

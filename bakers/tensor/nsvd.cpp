@@ -80,7 +80,7 @@ Nsvd alternate(const TensorView& a, double squared, std::vector<Matrix> bases, c
       if (n == modes.back()) core = mode_product(projected, n, bases[n].transpose());
     }
     const double error = error_of(core), before = best.objective.empty() ? squared : best.objective.back();
-    // Only rounding can raise it: the fit is at the precision of floats.
+    // Only rounding can raise the error, when the fit is at the precision of floats.
     if (!best.objective.empty() && error >= before) break;
     best.core = std::move(core);
     best.basis = bases;

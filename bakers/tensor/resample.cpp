@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Index;
 
-// The two cells of a border, each with the one behind it, and the factors by which decoding reaches the
-// border from them. A cell without one of the same clusters behind it is constant towards the border.
+// The two cells of a border, each with the cell behind it. The factors extrapolate from them to the border,
+// as decoding does. If the cell behind mixes other clusters, the value is constant towards the border.
 struct Border {
   std::array<std::size_t, 4> cell;
   std::array<double, 4> factor;
@@ -27,7 +27,7 @@ bool same_clusters(const MixedCells& cells, std::size_t a, std::size_t b) {
   return std::is_permutation(first + at_a, first + at_a + count, first + at_b);
 }
 
-// Borders of cells in a row, step 1, or in a column, step `side`.
+// Adds the borders of cells in a row (step 1) or in a column (step `side`).
 void add_borders(const MixedCells& cells, std::size_t step, std::vector<Border>& borders) {
   const std::size_t all = cells.side * cells.side;
   const auto place = [&](std::size_t cell) { return step == 1 ? cell % cells.side : cell / cells.side; };
@@ -52,7 +52,7 @@ class StepSystem {
 
   bool has_steps() const { return !borders_.empty(); }
 
-  // out = (block diagonal of the Gram matrix + penalty times the steps' own) weights.
+  // out = (block diagonal of the Gram matrix + penalty times the steps' Gram matrix) weights.
   void apply(const WideMatrix& weights, WideMatrix& out) const {
     out.setZero(weights.rows(), weights.cols());
     Eigen::VectorXd sum(atoms_.product.rows());
@@ -79,7 +79,7 @@ class StepSystem {
       sum += atoms_.product.middleCols(atom(cell, k), rank_) *
              (factor * weights.row(Index(cell)).segment(Index(k) * rank_, rank_).transpose());
   }
-  // Adds factor times those of the cell's own atoms.
+  // Adds factor times the inner products with the cell's own atoms.
   void add_part(const Eigen::VectorXd& sum, std::size_t cell, double factor, WideMatrix& out) const {
     for (std::size_t k = 0; k < cells_.count; ++k)
       out.row(Index(cell)).segment(Index(k) * rank_, rank_) +=
@@ -107,7 +107,7 @@ WideMatrix own_products(const WideMatrix& products, const MixedCells& cells, Ind
 void lower_steps(const AtomGram& atoms, const WideMatrix& products, double penalty, MixedCells& cells,
                  const RoundProgress& progress) {
   constexpr std::size_t rounds = 300;
-  constexpr double small_enough = 1e-8;  // of the first squared residual
+  constexpr double small_enough = 1e-8;  // share of the first squared residual
   const StepSystem system(atoms, cells, penalty);
   if (!(penalty > 0) || !system.has_steps()) return;
   WideMatrix rest, along;
@@ -134,10 +134,9 @@ namespace {
 
 using Eigen::Index;
 
-// Of the largest eigenvalue of a core. A sub-tensor between those of the fit has a part along any direction,
-// also along those in which the members of a cluster hardly differ; for an eigenvalue of 1e-12 its
-// coefficient would be a million times those of the fit, and a file rounds all coefficients of a map by the
-// largest.
+// Share of the largest eigenvalue of a core. A sub-tensor between the fitted ones has a part along any
+// direction, even where the members of a cluster hardly differ. For an eigenvalue of 1e-12, its coefficient
+// would be a million times larger than the fit's. A file rounds all coefficients of a map by the largest one.
 constexpr double lowest_eigenvalue = 1e-6;
 
 std::vector<DualBasis> dual_bases(const ClusteredFit& fit) {
@@ -154,7 +153,7 @@ Tensor atoms_of(const ClusteredFit& fit, const std::vector<DualBasis>& dual) {
   return join_atoms(fit.clusters, dual, reduced, fit.mode);
 }
 
-// The parts of a fit that resampling reads.
+// What resampling reads of a fit.
 struct Resampling {
   explicit Resampling(const ClusteredFit& fit)
       : dual(dual_bases(fit)),
@@ -174,7 +173,7 @@ void check_sizes(const AtomGram& atoms, const Matrix& projections, const Matrix&
                   std::size_t(weights.cols()), atoms.clusters, atoms.rank);
 }
 
-// The clusters of each row by search, with weights in the coordinates of the orthonormal atoms.
+// Searches the clusters of each row. Weights are in the coordinates of the orthonormal atoms.
 MixedCells search_rows(const Resampling& of, const Matrix& projections, const Matrix& weights,
                        Pursuit pursuit) {
   const std::size_t rows = std::size_t(weights.rows()), k = of.count;
@@ -194,7 +193,7 @@ MixedCells search_rows(const Resampling& of, const Matrix& projections, const Ma
   return cells;
 }
 
-// From coordinates of V_{m,c} to those of the core: U = w (uf(Z) uf(Z)^T)^(-1/2).
+// Changes coordinates from V_{m,c} to the core's: U = w (uf(Z) uf(Z)^T)^(-1/2).
 Mixture as_mixture(const Resampling& of, const MixedCells& cells) {
   const auto rank = Index(of.atoms.rank);
   Mixture mixture;
@@ -218,7 +217,7 @@ Matrix atom_projections(const ClusteredFit& fit, const TensorView& a) {
                   "the tensor is not of the size that was fitted (%zu and %zu entries)", a.size(),
                   volume(fit.dimensions));
   const Tensor atoms = atoms_of(fit, dual_bases(fit));
-  // Nothing to reduce: the tensor itself, uncopied.
+  // Without reduction, uses the tensor itself without a copy.
   const auto is_empty = [](const Matrix& u) { return u.size() == 0; };
   if (std::all_of(fit.global_basis.begin(), fit.global_basis.end(), is_empty))
     return cross_gram(a, atoms, fit.mode).cast<float>();

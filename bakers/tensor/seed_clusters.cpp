@@ -20,7 +20,7 @@ struct Groups {
   double squared_distance = std::numeric_limits<double>::infinity();
 };
 
-// Each next centre is drawn with a probability proportional to its squared distance to those there are.
+// The probability to draw the next centre is proportional to the squared distance to the existing ones.
 MatrixXd draw_centres(const MatrixXd& points, Index clusters, std::mt19937_64& bits) {
   const auto uniform = [&] { return double(bits() >> 11) * 0x1p-53; };
   MatrixXd centres(clusters, points.cols());
@@ -38,7 +38,7 @@ MatrixXd draw_centres(const MatrixXd& points, Index clusters, std::mt19937_64& b
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "too many clusters for these points (got %zu, need at most %zu, the distinct points)",
                     std::size_t(clusters), std::size_t(c + 1));
-    // Points at distance 0 are never drawn again, also where rounding leaves nothing at the end.
+    // Points at distance 0 are never drawn again, even if rounding leaves nothing at the end.
     double left = uniform() * sum;
     for (Index i = 0; i < points.rows(); ++i) {
       if (nearest[std::size_t(i)] == 0) continue;
@@ -49,7 +49,7 @@ MatrixXd draw_centres(const MatrixXd& points, Index clusters, std::mt19937_64& b
   return centres;
 }
 
-// The group that lost all its points takes the point that is farthest from its centre, of a group of several.
+// A group without points takes the point farthest from its centre, from a group with several.
 void fill_empty(const MatrixXd& points, MatrixXd& centres, Groups& now) {
   std::vector<std::size_t> members(std::size_t(centres.rows()));
   for (std::uint32_t g : now.group) ++members[g];
@@ -118,7 +118,7 @@ Matrix sub_tensor_points(const TensorView& a, std::size_t mode) {
   check_tensor(a);
   if (mode >= a.order())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "mode %zu of a tensor of order %zu", mode + 1, a.order());
-  // uf(A) uf(A)^T = Q L Q^T: rows of Q L^(1/2) have the inner products of the sub-tensors, hence their
+  // uf(A) uf(A)^T = Q L Q^T: rows of Q L^(1/2) have the inner products of the sub-tensors, and so their
   // distances.
   const SymmetricEigen eigen = symmetric_eigen(gram(a, mode));
   const MatrixXd points = eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();

@@ -11,8 +11,8 @@
 namespace nook::bake::tensor {
 namespace {
 
-// Sums value(i), i < count, over blocks of a fixed size: eight sums side by side, which the compiler keeps in
-// registers, then the blocks in order.
+// Sums value(i), i < count, over blocks of a fixed size. A block has eight parallel sums, which the compiler
+// keeps in registers. Blocks are added in order.
 template <class Value>
 double block_sum(std::size_t count, const Value& value) {
   constexpr std::size_t block = std::size_t(1) << 18, lanes = 8;
@@ -35,8 +35,8 @@ void need_same_size(const TensorView& a, const TensorView& b) {
                   a.order(), b.order());
 }
 
-// Calls body(row, column, entry in memory) for each entry of the unfolding. The paper's order of columns,
-// modes behind n before those ahead of it, the first the slowest, is r * outer + o.
+// Calls body(row, column, entry in memory) for each entry of the unfolding. In the paper's order of columns,
+// modes after n come before modes ahead of n, and the first is the slowest. So the column is r * outer + o.
 template <class Body>
 void for_each_unfolded(const ModeLayout& l, const Body& body) {
   for (std::size_t i = 0; i < l.size; ++i)
@@ -121,7 +121,7 @@ void check_tensor(const TensorView& a) {
   if (a.dimensions.empty() || !a.data)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the tensor is empty; entries in at least one mode are needed");
-  // A sum with an entry that is not finite is not finite itself; only then is the entry looked for.
+  // If an entry is not finite, the sum is not finite either. Only then do we search for the entry.
   if (std::isfinite(block_sum(a.size(), [&](std::size_t i) { return double(a.data[i]); }))) return;
   const auto bad = std::size_t(
       std::find_if(a.data, a.data + a.size(), [](float v) { return !std::isfinite(v); }) - a.data);
@@ -171,7 +171,7 @@ double growth(const Matrix& u) {
   return u.size() == 0 ? 1 : double(u.rows()) / double(u.cols());
 }
 
-// The modes from 1 on that have a matrix, the most shrinking first.
+// Returns the modes from 1 on that have a matrix, the most shrinking first.
 std::vector<std::size_t> inner_order(const std::vector<Matrix>& u) {
   std::vector<std::size_t> order;
   for (std::size_t n = 1; n < u.size(); ++n)
@@ -181,7 +181,7 @@ std::vector<std::size_t> inner_order(const std::vector<Matrix>& u) {
   return order;
 }
 
-// All modes but the first, in the given order, for each sub-tensor of the first.
+// Reduces all modes but the first, in the given order, for each sub-tensor of the first.
 Tensor inner_products(const TensorView& a, const std::vector<Matrix>& u,
                       const std::vector<std::size_t>& order) {
   Dimensions result = a.dimensions;

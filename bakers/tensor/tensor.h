@@ -12,7 +12,7 @@ using Dimensions = std::vector<std::size_t>;  // I_1 to I_N; modes are counted f
 
 std::size_t volume(const Dimensions& dimensions);
 
-// Entries that somebody else owns, such as a Tensor, row-major: the last mode's index runs fastest.
+// A view of entries, for example in a Tensor. Row-major: the last mode's index is fastest.
 struct TensorView {
   Dimensions dimensions;
   const float* data = nullptr;
@@ -37,35 +37,36 @@ struct ModeLayout {
 };
 ModeLayout layout_of(const Dimensions& dimensions, std::size_t mode);
 
-// <A, B> of equation (1), and its square norm; summed in doubles, in an order that depends on the size only.
+// Returns <A, B> of equation (1), or its square norm. Sums in doubles, in an order that depends only on the
+// size.
 double scalar_product(const TensorView& a, const TensorView& b);
 double squared_norm(const TensorView& a);
-// || A - B ||^2.
+// Returns the squared norm of A - B.
 double squared_distance(const TensorView& a, const TensorView& b);
 
-// uf_n(A), I_n x (I_{n+1} ... I_N I_1 ... I_{n-1}): the paper's order of columns (De Lathauwer 2000), the
-// index of mode n + 1 the slowest, of mode n - 1 the fastest.
+// Returns uf_n(A), I_n x (I_{n+1} ... I_N I_1 ... I_{n-1}), in the paper's order of columns (De Lathauwer
+// 2000). The index of mode n + 1 is the slowest, and the index of mode n - 1 is the fastest.
 Matrix unfold(const TensorView& a, std::size_t mode);
 // The tensor of these dimensions whose unfolding is given.
 Tensor fold(const Matrix& unfolded, const Dimensions& dimensions, std::size_t mode);
 
-// The sub-tensors A_<m_i> of equation (4) for the given i, joined along mode m in that order.
+// Returns the sub-tensors A_<m_i> of equation (4) for the given i, joined along mode m in this order.
 Tensor sub_tensors(const TensorView& a, std::size_t mode, const std::vector<std::size_t>& indices);
 
-// Throws INVALID_ARGUMENT for an order of 0, a mode of size 0, no data, or an entry that is not finite, which
-// it names by its indices.
+// Throws INVALID_ARGUMENT for an order of 0, a mode of size 0, no data, or an entry that is not finite. The
+// message names the entry's indices.
 void check_tensor(const TensorView& a);
 
 // Mode products, equations (2) and (3).
 
-// A x_n U, U of J_n x I_n.
+// A x_n U, where U is J_n x I_n.
 Tensor mode_product(const TensorView& a, std::size_t mode, const Matrix& u);
 
-// A x_1 U_1 ... x_N U_N; an empty matrix stands for the identity. Modes that shrink most come first; all but
-// the first are taken slab by slab of the first, so that nothing between input and result is held whole.
+// A x_1 U_1 ... x_N U_N; an empty matrix stands for the identity. Modes that shrink most come first. All but
+// the first are computed slab by slab of the first, so that no intermediate tensor is held whole.
 Tensor mode_products(const TensorView& a, const std::vector<Matrix>& u);
 
-// The same with the transposes, A x_1 U_1^T ... x_N U_N^T: what projects on bases.
+// The same with the transposes, A x_1 U_1^T ... x_N U_N^T, which projects on bases.
 Tensor project(const TensorView& a, const std::vector<Matrix>& bases);
 
 }  // namespace nook::bake::tensor

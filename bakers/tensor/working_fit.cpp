@@ -38,7 +38,7 @@ namespace {
 
 using Eigen::Index;
 
-// A cluster of fewer members than R_m: zeros in the core's slices and in the columns that go with them.
+// If a cluster has fewer members than R_m, adds zero slices to the core and zero columns to the mixing rows.
 void pad_to_rank(WorkingCluster& cluster, std::size_t mode, std::size_t rank) {
   const Index members = cluster.mixing.rows(), found = cluster.mixing.cols();
   if (std::size_t(found) == rank) return;

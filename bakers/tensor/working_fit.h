@@ -1,4 +1,4 @@
-// A clustered fit in the making: clusters by their members, on the tensor whose global modes are reduced.
+// A clustered fit in progress: clusters by their members, on the tensor with reduced global modes.
 #pragma once
 
 #include "bakers/tensor/clustered_fit.h"
@@ -10,10 +10,10 @@ namespace nook::bake::tensor {
 
 // A_G of equation (23).
 struct Reduction {
-  std::vector<Matrix> global_basis;  // a mode: I_n x R_n; empty: not global, or of full rank
-  Tensor held;                       // A_G where a mode was reduced, else empty
+  std::vector<Matrix> global_basis;  // per mode: I_n x R_n; empty: not global, or full rank
+  Tensor held;                       // A_G if a mode was reduced, else empty
   TensorView view;                   // A_G, or the input itself
-  double lost = 0;                   // || A ||^2 - || A_G ||^2, what no cluster can explain
+  double lost = 0;                   // || A ||^2 - || A_G ||^2, which no cluster can explain
 };
 // Global bases lower || A - A x_n U_n U_n^T ||^2, n in G; other modes stay whole.
 Reduction reduce_global_modes(const TensorView& a, const ClusteredSettings& settings,
@@ -21,29 +21,29 @@ Reduction reduce_global_modes(const TensorView& a, const ClusteredSettings& sett
 
 struct WorkingCluster {
   std::vector<std::size_t> members;  // rising
-  Matrix mixing;                     // members x R_m: the rows of U_{m,c} that are not zero
-  bool fitted = false;               // false: core and bases are still to be found
+  Matrix mixing;                     // members x R_m: the non-zero rows of U_{m,c}
+  bool fitted = false;               // false: core and bases are not found yet
   ClusteredFit::Cluster parts;
 };
 
 struct WorkingFit {
   std::size_t mode = 0;
-  std::size_t mixture = 1;                // K of the membership
+  std::size_t mixture = 1;                // K
   std::vector<std::uint32_t> membership;  // I_m x K
   std::vector<WorkingCluster> clusters;
 };
 
-// Lists the members of each cluster from the membership; parts stay.
+// Lists the members of each cluster from the membership. Keeps cores and bases.
 void list_members(WorkingFit& fit);
 
-// Fits core, bases and mixing rows of a cluster by an N-SVD of the shrunk tensor, which has its members only.
+// Fits core, bases and mixing rows of a cluster by an N-SVD of the shrunk tensor, which has only its members.
 // It starts from the present ones (mixing rows may be missing), or from the HOSVD. Returns the squared error.
 double fit_members(WorkingCluster& cluster, const Tensor& shrunk, const ClusteredSettings& settings);
 
 // Z_c x_n U_{n,c}, members only.
 Tensor expand_members(const WorkingCluster& cluster, std::size_t mode);
 
-// Each seed's cluster by an N-SVD of its members. Returns || A_G - A^ ||^2.
+// Fits each seed's cluster by an N-SVD of its members. Returns the squared norm of A_G - A^.
 double fit_seeds(WorkingFit& fit, const TensorView& reduced, const ClusteredSettings& settings,
                  const OnClustered& progress);
 

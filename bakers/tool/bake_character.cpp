@@ -1,4 +1,4 @@
-// nook bake character: the model of a rigged character, by the numbers that a program gives nook_bake.h.
+// nook bake character: bakes the model of a rigged character, with the numbers of nook_bake.h.
 #include <nook/experimental/nook_trace.h>
 #include <nook/nook_bake.h>
 
@@ -37,12 +37,12 @@ struct Options {
   double time_limit_s = 0;
 };
 
-// The option's check lets only numbers in range and the word pass.
+// The option's check has passed, so the text is a number in range or the word.
 float gamma_of(const std::string& text) {
   return text == "learned" ? NOOK_BAKE_GAMMA_LEARNED : std::strtof(text.c_str(), nullptr);
 }
 
-// The numbers as a descriptor, without the character, whose handle only programs have.
+// Returns the numbers as a descriptor without the character, because only programs have its handle.
 nook_bake_character_desc desc_of(const Options& options, const std::vector<const char*>& clips) {
   nook_bake_character_desc desc;
   nook_bake_character_desc_init(&desc);
@@ -113,7 +113,7 @@ bake::BakedFile bake(const Options& options, const bake::ImportedCharacter& char
   });
 }
 
-// The table goes without what only a file wants.
+// Leaves out of the table what only a file needs.
 BakeOutput output_of(bake::BakedFile file) {
   nlohmann::ordered_json row = nlohmann::ordered_json::parse(file.report);
   const std::string summary = platform::printable(row["summary"].get<std::string>());

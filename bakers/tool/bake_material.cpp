@@ -35,11 +35,11 @@ struct Options {
   std::string meso, visibility_mapping;
   std::filesystem::path pbr, btf, raw, output, keep_raw, images;
   std::filesystem::path relief;              // an image of heights; empty: none
-  FloatColours colours = FloatColours::rgb;  // of the images of --btf
+  FloatColours colours = FloatColours::rgb;  // for the images of --btf
   std::uint32_t directions = 100, lights = 0, texels = 0;
   float max_tilt_deg = bake::material::default_max_tilt_deg;
   TraceSettings trace;
-  float tile_side_m = 1;  // of a mesh that --meso names, of the maps of --pbr and of the image of --relief
+  float tile_side_m = 1;  // of a mesh in --meso, of the maps of --pbr and of the image of --relief
   float height_scale_m = 0.05f;
   bake::ImportOptions reading;
   std::optional<std::uint32_t> count;
@@ -58,7 +58,7 @@ MesoParameters meso_of(const Options& o) {
   return p;
 }
 
-// --meso names a mesh where it is no built-in structure.
+// Any --meso that is not a built-in structure names a mesh.
 bool is_mesh(const std::string& meso) {
   return !meso.empty() && std::ranges::count(meso_names(), std::string_view(meso)) == 0;
 }
@@ -67,7 +67,7 @@ bool is_traced(const Options& o) {
   return !o.meso.empty() || !o.pbr.empty();
 }
 
-// Points of the grid along a side of the maps: one for each view ray, which then sees no detail between them.
+// Grid points along a side of the maps: one for each view ray, which then sees no detail between them.
 std::uint32_t map_points(const Options& o) {
   constexpr std::uint32_t fewest = 4, most = 384;
   return std::clamp(o.trace.width * o.trace.samples, fewest, most);
@@ -155,8 +155,8 @@ RawMaterial obtain(const Options& o, platform::ProgressBar& bar) {
   return raw;
 }
 
-// The image of --relief: at the texels of a material that will be traced, or at its own where a file decides
-// about them. Throws for heights out of range.
+// Reads the image of --relief. It has the texels of a material that will be traced, or its own if a file
+// decides about them. Throws for heights out of range.
 PbrMaps read_relief(const Options& o) {
   return naming_file(o.relief, [&] {
     PbrMaps image = read_height_image(o.relief);
@@ -234,7 +234,7 @@ BakeOutput bake(const Options& o) {
           table_text(report["rows"])};
 }
 
-// The sizes of a material that will be ray traced; no views for one that is read.
+// Returns the sizes of a material that will be ray traced; without views if it will be read.
 RawMaterial expected_sizes(const Options& o) {
   RawMaterial sizes;
   if (!is_traced(o)) return sizes;

@@ -1,4 +1,4 @@
-// nook bake probe, its two kinds of input.
+// nook bake probe, for its two kinds of input.
 #pragma once
 
 #include <array>
@@ -15,12 +15,12 @@ struct BakeProbeOptions {
   ProbeOptions probe;
   std::filesystem::path input, output;
 
-  // One map.
+  // For one map.
   std::filesystem::path picture;
   std::string sampling = "automatic";
-  std::uint32_t samples = 0;  // 0: 1,048,576 for a map; 65,536 at most for each probe of a grid
+  std::uint32_t samples = 0;  // 0: 1,048,576 for a map; at most 65,536 for each probe of a grid
 
-  // A scene.
+  // For a scene.
   std::array<std::uint32_t, 3> grid{0, 0, 0};
   std::filesystem::path light;
   BoxArgument box;

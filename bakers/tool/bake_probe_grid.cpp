@@ -22,7 +22,7 @@ using bake::probe::GridBakeSettings;
 
 constexpr std::uint32_t default_samples = 65536;
 
-// The probes of a finished bake, with walls if the options ask for them.
+// Returns the probes of a finished bake, with walls if the options ask for them.
 probe::Probes complete(const BakeProbeOptions& options, const bake::LitScene& scene,
                        const bake::PathSettings& path, GridBake& grid) {
   probe::Probes probes = grid.probes();
@@ -53,7 +53,7 @@ std::vector<std::byte> file_of(const BakeProbeOptions& options, const GridBake& 
   return probe::write_probes(probes, packing_of(options.probe));
 }
 
-// Passes until the error is small enough, the samples are used up, or the user stops it.
+// Runs passes until the error is small enough, the samples are used up, or the user stops it.
 double refine(const BakeProbeOptions& options, GridBake& grid, std::uint32_t max_passes) {
   platform::ProgressBar bar(options.common.quiet);
   bake::GridRefinement refinement;

@@ -65,7 +65,7 @@ BakeOutput bake_probe_of_map(const BakeProbeOptions& options) {
   baked.probes.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::vector<std::byte> bytes = probe::write_probes(baked.probes, packing_of(options.probe));
 
-  // The error and the picture are of what the file gives back, its packing included.
+  // Error and picture show what the file gives back, including its packing.
   const probe::Probes stored = probe::read_probes(bytes);
   const Json row = row_of(options, map, stored, bytes.size(), seconds);
   if (picture) picture->commit(bake::png_bytes(bake::probe::map_picture(map, stored.basis, stored.of(0))));

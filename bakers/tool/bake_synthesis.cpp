@@ -24,7 +24,7 @@ struct Options {
   bake::synthesis::SynthesisSettings settings;
 };
 
-// Pictures of the plane without and with its coordinates, of a compressed material.
+// Draws the plane without and with its coordinates, for a compressed material.
 void write_pictures(const Options& o, std::span<const std::byte> material, const bake::Crop& crop,
                     const bake::BakedFile& file) {
   if (o.images.empty() || container_kind(material) != nook::material::material_kind.kind) return;

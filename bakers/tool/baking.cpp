@@ -22,7 +22,7 @@ BakeOutput baked(const BakeCommand& command, const std::function<BakeOutput()>& 
     if (failure.code() == NOOK_ERROR_CANCELLED) throw stopped();
     throw;
   } catch (const ToolError&) {
-    // A failure that was given the name of an input comes as this.
+    // A failure that got the name of an input arrives as this.
     if (interrupted()) throw stopped();
     throw;
   }

@@ -1,4 +1,4 @@
-// The frame of every bake: it runs on the requested threads and hands over the file and its report.
+// The frame of every bake. It runs the bake on the requested threads and writes the file and its report.
 #pragma once
 
 #include <filesystem>
@@ -14,22 +14,23 @@ namespace nook::tool {
 struct BakeCommand {
   const CommonOptions& common;
   std::filesystem::path output;
-  CommandFiles files;  // what the bake reads and writes, without the output and the report
+  CommandFiles files;  // inputs and outputs of the bake, without its output and report
   std::string stopped = "stopped; nothing was written";  // for the user who pressed Ctrl-C
 };
 
 struct BakeOutput {
   std::vector<std::byte> file;
   std::string report;  // the text of the report's file
-  std::string table;   // what the user sees
+  std::string table;   // shown to the user
 };
 
-// The report is {"rows": [row]} of the file's report. The table leaves out the keys that only a file wants.
+// The report is {"rows": [row]} with the row of the file's report. The table leaves out keys that only a file
+// needs.
 BakeOutput one_row(bake::BakedFile file, std::initializer_list<const char*> only_in_report = {});
 
-// Writes what bake returns to the output and the report's file, and prints the table. You hear of a file or a
-// folder of pictures that cannot be written, or of one that would replace a file that is read, before the
-// work begins. A bake that is stopped writes nothing.
+// Writes what bake returns to the output and the report's file, and prints the table. It checks before the
+// work begins that files and folders can be written, and that none would replace a file that is read. A
+// stopped bake writes nothing.
 void run_bake(BakeCommand command, const std::function<BakeOutput()>& bake);
 
 }  // namespace nook::tool

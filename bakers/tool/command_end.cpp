@@ -9,7 +9,7 @@
 namespace nook::tool {
 namespace {
 
-// A signal handler can reach nothing but static storage.
+// A signal handler can only use static storage.
 volatile std::sig_atomic_t signalled = 0;
 
 extern "C" void note_signal(int) {
@@ -25,12 +25,12 @@ void watch_for_interrupt() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);
-    // Under nohup, and in the background of a script, the work goes on.
+    // Work continues under nohup and in the background of a script.
     if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
-  // A reader that went away makes a write fail, which is reported; it does not end the process.
+  // If the reader is gone, a write fails and is reported. It does not end the process.
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // as a full disk does
+  std::signal(SIGXFSZ, SIG_IGN);  // like a full disk
 }
 
 bool interrupted() {

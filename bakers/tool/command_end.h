@@ -1,5 +1,5 @@
-// The end of a command before its work is done: a failure has a text for the user and the documented exit
-// code, and Ctrl-C sets a flag.
+// Ends a command before its work is done. A failure has a text for the user and the documented exit code, and
+// Ctrl-C sets a flag.
 #pragma once
 
 #include <nook/nook.h>
@@ -42,8 +42,8 @@ inline ExitCode exit_code_of(nook_result result) {
 void watch_for_interrupt();
 bool interrupted();
 
-// For files that may be pipes: the flag ends their waits, and the user reads on the error stream what a
-// command waits for, and without --quiet what else happens to a file that is replaced.
+// Makes files that may be pipes stop waiting at the flag. The error stream tells the user what a command
+// waits for. Without --quiet, it also tells what else happens to a file that is replaced.
 platform::FileEvents file_events(bool quiet);
 
 }  // namespace nook::tool

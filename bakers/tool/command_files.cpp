@@ -23,8 +23,8 @@ namespace nook::tool {
 namespace {
 
 constexpr FourLetters raw_material = four_letters("MRAW");
-// Raw materials hold up to 16 GiB of floats as half as many bytes, .btf files come from elsewhere. All other
-// kinds are far below 4 GiB at the limits of their formats.
+// Raw materials store up to 16 GiB of floats in half as many bytes, and .btf files come from elsewhere. All
+// other kinds are far below 4 GiB at the limits of their formats.
 constexpr std::uint64_t max_raw_bytes = std::uint64_t{16} << 30, max_nook_bytes = std::uint64_t{4} << 30;
 
 std::uint64_t memory_bytes() {
@@ -32,7 +32,7 @@ std::uint64_t memory_bytes() {
   return pages > 0 && size > 0 ? std::uint64_t(pages) * std::uint64_t(size) : UINT64_MAX;
 }
 
-// Throws std::runtime_error. A file that is larger than the memory would end the program while it is read.
+// Throws std::runtime_error. Reading a file larger than the memory would end the program.
 void check_size(const std::filesystem::path& path, std::uint64_t size, std::uint64_t most) {
   const std::uint64_t memory = memory_bytes();
   const bool fits_machine = size <= memory;
@@ -43,7 +43,7 @@ void check_size(const std::filesystem::path& path, std::uint64_t size, std::uint
                                          : "); it is damaged, or not a file that this command reads"));
 }
 
-// Throws std::runtime_error where the head of a .nook file says another size than the file has.
+// Throws std::runtime_error if the head of a .nook file gives another size than the file's.
 void check_nook_size(const std::filesystem::path& path, std::span<const std::byte> head, std::uint64_t size) {
   check_size(path, size, container_kind(head) == raw_material ? max_raw_bytes : max_nook_bytes);
   const std::uint64_t said = container_size(head);
@@ -69,7 +69,7 @@ std::vector<std::byte> read_file(const std::filesystem::path& path) {
   return reading([&] {
     std::error_code error;
     const std::uint64_t size = std::filesystem::file_size(path, error);
-    if (error) return platform::read_input(path, max_nook_bytes, file_events(true));  // it says why
+    if (error) return platform::read_input(path, max_nook_bytes, file_events(true));  // the message says why
     std::vector<std::byte> head(std::min<std::uint64_t>(size, container_head_bytes));
     std::ifstream(path, std::ios::binary)
         .read(reinterpret_cast<char*>(head.data()), std::streamsize(head.size()));
@@ -92,8 +92,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Two paths name one file when these are equal: of a file that is there, device and inode; of one that is yet
-// to be made, those of its folder, and its name.
+// Two paths name one file if their identities are equal. An existing file has its device and inode. A new
+// file has the device and inode of its folder, and its name.
 struct Identity {
   dev_t device = 0;
   ino_t inode = 0;
@@ -120,7 +120,7 @@ std::optional<KnownFile> identify(const NamedFile& file) {
   return KnownFile{file.option, file.path, {there.st_dev, there.st_ino, target.filename().string()}, false};
 }
 
-// A percent sign and two hexadecimal digits stand for a byte.
+// A percent sign and two hexadecimal digits encode a byte.
 std::string decode_uri(const std::string& uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -133,7 +133,7 @@ std::string decode_uri(const std::string& uri) {
   return text;
 }
 
-// The files that a .gltf refers to. What is wrong with it the import says.
+// Returns the files that a .gltf refers to. The import reports its errors.
 std::vector<NamedFile> referred_files(const NamedFile& gltf) {
   std::vector<NamedFile> files;
   std::error_code error;
@@ -177,7 +177,7 @@ std::vector<KnownFile> identify_all(const std::vector<NamedFile>& files) {
   throw ToolError(exit_bad_arguments, text + "); choose another place for " + output.option);
 }
 
-// A file in the folder of pictures could be replaced by one of them, whatever their names will be.
+// A picture could replace a file in their folder, whatever its name.
 void require_not_among_pictures(const KnownFile& file, const fs::path& images) {
   const fs::path extension = file.path.extension();
   if (extension != ".png" && extension != ".svg") return;

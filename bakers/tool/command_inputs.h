@@ -15,16 +15,16 @@ namespace nook::tool {
 void print_warnings(const std::filesystem::path& path, const std::vector<std::string>& warnings,
                     const CommonOptions& common);
 
-// Prints the character's warnings. Failures name the file.
+// Reads a character and prints its warnings. Failures name the file.
 bake::ImportedCharacter read_character(const std::filesystem::path& path, const bake::ImportOptions& reading,
                                        const CommonOptions& common);
 
-// Throws ToolError (bad arguments) that names the first clip of --clips that the character lacks and lists
-// all that it has.
+// Throws ToolError (bad arguments) that names the first missing clip of --clips and lists the clips that the
+// character has.
 void require_clips(const std::vector<std::string>& wanted, const bake::ImportedCharacter& character);
 
-// Throws ToolError (bad input) that names the file and, where it is one's fault, the texture. Without
-// textures their colour factors stand for them. Prints the scene's warnings.
+// Reads a scene and prints its warnings. Throws ToolError (bad input) that names the file, and the texture if
+// that is at fault. Without textures, their colour factors are used.
 bake::ProbeScene read_probe_scene(const std::filesystem::path& scene, const std::filesystem::path& light,
                                   bool textures, const bake::ImportOptions& reading,
                                   const CommonOptions& common);

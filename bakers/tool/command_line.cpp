@@ -123,7 +123,7 @@ void copy_stream(std::vector<Path>& paths, InputCopies& copies) {
   for (Path& path : paths) copy_stream(path, copies);
 }
 
-// A message that names what the user named, and not the copies.
+// Returns a message that names the user's files and not their copies.
 std::string without_copies(std::string text, const InputCopies& copies) {
   for (const NamedCopy& each : copies) {
     const std::string path = each.copy->path().string();
@@ -134,7 +134,7 @@ std::string without_copies(std::string text, const InputCopies& copies) {
   return text;
 }
 
-// Scripts with an unset variable give an empty name, and many programs take "-" for a stream.
+// A script with an unset variable gives an empty name, and many programs take "-" for a stream.
 std::string fault_of_path(const std::string& path) {
   if (path.empty()) return "the name of a file is empty";
   return path == "-"

@@ -1,5 +1,5 @@
-// Commands and their options, by CLI11. Its headers cost every file that includes them four seconds. So only
-// command_line.cpp, command_program.cpp and the main.cpp of the programs do.
+// Commands and their options, by CLI11. Its headers cost every file that includes them four seconds, so only
+// command_line.cpp, command_program.cpp and the main.cpp of the programs include them.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ class Validator;
 
 namespace nook::tool {
 
-// A condition on the text of an option, which help shows.
+// A condition on an option's text. Help shows it.
 class Check {
  public:
   explicit Check(const CLI::Validator& validator);
@@ -48,12 +48,12 @@ class Option {
   Option check(const Check& check) const;
   Option check(const std::function<std::string(const std::string&)>& fault)
       const;                                                        // returns what is wrong, or nothing
-  Option each(const std::function<void(std::string)>& seen) const;  // calls it for each text
-  Option capture_default_str() const;  // the variable's value is the default that help shows
+  Option each(const std::function<void(std::string)>& seen) const;  // calls seen for each text
+  Option capture_default_str() const;  // help shows the variable's value as the default
   Option default_str(const std::string& text) const;
   Option type_name(const std::string& name) const;
   Option delimiter(char between) const;
-  Option one_each() const;  // a list takes one text for each time that it is named
+  Option one_each() const;  // a list takes one text each time that it is named
   Option expected(int count) const;
   Option expected(int least, int most) const;
   Option needs(Option other) const;
@@ -73,13 +73,13 @@ class Command {
   Command add_subcommand(const char* name, const std::string& help) const;
   void callback(const std::function<void()>& run) const;
 
-  // The values that command_line.cpp instantiates it for: text, paths, numbers, and vectors and optionals of
-  // them.
+  // T is one of the types that command_line.cpp instantiates it for: text, paths, numbers, and vectors and
+  // optionals of them.
   template <class T>
   requires(!std::is_enum_v<T>) Option add_option(const char* names, T& value, const std::string& help)
   const;
-  // An option that names a file, or files, to read; T is text, a path or a vector of paths. A pipe that it
-  // names is read to its end before the command runs, and the value becomes the name of a copy.
+  // Adds an option that names one or more files to read. T is text, a path or a vector of paths. A pipe is
+  // read to its end before the command runs, and the value becomes the name of a copy.
   template <class T>
   Option add_input(const char* names, T& value, const std::string& help) const {
     reads(value);

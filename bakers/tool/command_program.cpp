@@ -31,14 +31,14 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   return text;
 }
 
-// With the program's own name, or from the first command on.
+// Begins with the program's own name, or with the command number `first`.
 std::string name_of(const std::vector<CLI::App*>& commands, std::size_t first = 0) {
   std::vector<std::string> names;
   for (std::size_t c = first; c < commands.size(); ++c) names.push_back(commands[c]->get_name());
   return joined(names, " ");
 }
 
-// The end of a message on words that this program does not know.
+// Ends a message about words that this program does not know.
 std::string elsewhere(CLI::App& program, const ElsewhereWords& words) {
   const std::string command = name_of(named_commands(program), 1);
   const auto known = words.words.find(command);
@@ -52,7 +52,7 @@ std::string elsewhere(CLI::App& program, const ElsewhereWords& words) {
   return "";
 }
 
-// Names the commands that there are where none of them was given.
+// Names the existing commands if none was given.
 std::string missing_command(CLI::App& program) {
   const std::vector<CLI::App*> commands = named_commands(program);
   std::vector<std::string> names;
@@ -92,7 +92,7 @@ int parse(CLI::App& program, int argc, char** argv, const ElsewhereWords& words)
   return exit_done;
 }
 
-// The cure for a lack of memory depends on the command.
+// The advice for a lack of memory depends on the command.
 std::string memory_advice(CLI::App& program) {
   const std::string name = name_of(named_commands(program));
   if (name.ends_with("bake character")) return "; use fewer poses, or a smaller preset";

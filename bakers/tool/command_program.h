@@ -1,5 +1,5 @@
-// A command line program of subcommands: parses the arguments, runs what they name, and turns failures into a
-// line on the error stream and an exit code. `nook` and `nook-lab` are two of them.
+// A command line program with subcommands. It parses the arguments, runs what they name, and turns failures
+// into a line on the error stream and an exit code. `nook` and `nook-lab` use it.
 #pragma once
 
 #include <functional>
@@ -15,9 +15,9 @@ namespace nook::tool {
 
 // Commands and options that belong to another program, for users who look for them here.
 struct ElsewhereWords {
-  std::string program, how_to_get;  // as the message names it
-  // By the command here under which somebody may look for them, such as "evaluate nnao"; "*" stands for
-  // arguments without dashes.
+  std::string program, how_to_get;  // names in the message
+  // By the command here under which users may look for them, such as "evaluate nnao"; "*" means arguments
+  // without dashes.
   std::map<std::string, std::vector<std::string>> words;
 };
 

@@ -1,5 +1,5 @@
-// The subcommands. Each adds itself, with its options, to its parent, and main.cpp calls it. It runs when the
-// parent is parsed, and returns or throws ToolError or Failure. peers.h gives evaluations other methods too.
+// The subcommands. Each adds itself with its options to its parent, and main.cpp calls it. It runs when the
+// parent is parsed, and returns or throws ToolError or Failure. peers.h adds other methods to evaluations.
 #pragma once
 
 namespace nook::tool {

@@ -1,4 +1,4 @@
-// The options of every subcommand.
+// Options of every subcommand.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct CommonOptions {
 
 void add_common_options(Command command, CommonOptions& options);
 
-// The choices of every command that reads glTF.
+// The options of every command that reads glTF.
 void add_import_options(Command command, bake::ImportOptions& options);
 
 }  // namespace nook::tool

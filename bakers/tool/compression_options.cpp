@@ -77,7 +77,7 @@ void add_compression_options(Command command, CompressionOptions& o) {
 
 namespace {
 
-// Sets the ranks of the BTF as given, or those of a built-in material. Returns false where the threshold
+// Sets the given ranks of the BTF, or the ranks of a built-in material. Returns false if the threshold
 // decides.
 bool set_known_ranks(const CompressionOptions& options, const RawMaterial& raw, CompressionSettings& s) {
   if (options.ranks.empty()) return set_builtin_ranks(raw, s);

@@ -20,8 +20,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Texels of a map that is measured under, without its suns, which hosts draw as lights with shadows of their
-// own: what is left is smooth enough for the rays of a reflection.
+// Columns of the maps for measuring. Their suns are removed, because hosts draw suns as lights with their own
+// shadows. The rest is smooth enough for the rays of a reflection.
 constexpr std::uint32_t map_columns = 64;
 
 struct Options {
@@ -35,7 +35,7 @@ struct Options {
   float image_roughness = 0.3f;
 };
 
-// Under the first map, of poses that are evenly picked.
+// Draws evenly picked poses under the first map.
 void draw(const Options& options, const measure::BakedCharacter& baked, const std::vector<bake::Pose>& poses,
           const measure::GlossyMap& map) {
   measure::GlossyPictureSettings settings;

@@ -29,7 +29,7 @@ struct Options {
   CommonOptions common;
   std::filesystem::path raw, material, unseen, images;
   bool jumps = false, mipmaps = false, grazing = false;
-  nook::material::ModeForm form;  // of what is drawn
+  nook::material::ModeForm form;  // form of what is drawn
 };
 
 const std::map<std::string, nook::material::BlockForm> block_forms = {
@@ -37,7 +37,7 @@ const std::map<std::string, nook::material::BlockForm> block_forms = {
     {"rgtc", nook::material::BlockForm::rgtc},
     {"eac", nook::material::BlockForm::eac}};
 
-// The pictures of --images: one of each material, and one of all side by side.
+// Draws the pictures of --images: one of each material, and one of all side by side.
 class Pictures {
  public:
   Pictures(const Options& o, const RawMaterial& raw) : o_(o), raw_(raw) {}

@@ -1,4 +1,4 @@
-// nook evaluate nnao: recorded frames of the screen-space pass drawn anew, on OpenGL without a display.
+// nook evaluate nnao: draws recorded frames of the screen-space pass again, on OpenGL without a display.
 #include "bakers/tool/evaluate_nnao.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using namespace measure;
 using Json = nlohmann::ordered_json;
 using nook::nnao::Recording;
 
-// The file's name without .nook; with a number where an earlier frame has it already.
+// Returns the file's name without .nook, with a number if an earlier frame has the same name.
 std::string frame_name(const std::filesystem::path& file, const std::vector<std::string>& taken) {
   const std::string stem = as_file_name(file.stem().string());
   std::string name = stem;

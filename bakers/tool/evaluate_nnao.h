@@ -1,4 +1,4 @@
-// The replay of recorded frames, which `nook evaluate nnao` runs, and nook-lab with its own methods beside.
+// Replays recorded frames. `nook evaluate nnao` runs this, and nook-lab adds its own methods.
 #pragma once
 
 #include <filesystem>
@@ -13,23 +13,23 @@
 
 namespace nook::tool {
 
-// The embedded network, and that of --network.
+// The embedded network, and the network of --network.
 struct Networks {
   nook::nnao::Network embedded;
   std::vector<std::byte> file;  // empty: none
   nook::nnao::Network other;
 };
 
-// file: that of --network; empty: none. Throws ToolError that names it.
+// file: from --network; empty: none. Throws ToolError that names it.
 Networks read_networks(const std::filesystem::path& file);
 
-// OpenGL 3.3 without a display.
+// Returns an OpenGL 3.3 context without a display.
 std::unique_ptr<platform::Context> make_context();
 
 struct FrameWords {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> methods;  // NAME or NAME:TAPS; empty: the library's rows and the oracle
-  std::vector<std::byte> network;    // a file of `nook train nnao`, measured as well; empty: none
+  std::vector<std::byte> network;    // a file of `nook train nnao` to measure as well; empty: none
   std::filesystem::path images;      // empty: no pictures
   bool quiet = false;
 };

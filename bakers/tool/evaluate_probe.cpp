@@ -1,5 +1,5 @@
-// nook evaluate probe: fits of a probe, and baked ones, against the maps that they stand for; baked grids
-// against path tracing.
+// nook evaluate probe: compares fits of a probe, and baked probes, with their maps, and baked grids with path
+// tracing.
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -25,18 +25,18 @@ using namespace bake::probe;
 
 struct EvaluateGridOptions {
   std::filesystem::path scene, light;
-  std::uint32_t points = 1024;  // of each kind
-  std::uint32_t paths = 2048;   // a point
+  std::uint32_t points = 1024;  // per kind
+  std::uint32_t paths = 2048;   // per point
   std::uint32_t max_bounces = ~0u;
   bool no_textures = false;
   bake::ImportOptions reading;
-  std::string direct;  // empty: as each grid was baked
+  std::string direct;  // empty: as in each grid's bake
 };
 
 struct Options {
   CommonOptions common;
   EvaluateGridOptions grid;
-  std::vector<std::filesystem::path> files;  // maps, each followed by the probes that were baked from it
+  std::vector<std::filesystem::path> files;  // maps, each followed by the probes baked from it
   std::uint32_t lobes = 12;
   ComparisonSettings comparison;
   std::filesystem::path images;

@@ -41,7 +41,7 @@ void check_mesh(const Options& o, const bake::SurfaceMesh& mesh, const transfer:
                                         o.mesh.string() + "; bake the transfer again");
 }
 
-// The part of light transport that the truth follows: that of the file, with the material that is worn.
+// The light transport that the truth follows. It is the same as in the file, with the material that is worn.
 struct TruthOf {
   TruthOf(const Options& o, const transfer::Transfer& baked, const material::MaterialTables& tables) {
     settings.bounces = o.truth_bounces.value_or(baked.bounces);

@@ -31,8 +31,8 @@ struct Options {
   std::filesystem::path images;
   std::size_t image_count = 3;
   bool composite = false;
-  std::vector<std::filesystem::path> scenes;  // beside the built-in room
-  std::vector<float> scene_metres;            // of a unit of each
+  std::vector<std::filesystem::path> scenes;  // in addition to the built-in room
+  std::vector<float> scene_metres;            // unit of each
   measure::CompositeStudy rooms;
   std::vector<std::filesystem::path> lights;
 };

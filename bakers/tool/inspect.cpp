@@ -1,4 +1,4 @@
-// nook inspect: what is inside a .nook file, and what of a glTF file a bake would take.
+// nook inspect: shows what is inside a .nook file, and what a bake would take from a glTF file.
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -36,7 +36,7 @@ bool is_gltf(const std::vector<std::byte>& bytes) {
   return i < bytes.size() && text(i) == '{';
 }
 
-// The meshes, skins and clips of a file, and which primitive of a bake is which node.
+// Returns the meshes, skins and clips of a file, and which primitive of a bake is which node.
 std::vector<Table> tables_of_gltf(const Options& options) {
   const bake::GltfContents contents =
       naming_file(options.input, [&] { return bake::list_gltf(options.input, options.reading); });

@@ -45,7 +45,7 @@ void add_commands(CLI::App& tool) {
   nook::tool::add_report(nook::tool::Command(tool));
 }
 
-// Comparisons with other methods, by the command of `nook` that is next to them.
+// Names comparisons with other methods by the nearest command of `nook`.
 nook::tool::ElsewhereWords lab_words() {
   nook::tool::ElsewhereWords lab{"nook-lab", "(built with -DNOOK_LAB=ON)", {}};
   lab.words["evaluate"] = {"grid"};

@@ -20,17 +20,17 @@ class Command;
 
 void add_evaluate_character(Command evaluate, std::span<const measure::CharacterPeer> peers);
 
-// `evaluate material` has read and measured this when other methods take their turn.
+// What `evaluate material` has read and measured before other methods run.
 struct MaterialEvaluation {
   const bake::material::RawMaterial& raw;
   measure::MaterialFile file;
   const bake::material::RawMaterial* unseen;  // null: none
   bool jumps;
   std::uint64_t seed;
-  bake::material::CompressionSettings settings;  // of the file
+  bake::material::CompressionSettings settings;  // settings of the file
   std::filesystem::path images;                  // empty: none
   measure::MethodProgress progress;
-  // Draws a material among those of --images.
+  // Draws a material among the pictures of --images.
   std::function<void(const std::string& name, const nook::material::Material& material,
                      const bake::material::MethodRow& row)>
       draw;
@@ -40,9 +40,9 @@ class MaterialPeers {
  public:
   virtual ~MaterialPeers() = default;
   virtual void add_options(Command command) = 0;
-  // Throws Failure for a file that the methods cannot be fitted to, before anything is measured.
+  // Throws Failure before anything is measured, for a file that the methods cannot be fitted to.
   virtual void check(const nook::material::Material& material) const = 0;
-  // Adds rows, and keys of its own, to the report.
+  // Adds its rows and keys to the report.
   virtual void measure(const MaterialEvaluation& evaluation, nlohmann::ordered_json& report) const = 0;
 };
 
@@ -52,10 +52,10 @@ class ProbePeers {
  public:
   virtual ~ProbePeers() = default;
   virtual void add_options(Command command) = 0;
-  // The ways to fit a probe that take the place of Nook's own.
+  // Returns ways to fit a probe that replace Nook's own.
   virtual std::vector<bake::probe::ProbeMethod> methods(std::uint32_t lobes,
                                                         const bake::probe::Region& region) const = 0;
-  // Rows of a map in place of those of the methods; null where the options request none.
+  // Returns rows of a map that replace the rows of the methods; null if the options request none.
   virtual nlohmann::ordered_json rows_of_map(const bake::Environment& map, const std::string& name,
                                              std::uint32_t lobes, std::uint64_t seed,
                                              platform::ProgressBar& bar) const = 0;

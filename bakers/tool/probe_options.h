@@ -1,4 +1,4 @@
-// The options and the arguments of commands on probes: basis, fit and packing, and the places of a grid.
+// Options and arguments of commands on probes: basis, fit and packing, and the places of a grid.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ class Command;
 
 struct ProbeOptions {
   std::uint32_t lobes = 12;
-  float sharpness = 0;  // 0: by the number of lobes
+  float sharpness = 0;  // 0: from the number of lobes
   bool ambient = false, hemisphere = false;
   std::string basis = "gaussians", method = "least-squares", constraint = "bands", packing = "float";
   std::uint32_t order = 2;

@@ -1,4 +1,4 @@
-// nook report: a page for artists on what a .nook file holds, and on how right it is.
+// nook report: makes a page for artists about the content of a .nook file, and about its errors.
 #include <algorithm>
 #include <cctype>
 #include <memory>
@@ -26,7 +26,7 @@
 namespace nook::tool {
 namespace {
 
-// The files that a page is made from beside its .nook file, by what they are.
+// The files for a page beside its .nook file, by kind.
 struct ReportSources {
   std::filesystem::path shape;               // .glb or .gltf
   std::filesystem::path map;                 // .hdr or .exr
@@ -51,7 +51,7 @@ void take_once(std::filesystem::path& place, const std::filesystem::path& file, 
   place = file;
 }
 
-// By the ends of their names. Throws ToolError (bad arguments) for a name that is none of these, or a second
+// Sorts files by the ends of their names. Throws ToolError (bad arguments) for an unknown ending, or a second
 // shape or map.
 ReportSources sort_sources(const std::vector<std::filesystem::path>& files) {
   ReportSources sources;
@@ -70,8 +70,8 @@ ReportSources sort_sources(const std::vector<std::filesystem::path>& files) {
   return sources;
 }
 
-// Throws ToolError (bad arguments) where the sources have what a page of `kind` does not take. need: in
-// words.
+// Throws ToolError (bad arguments) if a page of `kind` does not take one of the sources. need: what it takes,
+// in words.
 void require_sources(const ReportSources& sources, const TakenSources& taken, const std::string& kind,
                      const std::string& need) {
   const std::filesystem::path* extra = nullptr;

@@ -1,4 +1,4 @@
-// nook train nnao: makes the training set, trains a screen-space network and tells its validation error.
+// nook train nnao: makes the training set, trains a screen-space network and prints its validation error.
 #include <tbb/task_arena.h>
 
 #include <cstdio>
@@ -32,7 +32,7 @@ struct Options {
   DatasetSettings data;
   TrainingSettings training;
 
-  // Empty: the output is a device or a pipe, and no checkpoint is kept.
+  // Empty if the output is a device or a pipe, because no checkpoint is kept then.
   std::string resume;
 };
 

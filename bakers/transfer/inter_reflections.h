@@ -1,4 +1,4 @@
-// Light that a shape reflects onto itself, as irradiance at vertices for each band of distant light.
+// Computes light that a shape reflects onto itself, as irradiance at vertices for each band of distant light.
 #pragma once
 
 #include <span>
@@ -17,7 +17,7 @@ struct Reflection {
   const SurfaceMesh& mesh;
   const RayScene& scene;
   float origin_offset = 0;                 // metres along the normal
-  const nook::transfer::CubeCells& cells;  // the directions that are gathered
+  const nook::transfer::CubeCells& cells;  // directions to gather from
   const SurfaceHoles* holes = nullptr;     // null: none
 };
 
@@ -25,9 +25,8 @@ struct Reflection {
 IrradianceBands direct_irradiance(Vec3 normal, const nook::transfer::CubeCells& cells,
                                   std::span<const VisibleDirection> visible);
 
-// Returns the irradiance of a vertex that comes from surfaces which receive `before` at their vertices and
-// reflect all of it evenly. Only the side of a surface that its normals show reflects. The caller has set
-// FlushDenormals.
+// Returns the irradiance that a vertex receives from surfaces. They receive `before` at their vertices and
+// reflect all of it evenly, only on the side of their normals. The caller must set FlushDenormals.
 IrradianceBands reflected_irradiance(const Reflection& reflection, std::size_t vertex,
                                      std::span<const IrradianceBands> before);
 

@@ -47,12 +47,12 @@ using nook::transfer::Transfer;
 using tensor::Matrix;
 
 constexpr std::size_t most_samples = 768;    // vertices that choose the common combinations of lobes
-constexpr std::size_t seed_vertices = 4096;  // that choose the first clusters
+constexpr std::size_t seed_vertices = 4096;  // vertices that choose the first clusters
 constexpr Index seed_axes = 24;
 
-// Lobes overlap, so that least squares gives neighbours amplitudes of opposite signs, and an error of a
-// matrix counts only as much as some light shows it. This is the expected product of light and light, S = E[l
-// l^T], as S = C C^T: then |C^T T| is the expected size of T^T l.
+// Lobes overlap, so that least squares gives neighbours amplitudes of opposite signs. An error of a matrix
+// counts only as much as some light shows it. This is the expected product of light and light, S = E[l l^T],
+// as S = C C^T: then |C^T T| is the expected size of T^T l.
 struct LightMetric {
   MatrixXd root, inverse_transpose;  // C and C^-T
 };
@@ -64,7 +64,7 @@ LightMetric light_metric(std::uint32_t lobes) {
   std::vector<Vec3> axes(lobes);
   nook::transfer::lobe_axes(axes);
   constexpr double decay = 2;
-  // The zonal coefficients of a lobe fall like those of a normal distribution.
+  // The zonal coefficients of a lobe fall like a normal distribution.
   const auto bands = Index(std::ceil(3 * std::sqrt(sharpness))) + 2;
   std::vector<double> power;
   for (Index l = 0; l <= bands; ++l) {
@@ -110,12 +110,12 @@ CommonBasis common_basis(const LightMetric& metric, const MatrixXd& sum, std::si
   return out;
 }
 
-// Vertices from one to the next that chooses the first clusters.
+// Returns the step between vertices that choose the first clusters.
 Index seed_step(Index count) {
   return std::max<Index>(count / Index(seed_vertices), 1);
 }
 
-// Counts different rows among those, up to `enough`: there are no more clusters than these.
+// Counts different rows among these vertices, up to `enough`. There cannot be more clusters.
 std::size_t distinct_rows(const Eigen::Map<const Matrix>& rows, std::size_t enough) {
   std::set<float> norms;
   for (Index i = 0; i < rows.rows() && norms.size() < enough; i += seed_step(rows.rows()))
@@ -123,7 +123,7 @@ std::size_t distinct_rows(const Eigen::Map<const Matrix>& rows, std::size_t enou
   return norms.size();
 }
 
-// The first clusters: k-means of the vertices' matrices on their leading axes.
+// Makes the first clusters by k-means of the vertices' matrices on their leading axes.
 std::vector<std::uint32_t> first_clusters(const Eigen::Map<const Matrix>& rows, std::size_t clusters,
                                           std::uint64_t seed) {
   const Index count = rows.rows(), stride = std::max<Index>(count / 1024, 1);
@@ -151,7 +151,7 @@ std::vector<std::uint32_t> first_clusters(const Eigen::Map<const Matrix>& rows, 
     (means.rowwise() - points.row(i)).rowwise().squaredNorm().minCoeff(&nearest);
     out[std::size_t(i)] = std::uint32_t(nearest);
   }
-  // The chosen vertices keep their groups, so that none is empty.
+  // The chosen vertices keep their groups, so that no group is empty.
   for (Index i = 0; i < chosen.rows(); ++i) out[std::size_t(i * step)] = group[std::size_t(i)];
   return out;
 }
@@ -160,8 +160,8 @@ std::uint16_t finite_half(double value) {
   return to_half(float(std::clamp(value, -65504.0, 65504.0)));
 }
 
-// The parts of a fit as half floats. Columns of lobe bases get the largest number 1, which the cores take
-// over, and those get one scale, by which their largest number is 2^12.
+// Packs the parts of a fit as half floats. The largest number in each column of a lobe basis becomes 1, and
+// the cores take over the factor. The cores get one scale, so that their largest number is 2^12.
 PaperTransfer packed(const tensor::ClusteredFit& fit, const MatrixXd& expand, std::uint32_t light_modes) {
   PaperTransfer paper;
   const auto vertex_rank = Index(fit.ranks[0]), lobe_rank = Index(fit.ranks[1]),
@@ -230,7 +230,7 @@ Transfer bake_paper(const SurfaceMesh& mesh, const BakeSettings& settings, const
   transfer.hashes = hashes_of(mesh);
   if (settings.holes) transfer.votf_hash = settings.holes->votf_hash;
 
-  // The common basis from some of the vertices; then all vertices, reduced at once.
+  // Finds the common basis from some of the vertices. Then it reduces all vertices at once.
   const std::size_t stride = (count + most_samples - 1) / most_samples,
                     samples = (count + stride - 1) / stride;
   VertexLoop loop(samples + count * (1 + settings.bounces), progress);

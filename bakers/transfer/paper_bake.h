@@ -1,4 +1,4 @@
-// The bake of radiance transfer in the paper's form. See sdk/src/transfer/paper.h.
+// Bakes radiance transfer in the paper's form. See sdk/src/transfer/paper.h.
 #pragma once
 
 #include "bakers/tensor/tensor.h"
@@ -9,7 +9,8 @@
 
 namespace nook::bake::transfer {
 
-// The raw data of the paper's form: for each vertex the matrix from lobes to the light modes of a material.
+// Traces the raw data of the paper's form: for each vertex the matrix from lobes to the light modes of a
+// material.
 
 // The scene and the material of all vertices. All references must outlive the matrices.
 struct MatrixSource {
@@ -29,16 +30,16 @@ struct MatrixWorkspace {
   tensor::Matrix matrix;  // lobes x 3 light modes
 };
 
-// Sets work.matrix to the integrals of visibility, lobe and light basis at a vertex. The caller has set
+// Sets work.matrix to the integrals of visibility, lobe and light basis at a vertex. The caller must set
 // FlushDenormals.
 void light_matrix(const MatrixSource& source, std::uint32_t lobes, std::size_t vertex, MatrixWorkspace& work);
 
 struct PaperSettings {
-  // 0: one for each 360 vertices, the density of the paper's Table II, up to 256.
+  // With 0, there is one for each 360 vertices, the density of the paper's Table II, up to 256.
   std::uint32_t clusters = 0;
   std::uint32_t lobe_rank = 64, vertex_rank = 12;  // the paper's
-  // All matrices are reduced to this number of combinations of lobes first, which keeps the memory of the fit
-  // at vertices x this x 3 light modes floats, four times.
+  // All matrices are first reduced to this number of combinations of lobes. The fit then takes four times
+  // vertices x this x 3 light modes floats of memory.
   std::uint32_t common_rank = 128;
   std::uint32_t iterations = 12;
   std::uint32_t nearest = 8;  // clusters that a vertex tries
@@ -48,9 +49,9 @@ struct PaperSettings {
 // Throws Failure(INVALID_ARGUMENT) for numbers out of range.
 void check_paper_bake(const SurfaceMesh& mesh, const PaperSettings& paper);
 
-// The bounces and holes of `settings` count as in bake_transfer, and so does the progress, which begins with
-// the matrices of vertices; `fitted` counts clusters over all iterations. Returns the same bits for the same
-// seed on any number of threads. Throws Failure: as check_bake and check_paper_bake, and CANCELLED.
+// The bounces and holes of `settings` count as in bake_transfer. So does the progress, which begins with the
+// matrices of vertices; `fitted` counts clusters over all iterations. Returns the same bits for the same seed
+// on any number of threads. Throws Failure: as check_bake and check_paper_bake, and CANCELLED.
 nook::transfer::Transfer bake_paper(const SurfaceMesh& mesh, const BakeSettings& settings,
                                     const PaperSettings& paper, const nook::material::MaterialTables& tables,
                                     const Progress& progress = {}, const Progress& fitted = {});

@@ -20,13 +20,13 @@ namespace {
 using nook::transfer::CubeCells;
 using nook::transfer::Transfer;
 
-// A lobe with less than this share of itself above a vertex's horizon has the share 0.
+// A lobe counts as 0 if a smaller share of it is above a vertex's horizon.
 constexpr float dark = 1e-4f;
 
 // The memory that one thread reuses for all its vertices.
 struct Workspace {
   std::vector<VisibleDirection> visible;
-  std::vector<float> seen, whole;  // of each lobe
+  std::vector<float> seen, whole;  // per lobe
 };
 
 // The surroundings of the vertices.

@@ -1,5 +1,5 @@
-// The bake of radiance transfer: for each vertex and lobe the cosine-weighted share of the lobe that reaches
-// the vertex. See sdk/src/transfer/transfer.h.
+// Bakes radiance transfer: for each vertex and lobe the cosine-weighted share of the lobe that reaches the
+// vertex. See sdk/src/transfer/transfer.h.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@ namespace nook::bake::transfer {
 
 struct BakeSettings {
   std::uint32_t lobes = 642;
-  // Rays go through the centres of the cells of a cube of side x side cells a face. The paper has 32, which
-  // is 6,144 rays of a vertex, half of them below its horizon.
+  // Rays go through the centres of the cells of a cube with side x side cells per face. The paper has 32,
+  // which gives a vertex 6,144 rays, half of them below its horizon.
   std::uint32_t side = 32;
-  // Reflections of the shape onto itself, up to max_bounces, gathered through the same cells.
+  // Counts reflections of the shape onto itself, up to max_bounces, gathered through the same cells.
   std::uint32_t bounces = 0;
   // The holes of the material that the shape wears, with `tiles` tiles in one unit of texture coordinates;
   // null: surfaces have none.
@@ -26,19 +26,18 @@ struct BakeSettings {
 };
 inline constexpr std::uint32_t max_ray_side = 256;
 
-// Throws Failure(INVALID_ARGUMENT) for settings out of range, a mesh without vertices, arrays of different
-// lengths, numbers that are not finite, normals and tangents that are not of unit length to 1e-3, and indices
-// out of range.
+// Throws Failure(INVALID_ARGUMENT) for settings or indices out of range, a mesh without vertices, arrays of
+// different lengths, and numbers that are not finite. Normals and tangents must have unit length to 1e-3.
 void check_bake(const SurfaceMesh& mesh, const BakeSettings& settings);
 
 // Progress counts vertices, once for the direct light and once for each reflection. Ray origins lie 1e-4 of
 // the bounding box's diagonal above their vertex, along its normal. Threads work on blocks of vertices, and
-// the result does not depend on their number. The result passed check_transfer; its recipe is empty. Throws
-// Failure: as check_bake, and CANCELLED if progress returns false.
+// the result does not depend on their number. The result has passed check_transfer, and its recipe is empty.
+// Throws Failure: like check_bake, and CANCELLED if progress returns false.
 nook::transfer::Transfer bake_transfer(const SurfaceMesh& mesh, const BakeSettings& settings,
                                        const Progress& progress = {});
 
-// Returns the frame of a vertex as the file keeps it.
+// Returns the frame of a vertex as stored in the file.
 nook::transfer::Frame frame_of(const SurfaceMesh& mesh, std::size_t vertex);
 
 // Returns the hashes of the arrays of a mesh.

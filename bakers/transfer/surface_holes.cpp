@@ -27,7 +27,7 @@ std::size_t level_offset(const HoleTable& table, std::uint32_t level) {
   return offset;
 }
 
-// Two neighbouring texels of a tile that repeats.
+// Two neighbouring texels of a repeating tile.
 struct Between {
   std::uint32_t low, high;
   float t;
@@ -50,11 +50,11 @@ float bilinear(const Number* image, std::uint32_t width, std::uint32_t height, f
   return low + (high - low) * y.t;
 }
 
-// The mean visibility of each texel. Values are linear between texels and the mapping is not, so that a texel
-// needs points of its own between its neighbours.
+// Sets the mean visibility of each texel. Values are linear between texels but the mapping is not, so that a
+// texel needs further points between its neighbours.
 void fill_finest(const MaterialTables& tables, Vec3 view, std::vector<float>& values,
                  std::vector<float>& cover) {
-  constexpr std::uint32_t points = 4;  // along a side
+  constexpr std::uint32_t points = 4;  // per side
   const std::uint32_t width = tables.votf.width, height = tables.votf.height;
   const auto at = [](std::uint32_t i, std::uint32_t size) { return (float(i) + 0.5f) / float(size); };
   nook::material::Sample sample;
@@ -129,7 +129,7 @@ Corners corners_of(const SurfaceMesh& mesh, const RayHit& hit) {
   return {mesh.triangle[hit.triangle], {1 - hit.u - hit.v, hit.u, hit.v}};
 }
 
-// The texture coordinates' area over that of the triangle in space, per square metre.
+// Returns the triangle's area in texture coordinates over its area in space, per square metre.
 float density(const SurfaceMesh& mesh, const std::array<std::uint32_t, 3>& vertex) {
   const Vec3 a = mesh.position[vertex[1]] - mesh.position[vertex[0]],
              b = mesh.position[vertex[2]] - mesh.position[vertex[0]];

@@ -14,15 +14,15 @@
 
 namespace nook::bake::transfer {
 
-// The share of a material's meso-structure that a straight line meets, tabulated from its VOTF, so that
-// millions of rays can ask for it at any size of footprint.
+// The share of a material's meso-structure that a straight line meets, tabulated from its VOTF. Millions of
+// rays can look it up at any size of footprint.
 
 struct HoleTable {
-  std::uint64_t votf_hash = 0;  // of the material
+  std::uint64_t votf_hash = 0;  // hash of the material's VOTF
   std::uint32_t side = 0;       // cells of the parabolic map of views
   std::uint32_t width = 0, height = 0, levels = 0;
-  // For each cell one level after another, rows of texels: 255 where a line meets the structure, 0 in a hole.
-  // Levels are means of the finest, which no level of signed distances would be.
+  // For each cell, one level after another, rows of texels: 255 where a line meets the structure, 0 in a
+  // hole. Levels are means of the finest one. Levels of signed distances would not be.
   std::vector<std::uint8_t> cover;
 
   std::size_t cell_bytes() const;
@@ -34,7 +34,7 @@ struct HoleTable {
 // Throws Failure(INVALID_ARGUMENT) if the material has no VOTF.
 HoleTable make_hole_table(const nook::material::MaterialTables& tables);
 
-// Returns the frame of a point of a triangle from those of its vertices.
+// Returns the frame of a point of a triangle, interpolated from its vertices.
 nook::transfer::Frame frame_at(const SurfaceMesh& mesh, const RayHit& hit);
 
 class SurfaceHoles {
@@ -60,12 +60,12 @@ class SurfaceHoles {
 std::optional<SurfaceHoles> surface_holes(const SurfaceMesh& mesh, const HoleTable* table, float tiles,
                                           std::size_t rays);
 
-// Calls body(hit, share) for the surfaces along a ray from the nearest on, with the share of the ray that
-// ends there, and returns the share that reaches the sky. holes may be null: the first surface takes all.
+// Calls body(hit, share) for the surfaces along a ray, the nearest first, with the share of the ray that ends
+// there. Returns the share that reaches the sky. holes may be null: then the first surface takes all.
 template <class Body>
 float walk_surfaces(const RayScene& scene, const SurfaceHoles* holes, Vec3 origin, Vec3 direction,
                     Body&& body) {
-  // The rest of a ray below half a step of a byte does not count.
+  // A remainder of the ray below half a step of a byte does not count.
   constexpr float nothing = 1 / 512.0f;
   float rest = 1, beyond = 0;
   while (rest > nothing) {

@@ -14,11 +14,11 @@
 
 namespace nook::bake::transfer {
 
-// Returns false to stop. Worker threads call it, one call at a time.
+// Return false to stop. Worker threads call it, one call at a time.
 using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
-// Runs body(vertex, workspace) on all threads for vertices from 0 on, in blocks that start at multiples of
-// `block`, and counts them for the progress; a block has a workspace that its vertices reuse.
+// Runs body(vertex, workspace) on all threads for vertices from 0 on, and counts them for the progress.
+// Blocks start at multiples of `block`. The vertices of a block reuse its workspace.
 class VertexLoop {
  public:
   static constexpr std::size_t block = 64;

@@ -46,7 +46,7 @@ void visible_directions(const RayScene& scene, Vec3 origin, Vec3 normal, std::sp
 
 namespace {
 
-// Lobes count down to exp(-reach) of their height, 1e-4: a share has 8 bits.
+// Lobes are cut off at exp(-reach) of their height, 1e-4, because a share has 8 bits.
 constexpr float reach = 9;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Numbers with their derivatives by the eight parameters of a capsule: forward differentiation of the same
-// formulas that the runtime evaluates.
+// Numbers with their derivatives with respect to the eight parameters of a capsule. Forward differentiation
+// uses the same formulas as the runtime.
 #pragma once
 
 #include <array>
@@ -61,7 +61,7 @@ inline Dual min(const Dual& a, const Dual& b) {
 inline Dual max(const Dual& a, const Dual& b) {
   return a.value > b.value ? a : b;
 }
-// The slope is infinite at 0; a finite one keeps products with 0 at 0.
+// The slope is infinite at 0. A finite slope keeps products with 0 at 0.
 inline Dual sqrt(const Dual& a) {
   const float r = std::sqrt(a.value);
   return scaled(r, 0.5f / std::fmax(r, 1e-6f), a);

@@ -20,7 +20,7 @@ namespace {
 
 // Parameters of a caster: two ends, then the logarithms of the radii and of their scale in AO.
 constexpr std::size_t width = Dual::count + 1;
-// The number of sums that are added in their order, so that the result does not depend on the threads.
+// Number of sums, which are added in order, so that the result does not depend on the threads.
 constexpr std::size_t chunks = 16;
 constexpr std::size_t block_rows = 128;  // points whose derivatives are multiplied at once
 
@@ -70,7 +70,8 @@ struct Slopes {
   std::array<float, width> slope{};
 };
 
-// The coverage of one point with its derivatives by the caster's parameters in rest space.
+// Returns the coverage of one point with its derivatives with respect to the caster's parameters in rest
+// space.
 Slopes coverage_with_slopes(const Capsule& c, const Mat3x4& bone, const TrainingPoint& point) {
   const Vec3 a = c.a - point.position, b = c.b - point.position;
   const float values[Dual::count] = {a.x, a.y, a.z, b.x, b.y, b.z, c.radius_a, c.radius_b};
@@ -199,8 +200,8 @@ class Objective {
   const TrainingPoints& set_;
 };
 
-// Overlapping capsules of full radius darken too much: one scale of all radii, and one of those in AO, are
-// where the fit starts.
+// Overlapping capsules of full radius darken too much. So the fit starts with one scale for all radii, and
+// another for the radii in AO.
 void scale_radii(std::vector<WorldCaster>& casters, const Objective& objective) {
   const auto scaled = [&](float radius, float ao) {
     std::vector<WorldCaster> out = casters;
@@ -211,7 +212,8 @@ void scale_radii(std::vector<WorldCaster>& casters, const Objective& objective) 
     }
     return out;
   };
-  // The radii in AO are what the errors of AO depend on: with them held the two scales are found one by one.
+  // The errors of AO depend only on the radii in AO. With these fixed, the two scales can be found one by
+  // one.
   const auto best_of = [&](auto&& candidate) {
     std::vector<WorldCaster> best;
     double least = INFINITY;
@@ -230,7 +232,7 @@ void scale_radii(std::vector<WorldCaster>& casters, const Objective& objective) 
   casters = best_of([&](float radius) { return scaled(radius, in_ao / radius); });
 }
 
-// The inverse variances of the pull towards the start.
+// Returns the inverse variances of the pull towards the start.
 Eigen::VectorXd pull_of(std::size_t casters, const WorldCasterSettings& s) {
   Eigen::VectorXd pull(Eigen::Index(casters * width));
   for (std::size_t i = 0; i < casters * width; ++i) {
@@ -283,7 +285,7 @@ std::vector<WorldCaster> fit_world_casters(const SkinnedMesh& mesh, std::span<co
       const Eigen::VectorXd change = damped.selfadjointView<Eigen::Lower>().ldlt().solve(sums.right);
       set_parameters(casters, best + change);
       const double error = objective.error(casters) + pulled(best + change);
-      // The gain that the linearisation promises for this step.
+      // The gain that the linearisation predicts for this step.
       const double promised =
           2 * change.dot(sums.right) - change.dot(sums.gram.selfadjointView<Eigen::Lower>() * change);
       const double kept = (before - error) / std::max(promised, 1e-12);

@@ -1,4 +1,4 @@
-// World casters of a character: capsules that are fitted against ray tracing to what a body darkens in many
+// Fits the world casters of a character: capsules that match ray tracing of what a body darkens, in many
 // poses.
 #pragma once
 
@@ -14,14 +14,15 @@ namespace nook::bake {
 
 struct WorldCasterSettings {
   std::size_t casters = 40;  // 1 to 64
-  std::size_t poses = 96;    // at most this many of those given, evenly chosen
-  // The numbers in each pose.
+  std::size_t poses = 96;    // at most this many poses, evenly chosen
+  // Points in each pose.
   std::size_t floor_points = 256, wall_points = 64, contact_points = 128, neighbour_points = 48,
               cone_points = 96;
-  std::uint32_t rays = 256;  // a point; a cone takes an eighth
-  std::size_t steps = 16;    // of Gauss-Newton, at most; 0: the initial capsules
-  // The pull towards the initial capsules, in relative error of the fit for a change by a standard deviation:
-  // deviation_m of every coordinate, deviation_radius of the logarithm of every radius and scale.
+  std::uint32_t rays = 256;  // per point; a cone takes an eighth
+  std::size_t steps = 16;    // maximum number of Gauss-Newton steps; 0: the initial capsules
+  // The pull towards the initial capsules is the relative error that a change by one standard deviation
+  // costs. The deviation is deviation_m for every coordinate, and deviation_radius for the logarithm of every
+  // radius and scale.
   double pull = 0.003;
   double deviation_m = 0.03, deviation_radius = 0.3;
   std::uint64_t seed = 1;
@@ -29,16 +30,17 @@ struct WorldCasterSettings {
 
 struct WorldCasterReport {
   double seconds = 0;
-  // Mean squared error over that of no darkening, a sum over the five kinds of points, before and after.
+  // Mean squared error over the error without darkening, as a sum over the five kinds of points, before and
+  // after.
   double error_initial = 0, error_fitted = 0;
 };
 
-// Returns false to stop.
+// Return false to stop.
 using CasterProgress = std::function<bool(std::size_t done, std::size_t total)>;
 
-// The casters minimise a weighted sum over floor, wall, contact ring and neighbour of the mean squared error
-// of AO over that of no darkening, and the same of the shadows of small cones of light on the floor, by
-// Levenberg's and Marquardt's method from initial_casters. The same seed gives the same casters on any number
+// Fits casters by Levenberg's and Marquardt's method, starting from initial_casters. Minimises a weighted sum
+// over floor, wall, contact ring, neighbour, and shadows of small cones of light on the floor. Each term is
+// the mean squared error over the error without darkening. The same seed gives the same casters on any number
 // of threads. Throws Failure (CANCELLED).
 std::vector<WorldCaster> fit_world_casters(const SkinnedMesh& mesh, std::span<const Pose> poses,
                                            const WorldCasterSettings& settings,

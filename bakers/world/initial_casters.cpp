@@ -98,7 +98,7 @@ Shape shape_of(const Part& part, std::span<const Vec3> position, std::span<const
   return shape;
 }
 
-// A caster thinner than this casts nothing that could be seen.
+// A thinner caster casts nothing visible.
 constexpr float least_radius_m = 1e-3f;
 
 WorldCaster capsule_of(const Part& part, std::span<const Vec3> position, std::span<const float> area) {
@@ -142,10 +142,10 @@ void drop_empty(std::vector<Part>& parts) {
   std::erase_if(parts, [](const Part& part) { return part.vertex.empty(); });
 }
 
-// Bones of less than this share of the body's area, such as those of fingers, join their parents.
+// Bones with less than this share of the body's area, such as fingers, join their parents.
 constexpr double small_share = 0.004;
 
-// The nearest ancestor that has a part; the part with the most area where there is none.
+// Returns the nearest ancestor with a part; without one, the part with the most area.
 std::size_t host_of(const std::vector<Part>& parts, const SkinnedMesh& mesh, std::size_t small) {
   for (std::int32_t b = mesh.bones[parts[small].bone].parent; b >= 0; b = mesh.bones[std::size_t(b)].parent)
     for (std::size_t i = 0; i < parts.size(); ++i)
@@ -170,8 +170,7 @@ void join_small(std::vector<Part>& parts, const SkinnedMesh& mesh, std::size_t c
   }
 }
 
-// Cuts at the mean, across the axis with the largest spread. Returns false where all vertices lie on one
-// side.
+// Cuts at the mean, across the axis with the largest spread. Returns false if all vertices lie on one side.
 bool cut(std::vector<Part>& parts, std::size_t which, std::span<const Vec3> position,
          std::span<const float> area) {
   const Shape shape = shape_of(parts[which], position, area);
@@ -189,7 +188,7 @@ bool cut(std::vector<Part>& parts, std::size_t which, std::span<const Vec3> posi
   return true;
 }
 
-// The misfit of one capsule to a part: its breadth beyond its thickness, times its area.
+// Returns the misfit of one capsule to a part: the part's breadth less its thickness, times its area.
 double misfit(const Part& part, std::span<const Vec3> position, std::span<const float> area) {
   const Shape shape = shape_of(part, position, area);
   return part.area * double(shape.spread[1] - 0.7f * shape.spread[0]) +

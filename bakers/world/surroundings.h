@@ -15,7 +15,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 struct SurfacePoints {
   std::vector<Vec3> position, normal;
-  std::vector<float> weight;  // in proportion to the area that a point stands for
+  std::vector<float> weight;  // proportional to the area that a point stands for
 
   std::size_t size() const { return position.size(); }
   void add(Vec3 at, Vec3 facing, float area) {
@@ -31,14 +31,14 @@ struct PosedBody {
   std::span<const Triangle> triangle;
 };
 
-inline constexpr float grid_step_m = 0.02f;     // of floor and wall
+inline constexpr float grid_step_m = 0.02f;     // for floor and wall
 inline constexpr float floor_size_m = 6;        // a square below the middle of the body
 inline constexpr float contact_m = 0.15f;       // floor points this near to the body are in the contact ring
-inline constexpr float wall_distance_m = 0.3f;  // from the nearest vertex
+inline constexpr float wall_distance_m = 0.3f;  // distance from the nearest vertex
 inline constexpr float wall_width_m = 3, wall_height_m = 2.5f;
 inline constexpr float neighbour_gap_m = 0.3f;  // between the two bodies, along the bearing
 
-// The height of the lowest vertex, where the floor is.
+// Returns the height of the lowest vertex, where the floor is.
 float floor_height(std::span<const Vec3> body);
 
 // `count` grid points of the floor, three quarters of them within 1.2 m of its middle.

@@ -40,7 +40,7 @@ Vec3 random_light(Random& random) {
   return {std::cos(up) * std::sin(bearing), std::sin(up), std::cos(up) * std::cos(bearing)};
 }
 
-// The pose turned about the vertical axis, then laid down on its side.
+// Returns the pose turned about the vertical axis, then laid on its side.
 Pose lying(const Pose& pose, float yaw_radians) {
   const float c = std::cos(yaw_radians), s = std::sin(yaw_radians);
   // A turn about y, then x to -y and y to x.
@@ -50,10 +50,10 @@ Pose lying(const Pose& pose, float yaw_radians) {
   return out;
 }
 
-// Bodies fall, sleep and climb: of every four poses one lies, so that the floor comes near every part.
+// Bodies fall, sleep and climb. Every fourth pose lies, so that the floor comes near every part.
 constexpr std::size_t lying_every = 4;
 
-// Each point of the floor has a light of its own.
+// Each point of the floor has its own light.
 void add_cones(TrainingPoints& set, const RayScene& scene, const SurfacePoints& floor, std::uint32_t pose,
                std::uint32_t rays, float offset, Random& random, double& none) {
   const FlushDenormals flush;
@@ -113,7 +113,7 @@ TrainingPoints trace_training_points(const SkinnedMesh& mesh, std::span<const Po
     add_cones(set, scene, floor_points(body.position, settings.cone_points, random.bits()), std::uint32_t(p),
               std::max(settings.rays / 8, 1u), offset, random, none[std::size_t(PointKind::cone)]);
   }
-  // The floor near a body is what is seen of it most, and the hardest.
+  // The floor near a body is the most visible part and the hardest.
   constexpr double share[point_kinds] = {2, 1, 1.5, 0.7, 1};
   for (TrainingPoint& point : set.point)
     point.weight = float(share[std::size_t(point.kind)] * double(point.weight) /

@@ -39,7 +39,7 @@ float component(const unsigned char* at, int type, bool normalized) {
   }
 }
 
-// The elements of an accessor one after another, each of `width` numbers.
+// Reads the elements of an accessor one after another. Each has `width` numbers.
 std::vector<float> read(const tinygltf::Model& model, int index, std::size_t width) {
   const tinygltf::Accessor& accessor = model.accessors.at(std::size_t(index));
   if (accessor.sparse.isSparse || accessor.bufferView < 0)
@@ -114,7 +114,7 @@ void read_skins(const tinygltf::Model& model, CharacterFile& out) {
   }
 }
 
-// Clips move these nodes, and joints and what hangs on either move with them. Other parts are no part of the
+// Returns the nodes that clips move, the joints, and what hangs on either. Other parts do not belong to the
 // character.
 std::vector<bool> moving_nodes(const CharacterFile& file) {
   std::vector<bool> moves(file.nodes.size());

@@ -1,6 +1,6 @@
-// A rigged glTF file as a viewer needs it: one mesh, skins, nodes and clips. Vertices are in the order of the
-// file, which is the order of Nook's AO: the primitives one after another in the order of the nodes. A mesh
-// with EXT_mesh_gpu_instancing is there once for each instance. Meshes that a bake leaves out are not there:
+// A rigged glTF file for a viewer: one mesh, skins, nodes and clips. Vertices are in the order of the file,
+// and primitives follow the order of the nodes, which is also the order of Nook's AO. A mesh with
+// EXT_mesh_gpu_instancing is there once for each instance. It leaves out meshes that a bake leaves out:
 // hidden ones, lower levels of detail, and those that the caller names.
 #pragma once
 
@@ -26,13 +26,13 @@ struct Node {
 struct Skin {
   std::vector<int> joints;  // nodes
   std::vector<glm::mat4> inverse_bind;
-  std::uint32_t first_matrix = 0;  // in Pose::matrices
+  std::uint32_t first_matrix = 0;  // index in Pose::matrices
   bool has_mesh = false;           // false: no part of the character uses it
 };
 
 struct Vertex {
   glm::vec3 position, normal, albedo;
-  std::uint16_t matrices[4];  // of Pose::matrices
+  std::uint16_t matrices[4];  // indices in Pose::matrices
   glm::vec4 weights;          // their sum is 1
 };
 
@@ -51,8 +51,8 @@ struct Clip {
   std::vector<Channel> channels;
 };
 
-// The matrices of a frame: those of each skin, global(joint) * inverse bind, and after them the global matrix
-// of each node, with which parts without a skin are drawn.
+// The matrices of a frame: first global(joint) * inverse bind for each skin, then the global matrix of each
+// node. Parts without a skin are drawn with the node's matrix.
 struct Pose {
   std::vector<glm::mat4> matrices;
 };
@@ -66,7 +66,7 @@ struct CharacterFile {
   std::vector<std::uint32_t> triangles;
   std::vector<Clip> clips;
 
-  // Reads a .glb or .gltf of triangle lists, without the nodes of some names. Throws std::runtime_error,
+  // Reads a .glb or .gltf of triangle lists, without the nodes with these names. Throws std::runtime_error,
   // whose text names the file.
   explicit CharacterFile(const std::filesystem::path& path, const std::vector<std::string>& without = {});
 
@@ -75,7 +75,7 @@ struct CharacterFile {
   const Clip* find_clip(const std::string& name) const;
   // Without a clip the pose is the file's own.
   Pose pose(const Clip* clip, float time_s) const;
-  // Where the vertices are in a pose.
+  // Returns the positions of the vertices in a pose.
   std::vector<glm::vec3> skinned(const Pose& pose) const;
 };
 

@@ -28,7 +28,7 @@ struct Options {
 // Prints usage and returns false when the program must end with exit_code.
 bool parse_options(const char* name, int argc, char** argv, Options& options, int& exit_code);
 
-// The character in a pose of its clip, and where a camera sees all of it.
+// The character in a pose of its clip, and a camera that sees all of it.
 struct Scene {
   viewer::CharacterFile file;
   viewer::Pose pose;
@@ -43,7 +43,7 @@ struct Scene {
   }
 };
 
-// Finds functions of the GLX context that is current; the user pointer is not read.
+// Finds functions of the current GLX context. Ignores the user pointer.
 void* gl_proc(void* user, const char* name);
 
 // From start_counting on, OpenGL's errors are counted through KHR_debug, synchronously.

@@ -74,7 +74,7 @@ static nook_result start(Character* c, const void* bytes, size_t size) {
   if (!r) r = nook_scene_link(c->scene, c->left, c->right);
   if (!r) r = nook_scene_link(c->scene, c->right, c->left);
   if (!r) r = nook_pose_desc_init(&c->pose);
-  /* Name the matrices that you have. These are those of a vertex shader; docs/poses.md has the other kinds.
+  /* Name the matrices that you have. These are for a vertex shader; docs/poses.md has the other kinds.
    */
   c->pose.kind = NOOK_POSE_SKINNING;
   c->pose.layout = NOOK_TRANSFORM_COLUMNS_4X4;

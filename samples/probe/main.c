@@ -4,7 +4,7 @@
  *   probe PROBE.nook OUT.png [CHARACTER.glb MODEL.nook]
  *
  * `nook bake probe MAP.hdr -o PROBE.nook` makes PROBE.nook from any map; it has to have lobes, which is the
- * default. The spheres of the upper row are metal and those of the lower row are plastic. Their roughness
+ * default. The upper spheres are metal, and the lower spheres are plastic. Their roughness
  * grows from left to right. The character has the directional occlusion that its model gives under the same
  * lobes. An engine needs the marked regions, here and in shapes.c. */
 #include <math.h>

@@ -1,10 +1,10 @@
-/* The shapes that the probe lights: a sphere and a posed character. */
+/* Makes the shapes that the probe lights: a sphere and a posed character. */
 #ifndef SHAPES_H
 #define SHAPES_H
 
 #include <nook/nook_probe.h>
 
-/* A triangle mesh in world space with three floats for each vertex, positions in metres. */
+/* A triangle mesh in world space. Each vertex has three floats; positions are in metres. */
 typedef struct Shape {
   float* position;
   float* normal;

@@ -2,9 +2,9 @@
  *
  *   relight OUT.png [FRAMES]
  *
- * In each frame the sun moves, and two of 24 probes take a new cube map of the room, which is drawn in the
- * light of all probes: so light that comes in through the window spreads from wall to wall. FRAMES, 240 by
- * default, is the length of the day; the picture has four times of it. An engine needs the marked regions. */
+ * In each frame the sun moves, and two of 24 probes take a new cube map of the room. The cube map is drawn in
+ * the light of all probes, so that light from the window spreads from wall to wall. FRAMES, 240 by default, is
+ * the length of the day. The picture shows four times of the day. An engine needs the marked regions. */
 #include <math.h>
 #include <nook/experimental/nook_capture.h>
 #include <nook/nook_gl.h>
@@ -160,8 +160,8 @@ static float dot3(const float a[3], const float b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* The rotation and translation of a view, its three axes as rows; columns lie behind each other, as OpenGL
- * has them. */
+/* Sets the rotation and translation of a view, whose three axes are rows. Columns follow each other, as in
+ * OpenGL. */
 static void view_of(const float right[3], const float up[3], const float back[3], const float eye[3],
                     float m[16]) {
   const float* const rows[3] = {right, up, back};
@@ -260,7 +260,7 @@ static void draw_room(const Engine* e, const Light* l, const Sun* sun, const flo
 
 /* ---- In each frame, for a few probes: six faces, and the call ---- */
 static nook_result relight_probe(const Engine* e, const Light* l, const Sun* sun, unsigned index) {
-  /* The axes of OpenGL's faces: right and up of the picture, and backwards. */
+  /* The axes of OpenGL's faces point right, up and backwards in the picture. */
   static const float axes[6][3][3] = {
       {{0, 0, -1}, {0, -1, 0}, {-1, 0, 0}}, {{0, 0, 1}, {0, -1, 0}, {1, 0, 0}},
       {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}},   {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
@@ -363,8 +363,8 @@ static void draw_panel(const Engine* e, const Light* l, const Sun* sun, int pane
   free(large);
 }
 
-/* A day of `frames` frames; before it, the probes are filled three times under the sun of the morning, so
- * that they hold light of three reflections. */
+/* Runs a day of `frames` frames. Before it, the probes are filled three times under the morning sun, so that
+ * they hold light after three reflections. */
 static nook_result pass_day(const Engine* e, const Light* l, int frames, unsigned char* picture) {
   const int before = 3 * probe_count / probes_a_frame;
   unsigned next = 0;

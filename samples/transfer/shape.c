@@ -34,7 +34,7 @@ static void add_vertex(Shape* s, const float position[3], const float normal[3],
   s->uv[2 * at + 1] = v;
 }
 
-/* Two triangles for each cell of a grid of vertices, rows one after another. */
+/* Adds two triangles for each cell of a grid of vertices. Rows follow each other. */
 static void add_grid(Shape* s, uint32_t first, uint32_t columns, uint32_t rows) {
   for (uint32_t r = 0; r + 1 < rows; ++r)
     for (uint32_t c = 0; c + 1 < columns; ++c) {

@@ -11,8 +11,8 @@
 
 namespace nook::lab {
 
-// Poses are dealt to folds in runs of neighbours, not one by one: consecutive frames of a clip are nearly
-// equal, and a fold that holds one and fits the next would choose far too little regularisation.
+// Folds receive runs of neighbouring poses. Consecutive frames of a clip are nearly equal, so single poses in
+// folds would choose far too little regularisation.
 struct ValidationFold {
   std::vector<Eigen::Index> fitted, left_out;
 };
@@ -29,15 +29,14 @@ BaselineMatrix target_columns(const bake::AoTargets& targets, std::size_t first,
 // Sum of squared errors of clamped predictions.
 double clamped_squared_error(const BaselineMatrix& prediction, const BaselineMatrix& target);
 
-// Returns, of candidates with these errors and sizes, the smallest whose error is within `slack` (relative)
-// of the minimum.
+// Returns the smallest candidate whose error is within `slack` (relative) of the minimum.
 struct SizedError {
   double error = 0;
   std::size_t bytes = 0;
 };
 std::size_t smallest_near_best(const std::vector<SizedError>& candidates, double slack);
 
-// Rounds to half precision and back: what a stored model would hold.
+// Rounds to half precision and back, as a stored model would.
 void round_to_half(BaselineMatrix& values);
 
 }  // namespace nook::lab

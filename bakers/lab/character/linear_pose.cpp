@@ -31,7 +31,7 @@ struct Parametrisation {
   bool scaled = false;  // each parameter to unit variance
 };
 
-// The normal equations of one set of poses, diagonalised, so that every ridge and rank costs only products:
+// The normal equations of one set of poses, diagonalised, so that each ridge and rank costs only products:
 // coefficients = Q (S + ridge)^-1 Q^T X^T Y.
 struct NormalEquations {
   Eigen::RowVectorXf feature_mean, feature_scale, target_mean;
@@ -52,7 +52,7 @@ NormalEquations diagonalise(const BaselineMatrix& features, bool scaled) {
   if (scaled) {
     const Eigen::RowVectorXf variance =
         (features.rowwise() - n.feature_mean).colwise().squaredNorm() / float(features.rows());
-    // A parameter that never moves stays at 0 whatever its scale.
+    // A parameter that never moves stays at 0 with any scale.
     for (Index i = 0; i < variance.size(); ++i)
       n.feature_scale[i] = variance[i] > 1e-10f ? 1 / std::sqrt(variance[i]) : 0.0f;
   }
@@ -71,8 +71,9 @@ void add_targets(NormalEquations& n, const BaselineMatrix& features, const Basel
   n.rotated = n.q.transpose() * (x.transpose() * y / double(x.rows()));
 }
 
-// Directions of the target space that the ridge solution explains most, for reduced-rank regression: left
-// singular vectors of A = (S + ridge)^-1/2 Q^T X^T Y, since |X W|^2 + ridge |W|^2 = |A|^2 for the solution W.
+// The directions of the target space that the ridge solution explains most, for reduced-rank regression. They
+// are left singular vectors of A = (S + ridge)^-1/2 Q^T X^T Y, because |X W|^2 + ridge |W|^2 = |A|^2 for the
+// solution W.
 struct RankBasis {
   Eigen::VectorXd inverse_root;  // (S + ridge)^-1/2
   Eigen::MatrixXd u;             // strongest first
@@ -243,7 +244,7 @@ std::unique_ptr<PoseRegression> fit_linear_pose(const SkinnedMesh& mesh, std::sp
       }
     }
   auto model = std::make_unique<LinearPose>(mesh, best);
-  // Without parameters or poses to compare, only the mean is left.
+  // Without parameters or poses to compare, only the mean remains.
   const Index rank =
       first ? 0 : choose_rank(PoseFeatures(mesh, best.parametrisation.kind).of(poses), voting, best, folds);
   model->fit(poses, targets, rank);

@@ -23,16 +23,16 @@ constexpr std::array<Index, 6> cluster_counts{1, 2, 4, 8, 16, 32};
 constexpr std::array<Index, 8> ranks{2, 4, 8, 16, 32, 64, 128, 192};
 constexpr std::array ridges{1e-4, 1e-3, 1e-2, 3e-2,
                             1e-1, 3e-1, 1.0};  // times the mean variance of a basis direction
-// Of the blend: its variance over the poses' mean squared distance to a centre.
+// Widths of the blend: its variance over the poses' mean squared distance to a centre.
 constexpr std::array widths{0.1, 0.3, 1.0, 3.0};
 constexpr double first_width = 0.3;
 constexpr std::size_t voting_vertices = 256;
 constexpr double size_slack = 0.005;
-constexpr float least_weight = 1e-3f;  // a cluster below it neither sees a pose nor answers for it
+constexpr float least_weight = 1e-3f;  // a cluster with a smaller weight ignores the pose
 
 struct Settings {
   FeatureKind kind = FeatureKind::axis_angle;
-  bool by_moved_share = false;  // metric: features times the root of the share of vertices that they move
+  bool by_moved_share = false;  // metric: scales features by the root of the share of vertices that they move
   Index clusters = 1, rank = ranks.back();
   double ridge = ridges.back(), width = first_width;
 };
@@ -56,12 +56,12 @@ std::vector<Index> seen_by(const BaselineMatrix& weights, Index cluster) {
   return rows;
 }
 
-// One cluster's weighted least squares in its own principal components, before ridge and rank are applied:
-// the basis makes the normal equations diagonal.
+// One cluster's weighted least squares in its own principal components, before ridge and rank apply. The
+// basis makes the normal equations diagonal.
 struct ClusterFit {
   Eigen::RowVectorXf feature_mean, target_mean;
   BaselineMatrix basis;        // features x most components, strongest first
-  Eigen::VectorXf variance;    // of the poses along each
+  Eigen::VectorXf variance;    // variance of the poses along each
   BaselineMatrix correlation;  // components x targets
 };
 
@@ -143,7 +143,7 @@ std::size_t stored_numbers(const PoseSpace& space, Index clusters, Index rank, s
                                                            std::size_t((rank + 2) * space.dimensions()));
 }
 
-// Tries settings on all folds and remembers what they cost.
+// Tries settings on all folds and remembers their errors.
 class Search {
  public:
   Search(std::span<const Pose> poses, const AoTargets& targets, std::uint64_t seed)
@@ -152,9 +152,9 @@ class Search {
         vertices_(targets.vertex_count),
         seed_(seed) {}
 
-  // Every rank and ridge at once.
+  // Measures every rank and ridge at once.
   void measure(const PoseSpace& space, const BaselineMatrix& x, Settings settings) {
-    // Below a few poses a cluster, its linear model says nothing.
+    // With few poses per cluster, its linear model says nothing.
     if (settings.clusters > 1 && settings.clusters * 8 > x.rows()) return;
     std::vector<ErrorGrid> partial(folds_.size());
     tbb::parallel_for(std::size_t(0), folds_.size(), [&](std::size_t f) {
@@ -183,7 +183,7 @@ class Search {
   std::vector<SizedError> errors_;
 };
 
-// One after the other: the space of poses, the number of clusters, the width of their blend.
+// Chooses one after the other: the space of poses, the number of clusters, the width of their blend.
 Settings choose_settings(const SkinnedMesh& mesh, std::span<const Pose> poses, const AoTargets& targets,
                          std::uint64_t seed) {
   Search search(poses, targets, seed);
@@ -255,7 +255,7 @@ class PoseClusters final : public PoseRegression {
   struct Cluster {
     Eigen::RowVectorXf feature_mean;
     BaselineMatrix basis;     // features x rank
-    Eigen::RowVectorXf mean;  // a value a vertex
+    Eigen::RowVectorXf mean;  // one per vertex
     BaselineMatrix map;       // rank x vertices
   };
 
@@ -284,8 +284,8 @@ class PoseClusters final : public PoseRegression {
     round_to_half(cluster.map);
   }
 
-  // The ridge is relative to the mean variance of the most components that validation looked at, whatever the
-  // rank.
+  // The ridge is relative to the mean variance of the largest number of components in validation, whatever
+  // the rank.
   Eigen::VectorXf full_shrinkage(const BaselineMatrix& seen_x, const Eigen::VectorXf& seen_w) const {
     const ClusterFit full = principal_components(seen_x, seen_w, ranks.back());
     return shrinkage(full, settings_.ridge).head(settings_.rank);
@@ -299,7 +299,7 @@ class PoseClusters final : public PoseRegression {
   std::vector<Cluster> clusters_;
 };
 
-// Where no joint can turn.
+// The model for a character without joints that turn.
 class MeanAo final : public PoseRegression {
  public:
   explicit MeanAo(const AoTargets& targets)

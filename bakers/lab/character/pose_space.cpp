@@ -19,7 +19,7 @@ namespace {
 using namespace bake;
 using Eigen::Index;
 
-// The rotation in a rigid or uniformly scaled matrix.
+// Returns the rotation in a rigid or uniformly scaled matrix.
 Eigen::Matrix3f rotation_part(const Mat3x4& m) {
   Eigen::Matrix3f r;
   for (int i = 0; i < 3; ++i)
@@ -30,8 +30,8 @@ Eigen::Matrix3f rotation_part(const Mat3x4& m) {
 
 constexpr int starts = 3, most_iterations = 40;
 
-// Arthur & Vassilvitskii 2007: each next centre is drawn with a probability proportional to its squared
-// distance to those there are.
+// Arthur & Vassilvitskii 2007: the probability to draw the next centre is proportional to the squared
+// distance to the existing ones.
 BaselineMatrix draw_centres(const BaselineMatrix& features, Index clusters, std::mt19937_64& bits) {
   const auto uniform = [&] { return double(bits() >> 11) * 0x1p-53; };
   BaselineMatrix centres(clusters, features.cols());
@@ -57,7 +57,7 @@ BaselineMatrix draw_centres(const BaselineMatrix& features, Index clusters, std:
 PoseFeatures::PoseFeatures(const SkinnedMesh& mesh, FeatureKind kind) : kind_(kind) {
   for (std::uint32_t bone : posable_joints(mesh)) {
     const std::int32_t parent = mesh.bones[bone].parent;
-    // Several roots: they turn against the first one.
+    // With several roots, the others turn relative to the first.
     if (parent >= 0 || bone != 0) joints_.push_back({bone, parent >= 0 ? parent : 0});
   }
 }
@@ -96,7 +96,7 @@ Eigen::RowVectorXf PoseFeatures::moved_share(const SkinnedMesh& mesh) const {
   Eigen::RowVectorXf scale(count());
   Eigen::Index next = 0;
   for (const JointPair& joint : joints_) {
-    // A joint that turns most of the body turns the rest of it the other way.
+    // Turning a joint that moves most of the body is the same as turning the rest the other way.
     const double share = moved[joint.bone] / double(mesh.vertex_count());
     const float root = std::sqrt(float(std::max(std::min(share, 1 - share), 1e-4)));
     for (Eigen::Index i = 0; i < per_joint(); ++i) scale[next++] = root;

@@ -1,5 +1,5 @@
-// Poses as points of a space in which distances mean something, and clusters of them. A pose's features are
-// the rotations of the joints against their parents, relative to rest.
+// Poses as points of a space with meaningful distances, and clusters of them. A pose's features are the
+// rotations of the joints relative to their parents and to rest.
 #pragma once
 
 #include <Eigen/Dense>
@@ -13,8 +13,8 @@
 namespace nook::lab {
 
 enum class FeatureKind : std::uint8_t {
-  axis_angle,  // 3 a joint: the logarithm of the rotation, radians
-  matrix,      // 9 a joint: its entries minus the identity's
+  axis_angle,  // 3 per joint: the logarithm of the rotation, radians
+  matrix,      // 9 per joint: its entries minus the identity's
 };
 
 // Rows are poses. Row-major, so that a pose is contiguous.
@@ -28,7 +28,7 @@ class PoseFeatures {
   Eigen::RowVectorXf of(const bake::Pose& pose) const;
   BaselineMatrix of(std::span<const bake::Pose> poses) const;
 
-  // For each feature, the root of the share of vertices that its joint moves: a metric in which a turned
+  // Returns for each feature the root of the share of vertices that its joint moves. In this metric, a turned
   // finger is a smaller change of pose than a turned hip.
   Eigen::RowVectorXf moved_share(const bake::SkinnedMesh& mesh) const;
 
@@ -40,15 +40,14 @@ class PoseFeatures {
   Eigen::Index per_joint() const { return kind_ == FeatureKind::axis_angle ? 3 : 9; }
 
   FeatureKind kind_;
-  std::vector<JointPair>
-      joints_;  // those that move some but not all vertices: turning the others changes no AO
+  std::vector<JointPair> joints_;  // joints that move some but not all vertices; others change no AO
 };
 
 // Scaled features in their own principal components.
 class PoseSpace {
  public:
-  // by_moved_share scales each feature by the root of the share of vertices that its joint moves. At most
-  // `dimensions` components are kept.
+  // by_moved_share scales each feature by the root of the share of vertices that its joint moves. Keeps at
+  // most `dimensions` components.
   PoseSpace(const bake::SkinnedMesh& mesh, FeatureKind kind, bool by_moved_share,
             std::span<const bake::Pose> poses, Eigen::Index dimensions);
 
@@ -69,7 +68,7 @@ class PoseSpace {
 
 struct PoseGroups {
   BaselineMatrix centre;         // clusters x features
-  double mean_squared_distance;  // of the poses to their nearest centre
+  double mean_squared_distance;  // between poses and their nearest centre
 };
 
 // Lloyd's iterations from a k-means++ start, the best of a few starts. The same seed gives the same groups.

@@ -15,10 +15,10 @@
 namespace nook::lab::crowd {
 namespace {
 
-constexpr std::uint32_t ao_rays = 128;    // for the errors
-constexpr std::uint32_t light_rays = 64;  // for each of the two estimates whose mean is the errors' reference
-constexpr std::uint32_t picture_rays = 256;  // for the sheets, in which noise would be seen
-// Points along a side of the floor: about 2 cm apart under AO, and wider under light.
+constexpr std::uint32_t ao_rays = 128;       // for the errors
+constexpr std::uint32_t light_rays = 64;     // per estimate; the mean of two is the errors' reference
+constexpr std::uint32_t picture_rays = 256;  // for the sheets, where noise would be visible
+// Points per side of the floor: about 2 cm apart under AO, and wider under light.
 constexpr std::uint32_t ao_floor_side = 320, light_floor_side = 100;
 
 VertexValues ao_of(const EvaluatedCrowd& evaluated, std::span<const std::uint32_t> characters) {
@@ -69,7 +69,7 @@ class Painter {
   std::vector<platform::Image> panels_;
 };
 
-// The irradiance of vertices without occlusion, from the lobes: three floats for each unit normal.
+// Returns the irradiance of unoccluded vertices from the lobes, three floats for each unit normal.
 std::vector<float> open_irradiance(const Light& light, const std::vector<float>& normals) {
   std::vector<float> irradiance(normals.size());
   nook::check(nook_sg_irradiance(light.lobes.data(), std::uint32_t(light.lobes.size()),
@@ -79,7 +79,7 @@ std::vector<float> open_irradiance(const Light& light, const std::vector<float>&
   return irradiance;
 }
 
-// The irradiance of any surface in constant light of the lobes' mean radiance: RGB.
+// Returns the RGB irradiance of any surface in constant light of the lobes' mean radiance.
 std::vector<float> constant_irradiance(const Light& light) {
   std::vector<float> irradiance(3, 0.0f);
   for (const nook_lobe& lobe : light.lobes) {

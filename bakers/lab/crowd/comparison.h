@@ -1,5 +1,5 @@
-// A crowd against ray tracing: errors of its ambient occlusion and of its light, and sheets of pictures. The
-// program that has the crowd evaluates it with Nook and draws it, through the interfaces that come first.
+// Compares a crowd with ray tracing: errors of its ambient occlusion and light, and sheets of pictures. The
+// program that owns the crowd evaluates it with Nook and draws it, through the interfaces below.
 #pragma once
 
 #include <nook/experimental/nook_trace.h>
@@ -13,7 +13,7 @@
 
 namespace nook::lab::crowd {
 
-// A crowd whose ambient occlusion Nook evaluates, in the poses that are measured.
+// A crowd in the measured poses, whose ambient occlusion Nook evaluates.
 class EvaluatedCrowd {
  public:
   virtual ~EvaluatedCrowd() = default;
@@ -21,9 +21,9 @@ class EvaluatedCrowd {
   virtual void update(std::uint32_t terms) = 0;
   // The AO of one character's vertices after the last update.
   virtual std::vector<float> ao(std::uint32_t character) const = 0;
-  // The AO of the vertices in the rest pose, as the model has it baked.
+  // Returns the baked AO of the vertices in the rest pose.
   virtual std::vector<float> static_ao() const = 0;
-  // The exponent of the norm that adds up the spheres' shadows.
+  // Returns the exponent of the norm that adds up the spheres' shadows.
   virtual float gamma() const = 0;
   // Evaluates the occlusion of some characters under these lobes with all terms: three floats for each
   // vertex.
@@ -34,7 +34,7 @@ class EvaluatedCrowd {
 // Where a panel also shows screen-space AO.
 enum class ScreenSpace { nowhere, on_floor, everywhere };
 
-// Values that are known at the points of a patch of the floor.
+// Values at the points of a patch of the floor.
 struct FloorValues {
   FloorPatch patch;
   std::vector<float> values;
@@ -42,15 +42,15 @@ struct FloorValues {
 
 // A picture of a group in ambient light.
 struct AoPanel {
-  VertexValues ao;  // one float a vertex, an array for each member; empty if nothing is occluded
+  VertexValues ao;  // one float per vertex, one array per member; empty without occlusion
   ScreenSpace screen_space = ScreenSpace::nowhere;
-  std::optional<FloorValues> floor_ao;  // one float a point
+  std::optional<FloorValues> floor_ao;  // one float per point
 };
 
-// A picture of a group in a light whose irradiance is known everywhere.
+// A picture of a group in a light with given irradiance everywhere.
 struct IrradiancePanel {
-  VertexValues irradiance;  // three floats for each vertex, an array for each member
-  FloorValues floor;        // three floats for each point
+  VertexValues irradiance;  // three floats per vertex, one array per member
+  FloorValues floor;        // three floats per point
   float exposure = 1;
 };
 
@@ -61,7 +61,7 @@ class PanelRenderer {
   virtual platform::Image draw(const Group& group, const IrradiancePanel& panel) = 0;
 };
 
-// All that is measured. The places are those of the crowd's characters; the seed is that of the rays.
+// What to measure: the crowd's characters at their places. The seed is for the rays.
 struct Subject {
   const PosedCrowd& crowd;
   std::span<const Place> places;
@@ -95,14 +95,15 @@ struct ScreenSpaceSettings {
   float radius_m = 0.5f;
 };
 
-// The group with no AO, static AO, Nook's AO by terms, the reference, and the difference of the two.
-// Screen-space AO appears in three more panels unless the settings are null: alone, on the floor beside
-// Nook's AO, and, traced with rays of the same radius, on the reference's floor.
+// Draws the group with no AO, static AO, Nook's AO by terms, the reference, and the difference of the last
+// two. If the settings are not null, three more panels show screen-space AO: alone, on the floor beside
+// Nook's AO, and traced with rays of the same radius on the reference's floor.
 platform::Image ao_sheet(const Subject& subject, const ScreenSpaceSettings* screen_space);
 
-// The group by Nook's default form and by one norm over the spheres of all bodies, once with the model's
-// gamma and once with the gamma 2 of the paper, beside the reference. Without the ground, whose darkening
-// would hide what overlapping spheres do. The subject's own evaluation is the default form.
+// Draws the group by Nook's default form and by one norm over the spheres of all bodies, beside the
+// reference. The norm uses the model's gamma in one panel and the paper's gamma 2 in another. The ground is
+// left out, because its darkening would hide what overlapping spheres do. The subject's own evaluation is the
+// default form.
 platform::Image double_shadowing_sheet(const Subject& subject, EvaluatedCrowd& one_norm,
                                        EvaluatedCrowd& one_norm_gamma_2);
 
@@ -123,7 +124,7 @@ struct LightErrors {
 
 LightErrors measure_light(const Subject& subject, const Light& light);
 
-// The three forms and the reference. The floor is path traced in all four panels.
+// Draws the three forms and the reference. The floor is path traced in all four panels.
 platform::Image light_sheet(const Subject& subject, const Light& light);
 
 }  // namespace nook::lab::crowd

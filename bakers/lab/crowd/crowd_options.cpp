@@ -38,7 +38,7 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   std::vector<std::string> debug;
   std::uint32_t bodies = 1;
   o.cache = CROWD_CACHE;
-  // The last of several values wins, so that the caller of a script can override its values.
+  // The last of several values wins, so that a script's caller can override its values.
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.add_option("hero", o.hero_glb, "a rigged .glb or .gltf; without it, the built-in character")
       ->check(CLI::ExistingFile);

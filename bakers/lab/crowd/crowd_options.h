@@ -12,7 +12,7 @@
 namespace crowd::lab {
 
 struct Options {
-  // Without a .glb this is the built-in character, and without a .nook its model is baked here.
+  // Without a .glb, uses the built-in character. Without a .nook, bakes its model here.
   std::filesystem::path hero_glb, hero_nook;
   std::string context = "egl";
   CrowdSize crowd;
@@ -22,11 +22,12 @@ struct Options {
   std::filesystem::path cache;
   std::filesystem::path record;
   std::vector<std::filesystem::path> lights;  // probes (.nook) or maps of the environment (.hdr, .exr)
-  bool probe_light = true;                    // the frames have the first of the lights, or the built-in sky
+  bool probe_light = true;                    // lights the frames with the first light, or with the built-in
+                                              // sky
   bool screen_space = true, sheets = true, quiet = false;
   bool measure_world = false;
   float lod_error = 0;  // AO, rms at 10 m from the camera; 0 keeps full detail
-  DebugView debug;      // over the frames
+  DebugView debug;      // drawn over the frames
 };
 
 // Fills options. Returns false with exit_code set if the program should end at once.

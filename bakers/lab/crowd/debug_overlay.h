@@ -1,4 +1,4 @@
-// The debug view of a scene over its picture, and the ray tracing that the view of errors needs.
+// Draws the debug view of a scene over its picture, and traces rays for the view of errors.
 #pragma once
 
 #include "bakers/lab/crowd/debug_shapes.h"
@@ -16,7 +16,7 @@ struct PictureOfCrowd {
 
 class DebugOverlay {
  public:
-  // It must outlive this object.
+  // gl must outlive this object.
   explicit DebugOverlay(const GladGLContext& gl);
   ~DebugOverlay();
   DebugOverlay(const DebugOverlay&) = delete;

@@ -38,7 +38,7 @@ void add_spheres(const CrowdScene& scene, std::uint32_t character, std::vector<B
     out.push_back({vec(s.centre_ws), s.radius, bone_colour(s.bone)});
 }
 
-// Points that face away are left out: they lie on the far side of the body.
+// Leaves out points that face away, because they lie on the far side of the body.
 void add_key_points(const CrowdScene& scene, std::uint32_t character, const glm::vec3& eye_ws,
                     DebugShapes& out) {
   for (const nook_scene_key_point& p : nook::posed_key_points(scene.scene(), scene.instances()[character])) {
@@ -56,12 +56,12 @@ void add_links(const CrowdScene& scene, std::vector<Line>& out) {
                      link_colour});
 }
 
-// Spheres lie inside the body and would be hidden by it: their depth is moved towards the eye by this much.
+// The body would hide the spheres inside it, so their depth moves towards the eye by this much.
 constexpr float sphere_lift_m = 0.3f;
 // The fit leaves key points beside the surface.
 constexpr float point_lift_m = 0.05f;
 
-// A square that covers the sphere as the eye sees it: the silhouette's cone, cut by the plane through the
+// A square that covers the sphere as seen by the eye: the silhouette's cone, cut by the plane through the
 // centre.
 const char* const ball_vertex = R"(#version 330 core
 layout(location = 0) in vec4 centre_radius;
@@ -86,7 +86,7 @@ void main() {
 }
 )";
 
-// The sphere's surface where the ray from the eye meets it. Its edge fades over a pixel.
+// Draws the sphere's surface where the ray from the eye meets it. Its edge fades over a pixel.
 const char* const ball_fragment = R"(#version 330 core
 flat in vec4 ball;
 flat in vec3 surface_albedo;
@@ -156,8 +156,8 @@ out vec4 colour;
 void main() { colour = vec4(surface_albedo, opacity * clamp(half_width_px - abs(across), 0.0, 1.0)); }
 )";
 
-// Dark blue and dark red are the ends of the map vik, whose sides differ for colour-blind readers too. The
-// shading keeps the form of the body visible.
+// Dark blue and dark red are the ends of the map vik, which colour-blind readers can tell apart. The shading
+// keeps the form of the body visible.
 const char* const error_fragment = R"(#version 330 core
 in vec3 surface_position_ws;
 in vec3 surface_normal_ws;
@@ -212,8 +212,8 @@ DebugShapes debug_shapes(const CrowdScene& scene, const DebugView& view, const g
   return shapes;
 }
 
-// Sky blue, bluish green, yellow, orange and vermilion of Okabe and Ito, whom colour-blind readers can
-// follow.
+// Sky blue, bluish green, yellow, orange and vermilion of Okabe and Ito, which colour-blind readers can tell
+// apart.
 glm::vec3 level_colour(std::uint32_t level) {
   static const glm::vec3 colours[] = {{0.34f, 0.71f, 0.91f},
                                       {0.00f, 0.62f, 0.45f},
@@ -274,7 +274,8 @@ void DebugRenderer::set_view(const platform::Program& program, const View& view,
   gl_.Uniform1f(program.uniform("opacity"), opacity);
 }
 
-// Depth first, and then the colours of what is nearest, so that translucent spheres cover each other.
+// Draws depth first and then the colours of the nearest spheres, so that translucent spheres cover each
+// other.
 void DebugRenderer::draw_balls(const std::vector<Ball>& balls, const View& view, float lift_m,
                                float opacity) {
   if (balls.empty()) return;

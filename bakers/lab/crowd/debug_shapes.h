@@ -1,5 +1,5 @@
-// The views that are drawn over the crowd and show how its occlusion comes about: their shapes as plain
-// lists, from what the public interface tells of a scene, and the programs that draw these.
+// Debug views over the crowd that show how its occlusion arises. The shapes are plain lists, made from what
+// the public interface tells about a scene. Programs draw these lists.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct DebugView {
   bool links = false;       // a line from each caster to each body that it darkens
   bool levels = false;      // bodies in the colours of their levels of detail
   bool error = false;       // the AO of bodies against ray tracing
-  // The bodies that spheres, key points and errors are shown for, the nearest to the camera first.
+  // How many bodies show spheres, key points and errors, the nearest to the camera first.
   std::uint32_t bodies = 1;
 };
 
@@ -42,19 +42,19 @@ struct DebugShapes {
   std::vector<Line> normals, links;
 };
 
-// The characters by their distance to a point, at most `count` of them.
+// Returns at most `count` characters by their distance to a point.
 std::vector<std::uint32_t> nearest_characters(const CrowdScene& scene, const glm::vec3& to_ws,
                                               std::uint32_t count);
 
 // The AO of a character after the last update. Waits for the GPU.
 std::vector<float> read_ao(const CrowdScene& scene, std::size_t character);
 
-// Shadows at key points are those of the scene's last update on the CPU.
+// Shadows at key points are from the scene's last update on the CPU.
 DebugShapes debug_shapes(const CrowdScene& scene, const DebugView& view, const glm::vec3& eye_ws);
 
-// The colour of a level of detail, of which 0 is the finest.
+// Returns the colour of a level of detail; 0 is the finest.
 glm::vec3 level_colour(std::uint32_t level);
-// The colour of a shadow at a key point, from dark blue at 0 to yellow at full_shadow and above.
+// The colour of a shadow at a key point is dark blue at 0 and yellow from full_shadow on.
 inline constexpr float full_shadow = 0.25f;
 glm::vec3 shadow_colour(float shadow);
 
@@ -66,14 +66,14 @@ class DebugRenderer {
   DebugRenderer(const DebugRenderer&) = delete;
   DebugRenderer& operator=(const DebugRenderer&) = delete;
 
-  // The end of the colours of errors: AO.
+  // AO error at the end of the colours.
   static constexpr float full_error = 0.25f;
 
-  // Draws into the framebuffer that is bound and still has the picture's depth. Proxy spheres show through
-  // the body that they stand for.
+  // Draws into the bound framebuffer, which must still have the picture's depth. Proxy spheres show through
+  // their body.
   void draw(const DebugShapes& shapes, const Camera& camera);
-  // Draws bodies again in the colours of an error. The values of `ao` are the AO of Nook less the true AO:
-  // blue where the body is too bright, red where it is too dark.
+  // Draws bodies again in the colours of an error. `ao` is Nook's AO less the true AO: blue where the body is
+  // too bright, red where it is too dark.
   void draw_errors(Renderer& renderer, std::span<const DrawnInstance> bodies, const Camera& camera);
 
  private:
@@ -89,7 +89,7 @@ class DebugRenderer {
 
   const GladGLContext& gl_;
   platform::Program ball_, line_, error_;
-  GLuint arrays_[2] = {};  // of balls and lines
+  GLuint arrays_[2] = {};  // for balls and lines
   GLuint buffer_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace crowd::lab {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-// Sharp enough for the narrowest lobes that a probe of a few dozen has.
+// Resolves the narrowest lobes of a probe with a few dozen.
 constexpr std::uint32_t probe_height = 128;
 
 struct Map {
@@ -22,8 +22,8 @@ struct Map {
   std::vector<float> rgb;
 };
 
-// The direction of a texel's centre in the layout of nook_bake_environment: the middle column looks along +x,
-// and the column a quarter farther right looks along +z.
+// Returns the direction of a texel's centre in the layout of nook_bake_environment. The middle column looks
+// along +x, and the column a quarter farther right looks along +z.
 void texel_direction(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height,
                      float* out) {
   const float polar = pi * (float(y) + 0.5f) / float(height);

@@ -17,15 +17,15 @@ struct MapLight {
   Light light;
   std::vector<float> rgb;  // of the environment
   std::uint32_t width = 0, height = 0;
-  // The mean over the sphere and the channels, which a constant light of the same power has.
+  // The mean over the sphere and the channels. A constant light with this radiance has the same power.
   float mean_radiance = 0;
 
   nook_bake_environment environment() const { return {rgb.data(), width, height}; }
 };
 
-// Reads a probe's file, whose lobes are then the environment too, or a latitude-longitude map, to which this
-// fits 12 lobes. Throws std::runtime_error and nook::Error. Fitted lobes of a map overlap with both signs, so
-// that none of them is a sun.
+// Reads a probe's file, or a latitude-longitude map, to which it fits 12 lobes. The lobes of a probe are its
+// environment too. Throws std::runtime_error and nook::Error. Fitted lobes of a map overlap with both signs,
+// so that none of them is a sun.
 MapLight read_light(const nook::Context& context, const std::filesystem::path& path);
 
 }  // namespace crowd::lab

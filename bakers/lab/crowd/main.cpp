@@ -95,7 +95,7 @@ std::optional<NamedLight> light_of_frames(const nook::Context& context, const Op
   return NamedLight{std::move(first.name), std::move(first.light)};
 }
 
-// Tries the newest OpenGL first and then 3.3, which is all that the crowd needs.
+// Tries the newest OpenGL first and then 3.3, which is enough for the crowd.
 std::unique_ptr<platform::Context> create_context(const Options& o) {
   platform::ContextRequest request;
   request.kind = o.context;

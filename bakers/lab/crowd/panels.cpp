@@ -13,7 +13,7 @@ namespace {
 
 namespace measure = nook::lab::crowd;
 
-// Irradiance that is given, at vertices or in a texture that lies on the ground. Bright parts are rolled off.
+// Shows given irradiance, at vertices or in a texture on the ground. Compresses bright parts.
 const char* const given_light_fragment = R"(#version 330 core
 in vec3 surface_position_ws;
 in vec3 surface_albedo;
@@ -45,7 +45,7 @@ Camera camera_of(const measure::Group& group) {
   return {group.view.eye_ws, group.view.target_ws, group.view.fov_rad};
 }
 
-// A vertex buffer with the values of all members of a group, one after the other.
+// A vertex buffer that holds the values of all members of a group, one after the other.
 class VertexBuffer {
  public:
   VertexBuffer(const GladGLContext& gl, const measure::VertexValues& values, std::uint32_t channels)
@@ -107,14 +107,14 @@ class FloorImage {
 
 PlainLook panel_look() {
   PlainLook look;
-  look.key_strength = 0.16f;  // the light is mostly ambient, so that AO is what the picture shows
+  look.key_strength = 0.16f;  // mostly ambient light, so that the picture shows AO
   look.ground_albedo = glm::vec3(0.5f);
   look.background = background;
   look.fog_start_m = 14;
   return look;
 }
 
-// Draws the panels of the sheets: a group of the crowd with values that are given at its vertices.
+// Draws the panels of the sheets: a group of the crowd with given values at its vertices.
 class Panels final : public measure::PanelRenderer {
  public:
   Panels(const Stage& stage, const std::vector<Bones>& poses)
@@ -131,7 +131,7 @@ class Panels final : public measure::PanelRenderer {
 
   const Stage& stage_;
   const std::vector<Bones>& poses_;
-  platform::Program character_, ground_;  // that show irradiance which is given
+  platform::Program character_, ground_;  // show given irradiance
 };
 
 std::vector<DrawnInstance> Panels::instances_of(const measure::Group& group) const {

@@ -1,4 +1,4 @@
-// The crowd against ray tracing: as rows of the report and sheets of pictures.
+// Compares the crowd with ray tracing, in rows of the report and in sheets of pictures.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +13,9 @@ namespace crowd::lab {
 
 struct ComparisonRequest {
   CrowdSize crowd;
-  std::uint64_t seed = 1;  // of the rays
+  std::uint64_t seed = 1;  // for the rays
   std::filesystem::path out;
-  // The character's model, and the same character fitted with the gamma 2 of the paper.
+  // The character's model, and the same character fitted with the paper's gamma 2.
   std::span<const unsigned char> model, gamma_2_model;
 };
 
@@ -27,7 +27,7 @@ void measure_ao(const Stage& stage, CrowdScene& scene, const std::vector<Bones>&
 void write_ao_sheet(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
                     const ComparisonRequest& request);
 
-// Writes double_shadowing.png, for which it makes two scenes that add up all spheres in one norm.
+// Writes double_shadowing.png. Makes two scenes that add up all spheres in one norm.
 void write_double_shadowing_sheet(platform::Context& context, const Stage& stage, CrowdScene& scene,
                                   const std::vector<Bones>& poses, const ComparisonRequest& request);
 

@@ -8,9 +8,9 @@ namespace {
 
 constexpr GLsizei shadow_size_px = 2048;
 
-// Ambient light of two hemispheres times AO, and a key light with a soft shadow map. AO is that of the
-// vertices. If use_screen_ao is set, it is multiplied by screen-space AO, and on the ground, if use_floor_ao
-// is set, by a texture that lies on the ground.
+// Ambient light of two hemispheres times AO, and a key light with a soft shadow map. AO comes from the
+// vertices. use_screen_ao multiplies it by screen-space AO. use_floor_ao multiplies it on the ground by a
+// texture that lies there.
 const char* const plain_fragment = R"(
 in vec3 surface_position_ws;
 in vec3 surface_normal_ws;
@@ -55,7 +55,7 @@ void main() {
 }
 )";
 
-// The depth that the key light sees. Only characters are drawn with it.
+// Draws the depth for the key light, only for characters.
 const char* const shadow_fragment = "#version 330 core\nvoid main() {}\n";
 
 }  // namespace

@@ -1,11 +1,11 @@
-// The crowd in plain ambient light times AO and a key light, for pictures in which AO itself is to be seen.
+// Draws the crowd in plain ambient light times AO and a key light, for pictures that should show AO itself.
 #pragma once
 
 #include "samples/crowd/crowd_renderer.h"
 
 namespace crowd::lab {
 
-// A texture that lies on a square of the ground, such as AO that was made elsewhere.
+// A texture on a square of the ground, for example AO from elsewhere.
 struct FloorTexture {
   GLuint texture = 0;                 // 0 if there is none; filtered linearly, clamped to its edge
   glm::vec2 first_m{0}, extent_m{1};  // x and z of the texture's corner, and its sides
@@ -28,8 +28,8 @@ class PlainRenderer {
   PlainRenderer(const PlainRenderer&) = delete;
   PlainRenderer& operator=(const PlainRenderer&) = delete;
 
-  // Draws into the framebuffer that is bound, whose viewport is set. The shadow map covers shadow_radius_m
-  // round shadow_centre_ws.
+  // Draws into the bound framebuffer, whose viewport must be set. The shadow map covers shadow_radius_m
+  // around shadow_centre_ws.
   void draw(std::span<const DrawnInstance> instances, const Camera& camera, const PlainLook& look,
             const glm::vec3& shadow_centre_ws, float shadow_radius_m);
 

@@ -11,7 +11,7 @@ constexpr std::size_t sample_size = 12, group_size = 12;
 constexpr float near_m = 1.0f;
 
 constexpr float group_distance_m = 4.6f;  // from the camera to the group
-constexpr int bearings = 24;              // from which the camera may look
+constexpr int bearings = 24;              // number of directions that the camera may look from
 constexpr float body_reach_m = 1.2f;      // from a character's root to its fingers and toes
 
 float squared_distance(const Place& a, const Place& b) {
@@ -102,7 +102,7 @@ Group choose_group(std::span<const Place> places) {
   group.view.eye_ws =
       group.view.target_ws + group_distance_m * glm::vec3(std::sin(bearing), 0.28f, std::cos(bearing));
   group.members = nearest_to(places, focus, group_size);
-  // A body right in front of the lens would hide the group. What it darkens stays dark.
+  // A body right in front of the lens would hide the group, so it is left out. What it darkens stays dark.
   std::erase_if(group.members, [&](std::uint32_t i) {
     return std::hypot(places[i].x - group.view.eye_ws.x, places[i].y - group.view.eye_ws.z) <
            0.6f * group_distance_m;

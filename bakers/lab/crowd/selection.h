@@ -1,4 +1,4 @@
-// Which characters of a crowd are measured, and which of them the sheets show.
+// Chooses the characters to measure, and the characters on the sheets.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ std::vector<std::uint32_t> with_neighbour_within(std::span<const Place> places, 
 // The indices of the places nearest to a point, the nearest first, at most count of them.
 std::vector<std::uint32_t> nearest_to(std::span<const Place> places, const Place& point, std::size_t count);
 
-// The place that has the most others within distance_m. Of several, the one nearest to the origin.
+// Returns the place with the most others within distance_m; of several, the nearest to the origin.
 std::uint32_t busiest(std::span<const Place> places, float distance_m);
 
 // The characters that a report measures.
@@ -28,7 +28,7 @@ struct Sample {
   bool have_neighbours = false;  // each has another character within 1 m
 };
 
-// Up to 12 characters that have a neighbour, spread over the crowd. If none has a neighbour, the 12 that are
+// Chooses up to 12 characters with a neighbour, spread over the crowd. If none has a neighbour, takes the 12
 // nearest to the origin.
 Sample choose_sample(std::span<const Place> places);
 
@@ -43,7 +43,8 @@ struct Group {
   View view;
 };
 
-// Up to 12 characters round the busiest place, seen from where the fewest others stand in the way.
+// Chooses up to 12 characters around the busiest place. The camera is where the fewest others stand in the
+// way.
 Group choose_group(std::span<const Place> places);
 
 // A square of the floor that reaches margin_m farther than the members' bodies, with side x side points.

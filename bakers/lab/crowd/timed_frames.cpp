@@ -22,7 +22,7 @@ void write_recorded_frame(ScreenPasses& passes, const std::filesystem::path& fol
   passes.screen.record(passes.frame, passes.screen_frame, note.c_str()).write(folder / name);
 }
 
-// One frame after the other, with the times of its stages.
+// Draws one frame after the other and times its stages.
 class FrameDrawer {
  public:
   FrameDrawer(const Stage& stage, CrowdScene& scene, const FrameRequest& request)
@@ -92,7 +92,7 @@ class FrameDrawer {
   DebugOverlay debug_;
 };
 
-// One number of each pixel of the last frame, and whether a surface is there.
+// Reads one number per pixel of the last frame, and whether a surface is there.
 std::vector<float> read(const GladGLContext& gl, const ScreenPasses& passes, GLuint texture, GLenum format) {
   std::vector<float> values(std::size_t(passes.width_px) * std::size_t(passes.height_px));
   gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
@@ -102,7 +102,7 @@ std::vector<float> read(const GladGLContext& gl, const ScreenPasses& passes, GLu
   return values;
 }
 
-// The last frame of the world pass, with AO in place of the light, which may be gone.
+// Returns the last frame of the world pass, with AO in place of the light, which may be gone.
 nook_world_frame_desc last_frame(const ScreenPasses& passes) {
   nook_world_frame_desc frame = passes.world_frame;
   frame.lobes = nullptr;

@@ -11,7 +11,7 @@
 namespace nook::lab::crowd {
 namespace {
 
-// A body that is farther away takes less than 1e-3 of a vertex's hemisphere.
+// A body farther away covers less than 1e-3 of a vertex's hemisphere.
 constexpr float far_body_m = 15.0f;
 
 constexpr float ground_half_m = 1000.0f, g = ground_half_m;

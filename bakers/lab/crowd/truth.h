@@ -1,5 +1,5 @@
-// The reference of the crowd: its bodies in the poses of one moment, their ambient occlusion and light by ray
-// tracing, and errors against these.
+// The reference of the crowd at one moment: ambient occlusion and light by ray tracing, and errors against
+// them.
 #pragma once
 
 #include <nook/experimental/nook_trace.h>
@@ -12,15 +12,15 @@
 
 namespace nook::lab::crowd {
 
-// The skinning matrices of one character: 12 floats for each bone, the three rows of a matrix that takes the
-// rest pose to world space.
+// The skinning matrices of one character: 12 floats for each bone, the three rows of a matrix from the rest
+// pose to world space.
 using Bones = std::vector<float>;
 
-// Values at the vertices of several characters, one array for each character. A vertex has one float or, for
-// light, three.
+// The values at the vertices of several characters are one array per character. A vertex has one float or,
+// for light, three.
 using VertexValues = std::vector<std::vector<float>>;
 
-// A character in a pose: three floats for each vertex, in world space, positions in metres.
+// A character in a pose: three floats per vertex, in world space, positions in metres.
 struct Body {
   std::vector<float> positions, normals;
 };
@@ -36,7 +36,7 @@ class PosedCrowd {
   const std::vector<std::uint32_t>& triangles() const { return triangles_; }  // three indices each
 
   Body body(std::size_t character) const;
-  // The x and z of the first bone, which is precise enough to find the bodies that are far apart.
+  // Returns the x and z of the first bone, which is precise enough to find distant bodies.
   glm::vec2 ground_position_m(std::size_t character) const;
 
  private:
@@ -47,13 +47,13 @@ class PosedCrowd {
 };
 
 struct TraceSettings {
-  std::uint32_t rays = 64;  // for each vertex
+  std::uint32_t rays = 64;  // per vertex
   std::uint64_t seed = 1;
   bool ground = true;  // whether the ground plane y = 0 occludes
 };
 
-// The AO of the receivers' vertices. All bodies near a receiver occlude it, and the ground does if it is
-// in the settings.
+// Returns the AO of the receivers' vertices. All bodies near a receiver occlude it. The ground occludes it if
+// the settings include it.
 VertexValues traced_ao(const PosedCrowd& crowd, std::span<const std::uint32_t> receivers,
                        const TraceSettings& settings);
 
@@ -64,18 +64,18 @@ struct FloorPatch {
   std::uint32_t side = 2;
 };
 
-// The AO of the patch's points, which only the given characters occlude. Rays end after radius_m.
+// Returns the AO of the patch's points. Only the given characters occlude them. Rays end after radius_m.
 std::vector<float> traced_floor_ao(const PosedCrowd& crowd, std::span<const std::uint32_t> casters,
                                    const FloorPatch& patch, float radius_m, const TraceSettings& settings);
 
-// Irradiance, three floats for each point. All bodies and the ground are black, so that this is what
-// occlusion alone leaves of the environment's light.
+// Irradiance, three floats per point. All bodies and the ground are black, so that this is what occlusion
+// alone leaves of the environment's light.
 struct TracedIrradiance {
   VertexValues bodies;
   std::vector<float> floor;
 };
 
-// The irradiance of the receivers' vertices and, unless patch is null, of a patch of the floor.
+// Returns the irradiance of the receivers' vertices and, unless patch is null, of a patch of the floor.
 TracedIrradiance traced_irradiance(const PosedCrowd& crowd, std::span<const std::uint32_t> receivers,
                                    const FloorPatch* patch, const nook_bake_environment& environment,
                                    const TraceSettings& settings);
@@ -83,13 +83,13 @@ TracedIrradiance traced_irradiance(const PosedCrowd& crowd, std::span<const std:
 // Errors of values at vertices against their reference.
 struct Errors {
   double mse = 0;  // mean over vertices
-  // Of AO: the mean over vertices whose reference is at least visible_truth, 0 where there are none.
+  // For AO: the mean over vertices whose reference is at least visible_truth; 0 if there are none.
   double mse_visible = 0;
-  double mse_area = 0;  // each vertex weighted by its area of the posed surface
+  double mse_area = 0;  // weighted by each vertex's area on the posed surface
 };
 
-// The errors over all receivers. Each vertex has `channels` values, and errors are in units of `unit`.
-// Vertices that no triangle uses count nothing. Values of one channel are AO.
+// Returns the errors over all receivers. Each vertex has `channels` values, and errors are in units of
+// `unit`. Vertices without a triangle do not count. Values with one channel are AO.
 Errors compare(const PosedCrowd& crowd, std::span<const std::uint32_t> receivers, const VertexValues& values,
                const VertexValues& reference, std::uint32_t channels = 1, float unit = 1);
 

@@ -1,5 +1,5 @@
-// All shaders and passes of a tree, or of a file that an earlier run wrote; the table, and the comparison of
-// two.
+// Counts all shaders and passes of a tree, or reads them from the file of an earlier run. Prints the table,
+// and compares two reports.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -25,15 +25,15 @@ struct CostReport {
   std::string driver;
   std::vector<FamilyCost> families;
 
-  // Returns a line for each shader without numbers, with the reason; empty if there is none.
+  // Returns a line with the reason for each shader without numbers; empty if there is none.
   std::string errors() const;
 };
 
-// Counts the shaders whose name contains `only`; passes need all of theirs.
+// Counts the shaders whose name contains `only`. A pass needs all of its shaders.
 CostReport count_tree(const SourceTree& tree, const std::vector<std::string>& families,
                       const std::string& only);
 
-// A row is a line, so that a change of one shader is a change of one line.
+// A row is a line, so that a changed shader is a changed line.
 std::string report_text(const CostReport& report);
 CostReport from_json(const nlohmann::json& json);
 
@@ -42,10 +42,10 @@ std::string cost_table(const CostReport& report);
 struct Comparison {
   std::string text;
   std::vector<std::string> above_limit;  // shaders whose cycles grew by more than the limit
-  std::vector<std::string> unmatched;    // shaders and passes that only one of both has
+  std::vector<std::string> unmatched;    // shaders and passes that only one report has
 };
 
-// The ratio of the cycles of every shader and pass that both reports have, by family.
+// Returns the ratio of the cycles of every shader and pass in both reports, by family.
 Comparison compare(const CostReport& before, const CostReport& after, double limit);
 
 }  // namespace nook::lab

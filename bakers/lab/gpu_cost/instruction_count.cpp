@@ -16,7 +16,7 @@ bool begins_with_any(std::string_view text, std::initializer_list<std::string_vi
 
 struct Instruction {
   std::string mnemonic;
-  std::string target;  // the block that a branch goes to
+  std::string target;  // the target block of a branch
 };
 
 struct Block {
@@ -56,7 +56,7 @@ std::vector<Block> parse_blocks(const std::string& disassembly) {
   return blocks;
 }
 
-// Blocks from first to last, which jumps back to it.
+// Blocks from first to last. The last jumps back to the first.
 struct Span {
   std::size_t first = 0, last = 0;
 };
@@ -94,7 +94,7 @@ int arithmetic_cycles(const std::vector<Block>& blocks, Span span) {
   return cycles;
 }
 
-// Large regions without a loop that a wave jumps over where none of its threads is in them.
+// Finds large regions without a loop that a wave skips if none of its threads enters them.
 std::vector<Span> find_branches(const std::vector<Block>& blocks, const std::vector<Span>& loops) {
   const std::map<std::string, std::size_t> place = places_of(blocks);
   std::vector<Span> spans;

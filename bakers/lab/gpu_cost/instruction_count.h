@@ -1,5 +1,5 @@
-// Counts the instructions of a disassembly that a wave executes: loops are weighed by their trip counts, and
-// both sides of every branch count, or large branches by the share of threads that take them.
+// Counts the instructions of a disassembly that a wave executes. Loops are weighed by their trip counts. Both
+// sides of a branch count, or for large branches the share of threads that take them.
 #pragma once
 
 #include <array>
@@ -12,9 +12,9 @@ namespace nook::lab {
 enum class InstructionClass {
   vector,        // full rate
   quarter_rate,  // transcendental functions and multiplication of 32-bit integers
-  fetch,         // of textures and buffers
+  fetch,         // textures and buffers
   store,
-  local_memory,  // memory that a group shares
+  local_memory,  // memory shared by a group
   scalar,
   scalar_load,
   other,  // branches, waiting, exports
@@ -30,22 +30,22 @@ struct InstructionCounts {
   double operator[](InstructionClass c) const { return number[std::size_t(c)]; }
 };
 
-// A loop of the source that must be one of the disassembly too, with those inside it, in the order of the
-// text. Where one of the expected ones is a branch, all branches of least_branch_cycles or more that threads
-// may skip and that hold no loop must be there as well.
+// A loop of the source that the disassembly must also have, with the loops inside it, in the order of the
+// text. If one entry is a branch, the entries must include every branch that threads may skip, with
+// least_branch_cycles or more and without a loop.
 struct Loop {
-  const char* over;  // what it runs over, or what takes the branch
-  double trips = 0;  // of a branch the share of threads that take it
+  const char* over;  // what it loops over, or what takes the branch
+  double trips = 0;  // for a branch, the share of threads that take it
   std::vector<Loop> inside;
   bool is_branch = false;
 };
-inline constexpr int least_branch_cycles = 90;  // of arithmetic
+inline constexpr int least_branch_cycles = 90;  // for arithmetic
 
-// Throws where the disassembly's loops have another nesting than the expected ones: a compiler that unrolls
-// otherwise. The message shows both.
+// Throws if the disassembly's loops are nested otherwise than expected, because a compiler unrolls
+// differently. The message shows both.
 InstructionCounts count_instructions(const std::string& disassembly, const std::vector<Loop>& expected);
 
-// The loops of a disassembly as text, each with its first block and the instructions of one trip.
+// Returns the loops of a disassembly as text. Each has its first block and the instructions of one trip.
 std::string describe_loops(const std::string& disassembly);
 
 }  // namespace nook::lab

@@ -1,4 +1,5 @@
-// nook_gpu_cost: what the shaders of a tree cost on GPUs that are not there, and how two trees differ.
+// nook_gpu_cost: estimates what the shaders of a tree cost on GPUs that are not there, and how two trees
+// differ.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
@@ -15,8 +16,7 @@ namespace {
 using namespace nook::lab;
 namespace fs = std::filesystem;
 
-// RADV ends the process where it does not know a name. The loops of materials are stated for the default
-// ones.
+// RADV ends the process on an unknown name. The loops of materials are known for the default families.
 const std::set<std::string> known_families = {"polaris10", "vega10",  "vega20",  "navi10",  "navi21",
                                               "navi23",    "gfx1036", "gfx1100", "gfx1101", "gfx1102"};
 
@@ -32,7 +32,7 @@ struct Options {
   double limit = 1e9;
 };
 
-// A texture buffer as OpenGL ES 3.0 replaces it: a 2D texture whose rows follow one another.
+// OpenGL ES 3.0 replaces a texture buffer by a 2D texture whose rows follow each other.
 constexpr char texture_rows[] =
     "#define samplerBuffer sampler2D\n"
     "vec4 texelFetch(sampler2D rows, int i) { return texelFetch(rows, ivec2(i & 2047, i >> 11), 0); }\n";
@@ -54,7 +54,7 @@ nlohmann::json read_json(const std::string& path) {
   return nlohmann::json::parse(file_text(path));
 }
 
-// Vulkan GLSL, disassembly and loops of each shader, for a look at what was counted.
+// Writes Vulkan GLSL, disassembly and loops of each shader, so that you can check what was counted.
 void dump(const Options& options, const SourceTree& tree) {
   fs::create_directories(options.dump);
   for (const std::string& family : options.families) {
@@ -90,7 +90,7 @@ int count(const Options& options) {
   return exit_done;
 }
 
-// A folder is a tree to count, a file the report of an earlier run.
+// A folder is a tree to count, and a file is the report of an earlier run.
 CostReport report_of(const Options& options, const std::string& path, const std::string& defines) {
   if (fs::is_directory(path)) return count_tree({path, defines}, options.families, options.only);
   return from_json(read_json(path));
@@ -116,7 +116,7 @@ int compare_two(const Options& options) {
   if (fail_for(after) != exit_done) return exit_failed;
   print_names(("above " + std::to_string(options.limit) + " times the old cycles").c_str(),
               comparison.above_limit);
-  // A report has to name what its tree has; trees may differ.
+  // A report must name what its tree has, but trees may differ.
   const bool of_a_report = !fs::is_directory(options.before) && options.only.empty();
   if (of_a_report) print_names("in one of both only", comparison.unmatched);
   if (comparison.above_limit.empty() && (!of_a_report || comparison.unmatched.empty())) return exit_done;
@@ -128,7 +128,7 @@ int compare_two(const Options& options) {
   return exit_failed;
 }
 
-// Where there is no RADV nothing is counted; NOOK_REQUIRE_RADV=1 makes that a failure.
+// Without RADV nothing is counted. NOOK_REQUIRE_RADV=1 makes this a failure.
 int without_radv(const char* what) {
   const char* required = std::getenv("NOOK_REQUIRE_RADV");
   if (required && std::string(required) == "1") {

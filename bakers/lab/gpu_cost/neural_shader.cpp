@@ -3,9 +3,9 @@
 namespace nook::lab {
 namespace {
 
-// The decoding of bakers/material/neural_tile.h where features depend on the view, which the library's do
-// not. A layer of a texture has two channels (BC5); matrices are in blocks of 4 x 4, those of four inputs to
-// all units beside each other. The first block's inputs are the view and 1, whose weights are the bias.
+// The decoding of bakers/material/neural_tile.h with features that depend on the view, which the library does
+// not have. A layer of a texture has two channels (BC5). Matrices are in blocks of 4 x 4, and the blocks with
+// the same four inputs are adjacent. The first block's inputs are the view and 1, whose weights are the bias.
 constexpr char decode[] = R"(
 uniform highp sampler2DArray nook_neural_features;
 uniform highp sampler2DArray nook_neural_offset_features;
@@ -122,7 +122,7 @@ void main() {
 
 constexpr int layers = 3;
 
-// The 22 channels that fill the bytes of K-CTA on weave in docs/materials.md, rounded up to vectors.
+// On weave in docs/materials.md, 22 channels fill the bytes of K-CTA. This rounds them up to vectors.
 std::string defines() {
   constexpr int channels = 24, view_side = 7, units = 32, offset_channels = 8, offset_units = 16;
   std::string text;
@@ -136,8 +136,8 @@ std::string defines() {
   return text;
 }
 
-// The library's declarations before shaders/material/neural/host.glsl, for the sizes of a bake without
-// options and weights of any values, none of which a compiler leaves out.
+// Returns the library's declarations before shaders/material/neural/host.glsl, for the sizes of a default
+// bake. The weights are such that a compiler cannot leave out any.
 std::string declarations() {
   material::MaterialTables tables;
   material::NeuralTables& neural = tables.neural;

@@ -22,7 +22,7 @@ std::vector<Loop> grid_loops(const char* groups, const Grid& grid) {
   return {{groups, double(grid.groups), {{"steps", double(grid.steps), {}}}}};
 }
 
-// Compilers unroll the steps of a direction, and directions where their number is a constant.
+// Compilers unroll the steps of a direction. They also unroll directions if their number is a constant.
 std::vector<Loop> direction_loops(const Grid& grid) {
   if (grid.groups <= 4) return {};
   return {{"directions", double(grid.groups), {}}};
@@ -34,7 +34,7 @@ std::vector<Loop> paper_loops(const Grid& grid) {
   return {{"groups of taps", double(grid.groups), {}}};
 }
 
-// Its loops by the grid of its taps. Steps are those on one side of a slice.
+// Returns the loops for the grid of the baseline's taps. Steps are on one side of a slice.
 std::vector<Loop> baseline_loops(const BaselineMethod& method) {
   const BaselineGrid grid = baseline_grid(method.baseline, method.taps);
   const double groups = grid.groups, steps = grid.steps;
@@ -47,12 +47,12 @@ std::vector<Loop> baseline_loops(const BaselineMethod& method) {
     case Baseline::filament:
       return {{"taps", steps, {}}};
     case Baseline::s4ao:
-      // Its grid is unrolled.
+      // The grid is unrolled.
       return {};
     case Baseline::hbao:
       return {{"directions", groups, {{"steps", steps, {}}}}};
     case Baseline::xegtao:
-      // Steps are unrolled, as their number is known when it is compiled.
+      // Steps are unrolled, because their number is known at compile time.
       return {{"slices", groups, {}}};
     default:
       return {{"slices", groups, {{"steps behind", steps, {}}, {"steps ahead", steps, {}}}}};
@@ -60,7 +60,7 @@ std::vector<Loop> baseline_loops(const BaselineMethod& method) {
 }
 
 bool is_counted(const BaselineMethod& method) {
-  // The same shader as the tuned one.
+  // Shipped settings use the same shader as tuned ones.
   if (method.shipped) return false;
   switch (method.baseline) {
     case Baseline::gtao:

@@ -21,10 +21,10 @@ void check(VkResult result, const char* call) {
                              std::to_string(result) + ")");
 }
 
-// The loader reads these when an instance is made.
+// The loader reads these variables when it makes an instance.
 void choose_driver(const std::string& family) {
   setenv("RADV_FORCE_FAMILY", family.c_str(), 1);
-  // Vertex shaders without the code of primitive shaders, which OpenGL does not use for transform feedback.
+  // Compiles vertex shaders without primitive shaders, which OpenGL does not use for transform feedback.
   setenv("RADV_DEBUG", "nongg,nocache", 1);
   for (const char* option : {"RADV_PERFTEST", "ACO_DEBUG", "RADV_FORCE_VRS"}) unsetenv(option);
   if (std::getenv("VK_ICD_FILENAMES") || std::getenv("VK_DRIVER_FILES")) return;

@@ -1,4 +1,4 @@
-// A GPU that is not there: RADV, Mesa's Vulkan driver for AMD, compiles for it and hands out the result.
+// A GPU that is not there: RADV, Mesa's Vulkan driver for AMD, compiles for it and gives out the result.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ struct CompiledShader {
   std::string disassembly;
   unsigned vector_registers = 0;
   unsigned scalar_registers = 0;
-  unsigned waves = 0;  // that a SIMD holds at once
+  unsigned waves = 0;  // waves that a SIMD holds at once
   unsigned code_bytes = 0;
 };
 
-// There is no RADV on this machine.
+// Thrown if this machine has no RADV.
 struct NoRadv : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -35,11 +35,11 @@ class NullDevice {
   // The driver with its version.
   std::string driver() const;
 
-  // samplers: the types of set sampler_set, by binding.
+  // samplers: the types in set sampler_set, by binding.
   CompiledShader compute(const std::vector<std::uint32_t>& spirv, const std::vector<std::string>& samplers);
 
-  // A draw; counted is the stage whose result is returned. attributes and targets are the types of the vertex
-  // shader's inputs and of the fragment shader's outputs, by location.
+  // A draw. `counted` is the stage whose result is returned. attributes and targets are the types of the
+  // vertex shader's inputs and of the fragment shader's outputs, by location.
   struct Draw {
     std::vector<std::uint32_t> vertex, fragment;
     bool counts_vertex = false;

@@ -3,7 +3,7 @@
 namespace nook::lab {
 namespace {
 
-// Both dimensions of the surface are halved, or a thread makes two pixels of each.
+// Half of the surface's width and height, or two pixels per thread along each.
 constexpr double quarter = 0.25;
 
 PassCase nnao(const std::string& name, const std::string& occlusion, bool half, bool paper = false,
@@ -23,7 +23,7 @@ std::string passes_text(int passes) {
   return passes == 1 ? "once" : passes == 2 ? "twice" : "three times";
 }
 
-// From the host's depth and normals to smooth AO.
+// Goes from the host's depth and normals to smooth AO.
 PassCase baseline_pass(const BaselineMethod& method, Denoiser denoiser) {
   const bool xegtao = method.baseline == Baseline::xegtao;
   PassCase pass{counted_name(method), {}};

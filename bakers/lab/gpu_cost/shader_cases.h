@@ -1,5 +1,4 @@
-// Every shader that Nook ships and every baseline, each with its defines and the loops that its compiled form
-// has.
+// Every shader that Nook ships and every baseline, with its defines and the loops of its compiled form.
 #pragma once
 
 #include <string>
@@ -22,11 +21,11 @@ struct FamilyLoops {
 struct ShaderCase {
   std::string name;
   Stage stage = Stage::fragment;
-  std::string path;  // from the repository's root; empty for the shader of a host
-  std::string host;  // text of a host's shader, which includes what it calls
+  std::string path;  // path from the repository's root; empty for the shader of a host
+  std::string host;  // text of a host's shader; it includes what it calls
   std::string defines;
   std::vector<Loop> loops;
-  std::vector<FamilyLoops> other_families;  // where a compiler unrolls otherwise
+  std::vector<FamilyLoops> other_families;  // for families whose compiler unrolls differently
 
   const std::vector<Loop>& loops_of(const std::string& family) const {
     for (const FamilyLoops& other : other_families)
@@ -42,10 +41,10 @@ ShaderCase tree_shader(Stage stage, const std::string& path, const std::string& 
 // A host's fragment shader.
 ShaderCase host_shader(const std::string& text, const std::string& name, const std::vector<Loop>& loops = {});
 
-// The library's text of a material up to `host`, a file of shaders/ that ends it, such as material/host.glsl:
-// a counted shader includes that file from the counted tree.
+// Returns the library's text of a material up to `host`, a file of shaders/ that ends it, such as
+// material/host.glsl. A counted shader includes that file from the counted tree.
 std::string material_declarations(const material::MaterialTables& tables, std::string_view host);
-// Before the text of a material's pixel: it fetches each mode at two places along the pixel.
+// Goes before the text of a material's pixel, and makes it fetch each mode at two places along the pixel.
 inline constexpr char two_fetches[] = "#define TWO_FETCHES\n";
 
 // Shaders that run one after the other, each for a share of the threads.
@@ -54,8 +53,8 @@ struct PassCase {
   std::vector<std::pair<std::string, double>> shaders;
 };
 
-// Names of what baselines share. The denoiser makes two pixels a thread, the levels four.
-// Behind the names of what has bent normals as a second output.
+// Parts of names that baselines share. The denoiser makes two pixels per thread, and the levels four.
+// bent_normals ends the names of shaders with bent normals as a second output.
 inline constexpr char bent_normals[] = ", bent normals";
 inline constexpr char baseline_blur[] = "blur of the baselines";
 inline constexpr char box_mean[] = "mean of 4 x 4 pixels";
@@ -65,7 +64,7 @@ inline constexpr char edge_denoiser[] = "edge-aware denoiser, two pixels a threa
 inline constexpr char denoiser_edges[] = "edges for the denoiser";
 inline constexpr char xegtao_levels[] = "XeGTAO depth levels, four pixels a thread";
 
-// The baselines of the table, with their tuning.
+// Returns the baselines of the table, with their tuning.
 std::vector<BaselineMethod> counted_baselines();
 std::string counted_name(const BaselineMethod& method);
 

@@ -12,7 +12,7 @@
 
 namespace nook::lab {
 
-// The model: cycles that a compute unit of 64 lanes a cycle takes for a wave of 64 threads.
+// The model counts cycles of a compute unit with 64 lanes for a wave of 64 threads.
 inline constexpr double quarter_rate_cycles = 4, fetch_cycles = 16;
 
 struct Cycles {
@@ -34,16 +34,16 @@ struct ShaderCost {
 
 struct SourceTree {
   std::filesystem::path root;
-  std::string first_lines;  // in front of the defines of each shader
+  std::string first_lines;  // before the defines of each shader
 };
 
 // A shader as Vulkan GLSL.
 VulkanGlsl vulkan_glsl(const SourceTree& tree, const ShaderCase& shader);
 
-// Compiles and disassembles one.
+// Compiles and disassembles a shader.
 CompiledShader compile_shader(NullDevice& device, const SourceTree& tree, const ShaderCase& shader);
 
-// Never throws for a shader that cannot be counted; the result has the error.
+// Never throws for a shader that cannot be counted. The result then has the error.
 ShaderCost shader_cost(NullDevice& device, const std::string& family, const SourceTree& tree,
                        const ShaderCase& shader);
 

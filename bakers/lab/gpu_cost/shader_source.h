@@ -1,5 +1,5 @@
-// The text of a shader as the library compiles it: includes expanded, version line and defines in front; and
-// its way through the reference compiler.
+// Makes the text of a shader as the library compiles it, with includes, version line and defines, and
+// compiles it with the reference compiler.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ enum class Stage { vertex, fragment, compute };
 
 std::string file_text(const std::filesystem::path& path);
 
-// Replaces each line `#include "path"`, relative to the root, by that file's text, once per shader, as
-// sdk/src/gl/embed_shaders.cmake does.
+// Replaces each line `#include "path"`, relative to the root, by the file's text, once per shader, like
+// sdk/src/gl/embed_shaders.cmake.
 std::string expand_includes(const std::filesystem::path& root, const std::string& text);
 
 // Puts the version line of sdk/src/gl/shader_program.cpp and the defines in front of an expanded text.

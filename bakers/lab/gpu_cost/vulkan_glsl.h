@@ -1,5 +1,5 @@
-// OpenGL GLSL as Vulkan GLSL. Default uniforms become the members of one std140 block, as OpenGL drivers hold
-// them; samplers and images get a set and a binding, stage inputs and outputs a location.
+// Translates OpenGL GLSL to Vulkan GLSL. Default uniforms become the members of one std140 block, as in
+// OpenGL drivers. Samplers and images get a set and a binding, and stage inputs and outputs a location.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace nook::lab {
 
-// Descriptor sets: storage blocks keep the bindings of their text in set 0.
+// Descriptor sets. Storage blocks keep the bindings of their text in set 0.
 inline constexpr unsigned storage_block_set = 0, sampler_set = 1, uniform_set = 2, image_set = 3;
 
 struct StageVariable {
   std::string type, name;
   bool flat = false;
-  int elements = 0;  // of an array; 0 for a single value
+  int elements = 0;  // array size; 0 for a single value
 
   int locations() const { return elements > 0 ? elements : 1; }
 };

@@ -18,7 +18,7 @@ Loop branch(const char* over, double share, std::vector<Loop> inside = {}) {
   return {over, share, std::move(inside), true};
 }
 
-// Of darken.comp; with `shares` branches count by the share of threads that take them.
+// For darken.comp. With `shares`, branches count by the share of threads that take them.
 std::vector<Loop> near_groups(bool shares) {
   std::vector<Loop> part{{"casters of a part", trips::casters_of_group_part, {}}};
   if (shares) part.insert(part.begin(), branch("limbs of one capsule", trips::merged_parts));

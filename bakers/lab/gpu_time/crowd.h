@@ -1,4 +1,4 @@
-// A crowd of one model for the timings: bodies on a grid, with poses that change from frame to frame.
+// A crowd of one model for the timings: bodies on a grid, whose poses change every frame.
 #pragma once
 
 #include <nook/nook_gl.h>
@@ -12,18 +12,18 @@ namespace nook::lab {
 
 class Crowd {
  public:
-  // count bodies stand on the ground y = 0 on a square grid of this spacing, in metres, centred at the
+  // count bodies stand on the ground y = 0, on a square grid with this spacing in metres, centred at the
   // origin.
   Crowd(const measure::NookGl& gl, const std::filesystem::path& model, std::uint32_t count, float spacing);
   ~Crowd();
   Crowd(const Crowd&) = delete;
   Crowd& operator=(const Crowd&) = delete;
 
-  // Turns every body a little further, and links each with its k nearest neighbours; 0: none.
+  // Turns every body a little further, and links each to its k nearest neighbours; 0: none.
   void pose(std::uint32_t k);
   nook_scene scene() const { return scene_; }
   const std::vector<nook_instance_id>& bodies() const { return bodies_; }
-  std::uint32_t vertex_count() const { return vertex_count_; }  // of the file
+  std::uint32_t vertex_count() const { return vertex_count_; }  // vertices in the file
 
  private:
   nook_model model_ = nullptr;

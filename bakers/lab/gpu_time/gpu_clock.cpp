@@ -10,9 +10,10 @@
 namespace nook::lab {
 namespace {
 
-constexpr int max_calls = 1000;  // of a batch
-// Before each batch the GPU is kept busy for so long, so that the thread is ahead of it: between the two time
-// stamps it then waits for no call. Calls that take the thread longer are timed with their waits.
+constexpr int max_calls = 1000;  // per batch
+// Before each batch, the GPU is kept busy for this long, so that the thread is ahead of it. The GPU then
+// waits for no call between the two time stamps. Calls that take the thread longer are timed with their
+// waits.
 constexpr double busy_ms = 8;
 constexpr int busy_side = 64, max_busy_loops = 1 << 20;
 
@@ -50,7 +51,7 @@ GpuClock::GpuClock(const GladGLContext& gl, int batches, double batch_ms)
   gl.GenFramebuffers(1, &framebuffer_);
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target_, 0);
-  // Doubled until they take long enough; the short ones wake the GPU up.
+  // Doubles the loops until they take long enough. The short ones wake the GPU up.
   while (busy_loops_ < max_busy_loops && run_one([&] { keep_busy(busy_loops_); }, 1).gpu_ms < busy_ms)
     busy_loops_ *= 2;
 }

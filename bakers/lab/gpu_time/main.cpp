@@ -1,5 +1,5 @@
-// nook_gpu_time: milliseconds of Nook's passes on the GPU at hand, beside the methods that the documents
-// compare the screen pass with.
+// nook_gpu_time: measures milliseconds of Nook's passes on this machine's GPU, beside the methods that the
+// documents compare the screen pass with.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -43,7 +43,7 @@ void print(const TimedRow& row) {
 }
 
 int time_all(const Options& options) {
-  // A place where nothing can be written is known before the work begins.
+  // Opens the output before the work begins, so that an error shows early.
   std::optional<platform::OutputFile> file;
   if (!options.report.empty()) file.emplace(options.report);
   platform::ContextRequest request;

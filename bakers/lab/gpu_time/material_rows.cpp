@@ -10,7 +10,7 @@ using namespace measure;
 
 namespace {
 
-// One tile over 256 x 256 pixels, seen and lit from directions that change over the image.
+// Shows one tile over 256 x 256 pixels. The view and the light change over the image.
 const char* const body =
     "  vec2 uv = gl_FragCoord.xy / 256.0;\n"
     "  vec3 view = normalize(vec3(at - 0.5, 0.7)), light = normalize(vec3(0.5 - at.yx, 0.5));\n"

@@ -1,4 +1,4 @@
-// The timed passes: rows of one kind in each function, in the order of the tables.
+// The timed passes. Each function returns rows of one kind, in the order of the tables.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ struct TimedRow {
   GpuTime time;
 };
 
-// The context and what the rows share.
+// The context, and what the rows share.
 struct Timing {
   platform::Context& context;
   const measure::NookGl& nook;
@@ -30,21 +30,22 @@ struct Timing {
   }
 };
 
-// The screen pass in its forms and every method of the comparison with its own denoiser, all drawn with
-// fragment shaders, over one view of a procedural room at a radius of 0.5 metres; and the compute path.
+// Times the screen pass in its forms and every method of the comparison with its own denoiser, drawn with
+// fragment shaders. The view shows a procedural room at a radius of 0.5 metres. Also times the compute path.
 std::vector<TimedRow> time_screen(const Timing& timing);
 
-// nook_gl_scene_update of crowds that stand on the ground, without neighbours and with four, with poses that
-// change. model: a file of nook_model_load.
+// Times nook_gl_scene_update for crowds on the ground with changing poses, without neighbours and with four.
+// model: a file for nook_model_load.
 std::vector<TimedRow> time_characters(const Timing& timing, const std::filesystem::path& model);
 
 // The world pass: 100 bodies darken the floor on which they stand.
 std::vector<TimedRow> time_world(const Timing& timing, const std::filesystem::path& model);
 
-// The whole image in one material and one light, for each file of nook_material_load.
+// Fills the whole image with one material in one light, for each file of nook_material_load.
 std::vector<TimedRow> time_materials(const Timing& timing, const std::vector<std::filesystem::path>& files);
 
-// The whole image in the irradiance and in the glossy reflection of lobes, of a grid and of one place.
+// Fills the whole image with the irradiance and the glossy reflection of lobes, from a grid and from one
+// place.
 std::vector<TimedRow> time_probes(const Timing& timing);
 
 }  // namespace nook::lab

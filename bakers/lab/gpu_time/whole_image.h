@@ -1,4 +1,4 @@
-// A fragment shader over the whole image, for what hosts call in shaders of their own.
+// A fragment shader over the whole image, for functions that hosts call in their own shaders.
 #pragma once
 
 #include <glad/gl.h>
@@ -11,15 +11,15 @@ namespace nook::lab {
 
 class WholeImage {
  public:
-  // functions: GLSL of the library. body: that of main(), which sets vec3 colour; vec2 at is the place in the
-  // image, 0 to 1.
+  // functions: GLSL of the library. body: the body of main(), which sets vec3 colour. vec2 at is the place in
+  // the image, 0 to 1.
   WholeImage(const GladGLContext& gl, int width, int height, const std::string& functions,
              const std::string& body);
   ~WholeImage();
   WholeImage(const WholeImage&) = delete;
   WholeImage& operator=(const WholeImage&) = delete;
 
-  // Binds a texture to a unit of its own; the target is GL_TEXTURE_BUFFER or another.
+  // Binds a texture to its own unit. The target is GL_TEXTURE_BUFFER or another.
   void bind(GLenum target, GLuint texture, const char* uniform);
   void draw() const;
 

@@ -1,4 +1,4 @@
-// The methods that a compressed material competes with, fitted to the same raw material, as rows of the
+// Fits the methods that a compressed material competes with to the same raw material, and returns rows of the
 // report of `nook-lab evaluate material`.
 #pragma once
 
@@ -19,24 +19,24 @@ using bake::material::RawMaterial;
 using measure::MaterialFile;
 using measure::MethodProgress;
 
-// Compresses and measures what is left after rounding. `material`, where given, receives it
-// with the VOTF of settings.visibility and with view maps; without it they are counted but not made.
+// Compresses, and measures the error after rounding. If `material` is given, it receives the result with the
+// VOTF of settings.visibility and with view maps. Otherwise, they are counted but not made.
 MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings,
                          const bake::material::StageProgress& progress = {},
                          nook::material::Material* material = nullptr);
 
-// Principal components in the place of the BTF in another material's file, as many as its bytes hold: the
-// VOTF and the rest of that file stay and are counted.
+// Replaces the BTF in another material's file by as many principal components as its bytes hold. The VOTF and
+// the rest of the file stay and are counted.
 MethodRow measure_pca(const RawMaterial& raw, std::span<const std::byte> file, std::uint64_t seed);
 
-// The maps of a physically based material with parallax, fitted to the raw one, and `unseen` where it is not
-// null: relief shadows take a march for each light.
+// Fits the maps of a physically based material with parallax to the raw one, and measures them in `unseen` if
+// it is not null. Relief shadows take a march for each light.
 MethodRow measure_pbr(const RawMaterial& raw, const RawMaterial* unseen, bool has_shadows);
 
-// The same tile as a neural material of one of two sizes, fitted to the raw one.
+// Fits a neural material of one of two sizes to the same tile.
 enum class NeuralSize {
-  small,   // about 14 bytes for each texel
-  filling  // the bytes of a whole file, of which VOTF and directions stay as in measure_pca
+  small,   // about 14 bytes per texel
+  filling  // the bytes of a whole file; VOTF and directions stay as in measure_pca
 };
 MethodRow measure_neural(const RawMaterial& raw, const RawMaterial* unseen, std::span<const std::byte> file,
                          NeuralSize size, std::uint64_t seed,
@@ -48,23 +48,23 @@ std::vector<std::string> material_baseline_names();
 std::vector<std::string> material_peer_names();
 
 struct BaselineRequest {
-  std::vector<std::string> names;       // of material_baseline_names
-  const RawMaterial* unseen = nullptr;  // views, and lights, of no fit; null: none
-  // Measure jumps as the view moves. CTA then has view maps of the file's size, as K-CTA has.
+  std::vector<std::string> names;       // from material_baseline_names
+  const RawMaterial* unseen = nullptr;  // views or lights that no fit has used; null: none
+  // Measure jumps as the view moves. CTA then has view maps of the file's size, like K-CTA.
   bool jumps = false;
-  std::uint32_t votf_refits = 2;  // of the new fits
+  std::uint32_t votf_refits = 2;  // for the new fits
   MethodProgress progress;
-  // Receives each material after it was measured, and its row, for pictures. May be empty.
+  // Receives each material after its measurement, and its row, for pictures. May be empty.
   std::function<void(const std::string& name, const nook::material::Material& material, const MethodRow& row)>
       keep;
 };
 
-// Compresses the raw material anew by each named method, at the ranks of the file; n-svd-filled and PCA take
+// Compresses the raw material again by each named method, at the ranks of the file. n-svd-filled and PCA take
 // as many bytes as the whole file.
 nlohmann::ordered_json material_baseline_rows(const RawMaterial& raw, const MaterialFile& file,
                                               std::uint64_t seed, const BaselineRequest& request);
 
-// CTA and K-CTA with K = 3, each from first clusters by directions and by values.
+// CTA and K-CTA with K = 3, with first clusters by directions and by values.
 nlohmann::ordered_json seeding_rows(const RawMaterial& raw, const CompressionSettings& settings,
                                     const MethodProgress& progress);
 

@@ -26,7 +26,7 @@ HeightMap heights_of(const PbrTile& tile) {
   return {tile.width, tile.height, tile.heights};
 }
 
-// Returns whether a point of the relief sees the light; a hundredth of the range is its distance from the
+// Returns whether a point of the relief sees the light. The point lies a hundredth of the range away from the
 // relief.
 bool is_lit(const PbrTile& tile, HeightRange range, Vec3 point, Vec3 light) {
   const float depth = range.high - point.z;
@@ -41,7 +41,7 @@ bool is_lit(const PbrTile& tile, HeightRange range, Vec3 point, Vec3 light) {
   return true;
 }
 
-// The shading of a point: what its maps hold there.
+// What the maps hold at a point.
 struct Shading {
   Vec3 diffuse, normal;
   float gloss_width = 1;
@@ -64,7 +64,7 @@ float raw_at(const RawMaterial& raw, const Taps& taps, std::size_t row, std::siz
   return mean_of(taps, &raw.btf[(row * raw.views.size() + view) * raw.texels()]);
 }
 
-// A view and light of a texel, and what is seen.
+// A view and light of a texel, and the radiance seen.
 struct Observation {
   Vec3 view, light, value;
 };
@@ -93,7 +93,8 @@ std::vector<Observation> observe(const RawMaterial& raw, const PbrTile& tile, He
   return found;
 }
 
-// Of the slopes and the gloss width: the best diffuse colour, which is linear, and the error that it leaves.
+// Takes slopes and gloss width. Finds the best diffuse colour, which is linear, and returns the remaining
+// error.
 double best_diffuse(const std::vector<Observation>& seen, Shading& s) {
   double signal[3] = {}, square = 0, error = 0;
   std::vector<float> rest(3 * seen.size()), base(seen.size());
@@ -129,7 +130,7 @@ Shading shading_of(const Unknowns& u) {
   return s;
 }
 
-// A search along the axes with steps that shrink where none of them helps.
+// Searches along the axes. Steps shrink when none of them helps.
 Unknowns fit_texel(const std::vector<Observation>& seen, Unknowns u) {
   Shading s = shading_of(u);
   double best = best_diffuse(seen, s);

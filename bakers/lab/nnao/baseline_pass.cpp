@@ -13,8 +13,8 @@ namespace {
 
 constexpr int hilbert_side = 64;
 
-// The distance along the curve from its start to a cell (D. Hilbert, 1891): the quadrants from the largest to
-// the smallest, each turned so that the curve enters it where it left the one before.
+// Returns the distance along the curve from its start to a cell (D. Hilbert, 1891). Quadrants go from the
+// largest to the smallest. Each is turned so that the curve enters it where it left the one before.
 float hilbert_place(int x, int y) {
   int place = 0;
   for (int half = hilbert_side / 2; half > 0; half /= 2) {
@@ -68,7 +68,7 @@ void DepthLevels::draw(const GpuView& view, float radius_m, float falloff) {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffers_[level]);
     gl_.Uniform1i(program_.at("from_host"), level == 0);
     if (level > 0) {
-      // Only the level that is read is visible while the next one is drawn.
+      // Only the level to read is visible while the next one is drawn.
       gl_.BindTexture(GL_TEXTURE_2D, texture_);
       gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level - 1);
       gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level - 1);
@@ -136,7 +136,7 @@ GLuint EdgeDenoiser::denoise(GLuint ao, int passes, float scale) {
 
 namespace {
 
-// XeGTAO's AO before its denoiser may be above 1; it is divided by this.
+// XeGTAO's AO may be above 1 before its denoiser, so it is divided by this.
 constexpr float headroom = 1.5f;
 
 }  // namespace
@@ -202,7 +202,7 @@ void BaselinePass::draw_raw(const BaselineMethod& method, const GpuView& view, c
   gl_.Uniform1f(shader.at("power"), tuning.power);
   gl_.Uniform1i(shader.at("groups"), grid.groups);
   gl_.Uniform1i(shader.at("steps"), grid.steps);
-  // A baseline has one of these; the location of the others is -1, which OpenGL ignores.
+  // A baseline has one of these. The location of the others is -1, which OpenGL ignores.
   for (const char* shape : {"bias", "falloff", "thickness", "threshold"})
     gl_.Uniform1f(shader.at(shape), tuning.shape);
   gl_.Uniform2f(shader.at("bias_turn"), std::cos(tuning.shape), std::sin(tuning.shape));
@@ -286,7 +286,7 @@ GLuint BaselinePass::draw_own(Denoiser denoiser, GLuint ao, const GpuView& view,
   const int passes = denoiser == Denoiser::box ? 1 : denoiser == Denoiser::disc ? disc_passes : 2;
   set_surface(program, view, request);
   gl_.Uniform1i(program.at("ao_image"), 2);
-  // N8AO's default radius of its disc.
+  // N8AO's default radius of the disc.
   gl_.Uniform1f(program.at("disc_px"), 12);
   for (int pass = 0; pass < passes; ++pass) {
     const GpuImage& target = images_[(pass + 1) % 2];
@@ -317,7 +317,7 @@ GLuint BaselinePass::blur(GLuint ao, const GpuView& view, const AoRequest& reque
 }
 
 std::vector<FrameMethod> frame_baselines(const GladGLContext& gl) {
-  // Made by the first baseline that is drawn: most replays draw none.
+  // The first baseline to be drawn makes it, because most replays draw none.
   const auto pass = std::make_shared<std::unique_ptr<BaselinePass>>();
   std::vector<FrameMethod> methods;
   for (const BaselineMethod& method : baseline_methods())

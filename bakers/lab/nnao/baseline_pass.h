@@ -31,8 +31,8 @@ class DepthLevels {
   DepthLevels(const DepthLevels&) = delete;
   DepthLevels& operator=(const DepthLevels&) = delete;
 
-  // radius_m and falloff: XeGTAO's tuned radius and its falloff range, a share of the radius. Needs a vertex
-  // array.
+  // radius_m and falloff: XeGTAO's tuned radius and its falloff range, a share of the radius. Bind a vertex
+  // array first.
   void draw(const measure::GpuView& view, float radius_m, float falloff);
   GLuint texture() const { return texture_; }
 
@@ -43,8 +43,7 @@ class DepthLevels {
   GLuint texture_ = 0, framebuffers_[count] = {};
 };
 
-// The noise that XeGTAO reads: places on a Hilbert curve over 64 x 64 pixels, 0 to 4095, one texel each
-// (R32F).
+// Noise for XeGTAO: places on a Hilbert curve over 64 x 64 pixels, 0 to 4095, one per texel (R32F).
 measure::GpuImage hilbert_image(const GladGLContext& gl);
 
 // XeGTAO's edge-aware denoiser, for any AO.
@@ -56,7 +55,8 @@ class EdgeDenoiser {
   void find_edges(const measure::GpuView& view);
   const measure::GpuImage& edge_image() const { return edges_; }
 
-  // Returns the texture (R8) with the AO after some passes, times scale. Needs the edges, and a vertex array.
+  // Returns the texture (R8) with the AO after some passes, times scale. Draw the edges and bind a vertex
+  // array first.
   GLuint denoise(GLuint ao, int passes, float scale);
 
  private:
@@ -73,17 +73,17 @@ class BaselinePass {
   BaselinePass(const GladGLContext& gl, int width, int height);
   ~BaselinePass();
 
-  // Returns the texture (R8) that holds the AO until the next call. denoised: by the tuning's denoiser.
+  // Returns the texture (R8) that holds the AO until the next call. denoised: runs the tuning's denoiser.
   GLuint draw(const BaselineMethod& method, const measure::GpuView& view, const measure::AoRequest& request,
               bool denoised);
-  // The bent normals of XeGTAO before its denoiser, in view space, and the packed edges, both row by row.
+  // The bent normals of XeGTAO before its denoiser, in view space, and the packed edges. Both go row by row.
   struct BentImage {
-    std::vector<Vec3> bent_normal;  // zero where there is no surface
+    std::vector<Vec3> bent_normal;  // zero without a surface
     std::vector<float> edges;
   };
   BentImage draw_bent(const BaselineMethod& xegtao, const measure::GpuView& view,
                       const measure::AoRequest& request);
-  // Smooths AO that lies in a texture of the same size.
+  // Smooths AO in a texture of the same size.
   GLuint denoise(GLuint ao, const measure::GpuView& view, const measure::AoRequest& request,
                  Denoiser denoiser);
 
@@ -93,12 +93,12 @@ class BaselinePass {
                    const measure::AoRequest& request) const;
   void draw_raw(const BaselineMethod& method, const measure::GpuView& view,
                 const measure::AoRequest& request);
-  // XeGTAO writes the edges too, and AO above 1 for its own denoiser.
+  // XeGTAO also writes the edges, and AO above 1 for its own denoiser.
   void draw_xegtao(const measure::GpuProgram& shader, const BaselineMethod& method,
                    const measure::GpuView& view, const measure::AoRequest& request, float scale,
                    GLuint framebuffer);
   GLuint blur(GLuint ao, const measure::GpuView& view, const measure::AoRequest& request);
-  // Runs one of the own denoisers of what is shipped.
+  // Runs the denoiser of a shipped method.
   GLuint draw_own(Denoiser denoiser, GLuint ao, const measure::GpuView& view,
                   const measure::AoRequest& request);
 
@@ -106,7 +106,7 @@ class BaselinePass {
   int width_, height_;
   GLuint vertex_array_ = 0, with_edges_ = 0;
   std::map<std::string, std::unique_ptr<measure::GpuProgram>>
-      programs_;  // by path and defines, made at first use
+      programs_;  // by path and defines, made on first use
   measure::GpuProgram blur_, box_, disc_, gaussian_;
   measure::GpuImage images_[2];
   EdgeDenoiser edge_denoiser_;

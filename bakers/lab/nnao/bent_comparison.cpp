@@ -77,7 +77,7 @@ std::vector<Vec3> edge_average(std::span<const Vec3> vectors, std::span<const fl
 
 namespace {
 
-// The result of a method for a view: a bent normal for each pixel, and AO if it has one for lighting.
+// A method's result for a view: a bent normal for each pixel, and AO if lighting can use it.
 struct BentView {
   std::vector<Vec3> bent_normal;
   std::vector<float> ao;
@@ -94,7 +94,7 @@ struct BentMethod {
 struct BentSums {
   std::vector<double> degrees;
   std::array<double, measured_roughness.size()> fitted{}, lagarde{};
-  double pixels = 0;  // with AO
+  double pixels = 0;  // pixels with AO
 };
 
 double degrees_between(Vec3 a, Vec3 b) {
@@ -171,7 +171,7 @@ BentView network_view(const GladGLContext& gl, GLuint texture, int width, int he
   return found;
 }
 
-// The mean over the sources of each number; the ratio is the geometric mean.
+// Returns the mean of each number over the sources; for the ratio, the geometric mean.
 Json mean_row(const std::vector<Json>& sources) {
   Json row = sources.front();
   row["scene"] = "mean";

@@ -1,4 +1,4 @@
-// The scenes that the lab builds itself.
+// Scenes that the lab builds itself.
 #pragma once
 
 #include <array>
@@ -8,17 +8,17 @@
 
 namespace nook::lab {
 
-// Thin objects, which no training scene contains and which are difficult for methods with one depth for each
-// pixel: a picket fence and a wire mesh, bentwood chairs, a plant with blades and leaves, and a hand, on a
-// floor with a wall behind them. The same seed gives the same scene.
+// Makes a scene of thin objects: a picket fence, a wire mesh, bentwood chairs, a plant with blades and
+// leaves, and a hand, on a floor in front of a wall. No training scene contains them. They are difficult for
+// methods with one depth per pixel. The same seed gives the same scene.
 bake::nnao::TrainingScene make_thin_scene(std::uint64_t seed);
 
-// The place that a moving body is measured in: the floor is at y = 0, the wall behind the way, which leads
-// through the origin: half a metre of skirting, crates, a table and a chair along the wall, a thin post
-// before it. World space, metres.
+// The place where a moving body is measured. The floor is at y = 0, and the wall is behind the way, which
+// leads through the origin. Half a metre of skirting, crates, a table and a chair are along the wall, with a
+// thin post in front. World space, metres.
 bake::TriangleSoup mover_stage();
 
-// A camera, and where the body that it follows goes.
+// A camera, and the way of the body that it follows.
 struct MoverShot {
   const char* name;
   Vec3 eye, target;

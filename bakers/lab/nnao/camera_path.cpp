@@ -31,7 +31,7 @@ Camera moved(Camera camera, Vec3 along_vs) {
   return camera;
 }
 
-// The step back along the path, view space.
+// Returns the step back along the path, in view space.
 Vec3 step_back(const bake::RayScene& rays, const TracedView& view, const PathSettings& settings) {
   const Mat3x4& world = view.camera.world_from_view;
   const float length = settings.step_px * std::abs(view.camera.rays.x_scale) * median_depth(view);
@@ -41,17 +41,17 @@ Vec3 step_back(const bake::RayScene& rays, const TracedView& view, const PathSet
   for (const float side : {1.0f, -1.0f}) {
     const Vec3 back{side * length, 0, settings.forward * length};
     const Vec3 whole = float(settings.frames - 1) * back;
-    // The distance to a wall, in lengths of the whole way from the view to the oldest frame.
+    // Finds the distance to a wall, in lengths of the whole way from the view to the oldest frame.
     const float room = length > 0 ? rays.nearest(eye, transform_vector(world, whole)).distance : 0.0f;
     if (room <= best_room) continue;
     best_room = room;
-    // Half of the room at most: a camera in a wall sees nothing.
+    // Uses half of the room at most, because a camera in a wall sees nothing.
     best = std::min(1.0f, 0.5f * room) * back;
   }
   return best;
 }
 
-// The change of depth to the neighbours along both axes, each on the flatter side.
+// Returns the change of depth to the neighbours along both axes, each on the flatter side.
 float depth_slope(const TracedView& view, std::uint32_t x, std::uint32_t y) {
   const std::uint32_t width = view.camera.width, height = view.camera.height;
   const float depth = view.depth[std::size_t(y) * width + x];
@@ -66,10 +66,10 @@ float depth_slope(const TracedView& view, std::uint32_t x, std::uint32_t y) {
   return (std::isfinite(across) ? across : 0) + (std::isfinite(up) ? up : 0);
 }
 
-// Depths of one surface differ by its slope, and by this share of the depth where it curves.
+// Depths of one surface differ by its slope and, where it curves, by this share of the depth.
 constexpr float depth_share = 0.005f;
 
-// A smaller share of the four pixels is a border that grazes the place.
+// If fewer of the four pixels match, they are a border that grazes the place.
 constexpr float smallest_share = 0.05f;
 
 EarlierPixels pixels_at(const TracedView& before, Vec3 position, float tolerance) {

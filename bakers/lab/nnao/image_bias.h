@@ -14,8 +14,8 @@ inline constexpr std::array<const char*, 4> border_names{"left", "right", "botto
 // Bands along a border, in pixels: each goes from the end of the previous one to this distance.
 inline constexpr std::array<std::uint32_t, 3> border_bands_px{5, 20, 60};
 
-// The dark or bright rim of an AO image: its mean error by the distance to each border of the screen. Sums
-// over pixels with a surface of any number of images.
+// Measures the dark or bright rim of an AO image: its mean error by the distance to each border of the
+// screen. Sums over pixels with a surface, over any number of images.
 class BorderBias {
  public:
   // Adds an image, row by row from the bottom, with one value for each pixel. A pixel counts if its depth is
@@ -38,18 +38,19 @@ class BorderBias {
   measure::Mean rim_, inside_;
 };
 
-// The mean error where the truth is dark, and for each value that the image gives. Sums over pixels with a
-// surface of any number of images.
+// The mean error where the truth is dark, and for each value of the image. Sums over pixels with a surface,
+// over any number of images.
 class Calibration {
  public:
   // Adds an image with one value for each pixel. A pixel counts if its depth is finite.
   void add(std::span<const float> ao, std::span<const float> truth, std::span<const float> depth);
   void add(const Calibration& other);
 
-  // Returns the mean of AO - truth where the truth is below 0.35, or 0 if it is nowhere: above 0 dark parts
+  // Returns the mean of AO - truth where the truth is below 0.35; 0 without such pixels. Above 0, dark parts
   // are too bright.
   double dark_bias() const;
-  // Returns the largest |mean of AO - truth| over those tenths of AO that hold 0.5 % of the pixels or more.
+  // Returns the largest magnitude of the mean of AO - truth, over the tenths of AO that hold at least 0.5 %
+  // of the pixels.
   double largest_bias() const;
 
  private:

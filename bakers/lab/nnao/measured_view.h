@@ -1,4 +1,4 @@
-// The views of scenes, with everything that methods are measured against.
+// The views of scenes, with all references for methods.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@ namespace nook::lab {
 
 // One camera.
 struct MeasuredView {
-  std::string scene, source;  // a scene without a source is one of its own
+  std::string scene, source;  // a scene without a source is its own source
   std::string camera;         // its name; empty: none
   float radius = 0;           // metres
   bake::nnao::TracedView view;
-  bake::nnao::TracedView slid;  // the image slides by one pixel
+  bake::nnao::TracedView slid;  // same view, slid by one pixel
   std::vector<float> truth;
   double noise = 0;             // expected squared error of the truth
-  std::vector<BentTruth> bent;  // if the settings want it
-  // The frames before the view, the oldest first, if the settings want a path.
+  std::vector<BentTruth> bent;  // if the settings request it
+  // The frames before the view, the oldest first, if the settings request a path.
   std::vector<bake::nnao::TracedView> path;
 };
 
@@ -31,8 +31,8 @@ MeasuredView measure_view(const bake::RayScene& rays, const std::string& scene,
                           const bake::nnao::Camera& camera, const TruthSettings& settings,
                           const TruthStore& store = {});
 
-// 24 views, each of a training scene of its own, the families and radii of 0.25, 0.5 and 1 metre in turn:
-// what the baselines are tuned on. Return false from progress to stop, which throws Failure(CANCELLED).
+// Returns 24 views of different training scenes, with families and radii of 0.25, 0.5 and 1 metre in turn.
+// Baselines are tuned on them. Return false from progress to stop, which throws Failure(CANCELLED).
 std::vector<MeasuredView> tuning_views(std::uint64_t seed,
                                        const std::function<bool(std::size_t, std::size_t)>& progress);
 
@@ -44,7 +44,7 @@ struct GivenCamera {
 };
 
 struct SceneRequest {
-  std::string name;            // the file's without its extension, or thin
+  std::string name;            // the file's name without extension, or thin
   std::filesystem::path file;  // empty: the built-in scene of thin things
   float radius = 0.5f;         // metres
   std::vector<GivenCamera> cameras;
@@ -52,7 +52,7 @@ struct SceneRequest {
   std::string source = {};  // empty: the scene's name
 };
 
-// Reads the scene and traces its views; placed: how many cameras to place where none is given. references: a
+// Reads the scene and traces its views. placed: how many cameras to place if none is given. references: a
 // folder of kept references; empty: none. progress counts views; false stops, which throws Failure
 // (CANCELLED). Throws Failure (BAD_FILE) for a scene that cannot be read.
 std::vector<MeasuredView> trace_views(

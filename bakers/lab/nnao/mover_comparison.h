@@ -1,4 +1,5 @@
-// Means of AO over frames where a skinned body moves, against ray tracing and beside single frames.
+// Measures means of AO over frames in which a skinned body moves, against ray tracing and beside single
+// frames.
 #pragma once
 
 #include <array>
@@ -14,10 +15,10 @@
 
 namespace nook::lab {
 
-// Frames of a sequence, and the longest mean.
+// Length of a sequence, and of the longest mean.
 inline constexpr std::size_t mover_frames = 8;
 
-// The earlier frames that a pass takes.
+// Which earlier frames a pass uses.
 enum class MoverPass : std::uint8_t {
   single,   // each frame alone
   vectors,  // a mean over frames with motion vectors of the body
@@ -30,7 +31,7 @@ const char* mover_pass_name(MoverPass pass);
 struct MoverError {
   int taps = 0;
   MoverPass pass = MoverPass::single;
-  std::array<double, mover_part_count> mse{};   // of the last frame, by MoverPart; 0 without a pixel
+  std::array<double, mover_part_count> mse{};   // in the last frame, by MoverPart; 0 without a pixel
   std::array<double, mover_part_count> bias{};  // mean of AO less the reference
 };
 
@@ -41,16 +42,17 @@ struct MeasuredMover {
   std::vector<MoverError> errors;
 };
 
-// view: of mover_frames. Keeps the last frame's AO of each pass with 9 taps in images, in the order of
-// mover_passes, if it is not null.
+// The view needs mover_frames frames. If images is not null, it receives the last frame's AO of each pass
+// with 9 taps, in the order of mover_passes.
 MeasuredMover measure_mover(platform::Context& context, const MoverView& view, measure::AoRequest request,
                             std::vector<std::vector<float>>* images);
 
-// Parts with fewer pixels in a view do not count there: they would be chance.
+// In a view, parts with fewer pixels do not count, because they would be chance.
 inline constexpr std::size_t fewest_part_pixels = 100;
 
-// Members `rows`: means over each character's views and over the characters; `ratios`: of errors over those
-// of single frames; `views`: each view and pass. docs/nnao_protocol.md has the columns. movers: one or more.
+// Members `rows`: means over each character's views and over the characters; `ratios`: errors over the errors
+// of single frames; `views`: each view and pass. docs/nnao_protocol.md explains the columns. movers: one or
+// more.
 nlohmann::ordered_json mover_report(std::span<const MeasuredMover> movers, std::uint64_t seed);
 
 // The tables of means and ratios.

@@ -53,7 +53,7 @@ struct MoverFrame {
   static constexpr std::uint32_t none = ~0u;
 
   TracedView view;
-  std::vector<std::uint32_t> triangle;  // of the body; none: another surface or the sky
+  std::vector<std::uint32_t> triangle;  // triangle of the body; none: another surface or the sky
   std::vector<float> u, v;              // barycentric weights of the triangle's second and third vertex
 };
 
@@ -64,7 +64,7 @@ bake::TriangleSoup with_body(bake::TriangleSoup soup, const MovingBody& body, st
   return soup;
 }
 
-// still: the number of triangles that are not the body's.
+// still: the number of triangles that do not belong to the body.
 MoverFrame trace_frame(const bake::RayScene& rays, const Camera& camera, std::size_t still) {
   MoverFrame frame{{camera, {}, {}}, {}, {}, {}};
   const bake::FlushDenormals flush;
@@ -88,7 +88,7 @@ Vec3 position_vs(const TracedView& view, std::size_t pixel) {
                                    view.depth[pixel]);
 }
 
-// Where the surface of a pixel was in the frame before, in that frame's view space.
+// Returns where the surface of a pixel was in the frame before, in that frame's view space.
 Vec3 earlier_position(const MoverFrame& now, const Camera& before, const std::vector<Vec3>& body,
                       const MovingBody& mover, std::size_t pixel) {
   if (now.triangle[pixel] == MoverFrame::none)
@@ -112,7 +112,7 @@ std::vector<float> motion_of(const MoverFrame& now, const Camera& before, const 
   return motion;
 }
 
-// Of each pixel: whether a surface that stands still is hidden by the body in another frame.
+// Returns for each pixel whether the body hides its still surface in another frame.
 std::vector<bool> hidden_in(const MoverFrame& now, const MoverFrame& other) {
   const std::vector<EarlierPixels> earlier = earlier_pixels(now.view, other.view);
   const Camera& camera = other.view.camera;

@@ -44,8 +44,8 @@ double drawn_mean(const std::vector<double>& values, bake::Random& random) {
   return sum / double(values.size());
 }
 
-// Returns the sorted means over sources of `draws` samples of the views; of the sources as well if
-// sources_too.
+// Returns the sorted means over sources of `draws` resamples of the views. sources_too: resamples the sources
+// as well.
 std::vector<double> drawn_means(const std::vector<Source>& sources, bool sources_too, std::uint64_t seed) {
   bake::Random random(seed);
   std::vector<double> means(bootstrap_draws);

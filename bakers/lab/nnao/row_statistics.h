@@ -1,5 +1,5 @@
-// Rows of reports over several sources: ratios of errors with their bounds, means that leave out what a
-// source lacks, and numbers of tables.
+// Rows of reports over several sources: ratios of errors with their bounds, means that skip what a source
+// lacks, and numbers for tables.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace nook::lab {
 
 // The errors of two methods in one view.
 struct ErrorPair {
-  std::string source;  // of the scene: views of one source resemble each other
+  std::string source;  // source of the scene; views of one source resemble each other
   double error = 0, reference = 0;
 };
 
@@ -31,9 +31,9 @@ struct SourceRatio {
 struct RatioStatistics {
   // The geometric mean of the sources' ratios. Sources have equal weights, however many views they have.
   double ratio = 1;
-  // Quantiles of 5 % and 95 % of that mean where the views within each source are drawn anew.
+  // The 5 % and 95 % quantiles of this mean when the views within each source are resampled.
   double lower_95 = 1, upper_95 = 1;
-  // The upper one where the sources are drawn anew as well: that of other scenes than these.
+  // The upper quantile when the sources are resampled as well: the bound for other scenes.
   double upper_95_sources = 1;
   std::size_t views = 0;
   std::vector<SourceRatio> sources;  // in the order of their first views
@@ -41,11 +41,11 @@ struct RatioStatistics {
 
 inline constexpr std::size_t bootstrap_draws = 10000;
 
-// A pair's two errors are always drawn together. The result depends on the pairs and the seed alone. pairs:
-// one or more. Errors below 1e-9, far below a grey level squared, count as 1e-9.
+// Always draws a pair's two errors together. The result depends only on the pairs and the seed. pairs: one or
+// more. Errors below 1e-9, far below a grey level squared, count as 1e-9.
 RatioStatistics compare_errors(std::span<const ErrorPair> pairs, std::uint64_t seed);
 
-// The names of all items, each once, in the order of their first items.
+// Returns the names of all items, each once, in the order of their first items.
 template <typename Item>
 std::vector<std::string> distinct_names(std::span<const Item> items, std::string Item::*name) {
   std::vector<std::string> names;
@@ -57,12 +57,12 @@ std::vector<std::string> distinct_names(std::span<const Item> items, std::string
 // null before the first value.
 nlohmann::ordered_json mean_or_null(const measure::Mean& mean);
 
-// The mean of each column over the rows in which it is no null; other members are those of the first row.
-// rows: one or more, with all columns.
+// Returns the mean of each column over the rows in which it is a number. Other members come from the first
+// row. rows: one or more, with all columns.
 nlohmann::ordered_json mean_row(std::span<const nlohmann::ordered_json> rows,
                                 std::span<const std::string> columns);
 
-// A member by a format of printf for a double; "-" without a number.
+// Formats a member by a printf format for a double; "-" without a number.
 std::string table_number(const nlohmann::ordered_json& row, const char* key, const char* format);
 
 }  // namespace nook::lab

@@ -3,15 +3,15 @@
 namespace nook::lab {
 namespace {
 
-// The output of `nook-lab evaluate nnao --tune all`, seed 1.
+// Printed by `nook-lab evaluate nnao --tune all`, seed 1.
 constexpr BaselineMethod methods[] = {
 #include "bakers/lab/nnao/baseline_tuning.inl"
-    // The defaults as their documents state them, lengths divided by the radius. N8AO: README of 2.0.0,
-    // quality Medium, falloff 1 of radius 5, intensity 5. S4AO: Godot's Environment and pull request 109447,
-    // quality Medium, intensity 2. VTK: vtkSSAOPass.h, 32 points, no blur; a bias of a hundredth of the
-    // radius, as in Kitware's article. QGIS: pull request 49702, intensity and threshold 0.5, 64 points.
-    // Filament: quality Low, a bias of 0.5 mm of 0.3 m, always squared; half resolution is its default, here
-    // it has the full one.
+    // Documented defaults, with lengths divided by the radius.
+    //   N8AO      README of 2.0.0, quality Medium, falloff 1 of radius 5, intensity 5
+    //   S4AO      Godot's Environment and pull request 109447, quality Medium, intensity 2
+    //   VTK       vtkSSAOPass.h, 32 points, no blur; a bias of a hundredth of the radius, as in Kitware's article
+    //   QGIS      pull request 49702, intensity and threshold 0.5, 64 points
+    //   Filament  quality Low, a bias of 0.5 mm of 0.3 m, always squared; full resolution, though half is its default
     {Baseline::n8ao, 16, {1, 5, 0.2f, 0, false, Border::depth, Denoiser::disc}, true},
     {Baseline::s4ao, 12, {1, 1, 0.25f, 0, false, Border::depth, Denoiser::none, 2}, true},
     {Baseline::vtk, 32, {1, 1, 0.01f, 0, false, Border::depth, Denoiser::none}, true},
@@ -117,7 +117,7 @@ std::span<const BaselineMethod> baseline_methods() {
 
 int baseline_fetches(const BaselineMethod& method, bool denoised) {
   const bool xegtao = method.baseline == Baseline::xegtao;
-  // The levels of depth take 1 + 1 + 1/4 + 1/16 + 1/64.
+  // The levels of depth take 1 + 1 + 1/4 + 1/16 + 1/64 fetches.
   int fetches = 2 + method.taps + (xegtao ? 3 + 4 + 1 : 0);
   if (!denoised) return fetches;
   switch (method.tuning.denoiser) {

@@ -1,4 +1,4 @@
-// The methods that the screen-space network is compared with, each tuned, as it was published otherwise.
+// The methods that the screen-space network is compared with, each tuned and otherwise as published.
 #pragma once
 
 #include <span>
@@ -6,7 +6,7 @@
 
 namespace nook::lab {
 
-// From n8ao to filament: what an application or an engine ships.
+// Applications and engines ship the methods from n8ao to filament.
 enum class Baseline { ssao, ssao_plus, hbao, n8ao, s4ao, vtk, qgis, filament, gtao, bitmask, xegtao };
 inline constexpr Baseline all_baselines[] = {
     Baseline::ssao, Baseline::ssao_plus, Baseline::hbao, Baseline::n8ao,    Baseline::s4ao,  Baseline::vtk,
@@ -15,15 +15,15 @@ inline constexpr Baseline all_baselines[] = {
 const char* baseline_name(Baseline baseline);    // in tables
 const char* baseline_shader(Baseline baseline);  // in shaders/
 
-// A tap beyond the screen meets nothing; or the nearest pixel on the screen, at its own place; or the depth
-// of that pixel at the tap's place, which is what a sampler that clamps gives. The values are NOOK_BORDER's.
+// What a tap beyond the screen meets: nothing; the nearest pixel on the screen, at that pixel's place; or
+// that pixel's depth at the tap's place, like a clamping sampler. The values are NOOK_BORDER's.
 enum class Border { nothing, pixel, depth };
 inline constexpr Border all_borders[] = {Border::nothing, Border::pixel, Border::depth};
 const char* border_name(Border border);
 
-// The noise is smoothed by the bilateral blur over 7 x 7 pixels, or by XeGTAO's edge-aware denoiser over 3 x
-// 3, run as often as its value says. What is shipped has one of its own: the mean of 4 x 4 pixels (VTK,
-// QGIS), N8AO's disc, Filament's bilateral Gaussian, or none (S4AO, VTK).
+// The bilateral blur over 7 x 7 pixels smooths the noise, or XeGTAO's edge-aware denoiser over 3 x 3, which
+// runs as often as its value says. Shipped methods have their own: the mean of 4 x 4 pixels (VTK, QGIS),
+// N8AO's disc, Filament's bilateral Gaussian, or none (S4AO, VTK).
 enum class Denoiser { blur, edges_1, edges_2, edges_3, none, box, disc, gaussian };
 inline constexpr Denoiser all_denoisers[] = {Denoiser::blur,    Denoiser::edges_1, Denoiser::edges_2,
                                              Denoiser::edges_3, Denoiser::none,    Denoiser::box,
@@ -39,16 +39,22 @@ std::span<const Denoiser> denoisers_of(Baseline baseline);
 // The parameters that the search chooses.
 struct BaselineTuning {
   float radius_scale = 1;  // the method's radius over the radius of the request
-  float power = 1;         // of its result
-  // Bias of SSAO+, VTK and Filament in radii and of HBAO in radians; where GTAO's falloff begins, in radii;
-  // thickness of the bitmask in radii; falloff range of XeGTAO and N8AO in radii, of S4AO as a share of the
-  // inverse depth; QGIS' threshold. SSAO has none.
+  float power = 1;         // power of the result
+  // The method's own parameter:
+  //   SSAO+, VTK, Filament  bias in radii
+  //   HBAO                  bias in radians
+  //   GTAO                  where the falloff begins, in radii
+  //   bitmask               thickness in radii
+  //   XeGTAO, N8AO          falloff range in radii
+  //   S4AO                  falloff range as a share of the inverse depth
+  //   QGIS                  threshold
+  // SSAO has none.
   float shape = 0;
   float thin = 0;              // XeGTAO's compensation for thin occluders
-  bool equal_weights = false;  // bitmask: sectors of equal cosine-weighted share; else of equal angle
+  bool equal_weights = false;  // bitmask: sectors have equal cosine-weighted shares; otherwise equal angles
   Border border = Border::nothing;
   Denoiser denoiser = Denoiser::blur;
-  // A factor of the darkness, for S4AO and QGIS. The search leaves it at 1: contrast does as well.
+  // A factor of the darkness, for S4AO and QGIS. The search leaves it at 1, because contrast does as well.
   float strength = 1;
 
   bool operator==(const BaselineTuning&) const = default;
@@ -58,9 +64,10 @@ struct BaselineMethod {
   Baseline baseline;
   int taps;
   BaselineTuning tuning;
-  bool shipped = false;  // with the default settings of what ships it
+  bool shipped = false;  // with the default settings of the program that ships it
 };
-std::string baseline_row(const BaselineMethod& method);  // its name in tables, with "_shipped" where it is
+std::string baseline_row(const BaselineMethod& method);  // name in tables, with "_shipped" for shipped
+                                                         // settings
 
 // Taps as directions x steps (HBAO), or 2 halves x slices x steps (GTAO, the bitmask and XeGTAO).
 struct BaselineGrid {
@@ -68,19 +75,19 @@ struct BaselineGrid {
 };
 BaselineGrid baseline_grid(Baseline baseline, int taps);
 
-// Lines in front of the shader's text: what is known when it is compiled.
+// Returns lines before the shader's text: what is known at compile time.
 std::string baseline_defines(const BaselineMethod& method);
 
-// Every row of the comparison, with the tuning that `nook-lab evaluate nnao --tune all` prints, then those
-// with the settings that are shipped.
+// Every row of the comparison: first with the tuning that `nook-lab evaluate nnao --tune all` prints, then
+// with the shipped settings.
 std::span<const BaselineMethod> baseline_methods();
 
-// Texels that are read for each pixel: its depth and normal, and one depth for each tap; XeGTAO's depth
-// levels, four neighbours and noise as well. denoised: the denoiser's are included.
+// Returns the texels read per pixel: its depth and normal, and one depth per tap. XeGTAO also reads its depth
+// levels, four neighbours and noise. denoised: includes the denoiser.
 int baseline_fetches(const BaselineMethod& method, bool denoised);
-// Two axes, each AO, depth and normal of 7 pixels.
+// Two axes, each with AO, depth and normal of 7 pixels.
 inline constexpr int blur_fetches = 2 * 3 * 7;
-// N8AO's disc is run so many times.
+// Number of passes of N8AO's disc.
 inline constexpr int disc_passes = 2;
 
 }  // namespace nook::lab

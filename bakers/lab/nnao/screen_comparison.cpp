@@ -17,18 +17,18 @@ using namespace measure;
 
 namespace {
 
-constexpr int frames = 1;  // timed, of each view
+constexpr int frames = 1;  // timed frames per view
 
 struct Method {
   std::string name;
   int taps = 0;
   std::function<GLuint(const GpuView&, const AoRequest&, bool)> draw;
   int fetches_raw = 0, fetches_blurred = 0;
-  std::string denoiser;    // of the blurred one
-  bool is_oracle = false;  // drawn once a view: no blur, no flicker
+  std::string denoiser;    // denoiser of the blurred row
+  bool is_oracle = false;  // drawn once per view: no blur, no flicker
 };
 
-// The view, and the same with the image slid by one pixel.
+// Holds the view, and the same view with the image slid by one pixel.
 struct ViewOnGpu {
   ViewOnGpu(const GladGLContext& gl, const MeasuredView& measured)
       : view(gl, measured.view), slid(gl, measured.slid) {}
@@ -67,7 +67,7 @@ ComparisonRow measure(const GladGLContext& gl, const Method& method, bool blurre
     const GpuView& view = images[v].view;
     request.radius = views[v].radius;
     GLuint texture = 0;
-    // The first frame of a method is not counted: drivers compile then.
+    // The first frame of a method does not count, because drivers compile then.
     if (v == 0 && !method.is_oracle) method.draw(view, request, blurred);
     for (int i = 0; i < frames; ++i)
       measured.ms.push_back(timed_draw(gl, [&] { texture = method.draw(view, request, blurred); }));

@@ -1,4 +1,4 @@
-// Every method over the views of the scenes.
+// Measures every method over the views of the scenes.
 #pragma once
 
 #include <cstddef>
@@ -19,9 +19,9 @@ struct Measurement {
   measure::ImageError error;
   BorderBias border;
   Calibration calibration;
-  std::vector<double> flicker;  // none of an oracle; else of each view: mean |change| of a surface's AO when
-                                // the image slides by one pixel
-  std::vector<double> ms;       // wall clock of each frame, round glFinish
+  std::vector<double> flicker;  // per view: mean |change| of a surface's AO when the image slides by one
+                                // pixel; empty for an oracle
+  std::vector<double> ms;       // wall clock of each frame, including glFinish
 
   void add(const Measurement& other);
   double mean_flicker() const;
@@ -32,24 +32,24 @@ struct ComparisonRow {
   std::string method;
   int taps = 0;
   bool blurred = false;
-  int fetches = 0;                 // a pixel
+  int fetches = 0;                 // per pixel
   std::vector<Measurement> views;  // in the order of the views
-  std::string denoiser;            // a baseline's tuned one, the library's, or none
+  std::string denoiser;            // the tuned denoiser of a baseline, the library's, or none
 };
 
 // Returns a row's numbers over some views. which: indices of views.
 Measurement pooled(const ComparisonRow& row, std::span<const std::size_t> which);
 
-// Rows of the embedded network besides nnao: at half resolution, and with the filter twice.
+// Names further rows of the embedded network: at half resolution, and with the filter twice.
 inline constexpr char half_name[] = "nnao_half", twice_name[] = "nnao_twice";
 
 struct ComparisonSettings {
-  measure::AoRequest request;            // its radius is each view's
-  std::vector<std::byte> other_network;  // a file beside the embedded one; empty: none
+  measure::AoRequest request;            // uses each view's radius
+  std::vector<std::byte> other_network;  // a network file to compare with the embedded one; empty: none
   std::string other_name;                // in tables
-  // Names in tables, or name:taps; empty: all but the oracles, which all stands for as well.
+  // Names as in tables, or name:taps. empty: all but the oracles; so does "all".
   std::vector<std::string> methods;
-  bool raw = true;  // measure each method without its blur as well
+  bool raw = true;  // also measure each method without its blur
 };
 
 // A method's AO of a view, for pictures.
@@ -65,8 +65,8 @@ struct Comparison {
   std::vector<KeptImage> images;  // blurred
 };
 
-// keep: whether a method's blurred images are kept. Views have one size. progress counts methods; false
-// stops, which throws Failure(CANCELLED).
+// keep: keeps a method's blurred images. Views need one size. progress counts methods; false stops, which
+// throws Failure(CANCELLED).
 Comparison compare(platform::Context& context, std::span<const MeasuredView> views,
                    const ComparisonSettings& settings,
                    const std::function<bool(const std::string& method, int taps)>& keep,

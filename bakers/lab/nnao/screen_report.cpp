@@ -18,7 +18,7 @@ bool same_method(const Json& a, const Json& b) {
   return a["method"] == b["method"] && a["taps"] == b["taps"] && a["blurred"] == b["blurred"];
 }
 
-// Scientific with two decimals, its exponent without zeros: 7.97e-3.
+// Formats a number with two decimals and an exponent without zeros: 7.97e-3.
 std::string short_power(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2e", value);
@@ -103,7 +103,7 @@ std::string ratio_table(const Json& ratios) {
   return text;
 }
 
-// The time of nnao with 64 taps; without it `own`.
+// Returns the time of nnao with 64 taps, or `own` without it.
 double reference_ms(const Comparison& comparison, const ViewGroup& group, bool blurred, double own) {
   for (const ComparisonRow& row : comparison.rows)
     if (row.method == "nnao" && row.taps == 64 && row.blurred == blurred)
@@ -111,7 +111,7 @@ double reference_ms(const Comparison& comparison, const ViewGroup& group, bool b
   return own;
 }
 
-// Returns the views of the groups that enter means.
+// Returns the views of the groups that count for means.
 std::vector<std::size_t> counted_views(std::span<const ViewGroup> groups) {
   std::vector<std::size_t> views;
   for (const ViewGroup& group : groups)

@@ -9,29 +9,29 @@
 
 namespace nook::lab {
 
-// Some views of a comparison under one name: those of a scene, or those of a source.
+// Views of a comparison under one name: all views of a scene or of a source.
 struct ViewGroup {
   std::string name;
   std::vector<std::size_t> views;  // indices
-  bool is_built_in = false;        // it enters no mean
+  bool is_built_in = false;        // does not count for means
 };
 
-// One object a row. dark_bias and calibration are explained in image_bias.h; border_bias is the mean of AO -
-// truth within 20 px of any border less that inside; flicker is null for the oracles; ratio_to_nnao the time
-// over that of nnao with 64 taps.
+// Returns one object per row. image_bias.h explains dark_bias and calibration. border_bias is the mean of AO
+// - truth within 20 px of any border, less the mean inside. flicker is null for the oracles. ratio_to_nnao is
+// the time over the time of nnao with 64 taps.
 nlohmann::ordered_json nnao_rows(const Comparison& comparison, const ViewGroup& group,
                                  const std::string& resolution, const std::string& gpu);
 
-// One object a blurred method: the mean of AO - truth in the bands of each border, outermost first, and
-// inside.
+// Returns one object per blurred method: the mean of AO - truth in the bands of each border, outermost first,
+// and inside.
 nlohmann::ordered_json nnao_border_rows(const Comparison& comparison, const ViewGroup& group);
 
 // One object for each view and row of the comparison.
 nlohmann::ordered_json nnao_view_rows(const Comparison& comparison, std::span<const MeasuredView> views);
 
-// For each method, number of taps and blur the mean of every number over the groups that are not built in, as
-// a row of the scene "mean"; dark_bias and calibration are those of all their pixels. None for fewer than two
-// such groups. rows: those of nnao_rows of every group in turn.
+// Returns for each method, number of taps and blur the mean of every number over the groups that are not
+// built in, as a row of the scene "mean". dark_bias and calibration are over all their pixels. Returns
+// nothing for fewer than two such groups. rows: the rows of all groups, each made by nnao_rows.
 nlohmann::ordered_json nnao_mean_rows(const nlohmann::ordered_json& rows, const Comparison& comparison,
                                       std::span<const ViewGroup> groups);
 
@@ -41,13 +41,14 @@ struct MethodRatio {
   int taps = 0, over_taps = 0;
 };
 
-// One object for each ratio of which both methods were measured: of the blurred mse, or the raw one where a
-// method has no blur, over all views of the groups that are not built in.
+// Returns one object for each ratio whose two methods were measured. It compares the blurred mse, or the raw
+// mse if a method has no blur, over all views of the groups that are not built in.
 nlohmann::ordered_json nnao_ratio_rows(const Comparison& comparison, std::span<const MeasuredView> views,
                                        std::span<const ViewGroup> groups, std::span<const MethodRatio> ratios,
                                        std::uint64_t seed);
 
-// Markdown: blurred mse by scene with its mean, the means of every column, and the ratios if there are any.
+// Returns Markdown: blurred mse by scene with its mean, the means of every column, and the ratios if there
+// are any.
 std::string nnao_markdown(const nlohmann::ordered_json& rows, const nlohmann::ordered_json& ratios);
 
 }  // namespace nook::lab

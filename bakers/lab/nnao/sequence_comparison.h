@@ -1,4 +1,5 @@
-// Means of AO over the frames of a moving camera, against ray tracing and against the same pass without them.
+// Measures means of AO over the frames of a moving camera, against ray tracing and against the same pass
+// without them.
 #pragma once
 
 #include <cstdint>
@@ -13,35 +14,35 @@
 
 namespace nook::lab {
 
-// A view is the last frame of so many.
+// A view is the last of this many frames.
 inline constexpr std::size_t sequence_frames = 8;
 
 // The result of a pass at the end of a path.
 struct SequenceError {
   int taps = 0;
-  int frames = 1;  // from the cut to the view; 1: each frame stands alone
+  int frames = 1;  // frames from the cut to the view; 1: each frame alone
   double mse = 0;
-  double disoccluded_mse = 0;  // over the surfaces that the frame before does not show; 0 without any
-  double change = 0;           // mean change of a surface's AO from frame to frame
+  double disoccluded_mse = 0;  // over surfaces that the frame before does not show; 0 without any
+  double change = 0;           // mean change of a surface's AO between frames
 };
 
 struct SequenceView {
   std::string scene, source, camera;
-  double step_px = 0;  // mean motion on the screen from frame to frame of what both show
+  double step_px = 0;  // mean motion on the screen between frames, over surfaces that both show
   std::size_t surfaces = 0, disoccluded = 0;  // pixels
   std::vector<SequenceError> errors;
 };
 
-// view: with a path of sequence_frames. The pass is drawn by the public interface, with the embedded network;
-// request's radius is the view's.
+// The view needs a path of sequence_frames. Draws the pass by the public interface, with the embedded
+// network. The request uses the view's radius.
 SequenceView measure_sequence(platform::Context& context, const MeasuredView& view,
                               measure::AoRequest request);
 
-// Views with fewer disoccluded pixels have no part in ratios over them: these would be chance.
+// Views with fewer disoccluded pixels do not count in ratios over them, because they would be chance.
 inline constexpr std::size_t fewest_disoccluded = 100;
 
-// Members `rows`: means over each source's views and over the sources, columns in docs/nnao_protocol.md;
-// `ratios`: of errors; `views`: each view and pass. views: one or more.
+// Members `rows`: means over each source's views and over the sources, with the columns of
+// docs/nnao_protocol.md; `ratios`: of errors; `views`: each view and pass. views: one or more.
 nlohmann::ordered_json sequence_report(std::span<const SequenceView> views, std::uint64_t seed);
 
 // The tables of the means and of the ratios.

@@ -74,8 +74,8 @@ Camera slid_by_one_pixel(Camera camera) {
 }
 
 TrainingScene scene_to_look_at(TriangleSoup soup) {
-  // Small objects have most vertices, and backdrops most area. Half of the points are chosen by vertices and
-  // half by area, which together also find objects between.
+  // Small objects have most vertices, and backdrops have most area. Choosing half of the points by vertices
+  // and half by area also finds objects between.
   std::vector<double> area_below;
   double area = 0;
   for (const auto& t : soup.triangle) {

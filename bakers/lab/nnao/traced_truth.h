@@ -1,4 +1,4 @@
-// The references of a view by ray tracing: AO of every pixel, bent normals and specular occlusion of some.
+// Ray-traced references of a view: AO of every pixel, bent normals and specular occlusion of some.
 #pragma once
 
 #include <array>
@@ -19,10 +19,10 @@ std::vector<float> trace_truth(const bake::RayScene& rays, const bake::nnao::Tra
 double truth_noise(const bake::RayScene& rays, const bake::nnao::TracedView& view, float radius,
                    std::uint32_t ray_count, std::uint64_t seed);
 
-// Returns the camera whose image is the same but moved by one pixel: the content of x + 1 is at x.
+// Returns the camera whose image is moved by one pixel: the content of x + 1 is at x.
 bake::nnao::Camera slid_by_one_pixel(bake::nnao::Camera camera);
 
-// Returns boxes for eyes and subjects of a scene with known triangles only: inside its bounds, where rays hit
+// Returns boxes for eyes and subjects of a scene, from its triangles only: inside its bounds, where rays hit
 // surfaces within a few metres.
 bake::nnao::TrainingScene scene_to_look_at(bake::TriangleSoup soup);
 
@@ -31,14 +31,14 @@ inline constexpr std::array<float, 5> measured_roughness{0.1f, 0.3f, 0.5f, 0.7f,
 struct BentTruth {
   std::size_t pixel = 0;  // row by row
   float ao = 1;
-  Vec3 bent_normal;  // view space, unit length; zero where nothing is open
+  Vec3 bent_normal;  // view space, unit length; zero if nothing is open
   // The open share of the reflection to the viewer, for each roughness of measured_roughness.
   std::array<float, measured_roughness.size()> specular{};
 };
 
-// Every stride-th pixel of every stride-th row that has a surface. AO and bent normal have ray_count rays, a
-// reflection a quarter as many; all are as long as the radius (metres). The result is the same on any number
-// of threads.
+// Traces every stride-th pixel of every stride-th row that has a surface. AO and bent normal use ray_count
+// rays, and a reflection a quarter as many. All are as long as the radius (metres). The result is the same on
+// any number of threads.
 std::vector<BentTruth> trace_bent_truth(const bake::RayScene& rays, const bake::nnao::TracedView& view,
                                         float radius, std::uint32_t ray_count, std::uint64_t seed,
                                         std::uint32_t stride);

@@ -10,7 +10,7 @@
 namespace nook::lab {
 namespace {
 
-// It grows whenever the reference of the same settings changes.
+// Raise it whenever the reference of the same settings changes.
 constexpr std::uint32_t version = 1;
 
 std::uint64_t key_of(std::uint64_t scene, const bake::nnao::Camera& camera, const TruthSettings& settings) {
@@ -34,7 +34,7 @@ std::filesystem::path file_of(const std::filesystem::path& folder, std::uint64_t
   return folder / name;
 }
 
-// The file: noise (64 bits), AO of each pixel (32 bits each), hash of these bytes and the key.
+// Reads the file: noise (64 bits), AO of each pixel (32 bits each), hash of these bytes and the key.
 Truth unpack(std::span<const std::byte> bytes, std::uint64_t key, std::size_t pixels) {
   ByteReader reader(bytes, "truth");
   Truth truth;

@@ -1,4 +1,4 @@
-// References that were traced before, in a folder: tracing takes most of the time of a second measurement.
+// Keeps references in a folder, because tracing takes most of the time of a second measurement.
 #pragma once
 
 #include <filesystem>
@@ -15,10 +15,9 @@ struct TruthSettings {
   std::uint32_t rays = 128;
   float radius = 0.5f;  // metres
   std::uint64_t seed = 1;
-  // > 0: bent normals and reflections are traced as well, at every so manyth pixel of both axes. They are not
-  // kept.
+  // > 0: also traces bent normals and reflections, at every n-th pixel of both axes. They are not kept.
   std::uint32_t bent_stride = 0;
-  PathSettings path;  // to the view
+  PathSettings path;  // path to the view
 };
 
 struct Truth {
@@ -32,8 +31,8 @@ class TruthStore {
   // The folder must exist; empty: keeps nothing.
   TruthStore(std::filesystem::path folder, const bake::TriangleSoup& scene);
 
-  // Returns the reference of the same triangles, camera and settings from the folder, or else what trace
-  // returns, which it keeps. A file that is damaged is traced anew.
+  // Returns the reference of the same triangles, camera and settings from the folder. Otherwise, returns and
+  // keeps what trace returns. A damaged file is traced again.
   Truth read_or_trace(const bake::nnao::Camera& camera, const TruthSettings& settings,
                       const std::function<Truth()>& trace) const;
 

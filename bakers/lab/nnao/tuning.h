@@ -1,4 +1,4 @@
-// The search that gives each baseline its radius, contrast, shape, border and denoiser.
+// Finds radius, contrast, shape, border and denoiser for each baseline.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@
 
 namespace nook::lab {
 
-// The parameters that the search tries values of.
+// Number of parameters that the search varies.
 inline constexpr std::size_t tuned_axes = 4;  // radius_scale, power, shape, thin
 inline constexpr std::array<const char*, tuned_axes> axis_names{"radius_scale", "power", "shape", "thin"};
 
-// A tuning by its places on the grids.
+// A tuning as places on the grids.
 struct TuningPlace {
   std::array<int, tuned_axes> at{};
   bool equal_weights = false;
@@ -27,34 +27,35 @@ struct TuningPlace {
   auto operator<=>(const TuningPlace&) const = default;
 };
 
-// Returns the values of an axis, growing; one where the baseline has no such parameter.
+// Returns the values of an axis, growing; one value if the baseline has no such parameter.
 std::span<const float> axis_values(Baseline baseline, std::size_t axis);
 
 BaselineTuning tuning_at(Baseline baseline, const TuningPlace& place);
 
-// Radius and contrast of the request, the middle of the shapes, a denoiser that is soon drawn.
+// Returns the radius and contrast of the request, the middle of the shapes, and a denoiser that is fast to
+// draw.
 TuningPlace first_place(Baseline baseline);
 
-// Returns the axes on which a place is the last of a grid that could go on. A bias or a compensation cannot
-// be below 0, and XeGTAO's falloff takes from nearly nothing to the whole radius.
+// Returns the axes on which a place is at the end of a grid that could be longer. A bias or a compensation
+// cannot be below 0, and XeGTAO's falloff goes from nearly nothing to the whole radius.
 std::vector<std::string> axes_at_edge(Baseline baseline, const TuningPlace& place);
 
 struct TunedBaseline {
   BaselineMethod method;
   double mse;  // denoised, mean over the views
-  // Parameters whose best value is the last one of a grid that could go on: the grid is too small.
+  // Parameters whose best value is at the end of a grid that could be longer: the grid is too small.
   std::vector<std::string> at_edge;
 };
 
-// Each method from nothing, or from what the search has just found for the same baseline with other taps:
-// down the grids in strides that shrink, on a third of the views and then on all; borders and sectors by
-// trial; each denoiser with a radius and a contrast of its own. Tunings that the methods have already do not
-// matter. progress counts methods; false stops, which throws Failure(CANCELLED).
+// Tunes each method from nothing, or from the result for the same baseline with other taps. It goes down the
+// grids in shrinking strides, on a third of the views and then on all. It tries borders and sectors, and
+// tunes radius and contrast for each denoiser. Tunings that the methods have already do not matter. progress
+// counts methods; false stops, which throws Failure(CANCELLED).
 std::vector<TunedBaseline> tune_baselines(platform::Context& context, std::span<const MeasuredView> views,
                                           std::span<const BaselineMethod> methods,
                                           const std::function<bool(std::size_t, std::size_t)>& progress);
 
-// A line of baseline_tuning.inl.
+// Returns a line of baseline_tuning.inl.
 std::string tuning_line(const BaselineMethod& method);
 
 }  // namespace nook::lab

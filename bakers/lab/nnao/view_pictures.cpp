@@ -52,8 +52,8 @@ namespace {
 
 constexpr int tile_px = 124;
 
-// A tile's values with 0 in the middle of the greys, the largest magnitude at an end; (0, 0) is the lower
-// left corner.
+// Returns a tile's values. 0 is the middle grey, and the largest magnitude is black or white. (0, 0) is the
+// lower left corner.
 using Tile = std::function<float(int x_px, int y_px)>;
 
 void paste_tile(platform::Image& sheet, int left, int top, const Tile& tile) {

@@ -25,7 +25,8 @@ using measure::visible_reflections;
 using probe::SpecularForm;
 using probe::Surface;
 
-constexpr int steps = 64;  // of visible normals, squared: sums differ by less than 0.2 % from twice as many
+constexpr int steps = 64;  // steps of visible normals per axis; sums differ by less than 0.2 % from twice as
+                           // many
 
 struct Kind {
   const char* name;
@@ -42,7 +43,7 @@ float random_alpha(bake::Random& random) {
   return roughness * roughness;
 }
 
-// Normals are uniform over the sphere, and views over the part of their hemisphere that counts.
+// Normals are uniform over the sphere, and views over the relevant part of their hemisphere.
 Surface random_surface(const Kind& kind, bake::Random& random) {
   Surface s;
   const float z = 2 * random.unit() - 1, turn = 2 * std::numbers::pi_v<float> * random.unit();
@@ -76,7 +77,7 @@ Truth truth_of(const Surface& s, const Light& lobes, const Light& map) {
   return truth;
 }
 
-// Root mean square over channels.
+// Returns the root mean square over channels.
 double apart(Vec3 a, Vec3 b) {
   const Vec3 d = a - b;
   return std::sqrt(double(dot(d, d)) / 3);
@@ -97,7 +98,7 @@ Json row_of(std::vector<double>& of_lobes, const std::vector<double>& of_map, do
   return {{"rms", rms(of_lobes)}, {"percentile_95", at(0.95)}, {"worst", at(1)}, {"map_rms", rms(of_map)}};
 }
 
-// A form of glossy light: what it says of a surface when it holds the lobes' light, and the map's.
+// A form of glossy light. It returns the reflection of a surface from the lobes' light, and from the map's.
 struct Form {
   std::string name;
   std::size_t bytes;

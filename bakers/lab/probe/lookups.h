@@ -1,5 +1,5 @@
-// Ways to look up a grid of probes near walls, as functions from a place to coefficients: those that the
-// library has, and those of others that it is measured beside.
+// Looks up a grid of probes near walls, by the library's ways and by those that others use. A way is a
+// function from a place to coefficients.
 #pragma once
 
 #include <functional>
@@ -14,19 +14,20 @@ namespace nook::lab {
 
 using Lookup = std::function<void(Vec3 position_ws, Vec3 normal, std::span<Vec3> coefficients)>;
 
-// The library's own: trilinear, or by the walls of the probes where they have some. offset: spacings along
-// the normal, on top.
+// The library's own lookup: trilinear, or by the walls of the probes if they have some. offset: further
+// spacings along the normal.
 Lookup own_lookup(const probe::Probes& probes, float offset = 0);
 
-// Trilinear weights of the corners that the place sees, by rays; of all of them where it sees none.
+// Trilinear weights of the corners that the place sees, by rays; of all corners if it sees none.
 Lookup visibility_lookup(const probe::Probes& probes, const bake::LitScene& scene,
                          const std::vector<Vec3>& probe_positions_ws, float origin_offset);
 
 // Moments of distance with Chebyshev's bound (Z. Majercik, J.-P. Guertin, D. Nowrouzezahrai, M. McGuire,
-// Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields, 2019, section 4): trilinear weights
-// times the wrapped cosine to the probe, times the cubed bound, small weights crushed. The means over
-// directions are those of the paper, the power 50 of the cosine, for exactly the direction from the probe to
-// the place instead of a texel of an octahedral map, so that no resolution limits them.
+// Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields, 2019, section 4). It multiplies
+// trilinear weights by the wrapped cosine to the probe and by the cubed bound, and crushes small weights.
+// Like the paper, it takes means over directions by the power 50 of the cosine. It takes them for the exact
+// direction from the probe to the place, and not for a texel of an octahedral map, so that no resolution
+// limits them.
 class Moments {
  public:
   Moments(const bake::LitScene& scene, const std::vector<Vec3>& probe_positions_ws, Vec3 spacing_ws);
@@ -44,7 +45,8 @@ class Moments {
   Vec3 spacing_ws_;
 };
 
-// The probes as ZH3 in half floats, as a shader reads them: their coefficients are the five zonal ones.
+// Returns the probes as ZH3 in half floats, as a shader reads them: their coefficients are the five zonal
+// ones.
 probe::Probes zonal_in_half_floats(const probe::Probes& probes);
 
 }  // namespace nook::lab

@@ -1,4 +1,4 @@
-// Every way to fit a probe: those that Nook offers, and those of others that it is measured beside.
+// All ways to fit a probe: Nook's, and others to compare with.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,8 @@
 
 namespace nook::lab {
 
-// All forms of Gaussian fits with `lobes` lobes, and on the sphere spherical harmonics and ambient dice.
+// Returns all forms of Gaussian fits with `lobes` lobes; on the sphere also spherical harmonics and ambient
+// dice.
 std::vector<bake::probe::ProbeMethod> probe_methods(std::uint32_t lobes, const bake::probe::Region& region);
 
 }  // namespace nook::lab

@@ -27,7 +27,7 @@ class Builder {
     return std::uint32_t(scene_.surface.size() - 1);
   }
 
-  // A solid whose faces look outwards.
+  // Adds a solid whose faces look outwards.
   void box(Vec3 low, Vec3 high, std::uint32_t surface) {
     solids_.push_back({low, high});
     const auto first = std::uint32_t(scene_.soup.position.size());
@@ -43,7 +43,7 @@ class Builder {
     }
   }
 
-  // Walls from floor to ceiling, along x or along z, with their lower side at z or x.
+  // Adds walls from floor to ceiling, along x or along z, with their lower side at z or x.
   void along_x(float x0, float x1, float z, std::uint32_t surface, float from = 0) {
     box({x0 - into, from - (from > 0 ? 0 : into), z}, {x1 + into, height + into, z + thickness}, surface);
   }

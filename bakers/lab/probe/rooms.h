@@ -1,4 +1,4 @@
-// A building of closed rooms with walls of 0.1 metres between different lights: where grids of probes leak.
+// A building of closed rooms with different light and walls of 0.1 metres, where grids of probes leak.
 #pragma once
 
 #include <memory>
@@ -21,19 +21,19 @@ struct Room {
   AxisBox air;  // between its walls
 };
 
-// Six rooms of 3.4 to 5 metres at a corridor. Lamps of different colours, the brightest with 30 times the
-// light of the dimmest; two rooms have an open door to the corridor, three are closed and lit, and one is
-// sealed and has no lamp.
+// Six rooms of 3.4 to 5 metres along a corridor. Lamps have different colours, and the brightest has 30 times
+// the light of the dimmest. Two rooms have an open door to the corridor, three are closed and lit, and one is
+// sealed without a lamp.
 struct Rooms {
   bake::TriangleSoup soup;
-  float origin_offset = 0;  // metres along the normal, of rays that leave a surface
+  float origin_offset = 0;  // metres along the normal, for rays that leave a surface
   Vec3 low_ws, high_ws;     // metres, the box of a grid
   std::unique_ptr<bake::LitScene> lit;
   std::vector<Room> room;
   std::vector<AxisBox> solid;
   bool in_solid(Vec3 position_ws) const;  // where solids meet, faces of one lie in another
-  std::size_t sealed = 0;                 // of room
-  std::size_t neighbour = 0;              // the bright room behind the wall of the sealed one
+  std::size_t sealed = 0;                 // index of a room
+  std::size_t neighbour = 0;              // the bright room behind the sealed room's wall
 };
 Rooms make_rooms();
 

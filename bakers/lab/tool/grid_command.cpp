@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
   CommonOptions common;
   std::filesystem::path scene, light;
-  std::array<std::uint32_t, 3> counts{};  // 0: eight probes a room
+  std::array<std::uint32_t, 3> counts{};  // 0: eight probes per room
   BoxArgument box;
   LookupSettings settings;
   std::string direct = "all";
@@ -38,7 +38,8 @@ struct Options {
 
 constexpr std::array<std::uint32_t, 3> eight_a_room{6, 2, 5};
 
-// Traced, trilinear and with walls, one below the other; a logarithm of the light, so that dim rooms show.
+// Draws traced, trilinear and with walls, one below the other. The scale is logarithmic, so that dim rooms
+// show.
 bake::Picture picture_of(const FloorPlan& plan) {
   constexpr int enlarged = 4;
   constexpr float darkest = 0.01f, brightest = 10;  // irradiance

@@ -49,7 +49,7 @@ class Peers : public tool::MaterialPeers {
         .delimiter(',');
   }
 
-  // Methods of bytes or of texels need no ranks of the file.
+  // Methods by bytes or texels do not need the file's ranks.
   void check(const nook::material::Material& material) const override {
     const auto needs_ranks = [](const std::string& name) {
       return name != "pca" && name != "pbr" && name != "neural";

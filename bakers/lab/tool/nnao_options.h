@@ -1,4 +1,4 @@
-// The options of `nook-lab evaluate nnao`, and the protocols that take them.
+// The options of `nook-lab evaluate nnao`, and the protocols that use them.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ class Command;
 
 namespace nook::lab {
 
-// Scenes with their cameras and radii, still as text.
+// Scenes with their cameras and radii, not parsed yet.
 struct SceneWords {
   std::vector<std::filesystem::path> files;
   bool thin = false;
   bake::ImportOptions reading;
-  std::vector<std::string> cameras;  // [NAME:]ox,oy,oz,tx,ty,tz,fov; without a name, of every scene
+  std::vector<std::string> cameras;  // [NAME:]ox,oy,oz,tx,ty,tz,fov; without a name, for every scene
   std::vector<std::string> radii;    // [NAME:]metres
 };
 
@@ -31,48 +31,48 @@ struct EvaluateNnaoOptions {
   TruthSettings truth;
   SceneWords scenes;
   std::filesystem::path views;                // a list of scenes with their cameras, instead of files
-  std::filesystem::path folder;               // of the list's scenes
-  std::vector<std::string> sources;           // of the list; empty: all
-  std::vector<std::filesystem::path> frames;  // recorded ones, instead of scenes
+  std::filesystem::path folder;               // folder of the list's scenes
+  std::vector<std::string> sources;           // sources of the list; empty: all
+  std::vector<std::filesystem::path> frames;  // recorded frames, instead of scenes
   bool sized = false, rays_given = false;
   std::filesystem::path references, network, images, markdown;
   std::vector<std::string> methods;  // empty: all
   std::vector<std::string> ratios;   // METHOD:TAPS,METHOD:TAPS
   bool raw = true;
-  bool bent = false;                          // bent normals and specular occlusion in place of AO
-  bool temporal = false;                      // means over frames in place of single ones
-  std::vector<std::filesystem::path> movers;  // characters that walk, instead of scenes
-  std::string clip;                           // of the movers; empty: the first that walks
-  float walk_speed = 1.4f;                    // metres a second
+  bool bent = false;                          // bent normals and specular occlusion instead of AO
+  bool temporal = false;                      // means over frames instead of single frames
+  std::vector<std::filesystem::path> movers;  // walking characters, instead of scenes
+  std::string clip;                           // clip of the movers; empty: the first that walks
+  float walk_speed = 1.4f;                    // metres per second
   std::uint32_t placed_cameras = 3;
   float max_radius_px = 0;
-  float intensity = 1;  // of the library's pass
+  float intensity = 1;  // intensity of the library's pass
   std::string tune;     // a baseline's name, or all; empty: no tuning
 };
 
-// Adds the options to the command. They stay where they are until the command has run.
+// Adds the options to the command. `options` must outlive the command's run.
 void add_options(tool::Command command, EvaluateNnaoOptions& options);
 
 // Reads WxH, pixels. Throws ToolError (bad arguments).
 void parse_size(const std::string& text, TruthSettings& truth);
 
-// Throws ToolError (bad arguments) where options exclude each other or no work is named.
+// Throws ToolError (bad arguments) if options exclude each other or no work is named.
 void check_options(const EvaluateNnaoOptions& options);
 
-// Each protocol returns a report, and throws ToolError or Failure (cancelled).
-// AO of single frames, by every method and number of taps.
+// Each protocol returns a report, and throws ToolError or Failure (cancelled). This one measures AO of single
+// frames, by every method and number of taps.
 nlohmann::ordered_json evaluate_views(EvaluateNnaoOptions& options);
 
-// Bent normals and specular occlusion in place of AO.
+// Measures bent normals and specular occlusion.
 nlohmann::ordered_json evaluate_bent_normals(EvaluateNnaoOptions& options);
 
-// Means over the frames of a moving camera in place of single frames.
+// Measures means over the frames of a moving camera.
 nlohmann::ordered_json evaluate_sequences(EvaluateNnaoOptions& options);
 
-// Means over frames where a skinned character walks.
+// Measures means over frames where a skinned character walks.
 nlohmann::ordered_json evaluate_movers(const EvaluateNnaoOptions& options);
 
-// The best settings of baselines on training scenes; prints the rows of their table.
+// Finds the best settings of baselines on training scenes, and prints the rows of their table.
 nlohmann::ordered_json evaluate_tuning(const EvaluateNnaoOptions& options);
 
 }  // namespace nook::lab

@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 namespace {
 
 constexpr float degree = 0.017453293f;                           // radians
-constexpr float smallest_radius = 1e-3f, largest_radius = 1e3f;  // of AO, metres
+constexpr float smallest_radius = 1e-3f, largest_radius = 1e3f;  // AO radii, metres
 
 [[noreturn]] void refuse(const std::string& text) {
   throw ToolError(exit_bad_arguments, "evaluate nnao: " + text);
@@ -60,7 +60,7 @@ float parse_radius(const std::string& text) {
   return radius;
 }
 
-// visit(scene, value) for every scene that the word is about.
+// Calls visit(scene, value) for every scene that the word is about.
 template <class Visit>
 void apply(std::vector<SceneRequest>& scenes, const std::string& option, const std::string& text,
            const Visit& visit) {
@@ -114,7 +114,7 @@ MethodRatio parse_ratio(const std::string& text) {
   return ratio;
 }
 
-// A list of test views: scenes by source with their cameras, and the ratios that are reported.
+// A list of test views: scenes by source with their cameras, and the ratios to report.
 struct ViewsFile {
   std::string size;        // WxH; empty: not stated
   std::uint32_t rays = 0;  // 0: not stated
@@ -180,7 +180,7 @@ ViewsFile read_document(const Json& document, const std::filesystem::path& folde
   return views;
 }
 
-// folder: where the scenes lie, each as NAME.glb.
+// folder: has each scene as NAME.glb.
 ViewsFile read_views_file(const std::filesystem::path& path, const std::filesystem::path& folder) {
   const std::vector<std::byte> bytes = read_any_file(path);
   const auto* const text = reinterpret_cast<const char*>(bytes.data());

@@ -1,5 +1,5 @@
-// The common start of the protocols of `nook-lab evaluate nnao`: scenes from the command line or from a list
-// of test views, their ray-traced views; and what all their reports end with.
+// What the protocols of `nook-lab evaluate nnao` share: scenes from the command line or from a list of test
+// views, their ray-traced views, and the end of all reports.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -18,7 +18,7 @@ struct Work {
   std::vector<MethodRatio> ratios;
 };
 
-// Takes size and rays from the list of --views where the command line has none. Throws ToolError.
+// Takes size and rays from the list of --views if the command line has none. Throws ToolError.
 Work read_work(EvaluateNnaoOptions& options);
 
 // Traces the scene's views, or reads them from the folder of references; shows progress, and can be
@@ -28,11 +28,11 @@ std::vector<MeasuredView> traced_views(const SceneRequest& scene, const Evaluate
 // The views of all scenes.
 std::vector<MeasuredView> traced_views(const Work& work, const EvaluateNnaoOptions& options);
 
-// Adds the conditions of all rows of a report: rays of a reference, OpenGL and the seed.
+// Adds the conditions of all rows of a report: rays per reference, OpenGL and the seed.
 void add_conditions(nlohmann::ordered_json& report, const EvaluateNnaoOptions& options,
                     platform::Context& context);
 
-// The largest radius on the screen that every method takes, pixels.
+// Returns the largest radius on the screen that every method uses, in pixels.
 float max_radius_px(const EvaluateNnaoOptions& options);
 
 }  // namespace nook::lab

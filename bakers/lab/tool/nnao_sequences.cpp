@@ -1,4 +1,4 @@
-// Means over frames: of a camera that moves through scenes, and of characters that walk.
+// Measures means over frames, for a camera that moves through scenes and for walking characters.
 #include <filesystem>
 #include <optional>
 
@@ -30,7 +30,7 @@ Json evaluate_sequences(EvaluateNnaoOptions& options) {
   AoRequest request;
   request.max_radius_px = max_radius_px(options);
   std::vector<SequenceView> measured;
-  // Scene by scene: the frames of all take a gigabyte.
+  // Goes scene by scene, because the frames of all take a gigabyte.
   for (const SceneRequest& scene : work.scenes) {
     const std::vector<MeasuredView> views = traced_views(scene, options);
     platform::ProgressBar bar(options.common.quiet);
@@ -50,7 +50,7 @@ Json evaluate_sequences(EvaluateNnaoOptions& options) {
 
 namespace {
 
-// The shots of a character, each with a camera that stands still and with one that moves.
+// The shots of a character, each with a still and with a moving camera.
 class Shots {
  public:
   Shots(const std::filesystem::path& file, const EvaluateNnaoOptions& options)

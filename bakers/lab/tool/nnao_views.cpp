@@ -1,4 +1,4 @@
-// Single frames of scenes: AO by every method, with pictures, or bent normals.
+// Measures single frames of scenes: AO by every method, with pictures, or bent normals.
 #include <algorithm>
 #include <optional>
 
@@ -79,7 +79,7 @@ void write_network_pictures(const std::filesystem::path& folder, const Networks&
   if (!networks.file.empty()) write_pictures_of(folder, "other", networks.other, views, names);
 }
 
-// The given network's name in tables; empty without one.
+// Returns the given network's name in tables; empty without one.
 std::string other_name(const Networks& networks) {
   if (networks.file.empty()) return "";
   return networks.other.form == nook::nnao::NetworkForm::paper ? "nnao_paper" : "nnao_file";

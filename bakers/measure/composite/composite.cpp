@@ -25,7 +25,7 @@ constexpr float changed_by = 0.01f;
 struct Parts {
   float screen = 1;                     // the screen pass with the characters in its depth
   float room = 1;                       // the same without them: their pixels hide nothing
-  float world = 1;                      // the characters by their casters
+  float world = 1;                      // the characters' casters
   float shipped = 1, shipped_half = 1;  // the passes together, the world pass at full and at half resolution
 };
 
@@ -78,7 +78,7 @@ std::vector<float> caster_ao(const RoomPixels& pixels, std::span<const Capsule> 
   return ao;
 }
 
-// The depth as a pass sees it that leaves the figures out of its occluders.
+// Returns the depth for a pass that does not see the figures.
 bake::nnao::TracedView without_figures(const RoomView& view) {
   bake::nnao::TracedView masked = view.view;
   for (std::size_t i = 0; i < masked.depth.size(); ++i)

@@ -21,9 +21,9 @@ namespace nook::measure {
 struct CompositeStudy {
   std::uint32_t width = 960, height = 540;
   std::size_t figures = 5, views = 8;  // of each room
-  int taps = 9;                        // of the screen pass
+  int taps = 9;                        // for the screen pass
   RoomTruth truth;
-  std::filesystem::path images;  // empty, or where a picture of each room goes
+  std::filesystem::path images;  // folder for a picture of each room; empty: none
 };
 
 struct MeasuredRoom {
@@ -33,28 +33,30 @@ struct MeasuredRoom {
 
 using CompositeProgress = std::function<bool(std::size_t done, std::size_t total)>;
 
-// Two rows for each room and each way to combine both, and for all rooms together: pixels of the room whose
-// truth with characters and without differs by more than 0.01, and the others. Throws Failure
-// (INVALID_ARGUMENT: a model without casters, a room without a place to stand in; CANCELLED).
+// Returns two rows for each room and each way to combine both passes, and for all rooms together. One row has
+// the pixels of the room whose truth changes by more than 0.01 with the characters, the other has the rest.
+// Throws Failure (INVALID_ARGUMENT: a model without casters, a room without a place to stand in; CANCELLED).
 nlohmann::ordered_json composite_rows(platform::Context& context, std::span<const MeasuredRoom> rooms,
                                       const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                       std::span<const std::byte> model_bytes,
                                       std::span<const bake::Pose> poses, const CompositeStudy& study,
                                       const CompositeProgress& progress);
 
-// A picture of a room with characters in the light of a map.
+// Draws a room with characters in the light of a map.
 struct LitRoomSettings {
   std::uint32_t width = 480, height = 270;  // pixels of each panel
   std::size_t figures = 5;
-  std::uint32_t rays = 64;  // paths of a pixel
+  std::uint32_t rays = 64;  // paths per pixel
   std::uint64_t seed = 1;
 };
 
-// Four panels from left to right: ray tracing; Nook's share by channel with the sun as a cone; AO times the
-// probe with the same cone; one capsule for each bone, its AO times the probe and its cone, with the scale of
-// radii that suits the picture best. The room does not hide the map: what the figures take of its light is
-// the only darkness. Throws Failure (INVALID_ARGUMENT: a model without casters, a room without a place to
-// stand in) and std::runtime_error.
+// Draws four panels from left to right:
+//   1. ray tracing;
+//   2. Nook's share by channel with the sun as a cone;
+//   3. AO times the probe, with the same cone;
+//   4. one capsule for each bone, its AO times the probe and its cone, with the best scale of radii.
+// The room does not hide the map, so that only the figures take light away. Throws Failure (INVALID_ARGUMENT:
+// a model without casters, a room without a place to stand in) and std::runtime_error.
 void write_lit_room(const std::filesystem::path& file, const MeasuredRoom& measured,
                     const bake::SkinnedMesh& mesh, const CharacterModel& model,
                     std::span<const bake::Pose> poses, const SplitLight& light,

@@ -20,7 +20,7 @@ namespace {
 using namespace bake;
 
 constexpr float origin_offset_m = 3e-4f;
-constexpr std::size_t compared_every = 23;  // pixels by which the scales of capsules are chosen
+constexpr std::size_t compared_every = 23;  // the scales of capsules are chosen by every n-th pixel
 
 struct Scene {
   std::vector<Figure> figures;
@@ -40,7 +40,7 @@ Scene seen(const MeasuredRoom& measured, const SkinnedMesh& mesh, std::span<cons
                   "%s has no place to stand in or to look from (got %zu characters in it); need level ground "
                   "with 2 m above it, in metres and +y up",
                   measured.name.c_str(), scene.figures.size());
-  // The surfaces of the view count here, and its rays do not.
+  // Only the surfaces of the view are used, not its rays.
   scene.view = trace_room_view(room, RayScene(room.soup), cameras.front(), {1, 0.01f, 1, settings.seed});
   const RoomPixels& p = scene.view.pixels;
   for (std::size_t i = 0; i < p.pixel.size(); ++i)
@@ -72,7 +72,7 @@ Vec3 lit(const SplitLight& light, Vec3 normal, Vec3 soft_share, float sun_share)
   return by_channel(light.soft_irradiance(normal), soft_share) + light.sun_irradiance(normal) * sun_share;
 }
 
-// The light at every pixel of so many.
+// Returns the light at every n-th pixel.
 std::vector<Vec3> lit_by(Darkener& method, const Scene& scene, const SplitLight& light, std::size_t every) {
   const std::size_t count = (scene.points.size() + every - 1) / every;
   std::vector<float> ao(count, 1.0f), sun(count, 1.0f);
@@ -113,7 +113,7 @@ std::vector<Vec3> lit_by_capsules(const Scene& scene, const SkinnedMesh& mesh, c
   return lit_by(*best, scene, light, 1);
 }
 
-// The paper-white share of the light, so that one pixel in twenty is brighter than it.
+// Returns the exposure at which one pixel in twenty is brighter than white.
 float exposure_of(std::span<const Vec3> light) {
   if (light.empty()) return 1;
   std::vector<float> bright;

@@ -20,7 +20,7 @@ using namespace bake;
 constexpr int attempts = 4000;
 constexpr float turn = 2 * std::numbers::pi_v<float>;
 
-// The lowest surface on a vertical line that looks up and has 2 m of air above it.
+// Returns the lowest surface on a vertical line that faces up and has 2 m of air above it.
 std::optional<float> floor_at(const RayScene& room, const Bounds& bounds, float x, float z) {
   const float top = bounds.high.y + 1;
   std::optional<float> found;
@@ -29,7 +29,7 @@ std::optional<float> floor_at(const RayScene& room, const Bounds& bounds, float 
     const RayHit hit = room.nearest({x, y, z}, {0, -1, 0});
     if (!(hit.distance < INFINITY)) break;
     const float at = y - hit.distance;
-    // Both sides of a triangle face the ray, so that only the distance to what is above tells a floor.
+    // The ray sees both sides of a triangle, so that only the distance to the ceiling tells a floor.
     if (hit.normal.y > 0.95f && ceiling - at > 2 && ceiling < INFINITY) found = at;
     ceiling = at;
     y = at - 1e-3f;
@@ -46,7 +46,7 @@ bool is_level(const RayScene& room, Vec3 foot) {
   return true;
 }
 
-// No surface between the body's axis and its vertices.
+// True if no surface is between the body's axis and its vertices.
 bool is_clear(const RayScene& room, std::span<const Vec3> body, Vec3 foot) {
   for (std::size_t v = 0; v < body.size(); v += 7) {
     const Vec3 axis{foot.x, std::max(body[v].y, foot.y + 0.02f), foot.z};

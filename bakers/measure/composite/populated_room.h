@@ -13,27 +13,27 @@
 
 namespace nook::measure {
 
-// Walls, steps, a table with chairs, a shelf. World space, metres, the floor at y = 0.
+// A room with walls, steps, a table with chairs and a shelf. World space, metres, the floor at y = 0.
 bake::TriangleSoup own_room();
 
-// The triangles of a glTF file with +y up, whose unit has so many metres. Adds the warnings of the import.
-// Throws Failure (BAD_FILE).
+// Reads the triangles of a glTF file with +y up, whose unit is this many metres. Adds the warnings of the
+// import. Throws Failure (BAD_FILE).
 bake::TriangleSoup room_of(const std::filesystem::path& file, float metres_per_unit,
                            std::vector<std::string>& warnings);
 
-// A character in its place. World space, metres, +y up.
+// A placed character. World space, metres, +y up.
 struct Figure {
   bake::Pose pose;
   std::vector<Vec3> body;  // vertices
   Vec3 foot;               // on the floor, below the middle of the body
 };
 
-// Stands `count` figures on floors of the room, as far as they find room: on level ground, clear of the
-// room's surfaces and of each other. The poses are evenly picked. The same seed gives the same places.
+// Stands up to `count` figures on level ground, away from the room's surfaces and from each other. The poses
+// are evenly picked. The same seed gives the same places.
 std::vector<Figure> stand_in_room(const bake::TriangleSoup& room, const bake::SkinnedMesh& mesh,
                                   std::span<const bake::Pose> poses, std::size_t count, std::uint64_t seed);
 
-// The room and the figures in it; triangles from first_figure on are the figures'.
+// The room with its figures. Triangles from first_figure on belong to figures.
 struct PopulatedRoom {
   bake::TriangleSoup soup;
   std::uint32_t first_figure = 0;
@@ -41,7 +41,7 @@ struct PopulatedRoom {
 PopulatedRoom populated(const bake::TriangleSoup& room, const bake::SkinnedMesh& mesh,
                         std::span<const Figure> figures);
 
-// Cameras 1.6 to 3.4 m from a figure each, which they see; as many as find a place.
+// Returns cameras 1.6 to 3.4 m from a figure that they see. There may be fewer than requested.
 std::vector<bake::nnao::Camera> cameras_at(const PopulatedRoom& room, std::span<const Figure> figures,
                                            std::size_t count, std::uint32_t width, std::uint32_t height,
                                            std::uint64_t seed);

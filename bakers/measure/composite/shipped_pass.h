@@ -1,5 +1,5 @@
-// The screen pass with the characters apart, and the world pass that composes with it, through the public
-// interface, as a host has them.
+// The screen pass without the characters, and the world pass that composes with it, through the public
+// interface that hosts use.
 #pragma once
 
 #include <nook/nook_world.h>
@@ -23,7 +23,7 @@ class ShippedPass {
 
   // Replaces the characters of the scene.
   void pose(std::span<const Figure> figures);
-  // The AO of each pixel. The pixels of figures are 1.
+  // Returns the AO of each pixel; 1 on figures.
   std::vector<float> ao(const RoomView& view);
 
  private:

@@ -20,7 +20,7 @@ using nook::material::VisibilityForm;
 constexpr int gap_px = 4;
 constexpr Colour ground{0.3f, 0.3f, 0.32f};
 
-// Radiance of a light of irradiance pi as a display value.
+// Returns a display value for the radiance under a light of irradiance pi.
 float display(float radiance) {
   return std::pow(std::clamp(std::numbers::pi_v<float> * radiance, 0.0f, 1.0f), 1 / 2.2f);
 }
@@ -41,7 +41,7 @@ Picture cell(std::uint32_t width, std::uint32_t height, std::uint32_t tiles,
   return p;
 }
 
-// The direction of a set whose tilt is nearest to the given one.
+// Returns the direction whose tilt is nearest to the given one.
 std::size_t of_tilt(const std::vector<Vec3>& set, float tilt_deg) {
   const float z = std::cos(tilt_deg * std::numbers::pi_v<float> / 180);
   return std::size_t(std::min_element(set.begin(), set.end(),
@@ -62,7 +62,7 @@ Colour shown(Colour radiance, bool visible) {
   return radiance;
 }
 
-// The absolute difference of two radiances, `times` as large, of a light of irradiance pi.
+// Returns the absolute difference of two radiances under a light of irradiance pi, `times` as large.
 Colour difference(Colour a, Colour b, float times) {
   Colour c;
   for (std::size_t i = 0; i < 3; ++i) c[i] = times * std::numbers::pi_v<float> * std::abs(a[i] - b[i]);
@@ -93,7 +93,7 @@ class ViewDrawing {
     return {draw([&](std::size_t texel) { return shown(at(texel), true); }),
             draw([&](std::size_t texel) { return difference(traced_at(texel), at(texel), 3); })};
   }
-  // The decoded mask; red where the traced one is another.
+  // The decoded mask; red where it differs from the traced one.
   Picture mask(const nook::material::Material& material) const {
     const std::vector<float> value = bake::material::decode_votf_view(material.votf, view_);
     const float threshold = material.visibility == VisibilityForm::binary ? 0.5f : 0;

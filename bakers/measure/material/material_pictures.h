@@ -1,4 +1,4 @@
-// Pictures of a material, and of what compression did to it.
+// Draws a material, and what compression did to it.
 #pragma once
 
 #include <filesystem>
@@ -11,25 +11,25 @@
 
 namespace nook::measure {
 
-// Views of growing tilt side by side, three lights below each other, the visibility as the last row; tiles
-// twice each way, so that a seam would show. Where a view passes through, the ground is grey.
+// Draws views of growing tilt side by side, under three lights below each other, with the visibility as the
+// last row. The tile appears twice each way, so that a seam would show. The ground is grey.
 bake::Picture raw_sheet(const bake::material::RawMaterial& raw);
 
-// For a view near the normal and a tilted one: raw, decoded, and the absolute difference three times (the
-// seed's Figure 3); below them the visibility of both and where it differs.
+// For a view near the normal and a tilted one: draws raw, decoded, and the absolute difference three times
+// (the seed's Figure 3). Below, it draws the visibility of both and where it differs.
 bake::Picture difference_sheet(const bake::material::RawMaterial& raw,
                                const nook::material::Material& material);
 
-// Materials that were compressed from one raw material, in columns beside it: a view tilted by 55 degrees
-// under a light tilted by 45, below it the absolute difference three times (the seed's Figure 3).
+// Draws materials that were compressed from one raw material, in columns beside it. The view is tilted by 55
+// degrees, the light by 45. Below is the absolute difference three times (the seed's Figure 3).
 bake::Picture methods_sheet(const bake::material::RawMaterial& raw,
                             std::span<const nook::material::Material> materials);
 
-// A step of the view of view_errors.h: the material as it is drawn before and after it, and the absolute
-// difference ten times, for a light tilted by 45 degrees; two tiles each way.
+// Draws a step of the view of view_errors.h: the material before and after it, and the absolute difference
+// ten times. The light is tilted by 45 degrees, and there are two tiles each way.
 bake::Picture jump_strip(const nook::material::Material& material, const bake::material::ViewJumps& jumps);
 
-// Pictures of equal width in a column.
+// Puts pictures of equal width in a column.
 bake::Picture below_each_other(std::span<const bake::Picture> pictures);
 
 }  // namespace nook::measure

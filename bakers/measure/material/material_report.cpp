@@ -43,7 +43,7 @@ using nook::material::VisibilityForm;
 CompressionSettings settings_of(const Material& material, std::uint64_t seed) {
   const bool is_neural = material.neural.is_used();
   const auto &btf = material.btf.shape, &votf = material.votf.shape;
-  const ClusteredTensor& viewed = is_neural ? material.votf : material.btf;  // has the view modes
+  const ClusteredTensor& viewed = is_neural ? material.votf : material.btf;  // the tensor with the view modes
   CompressionSettings s;
   s.visibility = material.visibility;
   s.bits = material.bits;
@@ -58,7 +58,7 @@ CompressionSettings settings_of(const Material& material, std::uint64_t seed) {
   if (is_neural) {
     s.method = Method::neural;
     s.neural_channels = material.neural.shape.channels;
-    s.neural_steps = 0;  // unknown: it is in no file
+    s.neural_steps = 0;  // unknown, because no file stores it
     s.mixture = votf.mixture;
     return s;
   }
@@ -90,7 +90,7 @@ MethodRow material_file_row(const RawMaterial& raw, const MaterialFile& file, co
   own.file_bytes = file.bytes.size();
   const nook::material::MaterialTables tables = nook::material::make_tables(
       file.material, {}, default_memory(), nook::material::default_map_side, measures.form);
-  // A network is measured as it is drawn.
+  // A network is measured as drawn.
   own.se_db_drawn = tables.neural.is_used() ? own.se_db : measure_tables(raw, tables).se_db();
   own.gpu_bytes_texel = table_bytes_texel(tables);
   if (measures.mipmaps) own.levels = measure_levels(raw, tables);

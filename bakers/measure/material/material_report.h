@@ -16,34 +16,35 @@
 
 namespace nook::bake::material {
 
-// One row of the paper's Table I, with all that is measured besides.
+// One row of the paper's Table I, with further measures.
 struct MethodRow : BakedFigures {
   MethodRow() = default;
   explicit MethodRow(BakedFigures figures) : BakedFigures(std::move(figures)) {}
 
-  // As drawn from textures, see table_error.h: the error, and the textures' bytes for each texel.
+  // The error when drawn from textures (table_error.h), and the textures' bytes per texel.
   std::optional<double> se_db_drawn, se_db_drawn_unseen, gpu_bytes_texel;
-  std::vector<LevelError> levels;     // of pixels that cover many texels
-  std::vector<GrazingError> grazing;  // of pixels of tilted views
+  std::vector<LevelError> levels;     // for pixels that cover many texels
+  std::vector<GrazingError> grazing;  // for pixels of tilted views
   // Errors in views, and under lights, that were not fitted.
   std::optional<double> se_db_unseen;
   std::optional<std::size_t> error_texels_unseen;
-  // Jumps as the view moves, see view_errors.h, and those of the material without its view map.
+  // Jumps as the view moves (view_errors.h), with the material's view map and without it.
   std::optional<ViewJumps> jumps, jumps_without_map;
-  int iterations = 0;  // of the BTF
+  int iterations = 0;  // for the BTF
 };
 
-// The row of baked_figures.h with all that was measured besides.
+// Returns the row of baked_figures.h with the further measures.
 nlohmann::ordered_json report_row(const std::string& material, const MethodRow& row);
 
 }  // namespace nook::bake::material
 
 namespace nook::measure {
 
-// Returns the progress of one method, whose name it is given.
+// Returns the progress callback of the named method.
 using MethodProgress = std::function<bake::material::StageProgress(const std::string& method)>;
 
-// The settings that the sizes of a material's tensors give: those of its view map where K-CTA made it.
+// Returns the settings that follow from the sizes of a material's tensors, with its view map if K-CTA made
+// it.
 bake::material::CompressionSettings settings_of(const nook::material::Material& material, std::uint64_t seed);
 
 // A material and the bytes of the file that it was read from.
@@ -52,17 +53,17 @@ struct MaterialFile {
   const nook::material::Material& material;
 };
 
-// Measures of a file beside its errors in the fitted views.
+// Further measures of a file, beside its errors in the fitted views.
 struct FileMeasures {
-  const bake::material::RawMaterial* unseen = nullptr;  // errors in these views; null: none
+  const bake::material::RawMaterial* unseen = nullptr;  // measures errors in these views; null: none
   bool jumps = false, mipmaps = false, grazing = false;
-  nook::material::ModeForm form;  // of the modes of what is drawn
+  nook::material::ModeForm form;  // form of the modes that are drawn
 };
 bake::material::MethodRow material_file_row(const bake::material::RawMaterial& raw, const MaterialFile& file,
                                             const FileMeasures& measures = {});
 
-// The error in unseen views, and jumps as the view moves, of a material, the same for the file and for other
-// methods.
+// Adds a material's error in unseen views and its jumps as the view moves. Files and other methods use it
+// alike.
 void add_unseen(const bake::material::RawMaterial* unseen, const nook::material::Material& material,
                 bake::material::MethodRow& row);
 void add_jumps(const nook::material::Material& material, bake::material::MethodRow& row);

@@ -26,7 +26,7 @@ Vec3 tilted(float degrees, float azimuth_degrees) {
   return {std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
 }
 
-// Radiance of a light of irradiance pi at a texel's middle, over the ground.
+// Returns the radiance under a light of irradiance pi at a texel's middle, over the ground.
 Colour radiance_of(const MaterialTables& tables, Cell cell) {
   const nook::material::Sample sample{(float(cell.x) + 0.5f) / float(tables.btf.width),
                                       (float(cell.y) + 0.5f) / float(tables.btf.height), 0, tilted(20, 30),
@@ -40,7 +40,7 @@ Colour radiance_of(const MaterialTables& tables, Cell cell) {
   return out;
 }
 
-// Writes a panel of side x side texels, v up, from a column on.
+// Writes a panel of side x side texels, v up, starting at a column.
 template <class ColourAt>
 void draw_panel(Picture& picture, std::uint32_t side, std::uint32_t left, const ColourAt& colour) {
   tbb::parallel_for(std::uint32_t{0}, side, [&](std::uint32_t y) {

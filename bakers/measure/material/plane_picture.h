@@ -1,4 +1,4 @@
-// Pictures of a plane that wears a material, as it tiles and by a coordinate texture.
+// Draws a plane that wears a material, tiled and by a coordinate texture.
 #pragma once
 
 #include "bakers/images/picture.h"
@@ -7,14 +7,14 @@
 
 namespace nook::measure {
 
-// The part of the material that is put beside itself, in texels.
+// The part of the material to tile, in texels.
 struct TilePart {
   std::uint32_t x = 0, y = 0, width = 0, height = 0;
 };
 
-// Side by side, a pixel for each texel of the plane: the part tiled; the plane by its coordinates; the
-// coordinates themselves as red and green, where a piece of the material shows as one ramp. The view is
-// tilted by 20 degrees, the light by 45; where the view passes through, the ground is grey.
+// Draws three panels side by side, one pixel for each texel of the plane. They show the tiled part, the plane
+// by its coordinates, and the coordinates as red and green. In the last, a piece of the material shows as one
+// ramp. The view is tilted by 20 degrees, the light by 45. The ground is grey.
 bake::Picture plane_sheet(const nook::material::MaterialTables& tables,
                           const nook::synthesis::Coordinates& coordinates, const TilePart& part);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t view_side = nook::material::default_map_side;
 
-// Two neighbouring texels of a tile that repeats, and the position between their centres.
+// Two neighbouring texels of a repeating tile, and the position between their centres.
 struct Between {
   std::uint32_t low, high;
   float t;
@@ -39,7 +39,7 @@ RawReflectance::RawReflectance(bake::material::RawMaterial raw)
         first.texels[(t * views_ + v) * numbers_ + row] = raw.btf[(row * views_ + v) * raw.texels() + t];
   raw.btf = {};
   levels_.push_back(std::move(first));
-  // Levels end where a side is odd or a single texel, as those of tiles with sides of a power of two do not.
+  // Levels end where a side is odd or a single texel. Sides of a power of two end at a single texel.
   while (levels_.back().width % 2 == 0 && levels_.back().height % 2 == 0) {
     const Level& fine = levels_.back();
     Level coarse{fine.width / 2, fine.height / 2, {}};

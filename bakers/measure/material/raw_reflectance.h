@@ -1,5 +1,5 @@
-// A raw material as a surface for path tracing: what no compression has touched, between the sampled lights,
-// views and texels.
+// A raw material as a surface for path tracing, without compression, interpolated between lights, views and
+// texels.
 #pragma once
 
 #include <cstddef>
@@ -13,19 +13,19 @@
 
 namespace nook::measure {
 
-// Interpolates as decoding does: between views by the thin-plate spline, between lights linearly, between
-// texels and levels linearly, where a level halves the one before.
+// Interpolates like decoding: between views by the thin-plate spline, and linearly between lights, texels and
+// levels. Each level halves the one before.
 class RawReflectance {
  public:
-  // Takes the BTF over, and needs 4/3 of its memory beside it for a moment.
+  // Takes over the BTF, and needs another 4/3 of its memory for a moment.
   explicit RawReflectance(bake::material::RawMaterial raw);
 
   std::size_t number_count() const { return numbers_; }
-  // Writes the radiance of the sample's point for its view under each sampled light, lights x RGB; the light
-  // is not read.
+  // Writes the radiance of the sample's point for its view under each sampled light, lights x RGB. Ignores
+  // the sample's light.
   void decode(const nook::material::Sample& sample, std::span<float> numbers) const;
-  // Returns the radiance for an irradiance of 1 on a plane that faces the light; it is black for light from
-  // below the horizon.
+  // Returns the radiance for an irradiance of 1 on a plane that faces the light; black if the light is below
+  // the horizon.
   Vec3 radiance(std::span<const float> numbers, Vec3 light) const;
 
  private:
@@ -39,7 +39,7 @@ class RawReflectance {
   std::vector<Vec3> lights_;
   std::size_t views_ = 0, numbers_ = 0;
   std::vector<Level> levels_;
-  bake::tensor::Matrix view_weights_;  // of each cell of a parabolic map
+  bake::tensor::Matrix view_weights_;  // per cell of a parabolic map
   nook::material::DirectionMesh light_mesh_;
 };
 

@@ -1,6 +1,6 @@
-// The error of a material as it is drawn: decoded from the tables that textures hold, at the middles of
-// texels, for the views and lights of the raw material. Rounding of the tables, the view map and the light
-// map count.
+// The error of a material as drawn: decoded from the tables in textures, at the middles of texels, for the
+// views and lights of the raw material. It includes the rounding of the tables, the view map and the light
+// map.
 #pragma once
 
 #include <vector>
@@ -13,27 +13,27 @@
 
 namespace nook::bake::material {
 
-// The light basis of all lights and channels of the raw material, 3 lights x light modes.
+// Returns the light basis for all lights and channels of the raw material, 3 lights x light modes.
 tensor::Matrix light_rows(const RawMaterial& raw, const nook::material::MaterialTables& tables);
 
-// Throws Failure(INVALID_ARGUMENT) where the sizes are not the raw material's.
+// Throws Failure(INVALID_ARGUMENT) if the sizes differ from the raw material's.
 BtfError measure_tables(const RawMaterial& raw, const nook::material::MaterialTables& tables);
 
-// Seen from afar, where a pixel covers a square of texels: the mean of the raw radiances over it is the
-// truth, beside the middle of the square at its mipmap level and at the finest one.
+// The error from afar, where a pixel covers a square of texels. The truth is the mean of the raw radiances
+// over the square. The middle of the square is compared with it, at its mipmap level and at the finest one.
 struct LevelError {
   std::uint32_t side = 0;  // texels
   double se_db = 0, se_db_finest = 0;
 };
-// Of the sides 2, 4, 8 and so on that divide the sides of the tile.
+// Measures squares whose sides are 2, 4, 8 and so on and divide the sides of the tile.
 std::vector<LevelError> measure_levels(const RawMaterial& raw, const nook::material::MaterialTables& tables);
 
 // Returns the bytes of all textures over the texels of the BTF.
 double table_bytes_texel(const nook::material::MaterialTables& tables);
 
-// The radiances under all lights, three numbers each. Of a tensor, decode_modes(span) writes the light modes,
-// and `lights` are light_rows of table_error.h; of a network, decode_sums(span) writes the sums that all
-// lights share, and `lights` is not read.
+// Returns the radiances under all lights, three numbers each. For a tensor, decode_modes(span) writes the
+// light modes, and `lights` are light_rows of table_error.h. For a network, decode_sums(span) writes the sums
+// that all lights share, and `lights` is ignored.
 template <class DecodeModes, class DecodeSums>
 tensor::Matrix decoded_radiances(const RawMaterial& raw, const nook::material::MaterialTables& tables,
                                  const tensor::Matrix& lights, const DecodeModes& decode_modes,

@@ -54,7 +54,7 @@ void replace_views(ClusteredTensor& tensor, const Material& material, const std:
   tensor.shape.mixture = std::uint32_t(terms);
 }
 
-// Directions come from files as floats, written by the same spiral.
+// Compares directions as floats, because the files' directions come from the same spiral.
 bool same_directions(const std::vector<Vec3>& a, const Vector<Vec3>& b) {
   return std::ranges::equal(a, b, [](Vec3 p, Vec3 q) { return length(p - q) < 1e-5f; });
 }
@@ -66,12 +66,12 @@ using nook::material::TexturePlace;
 using tensor::Matrix;
 
 constexpr std::uint32_t fetch_counts[] = {1, 2, 3, 4, 8};
-constexpr std::size_t pixels = 32;          // of a view
-constexpr std::uint32_t texel_samples = 8;  // along a texel
-// Cosines of the measured views: 60 to 85 degrees from the normal.
+constexpr std::size_t pixels = 32;          // per view
+constexpr std::uint32_t texel_samples = 8;  // per side of a texel
+// Cosines of the measured views, which are 60 to 85 degrees from the normal.
 constexpr float highest_z = 0.5f, lowest_z = 0.0871f;
 
-// The radiances of a pixel under all lights, three numbers each.
+// Returns the radiances of a pixel under all lights, three numbers each.
 Matrix radiances(const RawMaterial& raw, const MaterialTables& tables, const Matrix& lights,
                  const Pixel& pixel) {
   return decoded_radiances(
@@ -83,7 +83,7 @@ Matrix radiances(const RawMaterial& raw, const MaterialTables& tables, const Mat
       });
 }
 
-// Calls visit(place) at even places over a pixel, and returns how many they were.
+// Calls visit(place) at even places over a pixel, and returns their number.
 template <class Visit>
 std::size_t for_each_sample(const nook::material::PixelSides& sides, float length_texels,
                             const Visit& visit) {
@@ -97,7 +97,7 @@ std::size_t for_each_sample(const nook::material::PixelSides& sides, float lengt
   return std::size_t(along) * texel_samples;
 }
 
-// The means over a pixel: of what the file shows at its finest level, and of the raw images.
+// The means over a pixel of the file's finest level and of the raw images.
 struct Means {
   Matrix file, raw;
 };
@@ -117,7 +117,7 @@ Means means_of(const RawMaterial& raw, const MaterialTables& tables, const Matri
   return means;
 }
 
-// The sides of a pixel of a view, a texel across the tilt and longer along it.
+// Returns the sides of a pixel of a view: a texel across the tilt, and longer along it.
 nook::material::PixelSides grazing_sides(const RawMaterial& raw, Vec3 view, TexturePlace middle) {
   const float tilted = std::sqrt(view.x * view.x + view.y * view.y), x = view.x / tilted, y = view.y / tilted,
               w = float(raw.width), h = float(raw.height);
@@ -147,10 +147,10 @@ std::vector<GrazingError> errors_of_view(const RawMaterial& raw, const MaterialT
 using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr std::size_t arcs = 64, steps = 60;
-constexpr std::uint32_t grid = 16;  // texels along a side
+constexpr std::uint32_t grid = 16;  // texels per side
 constexpr float radians = std::numbers::pi_v<float> / 180, most_tilt = 70 * radians;
 
-// The views of an arc: both ends within the largest tilt.
+// Returns the views of an arc with both ends within the largest tilt.
 std::vector<Vec3> arc_of(std::uint64_t seed) {
   RandomFrom<MixedCounter> random(seed);
   const float lowest = std::cos(most_tilt), arc = jump_step_deg * radians * float(steps);
@@ -170,7 +170,7 @@ std::vector<Vec3> arc_of(std::uint64_t seed) {
   }
 }
 
-// The light modes of a sample, or of a neural material, which has none, the radiances of all lights.
+// Sets the light modes of a sample. A neural material has none, so sets the radiances of all lights.
 void set_modes(const Material& material, const MaterialTables& tables, const nook::material::Sample& sample,
                std::span<float> modes) {
   if (!tables.neural.is_used()) return decode_modes(tables, sample, modes);
@@ -188,7 +188,7 @@ Eigen::Index mode_count(const Material& material, const MaterialTables& tables) 
   return tables.neural.is_used() ? 3 * Eigen::Index(material.lights.size()) : tables.btf.light_modes;
 }
 
-// The light modes of the grid's texels for a view, a row each.
+// Returns the light modes of the grid's texels for a view, a row each.
 Rows modes_of(const Material& material, const MaterialTables& tables, Vec3 view) {
   const std::uint32_t width = std::min(grid, tables.btf.width), height = std::min(grid, tables.btf.height);
   Rows out(Eigen::Index(width) * height, mode_count(material, tables));
@@ -206,8 +206,8 @@ Rows modes_of(const Material& material, const MaterialTables& tables, Vec3 view)
   return out;
 }
 
-// Returns G = U^T U of the light basis of the tables, in which m^T G m is the sum of squares of all radiances
-// of the modes m.
+// Returns G = U^T U of the light basis of the tables. m^T G m is the sum of squares of all radiances of the
+// modes m.
 Rows gram_of(const Material& material, const MaterialTables& tables) {
   const Eigen::Index modes = mode_count(material, tables);
   if (tables.neural.is_used()) return Rows::Identity(modes, modes);

@@ -43,11 +43,11 @@ bool is_plain(const Recording& recording) {
          (frame.view == NOOK_NNAO_VIEW_AO && frame.intensity == 1 && frame.power == 1 && frame.layer == 0);
 }
 
-// One method to draw.
+// A method to draw.
 struct Job {
   FrameRow row;
   std::function<std::vector<float>()> draw;
-  std::function<std::vector<float>()> draw_plain;  // null: draw gives it
+  std::function<std::vector<float>()> draw_plain;  // null: use draw
 };
 
 void set_errors(FrameRow& row, const std::vector<float>& plain, const std::vector<float>& oracle,
@@ -90,7 +90,7 @@ std::vector<Job> library_jobs(FrameReplay& replay, const Recording& recording, c
   const nook::nnao::RecordedNetwork network = nook::nnao::recorded_network(recording);
   const auto shown = nook_nnao_view(recording.frame.view);
   std::vector<Job> jobs;
-  // file: of the network; empty: the embedded one.
+  // file: a network; empty: the embedded one.
   const auto add = [&](const std::string& name, const RecordedPass& settings, std::span<const std::byte> file,
                        const char* named) {
     if (!methods.empty() && !is_wanted(methods, name, settings.taps)) return;
@@ -127,7 +127,7 @@ std::vector<Oracle> wanted_oracles(const MethodFilter& methods) {
   return wanted;
 }
 
-// truth: of the first oracle; empty: none.
+// truth: from the first oracle; empty: none.
 FrameRow recorded_row(const FrameReplay& replay, const Recording& recording,
                       const std::vector<float>& truth) {
   FrameRow row;
@@ -164,7 +164,7 @@ std::vector<FrameRow> compare_frame(FrameReplay& replay, const Recording& record
     oracles.back().ao = replay.draw(oracle);
     count();
   }
-  // Errors are those against the first oracle.
+  // Errors are against the first oracle.
   const std::vector<float> truth = oracles.empty() ? std::vector<float>() : oracles.front().ao;
   std::vector<FrameRow> rows;
   if (!recording.ao.empty()) rows.push_back(recorded_row(replay, recording, truth));

@@ -1,4 +1,4 @@
-// Pictures of a recorded frame and of its replays.
+// Draws a recorded frame and its replays.
 #pragma once
 
 #include <span>
@@ -10,23 +10,23 @@
 
 namespace nook::measure {
 
-// Near is bright and far is dark, evenly in 1 / depth (orthographic: in depth) between the hundredth part of
-// the pixels and its ninety-nine hundredths; no surface is blue.
+// Near is bright and far is dark, evenly in 1 / depth (orthographic: in depth) between the 1st and the 99th
+// percentile of the pixels. Pixels without a surface are blue.
 platform::Image depth_picture(const bake::nnao::TracedView& view);
-// (n + 1) / 2 of view space in red, green and blue; no surface is black.
+// Red, green and blue are (n + 1) / 2 in view space. Pixels without a surface are black.
 platform::Image normal_picture(const bake::nnao::TracedView& view);
 platform::Image ao_picture(std::span<const float> ao, int width, int height);
-// Grey where both agree; red where b is darker than a, blue where it is brighter, 16 times as strongly.
+// Grey means equal. Red means that b is darker than a, and blue that it is brighter, 16 times as strongly.
 platform::Image difference_picture(std::span<const float> a, std::span<const float> b, int width, int height);
 
 struct NamedPicture {
-  std::string name;  // depth, normals, recorded, replayed, difference, the methods' names
+  std::string name;  // depth, normals, recorded, replayed, difference, or the name of a method
   platform::Image image;
 };
 // All pictures of a frame in the order in which a sheet shows them.
 std::vector<NamedPicture> frame_pictures(const bake::nnao::TracedView& view, std::span<const FrameRow> rows);
 
-// The pictures, which have one size, in three columns.
+// Puts the pictures, which have one size, in three columns.
 platform::Image picture_sheet(std::span<const NamedPicture> pictures);
 
 }  // namespace nook::measure

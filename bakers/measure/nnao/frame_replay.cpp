@@ -11,7 +11,7 @@ std::unique_ptr<GpuImage> image_of(const GladGLContext& gl, GLint internal_forma
   return std::make_unique<GpuImage>(gl, internal_format, format, width, height, texels.data());
 }
 
-// A pass that is destroyed with it.
+// Owns a pass.
 struct Pass {
   Pass(nook_gl gl, const nook_nnao_desc& desc) { succeed(nook_nnao_create(gl, &desc, &handle)); }
   ~Pass() { nook_nnao_destroy(&handle); }

@@ -1,4 +1,4 @@
-// A recorded frame drawn anew: by the library's pass with the recorded settings or others, and by the oracle
+// Draws a recorded frame again: by the library's pass with the recorded or other settings, and by the oracle
 // on the same depth.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace nook::measure {
 
-// The frame's depth and normals in view space, as the evaluation of views has them.
+// Returns the frame's depth and normals in view space, as the evaluation of views uses them.
 bake::nnao::TracedView view_of_frame(const nook::nnao::Recording& recording);
 
 class FrameReplay {
@@ -20,17 +20,17 @@ class FrameReplay {
   // The recording must outlive this object.
   FrameReplay(const GladGLContext& gl, const NookGl& nook, const nook::nnao::Recording& recording);
 
-  // The oracle knows perspectives and radii in metres alone.
+  // The oracle needs a perspective and a radius in metres.
   bool has_oracle() const { return !view_.camera.rays.orthographic && recording_.frame.radius_kind == 0; }
   const bake::nnao::TracedView& view() const { return view_; }
 
-  // Returns the AO of the library's pass in the pixels of the recording. network empty: the embedded one.
+  // Returns the AO of the library's pass at the pixels of the recording. network empty: the embedded one.
   std::vector<float> draw(const nook::nnao::RecordedPass& settings, std::span<const std::byte> network,
                           nook_nnao_view shown) const;
   std::vector<float> draw(Oracle oracle);
 
-  // Other methods draw the frame where it has an oracle: from its depth and normals and the recorded request.
-  // read returns the AO of a texture of the frame's size.
+  // Lets other methods draw a frame that has an oracle: its depth, its normals and the recorded request. read
+  // returns the AO of a texture with the frame's size.
   const GpuView& gpu_view() const { return gpu_view_; }
   AoRequest request() const;
   std::vector<float> read(GLuint texture) const { return read_red(gl_, texture, width(), height()); }

@@ -15,7 +15,7 @@ const char* shader_text(ShaderTable shaders, const std::string& path) {
 GLuint linked(const GladGLContext& gl, ShaderTable shaders, const std::string& path,
               const std::string& defines) {
   const std::string text = shader_text(shaders, path);
-  const std::size_t second_line = text.find('\n') + 1;  // behind #version
+  const std::size_t second_line = text.find('\n') + 1;  // the line after #version
   const std::string head = text.substr(0, second_line) + defines;
   return platform::link_program(gl, {shader_text(embedded_shaders(), "screen.vert")},
                                 {head.c_str(), text.c_str() + second_line});

@@ -1,5 +1,4 @@
-// OpenGL objects of methods that draw: images that are drawn into and read back, programs over the whole
-// image.
+// OpenGL objects for methods that draw: images to draw into and read back, and programs over the whole image.
 #pragma once
 
 #include <glad/gl.h>
@@ -35,7 +34,7 @@ std::vector<float> read_red(const GladGLContext& gl, GLuint texture, int width, 
 // All four channels of level 0.
 std::vector<float> read_rgba(const GladGLContext& gl, GLuint texture, int width, int height);
 
-// A shader of a folder, with its includes expanded; made at build time.
+// A shader of a folder, with its includes expanded at build time.
 struct EmbeddedShader {
   const char* path;  // relative to the folder
   const char* text;
@@ -51,8 +50,8 @@ inline ShaderTable embedded_shaders() {
 
 class GpuProgram {
  public:
-  // path: of a fragment shader of the table. defines: lines in front of its text. Throws std::runtime_error
-  // with the compiler's words.
+  // path: a fragment shader of the table. defines: lines before its text. Throws std::runtime_error with the
+  // compiler's message.
   GpuProgram(const GladGLContext& gl, ShaderTable shaders, const std::string& path,
              const std::string& defines = "");
   ~GpuProgram();

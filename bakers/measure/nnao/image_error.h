@@ -1,4 +1,4 @@
-// The error of an AO image, and means.
+// The error of an AO image.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace nook::measure {
 
-// A mean that grows value by value.
+// A running mean.
 struct Mean {
   double sum = 0, count = 0;
 
@@ -22,7 +22,7 @@ struct Mean {
   double value() const { return count > 0 ? sum / count : 0; }
 };
 
-// Sums over pixels with a surface of any number of images.
+// Sums over pixels with a surface, over any number of images.
 class ImageError {
  public:
   // Adds an image, row by row, with one value for each pixel. A pixel counts if its depth is finite.

@@ -7,7 +7,8 @@
 namespace nook::measure {
 namespace {
 
-// glFrustum's numbers for rays through the pixels; depth is linear, so the third row only has to be regular.
+// The numbers of glFrustum for the rays of the pixels. Depth is linear, so the third row only has to be
+// regular.
 void set_projection(const GpuView& view, float (&projection)[16]) {
   std::fill_n(projection, 16, 0.0f);
   projection[0] = 2 / (view.rays.x_scale * float(view.width));
@@ -119,10 +120,10 @@ GLuint NetworkPass::draw(const GpuView& view, const AoRequest& request, bool blu
 }
 
 int NetworkPass::fetches(bool blurred) const {
-  // The host's depth; depth and its four neighbours, the host's normal, the taps; AO in each filter. The
-  // paper's form reads those five and the normal in its stage of normals as well. At half resolution a
-  // quarter of the texels have these, and the upsample reads the host's depth, four depths and four values of
-  // AO.
+  // Counts fetches: the host's depth; depth and its four neighbours, the host's normal, the taps; AO in each
+  // filter. The stage of normals of the paper's form also reads these five and the normal. At half
+  // resolution, a quarter of the texels have these fetches. The upsample then reads the host's depth, four
+  // depths and four values of AO.
   const int before = horizon_form() ? 1 + 5 + 1 + info_.taps : 1 + 2 * 6 + 6 * info_.taps;
   const int filters = blurred ? 9 * form_.blur : 0;
   if (form_.half_resolution) return (before + filters) / 4 + 9;

@@ -13,19 +13,19 @@
 
 namespace nook::measure {
 
-// The request that every method gets.
+// The request that every method receives.
 struct AoRequest {
   float radius = 0.5f;        // metres
-  float max_radius_px = 90;   // where the radius covers more pixels, it shrinks
-  float blur_sharpness = 16;  // as nook_nnao_desc's
-  float intensity = 1;        // of the library's pass after its filter, as nook_nnao_frame_desc's
-  float min_radius_px = 0;    // of the library's pass; other methods have none, and rays neither
+  float max_radius_px = 90;   // a radius that covers more pixels shrinks
+  float blur_sharpness = 16;  // like nook_nnao_desc
+  float intensity = 1;        // after the filter of the library's pass, like nook_nnao_frame_desc
+  float min_radius_px = 0;    // for the library's pass; other methods and rays have none
 };
 
 // Throws Failure with the text of nook_last_message.
 void succeed(nook_result result);
 
-// The view matrix of a camera, the inverse of a rotation and a translation, column by column.
+// Sets the view matrix of a camera, column by column: the inverse of a rotation and a translation.
 void set_view(const Mat3x4& world_from_view, float (&view)[16]);
 
 // Owns what belongs to one OpenGL context.
@@ -47,17 +47,17 @@ class NookGl {
 // Both descriptors of a frame of the screen-space pass.
 struct ScreenFrame : nook_gl_frame_desc, nook_nnao_frame_desc {};
 
-// The frame of a view whose depth is linear: size, depth, normals, projection.
+// Returns the frame of a view with linear depth: size, depth, normals, projection.
 ScreenFrame frame_of(const GpuView& view);
 
 // A form in which the pass is measured.
 struct NetworkForm {
   int taps = 9;
   bool half_resolution = false;
-  int blur = 1;       // how often the filter runs
+  int blur = 1;       // number of filter runs
   bool bent = false;  // with bent normals
   int temporal_frames = 0;
-  nook_nnao_path path = NOOK_NNAO_PATH_FRAGMENT;  // as other methods, so that times compare
+  nook_nnao_path path = NOOK_NNAO_PATH_FRAGMENT;  // same path as other methods, so that times compare
 };
 
 class NetworkPass {
@@ -69,14 +69,14 @@ class NetworkPass {
   NetworkPass(const NetworkPass&) = delete;
   NetworkPass& operator=(const NetworkPass&) = delete;
 
-  // Returns the pass's texture: R8, or RGBA8 with bent normals. world_from_view: of the camera; none: it does
-  // not matter. cut: earlier frames are not used. motion: a texture of motion vectors in pixels; 0: none.
-  // All three matter with temporal_frames alone.
+  // Returns the pass's texture: R8, or RGBA8 with bent normals. world_from_view: the camera; none: it does
+  // not matter. cut: do not use earlier frames. motion: a texture of motion vectors in pixels; 0: none. These
+  // three matter only with temporal_frames.
   GLuint draw(const GpuView& view, const AoRequest& request, bool blurred,
               const std::optional<Mat3x4>& world_from_view = {}, bool cut = true, GLuint motion = 0);
   bool horizon_form() const { return info_.horizon_form != 0; }
 
-  // Texture fetches for each pixel of all stages.
+  // Texture fetches per pixel, over all stages.
   int fetches(bool blurred) const;
 
  private:

@@ -1,12 +1,12 @@
-// The oracle: the AO that a thousand taps on one screen's depth give, integrated without any tuned number.
+// The oracle: AO from a thousand taps on one screen's depth, integrated without any tuned number.
 #pragma once
 
 #include "bakers/measure/nnao/gpu_image.h"
 
 namespace nook::measure {
 
-// solid: whatever lies behind a surface within the radius is solid, as horizons have it. bitmask: a surface
-// is half a radius thick, and light passes behind it.
+// solid: everything behind a surface within the radius is solid, as horizons assume. bitmask: a surface is
+// half a radius thick, and light passes behind it.
 enum class Oracle { solid, bitmask };
 inline constexpr Oracle all_oracles[] = {Oracle::solid, Oracle::bitmask};
 inline constexpr int oracle_taps = 1024;

@@ -1,5 +1,5 @@
-// The error of a probe against its map, in closed form: integrals over the map and the Gram matrix
-// of the basis, no samples.
+// The error of a probe against its map in closed form: integrals over the map and the Gram matrix of the
+// basis, without samples.
 #pragma once
 
 #include <span>
@@ -20,19 +20,19 @@ class ExactFit {
 
   const Basis& basis() const { return basis_; }
   std::vector<Vec3> coefficients() const;
-  // Integral of (R - f)^2 over the region, the RGB channels added, of any coefficients.
+  // Returns the integral of (R - f)^2 over the region for any coefficients, summed over RGB.
   double square_error(std::span<const Vec3> coefficients) const;
-  // Share by which that is above the minimum.
+  // Returns the share by which it is above the minimum.
   double excess(std::span<const Vec3> coefficients) const;
-  // |R - R_LS|^2 / |R_LS|^2.
+  // Returns the squared norm of R - R_LS, over the squared norm of R_LS.
   double distance(std::span<const Vec3> coefficients) const;
-  // Root of the mean square error over the region and the channels.
+  // Returns the root mean square error over the region and the channels.
   double rms(std::span<const Vec3> coefficients) const;
-  // Luminance of R's integral over that of f's.
+  // Returns the integral of R over the integral of f, by luminance.
   double mean_ratio(std::span<const Vec3> coefficients) const;
 
  private:
-  double square_apart(std::span<const Vec3> coefficients) const;  // |R - R_LS|^2
+  double square_apart(std::span<const Vec3> coefficients) const;  // squared norm of R - R_LS
 
   Basis basis_;
   MapIntegrals map_;
@@ -42,17 +42,16 @@ class ExactFit {
   double size_ = 0;   // |R_LS|^2
 };
 
-// Irradiance of coefficients against the map's own, over evenly spread normals of the region.
+// Compares the irradiance of coefficients with the map's own, over evenly spread normals of the region.
 class IrradianceTruth {
  public:
   IrradianceTruth(const Environment& map, const Region& region, std::uint32_t normals = 1024);
 
   struct Error {
-    double rms = 0;  // over normals and channels
-    double minimum =
-        0;  // the lowest irradiance of any normal and channel, as a share of the map's mean irradiance
+    double rms = 0;      // over normals and channels
+    double minimum = 0;  // lowest irradiance of any normal and channel, over the map's mean irradiance
   };
-  // Luminance of the map's irradiance, the mean over the normals.
+  // Returns the luminance of the map's irradiance, as a mean over the normals.
   double mean() const { return mean_; }
   Error error(const Basis& basis, std::span<const Vec3> coefficients,
               IrradianceForm form = IrradianceForm::bands) const;

@@ -23,7 +23,7 @@ struct Box {
   }
 };
 
-// Cells reach half of the spacing round their probes.
+// Cells reach half a spacing around their probes.
 Box box_of(const Grid& grid) {
   const Vec3 low = grid.origin_ws - 0.5f * grid.spacing_ws;
   const Vec3 size{grid.spacing_ws.x * float(grid.counts[0]), grid.spacing_ws.y * float(grid.counts[1]),
@@ -49,7 +49,7 @@ Vec3 uniform_direction(Random& random) {
   return {radius * std::cos(angle), y, radius * std::sin(angle)};
 }
 
-// A place is drawn again while it is not where it should be, this often.
+// Limits how often a place is drawn until it is valid.
 constexpr std::size_t most_draws = 1000;
 
 [[noreturn]] void no_place(const char* where) {

@@ -1,4 +1,4 @@
-// The error of irradiance from a grid of probes, against path tracing.
+// Measures the irradiance of a grid of probes against path tracing.
 #pragma once
 
 #include <cstdint>
@@ -13,40 +13,40 @@ namespace nook::bake::probe {
 struct Places {
   std::vector<Vec3> position_ws;
   std::vector<Vec3> normal;
-  float lookup_offset = 0;  // along the normal, in the grid's spacings: where probes are looked up
+  float lookup_offset = 0;  // offset of the lookup along the normal, in the grid's spacings
 };
 
-// Random points that share the surface area inside the box that the grid's cells fill, on the side that is
-// outside solids; of sheets, whose sides both are, the one from which the nearest probe outside solids is
-// seen. origin_offset: metres from a surface to its sides.
+// Returns random points, uniform over the surfaces inside the box that the grid's cells fill, on the side
+// outside solids. Both sides of a sheet are outside, so takes the side from which the nearest probe outside
+// solids is seen. origin_offset: metres from a surface to its sides.
 Places places_on_surfaces(const LitScene& scene, const TriangleSoup& soup, const nook::probe::Grid& grid,
                           const std::vector<bool>& inside, float origin_offset, std::size_t count,
                           std::uint64_t seed);
 
-// Random points in the box and outside solids, random normals.
+// Returns random points in the box and outside solids, with random normals.
 Places places_in_the_open(const LitScene& scene, const nook::probe::Grid& grid, std::size_t count,
                           std::uint64_t seed);
 
 struct GridError {
-  double mean = 0;   // irradiance, path traced; over places and channels
-  double rms = 0;    // of the difference, less what the path tracer's noise adds to it
-  double worst = 0;  // of one place and channel, noise included
+  double mean = 0;   // path-traced irradiance, over places and channels
+  double rms = 0;    // root mean square difference, without the noise of the path tracer
+  double worst = 0;  // at one place and channel, with noise
   double bias = 0;   // mean difference
-  double noise = 0;  // rms error of the path traced irradiance itself
+  double noise = 0;  // rms error of the path-traced irradiance itself
 };
 
-// Path-traced irradiance at places, twice with half of the paths each, whose difference is the noise.
+// Path-traced irradiance at places. It is traced twice with half of the paths; the difference is the noise.
 struct TracedPlaces {
   std::vector<Vec3> first, second;
   Vec3 mean(std::size_t i) const { return 0.5f * (first[i] + second[i]); }
 };
 TracedPlaces trace_places(const LitScene& scene, const Places& places, std::uint32_t paths,
                           std::uint64_t seed, const PathSettings& path, const Progress& progress = {});
-// The error of what was found at some of the places.
+// Returns the error of results at some of the places.
 GridError error_of(const TracedPlaces& truth, const std::vector<Vec3>& found,
                    const std::vector<std::size_t>& which);
 
-// paths: for each place, 2 or more; in two halves, whose difference is the noise.
+// paths: per place, 2 or more, in two halves whose difference is the noise.
 GridError grid_error(const LitScene& scene, const nook::probe::Probes& probes, const Places& places,
                      std::uint32_t paths, std::uint64_t seed, const PathSettings& path,
                      const Progress& progress = {});

@@ -22,7 +22,7 @@ using nook::probe::FitMethod;
 using nook::probe::FitSettings;
 
 constexpr std::size_t few_samples = 1024, many_samples = 20000;
-constexpr std::size_t seeding_share = 64;  // of the samples that go to the short run of a seeded fit
+constexpr std::size_t seeding_share = 64;  // one sample in this many goes to the short run of a seeded fit
 
 struct SeedSamples {
   Samples uniform, luminance;
@@ -67,7 +67,7 @@ SampledError measure(const ProbeMethod& method, const ExactFit& exact, const Irr
   return all;
 }
 
-// Uniform over all rotations: a unit quaternion (K. Shoemake 1992).
+// Draws a unit quaternion uniformly over all rotations (K. Shoemake 1992).
 Basis rotated(Basis basis, Random& random) {
   const double share = random.unit_double(), turn = 2 * std::numbers::pi * random.unit_double(),
                other = 2 * std::numbers::pi * random.unit_double();

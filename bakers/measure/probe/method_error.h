@@ -1,4 +1,4 @@
-// Ways to fit a probe, measured on one map.
+// Measures ways to fit a probe on one map.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace nook::bake::probe {
 
-// A basis and how it is fitted; seeded: from a short run with a 64th of the samples.
+// A basis and how it is fitted. seeded: it starts from a short run with a 64th of the samples.
 struct ProbeMethod {
   std::string name;
   Basis basis;
@@ -22,19 +22,20 @@ struct ProbeMethod {
   std::size_t floats() const { return 3 * std::size_t(basis.count); }
 };
 
-// The fit that a bake makes by default, and the same without the constraint of bands: "least_squares", to
-// which rows have ratios.
+// Returns the default fit of a bake, and the same fit without the constraint of bands, "least_squares".
+// Ratios in rows are relative to the second.
 std::vector<ProbeMethod> own_probe_methods(std::uint32_t lobes, const Region& region);
 
 struct ComparisonSettings {
   std::uint32_t seeds = 20;
-  std::uint32_t baked_samples = 1u << 20;  // by luminance, of the whole map's bake, for running averages
+  std::uint32_t baked_samples = 1u << 20;  // samples by luminance for the bake of the whole map, for running
+                                           // averages
   std::uint32_t rotations =
-      0;  // random ones, uniform over all, of the lobes' axes; solving forms on the sphere
+      0;  // random rotations of the lobes' axes, uniform; for solving forms on the sphere
   std::uint64_t seed = 1;
 };
 
-// After n independent samples, over all seeds: uniform directions, and by luminance.
+// The error after n independent samples, over all seeds: uniform directions, and by luminance.
 struct SampledError {
   double excess_mse = 0;          // mean of ExactFit::excess
   double distance = 0;            // mean of ExactFit::distance
@@ -45,13 +46,13 @@ struct SampledError {
 
 struct MethodError {
   ProbeMethod method;
-  // Of a bake of the whole map. Irradiance by bands, by Hill's fit and by the inner product, which differ for
-  // lobes alone.
+  // For a bake of the whole map. Irradiance is by bands, by Hill's fit and by the inner product, which differ
+  // only for lobes.
   double radiance_rms = 0, irradiance_rms = 0, irradiance_rms_fitted = 0, irradiance_rms_inner_product = 0;
   double mean_ratio = 0, irradiance_minimum = 0;
-  double irradiance_mean = 0;  // of the map, luminance
-  // irradiance_rms over irradiance_mean, of the same lobes with their axes rotated; empty for other functions
-  // and where no rotation was requested.
+  double irradiance_mean = 0;  // luminance, from the map
+  // irradiance_rms over irradiance_mean for the same lobes with rotated axes. Empty for other functions and
+  // without rotations.
   std::vector<double> rotated;
   SampledError uniform_1024, uniform_20000, luminance_20000;
 };

@@ -12,12 +12,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace bake::probe;
 
-// A ratio to nothing, such as an error relative to a black map, is no number: null in reports, "-" in tables.
+// A ratio to nothing, such as an error relative to a black map, is not a number. It is null in reports and
+// "-" in tables.
 Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
 
-// Mean, smallest and largest error of the rotated lobes.
+// Adds the mean, smallest and largest error of the rotated lobes.
 void add_rotations(const std::vector<double>& errors, Json& row) {
   if (errors.empty()) return;
   const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
@@ -68,7 +69,7 @@ double geometric_mean(const std::vector<double>& values) {
   return std::exp(sum / double(values.size()));
 }
 
-// Returns the direct light that the grid's recipe names; "all" without one, as in grids of other makers.
+// Returns the direct light that the grid's recipe names; "all" for grids without one.
 std::string direct_of_recipe(const nook::probe::Probes& probes) {
   const Json recipe = Json::parse(probes.recipe, nullptr, false);
   const Json direct = recipe.is_object() ? recipe.value("direct", Json()) : Json();

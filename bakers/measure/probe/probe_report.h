@@ -15,11 +15,11 @@
 
 namespace nook::measure {
 
-// Errors of each method over several maps.
+// The errors of each method over several maps.
 class OverMaps {
  public:
   void add(const std::string& domain, const bake::probe::MethodError& error);
-  // A row for each method that has two maps or more: the geometric mean and the largest of
+  // Returns a row for each method with two maps or more: the geometric mean and the largest of
   // irradiance_relative, and the lowest irradiance.
   nlohmann::ordered_json rows() const;
 
@@ -27,45 +27,47 @@ class OverMaps {
   struct Method {
     std::string domain, name;
     std::size_t floats = 0;
-    std::vector<double> relative, minimum;     // of each map
-    std::vector<std::vector<double>> rotated;  // of each map, one for each rotation
+    std::vector<double> relative, minimum;     // per map
+    std::vector<std::vector<double>> rotated;  // per map, one for each rotation
   };
   std::vector<Method> methods_;
 };
 
-// Ways to fit a probe to the map, over the sphere or the hemisphere above the horizon, "least_squares" among
-// them: a row each, which over_maps keeps where it is given. Ratios to the light of a black map are null.
+// Returns a row for each way to fit a probe to the map, over the sphere or the hemisphere above the horizon,
+// "least_squares" among them. Adds the rows to over_maps if it is given. Ratios to a black map are null.
 nlohmann::ordered_json probe_method_rows(const bake::Environment& map, const std::string& map_name,
                                          const std::vector<bake::probe::ProbeMethod>& methods,
                                          const bake::probe::Region& region,
                                          const bake::probe::ComparisonSettings& settings,
                                          const bake::Progress& progress, OverMaps* over_maps = nullptr);
 
-// A baked probe against its map, the keys radiance_rms, irradiance_rms, irradiance_relative,
+// Compares a baked probe with its map. The keys are radiance_rms, irradiance_rms, irradiance_relative,
 // excess_mse, mean_ratio and irradiance_minimum.
 nlohmann::ordered_json probe_errors(const bake::Environment& map, const probe::Probes& probes);
 
-// A baked file against its map. Throws Failure (BAD_FILE) for a grid, which no map alone can measure.
+// Compares a baked file with its map. Throws Failure (BAD_FILE) for a grid, because a map alone cannot
+// measure it.
 nlohmann::ordered_json probe_file_row(const bake::Environment& map, const std::string& map_name,
                                       const std::string& file_name, const probe::Probes& probes);
 
-// The map's suns, the brightest four: direction, RGB irradiance on a surface that faces one, and solid angle.
+// Returns the map's brightest suns, at most four: direction, RGB irradiance on a surface that faces it, and
+// solid angle.
 nlohmann::ordered_json sun_rows(const bake::Environment& map);
 
 struct GridReportSettings {
-  std::uint32_t points = 1024;  // of each kind
-  std::uint32_t paths = 2048;   // a point
+  std::uint32_t points = 1024;  // per kind
+  std::uint32_t paths = 2048;   // per point
   std::uint32_t max_bounces = ~0u;
   float origin_offset = 0;  // metres along the normal
   std::uint64_t seed = 1;
-  std::string direct;  // what both sides hold of the map's direct light; empty: as the grid's recipe says
+  std::string direct;  // the part of the map's direct light on both sides; empty: as in the grid's recipe
 };
 
 // Returns the progress of the points of one kind of place.
 using PlacesProgress = std::function<bake::Progress(const char* places)>;
 
-// Three rows: points on surfaces, the same with probes looked up half a cell off along the normal, and points
-// in the open. The rows lack the names of the files.
+// Returns three rows without names of files: points on surfaces, the same with lookups half a cell off along
+// the normal, and points in the open.
 nlohmann::ordered_json grid_rows(const bake::LitScene& scene, const bake::TriangleSoup& soup,
                                  const probe::Probes& probes, const GridReportSettings& settings,
                                  const PlacesProgress& progress);

@@ -1,7 +1,8 @@
-// Integrals over what a GGX surface reflects to the eye, by an even grid of visible normals (E. Heitz,
-// Sampling the GGX Distribution of Visible Normals, 2018): what remains to be weighed is the masking of the
-// light, whose heights correlate with those of the view (E. Heitz, Understanding the Masking-Shadowing
-// Function, 2014, equation 99), and Fresnel, both smooth, so that grazing views are as exact as others.
+// Integrates over what a GGX surface reflects to the eye, by an even grid of visible normals (E. Heitz,
+// Sampling the GGX Distribution of Visible Normals, 2018). The remaining weights are Fresnel and the masking
+// of the light, whose heights correlate with the view's heights (E. Heitz, Understanding the
+// Masking-Shadowing Function, 2014, equation 99). Both are smooth, so that grazing views are as exact as
+// others.
 #pragma once
 
 #include <cmath>
@@ -14,16 +15,17 @@ namespace nook::measure {
 
 struct ReflectedDirection {
   double x, y, z;  // along tangent, bitangent and normal
-  double weight;   // of the reflection without Fresnel; all together are the albedo at reflectance 1
+  double weight;   // share of the reflection without Fresnel; the weights sum to the albedo at reflectance 1
   double schlick;  // (1 - dot(view, micro normal))^5
 };
 
-// steps^2 visible normals of a view with these components; those that reflect below the horizon are left out.
+// Returns steps^2 visible normals for a view with these components, without normals that reflect below the
+// horizon.
 inline std::vector<ReflectedDirection> visible_reflections(double alpha_x, double alpha_y, double x, double y,
                                                            double z, int steps) {
   std::vector<ReflectedDirection> all;
   const double size = std::hypot(alpha_x * x, alpha_y * y, z);
-  const double vx = alpha_x * x / size, vy = alpha_y * y / size, vz = z / size;  // among round slopes
+  const double vx = alpha_x * x / size, vy = alpha_y * y / size, vz = z / size;  // with round slopes
   const double flat = std::hypot(vx, vy);
   const double ux = flat > 1e-7 ? -vy / flat : 1, uy = flat > 1e-7 ? vx / flat : 0;
   for (int i = 0; i < steps; ++i)

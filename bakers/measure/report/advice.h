@@ -1,5 +1,4 @@
-// Advice that follows from measured numbers, by rules with thresholds that stand in one table
-// (advice_rules.inl).
+// Advice that follows from measured numbers, by rules whose thresholds are in one table (advice_rules.inl).
 #pragma once
 
 #include <map>
@@ -19,11 +18,11 @@ struct Rule {
   const char* measure;  // a key of Measures::value
   Bound bound;
   double threshold;
-  const char* meaning;  // of the measure, for the reader
-  const char* advice;   // {name} is one of Measures::name, {percent} and {value} are the measure
+  const char* meaning;  // what the measure means to the reader
+  const char* advice;   // {name} is an entry of Measures::name, {percent} and {value} show the measure
 };
 
-// Measured numbers. A rule whose measure is not here says nothing.
+// Measured numbers. A rule without its measure says nothing.
 struct Measures {
   std::map<std::string, double, std::less<>> value;
   std::map<std::string, std::string, std::less<>> name;
@@ -36,10 +35,10 @@ struct Advice {
 
 std::vector<Rule> advice_rules();
 
-// Those of the rules that hold, in the table's order. Measures that are not finite say nothing.
+// Returns the rules that hold, in the table's order. A measure that is not finite gives no advice.
 std::vector<Advice> advise(Subject subject, const Measures& measures);
 
-// A list, each with its rule in small print; a sentence where there is none.
+// Returns a list with each rule in small print, or a sentence if there is no advice.
 Html advice_list(Subject subject, const Measures& measures);
 
 }  // namespace nook::report

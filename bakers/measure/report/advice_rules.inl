@@ -1,7 +1,7 @@
 // subject, measure, bound, threshold, meaning, advice. Thresholds are where a change of the bake is worth an
-// artist's time; the page prints them beside what was measured.
+// artist's time. The page prints them beside what was measured.
 
-// Shares are of what is seen wrong. Hands have about 5 % of a body's surface, feet 5 %, a head 10 %.
+// Shares are shares of the visible error. Hands have about 5 % of a body's surface, feet 5 %, a head 10 %.
 RULE(body, "source_changed", at_least, 1, "the character file has another hash than at the bake",
      "The character file has changed since the bake, so that the numbers mix old and new. Bake it again.")
 RULE(body, "rms_visible", at_most, 0.06, "typical error where the body is visible",

@@ -46,7 +46,7 @@ Part part_of(JointRole role) {
   return other;
 }
 
-// A bone without a role of its own belongs to the part of the bone above it.
+// A bone without a role belongs to the part of its parent bone.
 std::vector<Part> bone_parts(const SkinnedMesh& mesh) {
   const std::vector<Joint> joints = joint_roles(mesh);
   std::vector<Part> parts(joints.size(), other);
@@ -63,7 +63,7 @@ void sort_by_share(std::vector<NamedError>& errors) {
       errors, [](const NamedError& a, const NamedError& b) { return a.error.square > b.error.square; });
 }
 
-// Calls see(pose, vertex, error) for each vertex-pose that ray tracing does not find black.
+// Calls see(pose, vertex, error) for each vertex-pose that is not black in ray tracing.
 template <class See>
 void for_each_seen(const MeasuredBody& body, See&& see) {
   for (std::size_t t = 0; t < body.poses.size(); ++t)
@@ -100,7 +100,7 @@ float size_of(std::span<const Vec3> points) {
   return length(high - low);
 }
 
-// The cells of a grid over the rest pose, which cost no search for neighbours.
+// Cells of a grid over the rest pose, so that no search for neighbours is needed.
 using Cell = std::tuple<long, long, long>;
 
 bool are_near(const Cell& a, const Cell& b) {

@@ -1,4 +1,4 @@
-// Where the error of a character model lies: in which clips, parts, joints and places.
+// Finds where the error of a character model lies: in which clips, parts, joints and places.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace nook::report {
 
-// Poses of one clip in a row.
+// Consecutive poses of one clip.
 struct ClipPoses {
   std::string name;
   std::size_t first = 0, count = 0;
@@ -29,7 +29,7 @@ struct MeasuredBody {
   }
 };
 
-// Squared errors of vertex-poses that ray tracing does not find black, weighted by rest area.
+// Squared errors of vertex-poses that are not black in ray tracing, weighted by rest area.
 struct SeenError {
   double square = 0, weight = 0;
   void add(double error, double area) {
@@ -51,19 +51,19 @@ struct ClipError {
   double worst_rms = 0;
 };
 
-// A region of the surface of about a twentieth of the body's size.
+// A region of the surface. Its size is about a twentieth of the body's.
 struct Place {
   std::vector<std::uint32_t> vertices;
-  std::string joint;           // that moves most of it
-  std::size_t worst_pose = 0;  // in which its error is largest
+  std::string joint;           // the joint that moves most of it
+  std::size_t worst_pose = 0;  // the pose with its largest error
   double rms = 0;              // in that pose
-  double share = 0;            // of the error of the whole body
+  double share = 0;            // of the whole body's error
 };
 
 struct BodyFindings {
   SeenError all;
-  double bias = 0;                // mean of model less ray traced over what is seen
-  std::vector<float> vertex_rms;  // over the poses in which it is seen
+  double bias = 0;                // mean of model less ray traced, over visible vertices
+  std::vector<float> vertex_rms;  // over the poses in which the vertex is visible
   std::vector<ClipError> clips;   // worst first
   std::vector<NamedError> parts;  // largest share first
   std::vector<NamedError> joints;
@@ -72,7 +72,7 @@ struct BodyFindings {
 
 BodyFindings find_errors(const bake::SkinnedMesh& mesh, const MeasuredBody& body, std::size_t max_places);
 
-// The names that parts can have, as advice measures them: hands, feet, head, arms, legs, trunk, other.
+// Returns the names of parts, as advice measures them: hands, feet, head, arms, legs, trunk, other.
 std::vector<std::string> part_names();
 
 }  // namespace nook::report

@@ -61,7 +61,7 @@ Poses choose(const BakedCharacter& baked, const Recipe* recipe, const BodySettin
     thin_out(chosen.poses, budget);
     return chosen;
   }
-  // Of more clips than poses, some that are spread over all.
+  // With more clips than poses, takes clips spread over all.
   if (clips.size() > budget) {
     const std::size_t count = clips.size();
     for (std::size_t i = 0; i < budget; ++i) clips[i] = clips[(2 * i + 1) * count / (2 * budget)];
@@ -155,7 +155,8 @@ Html clip_table(const BodyFindings& found) {
   return found.clips.empty() ? Html() : table(rows);
 }
 
-// The poses of the pictures: the worst of each of the worst clips, or without clips some in a row.
+// Chooses the poses of the pictures: the worst pose of each of the worst clips, or consecutive poses without
+// clips.
 std::vector<NamedPose> shown_poses(const MeasuredBody& body, const BodyFindings& found) {
   std::vector<NamedPose> poses;
   for (const ClipError& clip : found.clips)
@@ -200,7 +201,7 @@ Html places(const SkinnedMesh& mesh, const MeasuredBody& body, const BodyFinding
 std::vector<NamedPose> turned_poses(const MeasuredBody& body, const BodyFindings& found) {
   std::vector<NamedPose> poses = shown_poses(body, found);
   for (NamedPose& pose : poses) pose.name.append(", worst pose");
-  // The middle clip shows what is usual.
+  // The middle clip shows the usual case.
   if (found.clips.size() > shown_clips) {
     const ClipPoses* middle = nullptr;
     for (const ClipPoses& clip : body.clips)

@@ -1,5 +1,5 @@
-// Pieces of a page. Text from files and arguments becomes Html through text() alone, which escapes it, so
-// that no name can add markup or code to a page.
+// Pieces of a page. Text from files and arguments becomes Html only through text(), which escapes it, so that
+// no name can add markup or code to a page.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace nook::report {
 
-// Markup of this program, which is a constant of the compilation: a text from elsewhere cannot become one.
+// Markup of this program. It is a constant at compile time, so that text from elsewhere cannot become markup.
 class Markup {
  public:
   consteval Markup(const char* literal) : text_(literal) {}
@@ -44,11 +44,11 @@ class Html {
   friend Html script_data(const nlohmann::ordered_json& data);
 };
 
-// Escaped for elements and for attributes in quotes. Control characters, characters that turn the direction
-// of writing, and bytes that are no UTF-8 become visible escapes.
+// Escapes text for elements and for attributes in quotes. Control characters, characters that change the
+// direction of writing, and bytes that are not UTF-8 become visible escapes.
 Html text(std::string_view plain);
 
-// Three digits, in the plain notation from 0.001 on; a dash where the value is not finite.
+// Shows three digits, in plain notation from 0.001 on; a dash if the value is not finite.
 Html number(double value);
 Html percent(double share);
 Html byte_count(double bytes);
@@ -64,19 +64,19 @@ Html script_data(const nlohmann::ordered_json& data);
 // The first row names the columns.
 Html table(const std::vector<std::vector<Html>>& rows);
 
-// A picture within the page. alternative says in words what the picture shows.
+// A picture within the page. alternative describes what the picture shows.
 Html figure(const bake::Picture& picture, const std::string& alternative, const Html& caption);
 
-// The templates of this folder's templates/, which are embedded at build.
+// The files of templates/, embedded at build time.
 struct Template {
-  const char* name;  // the file's
+  const char* name;  // name of the file
   const char* text;
 };
 const Template* templates_begin();
 const Template* templates_end();
 
-// Replaces each {{name}} of a template by its value. Values are not looked at, so that a value with braces
-// stays what it is. Throws Failure(INTERNAL) for a template or a name that is not there.
+// Replaces each {{name}} of a template by its value. Braces in a value stay as they are. Throws
+// Failure(INTERNAL) for an unknown template or name.
 Html fill(std::string_view template_name, const std::vector<std::pair<std::string_view, Html>>& values);
 
 }  // namespace nook::report

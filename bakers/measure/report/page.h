@@ -1,4 +1,4 @@
-// The page of any .nook file: advice, sections of its kind, sizes and settings, licences.
+// Builds the page of any .nook file: advice, sections of its kind, sizes and settings, licences.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,7 +10,7 @@
 
 namespace nook::report {
 
-// A file that is shown, and what it says of its licence.
+// A shown file, and what it says about its licence.
 struct ShownFile {
   std::string name;
   bake::AssetNotes notes;
@@ -20,22 +20,22 @@ struct PageSource {
   std::string title;             // the name of the .nook file
   nlohmann::ordered_json facts;  // one row of `nook inspect`
   std::vector<ShownFile> shown;
-  std::string licence;  // what the user says of all of them; may be empty
+  std::string licence;  // what the user says about all of them; may be empty
 };
 
 // The part of a page that depends on the kind of its file.
 struct PageParts {
-  Html lead;      // one or two sentences: the result
-  Html advice;    // of advice_list
+  Html lead;      // the result in one or two sentences
+  Html advice;    // made by advice_list
   Html sections;  // each a section element
   Html scripts;   // may be empty
 };
 
 std::string page_of(const PageSource& source, const PageParts& parts);
 
-// The colours of errors from 0 to `end`, with ticks in units of AO or what unit says.
+// Returns the colours of errors from 0 to `end`. The unit of the ticks is AO, or what unit says.
 Html error_scale(double end, Markup unit);
-// A share of a whole as a bar with its number.
+// Shows a share of a whole as a bar with its number.
 Html share_bar(double share);
 
 }  // namespace nook::report

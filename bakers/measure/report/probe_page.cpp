@@ -21,7 +21,7 @@ using bake::Picture;
 using nook::probe::Probes;
 
 constexpr Colour background{0.32f, 0.34f, 0.38f};
-constexpr float mean_shade = 0.3f;  // linear, of a white surface in the mean light
+constexpr float mean_shade = 0.3f;  // linear value of a white surface in the mean light
 constexpr std::uint32_t max_layers = 4;
 constexpr int max_side_px = 1000;
 
@@ -29,7 +29,7 @@ Vec3 irradiance_of(const Probes& probes, std::size_t index, Vec3 normal) {
   return nook::probe::irradiance(probes.basis, probes.of(index), nook::probe::IrradianceForm::bands, normal);
 }
 
-// The irradiance over the fourteen directions of the faces and corners of a cube.
+// The irradiance in fourteen directions: the faces and corners of a cube.
 struct BallLight {
   float mean = 0;      // luminance
   int below_zero = 0;  // directions with a luminance below 0
@@ -51,7 +51,7 @@ BallLight ball_light(const Probes& probes, std::size_t index) {
   return light;
 }
 
-// A white ball in the light of a probe, seen from +z with +y up.
+// Draws a white ball in the light of a probe, seen from +z with +y up.
 void draw_ball(Picture& picture, int left, int top, int side, const Probes& probes, std::size_t index,
                float exposure) {
   constexpr int samples = 2;
@@ -72,10 +72,10 @@ void draw_ball(Picture& picture, int left, int top, int side, const Probes& prob
     }
 }
 
-// One layer of constant y: x to the right, z down.
+// Draws one layer of constant y: x to the right, z down.
 Picture layer_picture(const Probes& probes, std::uint32_t layer, float exposure) {
   const auto columns = int(probes.grid.counts[0]), rows = int(probes.grid.counts[2]);
-  // Of grids that are wider than the picture, some probes.
+  // Skips probes of grids that are wider than the picture.
   const int step = (std::max(columns, rows) * 8 + max_side_px - 1) / max_side_px;
   const int shown_columns = (columns + step - 1) / step, shown_rows = (rows + step - 1) / step;
   const int side = std::clamp(max_side_px / std::max(shown_columns, shown_rows), 8, 160);
@@ -111,8 +111,8 @@ Html layers(const Probes& probes, float exposure) {
 
 struct Lit {
   float mean = 0;
-  double dark_share = 0;   // of the probes
-  double below_share = 0;  // of the directions of all probes
+  double dark_share = 0;   // share of the probes
+  double below_share = 0;  // share of the directions of all probes
 };
 
 Lit light_of(const Probes& probes) {

@@ -24,7 +24,7 @@ float encoded(float linear) {
 }
 
 constexpr float relief = 0.3f, margin = 1.06f, pi = std::numbers::pi_v<float>;
-constexpr std::size_t tested_vertices = 3000;  // of those whose visibility chooses a view
+constexpr std::size_t tested_vertices = 3000;  // vertices whose visibility chooses a view
 
 Vec3 direction(float turn, float tilt) {
   return {std::cos(tilt) * std::sin(turn), std::sin(tilt), std::cos(tilt) * std::cos(turn)};
@@ -39,7 +39,7 @@ struct Box {
   Vec3 centre() const { return 0.5f * (low + high); }
 };
 
-// The camera that has all points in a picture of this size.
+// Returns the camera whose picture of this size contains all points.
 BodyCamera camera_at(Vec3 towards, std::span<const Vec3> points, int width, int height) {
   Box box;
   for (const Vec3 p : points) box.add(p);
@@ -50,7 +50,7 @@ BodyCamera camera_at(Vec3 towards, std::span<const Vec3> points, int width, int 
     high = std::max(high, std::fabs(dot(p - box.centre(), up)));
   }
   return {box.centre(), towards,
-          // A single point also has a scale.
+          // Gives a single point a scale.
           margin * std::max({2 * wide / float(width), 2 * high / float(height), 1e-6f})};
 }
 
@@ -68,7 +68,7 @@ std::vector<std::uint32_t> all_vertices(std::size_t count) {
 
 using Json = nlohmann::ordered_json;
 
-// WebGL reads the page's arrays in the order of the machine, which is this one everywhere.
+// WebGL reads the page's arrays in the byte order of the reader's machine, which is this one everywhere.
 static_assert(std::endian::native == std::endian::little);
 
 template <class Number>
@@ -91,7 +91,7 @@ Json pose_data(const SkinnedMesh& mesh, const MeasuredBody& body, const NamedPos
       high[c] = std::max(high[c], at[c]);
     }
   }
-  // A flat body also has a size.
+  // Gives a flat body a size.
   for (std::size_t c = 0; c < 3; ++c) size[c] = std::max(high[c] - low[c], 1e-6f);
   std::vector<std::uint16_t> positions;
   std::vector<std::uint8_t> traced, model;
@@ -161,7 +161,7 @@ std::vector<Picture> eight_sides(const SkinnedMesh& mesh, std::span<const float>
   constexpr int width = 300, sides = 8;
   std::vector<float> scaled(vertex_rms.begin(), vertex_rms.end());
   for (float& value : scaled) value /= error_end;
-  // One scale for all sides: that of the widest, in pictures as high as the body.
+  // All sides have one scale, which is set by the widest side. Pictures are as high as the body.
   float metres_per_pixel = 0;
   std::vector<BodyCamera> cameras;
   for (int side = 0; side < sides; ++side) {
@@ -200,7 +200,7 @@ Picture compare_pose(const SkinnedMesh& mesh, const MeasuredBody& body, std::siz
   const Vec3 towards = view_of_error(mesh, body.poses[pose], looked_at, error);
   BodyCamera camera = camera_at(towards, points_of(posed, looked_at), width, height);
   if (!is_whole) {
-    // With its surroundings, a place is recognised; a place of one vertex also has some.
+    // Surroundings help to recognise a place, and give a place of one vertex a size.
     Box body_box;
     for (const Vec3 p : posed) body_box.add(p);
     camera.metres_per_pixel =

@@ -1,5 +1,4 @@
-// Pictures of a page: of light as display values, of a body with its error, and of a body that the reader
-// turns.
+// Pictures of a page: light as display values, a body with its error, and a body that the reader turns.
 #pragma once
 
 #include <span>
@@ -12,31 +11,31 @@
 
 namespace nook::report {
 
-// Of 0 to 1, by the sRGB curve; more is white, less black.
+// Converts 0 to 1 by the sRGB curve. Above is white, below is black.
 bake::Colour display(Vec3 linear);
 
 // A picture of one colour.
 bake::Picture plain_picture(int width, int height, bake::Colour colour);
 void set_pixel(bake::Picture& picture, int x, int y, bake::Colour colour);
 
-// AO at the far end of the colours of an error.
+// AO error at the far end of the colours.
 inline constexpr float error_end = 0.25f;
 
-// The direction to a viewer who sees most of the error of the given vertices, of 24 that are spread over the
-// sphere but its poles. Faces that others hide do not count.
+// Returns the direction to a viewer who sees most of the error of the given vertices. It is one of 24 that
+// are spread over the sphere without its poles. Hidden faces do not count.
 Vec3 view_of_error(const bake::SkinnedMesh& mesh, const bake::Pose& pose,
                    std::span<const std::uint32_t> vertices, std::span<const float> error);
 
-// Eight pictures of the rest pose from sides that are 45 degrees apart, from the front on to the body's left.
+// Returns eight pictures of the rest pose, 45 degrees apart, from the front towards the body's left.
 std::vector<bake::Picture> eight_sides(const bake::SkinnedMesh& mesh, std::span<const float> vertex_rms);
 
-// Ray traced, model and error beside each other. vertices empty: the whole body.
+// Puts ray traced, model and error side by side. vertices empty: the whole body.
 bake::Picture compare_pose(const bake::SkinnedMesh& mesh, const MeasuredBody& body, std::size_t pose,
                            std::span<const std::uint32_t> vertices);
 
 // A body in several poses as data for the page's WebGL 2 view.
 struct Turnable {
-  Html section;  // the view's elements, or a sentence where the body is too large
+  Html section;  // the view's elements, or a sentence if the body is too large
   Html scripts;
 };
 
@@ -45,7 +44,7 @@ struct NamedPose {
   std::string name;
 };
 
-// Takes as many of the poses, from the first, as fit into max_bytes of the page.
+// Takes as many poses, from the first on, as fit into max_bytes of the page.
 Turnable turnable_body(const bake::SkinnedMesh& mesh, const MeasuredBody& body,
                        std::span<const NamedPose> poses, std::size_t max_bytes);
 

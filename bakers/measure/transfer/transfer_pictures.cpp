@@ -58,10 +58,10 @@ struct PixelHit {
   bool is_hit = false;
   std::array<std::uint32_t, 3> vertex{};
   std::array<float, 3> weight{};
-  Vec3 origin;  // of rays to the light
+  Vec3 origin;  // where rays to the light start
   Frame frame;
-  std::vector<float> modes;  // of the material, decoded for the pixel's view
-  std::vector<float> raw;    // of the raw material, where the truth is that
+  std::vector<float> modes;  // the material, decoded for the pixel's view
+  std::vector<float> raw;    // the raw material, if it is the truth
 };
 
 class Renderer {
@@ -73,7 +73,7 @@ class Renderer {
         rays_({source.mesh.position, source.mesh.triangle}),
         offset_(bake::ray_origin_offset(source.mesh.position)),
         sampler_(source.map) {
-    // A sample of the light has no width: the holes are those of the finest level.
+    // A sample of the light has no width, so the holes come from the finest level.
     if (settings.truth.holes) holes_.emplace(source.mesh, *settings.truth.holes, settings.truth.tiles, 0.0f);
   }
 
@@ -86,8 +86,8 @@ class Renderer {
     return surface_at(found, camera_.eye, direction, true);
   }
 
-  // One estimate of the light, from one sample of the map and one of the hemisphere (the balance heuristic,
-  // E. Veach 1997). The second one goes on where it meets a surface, up to `bounces` times.
+  // Returns one estimate of the light, from one sample of the map and one of the hemisphere (the balance
+  // heuristic, E. Veach 1997). The second sample continues where it meets a surface, up to `bounces` times.
   Vec3 sample(const PixelHit& hit, std::uint32_t bounces, bake::Random& random) const {
     const double choice = random.unit_double();
     const float alias = random.unit(), u = random.unit(), v = random.unit();
@@ -122,7 +122,7 @@ class Renderer {
   }
 
  private:
-  // The surface of a hit as a ray sees it; pixels see a footprint, other rays the finest level.
+  // Returns the surface of a hit as a ray sees it. Pixels see a footprint, other rays the finest level.
   PixelHit surface_at(const bake::RayHit& found, Vec3 from, Vec3 direction, bool is_pixel) const {
     PixelHit hit;
     const bake::SurfaceMesh& mesh = source_.mesh;
@@ -161,7 +161,7 @@ class Renderer {
     return {dot(frame.tangent, d), dot(frame.bitangent(), d), dot(frame.normal, d)};
   }
 
-  // log2 of the texels that a pixel covers along a side, from the triangle's own ratio of areas.
+  // Returns log2 of the texels that a pixel covers along a side, from the triangle's ratio of areas.
   float level(const PixelHit& hit, Vec3 direction, float distance) const {
     const bake::SurfaceMesh& mesh = source_.mesh;
     const Vec3 p = mesh.position[hit.vertex[0]];
@@ -182,7 +182,7 @@ class Renderer {
     return holes_ ? holes_->share_through(rays_, origin, direction) : 0.0f;
   }
 
-  // Finds the surface that stops a ray, by chance where it has holes.
+  // Finds the surface that stops a ray. Holes let it pass by chance.
   bool next_surface(Vec3 origin, Vec3 direction, bake::Random& random, bake::RayHit& found) const {
     for (float beyond = 0;; beyond = found.distance) {
       found = rays_.nearest(origin, direction, beyond);
@@ -191,7 +191,7 @@ class Renderer {
     }
   }
 
-  // Light of a direction that was sampled by `light_density` and by its cosine.
+  // Returns the light of a direction that was sampled by `light_density` and by its cosine.
   Vec3 reflected(const PixelHit& hit, Vec3 direction, Vec3 radiance, float light_density) const {
     const Vec3 at = local(hit.frame, direction);
     if (!(at.z > 0) || (radiance.x == 0 && radiance.y == 0 && radiance.z == 0)) return {};
@@ -216,7 +216,7 @@ class Renderer {
   std::optional<bake::transfer::SurfaceHoles> holes_;
 };
 
-// Linear radiance of all pixels; two independent halves of the truth.
+// Linear radiance of all pixels. The truth has two independent halves.
 struct Images {
   std::vector<bool> is_hit;
   std::array<std::vector<Vec3>, 2> truth;

@@ -1,4 +1,4 @@
-// Pictures of a shape in a material under a map: path traced, and from the vectors of each form.
+// Draws a shape in a material under a map: path traced, and from the vectors of each form.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace nook::measure {
 
 struct PictureSettings {
   int width = 480, height = 360;
-  std::uint32_t paths = 256;  // light samples of a pixel of the truth
+  std::uint32_t paths = 256;  // light samples per pixel of the truth
   TruthSettings truth;
   std::uint64_t seed = 1;
 };
@@ -21,26 +21,25 @@ struct PictureSource {
   const bake::SurfaceMesh& mesh;
   const nook::material::MaterialTables& tables;
   const VectorMeasure& vectors;
-  std::size_t light = 0;  // of the vectors
+  std::size_t light = 0;  // index of the light of the vectors
   const bake::Environment& map;
-  // The surface of the truth; null: the material as it is decoded.
+  // The surface of the truth; null: the decoded material.
   const RawReflectance* raw = nullptr;
 };
 
 struct PictureError {
-  // Means over the pixels of the shape and RGB of the squared error of linear radiance, divided by the
-  // squared mean luminance of the truth over these pixels. The noise of the truth is taken off.
+  // Means of the squared error of linear radiance over the shape's pixels and RGB, less the noise of the
+  // truth. They are divided by the squared mean luminance of the truth over these pixels.
   std::array<double, 3> mse{};
-  double noise_floor_mse = 0;  // of the truth, in the same unit
+  double noise_floor_mse = 0;  // noise of the truth, same unit
   bake::Picture sheet;         // truth, then the forms
 };
 
 // The camera looks at the middle of the bounding box from 35 degrees above its horizon. A pixel has one ray
-// through its middle. The truth is the light of the map on the material as it is decoded at the pixel, half
-// of the samples by luminance and half cosine-weighted, with multiple importance sampling, and after
-// reflections on the same at each surface on the way. Rays to the light pass through the
-// holes of the VOTF if the settings have them; those of the camera do not. Throws Failure(CANCELLED) if
-// progress returns false.
+// through its middle. The truth is the light of the map on the material as decoded at the pixel, with
+// `bounces` reflections on surfaces along the way. Half of the samples are by luminance and half
+// cosine-weighted, with multiple importance sampling. Rays to the light pass through the holes of the VOTF if
+// the settings have them, but camera rays do not. Throws Failure(CANCELLED) if progress returns false.
 PictureError measure_pictures(const PictureSource& source, const PictureSettings& settings,
                               const VectorProgress& progress);
 

@@ -30,9 +30,9 @@ using nook::transfer::CubeCells;
 using nook::transfer::Frame;
 using nook::transfer::Transfer;
 
-constexpr std::uint32_t truth_side = 32;  // 6,144 directions, as the paper
-constexpr std::uint32_t light_side = 32;  // of the runtime's lights
-constexpr float reach = 12;               // lobes count down to exp(-reach) of their height
+constexpr std::uint32_t truth_side = 32;  // 6,144 directions, as in the paper
+constexpr std::uint32_t light_side = 32;  // for the runtime's lights
+constexpr float reach = 12;               // lobes are cut off at exp(-reach) of their height
 
 // The lobes around each direction.
 struct LobeValues {
@@ -119,12 +119,12 @@ VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const Transfer& tra
   std::vector<std::vector<float>> direct_vectors(lights.size());
 
   const nook::transfer::Response response = response_of(tables, transfer.lobes);
-  // The numbers of the tables are those of AVX2, where the processor has it.
+  // The tables report numbers for AVX2 if the processor has it.
   const Isa isa = isa_available(Isa::avx2) ? Isa::avx2 : choose_isa(NOOK_ISA_AUTO);
   for (std::size_t l = 0; l < lights.size(); ++l) {
     LightVectors& vectors = measure.lights[l];
     for (std::vector<float>& form : vectors.form) form.resize(count * size);
-    // Processor time, which other work on the machine lengthens less than the clock's.
+    // Processor time, because other work on the machine lengthens it less than the clock's.
     const std::clock_t begin = std::clock();
     baked_vectors(response, isa, lights[l].amplitudes, transfer, 0, transfer.vertex_count(),
                   {vectors.form[0].data(), size}, {}, default_memory());

@@ -1,4 +1,4 @@
-// The error of vectors at vertices against sums over 6,144 directions, for baked transfer and simpler forms.
+// Measures vectors at vertices against sums over 6,144 directions, for baked transfer and simpler forms.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace nook::measure {
 
-// The forms of the per-vertex vectors, from the best.
+// Forms of the per-vertex vectors, best first.
 enum class TransferForm {
   baked = 0,  // baked transfer, separated or in the paper's form, as the runtime computes it
   ao = 1,     // the vectors of the open vertex times its ambient occlusion
@@ -31,53 +31,53 @@ inline constexpr const char* paper_form_name = "paper";
 // One light in every representation that is measured.
 struct MeasuredLight {
   std::string name;
-  bake::Environment map;    // what the truth of pictures samples
-  std::vector<Vec3> cells;  // its means over the 6,144 cells of the truth
+  bake::Environment map;    // sampled by the truth of pictures
+  std::vector<Vec3> cells;  // the map's means over the 6,144 cells of the truth
   std::vector<float> amplitudes;
   nook::transfer::FitQuality quality;
   double fit_ms = 0;
 };
-// without_suns: the suns of the map are taken out first (bakers/raytrace/environment.h).
+// without_suns: first removes the suns of the map (bakers/raytrace/environment.h).
 MeasuredLight measured_light(std::string name, bake::Environment map, const nook::transfer::LobeFit& fit,
                              bool without_suns = false);
 
-// Returns whether transfer was baked from this mesh.
+// Returns whether the transfer was baked from this mesh.
 bool is_baked_mesh(const bake::SurfaceMesh& mesh, const nook::transfer::Transfer& transfer);
 
-// The vectors of all vertices under one light, 3 x light_modes numbers each.
+// The vectors of all vertices under one light. Each has 3 x light_modes numbers.
 struct LightVectors {
-  std::array<std::vector<float>, 3> form;  // by TransferForm
-  double vectors_ms = 0;                   // of the separated form on one thread
+  std::array<std::vector<float>, 3> form;  // indexed by TransferForm
+  double vectors_ms = 0;                   // for the separated form on one thread
   // Signal to error, dB.
   std::array<double, 3> se_db{};
-  // Of the separated form with integrals by direct sums in place of the response; not of the paper's form.
+  // For the separated form with integrals by direct sums instead of the response; not for the paper's form.
   double se_exact_db = 0;
 };
 
-// Returns false to stop. Worker threads call it, one call at a time.
+// Return false to stop. Worker threads call it, one call at a time.
 using VectorProgress = std::function<bool(std::size_t done, std::size_t total)>;
 
 // The part of light transport that the truth follows.
 struct TruthSettings {
-  std::uint32_t bounces = 0;                         // reflections of the shape onto itself; of pictures only
-  const bake::transfer::HoleTable* holes = nullptr;  // of the material; null: surfaces have none
+  std::uint32_t bounces = 0;                         // reflections of the shape onto itself; in pictures only
+  const bake::transfer::HoleTable* holes = nullptr;  // holes of the material; null: none
   float tiles = 1;  // tiles of the material in one unit of texture coordinates
 };
 
 struct VectorMeasure {
   std::vector<LightVectors> lights;
-  std::vector<float> ao;  // of each vertex, cosine-weighted visibility
+  std::vector<float> ao;  // per vertex, cosine-weighted visibility
   std::uint32_t light_modes = 0;
 };
-// Traces the visibility of each vertex again. The lobes of the fits are those of the transfer. The vectors of
-// the separated form hold reflected light as the file does, and the decibels are those of its direct part.
+// Traces the visibility of each vertex again. The fits use the lobes of the transfer. The vectors of the
+// separated form include reflected light as in the file, but the decibels are for its direct part only.
 // Throws Failure(CANCELLED) if progress returns false.
 VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const nook::transfer::Transfer& transfer,
                               const nook::material::MaterialTables& tables,
                               std::span<const MeasuredLight> lights, const TruthSettings& settings,
                               const VectorProgress& progress);
 
-// The response of a material to light from the directions of the lobes.
+// Returns the response of a material to light from the directions of the lobes.
 nook::transfer::Response response_of(const nook::material::MaterialTables& tables, std::uint32_t lobes);
 
 }  // namespace nook::measure

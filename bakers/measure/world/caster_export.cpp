@@ -24,7 +24,7 @@ void add(std::string& text, const char* format, Values... values) {
   text.append(line, std::size_t(std::clamp(length, 0, int(sizeof line) - 1)));
 }
 
-// In quotes, with what would end them taken out.
+// Puts a name in quotes, and removes what would end them.
 std::string quoted(const String& name) {
   std::string text = "\"";
   for (const char c : name)
@@ -45,8 +45,8 @@ float ao_factor(const WorldCaster& caster, CasterRadii radii) {
   return radii == CasterRadii::ao ? caster.ao_scale : 1;
 }
 
-// From rest space to that of the bone's joint. The radii keep their size in metres: a joint's scale is that
-// of a unit.
+// Moves a capsule from rest space to the space of the bone's joint. Its radii stay in metres, because a
+// joint's scale is only a unit.
 Capsule in_joint(const CharacterModel& model, const WorldCaster& caster, const Capsule& capsule) {
   const Mat3x4& m = model.bind.bones[caster.bone].node_from_rest;
   const float scale = scale_of(m);
@@ -62,7 +62,7 @@ std::vector<std::vector<std::size_t>> by_bone(const CharacterModel& model) {
   return casters;
 }
 
-// Unreal's axes are left-handed, with z up; its importers exchange y and z of every joint.
+// Unreal's axes are left-handed with z up. Its importers exchange y and z of every joint.
 Vec3 unreal_axes(Vec3 p) {
   return centimetres * Vec3{p.x, p.z, p.y};
 }
@@ -71,7 +71,7 @@ void add_unreal_capsule(std::string& text, const Capsule& c) {
   const Vec3 a = unreal_axes(c.a), b = unreal_axes(c.b), middle = 0.5f * (a + b);
   Vec3 axis = normalised(b - a);
   if (axis.z < 0) axis = -1 * axis;
-  // The capsule's axis is the z axis that pitch and then yaw turn.
+  // The capsule's axis is the z axis, turned by pitch and then by yaw.
   const float across = std::sqrt(axis.x * axis.x + axis.y * axis.y);
   const float pitch = degrees * std::atan2(across, axis.z),
               yaw = across > 0 ? degrees * std::atan2(-axis.y, -axis.x) : 0;
@@ -119,13 +119,13 @@ std::string source2_text(const CharacterModel& model, std::span<const Capsule> c
   return text;
 }
 
-// As a string of JSON: the name stays as it is, so that it finds its node.
+// Returns a JSON string that keeps the name, so that it finds its node.
 std::string json_string(const String& name) {
   using Json = nlohmann::json;
   return Json(std::string(name.data(), name.size())).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-// A glTF file needs its asset, and nothing else.
+// A glTF file only needs its asset.
 std::string gltf_text(const CharacterModel& model) {
   std::string text =
       "{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"nook export casters\"},\n"
@@ -146,7 +146,7 @@ std::string gltf_text(const CharacterModel& model) {
   return text;
 }
 
-// As a comment before Unreal's and Source 2's text, where glTF has a member.
+// Returns a comment before Unreal's and Source 2's text. glTF has a member instead.
 std::string note_of(const ExportError& error, CasterRadii radii) {
   std::string text;
   add(text, "capsules of one radius, that of %s; AO on the floor below the rest pose: rms %.5f, at most %.5f",
@@ -164,7 +164,8 @@ std::vector<Capsule> engine_capsules(const CharacterModel& model, CasterFormat f
     c.radius_a *= factor;
     c.radius_b *= factor;
     if (format != CasterFormat::gltf) {
-      // A quarter of the surface (Cauchy); that of a cone's mantle is that of a cylinder of the mean radius.
+      // A quarter of the surface (Cauchy). A cone's mantle has the same area as a cylinder with the mean
+      // radius.
       const float half = 0.5f * length(c.b - c.a);
       const float area = half * 0.5f * (c.radius_a + c.radius_b) +
                          0.5f * (c.radius_a * c.radius_a + c.radius_b * c.radius_b);

@@ -24,8 +24,8 @@ float smooth_step(float from, float to, float x) {
   return t * t * (3 - 2 * t);
 }
 
-// The share of a cone that a sphere hides: the overlap of two discs on the unit sphere, which falls smoothly
-// from that of the smaller one to 0.
+// Returns the share of a cone that a sphere hides. It is the overlap of two discs on the unit sphere, which
+// falls smoothly from the smaller disc to 0.
 float sphere_in_cone(Vec3 centre, float radius, Vec3 point, const LightCone& cone) {
   const Vec3 d = centre - point;
   const float distance = length(d);
@@ -103,7 +103,8 @@ struct Ellipsoid {
   std::uint16_t bone = 0;
 };
 
-// Half axes of a surface of constant density: sqrt(3) standard deviations along each principal axis.
+// Returns the half axes of a surface with constant density. They are sqrt(3) standard deviations along each
+// principal axis.
 std::vector<Ellipsoid> bone_ellipsoids(const bake::SkinnedMesh& mesh) {
   const std::vector<float> area = bake::vertex_areas(mesh, mesh.position);
   struct Moments {
@@ -163,7 +164,7 @@ class Ellipsoids final : public Darkener {
       Vec3 d;
       float height = 0;
       float* const along[3] = {&d.x, &d.y, &d.z};
-      // A plane keeps its side under the scaling, with the normal scaled the other way.
+      // A plane keeps its side under the scaling if its normal scales the other way.
       Vec3 n;
       float* const facing[3] = {&n.x, &n.y, &n.z};
       for (int i = 0; i < 3; ++i) {
@@ -180,7 +181,7 @@ class Ellipsoids final : public Darkener {
     for (const Ellipsoid& e : posed_) {
       const Vec3 d = e.centre - point;
       const float distance = length(d);
-      // The sphere with the ellipsoid's extent across the line of sight.
+      // The sphere has the ellipsoid's extent across the line of sight.
       const Vec3 aside = normalised(d - dot(d, cone.axis) * cone.axis);
       float radius2 = 0;
       for (int i = 0; i < 3; ++i) radius2 += std::pow(e.half[i] * dot(e.axis[i], aside), 2.0f);

@@ -1,4 +1,4 @@
-// Ways to darken the world by a character: Nook's casters and what engines use instead.
+// Ways in which a character darkens the world: Nook's casters and what engines use instead.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ struct LightCone {
   world::ConeParts parts;
 };
 
-// One way in one pose.
+// One method in one pose.
 class Darkener {
  public:
   virtual ~Darkener() = default;
@@ -30,8 +30,8 @@ class Darkener {
   virtual float cone(Vec3 point, const LightCone& cone) const = 0;
 };
 
-// A method is a family of them, of which each surface takes the one with the smallest error: its one free
-// scale is picked on the scored poses, in its favour.
+// A method is a family of variants. For each surface, the variant with the smallest error counts: its one
+// free scale is picked on the scored poses, in its favour.
 struct Method {
   std::string name;
   std::vector<std::unique_ptr<Darkener>> variant;
@@ -39,14 +39,15 @@ struct Method {
 
 // "nook": the casters as the runtime evaluates them.
 Method nook_method(std::vector<WorldCaster> casters);
-// "capsules": one capsule for each bone by principal axes, each as the sphere on its segment that is nearest
-// to the point, or to the axis of a cone; the product of what they leave open; radii by one scale.
+// "capsules" has one capsule for each bone by principal axes. Each counts as the sphere on its segment that
+// is nearest to the point, or to the axis of a cone. The open shares are multiplied, and one scale sets the
+// radii.
 Method capsule_method(const bake::SkinnedMesh& mesh);
-// "ellipsoids": the same with an ellipsoid for each bone, which counts as the unit sphere in its own space.
+// "ellipsoids": the same with an ellipsoid for each bone, evaluated as the unit sphere in its own space.
 Method ellipsoid_method(const bake::SkinnedMesh& mesh);
-// "blobs": a round blob on the floor below the body, whose radius and strength are picked.
+// "blobs": a round blob on the floor below the body, with a picked radius and strength.
 Method blob_method(const bake::SkinnedMesh& mesh);
-// "proxy spheres": those that darken linked instances, exp(-sum of weight * form factor).
+// "proxy spheres": the spheres that darken linked instances, exp(-sum of weight * form factor).
 Method proxy_method(const CharacterModel& model);
 
 }  // namespace nook::measure

@@ -23,17 +23,18 @@ using Json = nlohmann::ordered_json;
 constexpr float visible_ao = 0.01f;
 constexpr std::uint32_t visible_rays = 128;
 
-// The ways to light a point.
+// Ways to light a point.
 constexpr std::array<const char*, 3> methods{"none", "ao_x_probe", "per_lobe"};
 
-// Sums over the points of a surface in a pose, of squared errors of the three channels together: of all
-// light, of the soft part alone, and of all with the map's own irradiance in place of that of the lobes.
+// Sums of squared errors over the points of a surface in a pose, with the three channels together. They are
+// for all light, for the soft part alone, and for all light with the map's own irradiance in place of the
+// lobes.
 struct Sums {
   double weight = 0;
   std::array<double, methods.size()> all{}, soft{}, exact{};
 };
 
-// Irradiance by both halves of the paths.
+// Irradiance from each half of the paths.
 struct TracedLight {
   std::array<std::vector<Vec3>, 2> soft, sun;
 };

@@ -1,4 +1,4 @@
-// Bounds of the ratio of two methods' errors, which depends on the poses that were measured.
+// Bounds of the ratio of two methods' errors, because it depends on the measured poses.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,8 @@ struct RatioBounds {
   double low = 0, high = 0;
 };
 
-// 95 % of the ratios of two sums over poses drawn with replacement. over and under: one number a pose.
+// Returns the range of 95 % of the ratios of two sums over poses drawn with replacement. over and under: one
+// number per pose.
 inline RatioBounds ratio_bounds(const std::vector<double>& over, const std::vector<double>& under,
                                 std::size_t draws, std::uint64_t seed) {
   std::vector<double> ratio;

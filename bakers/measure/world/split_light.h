@@ -1,5 +1,5 @@
-// A map as a host draws it: its brightest sun as a cone of light, the rest as lobes; and what casters take of
-// both.
+// A map as a host draws it: its brightest sun as a cone of light, the rest as lobes. Also what casters take
+// from both.
 #pragma once
 
 #include <optional>
@@ -23,25 +23,25 @@ struct NamedMap {
 
 struct SplitLight {
   std::string name;
-  bake::Environment soft, sun_map;  // their sum is the map
+  bake::Environment soft, sun_map;  // they add up to the map
   std::optional<bake::Sun> sun;
   std::vector<SphericalGaussian> lobes;  // 32
   world::LightTerms terms;
   double unit = 0;  // irradiance of the map's mean radiance
 
   float sun_half_angle_radians() const;
-  Vec3 sun_irradiance(Vec3 normal) const;   // where no body stands
-  Vec3 soft_irradiance(Vec3 normal) const;  // the same, of the lobes
+  Vec3 sun_irradiance(Vec3 normal) const;   // without a body
+  Vec3 soft_irradiance(Vec3 normal) const;  // the same for the lobes
 };
 
 SplitLight split(const NamedMap& named);
 
-// Three floats for each point in rgb, one in the others.
+// rgb has three floats per point, the others one.
 struct SampledLight {
   std::vector<float> ao, cone, rgb;
 };
 
-// The shares that the casters leave open, as nook_world_sample gives them.
+// Returns the shares that the casters leave open, like nook_world_sample.
 SampledLight sample_light(std::span<const PosedCaster> casters, const bake::SurfacePoints& points,
                           const SplitLight& light);
 

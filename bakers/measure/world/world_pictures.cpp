@@ -23,14 +23,14 @@ using namespace bake;
 constexpr int width_px = 380, height_px = 380;
 constexpr float light_half_angle = 10 * std::numbers::pi_v<float> / 180;
 
-// The body, floor or wall that each pixel shows.
+// What each pixel shows: body, floor or wall.
 struct View {
-  std::vector<Vec3> position, normal;  // of the pixels of floor and wall
+  std::vector<Vec3> position, normal;  // for pixels of floor and wall
   std::vector<std::uint32_t> pixel;    // theirs
-  std::vector<float> body;             // brightness of the body, below 0 where it is not
+  std::vector<float> body;             // brightness of the body, below 0 elsewhere
 };
 
-// A camera beside the body, a floor below it and a wall behind it.
+// Places a camera beside the body, a floor below it and a wall behind it.
 View look(const RayScene& scene, std::span<const Vec3> body, float offset) {
   Vec3 low = body.front(), high = low;
   for (const Vec3 p : body) {
@@ -89,7 +89,7 @@ std::vector<float> values_of(const View& view, const Value& value) {
   return values;
 }
 
-// The values of the variant that is closest to the truth at every 23rd pixel.
+// Returns the values of the variant that is closest to the truth at every 23rd pixel.
 template <class Value>
 std::vector<float> best_of(const Method& method, const View& view, std::span<const float> truth,
                            const Value& value) {

@@ -1,4 +1,4 @@
-// The darkening by a body, drawn by ray tracing and by the methods beside it.
+// Draws the darkening by a body, by ray tracing and by the methods.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace nook::measure {
 
-// pose_0.png, pose_1.png, ... of `count` poses, evenly picked: a floor and a wall at 0.3 m under AO (above)
-// and under a cone of light of 20 degrees (below), by ray tracing, Nook, capsules and blobs. The baselines
-// have the scale that is best in each picture. The directory is created.
+// Writes pose_0.png, pose_1.png, ... for `count` evenly picked poses. They show a floor and a wall at 0.3 m
+// under AO (above) and under a cone of light of 20 degrees (below). The columns are ray tracing, Nook,
+// capsules and blobs. The baselines have the best scale for each picture. Creates the directory.
 void write_world_pictures(const std::filesystem::path& directory, const bake::SkinnedMesh& mesh,
                           const CharacterModel& model, std::span<const bake::Pose> poses, std::size_t count,
                           std::uint32_t rays, std::uint64_t seed);

@@ -28,7 +28,7 @@ constexpr double cone_elevation_radians = 0.25 * std::numbers::pi;
 // Sums over the points of one surface in one pose.
 struct Sums {
   double weight = 0, none2 = 0;
-  std::vector<double> error2, bias;  // of each variant
+  std::vector<double> error2, bias;  // per variant
 };
 
 // One surface, or one cone of light on the floor, over all poses.
@@ -38,8 +38,8 @@ struct Surface {
   std::vector<Sums> pose = {};
 };
 
-// Points with their truth, traced twice with half of the rays each. The noise of both is independent, so that
-// the mean of (value - first) (value - second) is the squared error without the noise of the rays.
+// Points with their truth, traced twice with half of the rays each. The noise of both is independent. So the
+// mean of (value - first) (value - second) is the squared error without the noise of the rays.
 struct TracedPoints {
   SurfacePoints points;
   std::vector<float> first, second;
@@ -59,7 +59,7 @@ TracedPoints visible_points(const RayScene& scene, SurfacePoints points, AoSetti
   return traced;
 }
 
-// The open share of a cone by rays that are spread evenly over its solid angle.
+// Returns the open share of a cone by rays that are spread evenly over its solid angle.
 std::vector<float> trace_cone(const RayScene& scene, const SurfacePoints& points, const LightCone& cone,
                               std::uint32_t rays, float offset, std::uint64_t seed) {
   std::vector<float> open(points.size());
@@ -217,7 +217,7 @@ Json world_rows(const SkinnedMesh& mesh, const CharacterModel& model, std::span<
     score(2, visible_points(scene, contact_points(body, study.points, random.bits()), rays));
     score(3, visible_points(
                  scene, neighbour_points(body.position, other, bearing, study.points, random.bits()), rays));
-    // Light from the side that the wall is on, halfway up.
+    // The light comes from the wall's side, halfway up.
     const float up = float(std::sin(cone_elevation_radians)), aside = float(std::cos(cone_elevation_radians));
     for (std::size_t c = 0; c < study.cone_degrees.size(); ++c) {
       LightCone cone;

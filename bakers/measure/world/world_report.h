@@ -15,29 +15,29 @@
 namespace nook::measure {
 
 struct WorldStudy {
-  // The number on each surface in each pose.
+  // Points on each surface in each pose.
   std::size_t points = 1500;
-  std::uint32_t rays = 512;  // a point; a cone takes an eighth
+  std::uint32_t rays = 512;  // per point; a cone takes an eighth
   std::uint32_t cone_rays() const { return rays / 8 > 0 ? rays / 8 : 1; }
   std::vector<float> cone_degrees{5, 20, 60};  // full angles
   std::size_t bootstrap = 400;                 // resamples of the poses
   std::uint64_t seed = 1;
-  // Casters that are scored as "nook" in place of the model's; empty: the model's.
+  // Casters to score as "nook" instead of the model's; empty: the model's.
   std::vector<WorldCaster> casters;
 };
 
 using WorldProgress = std::function<bool(std::size_t done, std::size_t total)>;
 
-// One row for each surface and method. Throws Failure (INVALID_ARGUMENT: the model has no world casters;
-// CANCELLED).
+// Returns one row for each surface and method. Throws Failure (INVALID_ARGUMENT: the model has no world
+// casters; CANCELLED).
 nlohmann::ordered_json world_rows(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                   std::span<const bake::Pose> poses, const WorldStudy& study,
                                   const WorldProgress& progress);
 
-// One row for each map, surface and method: "none" (the light as if no body stood in it), "ao_x_probe" and
-// "per_lobe". In both of the latter the map's brightest sun is a cone of light, and the rest 32 lobes. The
-// casters are those of the model; study.rays are paths for a point. Throws Failure (INVALID_ARGUMENT: the
-// model has no world casters; CANCELLED).
+// Returns one row for each map, surface and method. The methods are "none" (the light without a body),
+// "ao_x_probe" and "per_lobe". With "ao_x_probe" and "per_lobe", the map's brightest sun is a cone of light
+// and the rest is 32 lobes. The casters are the model's; study.rays are paths per point. Throws Failure
+// (INVALID_ARGUMENT: the model has no world casters; CANCELLED).
 nlohmann::ordered_json world_light_rows(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                         std::span<const bake::Pose> poses, std::span<const NamedMap> maps,
                                         const WorldStudy& study, const WorldProgress& progress);

@@ -1,5 +1,5 @@
-// The contents of a .nook file of each kind, as one row: kind, format_version, bytes, sizes, and the recipe's
-// entries as recipe_*. Each throws BAD_FILE or FILE_VERSION for bytes that do not validate.
+// Describes the contents of a .nook file of each kind in one row: kind, format_version, bytes, sizes, and the
+// recipe's entries as recipe_*. Each function throws BAD_FILE or FILE_VERSION for bytes that do not validate.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace nook::tool {
 
 using Row = nlohmann::ordered_json;
 
-// The row of the kind that the bytes name. Throws BAD_FILE for one that this version does not know.
+// Describes the kind that the bytes name. Throws BAD_FILE for a kind that this version does not know.
 Row describe(std::span<const std::byte> bytes);
 Row describe_character(std::span<const std::byte> bytes);
 Row describe_clips(std::span<const std::byte> bytes);
@@ -30,8 +30,8 @@ std::string text_of(const char* const (&texts)[count], std::size_t value) {
   return value < count ? texts[value] : "unknown (" + std::to_string(value) + ")";
 }
 
-// Adds the entries of a recipe, a JSON object, to row, those of an object in it as object_entry; anything
-// else adds nothing.
+// Adds the entries of a recipe, a JSON object, to row. An entry of an object in it becomes object_entry.
+// Other text adds nothing.
 void add_recipe(Row& row, std::string_view recipe);
 
 }  // namespace nook::tool

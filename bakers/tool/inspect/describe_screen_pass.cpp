@@ -26,7 +26,7 @@ std::string packing_name(const Vector<float>& image) {
   return std::to_string(packing.bits) + " bits";
 }
 
-// The depths of the near and the far plane, null where they follow from nothing or are infinite.
+// Adds the depths of the near and the far plane, null if unknown or infinite.
 void add_planes(Row& row, const Recording& recording) {
   row["near"] = row["far"] = nullptr;
   row["reversed"] = nullptr;

@@ -64,7 +64,7 @@ void set_local(Ogre::Bone& bone, const glm::mat4& local) {
   bone.setScale(scale, scale, scale);
 }
 
-// The joint above a joint of the skin, as an index into it, or -1.
+// Returns the joint above a joint of the skin, as an index into it, or -1.
 int joint_above(const viewer::CharacterFile& file, std::size_t joint) {
   const std::vector<int>& joints = file.skins[0].joints;
   int node = file.nodes[std::size_t(joints[joint])].parent;
@@ -74,7 +74,7 @@ int joint_above(const viewer::CharacterFile& file, std::size_t joint) {
   return -1;
 }
 
-// Bones that stand where the inverse bind matrices have them.
+// Makes bones at the places of the inverse bind matrices.
 Ogre::SkeletonPtr make_skeleton(const viewer::CharacterFile& file) {
   const viewer::Skin& skin = file.skins[0];
   Ogre::SkeletonPtr skeleton = Ogre::SkeletonManager::getSingleton().create("skeleton", "General", true);

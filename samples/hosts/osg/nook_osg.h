@@ -1,4 +1,4 @@
-// Nook in an OpenSceneGraph program: the AO of one geometry's vertices, and the AO of the screen.
+// Nook in an OpenSceneGraph program. It makes the AO of one geometry's vertices, and the AO of the screen.
 #pragma once
 
 #include <nook/nook.hpp>

@@ -84,7 +84,7 @@ void vtkNookAoPass::DrawAo(vtkRenderer* renderer) {
 void vtkNookAoPass::Render(const vtkRenderState* state) {
   vtkRenderer* const renderer = state->GetRenderer();
   Prepare(renderer);
-  PreRender(state);  // the props' shaders are those of this pass in both draws
+  PreRender(state);  // both draws use this pass's shaders of the props
   vtkOpenGLState* const gl = framebuffer_->GetContext()->GetState();
   gl->Push();
   DrawDepth(state);

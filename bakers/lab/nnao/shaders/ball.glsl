@@ -1,5 +1,5 @@
-// Points of the unit ball, spread evenly over directions; their distances from the centre are spread evenly too, so that they
-// are denser near it. Neighbouring pixels mirror them on different planes.
+// Points of the unit ball, spread evenly over directions. Their distances from the centre are spread evenly
+// too, so that they are denser near it. Neighbouring pixels mirror the points on different planes.
 vec3 on_sphere(float share, float turn) {
   float z = 1.0 - 2.0 * share;
   float angle = 6.2831853 * turn;

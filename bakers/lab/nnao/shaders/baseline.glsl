@@ -1,16 +1,17 @@
-// The code that the baselines share. Each defines baseline_ao, which is called where there is a surface.
+// Code that the baselines share. Each defines baseline_ao, which is called for pixels with a surface.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 
 uniform float radius_scale;  // the tuned radius over the radius of the request
 uniform float power;         // the tuned contrast
-uniform int groups;          // of taps: directions, slices, or 1
+uniform int groups;          // groups of taps: directions, slices, or 1
 uniform int steps;           // taps in a group; in one half of a slice
 
 out float result;
 
 const float pi = 3.14159265;
 
-// Two numbers in (0, 1), each taking 16 values over 4 x 4 pixels, which the blur averages out. Every method has the same.
+// Two numbers in (0, 1), each taking 16 values over 4 x 4 pixels, so that the blur averages them out. Every
+// method uses the same.
 vec2 pixel_noise() {
   uvec2 at = uvec2(gl_FragCoord.xy);
   uint across = at.x ^ at.y;
@@ -19,13 +20,13 @@ vec2 pixel_noise() {
   return (vec2(rank, reversed) + 0.5) / 16.0;
 }
 
-// Beyond the screen lies 0: nothing; 1: the nearest pixel on it, at its own place; 2: the depth of that pixel at the place of the
-// tap, as from a sampler that clamps.
+// Beyond the screen lies 0: nothing; 1: the nearest pixel on it, at its own place; 2: that pixel's depth at
+// the tap's place, like a clamping sampler.
 #ifndef NOOK_BORDER
 #define NOOK_BORDER 0
 #endif
 
-// The depth that a tap meets. at: its pixel, which moves onto the screen with 1.
+// Returns the depth that a tap meets. at: its pixel; with 1 it moves onto the screen.
 float tap_depth(inout ivec2 at) {
 #if NOOK_BORDER == 0
   return depth_at(at);
@@ -41,7 +42,7 @@ float tap_depth(inout ivec2 at) {
 #endif
 }
 
-// The pixel that a view-space position falls on.
+// Returns the pixel of a view-space position.
 ivec2 pixel_of(vec3 position) {
   return ivec2(floor((position.xy / -position.z - screen_rays.yw) / screen_rays.xz));
 }

@@ -1,5 +1,5 @@
 #version 330 core
-// One axis of the library's own bilateral blur, for AO that the library did not make. A test holds it to the library's.
+// One axis of the library's own bilateral blur, for AO from elsewhere. A test compares it with the library's.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 
 uniform sampler2D ao_image;

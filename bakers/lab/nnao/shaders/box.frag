@@ -1,5 +1,6 @@
 #version 330 core
-// The mean of 4 x 4 pixels, over which the noise repeats, whatever they show (J. Chapman's tutorial of SSAO, 2013).
+// The mean of 4 x 4 pixels, over which the noise repeats. It ignores what the pixels show (J. Chapman's
+// tutorial of SSAO, 2013).
 uniform sampler2D ao_image;
 uniform ivec2 size_px;
 

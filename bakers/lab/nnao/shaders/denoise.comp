@@ -1,5 +1,5 @@
 #version 430 core
-// The edge-aware denoiser as XeGTAO runs it: two pixels a thread, side by side, from gathers.
+// The edge-aware denoiser as XeGTAO runs it: two adjacent pixels per thread, from gathers.
 #include "bakers/lab/nnao/shaders/denoise.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,5 +1,5 @@
 #version 330 core
-// The edge-aware denoiser, one pixel a thread.
+// The edge-aware denoiser, one pixel per thread.
 #include "bakers/lab/nnao/shaders/denoise.glsl"
 
 uniform sampler2D ao_image;

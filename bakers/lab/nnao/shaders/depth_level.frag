@@ -1,5 +1,5 @@
 #version 330 core
-// One level of XeGTAO's depth from the next finer one, or the finest from the host's.
+// Makes one level of XeGTAO's depth from the next finer one, or the finest from the host's depth.
 #include "bakers/lab/nnao/shaders/edges.glsl"
 #include "bakers/lab/nnao/shaders/depth_levels.glsl"
 

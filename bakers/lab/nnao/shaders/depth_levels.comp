@@ -1,5 +1,6 @@
 #version 430 core
-// All levels of XeGTAO's depth as it makes them: four pixels a thread, coarser levels by fewer threads from shared memory.
+// Makes all levels of XeGTAO's depth like the original: four pixels per thread, coarser levels by fewer
+// threads from shared memory.
 #include "bakers/lab/nnao/shaders/edges.glsl"
 #include "bakers/lab/nnao/shaders/depth_levels.glsl"
 
@@ -14,14 +15,15 @@ uniform vec2 texel;  // 1 / size
 
 shared float depths[64];
 
-// The level that follows one whose texels lie `apart` threads from each other; 0 where this thread makes none.
+// Makes the next level from a level whose texels lie `apart` threads from each other; 0 if this thread makes
+// none.
 float next_level(uint apart) {
   barrier();
   uint at = gl_LocalInvocationIndex;
   float depth = 0.0;
   if (((gl_LocalInvocationID.x | gl_LocalInvocationID.y) & (2u * apart - 1u)) == 0u) {
     depth = coarser_depth(vec4(depths[at], depths[at + apart], depths[at + 8u * apart], depths[at + 9u * apart]));
-    // No other thread reads this one's before the next barrier.
+    // No other thread reads this value before the next barrier.
     depths[at] = depth;
   }
   return depth;

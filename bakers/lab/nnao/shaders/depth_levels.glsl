@@ -1,4 +1,5 @@
-// The coarser levels of XeGTAO's depth: a mean of four texels in which those far in front of the farthest one weigh less.
+// The coarser levels of XeGTAO's depth: a mean of four texels. Texels far in front of the farthest one weigh
+// less.
 uniform float level_radius_m;  // three quarters of the tuned radius
 uniform float falloff;         // share of the radius over which weights fall
 

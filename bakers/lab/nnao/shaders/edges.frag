@@ -1,5 +1,5 @@
 #version 330 core
-// The edges that the edge-aware denoiser reads, for a baseline that does not write them.
+// Edges for the edge-aware denoiser, for a baseline that does not write them.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 #include "bakers/lab/nnao/shaders/edges.glsl"
 

@@ -1,11 +1,11 @@
-// Which neighbours of a pixel lie on its surface, as XeGTAO's denoiser (F. Strugar, S. Mccalla, Intel XeGTAO, 2021) gets them: left,
-// right, below and above in two bits each, 0 across an edge.
+// Finds which neighbours of a pixel lie on its surface, like XeGTAO's denoiser (F. Strugar, S. Mccalla, Intel
+// XeGTAO, 2021): left, right, below and above in two bits each, 0 across an edge.
 
-// Depth without a surface: so far away that its edges and weights are finite.
+// Depth without a surface: far away, but with finite edges and weights.
 const float far_depth = 1.0e6;  // metres
 
-// A neighbour is across an edge where its depth differs by 1.1 % of the pixel's, both as it is and from where the slope between
-// the opposite neighbours leads.
+// A neighbour is across an edge if its depth differs by 1.1 % of the pixel's depth. Both its own depth and
+// the depth along the slope between the opposite neighbours must differ.
 vec4 edge_weights(float centre, vec4 neighbours) {
   vec4 steps_m = neighbours - centre;
   vec2 slope = 0.5 * (steps_m.yw - steps_m.xz);

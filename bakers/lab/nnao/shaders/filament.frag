@@ -1,13 +1,14 @@
 #version 330 core
-// A form of Filament's SAO (Google, Filament), after M. McGuire, M. Mara, D. Luebke, Scalable ambient obscurance, 2012: taps on a spiral,
-// each of which occludes by its elevation over its distance. What Filament adds is in radii here: a peak that keeps close taps
-// from dominating, a root, and distances that grow with the square.
+// A form of Filament's SAO (Google, Filament), after M. McGuire, M. Mara, D. Luebke, Scalable ambient
+// obscurance, 2012. Taps lie on a spiral, and each occludes by its elevation over its distance. Filament's
+// additions are in radii here: a peak that keeps close taps from dominating, a root, and distances that grow
+// with the square.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 
 uniform float bias;  // in radii
 
 #ifndef NOOK_TURNS
-#define NOOK_TURNS 3  // of the spiral
+#define NOOK_TURNS 3  // turns of the spiral
 #endif
 
 float baseline_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noise) {

@@ -1,19 +1,22 @@
 #version 330 core
-// HBAO. L. Bavoil, M. Sainz, R. Dimitrov, Image-space horizon-based ambient occlusion, SIGGRAPH 2008 talks: per direction the
-// sine of the horizon over that of the tangent plane, each rise weighted by 1 - (distance / radius)^2.
+// HBAO (L. Bavoil, M. Sainz, R. Dimitrov, Image-space horizon-based ambient occlusion, SIGGRAPH 2008 talks).
+// Per direction, it takes the sine of the horizon relative to the tangent plane's. Each rise is weighted by 1
+// - (distance / radius)^2.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 
 uniform vec2 bias_turn;  // cosine and sine of the bias of the tangent angle
 
-// Sine of the tangent plane's rise below v, biased. Rises are measured from the plane across the direction to the viewer: from
-// the screen's plane, surfaces at the border of a wide view would face away. along and facing: v and the normal towards the viewer.
+// Returns the sine of the tangent plane's rise below v, with bias. Rises are measured from the plane across
+// the direction to the viewer. If they were measured from the screen's plane, surfaces at the border of a
+// wide view would face away. along and facing: v and the normal towards the viewer.
 float tangent_sine(vec3 v, float along, vec3 normal, vec3 viewer, float facing) {
   vec3 across = v - along * viewer;
-  vec2 slope = vec2(facing * length(across), -dot(normal, across));  // how far the plane runs, and rises
+  vec2 slope = vec2(facing * length(across), -dot(normal, across));  // how far the plane runs, and how far it
+                                                                     // rises
   slope *= inversesqrt(max(dot(slope, slope), 1.0e-30));
   float rise = slope.y * bias_turn.x + slope.x * bias_turn.y;
   float run = slope.x * bias_turn.x - slope.y * bias_turn.y;
-  // The angle with its bias ends at a right one.
+  // The biased angle ends at a right angle.
   return run < 0.0 && slope.y > 0.0 ? 1.0 : rise;
 }
 
@@ -32,7 +35,7 @@ float baseline_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noi
       if (depth == no_surface) continue;
       vec3 v = position_at(at, depth) - position;
       float squared = dot(v, v), along = dot(v, viewer), sine = along * inversesqrt(squared);
-      // Along the texel's own direction: a plane must not rise over itself.
+      // Uses the texel's own direction, because a plane must not rise over itself.
       float lowest = max(highest, tangent_sine(v, along, normal, viewer, facing));
       if (!(squared < squared_radius) || sine <= lowest) continue;
       closed += (1.0 - squared * fade) * (sine - lowest);

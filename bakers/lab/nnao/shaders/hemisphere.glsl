@@ -1,5 +1,5 @@
-// Points of the hemisphere round the normal, as J. Chapman's tutorial of SSAO (2013) spreads them: their distances grow with the
-// square of their number, and neighbouring pixels turn them.
+// Points of the hemisphere around the normal, spread as in J. Chapman's tutorial of SSAO (2013). Their
+// distances grow with the square of their number, and neighbouring pixels turn them.
 #include "bakers/lab/nnao/shaders/ball.glsl"
 
 vec3 hemisphere_point(int i, int count, vec2 noise, vec3 normal) {

@@ -1,13 +1,14 @@
 #version 330 core
-// A form of N8AO (N8python, N8AO 2.0, 2026, three.js) without its neural denoiser, which is off by default, from its README: points of
-// a hemisphere; what occludes them fades with a distance of its own. The README states no function for that, nor a margin.
+// A form of N8AO (N8python, N8AO 2.0, 2026, three.js) from its README: points of a hemisphere, whose
+// occluders fade with a separate distance. It leaves out the neural denoiser, which is off by default. The
+// README states no function for the fade, and no margin.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 #include "bakers/lab/nnao/shaders/hemisphere.glsl"
 
 uniform float falloff;  // in radii
 
 float baseline_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noise) {
-  // A texel's depth is that of its centre: so much nearer a slanted plane may be than the point.
+  // A texel has the depth of its centre. A slanted plane may be nearer than the point by this much.
   float facing = dot(normal, normalize(-position));
   float slope = sqrt(max(1.0 - facing * facing, 0.0)) / max(facing, 0.02);
   float margin = (0.25 + 0.75 * slope) / pixels_per_metre(-position.z);

@@ -1,7 +1,8 @@
 #version 330 core
-// A form of the pass of QGIS' 3D view, from its description (QGIS pull requests 49144 and 49702, 2022): points near the pixel, which
-// darken as far as the closed ones are more than a share of all. The description names J. Chapman's tutorial of SSAO (2013) and
-// no shape; that the points fill a ball, without normals, follows from the default share of a half, which lies behind a plane.
+// A form of the pass of QGIS' 3D view, from its description (QGIS pull requests 49144 and 49702, 2022). It
+// takes points near the pixel. The pixel darkens if the share of closed points exceeds a threshold. The
+// description names J. Chapman's tutorial of SSAO (2013) but no shape. The default share is a half, which
+// lies behind a plane, so the points must fill a ball, without normals.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 #include "bakers/lab/nnao/shaders/ball.glsl"
 

@@ -1,8 +1,8 @@
 #version 330 core
-// A form of S4AO of Godot's Compatibility renderer (J. Dummer, Godot pull request 109447, 2025), from its description and its comments: a
-// grid of 4 x 4 taps without its corners, turned for each pixel, on inverse depth and without normals. Taps lie opposite
-// each other, so that a plane, on which inverse depth is linear, cancels. How much a tap counts is ours: its rise over the
-// falloff, up to 1, and less beyond.
+// A form of S4AO of Godot's Compatibility renderer (J. Dummer, Godot pull request 109447, 2025), from its
+// description and its comments. It uses a grid of 4 x 4 taps without its corners, turned for each pixel, on
+// inverse depth and without normals. Taps lie opposite each other, so that they cancel on a plane, where
+// inverse depth is linear. The weight of a tap is ours: its rise over the falloff, up to 1, and less beyond.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 
 uniform float falloff;  // share of the pixel's inverse depth

@@ -1,6 +1,7 @@
 #version 330 core
-// SSAO. M. Mittring, Finding next gen: CryEngine 2, SIGGRAPH 2007 courses: points in a ball round the pixel, tested against the
-// depth buffer, without normals. Half of the ball round a point of a plane lies behind it, which has to count as open.
+// SSAO (M. Mittring, Finding next gen: CryEngine 2, SIGGRAPH 2007 courses) tests points in a ball around the
+// pixel against the depth buffer, without normals. Half of the ball lies behind a plane, which must count as
+// open.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 #include "bakers/lab/nnao/shaders/ball.glsl"
 
@@ -11,7 +12,7 @@ float baseline_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noi
     if (point.z > -1.0e-3) continue;
     ivec2 at = pixel_of(point);
     float depth = tap_depth(at);
-    // Surfaces far in front of the pixel have nothing to do with it.
+    // Surfaces far in front of the pixel do not count.
     float in_front = -position.z - depth;
     if (depth < -point.z) closed += in_front > radius.x ? radius.x / in_front : 1.0;
   }

@@ -1,6 +1,6 @@
 #version 330 core
-// SSAO+. D. Filion, R. McNaughton, StarCraft II effects and techniques, SIGGRAPH 2008 courses: points in the hemisphere round
-// the normal; how much each occludes falls with how far the surface lies in front of it.
+// SSAO+ (D. Filion, R. McNaughton, StarCraft II effects and techniques, SIGGRAPH 2008 courses) tests points
+// in the hemisphere around the normal. A point occludes less the farther the surface is in front of it.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 #include "bakers/lab/nnao/shaders/ball.glsl"
 
@@ -9,7 +9,7 @@ uniform float bias;  // in radii
 float baseline_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noise) {
   vec3 viewer = normalize(-position);
   float facing = dot(normal, viewer);
-  // A texel's depth is that of its centre: so much nearer a slanted plane may be than the point.
+  // A texel has the depth of its centre. A slanted plane may be nearer than the point by this much.
   float texel = 1.0 / (pixels_per_metre(-position.z) * radius.x);
   float margin = bias + 0.75 * texel * sqrt(max(1.0 - facing * facing, 0.0)) / max(facing, 0.02);
   float closed = 0.0;

@@ -1,7 +1,8 @@
 #version 330 core
-// A form of the pass of VTK 9, from its description (Kitware, Screen-space ambient occlusion in VTK 9.0, 2020, and vtkSSAOPass.h): points
-// of a hemisphere, each of which is closed where the depth buffer is in front of it by more than a bias. That surfaces at
-// another depth than the pixel's count less is taken from J. Chapman's tutorial of SSAO (2013), as are the points.
+// A form of the pass of VTK 9, from its description (Kitware, Screen-space ambient occlusion in VTK 9.0,
+// 2020, and vtkSSAOPass.h). A point of a hemisphere is closed if the depth buffer is in front of it by more
+// than a bias. J. Chapman's tutorial of SSAO (2013) gives the points, and the smaller weight of surfaces at
+// another depth than the pixel's.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 #include "bakers/lab/nnao/shaders/hemisphere.glsl"
 

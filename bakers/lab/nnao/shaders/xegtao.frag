@@ -1,8 +1,9 @@
 #version 330 core
 #extension GL_ARB_texture_gather : require
-// XeGTAO. F. Strugar, S. Mccalla, Intel XeGTAO, 2021, from its description: GTAO (J. Jimenez, X. Wu, A. Pesce, A. Jarabo, Practical
-// realtime strategies for accurate indirect occlusion, 2016) with taps from depths of five levels, a falloff towards the plane, a
-// Hilbert curve that drives the R2 sequence, and edges for its denoiser.
+// XeGTAO (F. Strugar, S. Mccalla, Intel XeGTAO, 2021), from its description. It is GTAO (J. Jimenez, X. Wu,
+// A. Pesce, A. Jarabo, Practical realtime strategies for accurate indirect occlusion, 2016) with taps from
+// depths of five levels and a falloff towards the plane. A Hilbert curve drives the R2 sequence, and edges
+// serve its denoiser.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 #include "bakers/lab/nnao/shaders/edges.glsl"
 
@@ -34,7 +35,7 @@ layout(location = 2) out vec4 bent_normal;  // view space
 
 const float pi = 3.14159265;
 const float mip_offset = 3.3;          // octaves of pixels that the finest level covers
-const float too_close_px = 1.3;        // no tap is nearer
+const float too_close_px = 1.3;        // taps are at least this far away
 const float golden_ratio = 0.61803399;
 
 vec2 pixel_noise(ivec2 pixel) {
@@ -42,8 +43,8 @@ vec2 pixel_noise(ivec2 pixel) {
   return fract(0.5 + place * vec2(0.75487767, 0.56984029));
 }
 
-// S. Lagarde, Inverse trigonometric functions GPU optimization, 2014; the root from the bits of the float (M. Drobot, Low level
-// optimizations for GCN, 2014). Off by at most 0.02.
+// S. Lagarde, Inverse trigonometric functions GPU optimization, 2014; takes the root from the bits of the
+// float (M. Drobot, Low level optimizations for GCN, 2014). The error is at most 0.02.
 float fast_acos(float x) {
   float size = abs(x);
   float root = intBitsToFloat(0x1fbd1df5 + (floatBitsToInt(max(1.0 - size, 0.0)) >> 1));
@@ -51,13 +52,13 @@ float fast_acos(float x) {
   return x < 0.0 ? pi - angle : angle;
 }
 
-// All taps of a pixel share this.
+// What all taps of a pixel share.
 struct Centre {
   vec3 position, viewer;
-  vec2 fade;  // the weight falls by the first for each metre, from the second
+  vec2 fade;  // the weight falls by the first number per metre, and starts at the second
 };
 
-// The cosine of the angle between the viewer's direction and a tap, faded towards the plane's.
+// Returns the cosine of the angle between the viewer's direction and a tap, faded towards the plane's.
 float tap_cosine(Centre centre, vec2 offset_px, float level, float lowest) {
   vec2 at_px = gl_FragCoord.xy + offset_px;
 #if NOOK_BORDER == 1
@@ -76,20 +77,20 @@ float tap_cosine(Centre centre, vec2 offset_px, float level, float lowest) {
   return mix(lowest, dot(v, centre.viewer) * inverse, weight);
 }
 
-// The cosine-weighted integral from the viewer's direction to an angle, as in slice.glsl.
+// Returns the cosine-weighted integral from the viewer's direction to an angle, as in slice.glsl.
 float arc(float angle, float tilt, float cos_tilt, float sin_tilt) {
   return 0.25 * (cos_tilt + 2.0 * angle * sin_tilt - cos(2.0 * angle - tilt));
 }
 
-// The cosine-weighted mean of the directions from the viewer's to an angle, along the slice and towards the viewer:
-// the integrals of cos(a - tilt) |sin a| (sin a, cos a).
+// Returns the cosine-weighted mean of the directions from the viewer's to an angle, along the slice and
+// towards the viewer. It is the integral of cos(a - tilt) |sin a| (sin a, cos a).
 vec2 arc_mean(float angle, float tilt) {
   float once = sin(angle - tilt) + sin(tilt), thrice = (sin(3.0 * angle - tilt) + sin(tilt)) / 3.0;
   return vec2(0.5 * once - 0.25 * (thrice + sin(angle + tilt) - sin(tilt)),
               0.25 * ((cos(tilt) - cos(3.0 * angle - tilt)) / 3.0 + cos(tilt) - cos(angle + tilt)));
 }
 
-// bent: the open directions are added.
+// bent: adds the open directions.
 float slice_visibility(int slice, vec2 noise, Centre centre, vec3 normal, float facing, float radius_px, inout vec3 bent) {
   float turn = pi * (float(slice) + noise.x) / float(groups);
   vec2 direction = vec2(cos(turn), sin(turn));
@@ -107,8 +108,9 @@ float slice_visibility(int slice, vec2 noise, Centre centre, vec3 normal, float 
     ahead = max(ahead, tap_cosine(centre, offset_px, level, -sin_tilt));
     behind = max(behind, tap_cosine(centre, -offset_px, level, sin_tilt));
   }
-  // Open planes at a slant come out too dark without the twentieth: directions that are even over the screen are not even around
-  // the viewer's direction, except in the middle of the image. GTAO divides that away; XeGTAO, as published, does not.
+  // Without the twentieth, open planes at a slant are too dark. Directions that are even over the screen are
+  // not even around the viewer's direction, except in the middle of the image. GTAO divides this error away,
+  // but XeGTAO as published does not.
   float projected = mix((rise * rise + facing * facing) * inverse, 1.0, 0.05);
 #ifdef NOOK_BENT_NORMALS
   vec2 mean = projected * (arc_mean(fast_acos(ahead), tilt) + arc_mean(-fast_acos(behind), tilt));

@@ -1,10 +1,11 @@
 #version 330 core
-// The oracle: 1,024 taps, without a tuned number. Each tap is a line behind its pixel, from the surface on, as long as
-// `thickness`. The part of that line within the radius closes the directions in which it lies; what remains open
-// is weighted with the cosine. Off the screen the depth of the border continues. The radius is never shrunk.
+// The oracle: 1,024 taps, without a tuned number. Each tap is a line of length `thickness` that starts at the
+// surface and goes away from the viewer. The part of the line within the radius blocks the directions in
+// which it lies. The open directions are weighted with the cosine. Off the screen, the depth of the border
+// continues. The radius never shrinks.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 
-uniform float thickness;  // in radii; 0: whatever lies behind a surface within the radius is solid
+uniform float thickness;  // in radii; 0: everything behind a surface within the radius is solid
 
 const float pi = 3.14159265;
 const int groups = 16;  // slices, 32 directions
@@ -14,15 +15,15 @@ const int steps = 32;
 
 out float result;
 
-const float sectors = 128.0;  // of equal cosine-weighted share
+const float sectors = 128.0;  // with equal cosine-weighted shares
 
-// Two numbers in (0, 1) that differ between the pixels of 4 x 4.
+// Returns two numbers in (0, 1) that differ between the pixels of 4 x 4.
 vec2 pixel_noise(ivec2 pixel) {
   ivec2 at = pixel & 3;
   return (vec2(at.x * 4 + at.y, ((at.y * 4 + at.x) * 7) & 15) + 0.5) / 16.0;
 }
 
-// Depth with the border's continued.
+// Returns the depth; off the screen, the depth of the border.
 float clamped_depth(ivec2 pixel) {
   return depth_at(clamp(pixel, ivec2(0), size_px - 1));
 }
@@ -58,8 +59,8 @@ struct Frame {
   vec3 across, viewer, normal;
 };
 
-// The angle of an offset in the slice. A pixel lies up to half a pixel beside the slice; its height over the tangent plane is
-// kept as it moves into the slice, so that a plane closes nothing.
+// Returns the angle of an offset in the slice. A pixel lies up to half a pixel beside the slice. Moving it
+// into the slice keeps its height over the tangent plane, so that a plane blocks nothing.
 float angle_in(Frame frame, vec3 offset) {
   float u = dot(offset, frame.across), v = dot(offset, frame.viewer);
   float slope = dot(frame.normal, frame.viewer);
@@ -69,9 +70,9 @@ float angle_in(Frame frame, vec3 offset) {
 
 uvec4 closed_by(Frame frame, ivec2 at, float depth, vec3 position, float radius) {
   vec3 tap = position_at(at, depth), front = tap - position, behind = normalize(tap);
-  // A horizon is that of the surfaces within the radius; else whatever stands before a wall would darken it.
+  // Only surfaces within the radius make a horizon. Otherwise, anything in front of a wall would darken it.
   if (thickness <= 0.0 && dot(front, front) > radius * radius) return uvec4(0u);
-  // The part of the line front + s behind within the sphere of the radius.
+  // Finds the part of the line front + s behind that is within the sphere of the radius.
   float along = dot(front, behind), inside = along * along - dot(front, front) + radius * radius;
   if (inside <= 0.0) return uvec4(0u);
   float near = max(-along - sqrt(inside), 0.0), far = -along + sqrt(inside);

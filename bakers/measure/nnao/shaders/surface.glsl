@@ -1,5 +1,5 @@
-// Depth, normals and the radius, as every method sees them. View space is OpenGL's, metres; pixels count from the
-// lower left corner.
+// Depth, normals and the radius, as every method sees them. View space is OpenGL's, in metres. Pixels count
+// from the lower left corner.
 uniform sampler2D depth_image;   // -z, metres; infinite: no surface
 uniform sampler2D normal_image;  // view space, unit length
 uniform vec4 screen_rays;        // x_scale, x_offset, y_scale, y_offset: x / depth = x_scale px + x_offset
@@ -27,7 +27,7 @@ float pixels_per_metre(float depth) {
   return 1.0 / abs(screen_rays.z * depth);
 }
 
-// The radius of a pixel: metres, pixels. Where it would cover too many pixels it shrinks.
+// Returns the radius of a pixel in metres and pixels. It shrinks where it would cover too many pixels.
 vec2 pixel_radius(float depth) {
   float per_metre = pixels_per_metre(depth);
   float pixels = min(radius_m * per_metre, max_radius_px);
