@@ -206,7 +206,7 @@ struct CellVertices {
   bool has_other_places = false, has_other_weights = false;
 };
 
-// Differences between a vertex and those round it.
+// Tells whether the vertices round a vertex differ from it.
 struct Neighbourhood {
   Cell cell{};
   bool has_other_places = false, has_other_weights = false;

@@ -56,6 +56,8 @@ const char* text_of(JudgedPoses::Source source) {
       return "poses between the fitted ones of its clips";
     case JudgedPoses::Source::turned:
       return "turns";
+    case JudgedPoses::Source::recorded:
+      return "recorded poses that were not fitted";
     case JudgedPoses::Source::generated:
       break;
   }

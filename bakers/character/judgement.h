@@ -20,6 +20,7 @@ struct JudgedPoses {
     between_frames,  // half-way between the fitted frames of the clips
     generated,       // automatic poses of another seed, as the file has no clip
     turned,          // an object of one bone
+    recorded,        // every fourth of the poses that were given for calibration
   };
   Source source = Source::generated;
   std::vector<Pose> poses;

@@ -41,7 +41,8 @@ struct ImportedCharacter {
   std::vector<BoundSkin> skins;       // skins that a shown mesh uses
   // For each primitive of the mesh the matrix from its POSITION attribute to rest space.
   std::vector<Affine> rest_from_primitive;
-  // For each vertex of the file its POSITION, morph targets included; empty: the character came as arrays.
+  // Holds the POSITION of each file vertex with its morph targets. It is empty if the character came as
+  // arrays.
   std::vector<Vec3> mesh_position;
   // For each primitive of the mesh the node of the file that shows it.
   std::vector<std::uint32_t> node_of_primitive;

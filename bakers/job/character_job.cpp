@@ -335,22 +335,51 @@ Progress tracing(const StageReport& progress) {
       [&progress](std::size_t done, std::size_t total) { return progress(JobStage::raytrace, done, total); };
 }
 
-// Moves the constants to the poses in use: recorded ones, or a share of the rest pose where the bake has
-// generated poses alone.
-void fit_constants(CharacterModel& model, const ImportedCharacter& character, const Recipe& recipe,
-                   const CalibrationPoses& calibration, const StageReport& progress) {
-  const std::uint64_t seed = mix_bits(recipe.settings.seed ^ 0x6f6666736574ull);
-  if (!calibration.poses.empty()) {
-    calibrate_offsets(model, character.mesh, calibration.poses, {CalibrationTask().rays, seed},
-                      tracing(progress));
-    return;
-  }
-  if (recipe.settings.fit != FitMethod::nook || recipe.auto_poses == 0 || !recipe.clips.empty() ||
-      recipe.extra_poses > 0)
-    return;
-  constexpr std::uint32_t rays = 256;  // one pose alone: its noise would stay in the constants
-  const std::vector<Pose> rest(rest_pose_weight, Pose(character.mesh.bones.size()));
-  calibrate_offsets(model, character.mesh, rest, {rays, seed}, tracing(progress));
+// Of recorded poses every fourth is not fitted, so that the model can be judged on it; fewer than 16 are all
+// fitted.
+struct SplitRecording {
+  std::vector<Pose> fitted, judged;
+};
+SplitRecording split_recording(std::span<const Pose> poses) {
+  constexpr std::size_t every = 4, least = 16;
+  SplitRecording split;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    (poses.size() >= least && i % every == every - 1 ? split.judged : split.fitted).push_back(poses[i]);
+  return split;
+}
+
+JudgedPoses poses_to_judge(const ImportedCharacter& character, const Recipe& recipe,
+                           SplitRecording recording) {
+  constexpr std::size_t most = 120;
+  if (recording.judged.empty()) return judged_poses(character, recipe);
+  thin_out(recording.judged, most);
+  return {JudgedPoses::Source::recorded, std::move(recording.judged), {}, {}};
+}
+
+// The poses that are most likely in use: recorded ones; those of the clips, evenly picked; or, where the bake
+// has generated poses alone, the rest pose. Empty where the host gave poses, and for comparisons with the
+// paper.
+std::vector<Pose> likely_poses(const ImportedCharacter& character, const Recipe& recipe,
+                               const CalibrationPoses& calibration) {
+  constexpr std::size_t most_of_clips = 240, least_of_clips = 16;
+  if (!calibration.poses.empty()) return split_recording(calibration.poses).fitted;
+  if (recipe.settings.fit != FitMethod::nook || recipe.auto_poses == 0 || recipe.extra_poses > 0) return {};
+  if (recipe.clips.empty()) return std::vector<Pose>(rest_pose_weight, Pose(character.mesh.bones.size()));
+  std::vector<Pose> poses = clip_poses(character, recipe.clips, recipe.samples_per_clip);
+  if (poses.size() < least_of_clips) return {};
+  thin_out(poses, most_of_clips);
+  return poses;
+}
+
+// Moves constants and scales to the poses in use. Few poses get more rays, whose noise would stay.
+void fit_to_use(CharacterModel& model, const ImportedCharacter& character, const Recipe& recipe,
+                const CalibrationPoses& calibration, const StageReport& progress) {
+  constexpr std::size_t all_rays = 7680, least_rays = 32, most_rays = 256;
+  const std::vector<Pose> poses = likely_poses(character, recipe, calibration);
+  if (poses.empty()) return;
+  const auto rays = std::uint32_t(std::clamp(all_rays / poses.size(), least_rays, most_rays));
+  calibrate_offsets(model, character.mesh, poses, {rays, mix_bits(recipe.settings.seed ^ 0x6f6666736574ull)},
+                    tracing(progress));
 }
 
 }  // namespace
@@ -364,7 +393,7 @@ BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recip
                                     [&](BakeStage stage, std::size_t done, std::size_t total) {
                                       return progress(stage_of(stage), done, total);
                                     });
-  fit_constants(baked.model, character, recipe, calibration, progress);
+  fit_to_use(baked.model, character, recipe, calibration, progress);
   WorldCasterReport caster_report;
   // An object with one bone has places instead of poses: we turn it in front of walls and lights.
   const std::vector<Pose> caster_poses =
@@ -376,7 +405,8 @@ BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recip
   baked.model.bind = bind_data_of(character);
   baked.model.rest = rest_surface_of(character.mesh);
   const Judgement judgement =
-      judge_model(character, quantise(baked.model), recipe, judged_poses(character, recipe),
+      judge_model(character, quantise(baked.model), recipe,
+                  poses_to_judge(character, recipe, split_recording(calibration.poses)),
                   mix_bits(recipe.settings.seed ^ 0x6a75646765ull), tracing(progress));
   baked.model.recipe = with_figures(recipe_text(character, recipe), judgement);
   BakedFile file;
@@ -391,10 +421,12 @@ BakedFile calibrate_file(const ImportedCharacter& character, CharacterModel mode
                          const StageReport& progress) {
   const Recipe recipe =
       model.recipe.empty() ? Recipe() : read_recipe(character, std::string_view(model.recipe));
+  const SplitRecording recording = split_recording(calibration.poses);
   const double moved =
-      calibrate_offsets(model, character.mesh, calibration.poses, {task.rays, task.seed}, tracing(progress));
-  const Judgement judgement = judge_model(character, quantise(model), recipe, judged_poses(character, recipe),
-                                          mix_bits(task.seed ^ 0x6a75646765ull), tracing(progress));
+      calibrate_offsets(model, character.mesh, recording.fitted, {task.rays, task.seed}, tracing(progress));
+  const Judgement judgement =
+      judge_model(character, quantise(model), recipe, poses_to_judge(character, recipe, recording),
+                  mix_bits(task.seed ^ 0x6a75646765ull), tracing(progress));
   model.recipe =
       with_figures(model.recipe.empty() ? std::string_view("{}") : std::string_view(model.recipe), judgement);
   BakedFile file;

@@ -213,12 +213,14 @@ void add_bake_character(Command bake) {
   command.add_option("--steps", o.steps, "steps of the fit (--fit paper: rounds)")
       .check(in_range(1, 10000000));
   add_form_options(command, o);
-  command.add_input("--calibrate", o.calibration,
-                    "recorded poses of your game (nook_scene_record_pose): the constant of each vertex is "
-                    "fitted to them last");
-  command.add_input("--model", o.model,
-                    "with --calibrate: fit the constants of this baked model of the character, and bake "
-                    "nothing else; only --rays and --seed count");
+  command.add_input(
+      "--calibrate", o.calibration,
+      "recorded poses of your game (nook_scene_record_pose): the constant and the scale of each vertex are "
+      "fitted to them last");
+  command.add_input(
+      "--model", o.model,
+      "with --calibrate: fit constants and scales of this baked model of the character, and bake "
+      "nothing else; only --rays and --seed count");
   command
       .add_option("--time-limit", o.time_limit_s,
                   "end the fit after so many seconds; such a bake is not reproducible bit for bit")

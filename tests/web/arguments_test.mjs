@@ -130,6 +130,9 @@ refused("nook_model_check_pose", "vertices", () => model.checkPose({ transforms 
 for (const value of wrongLists) refused("nook_model_match_vertices", "positions", () => model.matchVertices({ positions: value }));
 refused("nook_model_match_vertices", "match", () => model.matchVertices(positions));
 refusedLists("nook_model_match_vertices", "normals", 9, (normals) => model.matchVertices({ positions, normals }), { optional: true });
+refused("nook_model_match_vertices", "joints", () => model.matchVertices({ positions, joints: [0, 1], weights: [1, 0] }));
+refused("nook_model_match_vertices", "joints", () => model.matchVertices({ positions, joints: [0, 1, 65536], weights: [1, 1, 1] }));
+refused("nook_model_match_vertices", "weights", () => model.matchVertices({ positions, joints: [0, 1, 1], weights: [1, 1] }));
 for (const value of [...wrongLists, [0.5], [NaN], [2 ** 32], ["1"]]) refused("nook_model_remap", "vertices", () => model.remap(value));
 for (const names of [undefined, "Hips", [1], [undefined], new Set(["a"]), { length: 1, 0: "a" }, [{ name: "Hips" }]])
   refused("nook_model_map_bones", "names", () => model.mapBones(names));

@@ -134,7 +134,7 @@ def bake_character(character: Character, *, preset: str = "standard", poses: Opt
 
     preset: draft, standard or production. poses: auto, single_joint, clips, all or extra. form: default, or paper: Le et al. 2019.
     clips: names of the clips to take poses from; one str is one name. calibration_poses: recorded poses of your game as extra_poses,
-    to which the bake fits the constants of the vertices last. clip_split: all, half or families, for comparisons.
+    to which the bake fits the constant and the scale of each vertex last. clip_split: all, half or families, for comparisons.
     settings: spheres, key_points, rays, steps, auto_pose_count, samples_per_clip, seed, threads, gamma, saturation, time_limit_s, as
     nook_bake_character_desc has them. progress is called on threads of the job; it returns False to cancel.
     """

@@ -155,7 +155,7 @@ export class CharacterModel extends Owned {
       checkNumbers(library.name, "joints", joints, { groupsOf: count || 1, why: "(as many for each position)", whole: true, optional: true });
       checkNumbers(library.name, "weights", weights, { count: joints?.length ?? 0, why: "(as many as joints)", optional: true });
       for (let i = 0; i < (joints?.length ?? 0); ++i)
-        if (joints[i] < 0 || joints[i] > 65535) refuse(library.name, `joints need numbers from 0 to 65535 (got ${joints[i]} in place ${i})`);
+        if (joints[i] < 0 || joints[i] > 65535) refuse(library.name, `joints needs numbers from 0 to 65535 (got ${joints[i]} in place ${i})`);
       const description = library.descriptor("nook_vertex_match_desc", {
         ...others, vertexCount: count, positions: () => library.floats(positions), normals: () => library.floats(normals),
         inRestSpace: inRestSpace ? 1 : 0, weights: () => library.floats(weights),

@@ -504,9 +504,8 @@ typedef struct nook_vertex_match_desc {
   /* The largest distance of a match, as a share of the diagonal of the model's box, in [0, 1]. 0 (default):
    * 1e-4, which allows for positions of 16 bits. */
   float tolerance;
-  /* NULL (default), or `influences` joints and weights for each vertex (1 to 8, default 4), strides in bytes
-   * (0: tightly packed). They tell vertices apart where meshes meet. The joints are those of the skin with
-   * the index `skin` in the file (default 0), or bones in a model without skins. */
+  /* NULL (default), or `influences` joints and weights for each vertex (1 to 8, default 4), strides in bytes,
+   * which tell vertices apart where meshes meet: joints of the file's skin `skin` (default 0), or bones. */
   const uint16_t* joints;
   size_t joint_stride;
   const float* weights;

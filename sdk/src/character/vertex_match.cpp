@@ -10,15 +10,15 @@ namespace nook {
 namespace {
 
 // A vertex whose normal looks to another side has a cosine that is smaller by this. Hosts smooth normals and
-// bend those of cards and leaves, so that a smaller difference tells nothing by itself.
+// bend them on cards and leaves, so that a smaller difference decides nothing.
 constexpr float other_side = 0.7f;
 
 // A normal within 5 degrees of the model's is the model's: steps of 2 degrees, and a normal of 8 bits. One
 // that is 10 degrees away is not.
 constexpr float fitting_cosine = 0.9962f, unfitting_cosine = 0.9848f;
 
-// Half a step of 8 bits for each of 8 weights is within this sum of absolute differences. Weights without any
-// that fits so well are those of another skin.
+// Half a step of 8 bits for each of 8 weights is within this sum of absolute differences. If no candidate
+// fits so well, the weights are of another skin.
 constexpr float fitting_weights = 0.1f;
 // The steps of the file's weights.
 constexpr float weight_steps = 2e-4f;
@@ -61,7 +61,7 @@ float ao_difference(const CharacterModel& model, std::uint32_t a, std::uint32_t 
   return std::max({rest, darker_by(model, a, b), darker_by(model, b, a)});
 }
 
-// The first fit whose AO is not that of `taken`, or null.
+// Returns the first fit with other AO than `taken`, or null.
 const Fit* other_ao(const CharacterModel& model, const Fits& fits, const Fit& taken) {
   for (const Fit& fit : fits)
     if (fit.candidate->welded != taken.candidate->welded &&
@@ -202,8 +202,8 @@ class Matcher {
   Fits fits_;  // of the current vertex
 };
 
-// The distance by which the right candidate may lie beyond the nearest one: rounding if the host's places are
-// exact, and the steps of both if the host stores fewer bits.
+// Returns how far the right candidate may lie beyond the nearest one. That is rounding if the host's places
+// are exact, and the steps of both if the host stores fewer bits.
 float Matcher::slack_of_places(Memory* memory) const {
   constexpr float model_steps = 65535, exact_share = 0.9f, rounding = 5e-7f;
   float farthest = 0;

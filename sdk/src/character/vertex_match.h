@@ -1,9 +1,8 @@
 // Which vertex of a model each vertex of a host's mesh is.
 //
 // Several vertices of a model can lie at one place: where two primitives meet, on the two sides of a card, in
-// the layers of hair. A host's vertex is taken for the one that fits best, by these criteria one after
-// another:
-//   the place; the side that the normal looks to; the weights; the normal; the order of the host's vertices.
+// the layers of hair. The best fit wins. These criteria decide, one after another:
+//   place, side of the normal, weights, normal, order of the host's vertices.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +15,11 @@
 namespace nook {
 
 struct VertexMatches {
-  // Vertices of the host near none of the model, and the first one of them.
+  // Counts the host's vertices that are near no vertex of the model.
   std::uint32_t unmatched = 0, first_unmatched = no_vertex;
-  // Vertices of the host that several vertices of the model with other AO fit equally well, the first one of
-  // them, and two vertices of the file that it can be, of which the first was taken.
+  // Counts the host's vertices that fit several vertices of the model with other AO.
   std::uint32_t ambiguous = 0, first_ambiguous = no_vertex;
+  // The file vertices that the first ambiguous vertex can be.
   std::uint32_t taken = no_vertex, other = no_vertex;
 };
 

@@ -1,5 +1,5 @@
-// The vertices of a host's mesh beside those of a model, where the right answers are known: meshes whose
-// vertices share places, and the shared characters.
+// Matches of a host's mesh with a model. The right answers are known: meshes whose vertices share places, and
+// the shared characters.
 #include <nook/nook_character.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using namespace nook::bake;
 
 namespace {
 
-// The arrays of a host. The joints are those of skin 0, or bones.
+// The arrays of a host. Joints belong to skin 0, or are bones.
 struct HostMesh {
   static constexpr std::uint32_t influences = 8;
   std::vector<Vec3> position, normal;
@@ -199,8 +199,8 @@ HostMesh own_mesh(const test::Engine& engine) {
   return host;
 }
 
-// Vertices with the place, the normal and the weights of another, to the bit, that are not the same when
-// welded: the two faces of a fold may share their normals.
+// Counts vertices that equal another one in place, normal and weights but are not welded with it. The two
+// faces of a fold may share their normals.
 std::uint32_t twins_of(const Loaded& loaded, const HostMesh& host) {
   std::map<std::vector<float>, std::vector<std::uint32_t>> vertices;
   for (std::uint32_t v = 0; v < host.size(); ++v) {

@@ -38,8 +38,8 @@ typedef struct nook_bake_character_study_desc {
   /* NOOK_FORM_PAPER: the block coordinate descent of Le et al. 2019, whatever the kernel is. Default
    * NOOK_FORM_DEFAULT: the fit of the form of the bake. */
   nook_form fit;
-  /* Recorded poses of your game, as extra_poses_3x4 has them: the bake ends with a fit of the constant of
-   * each vertex to these. Default 0: none. */
+  /* Recorded poses of your game, as extra_poses_3x4 has them: the bake ends with a fit of the constant and
+   * the scale of each vertex to these. Default 0: none. */
   uint32_t calibration_pose_count;
   const float* calibration_poses_3x4;
 } nook_bake_character_study_desc;
