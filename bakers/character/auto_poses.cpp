@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "bakers/character/animal_poses.h"
 #include "bakers/character/body_plan.h"
 #include "bakers/character/hands.h"
 #include "bakers/character/joined_hands.h"
@@ -13,6 +15,7 @@
 #include "bakers/character/rig_anatomy.h"
 #include "bakers/character/rotation.h"
 #include "bakers/character/self_collision.h"
+#include "bakers/character/torn_edges.h"
 
 namespace nook::bake {
 namespace {
@@ -21,7 +24,8 @@ namespace {
 
 class PlannedRig {
  public:
-  explicit PlannedRig(const SkinnedMesh& mesh);  // which is kept by reference
+  // The mesh is kept by reference.
+  PlannedRig(const SkinnedMesh& mesh, std::vector<Joint> joints);
 
   // Lets a hand reach for a place on the body or for the other hand: what hands come near is what shadows of
   // hands and on hands depend on, and arms that swing freely are seldom there. Of some arms the one that
@@ -42,6 +46,7 @@ class PlannedRig {
   BodyFrame frame_;
   std::vector<char> posable_;
   std::vector<Vec3> curl_axis_;
+  std::vector<char> laden_;
   std::array<BodyPoint, 2> palm_;  // left, right
   std::size_t spine_count_ = 1, neck_count_ = 1;
 };
@@ -81,13 +86,14 @@ std::size_t count_of(std::span<const Joint> joints, JointRole role) {
       std::count_if(joints.begin(), joints.end(), [&](const Joint& joint) { return joint.role == role; }));
 }
 
-PlannedRig::PlannedRig(const SkinnedMesh& mesh)
+PlannedRig::PlannedRig(const SkinnedMesh& mesh, std::vector<Joint> joints)
     : mesh_(mesh),
-      joints_(joint_roles(mesh)),
+      joints_(std::move(joints)),
       tree_(body_tree(mesh, joints_)),
       frame_(body_frame(mesh, joints_)),
       posable_(mesh.bones.size(), 0),
       curl_axis_(curl_axes(mesh, joints_, tree_, frame_.up)),
+      laden_(laden_fingers(mesh, joints_, tree_)),
       palm_(palms(mesh, joints_, tree_)),
       spine_count_(std::max<std::size_t>(1, count_of(joints_, JointRole::spine))),
       neck_count_(
@@ -166,10 +172,13 @@ Vec3 PlannedRig::joint_turn(std::size_t b, const BodyPlan& plan, PoseRandom& ran
     case JointRole::finger: {
       const float curl = limb.curl + 0.2f * random.normal();
       const Vec3 spread = joint.segment == 0 ? 0.08f * random.normal() * up : Vec3{};
-      return finger_turn(joint, curl_axis_[b], curl) + spread;
+      return laden_[b] ? Vec3{} : finger_turn(joint, curl_axis_[b], curl) + spread;
     }
-    case JointRole::thumb:
-      return limb.thumb * std::max(0.2f, limb.curl) * 40 * degree * curl_axis_[b] + 0.08f * normal3(random);
+    case JointRole::thumb: {
+      const Vec3 turn =
+          limb.thumb * std::max(0.2f, limb.curl) * 40 * degree * curl_axis_[b] + 0.08f * normal3(random);
+      return laden_[b] ? Vec3{} : turn;
+    }
     case JointRole::thigh:
       // Flexion swings the knee forwards: a turn about -left.
       return -limb.hip_flexion * left + mirror * limb.hip_abduction * forward + mirror * limb.hip_twist * up;
@@ -184,6 +193,16 @@ Vec3 PlannedRig::joint_turn(std::size_t b, const BodyPlan& plan, PoseRandom& ran
       return {};  // placed by direction, see place_arms
     case JointRole::pelvis:
       return {};
+    case JointRole::prop:
+    case JointRole::helper:
+    case JointRole::control:
+      return {};
+    case JointRole::leg:
+    case JointRole::arm:
+    case JointRole::wing:
+    case JointRole::tail:
+    case JointRole::jaw:
+    case JointRole::ear:
     case JointRole::other: {
       if (!posable_[b] || joint.side == Side::none) return posable_[b] ? 0.06f * normal3(random) : Vec3{};
       return 0.08f * std::exp(0.5f * random.normal()) * normal3(random);
@@ -245,14 +264,13 @@ void PlannedRig::place_arms(const BodyPlan& plan, std::vector<Mat3x4>& local) co
   }
 }
 
-}  // namespace
-
-std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> vertex_area, std::size_t count,
-                             std::uint64_t seed) {
-  const PlannedRig rig(mesh);
-  const JoinedHands hands(mesh);
-  const BodyTree tree = body_tree(mesh);
-  const SelfCollision collision(mesh, vertex_area);
+std::vector<Pose> poses_of_person(const SkinnedMesh& mesh, std::span<const float> vertex_area,
+                                  const std::vector<Joint>& joints, std::size_t count, std::uint64_t seed,
+                                  const RigCorrections& corrections) {
+  const PlannedRig rig(mesh, joints);
+  const JoinedHands hands(mesh, corrections);
+  const BodyTree tree = body_tree(mesh, joints);
+  const SelfCollision collision(mesh, vertex_area, corrections);
   std::vector<Pose> poses(count);
   tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
     PoseRandom random(mix_bits(seed ^ mix_bits(i)));
@@ -293,6 +311,68 @@ std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> ver
     }
   });
   return poses;
+}
+
+// The share of edges that a pose may tear. The widest poses of clips tear about twice the clips' mean.
+float allowed_tears(const KnownMotion& known) {
+  return std::max(0.0005f, 2 * float(known.torn_share));
+}
+
+// Mixed with a pose of a clip, some more of one and some more of the other.
+Pose mixed_with(const SkinnedMesh& mesh, const BodyTree& tree, const Pose& pose, const Pose& known,
+                float share) {
+  const std::vector<JointMotion> from = joint_motions(mesh, tree, known),
+                                 to = joint_motions(mesh, tree, pose);
+  std::vector<JointMotion> mixed;
+  for (std::size_t b = 0; b < from.size(); ++b) mixed.push_back(between(from[b], to[b], share));
+  return pose_of(mesh, tree, mixed);
+}
+
+std::vector<Pose> poses_of_animal(const SkinnedMesh& mesh, std::span<const float> vertex_area,
+                                  const std::vector<Joint>& joints, std::size_t count, std::uint64_t seed,
+                                  const RigCorrections& corrections, const KnownMotion& known) {
+  const AnimalRig rig(mesh, joints);
+  const BodyTree tree = body_tree(mesh, joints);
+  const SelfCollision collision(mesh, vertex_area, corrections);
+  const std::vector<MeshEdge> edges = mesh_edges(mesh);
+  std::vector<Pose> poses(count);
+  tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
+    PoseRandom random(mix_bits(seed ^ mix_bits(i)));
+    constexpr int tries = 12;
+    // Legs of animals stand closer than those of people, and walks let them brush each other.
+    constexpr float allowed = 1.0f;
+    float best = 0;
+    std::vector<Vec3> posed;
+    for (int attempt = 0; attempt < tries; ++attempt) {
+      Pose pose = rig.pose(random);
+      if (!known.poses.empty()) {
+        const Pose& other = known.poses[std::min(std::size_t(random.unit() * float(known.poses.size())),
+                                                 known.poses.size() - 1)];
+        pose = mixed_with(mesh, tree, pose, other, random.unit());
+      }
+      skin_positions(mesh, pose, posed);
+      const float torn = float(count_torn(mesh, edges, posed)) / std::max(1.0f, float(edges.size()));
+      // The excess over the limits of depth and tears; 1 is at a limit.
+      const float beyond = std::max(collision.depth(pose) / allowed, torn / allowed_tears(known));
+      if (attempt == 0 || beyond < best) {
+        best = beyond;
+        poses[i] = std::move(pose);
+      }
+      if (best <= 1) break;
+    }
+  });
+  return poses;
+}
+
+}  // namespace
+
+std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> vertex_area, std::size_t count,
+                             std::uint64_t seed, const RigCorrections& corrections,
+                             const KnownMotion& known) {
+  const std::vector<Joint> joints = joint_roles(mesh, corrections);
+  return is_person(mesh, joints)
+             ? poses_of_person(mesh, vertex_area, joints, count, seed, corrections)
+             : poses_of_animal(mesh, vertex_area, joints, count, seed, corrections, known);
 }
 
 }  // namespace nook::bake

@@ -123,6 +123,32 @@ Vec3 finger_turn(const Joint& joint, Vec3 curl_axis, float curl) {
   return std::clamp(curl, -0.1f, 1.1f) * reach_degrees[std::min<int>(joint.segment, 2)] * radians * curl_axis;
 }
 
+std::vector<char> laden_fingers(const SkinnedMesh& mesh, std::span<const Joint> joints,
+                                const BodyTree& tree) {
+  // A finger is 4 % of the diagonal of a person with stretched arms, and 8 % of one with a cartoon's hands.
+  constexpr float longest_finger = 0.15f;
+  std::vector<float> reach(mesh.bones.size(), 0);  // of the skin of each bone, from its joint
+  Vec3 low, high;
+  for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+    const Vec3 p = mesh.position[i];
+    const std::size_t bone = mesh.weights[i].bone[0];
+    reach[bone] = std::max(reach[bone], length(p - joint_origin(mesh.bones[bone])));
+    if (i == 0) low = high = p;
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  std::vector<char> laden(mesh.bones.size(), 0);
+  for (std::size_t i = tree.order.size(); i-- > 0;) {
+    const std::uint32_t b = tree.order[i];
+    if (joints[b].role != JointRole::finger && joints[b].role != JointRole::thumb) continue;
+    if (reach[b] > longest_finger * length(high - low)) laden[b] = 1;
+    // A knuckle holds the load of its finger's end.
+    const std::int32_t p = tree.parent[b];
+    if (laden[b] && p >= 0) laden[std::size_t(p)] = joints[std::size_t(p)].role == joints[b].role;
+  }
+  return laden;
+}
+
 std::vector<Vec3> curl_axes(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,
                             Vec3 up) {
   const Rig rig{mesh, joints, tree};

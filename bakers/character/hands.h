@@ -31,6 +31,10 @@ HandFrame hand_frame(const SkinnedMesh& mesh, std::span<const Joint> joints, con
 // The turn of a finger's joint whose curl is 0 stretched and 1 in a fist.
 Vec3 finger_turn(const Joint& joint, Vec3 curl_axis, float curl);
 
+// True for fingers and thumbs that hold a thing: a club that a rig weights to a finger reaches much farther
+// than a finger does, and would swing with it. Such fingers stay still.
+std::vector<char> laden_fingers(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree);
+
 // Of each finger and thumb, of unit length in rest space; zero for other joints. Fingers curl towards the
 // palm: about the axis across them, on the side that the thumb is on.
 std::vector<Vec3> curl_axes(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,

@@ -72,9 +72,9 @@ struct JoinedHands::ArmPose {
   float straightness = 0;  // cosine of the angle between hand and forearm
 };
 
-JoinedHands::JoinedHands(const SkinnedMesh& mesh)
+JoinedHands::JoinedHands(const SkinnedMesh& mesh, const RigCorrections& corrections)
     : mesh_(mesh),
-      joints_(joint_roles(mesh)),
+      joints_(joint_roles(mesh, corrections)),
       tree_(body_tree(mesh, joints_)),
       frame_(body_frame(mesh, joints_)),
       curl_axis_(curl_axes(mesh, joints_, tree_, frame_.up)),
@@ -105,12 +105,13 @@ JoinedHands::Arm JoinedHands::find_arm(Side side) const {
   const float upper = length(arm.elbow - arm.shoulder), fore = length(arm.wrist - arm.elbow);
   if (std::min(upper, fore) <= least_bone * (upper + fore)) return arm;
   arm.frame = hand_frame(mesh_, joints_, tree_, std::size_t(arm.hand), frame_.up);
+  const std::vector<char> laden = laden_fingers(mesh_, joints_, tree_);
   float farthest = -INFINITY;
   for (const std::uint32_t b : tree_.order) {
     const JointRole role = joints_[b].role;
     if (!is_below(tree_, b, std::size_t(arm.hand)) || (role != JointRole::finger && role != JointRole::thumb))
       continue;
-    arm.fingers.push_back(b);
+    if (!laden[b]) arm.fingers.push_back(b);
     const float across = dot(joint_origin(mesh_.bones[b]) - arm.wrist, arm.frame.across);
     if (role == JointRole::finger && joints_[b].segment == 0 && across > farthest) {
       farthest = across;

@@ -14,7 +14,8 @@ namespace nook::bake {
 
 class JoinedHands {
  public:
-  explicit JoinedHands(const SkinnedMesh& mesh);  // keeps a reference to the mesh
+  // Keeps a reference to the mesh.
+  explicit JoinedHands(const SkinnedMesh& mesh, const RigCorrections& corrections = {});
 
   // False if the rig does not have two arms with hands and fingers.
   bool possible() const { return arms_[0].index_knuckle >= 0 && arms_[1].index_knuckle >= 0; }
@@ -28,7 +29,7 @@ class JoinedHands {
     std::int32_t upper = -1, fore = -1, hand = -1;  // bones
     Vec3 shoulder, elbow, wrist;                    // joints at rest, metres
     HandFrame frame;
-    std::vector<std::uint32_t> fingers;  // includes thumbs; parents first
+    std::vector<std::uint32_t> fingers;  // and thumbs, which hold nothing; parents first
     std::int32_t index_knuckle = -1;     // the first joint of the finger beside the thumb
   };
   struct Grip;

@@ -143,13 +143,14 @@ void take_limb(const BodyTree& tree, std::uint32_t root, const Motions& from, Mo
 
 class Maker {
  public:
-  Maker(const SkinnedMesh& mesh, std::span<const float> vertex_area, std::span<const Pose> poses)
+  Maker(const SkinnedMesh& mesh, std::span<const float> vertex_area, std::span<const Pose> poses,
+        const RigCorrections& corrections)
       : mesh_(mesh),
-        tree_(body_tree(mesh)),
+        tree_(body_tree(mesh, joint_roles(mesh, corrections))),
         mirror_(find_mirror(mesh, tree_)),
         roots_(limb_roots(mesh, tree_, vertex_area)),
-        collision_(mesh, vertex_area),
-        hands_(mesh) {
+        collision_(mesh, vertex_area, corrections),
+        hands_(mesh, corrections) {
     for (const Pose& pose : poses) given_.push_back(joint_motions(mesh, tree_, pose));
     depth_.resize(poses.size());
     tbb::parallel_for(std::size_t(0), poses.size(),
@@ -223,10 +224,11 @@ class Maker {
 }  // namespace
 
 std::vector<Pose> pose_variants(const SkinnedMesh& mesh, std::span<const float> vertex_area,
-                                std::span<const Pose> poses, std::size_t count, std::uint64_t seed) {
+                                std::span<const Pose> poses, std::size_t count, std::uint64_t seed,
+                                const RigCorrections& corrections) {
   std::vector<Pose> made;
   if (poses.empty() || count == 0) return made;
-  const Maker maker(mesh, vertex_area, poses);
+  const Maker maker(mesh, vertex_area, poses, corrections);
   made.resize(count);
   tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
     Random random(mix_bits(seed ^ mix_bits(i ^ 0x76617269616e7473ull)));

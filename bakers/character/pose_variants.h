@@ -31,6 +31,7 @@ std::vector<JointMotion> mirrored(const MirrorRig& mirror, std::span<const Joint
 
 // Makes count poses. The same seed gives the same poses. Returns nothing if no pose is given.
 std::vector<Pose> pose_variants(const SkinnedMesh& mesh, std::span<const float> vertex_area,
-                                std::span<const Pose> poses, std::size_t count, std::uint64_t seed);
+                                std::span<const Pose> poses, std::size_t count, std::uint64_t seed,
+                                const RigCorrections& corrections = {});
 
 }  // namespace nook::bake

@@ -10,6 +10,9 @@
 #include "bakers/character/auto_poses.h"
 #include "bakers/character/pose_sets.h"
 #include "bakers/character/pose_variants.h"
+#include "bakers/character/rig_anatomy.h"
+#include "bakers/character/rig_file.h"
+#include "bakers/character/torn_edges.h"
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/hash.h"
@@ -139,8 +142,15 @@ std::vector<std::size_t> clips_by_name(const ImportedCharacter& character) {
   return order;
 }
 
+double torn_by_clips(const ImportedCharacter& character) {
+  constexpr std::size_t samples_per_clip = 8;
+  return torn_share(character.mesh, clip_poses(character, motion_clips(character), samples_per_clip));
+}
+
 std::vector<Pose> recipe_poses(const ImportedCharacter& character, const Recipe& recipe) {
-  if (recipe.generation != pose_generation && recipe.auto_poses + recipe.variant_poses > 0)
+  const bool same = recipe.generation == pose_generation ||
+                    (recipe.generation == 3 && is_person(character.mesh, named_roles(character.mesh)));
+  if (!same && recipe.auto_poses + recipe.variant_poses > 0)
     throw Failure(
         NOOK_ERROR_BAD_FILE,
         "the model's training poses cannot be made again by this version (got generation %d, need %d); "
@@ -151,11 +161,14 @@ std::vector<Pose> recipe_poses(const ImportedCharacter& character, const Recipe&
   const auto add = [&](std::vector<Pose> more) {
     poses.insert(poses.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
   };
-  if (recipe.auto_poses > 0) add(auto_poses(character.mesh, area, recipe.auto_poses, recipe.settings.seed));
-  if (!recipe.clips.empty()) {
-    std::vector<Pose> shown = clip_poses(character, recipe.clips, recipe.samples_per_clip);
+  std::vector<Pose> shown;
+  if (!recipe.clips.empty()) shown = clip_poses(character, recipe.clips, recipe.samples_per_clip);
+  if (recipe.auto_poses > 0)
+    add(auto_poses(character.mesh, area, recipe.auto_poses, recipe.settings.seed, recipe.rig,
+                   {shown, torn_by_clips(character)}));
+  if (!shown.empty()) {
     std::vector<Pose> variants =
-        pose_variants(character.mesh, area, shown, recipe.variant_poses, recipe.settings.seed);
+        pose_variants(character.mesh, area, shown, recipe.variant_poses, recipe.settings.seed, recipe.rig);
     add(std::move(shown));
     add(std::move(variants));
   }
@@ -181,6 +194,7 @@ std::string recipe_text(const ImportedCharacter& character, const Recipe& recipe
   j["generation"] = recipe.generation;
   j["single_joint_steps"] = recipe.single_joint_steps;
   j["extra_poses"] = recipe.extra_poses;
+  if (!recipe.rig.empty()) j["rig"] = Json::parse(rig_text(character.mesh, recipe.rig));
   j["seed"] = s.seed;
   j["rays"] = s.rays;
   j["spheres"] = s.spheres;
@@ -212,6 +226,7 @@ Recipe read_recipe(const ImportedCharacter& character, std::string_view text) {
     r.generation = j.value("generation", 1);
     r.single_joint_steps = j.at("single_joint_steps");
     r.extra_poses = j.at("extra_poses");
+    if (j.contains("rig")) r.rig = read_rig(character.mesh, j.at("rig").dump());
     r.settings.seed = j.at("seed");
     r.settings.rays = j.at("rays");
     r.settings.spheres = j.at("spheres");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bakers/character/character_bake.h"
+#include "bakers/character/rig_anatomy.h"
 #include "bakers/import/gltf.h"
 
 namespace nook::bake {
@@ -35,7 +36,8 @@ std::size_t samples_per_clip(const PresetValues& values, std::size_t clips);
 enum class PoseMode : std::uint8_t { automatic, single_joint, clips, all, extra };
 
 // Raise it when the same recipe begins to make other automatic poses or variants.
-inline constexpr int pose_generation = 3;
+// Generation 4 changed bodies that are not people.
+inline constexpr int pose_generation = 4;
 
 struct Recipe {
   Preset preset = Preset::standard;
@@ -48,6 +50,7 @@ struct Recipe {
   int single_joint_steps = 0;   // 0: none
   std::size_t extra_poses = 0;  // given by the host; a recipe cannot make them again
   std::uint64_t source_hash = 0;
+  RigCorrections rig;  // of a rig file
   BakeSettings settings;
 };
 
@@ -56,6 +59,9 @@ inline constexpr float single_joint_range = 0.785398163f;  // radians: +-45 degr
 // Returns the clips of a character in byte order of their names, reference poses included. The recipe's bits
 // count in this order.
 std::vector<std::size_t> clips_by_name(const ImportedCharacter& character);
+
+// Returns the share of edges that the character's clips tear, 0 without any (torn_edges.h).
+double torn_by_clips(const ImportedCharacter& character);
 
 // Makes the training poses in this order: automatic ones, clips, their variants, single joints. The host's
 // extra poses are not included. Fails with BAD_FILE if an earlier generation made poses that this one cannot

@@ -1,15 +1,17 @@
 #include "bakers/character/rig_anatomy.h"
 
+#include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
 #include <initializer_list>
 #include <string>
 #include <string_view>
 
-namespace nook::bake {
-namespace {
+#include "bakers/character/rig_geometry.h"
 
-// Lower-case words of a name: split at anything that is no letter or digit, and where a capital follows a
-// small letter.
+namespace nook::bake {
+
 std::vector<std::string> words_of(std::string_view name) {
   const std::size_t space = name.find_last_of(":|");
   if (space != std::string_view::npos) name.remove_prefix(space + 1);
@@ -27,6 +29,13 @@ std::vector<std::string> words_of(std::string_view name) {
   std::erase(words, std::string());
   return words;
 }
+
+namespace {
+
+constexpr std::array<const char*, joint_role_count> role_names{
+    "other", "pelvis", "spine", "neck",  "head", "clavicle", "upper_arm", "forearm",
+    "hand",  "finger", "thumb", "thigh", "calf", "foot",     "toe",       "leg",
+    "arm",   "wing",   "tail",  "jaw",   "ear",  "prop",     "helper",    "control"};
 
 bool contains(const std::string& text, std::initializer_list<const char*> parts) {
   for (const char* part : parts)
@@ -115,8 +124,10 @@ void attach_loose_ends(std::vector<Joint>& joints) {
 
 }  // namespace
 
-std::vector<Joint> joint_roles(const SkinnedMesh& mesh) {
+std::vector<Joint> named_roles(const SkinnedMesh& mesh, const RigCorrections& corrections) {
   std::vector<Joint> joints(mesh.bones.size());
+  std::vector<const BoneCorrection*> corrected(joints.size(), nullptr);
+  for (const BoneCorrection& c : corrections) corrected[c.bone] = &c;
   for (std::size_t b = 0; b < joints.size(); ++b) {
     const std::vector<std::string> words = words_of(mesh.bones[b].name);
     std::string text;
@@ -127,7 +138,9 @@ std::vector<Joint> joint_roles(const SkinnedMesh& mesh) {
     const std::int32_t parent = mesh.bones[b].parent;
     const Joint above = parent >= 0 ? joints[std::size_t(parent)] : Joint{};
     if (joint.side == Side::none && above.side != Side::none) joint.side = above.side;
-    joint.role = role_of(text, joint.side, above.role);
+    const BoneCorrection* own = corrected[b];
+    if (own && own->side) joint.side = *own->side;
+    joint.role = own && own->role ? *own->role : role_of(text, joint.side, above.role);
     if ((joint.role == JointRole::finger || joint.role == JointRole::thumb) && above.role == joint.role)
       joint.segment = std::uint8_t(above.segment + 1);
     if (parent >= 0 && joint.role != JointRole::other && joints[std::size_t(parent)].continuation < 0 &&
@@ -137,8 +150,6 @@ std::vector<Joint> joint_roles(const SkinnedMesh& mesh) {
   attach_loose_ends(joints);
   return joints;
 }
-
-namespace {
 
 std::vector<std::uint32_t> parents_first(std::span<const std::int32_t> parent) {
   std::vector<std::uint32_t> order;
@@ -155,15 +166,26 @@ std::vector<std::uint32_t> parents_first(std::span<const std::int32_t> parent) {
   return order;
 }
 
-}  // namespace
-
 bool is_below(const BodyTree& tree, std::size_t bone, std::size_t ancestor) {
   for (std::int32_t b = tree.parent[bone]; b >= 0; b = tree.parent[std::size_t(b)])
     if (std::size_t(b) == ancestor) return true;
   return false;
 }
 
-BodyTree body_tree(const SkinnedMesh& mesh, std::span<const Joint> joints) {
+const char* name_of(JointRole role) {
+  return role_names[std::size_t(role)];
+}
+
+std::optional<JointRole> role_named(std::string_view name) {
+  const auto found = std::find(role_names.begin(), role_names.end(), name);
+  if (found == role_names.end()) return std::nullopt;
+  return JointRole(found - role_names.begin());
+}
+
+namespace {
+
+// A person's limbs hold their loose ends.
+std::vector<std::int32_t> parents_of_person(const SkinnedMesh& mesh, std::span<const Joint> joints) {
   BodyTree tree;
   for (const Bone& bone : mesh.bones) tree.parent.push_back(bone.parent);
   for (std::size_t b = 0; b < joints.size(); ++b) {
@@ -172,6 +194,55 @@ BodyTree body_tree(const SkinnedMesh& mesh, std::span<const Joint> joints) {
     // A limb that hangs on its own end would be a ring.
     if (!is_below(tree, b, std::size_t(next))) tree.parent[std::size_t(next)] = std::int32_t(b);
   }
+  return tree.parent;
+}
+
+Vec3 mean_origin(const SkinnedMesh& mesh, std::span<const Joint> joints, JointRole role) {
+  Vec3 sum;
+  float count = 0;
+  for (std::size_t b = 0; b < joints.size(); ++b)
+    if (joints[b].role == role) {
+      sum += joint_origin(mesh.bones[b]);
+      ++count;
+    }
+  return count > 0 ? (1 / count) * sum : Vec3{};
+}
+
+}  // namespace
+
+bool is_person(const SkinnedMesh& mesh, std::span<const Joint> joints) {
+  // A hip above a thigh has the same role; both are one leg.
+  const auto count = [&](JointRole role, Side side) {
+    int tops = 0;
+    for (std::size_t b = 0; b < joints.size(); ++b) {
+      const std::int32_t above = mesh.bones[b].parent;
+      tops += joints[b].role == role && joints[b].side == side &&
+              (above < 0 || joints[std::size_t(above)].role != role);
+    }
+    return tops;
+  };
+  for (const Side side : {Side::left, Side::right})
+    if (count(JointRole::thigh, side) != 1 || count(JointRole::calf, side) < 1 ||
+        count(JointRole::upper_arm, side) < 1)
+      return false;
+  const Vec3 way =
+      mean_origin(mesh, joints, JointRole::upper_arm) - mean_origin(mesh, joints, JointRole::thigh);
+  return way.y > std::hypot(way.x, way.z);
+}
+
+std::vector<Joint> joint_roles(const SkinnedMesh& mesh, const RigCorrections& corrections) {
+  std::vector<Joint> joints = named_roles(mesh, corrections);
+  if (!is_person(mesh, joints)) return roles_by_geometry(mesh, corrections);
+  std::vector<std::int32_t> parent = parents_of_person(mesh, joints);
+  for (const BoneCorrection& c : corrections)
+    if (c.parent) parent[c.bone] = *c.parent;
+  for (std::size_t b = 0; b < joints.size(); ++b) joints[b].parent = parent[b];
+  return joints;
+}
+
+BodyTree body_tree(const SkinnedMesh& mesh, std::span<const Joint> joints) {
+  BodyTree tree;
+  for (std::size_t b = 0; b < mesh.bones.size(); ++b) tree.parent.push_back(joints[b].parent);
   tree.order = parents_first(tree.parent);
   return tree;
 }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "bakers/character/rig_anatomy.h"
-
 namespace nook::bake {
 namespace {
 
@@ -42,11 +40,12 @@ float overlap(Vec3 a, float radius_a, Vec3 b, float radius_b) {
 
 }  // namespace
 
-SelfCollision::SelfCollision(const SkinnedMesh& mesh, std::span<const float> vertex_area)
+SelfCollision::SelfCollision(const SkinnedMesh& mesh, std::span<const float> vertex_area,
+                             const RigCorrections& corrections)
     : spheres_(initial_spheres(mesh, vertex_area, 100)) {
   // The spread of points on a round limb's skin is its radius over sqrt(2).
   for (InitialSphere& s : spheres_) s.radius *= 1.414f;
-  const std::vector<Joint> joints = joint_roles(mesh);
+  const std::vector<Joint> joints = joint_roles(mesh, corrections);
   const BodyTree tree = body_tree(mesh, joints);
   const std::vector<std::int32_t> hand = hands_of_bones(tree, joints);
   for (std::size_t i = 0; i < spheres_.size(); ++i)

@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "bakers/character/initialise.h"
+#include "bakers/character/rig_anatomy.h"
 
 namespace nook::bake {
 
 class SelfCollision {
  public:
-  SelfCollision(const SkinnedMesh& mesh, std::span<const float> vertex_area);
+  SelfCollision(const SkinnedMesh& mesh, std::span<const float> vertex_area,
+                const RigCorrections& corrections = {});
 
   // Returns the deepest overlap of two spheres of bones that are not neighbours, beyond their overlap at
   // rest. The unit is the smaller radius: at 0 the spheres are apart or touch, at 1 one is sunk in by its

@@ -26,7 +26,7 @@ namespace {
 
 struct Options {
   CommonOptions common;
-  std::filesystem::path input, output, calibration, model;
+  std::filesystem::path input, output, calibration, model, rig;
   bake::ImportOptions reading;
   std::int32_t preset = NOOK_BAKE_PRESET_STANDARD, poses = NOOK_BAKE_POSES_ALL, split = NOOK_BAKE_SPLIT_ALL;
   std::int32_t form = NOOK_FORM_DEFAULT, kernel = NOOK_FORM_DEFAULT, fit = NOOK_FORM_DEFAULT;
@@ -96,14 +96,15 @@ bake::CalibrationPoses recorded_poses(const Options& options, const bake::Skinne
 
 bake::BakedFile bake(const Options& options, const bake::ImportedCharacter& character) {
   const bake::CalibrationPoses calibration = recorded_poses(options, character.mesh);
+  bake::Recipe recipe = requested_recipe(options, character);
+  recipe.rig = read_rig_file(options.rig, character.mesh);
   platform::ProgressBar bar(options.common.quiet);
   const auto show = [&](bake::JobStage stage, std::size_t done, std::size_t total) {
     const bool traces = stage == bake::JobStage::raytrace;
     bar.show(bake::text_of(stage), traces ? "poses" : "steps", done, total);
     return !interrupted();
   };
-  if (options.model.empty())
-    return bake::bake_by_recipe(character, requested_recipe(options, character), {}, show, calibration);
+  if (options.model.empty()) return bake::bake_by_recipe(character, recipe, {}, show, calibration);
   return naming_file(options.model, [&] {
     bake::CalibrationTask task;
     if (options.rays) task.rays = options.rays;
@@ -125,10 +126,12 @@ BakeOutput output_of(bake::BakedFile file) {
 void run(const Options& options) {
   if (!options.model.empty() && options.calibration.empty())
     throw ToolError(exit_bad_arguments, "--model needs --calibrate POSES, the poses to fit its constants to");
-  const CommandFiles files{
-      {{"the input", options.input}, {"--model", options.model}, {"--calibrate", options.calibration}},
-      {},
-      {}};
+  const CommandFiles files{{{"the input", options.input},
+                            {"--model", options.model},
+                            {"--calibrate", options.calibration},
+                            {"--rig", options.rig}},
+                           {},
+                           {}};
   run_bake({options.common, options.output, files}, [&] {
     const bake::ImportedCharacter character = read_character(options.input, options.reading, options.common);
     require_clips(options.clips, character);
@@ -204,6 +207,9 @@ void add_bake_character(Command bake) {
       "so that `evaluate` measures on the others, or families: the same with clips whose names begin with "
       "the same word, behind a prefix that all of them share, taken together, such as Jump_Start and "
       "Jump_Land. T- and A-poses are never fitted");
+  command.add_input("--rig", o.rig,
+                    "a rig file that corrects roles, limbs and parents of bones (docs/character.md, Rigs); "
+                    "`nook inspect FILE --rig` shows what was understood without it");
   command.add_option("--spheres", o.spheres, "proxy spheres at most").check(in_range(1, 1024));
   command.add_option("--key-points", o.key_points, "key points at most").check(in_range(1, 4096));
   command.add_option("--rays", o.rays, "rays for each vertex and pose").check(in_range(1, 65536));

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string_view>
 
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_files.h"
 #include "platform/printable.h"
 
@@ -21,6 +23,17 @@ bake::ImportedCharacter read_character(const std::filesystem::path& path, const 
   bake::ImportedCharacter character = naming_file(path, [&] { return bake::import_gltf(path, reading); });
   print_warnings(path, character.warnings, common);
   return character;
+}
+
+bake::RigCorrections read_rig_file(const std::filesystem::path& path, const bake::SkinnedMesh& mesh) {
+  if (path.empty()) return {};
+  const std::vector<std::byte> bytes = read_file(path);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  try {
+    return bake::read_rig(mesh, text);
+  } catch (const Failure& failure) {
+    throw ToolError(exit_bad_input, path.string() + ": " + failure.what());
+  }
 }
 
 void require_clips(const std::vector<std::string>& wanted, const bake::ImportedCharacter& character) {

@@ -7,6 +7,7 @@
 
 #include "bakers/images/scene_file.h"
 #include "bakers/import/gltf.h"
+#include "bakers/measure/character/rig_report.h"
 #include "bakers/tool/common_options.h"
 
 namespace nook::tool {
@@ -18,6 +19,10 @@ void print_warnings(const std::filesystem::path& path, const std::vector<std::st
 // Reads a character and prints its warnings. Failures name the file.
 bake::ImportedCharacter read_character(const std::filesystem::path& path, const bake::ImportOptions& reading,
                                        const CommonOptions& common);
+
+// Reads a rig file (bakers/character/rig_file.h); an empty path has no corrections. Throws ToolError that
+// names the file.
+bake::RigCorrections read_rig_file(const std::filesystem::path& path, const bake::SkinnedMesh& mesh);
 
 // Throws ToolError (bad arguments) that names the first missing clip of --clips and lists the clips that the
 // character has.

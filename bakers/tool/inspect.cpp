@@ -4,6 +4,8 @@
 #include <optional>
 
 #include "bakers/import/gltf_contents.h"
+#include "bakers/measure/character/rig_pictures.h"
+#include "bakers/tool/command_end.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/command_inputs.h"
 #include "bakers/tool/command_line.h"
@@ -21,6 +23,8 @@ struct Options {
   CommonOptions common;
   std::filesystem::path input;
   bake::ImportOptions reading;
+  bool shows_rig = false;
+  std::filesystem::path rig, images;
 };
 
 struct Table {
@@ -62,15 +66,38 @@ std::vector<Table> tables_of_gltf(const Options& options) {
   return {{"rows", meshes}, {"skins", skins}, {"clips", clips}};
 }
 
+// The bones, and what automatic poses do to the skin.
+std::vector<Table> tables_of_rig(const Options& options) {
+  const bake::ImportedCharacter character = read_character(options.input, options.reading, options.common);
+  const bake::RigCorrections corrections = read_rig_file(options.rig, character.mesh);
+  if (!options.images.empty())
+    measure::write_rig_picture(options.images, character.mesh,
+                               bake::joint_roles(character.mesh, corrections));
+  return {{"rows", measure::torn_edge_rows(character, corrections, options.common.seed)},
+          {"bones", measure::bone_rows(character.mesh, corrections)}};
+}
+
+void require_rig_options(const Options& options, bool gltf) {
+  if (options.shows_rig && !gltf)
+    throw ToolError(exit_bad_arguments, "inspect: --rig needs the rig of a .glb or .gltf file (got " +
+                                            options.input.string() + ")");
+  if (!options.shows_rig && !options.images.empty())
+    throw ToolError(exit_bad_arguments, "inspect: --images draws a rig; add --rig");
+}
+
 void run(const Options& options) {
-  require_distinct_files({{{"the input", options.input}}, {{"--report", options.common.report}}, {}});
+  require_distinct_files(
+      {{{"the input", options.input}, {"--rig", options.rig}}, {{"--report", options.common.report}}, {}});
   require_place_of_table(options.common);
   const std::vector<std::byte> bytes = read_file(options.input);
   std::optional<platform::OutputFile> report;
   if (!options.common.report.empty())
     report.emplace(options.common.report, file_events(options.common.quiet));
   std::vector<Table> tables;
-  if (is_gltf(bytes))
+  require_rig_options(options, is_gltf(bytes));
+  if (options.shows_rig)
+    tables = tables_of_rig(options);
+  else if (is_gltf(bytes))
     tables = tables_of_gltf(options);
   else
     tables = {{"rows", Row::array({naming_file(options.input, [&] { return describe(bytes); })})}};
@@ -96,6 +123,21 @@ void add_inspect(Command tool) {
   const auto options = std::make_shared<Options>();
   command.add_input("file", options->input, "a .nook, .glb or .gltf file").required();
   add_import_options(command, options->reading);
+  command
+      .add_option_function(
+          "--rig",
+          [options = options.get()](const std::string& path) {
+            options->shows_rig = true;
+            options->rig = path;
+          },
+          "of a glTF file: show what a bake understands of its rig, each bone's role, side, limb, partner "
+          "and "
+          "parent, and how many edges automatic poses tear; with a rig file, after its corrections")
+      .expected(0, 1)
+      .type_name("[FILE]");
+  command.add_option(
+      "--images", options->images,
+      "with --rig: draw the body coloured by the roles of its bones, rig.png in this directory");
   add_common_options(command, options->common);
   command.callback([options] { run(*options); });
 }

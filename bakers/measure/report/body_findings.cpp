@@ -29,17 +29,26 @@ Part part_of(JointRole role) {
       return feet;
     case JointRole::neck:
     case JointRole::head:
+    case JointRole::jaw:
+    case JointRole::ear:
       return head;
     case JointRole::clavicle:
     case JointRole::upper_arm:
     case JointRole::forearm:
+    case JointRole::arm:
       return arms;
     case JointRole::thigh:
     case JointRole::calf:
+    case JointRole::leg:
       return legs;
     case JointRole::pelvis:
     case JointRole::spine:
       return trunk;
+    case JointRole::wing:
+    case JointRole::tail:
+    case JointRole::prop:
+    case JointRole::helper:
+    case JointRole::control:
     case JointRole::other:
       break;
   }

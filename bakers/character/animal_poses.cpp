@@ -1,0 +1,412 @@
+#include "bakers/character/animal_poses.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "bakers/character/pose_sets.h"
+#include "bakers/character/rotation.h"
+
+namespace nook::bake {
+
+struct AnimalRig::Plan {
+  AnimalAct act = AnimalAct::rest;
+  float amount = 1;            // of all turns: small at rest
+  Mat3x4 body;                 // of the whole body over its feet
+  std::vector<Vec3> foot;      // where each leg's end goes, metres
+  std::vector<float> planted;  // 1: the foot keeps its direction in the world, 0: it goes with the leg
+  std::vector<float> curl;     // of the foot to the back, radians
+  float phase = 0;             // of the gait, 0 to 1
+  float gallop = 0;            // bends of the spine with the gait, radians
+};
+
+namespace {
+
+float ground_of(const SkinnedMesh& mesh) {
+  float low = INFINITY;
+  for (const Vec3 p : mesh.position) low = std::min(low, p.y);
+  return std::isfinite(low) ? low : 0;
+}
+
+float height_of(const SkinnedMesh& mesh) {
+  float high = -INFINITY;
+  for (const Vec3 p : mesh.position) high = std::max(high, p.y);
+  return std::isfinite(high) ? high - ground_of(mesh) : 0;
+}
+
+// The middle of the lowest fifth of a bone's skin; the joint without any.
+Vec3 lowest_skin(const SkinnedMesh& mesh, std::size_t bone) {
+  float low = INFINITY, high = -INFINITY;
+  const auto is_own = [&](std::size_t i) { return mesh.weights[i].bone[0] == bone; };
+  for (std::size_t i = 0; i < mesh.vertex_count(); ++i)
+    if (is_own(i)) {
+      low = std::min(low, mesh.position[i].y);
+      high = std::max(high, mesh.position[i].y);
+    }
+  Vec3 sum;
+  float count = 0;
+  for (std::size_t i = 0; i < mesh.vertex_count(); ++i)
+    if (is_own(i) && mesh.position[i].y <= low + 0.2f * (high - low)) {
+      sum += mesh.position[i];
+      ++count;
+    }
+  return count > 0 ? (1 / count) * sum : joint_origin(mesh.bones[bone]);
+}
+
+// Chains of bones of one role, each from its first bone along the body's tree. Where a chain forks, the
+// longest way stays one chain and the others begin anew.
+std::vector<std::vector<std::size_t>> chains_of(const BodyTree& tree, std::span<const Joint> joints,
+                                                std::initializer_list<JointRole> roles) {
+  const auto is_in = [&](std::size_t b) {
+    return std::find(roles.begin(), roles.end(), joints[b].role) != roles.end();
+  };
+  std::vector<int> reach(joints.size(), 0);
+  std::vector<std::int32_t> next(joints.size(), -1);
+  for (std::size_t i = tree.order.size(); i-- > 0;) {
+    const std::uint32_t b = tree.order[i];
+    const std::int32_t p = tree.parent[b];
+    if (!is_in(b) || p < 0 || !is_in(std::size_t(p)) || reach[b] + 1 <= reach[std::size_t(p)]) continue;
+    reach[std::size_t(p)] = reach[b] + 1;
+    next[std::size_t(p)] = std::int32_t(b);
+  }
+  std::vector<std::vector<std::size_t>> chains;
+  for (const std::uint32_t b : tree.order) {
+    const std::int32_t p = tree.parent[b];
+    if (!is_in(b) || (p >= 0 && is_in(std::size_t(p)) && next[std::size_t(p)] == std::int32_t(b))) continue;
+    chains.emplace_back();
+    for (std::int32_t at = std::int32_t(b); at >= 0; at = next[std::size_t(at)])
+      chains.back().push_back(std::size_t(at));
+  }
+  return chains;
+}
+
+}  // namespace
+
+AnimalRig::AnimalRig(const SkinnedMesh& mesh, std::span<const Joint> joints)
+    : mesh_(mesh),
+      joints_(joints),
+      tree_(body_tree(mesh, joints)),
+      frame_(body_frame(mesh, joints)),
+      posable_(mesh.bones.size(), 0) {
+  for (const std::uint32_t b : posable_joints(mesh)) posable_[b] = 1;
+  find_legs();
+  find_chains();
+}
+
+void AnimalRig::find_legs() {
+  std::map<std::int32_t, LegChain> legs;
+  for (const std::uint32_t b : tree_.order) {
+    const Joint& joint = joints_[b];
+    if (joint.limb < 0 || (joint.role != JointRole::leg && joint.role != JointRole::foot)) continue;
+    LegChain& leg = legs[joint.limb];
+    const auto& above = leg.foot.empty() ? leg.bones : leg.foot;
+    if (!above.empty() && !is_below(tree_, b, above.back())) continue;
+    (joint.role == JointRole::leg && leg.foot.empty() ? leg.bones : leg.foot).push_back(b);
+  }
+  for (auto& [number, leg] : legs) {
+    if (leg.bones.empty() || leg.bones.size() + leg.foot.size() < 2) continue;
+    leg.end = leg.foot.empty() ? lowest_skin(mesh_, leg.bones.back()) : origin(leg.foot.front());
+    leg.left = joints_[leg.bones.front()].side != Side::right;
+    for (std::size_t i = 0; i + 1 < leg.bones.size(); ++i)
+      leg.length_m += length(origin(leg.bones[i + 1]) - origin(leg.bones[i]));
+    leg.length_m += length(leg.end - origin(leg.bones.back()));
+    size_m_ += leg.length_m;
+    legs_.push_back(std::move(leg));
+  }
+  // Rows of a side, from the front: gaits go by them.
+  for (LegChain& leg : legs_)
+    for (const LegChain& other : legs_)
+      leg.row += other.left == leg.left && dot(other.end - leg.end, frame_.forward) > 0;
+  size_m_ = legs_.empty() ? 0.5f * height_of(mesh_) : size_m_ / float(legs_.size());
+}
+
+void AnimalRig::find_chains() {
+  spines_ = chains_of(tree_, joints_, {JointRole::spine});
+  necks_ = chains_of(tree_, joints_, {JointRole::neck, JointRole::head});
+  tails_ = chains_of(tree_, joints_, {JointRole::tail});
+  for (const auto& neck : necks_) {
+    const Vec3 root = origin(neck.front());
+    Vec3 end = lowest_skin(mesh_, neck.back());
+    const float reach = length(end - root), down = root.y - ground_of(mesh_);
+    if (reach <= 0) continue;
+    const float now = std::asin(std::clamp((end.y - root.y) / reach, -1.0f, 1.0f));
+    const float ground = -std::asin(std::clamp(down / reach, -1.0f, 1.0f));
+    neck_reach_ = std::max(neck_reach_, std::clamp(now - ground, 0.0f, 110 * degree));
+  }
+}
+
+namespace {
+
+// The phase of each leg in a gait; legs of a row and side. Four legs walk, trot or gallop; two alternate;
+// more move by tripods or their like: neighbours never at once.
+float leg_phase(const LegChain& leg, std::size_t legs, int gait) {
+  const float side = leg.left ? 0.0f : 0.5f;
+  if (legs != 4) return std::fmod(side + 0.5f * float(leg.row % 2), 1.0f);
+  const bool hind = leg.row > 0;
+  switch (gait) {
+    case 0:  // walk: left hind, left fore, right hind, right fore
+      return std::fmod(side + (hind ? 0.0f : 0.25f), 1.0f);
+    case 1:  // trot: diagonals
+      return std::fmod(side + (hind ? 0.5f : 0.0f), 1.0f);
+    default:  // gallop: both hind legs, then both fore legs
+      return (hind ? 0.0f : 0.5f) + (leg.left ? 0.0f : 0.12f);
+  }
+}
+
+// The place of a foot along its stride, -1 behind to 1 ahead, and its lift, 0 to 1.
+struct Step {
+  float along = 0, lift = 0;
+};
+Step step_at(float phase, float stance) {
+  if (phase < stance) return {1 - 2 * phase / stance, 0};
+  const float swing = (phase - stance) / (1 - stance);
+  return {-std::cos(std::numbers::pi_v<float> * swing), std::sin(std::numbers::pi_v<float> * swing)};
+}
+
+}  // namespace
+
+AnimalRig::Plan AnimalRig::draw(PoseRandom& random) const {
+  Plan plan;
+  const float kind = random.unit();
+  plan.act = kind < rest_share                ? AnimalAct::rest
+             : kind < rest_share + gait_share ? AnimalAct::gait
+                                              : AnimalAct::free;
+  plan.amount = plan.act == AnimalAct::rest ? 0.35f : plan.act == AnimalAct::gait ? 0.8f : 1.0f;
+  plan.phase = random.unit();
+  const float loose = plan.amount;
+  const Vec3 turn = in_body({5 * degree * loose * random.normal(), 4 * degree * loose * random.normal(),
+                             3 * degree * loose * random.normal()});
+  const float drop = plan.act == AnimalAct::free && random.chance(0.3f) ? random.between(0, 0.35f)
+                                                                        : 0.03f * loose * random.normal();
+  Vec3 middle;
+  for (const LegChain& leg : legs_) middle += (1 / float(legs_.size())) * origin(leg.bones.front());
+  plan.body = rotation_about(middle, turn);
+  plan.body.m[7] -= drop * size_m_;
+  return plan;
+}
+
+void AnimalRig::place_feet(Plan& plan, PoseRandom& random) const {
+  const int gait = legs_.size() == 4 ? int(random.below(3)) : 0;
+  const bool runs = gait > 0 || random.chance(0.4f);
+  const float stride = runs ? random.between(0.2f, 0.75f) : random.between(0.12f, 0.35f);
+  const float rise = runs ? random.between(0.1f, 0.5f) : random.between(0.06f, 0.25f);
+  // A foot that leaves the ground is turned back: paws and fetlocks by much more than heels.
+  const float curl = random.between(15, 90) * degree;
+  const float stance = runs ? random.between(0.3f, 0.5f) : random.between(0.55f, 0.75f);
+  const bool tucked = plan.act == AnimalAct::free && random.chance(0.25f);  // jumps and falls
+  if (plan.act == AnimalAct::gait && gait == 2)
+    plan.gallop = 20 * degree * std::sin(2 * std::numbers::pi_v<float> * plan.phase);
+  for (const LegChain& leg : legs_) {
+    Vec3 move;
+    float planted = 1, lifted = 0;
+    if (plan.act == AnimalAct::rest) {
+      move = in_body({0.02f * random.normal(), 0, 0.05f * random.normal()});
+      if (random.chance(0.08f)) move.y += random.between(0, 0.08f);  // a resting or stamping leg
+    } else if (plan.act == AnimalAct::gait) {
+      const float phase = plan.phase + leg_phase(leg, legs_.size(), gait) + 0.03f * random.normal();
+      const Step step = step_at(phase - std::floor(phase), stance);
+      move = in_body({0.02f * random.normal(), rise * step.lift, stride * step.along});
+      planted = 1 - step.lift;
+      lifted = step.lift;
+    } else {
+      const float up = tucked                ? random.between(0.1f, 0.6f)
+                       : random.chance(0.3f) ? random.between(0, 0.5f)
+                                             : 0.0f;
+      // Kicks, crouches and the gathered legs of a leap reach far under the body.
+      const float along = random.chance(0.4f) ? random.between(-0.9f, 0.9f) : 0.35f * random.normal();
+      move = in_body({0.08f * random.normal(), up, along});
+      planted = up > 0 ? 0.0f : 1.0f;
+      lifted = up > 0 ? random.unit() : 0.0f;
+    }
+    plan.foot.push_back(leg.end + leg.length_m * move);
+    plan.planted.push_back(planted);
+    plan.curl.push_back(lifted * curl);
+  }
+}
+
+namespace {
+
+struct Bends {
+  std::vector<Vec3> axis;    // of each joint behind the hip: a turn about it bends the leg further
+  std::vector<float> angle;  // of the bend at rest, radians
+};
+
+// A joint bends the way it is bent at rest; a straight one swings its end to the back, as knees do.
+Bends bends_of(std::span<const Vec3> points, Vec3 left) {
+  constexpr float least_bend = 0.05f;  // radians
+  Bends bends;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const Vec3 in = normalised(points[i] - points[i - 1]), out = normalised(points[i + 1] - points[i]);
+    const Vec3 turn = cross(in, out);
+    const float angle = std::atan2(length(turn), dot(in, out));
+    bends.axis.push_back(angle > least_bend ? normalised(turn) : left);
+    bends.angle.push_back(angle > least_bend ? angle : 0);
+  }
+  return bends;
+}
+
+// The turns of all joints behind the hip for one amount of flexion, radians; negative stretches. What is left
+// of each rest bend keeps a stretched leg from bending the wrong way.
+std::vector<Mat3x4> flexed(std::span<const Vec3> points, const Bends& bends, float flexion) {
+  std::vector<Mat3x4> turns;
+  for (std::size_t i = 0; i < bends.axis.size(); ++i) {
+    const float angle = std::max(flexion, -0.9f * bends.angle[i]);
+    turns.push_back(rotation_about(points[i + 1], angle * bends.axis[i]));
+  }
+  return turns;
+}
+
+Vec3 end_of(std::span<const Vec3> points, std::span<const Mat3x4> turns) {
+  Vec3 end = points.back();
+  for (std::size_t i = turns.size(); i-- > 0;) end = transform_point(turns[i], end);
+  return end;
+}
+
+}  // namespace
+
+std::vector<Mat3x4> AnimalRig::reach(const LegChain& leg, Vec3 place) const {
+  constexpr float most_flexion = 1.6f, most_stretch = -1.6f;  // radians a joint
+  constexpr int halvings = 24;
+  std::vector<Vec3> points;
+  for (const std::size_t b : leg.bones) points.push_back(origin(b));
+  points.push_back(leg.end);
+  // A shoulder blade, short and above a leg of several bones, follows by a share.
+  constexpr float girdle_share = 0.25f;
+  const bool girdle = leg.bones.size() >= 3 && length(points[1] - points[0]) < 0.3f * leg.length_m;
+  Mat3x4 first;
+  if (girdle) {
+    const Vec3 from = normalised(points.back() - points[0]), to = normalised(place - points[0]);
+    first = rotation_about(points[0], girdle_share * shortest_arc(from, to));
+    place = transform_point(inverse_rigid(first), place);
+  }
+  const std::span<const Vec3> own = std::span(points).subspan(girdle ? 1 : 0);
+  const Bends bends = bends_of(own, frame_.left);
+  const float wanted = length(place - own[0]);
+  float low = most_stretch, high = most_flexion;  // the longest and the shortest leg
+  for (int i = 0; i < halvings; ++i) {
+    const float middle = 0.5f * (low + high);
+    (length(end_of(own, flexed(own, bends, middle)) - own[0]) > wanted ? low : high) = middle;
+  }
+  const std::vector<Mat3x4> turns = flexed(own, bends, 0.5f * (low + high));
+  const Vec3 end = end_of(own, turns);
+  std::vector<Mat3x4> all;
+  if (girdle) all.push_back(first);
+  all.push_back(rotation_about(own[0], shortest_arc(normalised(end - own[0]), normalised(place - own[0]))));
+  all.insert(all.end(), turns.begin(), turns.end());
+  return all;
+}
+
+// A chain bends as a whole, and a little more or less from joint to joint.
+void AnimalRig::bend_chains(const Plan& plan, std::vector<Mat3x4>& local, PoseRandom& random) const {
+  const auto bend = [&](const std::vector<std::size_t>& chain, Vec3 whole, Vec3 curl, float jitter) {
+    const float share = 1 / float(chain.size());
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      // curl: more towards the end than at the root, so that chains form an S together with whole.
+      const float at = chain.size() > 1 ? float(i) * 2 / float(chain.size() - 1) - 1 : 0;
+      const Vec3 turn = share * whole + share * at * curl + jitter * std::sqrt(share) * normal3(random);
+      if (posable_[chain[i]]) local[chain[i]] = rotation_about(origin(chain[i]), turn);
+    }
+  };
+  const float a = plan.amount;
+  const float snake = legs_.empty() ? 3.0f : 1.0f;  // bodies without legs live by their spine
+  for (const auto& spine : spines_)
+    bend(spine,
+         in_body({(a * snake * 10 * random.normal()) * degree + plan.gallop,
+                  a * snake * 10 * degree * random.normal(), a * 5 * degree * random.normal()}),
+         in_body({a * snake * 5 * degree * random.normal(), a * snake * 12 * degree * random.normal(), 0}),
+         a * 3 * degree);
+  // Heads look about, graze and are raised, and keep level while the neck moves.
+  const float kind = random.unit();
+  const float pitch = kind < 0.55f   ? a * 22 * degree * random.normal()
+                      : kind < 0.85f ? random.unit() * neck_reach_
+                                     : -a * random.between(5, 35) * degree;
+  const float level = random.between(0.2f, 0.9f);
+  const Vec3 aside = in_body({0, a * 28 * degree * random.normal(), a * 8 * degree * random.normal()});
+  for (const auto& neck : necks_) {
+    const std::vector<std::size_t> below(neck.begin(), neck.end() - (neck.size() > 1));
+    bend(below, pitch * frame_.left + aside,
+         in_body({a * 20 * degree * random.normal(), a * 12 * degree * random.normal(), 0}), a * 4 * degree);
+    if (neck.size() > 1)
+      bend({neck.back()}, (a * 10 * degree * random.normal() - level * pitch) * frame_.left - 0.3f * aside,
+           {}, a * 6 * degree);
+  }
+  for (const auto& tail : tails_)
+    bend(tail, in_body({a * 45 * degree * random.normal(), a * 40 * degree * random.normal(), 0}),
+         in_body({a * 40 * degree * random.normal(), a * 30 * degree * random.normal(), 0}), a * 6 * degree);
+}
+
+void AnimalRig::turn_others(const Plan& plan, std::vector<Mat3x4>& local, PoseRandom& random) const {
+  const float a = plan.amount;
+  const float flap = (random.chance(0.5f) ? 35.0f * std::sin(2 * std::numbers::pi_v<float> * plan.phase)
+                                          : 20 * random.normal()) *
+                     degree;
+  const float mouth = random.chance(0.4f) ? random.between(0, 30) * degree : 0;
+  const float laid_back = a * 35 * degree * std::fabs(random.normal());
+  for (const std::uint32_t b : tree_.order) {
+    if (!posable_[b]) continue;
+    const Joint& joint = joints_[b];
+    const float mirror = joint.side == Side::right ? -1.0f : 1.0f;
+    Vec3 turn;
+    switch (joint.role) {
+      case JointRole::jaw:  // opens downwards
+        turn = mouth * frame_.left;
+        break;
+      case JointRole::wing:
+        turn = mirror * (joint.segment == 0 ? 1.0f : 0.4f) * flap * frame_.forward +
+               a * 6 * degree * normal3(random);
+        break;
+      case JointRole::arm:
+        turn = a * (joint.segment == 0 ? 20 : 14) * degree * normal3(random);
+        break;
+      case JointRole::ear:  // both are laid back together
+        turn = joint.segment == 0 ? -laid_back * frame_.left + a * 10 * degree * normal3(random)
+                                  : a * 8 * degree * normal3(random);
+        break;
+      case JointRole::finger:
+      case JointRole::toe:
+      case JointRole::other:
+        turn = a * 5 * degree * normal3(random);
+        break;
+      default:
+        continue;
+    }
+    local[b] = rotation_about(origin(b), turn);
+  }
+}
+
+Pose AnimalRig::pose(PoseRandom& random) const {
+  Plan plan = draw(random);
+  place_feet(plan, random);
+  std::vector<Mat3x4> local(mesh_.bones.size());
+  bend_chains(plan, local, random);
+  turn_others(plan, local, random);
+  std::vector<std::int32_t> hip_of(local.size(), -1), foot_of(local.size(), -1);
+  for (std::size_t l = 0; l < legs_.size(); ++l) {
+    hip_of[legs_[l].bones.front()] = std::int32_t(l);
+    if (!legs_[l].foot.empty()) foot_of[legs_[l].foot.front()] = std::int32_t(l);
+  }
+  Pose pose(local.size());
+  for (const std::uint32_t b : tree_.order) {
+    const std::int32_t p = tree_.parent[b];
+    const Mat3x4 above = p >= 0 ? pose[std::size_t(p)] : plan.body;
+    if (hip_of[b] >= 0) {
+      const LegChain& leg = legs_[std::size_t(hip_of[b])];
+      const Vec3 place = transform_point(inverse_rigid(above), plan.foot[std::size_t(hip_of[b])]);
+      const std::vector<Mat3x4> turns = reach(leg, place);
+      for (std::size_t i = 0; i < turns.size(); ++i) local[leg.bones[i]] = turns[i];
+    }
+    if (foot_of[b] >= 0) {
+      // A planted foot stays level, one in the air hangs back.
+      const auto leg = std::size_t(foot_of[b]);
+      const Vec3 up = normalised(transform_vector(inverse_rigid(above), frame_.up));
+      const Vec3 turn = 0.9f * plan.planted[leg] * shortest_arc(frame_.up, up) + plan.curl[leg] * frame_.left;
+      local[b] = rotation_about(origin(b), turn);
+    }
+    pose[b] = above * local[b];
+  }
+  return pose;
+}
+
+}  // namespace nook::bake

@@ -1,0 +1,30 @@
+// Edges of a mesh that a pose tears: a sign that a bone moves without the bone that its skin hangs on.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bakers/import/skinned_mesh.h"
+
+namespace nook::bake {
+
+// A torn edge is stretched more than so many times its rest length ...
+constexpr float torn_stretch = 2.5f;
+// ... and grows by more than this share of the diagonal of the resting body. Short edges of an elbow stretch
+// far without a visible tear.
+constexpr float torn_growth = 0.01f;
+
+using MeshEdge = std::array<std::uint32_t, 2>;
+
+// Each edge of the mesh once, the smaller vertex first, in ascending order.
+std::vector<MeshEdge> mesh_edges(const SkinnedMesh& mesh);
+
+// Counts the edges that one pose tears. posed: the skinned vertices of that pose.
+std::size_t count_torn(const SkinnedMesh& mesh, std::span<const MeshEdge> edges, std::span<const Vec3> posed);
+
+// The share of torn edges over all edges and poses, 0 to 1; 0 without edges or poses.
+double torn_share(const SkinnedMesh& mesh, std::span<const Pose> poses);
+
+}  // namespace nook::bake
