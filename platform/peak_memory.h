@@ -8,7 +8,6 @@
 
 namespace platform {
 
-// Returns the peak memory of the process in bytes.
 inline std::size_t peak_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

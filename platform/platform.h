@@ -36,7 +36,6 @@ class Context {
   // Shows the drawn picture and handles the window's events. Does nothing without a window.
   virtual void present() {}
   virtual bool should_close() const { return false; }
-  // True for OpenGL ES.
   virtual bool is_es() const { return false; }
   // Null unless the kind is "window".
   virtual GLFWwindow* window() const { return nullptr; }
@@ -47,7 +46,6 @@ class Context {
   // The framebuffer to draw into. It is 0 if the context has one of its own; otherwise the first call creates
   // one with RGBA8 and a 24-bit depth buffer, and leaves it bound.
   unsigned framebuffer();
-  // The OpenGL functions of this context.
   const GladGLContext& gl() const { return *gl_; }
   std::string version() const;
   std::string renderer() const;

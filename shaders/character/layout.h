@@ -50,7 +50,6 @@
 #define NOOK_ATTRIBUTE_ALPHA_1 5
 #define NOOK_ATTRIBUTE_BLEND_1 6
 
-// The outputs of vertices.comp.
 #define NOOK_OUTPUT_AO 0
 #define NOOK_OUTPUT_COLOUR 1
 #define NOOK_OUTPUT_GREY 2

@@ -14,7 +14,6 @@ uniform int nook_tap_groups;
 // The cosine and sine of the angle between two directions.
 const vec2 nook_turn = vec2(cos(6.2831853 / float(NOOK_DIRECTIONS)), sin(6.2831853 / float(NOOK_DIRECTIONS)));
 
-// A pixel as its taps need it.
 struct NookCentre {
   vec2 place;  // the texel's centre
   vec3 position, normal, viewer;
@@ -32,7 +31,6 @@ vec4 nook_leaky(vec4 x, int slope) {
   return max(x, nook_network[slope] * x);
 }
 
-// What the taps of a direction found.
 struct NookHorizon {
   vec4 most, sum;  // of the units
   float bound;     // the greatest elevation times nearness, at least 0
@@ -52,7 +50,6 @@ void nook_add_tap(inout NookHorizon found, NookCentre centre, vec2 place) {
   found.bound = max(found.bound, elevation * nearness);
 }
 
-// The sums over the directions.
 struct NookSums {
   vec4 units;
   float bound;

@@ -18,7 +18,6 @@ float nook_view_depth(float stored, ivec2 pixel) {
 }
 
 #ifdef NOOK_SAMPLES
-// A sample of a pixel and its depth.
 struct NookDepthSample {
   float depth;
   int number;

@@ -183,7 +183,7 @@ typedef struct nook_lobe {
   float reserved;
 } nook_lobe;
 
-/* The maximum number of lobes of a light and of functions of a probe. */
+/* A light has at most this many lobes, and a probe this many functions. */
 #define NOOK_PROBE_MAX_FUNCTIONS 64
 
 /* ---- Descriptors and infos ----

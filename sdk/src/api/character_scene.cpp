@@ -44,7 +44,6 @@ constexpr struct {
 } format_forms[] = {
     {"NOOK_FORMAT_FLOAT", 4}, {"NOOK_FORMAT_HALF", 2}, {"NOOK_FORMAT_UNORM8", 1}, {"NOOK_FORMAT_SNORM8", 1}};
 
-// Returns the number of bytes for each vertex.
 std::size_t entry_bytes_of(nook_channel channel, nook_format format) {
   check_known("channel", channel, NOOK_CHANNEL_BENT_NORMAL);
   check_known("format", format, NOOK_FORMAT_SNORM8);

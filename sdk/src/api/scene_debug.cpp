@@ -10,7 +10,6 @@ using namespace nook;
 
 namespace {
 
-// Runs body on the scene and the instance of the handles.
 template <class Body>
 nook_result with_instance(const char* function, nook_scene scene, nook_instance_id instance,
                           Body&& body) noexcept {

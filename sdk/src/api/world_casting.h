@@ -26,7 +26,6 @@ world::LightTerms terms_of_lobes(const char* descriptor, const nook_lobe* lobes,
 // Returns the unit axis of a cone of light. Throws Failure if it is not a valid axis.
 Vec3 checked_light(const char* descriptor, const float (&axis)[3], float degrees);
 
-// Returns half of the full angle of a cone.
 inline float half_angle_radians(float degrees) {
   return 0.5f * degrees * 0.0174532925f;
 }

@@ -13,7 +13,6 @@ namespace nook {
 
 // Returns the bytes of an instance without light and links.
 std::uint64_t instance_bytes(const LoadedModel& model);
-// Returns the bytes that a light adds.
 std::uint64_t light_bytes(const LoadedModel& model);
 
 // Returns the number of instances whose pose has a projected bone.

@@ -32,7 +32,6 @@ struct MapView {
 // Throws Failure(INVALID_ARGUMENT) for a size out of range or a texel outside [0, max_map_radiance].
 void check_map(const MapView& map);
 
-// The centre of a texel and its solid angle.
 struct MapTexel {
   Vec3 direction;  // unit
   double solid_angle = 0;

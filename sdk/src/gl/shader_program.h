@@ -23,7 +23,6 @@ struct ShaderNeeds {
 Object compute_program(Device& device, const char* path, const char* defines, ShaderNeeds needs = {});
 // Links a single vertex shader and captures its output `varying`.
 Object feedback_program(Device& device, const char* path, const char* defines, const char* varying);
-// Links a vertex and a fragment shader.
 Object draw_program(Device& device, const char* vertex_path, const char* fragment_path, const char* defines,
                     ShaderNeeds needs = {});
 

@@ -33,7 +33,6 @@ double share(std::uint32_t texel, std::uint32_t smaller_texel, std::uint32_t siz
   return std::max(0.0, std::min(begin + step, texel + 1.0) - std::max(begin, double(texel))) / step;
 }
 
-// Adds scale * row[c] to out[c].
 void add_scaled(const float* row, float scale, std::size_t count, float* out) {
   for (std::size_t c = 0; c < count; ++c) out[c] += scale * row[c];
 }

@@ -107,7 +107,6 @@ inline constexpr std::uint32_t default_map_side = 256;
 MaterialTables make_tables(const Material& material, const Parallel& parallel, Memory* memory,
                            std::uint32_t map_side = default_map_side, const ModeForm& form = {});
 
-// Returns the bytes of all tables.
 std::uint64_t table_bytes(const MaterialTables& tables);
 
 }  // namespace nook::material

@@ -36,7 +36,6 @@ inline PixelScale pixel_scale(const ScreenRays& rays, float depth) {
   return {1 / (rays.x_scale * w), 1 / (rays.y_scale * w)};
 }
 
-// Returns the direction to the viewer.
 inline Vec3 to_viewer(const ScreenRays& rays, Vec3 position) {
   return rays.orthographic ? Vec3{0, 0, 1} : normalised(-position);
 }
@@ -80,7 +79,6 @@ inline PixelRadius pixel_radius(const Sampling& sampling, PixelScale scale, floa
   return {px / per_metre, px, std::min(wanted / px, 1.0f) * sampling.fade.share(depth)};
 }
 
-// The texel at a tap.
 struct TappedTexel {
   bool surface = false;  // on the screen, and not the sky
   std::uint32_t x = 0, y = 0;

@@ -78,7 +78,6 @@ constexpr bool has_sampled_bands(const Basis& basis, const FitSettings& settings
           settings.method == FitMethod::non_negative_least_squares);
 }
 
-// Counts of used and skipped samples.
 struct SampleCounts {
   std::uint64_t used = 0;
   double expected_weight = 0;  // of the first samples, if each weight were 1 before it grows

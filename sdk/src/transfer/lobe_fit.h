@@ -35,7 +35,6 @@ class LobeFit {
   Vector<double> factor_;  // rows of L with G = L L^T, row i has i + 1 numbers
 };
 
-// The quality of a fit.
 struct FitQuality {
   double relative_error = 0;  // root of the integral of (R - L)^2 divided by the integral of L^2
   double negative_share = 0;  // integral of max(-R, 0) divided by the integral of |R|, mean over channels by

@@ -19,7 +19,6 @@ void check_paper_head(const PaperTransfer& paper, nook_result code);
 // Throws Failure(code) unless min_lobes <= lobes <= max_lobes.
 void check_lobes(std::uint32_t lobes, nook_result code);
 
-// The hash of one array of floats.
 std::uint64_t hash_floats(std::span<const float> values);
 
 // The arrays of a mesh; an empty one is not compared.

@@ -67,7 +67,6 @@ class ReflectedLight {
         transfer_(transfer),
         light_(reflected_light(response, amplitudes, transfer.bounces, memory)) {}
 
-  // Adds to the vector of a vertex.
   void add(std::size_t vertex, float* vector) const noexcept {
     const std::uint32_t count = transfer_.bounces * band_count;
     if (count == 0) return;

@@ -187,7 +187,8 @@ NOOK_API nook_result nook_transfer_light_read_suns(nook_transfer_light light, no
 /* The error of lobes that hold a light. */
 typedef struct nook_transfer_projection_info {
   uint32_t struct_size;
-  /* The root of the integral of the squared difference, relative to the integral of the squared light. */
+  /* The relative error is the root of the integral of the squared difference divided by the integral of the
+     squared light. */
   float relative_error;
   /* The negative part of the light that the lobes hold, relative to its magnitude. */
   float negative_share;

@@ -24,7 +24,6 @@ struct ComputeModel : ModelData {
   std::uint32_t level_count() const { return static_cast<std::uint32_t>(model->model.levels.size()) + 1; }
   // Returns the level, or the coarsest one if the model has fewer levels.
   const LevelRange& level(std::uint32_t index) const { return levels[std::min(index, level_count() - 1)]; }
-  // Returns the number of spheres of all levels.
   std::uint32_t spheres() const {
     return levels[level_count() - 1].first_sphere + levels[level_count() - 1].spheres;
   }
@@ -95,7 +94,6 @@ struct ComputeScene : PlacedScene<ComputeChunk> {
   void make_light_buffers(Device& device);
 };
 
-// Returns the current pose of an instance.
 inline ComputeChunk::Pose pose_of(const Instance& instance) {
   return {instance.id, instance.input.pose_revision};
 }

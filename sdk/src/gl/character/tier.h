@@ -56,7 +56,6 @@ class Tier {
   // Returns the memory of a model, even if it was not used yet.
   virtual ModelMemory memory_of(const LoadedModel& model) const = 0;
 
-  // Drops everything of the scene.
   virtual void release(const Scene& scene) = 0;
 };
 

@@ -24,7 +24,6 @@ namespace nook::gl {
 // Returns the GLSL functions with which a host's shader lights from the result.
 const char* screen_ao_glsl();
 
-// Returns the memory of all textures of a pass.
 std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form);
 
 // Returns how often the filter is a separate draw: at full resolution, the last filter is part of resolve.
@@ -42,7 +41,6 @@ class NnaoPass : public ScreenPass {
   // anything is drawn.
   void render(NnaoFrame& frame);
 
-  // Returns the path of the network's stage: FRAGMENT or COMPUTE.
   nook_nnao_path path() const { return path_; }
   const std::optional<StageTimer>& timer() const { return timer_; }
 

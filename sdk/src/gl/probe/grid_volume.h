@@ -13,7 +13,6 @@
 namespace nook::gl {
 
 enum class GridForm : std::uint8_t { harmonics = 0, zonal = 1 };
-// Returns the number of texels of a probe.
 std::uint32_t texels_of(GridForm form);
 
 // The texture has layers as large as the grid, one behind the other along z. First come the layers of a
@@ -32,7 +31,6 @@ GridTexelPlan plan_grid(const probe::Probes& probes, GridForm form);
 // float.
 Vector<std::uint16_t> grid_texels(const probe::Probes& probes, const GridTexelPlan& plan, Memory* memory);
 
-// Returns the uniform nook_grid_frame.
 std::array<float, 16> grid_frame(const probe::Probes& probes, const GridTexelPlan& plan);
 
 class GridVolume {

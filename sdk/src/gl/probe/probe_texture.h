@@ -14,7 +14,6 @@ namespace nook::gl {
 // spacing; axis and sharpness of each lobe; then the amplitudes of each probe. x varies fastest, then y, then
 // z.
 std::uint64_t probe_texel_count(const probe::Probes& probes);
-// Returns the texel of a probe's first amplitude.
 std::uint64_t first_amplitude_texel(std::uint32_t lobes, std::size_t probe);
 Vector<float> probe_texels(const probe::Probes& probes, Memory* memory);
 

@@ -13,7 +13,6 @@ Vec3 viewed(const float* view, Vec3 p);
 // Transforms a direction.
 Vec3 turned(const float* view, Vec3 direction);
 
-// Returns the number of texels of a group.
 std::uint64_t texels_of(const ReachingGroup& group);
 
 // Returns the number of texels of a group that casts the shadow of a cone.

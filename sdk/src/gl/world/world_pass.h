@@ -27,9 +27,7 @@ class WorldPass : public ScreenPass {
   // Draws a frame. Throws Failure before anything is drawn.
   void render(const WorldFrame& frame, const ReachingGroups& groups);
 
-  // Returns true if the pass has stages that are compute shaders.
   bool computes() const { return computes_; }
-  // Returns the last frame's casters.
   const FrameCasters& casters() const { return casters_; }
   std::uint64_t bytes() const;
 

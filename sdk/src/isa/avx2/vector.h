@@ -145,7 +145,6 @@ inline Float exponential(Float a) {
 inline Float arc_cosine(Float a) {
   return simd::arc_cosine_of(a);
 }
-// Returns the sum of all lanes.
 inline float sum(Float a) {
   const __m128 half = _mm_add_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
   const __m128 pairs = _mm_add_ps(half, _mm_movehl_ps(half, half));

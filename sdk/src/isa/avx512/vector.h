@@ -141,7 +141,6 @@ inline Float exponential(Float a) {
 inline Float arc_cosine(Float a) {
   return simd::arc_cosine_of(a);
 }
-// Returns the sum of all lanes.
 inline float sum(Float a) {
   return _mm512_reduce_add_ps(a.v);
 }

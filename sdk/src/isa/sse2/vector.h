@@ -142,7 +142,6 @@ inline Float exponential(Float a) {
 inline Float arc_cosine(Float a) {
   return simd::arc_cosine_of(a);
 }
-// Returns the sum of all lanes.
 inline float sum(Float a) {
   const __m128 pairs = _mm_add_ps(a.v, _mm_movehl_ps(a.v, a.v));
   return _mm_cvtss_f32(_mm_add_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));

@@ -138,7 +138,6 @@ inline Float exponential(Float a) {
 inline Float arc_cosine(Float a) {
   return simd::arc_cosine_of(a);
 }
-// Returns the sum of all lanes.
 inline float sum(Float a) {
   const Float pairs = a + Float(wasm_i32x4_shuffle(a.v, a.v, 2, 3, 0, 1));
   return wasm_f32x4_extract_lane(pairs.v, 0) + wasm_f32x4_extract_lane(pairs.v, 1);
