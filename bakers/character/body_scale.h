@@ -10,8 +10,8 @@
 
 namespace nook::bake {
 
-// Returns the power of two by which a body's largest extent comes nearest to that of a person, 1.7 m: 1 for
-// bodies of 1.2 m to 2.4 m. Powers of two change no digit of a number.
+// Returns the power of two by which a body's largest extent comes nearest to 1.7 m, the height of a person: 1
+// for bodies of 1.2 m to 2.4 m. Powers of two change no digit of a number.
 float scale_to_person(const SkinnedMesh& mesh);
 
 SkinnedMesh scaled(const SkinnedMesh& mesh, float scale);

@@ -18,12 +18,11 @@ namespace nook::bake {
 namespace {
 
 constexpr std::size_t wished_poses = 60, least_of_clip = 4, most_poses = 240;
-// Rays of all poses together, for each vertex: a tenth of those of a standard bake, and never fewer than a
-// third of that.
+// Rays of all poses together, for each vertex. A standard bake fits to ten times as many.
 constexpr std::size_t most_rays = 6000, least_rays = 2000;
 constexpr double visible_truth = 0.01;
 constexpr double poor_ratio = 0.25;
-// A clip whose error over that of a static bake is less than one step of an 8-bit image is not worse.
+// A clip is worse than a static bake only if its error is larger by at least one step of an 8-bit image.
 constexpr double least_excess = 1.0 / (255.0 * 255.0);
 constexpr double torn_limit = 5e-4;
 

@@ -39,7 +39,7 @@ struct JudgedErrors {
 
 struct VisibleErrors {
   JudgedErrors by_vertices, by_area;
-  // The best static bake of these poses: the mean AO of each vertex over those in which it is visible.
+  // The best static bake of these poses has the mean AO of each vertex over the poses that show it.
   double oracle = 0;
 };
 

@@ -104,9 +104,8 @@ std::vector<std::size_t> chosen_clips(const nook_bake_character_desc& desc, nook
   return clips;
 }
 
-// An update takes as long as spheres times key points, and skinning as long as the vertices: below about
-// 1,000 vertices both follow the vertices, so that an update stays cheaper than skinning. docs/character.md
-// has what the error loses.
+// An update takes as long as spheres times key points, and skinning as long as the vertices. Below about
+// 1,000 vertices both numbers follow the vertices. docs/character.md has what the error loses.
 void limit_capacity(const nook_bake_character_desc& desc, std::size_t vertices, BakeSettings& settings) {
   constexpr std::size_t least_key_points = 64, least_spheres = 48;
   if (!desc.key_points)
@@ -356,7 +355,7 @@ JudgedPoses poses_to_judge(const ImportedCharacter& character, const Recipe& rec
   return {JudgedPoses::Source::recorded, std::move(recording.judged), {}, {}};
 }
 
-// The poses that are most likely in use: recorded ones; those of the clips, evenly picked; or, where the bake
+// The poses that are most likely in use: recorded ones; some of the clips, evenly picked; or, where the bake
 // has generated poses alone, the rest pose. Empty where the host gave poses, and for comparisons with the
 // paper.
 std::vector<Pose> likely_poses(const ImportedCharacter& character, const Recipe& recipe,

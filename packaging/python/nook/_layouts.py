@@ -995,7 +995,8 @@ class nook_bake_character_study_desc(ctypes.Structure):
         ("clip_split", nook_bake_clip_split),
         ("kernel", nook_form),
         ("fit", nook_form),
-        ("reserved", ctypes.c_uint32),
+        ("calibration_pose_count", ctypes.c_uint32),
+        ("calibration_poses_3x4", ctypes.POINTER(ctypes.c_float)),
     ]
 
 
@@ -1023,6 +1024,8 @@ class nook_bake_trace_desc(ctypes.Structure):
         ("seed", ctypes.c_uint64),
         ("radius", ctypes.c_float),
         ("origin_offset", ctypes.c_float),
+        ("progress", nook_bake_progress_fn),
+        ("progress_user", ctypes.c_void_p),
     ]
 
 
@@ -1061,6 +1064,8 @@ class nook_bake_irradiance_desc(ctypes.Structure):
         ("seed", ctypes.c_uint64),
         ("max_bounces", ctypes.c_uint32),
         ("origin_offset", ctypes.c_float),
+        ("progress", nook_bake_progress_fn),
+        ("progress_user", ctypes.c_void_p),
     ]
 
 
@@ -1255,12 +1260,15 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "nook_bake_character_sample_clip": (nook_result, [nook_bake_character, ctypes.c_uint32, ctypes.c_float, ctypes.POINTER(ctypes.c_float), ctypes.c_uint32]),
     "nook_bake_character_auto_poses": (nook_result, [nook_bake_character, ctypes.c_uint64, ctypes.c_uint32, ctypes.POINTER(ctypes.c_float), ctypes.c_uint32]),
     "nook_bake_character_skin": (nook_result, [nook_bake_character, ctypes.POINTER(ctypes.c_float), ctypes.c_uint32, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.c_uint32]),
+    "nook_scene_record_pose": (nook_result, [nook_scene, nook_instance_id, ctypes.c_void_p, ctypes.POINTER(ctypes.c_size_t)]),
+    "nook_model_recipe": (nook_result, [nook_model, ctypes.POINTER(ctypes.c_char_p)]),
     "nook_scene_describe_instance": (nook_result, [nook_scene, nook_instance_id, ctypes.POINTER(nook_scene_instance_info)]),
     "nook_scene_read_spheres": (nook_result, [nook_scene, nook_instance_id, ctypes.POINTER(nook_scene_sphere), ctypes.POINTER(ctypes.c_uint32)]),
     "nook_scene_read_key_points": (nook_result, [nook_scene, nook_instance_id, ctypes.POINTER(nook_scene_key_point), ctypes.POINTER(ctypes.c_uint32)]),
     "nook_scene_read_links": (nook_result, [nook_scene, nook_instance_id, ctypes.POINTER(nook_instance_id), ctypes.POINTER(ctypes.c_uint32)]),
     "nook_scene_set_terms": (nook_result, [nook_scene, ctypes.c_uint32]),
     "nook_model_resample": (nook_result, [nook_model, ctypes.POINTER(nook_vertex_match_desc), ctypes.POINTER(nook_model)]),
+    "nook_model_evaluate_poses": (nook_result, [nook_model, ctypes.POINTER(nook_scene_desc), ctypes.POINTER(nook_pose_desc), ctypes.c_uint32, ctypes.c_size_t, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),
     "nook_sg_radiance": (nook_result, [ctypes.POINTER(nook_lobe), ctypes.c_uint32, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),
     "nook_sg_irradiance": (nook_result, [ctypes.POINTER(nook_lobe), ctypes.c_uint32, nook_probe_irradiance_form, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),
     "nook_sg_specular": (nook_result, [ctypes.POINTER(nook_lobe), ctypes.c_uint32, nook_probe_specular_form, ctypes.POINTER(nook_probe_surface), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),

@@ -1,5 +1,5 @@
-// The judgement of a bake: errors without the noise of rays, torn edges, the worst part and clip, and
-// steps from frame to frame, each beside a truth that is known.
+// The judgement of a bake beside truths that are known: errors without the noise of rays, torn edges, the
+// worst part and clip. Steps from frame to frame are here too.
 #include "bakers/character/judgement.h"
 
 #include <cmath>
@@ -52,8 +52,8 @@ TEST_CASE("edges that a pose tears are counted") {
   Pose moved(2);
   moved[1].m[3] = 5;  // metres: every edge across the joint is stretched
   CHECK(torn_share(mesh, std::vector<Pose>{Pose(2), turn_joints(mesh, {&bent, 1})}) == 0);
-  // The tip's weight rises over two of 15 rows of faces: 3 of 15 rows of edges along the tube and across its
-  // faces stretch, of which each row has 20, beside 160 round the tube and 20 at its caps.
+  // The tip's weight rises over two of 15 rows of faces, so that two or three rows of edges stretch. Each row
+  // has 20 edges along the tube and across its faces. The tube has 160 edges round it and 20 at its caps.
   const double torn = torn_share(mesh, std::vector<Pose>{moved});
   CHECK(torn > 40.0 / 480);
   CHECK(torn < 80.0 / 480);
@@ -101,7 +101,7 @@ TEST_CASE("the summary names the fault, its cause and its cure") {
   CHECK_FALSE(clip.is_poor());
 }
 
-TEST_CASE("steps from frame to frame are measured beside those of the truth") {
+TEST_CASE("steps from frame to frame are measured beside the steps of the truth") {
   // Two vertices in three frames.
   const std::vector<float> model{0.5f, 0.5f, 0.6f, 0.5f, 0.6f, 0.8f},
       truth{0.5f, 0.5f, 0.55f, 0.5f, 0.55f, 0.79f};

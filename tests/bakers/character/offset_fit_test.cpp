@@ -66,7 +66,7 @@ TEST_CASE("a planted constant and a planted scale of each vertex are found from 
     return std::sqrt(squares);
   };
   INFO("before " << error_of(model) << " after " << error_of(found));
-  // The old constant counts as 4 of 64 poses and holds back a sixteenth; the old scale holds back more where
+  // The old constant counts as 4 of 64 poses and holds back a sixteenth. The old scale holds back more where
   // the shadow of a vertex hardly changes, and there it matters less.
   CHECK(error_of(found) < (scale == 1 ? 0.08 : 0.15) * error_of(model));
   CHECK(moved > 0.1);
