@@ -10,8 +10,8 @@
 
 namespace nook::bake {
 
-// The act of a body in one pose. Games show characters that stand or walk most of the time, so that a third
-// of all poses rest and a third walk or run; the last third shows what else the body can do.
+// The act of a body in one pose. Games show characters that stand or walk most of the time. So a third of all
+// poses rest and a third walk or run. The last third shows the other acts of the body.
 enum class AnimalAct : std::uint8_t { rest, gait, free };
 constexpr float rest_share = 0.35f, gait_share = 0.35f;
 

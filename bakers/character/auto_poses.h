@@ -1,6 +1,6 @@
 // Plausible whole-body poses: ranges and couplings of the human body for people, gaits and chains
-// (animal_poses.h) for all other bodies, and rejection of poses in which the body runs through itself or
-// tears its skin.
+// (animal_poses.h) for all other bodies. Poses in which the body runs through itself or tears its skin are
+// drawn again.
 #pragma once
 
 #include <cstdint>

@@ -19,8 +19,8 @@ struct SkinContact {
 std::vector<SkinContact> skin_contacts(const SkinnedMesh& mesh);
 
 // The hierarchy by which the skin hangs together. A branch that shares skin with a bone far from its own
-// parent, and none with its parents, hangs on that bone: feet and hands of inverse kinematics, which rigs
-// keep at their root, belong to the limbs that they end.
+// parent, and none with its parents, hangs on that bone. Rigs keep feet and hands of inverse kinematics at
+// their root, and these belong to the limbs that they end.
 std::vector<std::int32_t> parents_by_skin(const SkinnedMesh& mesh, const RigCorrections& corrections = {});
 
 // Partners on the two sides of a body, which need not be symmetric in all its bones.

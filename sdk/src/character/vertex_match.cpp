@@ -208,6 +208,11 @@ float Matcher::slack_of_places(Memory* memory) const {
   constexpr float model_steps = 65535, exact_share = 0.9f, rounding = 5e-7f;
   float farthest = 0;
   for (const Vec3 p : places_) farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  // Meshes of several spaces may have the same coordinates, such as what the left and the right hand hold.
+  // Their stored places are rounded differently.
+  const bool has_spaces =
+      std::any_of(candidates_.begin(), candidates_.end(),
+                  [&](const Candidate& candidate) { return candidate.space != candidates_.front().space; });
   Vector<float> matched(memory);
   for (const float distance : nearest_)
     if (distance < INFINITY) matched.push_back(distance);
@@ -215,7 +220,7 @@ float Matcher::slack_of_places(Memory* memory) const {
   const float half_step = diagonal_of(model_, host_) / model_steps / 2 + rounding * farthest;
   const auto exact = std::count_if(matched.begin(), matched.end(), [&](float d) { return d <= half_step; });
   if (static_cast<float>(exact) >= exact_share * static_cast<float>(matched.size()))
-    return rounding * farthest;
+    return has_spaces ? 2 * half_step : rounding * farthest;
   const auto middle = matched.begin() + static_cast<std::ptrdiff_t>(matched.size() / 2);
   std::nth_element(matched.begin(), middle, matched.end());
   return 2 * *middle;
