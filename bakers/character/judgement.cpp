@@ -6,13 +6,13 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <set>
 
-#include "bakers/character/auto_poses.h"
 #include "bakers/character/export_model.h"
 #include "bakers/character/fit_state.h"
 #include "bakers/character/pose_sets.h"
+#include "bakers/character/recipe.h"
 #include "bakers/character/rig_anatomy.h"
+#include "bakers/character/torn_edges.h"
 
 namespace nook::bake {
 namespace {
@@ -73,9 +73,8 @@ JudgedPoses judged_poses(const ImportedCharacter& character, const Recipe& recip
   const std::vector<std::size_t> others = other_clips(character, recipe);
   const std::vector<std::size_t>& clips = others.empty() ? recipe.clips : others;
   if (clips.empty()) {
-    const std::vector<float> area = vertex_areas(character.mesh, character.mesh.position);
     out.poses =
-        auto_poses(character.mesh, area, wished_poses, mix_bits(recipe.settings.seed ^ 0x6a75646765ull));
+        automatic_poses(character, recipe, wished_poses, mix_bits(recipe.settings.seed ^ 0x6a75646765ull));
     return out;
   }
   const std::size_t each = std::max(least_of_clip, wished_poses / clips.size());
@@ -87,29 +86,6 @@ JudgedPoses judged_poses(const ImportedCharacter& character, const Recipe& recip
   thin_out(out.poses, most_poses);
   thin_out(out.clip, most_poses);
   return out;
-}
-
-double torn_share(const SkinnedMesh& mesh, std::span<const Pose> poses) {
-  constexpr float most_stretch = 2.5f, least_growth = 0.01f;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
-  for (const auto& t : mesh.triangle)
-    for (int i = 0; i < 3; ++i) edges.insert(std::minmax(t[std::size_t(i)], t[std::size_t((i + 1) % 3)]));
-  Vec3 low = mesh.position.front(), high = low;
-  for (const Vec3 p : mesh.position) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const float growth = least_growth * length(high - low);
-  std::size_t torn = 0;
-  std::vector<Vec3> posed;
-  for (const Pose& pose : poses) {
-    skin_positions(mesh, pose, posed);
-    for (const auto& [a, b] : edges) {
-      const float rest = length(mesh.position[a] - mesh.position[b]), now = length(posed[a] - posed[b]);
-      if (now > most_stretch * rest && now - rest > growth) ++torn;
-    }
-  }
-  return edges.empty() || poses.empty() ? 0 : double(torn) / (double(edges.size()) * double(poses.size()));
 }
 
 namespace {
@@ -347,13 +323,15 @@ Judgement judge_model(const ImportedCharacter& character, const CharacterModel& 
   const std::vector<Sums> of_vertex = sums_of_vertices(traced, model);
   out.errors = total_of(of_vertex, area);
   out.clips = errors_of_clips(traced, model, judged);
-  const std::vector<Joint> joints = joint_roles(mesh);
+  const std::vector<Joint> joints = joint_roles(mesh, recipe.rig);
   out.parts = parts_by_name(parts_of_vertices(mesh, joints), of_vertex, area);
   out.meshes = parts_by_name(meshes_of_vertices(mesh), of_vertex, area);
   out.bones_without_role = bones_without_role(mesh, joints, area);
+  out.torn_by_clips = torn_by_clips(character);
   if (recipe.auto_poses > 0)
     out.torn_edges = torn_share(
-        mesh, auto_poses(mesh, area, std::min(recipe.auto_poses, wished_poses), recipe.settings.seed));
+        mesh,
+        automatic_poses(character, recipe, std::min(recipe.auto_poses, wished_poses), recipe.settings.seed));
   return out;
 }
 
@@ -389,7 +367,7 @@ const JudgedPart* outlying_mesh(const Judgement& j) {
 }
 
 std::string cause(const Judgement& j) {
-  if (j.torn_edges > torn_limit)
+  if (j.torn_edges > j.torn_by_clips + torn_limit)
     return "generated poses tear the mesh (" + number(100 * j.torn_edges) +
            " % of its edges), because the rig is not understood";
   if (!j.bones_without_role.empty())
@@ -406,7 +384,7 @@ std::string cure(const Judgement& j) {
                          : "fit the clips that the game plays (--poses all), or calibrate to recorded poses "
                            "(--calibrate)";
   if (const JudgedPart* mesh = outlying_mesh(j)) text += ", or leave it out (--without " + mesh->name + ")";
-  if (j.torn_edges > torn_limit || !j.bones_without_role.empty())
+  if (j.torn_edges > j.torn_by_clips + torn_limit || !j.bones_without_role.empty())
     text += ", or name the roles of the bones (--rig)";
   return text;
 }

@@ -59,7 +59,8 @@ struct Judgement {
   std::uint32_t rays = 0;
   VisibleErrors errors;
   std::vector<JudgedPart> clips, parts, meshes;  // the worst first: clips by ratio, the others by share
-  double torn_edges = 0;  // share of edge-poses of the automatic poses; 0 where there are none
+  double torn_edges = 0;     // share of edge-poses of the automatic poses; 0 where there are none
+  double torn_by_clips = 0;  // the same of the file's own clips
   std::vector<std::string> bones_without_role;  // those that move at least 2 % of the body's area
 
   double over_static() const { return errors.by_vertices.over_static(); }
@@ -71,10 +72,6 @@ struct Judgement {
 // Failure(NOOK_ERROR_CANCELLED) if progress returns false.
 Judgement judge_model(const ImportedCharacter& character, const CharacterModel& model, const Recipe& recipe,
                       const JudgedPoses& judged, std::uint64_t seed, const Progress& progress = {});
-
-// The share of edge-poses that tear: stretched more than 2.5 times, and by more than 1 % of the diagonal of
-// the body's bounding box.
-double torn_share(const SkinnedMesh& mesh, std::span<const Pose> poses);
 
 // One or two sentences: the figures; and for a poor model what is wrong, why, and what to do.
 std::string summary_of(const Judgement& judgement);

@@ -147,6 +147,15 @@ double torn_by_clips(const ImportedCharacter& character) {
   return torn_share(character.mesh, clip_poses(character, motion_clips(character), samples_per_clip));
 }
 
+std::vector<Pose> automatic_poses(const ImportedCharacter& character, const Recipe& recipe, std::size_t count,
+                                  std::uint64_t seed) {
+  if (count == 0) return {};
+  std::vector<Pose> shown;
+  if (!recipe.clips.empty()) shown = clip_poses(character, recipe.clips, recipe.samples_per_clip);
+  const std::vector<float> area = vertex_areas(character.mesh, character.mesh.position);
+  return auto_poses(character.mesh, area, count, seed, recipe.rig, {shown, torn_by_clips(character)});
+}
+
 std::vector<Pose> recipe_poses(const ImportedCharacter& character, const Recipe& recipe) {
   const bool same = recipe.generation == pose_generation ||
                     (recipe.generation == 3 && is_person(character.mesh, named_roles(character.mesh)));
@@ -163,9 +172,7 @@ std::vector<Pose> recipe_poses(const ImportedCharacter& character, const Recipe&
   };
   std::vector<Pose> shown;
   if (!recipe.clips.empty()) shown = clip_poses(character, recipe.clips, recipe.samples_per_clip);
-  if (recipe.auto_poses > 0)
-    add(auto_poses(character.mesh, area, recipe.auto_poses, recipe.settings.seed, recipe.rig,
-                   {shown, torn_by_clips(character)}));
+  add(automatic_poses(character, recipe, recipe.auto_poses, recipe.settings.seed));
   if (!shown.empty()) {
     std::vector<Pose> variants =
         pose_variants(character.mesh, area, shown, recipe.variant_poses, recipe.settings.seed, recipe.rig);

@@ -63,6 +63,10 @@ std::vector<std::size_t> clips_by_name(const ImportedCharacter& character);
 // Returns the share of edges that the character's clips tear, 0 without any (torn_edges.h).
 double torn_by_clips(const ImportedCharacter& character);
 
+// Makes automatic poses with the recipe's rig file and the ranges of its clips.
+std::vector<Pose> automatic_poses(const ImportedCharacter& character, const Recipe& recipe, std::size_t count,
+                                  std::uint64_t seed);
+
 // Makes the training poses in this order: automatic ones, clips, their variants, single joints. The host's
 // extra poses are not included. Fails with BAD_FILE if an earlier generation made poses that this one cannot
 // make again.

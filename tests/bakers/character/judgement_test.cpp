@@ -1,6 +1,7 @@
 // The judgement of a bake beside truths that are known: errors without the noise of rays, torn edges, the
 // worst part and clip. Steps from frame to frame are here too.
 #include "bakers/character/judgement.h"
+#include "bakers/character/torn_edges.h"
 
 #include <cmath>
 
