@@ -11,20 +11,7 @@ struct DebugView {
   int bodies = 1;        // the bodies that spheres are shown for, the nearest to the camera first
 };
 
-class DebugLines {
- public:
-  explicit DebugLines(const GladGLContext& gl);
-  ~DebugLines();
-  DebugLines(const DebugLines&) = delete;
-  DebugLines& operator=(const DebugLines&) = delete;
-
-  // Draws into the framebuffer that is bound, over everything. The parts are those of the last update.
-  void draw(const CrowdScene& scene, const Camera& camera, float aspect, const DebugView& view);
-
- private:
-  const GladGLContext& gl_;
-  platform::Program program_;
-  GLuint array_ = 0, buffer_ = 0;
-};
+// Draws over everything but ImGui's panels, within an ImGui frame. The parts are those of the last update.
+void draw_debug_lines(const CrowdScene& scene, const Camera& camera, const DebugView& view);
 
 }  // namespace crowd

@@ -65,15 +65,6 @@ std::filesystem::path built_in_glb(const std::filesystem::path& folder) {
   return folder / "mannequin.glb";
 }
 
-nook::bake::Job start_bake(const Hero& hero, nook_bake_preset preset, float gamma) {
-  nook_bake_character_desc desc;
-  nook::bake::check(nook_bake_character_desc_init(&desc));
-  desc.character = hero.character().get();
-  desc.preset = preset;
-  desc.gamma = gamma;
-  return nook::bake::Job(desc);
-}
-
 std::vector<unsigned char> cached_model(const Hero& hero, const std::filesystem::path& glb,
                                         const std::filesystem::path& cache, bool quiet, float gamma) {
   // The name has the content of the file, and the time of the program, so that a model which another build
@@ -89,7 +80,12 @@ std::vector<unsigned char> cached_model(const Hero& hero, const std::filesystem:
   const std::filesystem::path path = cache / name;
   if (std::filesystem::exists(path)) return platform::read_file(path);
   if (!quiet) std::fprintf(stderr, "baking %s\n", path.string().c_str());
-  const nook::bake::Job bake = start_bake(hero, NOOK_BAKE_PRESET_DRAFT, gamma);
+  nook_bake_character_desc desc;
+  nook::bake::check(nook_bake_character_desc_init(&desc));
+  desc.character = hero.character().get();
+  desc.preset = NOOK_BAKE_PRESET_DRAFT;
+  desc.gamma = gamma;
+  const nook::bake::Job bake(desc);
   platform::ProgressBar bar(quiet);
   for (nook_bake_progress p = bake.progress(); p.state != NOOK_BAKE_DONE; p = bake.progress()) {
     bar.show(p.stage, std::string(p.stage) == "ray tracing" ? "poses" : "steps", p.done, p.total);

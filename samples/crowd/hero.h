@@ -44,11 +44,9 @@ class Hero {
 // Makes the built-in character and returns the path of its file in the folder.
 std::filesystem::path built_in_glb(const std::filesystem::path& folder);
 
-// Starts a bake. gamma is the exponent of the norm that adds up shadows; 0 takes the preset's.
-nook::bake::Job start_bake(const Hero& hero, nook_bake_preset preset, float gamma = 0);
-
 // The bytes of the model's file for a character, from the cache. If the cache has none, this bakes one with
-// the draft preset and shows the progress.
+// the draft preset and shows the progress. gamma is the exponent of the norm that adds up shadows; 0 takes
+// the preset's.
 std::vector<unsigned char> cached_model(const Hero& hero, const std::filesystem::path& glb,
                                         const std::filesystem::path& cache, bool quiet, float gamma = 0);
 

@@ -12,35 +12,29 @@
 #include "samples/crowd/crowd_scene.h"
 #include "samples/crowd/places.h"
 #include "samples/crowd/screen_passes.h"
-#ifdef CROWD_HAS_WINDOW
 #include "samples/crowd/window.h"
-#endif
 
 namespace crowd {
 namespace {
 
 struct Options {
-  std::filesystem::path hero_glb, hero_nook, out = "out/crowd", window_picture;
+  std::filesystem::path hero_glb, hero_nook, out = "out/crowd";
   std::string context = "egl", size = "1280x720";
-  int width_px = 0, height_px = 0, debug_bodies = 1;
+  int width_px = 0, height_px = 0;
   std::uint32_t frames = 4, seed = 1;
   CrowdSize crowd;
   bool quiet = false;
-  std::vector<std::string> debug;
+  WindowRequest window;
 };
-
-#ifdef CROWD_HAS_WINDOW
-constexpr bool has_window = true;
-#else
-constexpr bool has_window = false;
-#endif
 
 // Refuses a window in a program that was built without ImGui, and options that only a window obeys.
 void require_window(const CLI::App& app, const Options& o) {
-  if (o.context == "window" && !has_window)
+#ifndef CROWD_HAS_WINDOW
+  if (o.context == "window")
     throw CLI::ValidationError(
         "--context",
         "this program was built without a window: install ImGui and configure again, or use egl");
+#endif
   if (o.context == "window") return;
   for (const char* option : {"--debug", "--debug-bodies", "--window-picture"})
     if (app.count(option) > 0) throw CLI::ValidationError(option, "needs --context window");
@@ -66,13 +60,14 @@ int parse(int argc, char** argv, Options& o) {
   app.add_option("--tier", o.crowd.tier, "highest OpenGL tier: 33, 43 or best")
       ->transform(CLI::CheckedTransformer(std::map<std::string, int>{{"33", 33}, {"43", 43}, {"best", 0}}));
   app.add_option("--seed", o.seed, "of the places of the crowd");
-  app.add_option("--debug", o.debug, "what a window shows first, with a comma between: spheres, links")
+  app.add_option("--debug", o.window.debug, "what a window shows first, with a comma between: spheres, links")
       ->delimiter(',')
       ->check(CLI::IsMember({"spheres", "links"}))
+      ->allow_extra_args(false)  // what follows are files
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--debug-bodies", o.debug_bodies, "bodies that spheres are shown for")
+  app.add_option("--debug-bodies", o.window.bodies, "bodies that spheres are shown for")
       ->check(CLI::Range(1, 16));
-  app.add_option("--window-picture", o.window_picture, "a window writes a picture of itself and closes");
+  app.add_option("--window-picture", o.window.picture, "a window writes a picture of itself and closes");
   app.add_flag("--quiet", o.quiet, "show no progress");
   try {
     app.parse(argc, argv);
@@ -148,10 +143,10 @@ void run(const Options& o) {
   scene.set_light(light.lobes);
 #ifdef CROWD_HAS_WINDOW
   if (o.context == "window") {
-    const auto shows = [&](const char* name) { return std::ranges::find(o.debug, name) != o.debug.end(); };
-    return run_window(*context, hero, places, scene, light,
-                      {o.hero_nook.empty() ? o.out / "model.nook" : o.hero_nook, o.window_picture,
-                       int(o.crowd.neighbours), shows("spheres"), shows("links"), o.debug_bodies});
+    WindowRequest request = o.window;
+    request.model = o.hero_nook.empty() ? o.out / "model.nook" : o.hero_nook;
+    request.link_count = int(o.crowd.neighbours);
+    return run_window(*context, hero, places, scene, light, request);
   }
 #endif
   std::filesystem::create_directories(o.out);

@@ -1,5 +1,7 @@
 #include "samples/crowd/window.h"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -28,11 +30,7 @@ struct Controls {
   std::string model_text;  // what happened to the model's file last
 
   std::uint32_t terms() const {
-    std::uint32_t terms = 0;
-    if (self) terms |= NOOK_TERM_SELF;
-    if (neighbours) terms |= NOOK_TERM_LINKS;
-    if (ground) terms |= NOOK_TERM_GROUND;
-    return terms;
+    return std::uint32_t(self * NOOK_TERM_SELF | neighbours * NOOK_TERM_LINKS | ground * NOOK_TERM_GROUND);
   }
   Camera camera() const {
     Camera camera;
@@ -43,35 +41,62 @@ struct Controls {
   }
 };
 
-void show(Controls& c, const nook_scene_info& info) {
-  ImGui::SetNextWindowPos(ImVec2(12, 12), ImGuiCond_FirstUseEver);
-  ImGui::Begin("Nook", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
-  ImGui::Checkbox("ambient occlusion", &c.ao);
-  ImGui::SliderFloat("intensity", &c.intensity, 0, 1);
-  ImGui::Checkbox("self", &c.self);
-  ImGui::SameLine();
-  ImGui::Checkbox("neighbours", &c.neighbours);
-  ImGui::SameLine();
-  ImGui::Checkbox("ground", &c.ground);
-  ImGui::Checkbox("AO on the floor", &c.floor);
-  ImGui::SliderInt("nearest neighbours", &c.link_count, 0, 16);
-  ImGui::Checkbox("play", &c.playing);
-  ImGui::Separator();
-  ImGui::Checkbox("spheres", &c.debug.spheres);
-  ImGui::SameLine();
-  ImGui::Checkbox("links", &c.debug.links);
-  ImGui::SliderInt("bodies", &c.debug.bodies, 1, 16);
+// Numbers that are typed into a slider are clamped as well.
+void show_controls(Controls& c, const nook_scene_info& info, float width) {
+  constexpr ImGuiSliderFlags clamped = ImGuiSliderFlags_AlwaysClamp;
+  // A row of boxes breaks where the panel is too narrow for it.
+  const auto boxes = [=](std::initializer_list<std::pair<const char*, bool*>> row) {
+    for (const auto& [name, on] : row) {
+      const float needed = ImGui::CalcTextSize(name).x + 3 * ImGui::GetFontSize();
+      const bool fits = ImGui::GetItemRectMax().x + needed < ImGui::GetWindowPos().x + width;
+      if (name != row.begin()->first && fits) ImGui::SameLine();
+      ImGui::Checkbox(name, on);
+    }
+  };
+  boxes({{"ambient occlusion", &c.ao}, {"AO on the floor", &c.floor}});
+  boxes({{"self", &c.self}, {"neighbours", &c.neighbours}, {"ground", &c.ground}});
+  ImGui::SliderFloat("intensity", &c.intensity, 0, 1, "%.3f", clamped);
+  ImGui::SliderInt("nearest neighbours", &c.link_count, 0, 16, "%d", clamped);
+  ImGui::SliderInt("bodies", &c.debug.bodies, 1, 16, "%d", clamped);
+  boxes({{"spheres", &c.debug.spheres}, {"links", &c.debug.links}, {"play", &c.playing}});
   ImGui::Text("%u links, %u culled, frame %.1f ms", info.links, info.links_culled,
               1000 / double(ImGui::GetIO().Framerate));
-  if (!c.model_text.empty()) ImGui::TextUnformatted(c.model_text.c_str());
+  ImGui::TextWrapped("Camera: A, D, W, S, Q, E. Controls: arrows, space, Tab.");
+  if (!c.model_text.empty()) ImGui::TextWrapped("%s", c.model_text.c_str());
+}
+
+// The panel is as wide as the window lets it, and moves back inside when the window has become smaller.
+void show_panel(Controls& c, const nook_scene_info& info) {
+  const ImVec2 room = ImGui::GetIO().DisplaySize;
+  const float line = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos(ImVec2(line, line), ImGuiCond_FirstUseEver);
+  ImGui::Begin("Nook", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
+  // Beside a slider stands its name, which has up to 10 times the height of a line.
+  const float width = std::clamp(room.x - 3 * line, 13 * line, 23 * line);
+  ImGui::PushItemWidth(width - 11 * line);
+  ImGui::PushTextWrapPos(width);
+  show_controls(c, info, width);
+  ImGui::PopTextWrapPos();
+  ImGui::PopItemWidth();
+  const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  ImGui::SetWindowPos(ImVec2(std::clamp(at.x, 0.0f, std::max(room.x - size.x, 0.0f)),
+                             std::clamp(at.y, 0.0f, std::max(room.y - size.y, 0.0f))));
   ImGui::End();
+}
+
+void move_camera(Controls& c, GLFWwindow* window) {
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantCaptureMouse) return;
-  if (ImGui::IsMouseDragging(ImGuiMouseButton_Left)) {
-    c.turn -= 0.005f * io.MouseDelta.x;
-    c.height = std::clamp(c.height + 0.005f * io.MouseDelta.y, 0.02f, 1.5f);
-  }
-  c.distance_m = std::clamp(c.distance_m * std::pow(0.9f, io.MouseWheel), 1.5f, 200.0f);
+  const bool over_panel = io.WantCaptureMouse, drags = !over_panel && ImGui::IsMouseDragging(0);
+  const auto held = [&](int key) { return !io.WantTextInput && glfwGetKey(window, key) == GLFW_PRESS; };
+  // In a slow frame a key moves as far as in a tenth of a second.
+  const float step = std::min(io.DeltaTime, 0.1f);
+  const float turn = step * float(held(GLFW_KEY_D) - held(GLFW_KEY_A)),
+              rise = step * float(held(GLFW_KEY_W) - held(GLFW_KEY_S)),
+              nearer =
+                  8 * step * float(held(GLFW_KEY_E) - held(GLFW_KEY_Q)) + (over_panel ? 0 : io.MouseWheel);
+  c.turn += 1.5f * turn - (drags ? 0.005f * io.MouseDelta.x : 0);
+  c.height = std::clamp(c.height + 1.5f * rise + (drags ? 0.005f * io.MouseDelta.y : 0), 0.02f, 1.5f);
+  c.distance_m = std::clamp(c.distance_m * std::pow(0.9f, nearer), 1.5f, 200.0f);
 }
 
 // Loads the model again. A file that does not fit leaves the model from before.
@@ -87,9 +112,12 @@ std::string load_again(CrowdScene& scene, const std::filesystem::path& model) {
 class Window {
  public:
   Window(platform::Context& context, const Hero& hero, CrowdScene& scene, const Light& light)
-      : context_(context), scene_(scene), light_(light), renderer_(context.gl(), hero), lines_(context.gl()) {
+      : context_(context), scene_(scene), light_(light), renderer_(context.gl(), hero) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    // A key that is pressed and let go between two frames counts.
+    glfwSetInputMode(context.window(), GLFW_STICKY_KEYS, GLFW_TRUE);
     ImGui_ImplGlfw_InitForOpenGL(context.window(), true);
     ImGui_ImplOpenGL3_Init("#version 330");
   }
@@ -108,8 +136,7 @@ class Window {
     const std::vector<DrawnInstance> drawn = scene_.drawn(poses);
     int width = 1, height = 1;
     context_.size(&width, &height);
-    width = std::max(width, 1);
-    height = std::max(height, 1);
+    width = std::max(width, 1), height = std::max(height, 1);
     const nook_gl_view view = scene_.light();
     Look look{light_, view.texture, view.glsl, c.ao ? c.intensity : 0, fog_start_m, {}};
     if (c.floor) look.screen_ao = draw_passes(drawn, camera, width, height);
@@ -117,12 +144,14 @@ class Window {
     gl.Viewport(0, 0, width, height);
     gl.Enable(GL_FRAMEBUFFER_SRGB);
     renderer_.draw(drawn, camera, look);
-    lines_.draw(scene_, camera, float(width) / float(height), c.debug);
     gl.Disable(GL_FRAMEBUFFER_SRGB);  // ImGui's colours are encoded already
+    scale_panel();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
-    show(c, scene_.scene().info());
+    draw_debug_lines(scene_, camera, c.debug);
+    show_panel(c, scene_.scene().info());
+    move_camera(c, context_.window());
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   }
@@ -135,6 +164,23 @@ class Window {
   }
 
  private:
+  // Follows the scale of the display that the window is on. ImGui's sizes are for a scale of 1.
+  void scale_panel() {
+    float scale = 1;
+    glfwGetWindowContentScale(context_.window(), &scale, nullptr);
+    // Where a unit of the window is more than a pixel, ImGui scales by itself.
+    scale /= ImGui::GetIO().DisplayFramebufferScale.x;
+    if (scale == scale_) return;
+    scale_ = scale;
+    ImFontConfig font;
+    font.SizePixels = std::floor(13 * scale);
+    ImGui::GetIO().Fonts->Clear();
+    ImGui::GetIO().Fonts->AddFontDefault(&font);
+    ImGui::GetStyle() = ImGuiStyle();
+    ImGui::GetStyle().ScaleAllSizes(scale);
+    ImGui_ImplOpenGL3_DestroyDeviceObjects();  // the next frame makes the font's texture
+  }
+
   ScreenAo draw_passes(const std::vector<DrawnInstance>& drawn, const Camera& camera, int width, int height) {
     if (!passes_ || passes_->width_px != width || passes_->height_px != height)
       passes_.emplace(context_, scene_.gl(), width, height);
@@ -145,8 +191,8 @@ class Window {
   CrowdScene& scene_;
   const Light& light_;
   Renderer renderer_;
-  DebugLines lines_;
   std::optional<ScreenPasses> passes_;  // of the window's size
+  float scale_ = 0;
 };
 
 }  // namespace
@@ -159,7 +205,10 @@ void run_window(platform::Context& context, const Hero& hero, const std::vector<
   const float radius_m = crowd_radius_m(places);
   Controls c;
   c.link_count = request.link_count;
-  c.debug = {request.spheres, request.links, request.bodies};
+  const auto shows = [&](const char* name) {
+    return std::ranges::find(request.debug, name) != request.debug.end();
+  };
+  c.debug = {shows("spheres"), shows("links"), request.bodies};
   c.distance_m = radius_m + 4;
   int links = c.link_count;
   float time_s = 0;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "samples/crowd/crowd_scene.h"
 #include "samples/crowd/places.h"
@@ -13,8 +15,8 @@ struct WindowRequest {
   std::filesystem::path model;    // need not be there yet
   std::filesystem::path picture;  // empty, or where the window writes a picture of itself before it closes
   int link_count = 4;
-  bool spheres = false, links = false;  // what it shows first
-  int bodies = 1;
+  std::vector<std::string> debug;  // what it shows first: spheres, links
+  int bodies = 1;                  // that spheres are shown for
 };
 
 // Returns when the window is closed.

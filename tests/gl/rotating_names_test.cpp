@@ -98,7 +98,6 @@ TEST_CASE("rotating names: a warm frame of the world pass makes no query") {
 
 TEST_CASE("rotating names: a name that was deleted and made anew is checked again") {
   NOOK_NEED_CONTEXT(context);
-  if (context.is_es() && version_of(context) < 31) return;  // it tells no formats
   const GladGLContext& gl = context.gl();
   Trace trace(context);
   Chain chain(context, trace);

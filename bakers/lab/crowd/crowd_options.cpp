@@ -64,6 +64,7 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
                  "compared with path tracing. The option may repeat. Without it a built-in sky lights the "
                  "frames")
       ->check(CLI::ExistingFile)
+      ->allow_extra_args(false)  // what follows are files
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_flag("!--no-light", o.probe_light,
                "light the frames by plain ambient light times AO and a key light");
@@ -77,6 +78,7 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
          "debug views over the picture, with commas between: spheres, key-points, links, levels, error")
       ->delimiter(',')
       ->check(CLI::IsMember({"spheres", "key-points", "links", "levels", "error"}))
+      ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--debug-bodies", bodies,
                  "bodies that spheres, key points and errors are shown for, the nearest to the camera first")

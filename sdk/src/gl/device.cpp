@@ -12,7 +12,8 @@ Device::Device(Context& host, const nook_gl_desc& desc)
       memory(host.memory()),
       gl(load_functions(desc.get_proc, desc.get_proc_user, desc.max_tier, desc.debug != 0)),
       state_mode(desc.state_mode),
-      debug(desc.debug != 0) {
+      debug(desc.debug != 0),
+      removed_(memory) {
   read_limits();
   if (debug) mark_context();
 }
@@ -118,6 +119,56 @@ bool Device::may_delete() const {
                 fault);
   told_objects_left_ = true;
   return false;
+}
+
+void Device::adopt(ObjectKind kind, GLuint name) {
+  try {
+    if (object_count_ == removed_.capacity())
+      removed_.reserve(std::max<std::size_t>(64, 2 * removed_.capacity()));
+  } catch (const std::bad_alloc&) {
+    delete_now(kind, name);
+    throw;
+  }
+  ++object_count_;
+}
+
+void Device::remove(ObjectKind kind, GLuint name) noexcept {
+  if (calls_ > 0) return removed_.push_back({kind, name});
+  --object_count_;
+  delete_now(kind, name);
+}
+
+void Device::end_call() noexcept {
+  if (--calls_ > 0) return;
+  for (const Removed& object : removed_) delete_now(object.kind, object.name);
+  object_count_ -= removed_.size();
+  removed_.clear();
+}
+
+void Device::delete_now(ObjectKind kind, GLuint name) const {
+  if (!may_delete()) return;
+  switch (kind) {
+    case ObjectKind::buffer:
+      return gl.DeleteBuffers(1, &name);
+    case ObjectKind::framebuffer:
+      return gl.DeleteFramebuffers(1, &name);
+    case ObjectKind::renderbuffer:
+      return gl.DeleteRenderbuffers(1, &name);
+    case ObjectKind::texture:
+      return gl.DeleteTextures(1, &name);
+    case ObjectKind::sampler:
+      return gl.DeleteSamplers(1, &name);
+    case ObjectKind::query:
+      return gl.DeleteQueries(1, &name);
+    case ObjectKind::vertex_array:
+      return gl.DeleteVertexArrays(1, &name);
+    case ObjectKind::transform_feedback:
+      return gl.DeleteTransformFeedbacks(1, &name);
+    case ObjectKind::program:
+      return gl.DeleteProgram(name);
+    case ObjectKind::shader:
+      return gl.DeleteShader(name);
+  }
 }
 
 }  // namespace nook::gl

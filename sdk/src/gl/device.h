@@ -5,10 +5,24 @@
 
 #include <cstdint>
 
+#include "sdk/src/core/containers.h"
 #include "sdk/src/core/context.h"
 #include "sdk/src/gl/functions.h"
 
 namespace nook::gl {
+
+enum class ObjectKind {
+  buffer,
+  framebuffer,
+  renderbuffer,
+  texture,
+  sampler,
+  query,
+  vertex_array,
+  transform_feedback,
+  program,
+  shader
+};
 
 struct Device {
   // Reads limits; the OpenGL context must be current. Throws Failure.
@@ -28,6 +42,15 @@ struct Device {
   // Returns whether objects may be deleted. Objects that must not be deleted in another context leak, and the
   // log says so once.
   bool may_delete() const;
+  // Every name that is made goes through adopt, and every name that is deleted through remove. While a call
+  // holds a StateGuard, remove puts the deletion off until the host's state is back: OpenGL then unbinds the
+  // object wherever the host has it bound. A dead name could not be bound again.
+  // Throws std::bad_alloc after deleting the name. It makes the room that remove needs, so that no update
+  // allocates for it.
+  void adopt(ObjectKind kind, GLuint name);
+  void remove(ObjectKind kind, GLuint name) noexcept;
+  void begin_call() { ++calls_; }
+  void end_call() noexcept;
   void label(GLenum kind, GLuint name, const char* text) const {
     if (gl.ObjectLabel) gl.ObjectLabel(kind, name, -1, text);
   }
@@ -52,6 +75,15 @@ struct Device {
   // Returns what is wrong with the current context, or null.
   const char* context_fault() const;
   GLuint mark() const;
+  void delete_now(ObjectKind kind, GLuint name) const;
+
+  struct Removed {
+    ObjectKind kind;
+    GLuint name;
+  };
+  Vector<Removed> removed_;  // with room for all objects
+  std::size_t object_count_ = 0;
+  int calls_ = 0;  // that hold a StateGuard
 
   // A vertex array that stores a unique number. Contexts do not share vertex arrays, so it identifies this
   // context.

@@ -10,10 +10,11 @@ namespace nook::gl {
 Buffer::Buffer(Device& device, const char* label, std::uint64_t bytes, const void* data, GLenum usage,
                BufferUse use) {
   Buffer made;  // deletes the name if allocation fails
-  made.device_ = &device;
   made.gl_usage_ = usage;
   made.use_ = use;
   device.gl.GenBuffers(1, &made.name_);
+  device.adopt(ObjectKind::buffer, made.name_);
+  made.device_ = &device;
   device.gl.BindBuffer(GL_ARRAY_BUFFER, made.name_);
   device.gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data, usage);
   device.check("allocating a buffer");
@@ -28,7 +29,7 @@ Buffer::~Buffer() {
   if (!device_) return;
   device_->buffer_bytes -= bytes_;
   if (use_ == BufferUse::ao) device_->ao_bytes -= bytes_;
-  if (device_->may_delete()) device_->gl.DeleteBuffers(1, &name_);
+  device_->remove(ObjectKind::buffer, name_);
 }
 
 // Gives the buffer a new store of at least this many bytes.
@@ -141,44 +142,15 @@ Object Object::make(Device& device, Kind kind) {
     case Kind::program:
       name = gl.CreateProgram();
       break;
+    case Kind::buffer:
     case Kind::shader:
-      break;  // these need a stage; shader_program.cpp makes them
+      break;  // Buffer makes the first; the second needs a stage, and shader_program.cpp makes it
   }
   return Object(device, kind, name);
 }
 
 Object::~Object() {
-  if (!device_ || name_ == 0 || !device_->may_delete()) return;
-  const Functions& gl = device_->gl;
-  switch (kind_) {
-    case Kind::framebuffer:
-      gl.DeleteFramebuffers(1, &name_);
-      break;
-    case Kind::renderbuffer:
-      gl.DeleteRenderbuffers(1, &name_);
-      break;
-    case Kind::texture:
-      gl.DeleteTextures(1, &name_);
-      break;
-    case Kind::sampler:
-      gl.DeleteSamplers(1, &name_);
-      break;
-    case Kind::query:
-      gl.DeleteQueries(1, &name_);
-      break;
-    case Kind::vertex_array:
-      gl.DeleteVertexArrays(1, &name_);
-      break;
-    case Kind::transform_feedback:
-      gl.DeleteTransformFeedbacks(1, &name_);
-      break;
-    case Kind::program:
-      gl.DeleteProgram(name_);
-      break;
-    case Kind::shader:
-      gl.DeleteShader(name_);
-      break;
-  }
+  if (device_) device_->remove(kind_, name_);
 }
 
 FeedbackTarget::FeedbackTarget(Device& device) {

@@ -70,21 +70,14 @@ void read_buffer_bytes(const Device& device, GLuint buffer, std::uint64_t offset
 // Any other kind of object. One owner type is enough, since kinds differ only in the call that deletes them.
 class Object {
  public:
-  enum class Kind {
-    framebuffer,
-    renderbuffer,
-    texture,
-    sampler,
-    query,
-    vertex_array,
-    transform_feedback,
-    program,
-    shader
-  };
+  using Kind = ObjectKind;
 
   Object() = default;
-  // Takes over a name.
-  Object(Device& device, Kind kind, GLuint name) : device_(&device), kind_(kind), name_(name) {}
+  // Takes over a name. Throws std::bad_alloc, and the name is deleted then.
+  Object(Device& device, Kind kind, GLuint name) : kind_(kind), name_(name) {
+    device.adopt(kind, name);
+    device_ = &device;
+  }
   static Object make(Device& device, Kind kind);
   Object(Object&& other) noexcept { swap(other); }
   Object& operator=(Object&& other) noexcept {

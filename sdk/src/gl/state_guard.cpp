@@ -270,19 +270,21 @@ void restore_all(const Functions& gl, unsigned users, const SavedState& state) {
 
 }  // namespace
 
-StateGuard::StateGuard(const Functions& gl, nook_gl_state_mode mode, unsigned users)
-    : gl_(gl), mode_(mode), users_(users) {
-  if (mode == NOOK_GL_STATE_PRESERVE) query_all(gl, users, saved_);
+StateGuard::StateGuard(Device& device, unsigned users) : device_(device), users_(users) {
+  if (device.state_mode == NOOK_GL_STATE_PRESERVE) query_all(device.gl, users, saved_);
+  device.begin_call();
 }
 
 StateGuard::~StateGuard() {
-  if (mode_ != NOOK_GL_STATE_HOST) {
-    restore_all(gl_, users_, saved_);
+  const Functions& gl = device_.gl;
+  if (device_.state_mode != NOOK_GL_STATE_HOST) {
+    restore_all(gl, users_, saved_);
   } else if (users_ & tier_33) {
     // With these two, the host's next draw would be invisible or broken.
-    gl_.Disable(GL_RASTERIZER_DISCARD);
-    set_primitive_restart(gl_, false);
+    gl.Disable(GL_RASTERIZER_DISCARD);
+    set_primitive_restart(gl, false);
   }
+  device_.end_call();
 }
 
 }  // namespace nook::gl

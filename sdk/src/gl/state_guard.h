@@ -8,6 +8,7 @@
 #include <iterator>
 #include <span>
 
+#include "sdk/src/gl/device.h"
 #include "sdk/src/gl/functions.h"
 #include "sdk/src/gl/touched_state.h"
 
@@ -112,19 +113,18 @@ void set_primitive_restart(const Functions& gl, bool enabled);
 // Sets blend, masks, tests and capabilities so that one triangle fills its viewport without side effects.
 void set_plain_drawing(const Functions& gl);
 
-// During its lifetime the passes may leave any of the touched state changed. Transform feedback must end
-// before it does.
+// During its lifetime the passes may leave any of the touched state changed, and objects that they delete
+// stay until the state is restored. Transform feedback must end before its lifetime does.
 class StateGuard {
  public:
   // users selects the items of the list.
-  StateGuard(const Functions& gl, nook_gl_state_mode mode, unsigned users);
+  StateGuard(Device& device, unsigned users);
   ~StateGuard();
   StateGuard(const StateGuard&) = delete;
   StateGuard& operator=(const StateGuard&) = delete;
 
  private:
-  const Functions& gl_;
-  nook_gl_state_mode mode_;
+  Device& device_;
   unsigned users_;
   SavedState saved_;
 };

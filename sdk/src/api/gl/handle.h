@@ -17,7 +17,7 @@ struct nook_gl_s : nook::RefCounted {
   template <class Body>
   void guarded(unsigned users, Body&& body) {
     device.need_alive();
-    const nook::gl::StateGuard guard(device.gl, device.state_mode, users);
+    const nook::gl::StateGuard guard(device, users);
     body();
   }
   // Runs body with the OpenGL state that the evaluation of characters touches.

@@ -47,24 +47,28 @@ bool has_samples(const TextureKind& kind) {
 
 // A texture that is bound. What it answers goes into the sum of answers.
 struct BoundTexture {
-  const Functions& gl;
+  const Device& device;
   GLenum target;
   std::uint32_t name;
+  GLuint framebuffer;  // without attachments
   std::uint32_t& answers;
 
-  GLint level(GLenum what) const {
-    GLint value = 0;
-    gl.GetTexLevelParameteriv(target, 0, what, &value);
+  GLint told(GLint value) const {
     answers = 31 * answers + static_cast<std::uint32_t>(value);
     return value;
   }
+  GLint level(GLenum what) const {
+    GLint value = 0;
+    device.gl.GetTexLevelParameteriv(target, 0, what, &value);
+    return told(value);
+  }
 };
 
-// OpenGL ES 3.0 and WebGL tell nothing of a texture, but something of what is attached to a framebuffer.
-// framebuffer: without attachments. Binds it.
-GLint ask_attached(const BoundTexture& texture, GLuint framebuffer, GLenum attachment, GLenum what) {
-  const Functions& gl = texture.gl;
-  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+// OpenGL ES 3.0 and WebGL tell nothing of a texture, but something of what is attached to a framebuffer,
+// which need not be complete. Binds the texture's framebuffer. Returns 0 where the driver does not attach it.
+GLint ask_attached(const BoundTexture& texture, GLenum attachment, GLenum what) {
+  const Functions& gl = texture.device.gl;
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, texture.framebuffer);
   const auto attach = [&](GLuint name) {
     if (texture.target == GL_TEXTURE_2D_ARRAY)
       gl.FramebufferTextureLayer(GL_DRAW_FRAMEBUFFER, attachment, name, 0, 0);
@@ -75,15 +79,35 @@ GLint ask_attached(const BoundTexture& texture, GLuint framebuffer, GLenum attac
   GLint value = 0;
   gl.GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, what, &value);
   attach(0);
-  texture.answers = 31 * texture.answers + static_cast<std::uint32_t>(value);
-  return value;
+  clear_refusal(texture.device);
+  return texture.told(value);
+}
+
+int depth_bits_of(const BoundTexture& texture) {
+  return texture.device.gl.can.texture_sizes
+             ? texture.level(GL_TEXTURE_DEPTH_SIZE)
+             : ask_attached(texture, GL_DEPTH_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
+}
+
+// channel: 0 for red, 1 for green, 2 for blue. Without such a channel, there are 0 bits of the type GL_NONE.
+GLint bits_of(const BoundTexture& texture, GLenum channel) {
+  return texture.device.gl.can.texture_sizes
+             ? texture.level(GL_TEXTURE_RED_SIZE + channel)
+             : ask_attached(texture, GL_COLOR_ATTACHMENT0, GL_FRAMEBUFFER_ATTACHMENT_RED_SIZE + channel);
+}
+GLint type_of(const BoundTexture& texture, GLenum channel) {
+  if (texture.device.gl.can.texture_sizes) return texture.level(GL_TEXTURE_RED_TYPE + channel);
+  // The answer is one for all channels.
+  if (bits_of(texture, channel) == 0) return GL_NONE;
+  return ask_attached(texture, GL_COLOR_ATTACHMENT0, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE);
 }
 
 // Leaves the texture bound.
 BoundTexture bind_checked(const Device& device, const HostImages& images, ImageFacts& facts,
-                          const TextureKind& kind, std::uint32_t name, const char* field) {
+                          const TextureKind& kind, std::uint32_t name, GLuint framebuffer,
+                          const char* field) {
   const Functions& gl = device.gl;
-  const BoundTexture texture{gl, kind.target, name, facts.answers};
+  const BoundTexture texture{device, kind.target, name, framebuffer, facts.answers};
   if (!gl.IsTexture(name))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "%s is no texture of this OpenGL context (got %u, need the name of a 2D texture)", field,
@@ -123,33 +147,23 @@ bool is_float_or_normalised(GLint type) {
 }
 
 [[noreturn]] void refuse_format(const BoundTexture& texture, const char* field, const char* need) {
+  if (!texture.device.gl.can.texture_sizes)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s has a format that does not fit (got texture %u, need %s)",
+                  field, texture.name, need);
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s has a format that does not fit (got 0x%04x, need %s)", field,
                 static_cast<unsigned>(texture.level(GL_TEXTURE_INTERNAL_FORMAT)), need);
 }
 
-// Returns the bits of the channel with depth. framebuffer: see ask_attached.
-int check_depth(const BoundTexture& texture, nook_depth_kind kind, GLuint framebuffer) {
-  const Functions& gl = texture.gl;
-  if (!gl.can.texture_sizes) {
-    const int bits =
-        ask_attached(texture, framebuffer, GL_DEPTH_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
-    if (bits > 0) return bits;
-    return ask_attached(texture, framebuffer, GL_COLOR_ATTACHMENT0, GL_FRAMEBUFFER_ATTACHMENT_RED_SIZE);
-  }
-  const GLint depth_bits = texture.level(GL_TEXTURE_DEPTH_SIZE);
-  const bool depth_format = depth_bits > 0;
-  const GLint red_bits = texture.level(GL_TEXTURE_RED_SIZE);
-  const bool red_float = red_bits > 0 && texture.level(GL_TEXTURE_RED_TYPE) == GL_FLOAT;
-  if (kind == NOOK_DEPTH_LINEAR) {
-    if (!red_float)
-      refuse_format(texture, "frame.depth_texture", "red in floats, such as GL_R32F, for NOOK_DEPTH_LINEAR");
-  } else if (!depth_format && !(red_float && red_bits >= 32)) {
-    refuse_format(texture, "frame.depth_texture",
-                  kind == NOOK_DEPTH_HARDWARE ? "a depth format or GL_R32F for NOOK_DEPTH_HARDWARE"
-                                              : "a depth format or GL_R32F for NOOK_DEPTH_LOGARITHMIC");
-  }
-  if (!depth_format) return red_bits;
-  if (!gl.can.stencil_textures) return depth_bits;
+// Refuses a texture whose first channels are not floats or normalised integers.
+void check_channels(const BoundTexture& texture, GLenum count, const char* field, const char* need) {
+  for (GLenum channel = 0; channel < count; ++channel)
+    if (!is_float_or_normalised(type_of(texture, channel))) refuse_format(texture, field, need);
+}
+
+// Refuses the stencil of a texture with depth and stencil.
+void check_shows_depth(const BoundTexture& texture) {
+  const Functions& gl = texture.device.gl;
+  if (!gl.can.stencil_textures) return;
   GLint mode = GL_DEPTH_COMPONENT;
   gl.GetTexParameteriv(texture.target, GL_DEPTH_STENCIL_TEXTURE_MODE, &mode);
   if (mode != GL_DEPTH_COMPONENT)
@@ -157,19 +171,31 @@ int check_depth(const BoundTexture& texture, nook_depth_kind kind, GLuint frameb
                   "frame.depth_texture shows its stencil (GL_DEPTH_STENCIL_TEXTURE_MODE is 0x%04x, need "
                   "GL_DEPTH_COMPONENT)",
                   static_cast<unsigned>(mode));
+}
+
+// Returns the bits of the channel with depth.
+int check_depth(const BoundTexture& texture, nook_depth_kind kind) {
+  const int depth_bits = depth_bits_of(texture);
+  const bool red_float = depth_bits == 0 && type_of(texture, 0) == GL_FLOAT;
+  const GLint red_bits = red_float ? bits_of(texture, 0) : 0;
+  if (kind == NOOK_DEPTH_LINEAR) {
+    if (!red_float)
+      refuse_format(texture, "frame.depth_texture", "red in floats, such as GL_R32F, for NOOK_DEPTH_LINEAR");
+  } else if (depth_bits == 0 && red_bits < 32) {
+    refuse_format(texture, "frame.depth_texture",
+                  kind == NOOK_DEPTH_HARDWARE ? "a depth format or GL_R32F for NOOK_DEPTH_HARDWARE"
+                                              : "a depth format or GL_R32F for NOOK_DEPTH_LOGARITHMIC");
+  }
+  if (depth_bits == 0) return red_bits;
+  check_shows_depth(texture);
   return depth_bits;
 }
 
-// Returns whether the format has normalised integers. framebuffer: see ask_attached.
-bool check_normal(const BoundTexture& texture, GLuint framebuffer) {
-  if (!texture.gl.can.texture_sizes) {
-    const auto type = static_cast<GLenum>(
-        ask_attached(texture, framebuffer, GL_COLOR_ATTACHMENT0, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE));
-    return type == GL_UNSIGNED_NORMALIZED || type == GL_SIGNED_NORMALIZED;
-  }
+// Returns whether the format has normalised integers.
+bool check_normal(const BoundTexture& texture) {
   bool normalised = false;
-  for (const GLenum channel : {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE, GL_TEXTURE_BLUE_TYPE}) {
-    const GLint type = texture.level(channel);
+  for (GLenum channel = 0; channel < 3; ++channel) {
+    const GLint type = type_of(texture, channel);
     if (!is_float_or_normalised(type))
       refuse_format(texture, "frame.normal_texture", "red, green and blue in floats or normalised integers");
     normalised = normalised || type != GL_FLOAT;
@@ -178,25 +204,10 @@ bool check_normal(const BoundTexture& texture, GLuint framebuffer) {
 }
 
 void check_layer(const BoundTexture& texture, nook_gbuffer_ao layer) {
-  if (!texture.gl.can.texture_sizes) return;
-  if (!is_float_or_normalised(texture.level(GL_TEXTURE_RED_TYPE)))
-    refuse_format(texture, "frame.gbuffer_ao_texture", "red in floats or normalised integers");
-  if (layer >= NOOK_GBUFFER_AO_REPLACE && !is_float_or_normalised(texture.level(GL_TEXTURE_GREEN_TYPE)))
-    refuse_format(texture, "frame.gbuffer_ao_texture",
-                  "red and green for NOOK_GBUFFER_AO_REPLACE and _EXCLUDE");
-}
-
-void check_motion(const BoundTexture& texture) {
-  if (!texture.gl.can.texture_sizes) return;
-  for (const GLenum channel : {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE})
-    if (!is_float_or_normalised(texture.level(channel)))
-      refuse_format(texture, "desc.motion_vectors", "red and green in floats or normalised integers");
-}
-
-void check_ao(const BoundTexture& texture) {
-  if (!texture.gl.can.texture_sizes) return;
-  if (!is_float_or_normalised(texture.level(GL_TEXTURE_RED_TYPE)))
-    refuse_format(texture, "desc.ao_texture", "red in floats or normalised integers");
+  constexpr const char* field = "frame.gbuffer_ao_texture";
+  check_channels(texture, 1, field, "red in floats or normalised integers");
+  if (layer >= NOOK_GBUFFER_AO_REPLACE)
+    check_channels(texture, 2, field, "red and green for NOOK_GBUFFER_AO_REPLACE and _EXCLUDE");
 }
 
 void check_complete(const Functions& gl, const HostImages& images) {
@@ -274,15 +285,14 @@ void check_renderable(const Functions& gl, const HostImages& images, std::uint32
 }
 
 void check_target_texture(const Device& device, const HostImages& images, ImageFacts& facts,
-                          std::uint32_t own_texture) {
+                          std::uint32_t own_texture, GLuint framebuffer) {
   if (images.target_name == own_texture)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.target_name is the pass's own texture (got %u); use NOOK_TARGET_OWN", own_texture);
   check_apart(images, images.target_name, "frame.target_name");
-  const BoundTexture texture =
-      bind_checked(device, images, facts, kind_of(images), images.target_name, "frame.target_name");
-  if (device.gl.can.texture_sizes && !is_float_or_normalised(texture.level(GL_TEXTURE_RED_TYPE)))
-    refuse_format(texture, "frame.target_name", "a colour format in floats or normalised integers");
+  constexpr const char* field = "frame.target_name";
+  check_channels(bind_checked(device, images, facts, kind_of(images), images.target_name, framebuffer, field),
+                 1, field, "a colour format in floats or normalised integers");
 }
 
 }  // namespace
@@ -326,23 +336,23 @@ ImageFacts check_images(const Device& device, const HostImages& images, std::uin
   const TextureKind kind = kind_of(images);
   check_apart(images, own_texture, "the pass's own texture");
   const auto bind = [&](const TextureKind& of, std::uint32_t name, const char* field) {
-    return bind_checked(device, images, facts, of, name, field);
+    return bind_checked(device, images, facts, of, name, target_framebuffer, field);
   };
-  facts.depth_bits =
-      check_depth(bind(sampled_kind_of(images, images.samples), images.depth, "frame.depth_texture"),
-                  images.depth_kind, target_framebuffer);
+  facts.depth_bits = check_depth(
+      bind(sampled_kind_of(images, images.samples), images.depth, "frame.depth_texture"), images.depth_kind);
   if (images.normal)
     facts.normalised_normals = check_normal(
-        bind(sampled_kind_of(images, images.normal_samples), images.normal, "frame.normal_texture"),
-        target_framebuffer);
-  // A driver may refuse to attach colours as depth.
-  if (!device.gl.can.texture_sizes) clear_refusal(device);
+        bind(sampled_kind_of(images, images.normal_samples), images.normal, "frame.normal_texture"));
   if (images.layer_texture)
     check_layer(bind(kind, images.layer_texture, "frame.gbuffer_ao_texture"), images.layer);
-  if (images.motion) check_motion(bind(kind, images.motion, "desc.motion_vectors"));
-  if (images.ao) check_ao(bind(kind, images.ao, "desc.ao_texture"));
+  if (images.motion)
+    check_channels(bind(kind, images.motion, "desc.motion_vectors"), 2, "desc.motion_vectors",
+                   "red and green in floats or normalised integers");
+  if (images.ao)
+    check_channels(bind(kind, images.ao, "desc.ao_texture"), 1, "desc.ao_texture",
+                   "red in floats or normalised integers");
   if (images.target == NOOK_TARGET_TEXTURE) {
-    check_target_texture(device, images, facts, own_texture);
+    check_target_texture(device, images, facts, own_texture, target_framebuffer);
     check_renderable(device.gl, images, target_framebuffer);
   }
   if (images.target == NOOK_TARGET_FRAMEBUFFER) check_framebuffer(device, images);

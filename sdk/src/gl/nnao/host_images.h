@@ -38,7 +38,7 @@ struct ImageFacts {
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless every image exists and has a suitable size and format,
 // and no input is the target. own_texture is that of the pass, and target_framebuffer one without
-// attachments, which a target texture is tried in. Binds 2D textures to unit 0, arrays and multisample
+// attachments, which textures are tried in. Binds 2D textures to unit 0, arrays and multisample
 // textures to unit 1, and the draw framebuffer; leaves no OpenGL error.
 ImageFacts check_images(const Device& device, const HostImages& images, std::uint32_t own_texture,
                         std::uint32_t target_framebuffer);
