@@ -71,6 +71,7 @@ void show_panel(Controls& c, const nook_scene_info& info) {
   const float line = ImGui::GetFontSize();
   ImGui::SetNextWindowPos(ImVec2(line, line), ImGuiCond_FirstUseEver);
   ImGui::Begin("Nook", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
+  if (!ImGui::IsWindowFocused()) ImGui::SetWindowFocus();  // keys reach it after a click beside it
   // Beside a slider stands its name, which has up to 10 times the height of a line.
   const float width = std::clamp(room.x - 3 * line, 13 * line, 23 * line);
   ImGui::PushItemWidth(width - 11 * line);

@@ -239,7 +239,9 @@ struct Scenario {
 enum class Fate { no_such_object, lives, gone };
 
 // Binds the index-th object of a kind that the scenario has made, to every place of its kind. `outside`:
-// objects of the kind that are there without the scenario. preserves: what lives on must stay bound.
+// objects of the kind that are there without the scenario. preserves: the call puts the host's bindings back
+// before it deletes. Otherwise what is bound while it deletes is its own affair, and only errors are looked
+// for.
 Fate check_bound(const Host& host, const Scenario& scenario, int kind, std::size_t index,
                  const std::set<GLuint>& outside, bool preserves) {
   const GladGLContext& gl = host.gl;
@@ -266,10 +268,8 @@ Fate check_bound(const Host& host, const Scenario& scenario, int kind, std::size
     for (std::size_t i = 0; i < places.size(); ++i) {
       INFO((fate == Fate::gone ? "gone, " : "lives, ") << places[i].name);
       // OpenGL keeps a deleted program as long as it is current.
-      if (fate == Fate::gone && kind != programs)
-        CHECK(places[i].bound() == 0);
-      else if (preserves)
-        CHECK(places[i].bound() == bound[i]);
+      const bool unbound = fate == Fate::gone && kind != programs;
+      if (preserves) CHECK(places[i].bound() == (unbound ? 0 : bound[i]));
       places[i].bind(0);
     }
     REQUIRE(gl.GetError() == GL_NO_ERROR);
@@ -345,11 +345,12 @@ void update(Stage& stage, int crowd = 0) {
   NOOK_OK_OR_FAIL(nook_gl_scene_update(stage.gl, stage.crowds[crowd]->scene));
 }
 
-// The calls of scenes that delete objects. `prepare` runs before anything is bound.
+// The calls of scenes that delete objects, or may. `prepare` runs before anything is bound.
 struct SceneCall {
   const char* name;
   void (*prepare)(Stage&);
   void (*call)(Stage&);
+  bool may_keep = false;  // on tiers whose buffers grow under their names
 };
 const SceneCall scene_calls[] = {
     {"update after set_model", [](Stage& s) { s.exchange(); }, [](Stage& s) { update(s); }},
@@ -359,7 +360,7 @@ const SceneCall scene_calls[] = {
      [](Stage& s) {
        for (int i = 0; i < 40; ++i) s.crowds[0]->add(s.crowds[0]->ids.size());
      },
-     [](Stage& s) { update(s); }},
+     [](Stage& s) { update(s); }, true},
     {"update after a scene was destroyed", [](Stage& s) { s.crowds[0].reset(); },
      [](Stage& s) { update(s, 1); }},
     {"release", [](Stage&) {},
@@ -384,8 +385,12 @@ Scenario scene_scenario(platform::Context& context, int tier, nook_gl_state_mode
 TEST_CASE("what the calls of scenes delete is unbound by OpenGL") {
   NOOK_NEED_CONTEXT(context);
   for (const int tier : tiers_of(context))
-    for (const SceneCall& call : scene_calls)
-      CHECK(check_scenario(context, scene_scenario(context, tier, NOOK_GL_STATE_PRESERVE, 0, call)) > 0);
+    for (const SceneCall& call : scene_calls) {
+      INFO(call.name << ", tier " << tier);
+      const int gone =
+          check_scenario(context, scene_scenario(context, tier, NOOK_GL_STATE_PRESERVE, 0, call));
+      CHECK((gone > 0 || call.may_keep));
+    }
 }
 
 TEST_CASE("what an exchange of models deletes is unbound in every mode, also with debug") {
