@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "bakers/character/rig_geometry.h"
 
@@ -230,9 +231,27 @@ bool is_person(const SkinnedMesh& mesh, std::span<const Joint> joints) {
   return way.y > std::hypot(way.x, way.z);
 }
 
+namespace {
+
+// Geometry decides where it finds a limb. Of a part of a body, such as a hand or an arm, names know more.
+std::vector<Joint> roles_of_other_body(const SkinnedMesh& mesh, std::vector<Joint> named,
+                                       const RigCorrections& corrections) {
+  std::vector<Joint> joints = roles_by_geometry(mesh, corrections);
+  if (std::any_of(joints.begin(), joints.end(), [](const Joint& joint) { return joint.limb >= 0; }))
+    return joints;
+  for (std::size_t b = 0; b < joints.size(); ++b)
+    if (named[b].role != JointRole::other) {
+      named[b].parent = joints[b].parent;
+      joints[b] = named[b];
+    }
+  return joints;
+}
+
+}  // namespace
+
 std::vector<Joint> joint_roles(const SkinnedMesh& mesh, const RigCorrections& corrections) {
   std::vector<Joint> joints = named_roles(mesh, corrections);
-  if (!is_person(mesh, joints)) return roles_by_geometry(mesh, corrections);
+  if (!is_person(mesh, joints)) return roles_of_other_body(mesh, std::move(joints), corrections);
   std::vector<std::int32_t> parent = parents_of_person(mesh, joints);
   for (const BoneCorrection& c : corrections)
     if (c.parent) parent[c.bone] = *c.parent;

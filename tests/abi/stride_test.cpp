@@ -216,7 +216,7 @@ TEST_CASE("strides: all of the headers are in this file, or have a reason") {
   // By header: the declarations of fields and parameters that are strides.
   const std::map<std::string, int> known{
       {"nook_bake.h", 1},       // nook_bake_character_read: tests/bakers/api/character_test.cpp
-      {"nook_character.h", 6},  // nook_model_read, nook_scene_read, pose, check, and two of a match
+      {"nook_character.h", 8},  // nook_model_read, nook_scene_read, pose, check, and four of a match
       {"nook_clips.h", 1},      // nook_clips_read_ao
       {"nook_gl.h", 3},     // a view (an answer) and a target, which is within 2^40: tests/gl/output_test.cpp
       {"nook_poses.h", 1},  // nook_model_evaluate_poses

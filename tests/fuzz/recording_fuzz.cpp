@@ -55,6 +55,7 @@ void evaluate(const std::vector<std::byte>& file) {
 void replay(nook_gl gl, const nook_nnao_recording_desc& recorded) {
   silent_gl().width = recorded.width;
   silent_gl().height = recorded.height;
+  silent_gl().depth_bits = recorded.depth_kind == NOOK_DEPTH_LINEAR ? 0 : 24;
   nook_nnao_desc desc;
   ok(nook_nnao_desc_init(&desc));
   desc.max_width = recorded.width;

@@ -101,7 +101,7 @@ GLint level_value(GLenum name) {
     case GL_TEXTURE_BLUE_TYPE:
       return GL_FLOAT;
     case GL_TEXTURE_DEPTH_SIZE:
-      return 24;
+      return state().shape.depth_bits;
     default:
       return 32;
   }

@@ -9,6 +9,7 @@ namespace nook::test {
 struct SilentGl {
   int version = 45;  // 10 * major + minor
   int width = 8, height = 8;
+  int depth_bits = 24;  // 0: textures have the format GL_R32F
 };
 SilentGl& silent_gl();
 

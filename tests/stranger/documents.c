@@ -64,9 +64,9 @@ static nook_model document_match(nook_model model, const float* rest_positions, 
   match.normals = rest_normals;     /* tell the two sides of a card apart */
   match.joints = joints;            /* four for each vertex, with their weights, */
   match.weights = weights;          /* tell meshes apart where they meet */
-  nook_vertex_match_info info = {.struct_size = sizeof info};
-  nook_model_match_vertices(model, &match, vertices, &info);
-  if (info.ambiguous > 0) puts(info.text);
+  nook_vertex_match_info matched = {.struct_size = sizeof matched};
+  nook_model_match_vertices(model, &match, vertices, &matched);
+  if (matched.ambiguous > 0) puts(matched.text);
   nook_model_remap(model, vertices, count, &mine);
   /* [end] */
   return mine;

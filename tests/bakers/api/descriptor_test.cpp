@@ -13,7 +13,7 @@ TEST_CASE("init functions fill what fits into the caller's struct, of every rele
   check_init<nook_bake_character_desc>(nook_bake_desc_init, NOOK_DESC_BAKE_CHARACTER);
   check_init<nook_bake_trace_desc>(nook_bake_desc_init, NOOK_DESC_BAKE_TRACE);
   check_init<nook_bake_irradiance_desc>(nook_bake_desc_init, NOOK_DESC_BAKE_IRRADIANCE);
-  check_init<nook_bake_character_study_desc>(nook_bake_desc_init, NOOK_DESC_BAKE_CHARACTER_STUDY);
+  check_init<nook_bake_character_study_desc>(nook_bake_desc_init, NOOK_DESC_BAKE_CHARACTER_STUDY, 32);
   check_init<nook_bake_material_desc>(nook_bake_desc_init, NOOK_DESC_BAKE_MATERIAL);
 
   nook_bake_source_desc desc;

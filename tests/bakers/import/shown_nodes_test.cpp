@@ -368,9 +368,8 @@ TEST_CASE("clothes, linings and neighbours do not lie on each other") {
     add_tube_mesh(file, "head", 32, 10, 0.3f, 1, 1.3f);
   }
   SECTION("the same surface from inside") {
-    add_tube_mesh(file, "lining", 32, 40, 0.3f);
-    file.document["nodes"][1]["scale"] = {-1, 1, 1};
-    // Mirrored triangles face inwards in a static scene.
+    // Rings from the top down reverse the triangles, which have no normals that say otherwise.
+    add_tube_mesh(file, "lining", 32, 40, 0.3f, 1, 0);
   }
   CHECK(coincident(file) == 0);
 }

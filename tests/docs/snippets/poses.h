@@ -1,5 +1,7 @@
 extern const float* rest_positions;
 extern const float* rest_normals;
-extern uint32_t vertices[4], unmatched;
+extern const uint16_t* joints;
+extern const float* weights;
+extern uint32_t vertices[4];
 extern nook_model mine;
 void my_skinned_position(uint32_t vertex, float* position);
