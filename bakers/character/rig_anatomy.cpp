@@ -237,14 +237,15 @@ namespace {
 std::vector<Joint> roles_of_other_body(const SkinnedMesh& mesh, std::vector<Joint> named,
                                        const RigCorrections& corrections) {
   std::vector<Joint> joints = roles_by_geometry(mesh, corrections);
-  if (std::any_of(joints.begin(), joints.end(), [](const Joint& joint) { return joint.limb >= 0; }))
+  const auto is_limb = [](const Joint& joint) {
+    return joint.role == JointRole::leg || joint.role == JointRole::arm || joint.role == JointRole::wing;
+  };
+  const auto is_known = [](const Joint& joint) { return joint.role != JointRole::other; };
+  if (std::any_of(joints.begin(), joints.end(), is_limb) ||
+      std::none_of(named.begin(), named.end(), is_known))
     return joints;
-  for (std::size_t b = 0; b < joints.size(); ++b)
-    if (named[b].role != JointRole::other) {
-      named[b].parent = joints[b].parent;
-      joints[b] = named[b];
-    }
-  return joints;
+  for (std::size_t b = 0; b < joints.size(); ++b) named[b].parent = joints[b].parent;
+  return named;
 }
 
 }  // namespace
