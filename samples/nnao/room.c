@@ -27,7 +27,8 @@ static void put(Mesh* m, float px, float py, float pz, float nx, float ny, float
   m->vertices[m->count++] = v;
 }
 
-/* Adds one side of a box. The normal is along the axis. The side is 0 for the low end and 1 for the high end. */
+/* Adds one side of a box. The normal is along the axis. The side is 0 for the low end and 1 for the high end.
+ */
 static void put_side(Mesh* m, const float low[3], const float high[3], int axis, int side) {
   static const int corners[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;

@@ -3,8 +3,8 @@
  *   relight OUT.png [FRAMES]
  *
  * In each frame the sun moves, and two of 24 probes take a new cube map of the room. The cube map is drawn in
- * the light of all probes, so that light from the window spreads from wall to wall. FRAMES, 240 by default, is
- * the length of the day. The picture shows four times of the day. An engine needs the marked regions. */
+ * the light of all probes, so that light from the window spreads from wall to wall. FRAMES, 240 by default,
+ * is the length of the day. The picture shows four times of the day. An engine needs the marked regions. */
 #include <math.h>
 #include <nook/experimental/nook_capture.h>
 #include <nook/nook_gl.h>
