@@ -169,8 +169,11 @@ class Window {
   void scale_panel() {
     float scale = 1;
     glfwGetWindowContentScale(context_.window(), &scale, nullptr);
-    // Where a unit of the window is more than a pixel, ImGui scales by itself.
-    scale /= ImGui::GetIO().DisplayFramebufferScale.x;
+    // Where a unit of the window is more than a pixel, ImGui scales by itself. While the window changes its
+    // size, both sizes may be of different frames, and their quotient may be anything.
+    const float unit_px = ImGui::GetIO().DisplayFramebufferScale.x;
+    if (!(unit_px > 0)) return;
+    scale = std::clamp(scale / unit_px, 1.0f, 8.0f);
     if (scale == scale_) return;
     scale_ = scale;
     ImFontConfig font;
