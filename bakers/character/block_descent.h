@@ -10,8 +10,9 @@
 
 namespace nook::bake {
 
-// The squared error as a quadratic form of the shadows, with the linear layer folded into matrices (Le et al.
-// 2019, slides 55 to 57). Block coordinate descent minimises it over the non-linear layer.
+// The cached objective is the squared error as a quadratic form of the shadows, with the linear layer folded
+// into matrices (Le et al. 2019, slides 55 to 57). Block coordinate descent minimises it over the non-linear
+// layer.
 
 // E = sum over poses of  shadow^T A shadow - 2 B_t^T shadow + constant, divided by poses * vertices, with
 // A = sum_i w_i alpha_i alpha_i^T and B_t = sum_i w_i alpha_i (1 - beta_i - target_ti). The paper prints + 2

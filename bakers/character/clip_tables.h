@@ -35,8 +35,6 @@ Eigen::MatrixXf fitted_weights(const Eigen::MatrixXf& values, const Eigen::Matri
 // Returns left * right.transpose(), computed column by column on all threads.
 Eigen::MatrixXf outer_product(const Eigen::MatrixXf& left, const Eigen::MatrixXf& right);
 
-// Bakes clips of a character: the frames of each, their ray-traced AO, and the tables that hold both.
-
 // The frames of clips, one clip after another.
 struct ClipFrames {
   std::vector<ClipRange> clips;

@@ -193,7 +193,6 @@ class ClusterGraph {
     queue_.push({cost(clusters_[a], clusters_[b]), a, b, clusters_[a].version, clusters_[b].version});
   }
 
-  // Merges `gone` and its neighbours into `kept`.
   void merge(std::uint32_t kept, std::uint32_t gone) {
     Cluster &a = clusters_[kept], &b = clusters_[gone];
     const float total = a.size + b.size, wa = a.size / total, wb = b.size / total;

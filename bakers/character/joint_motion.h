@@ -10,7 +10,7 @@
 
 namespace nook::bake {
 
-// The motion of a joint relative to its parent in the body's tree, in rest-space axes.
+// A joint's motion relative to its parent in the body's tree, in rest space.
 struct JointMotion {
   Vec3 turn;        // about the joint's rest origin: axis times angle, radians
   Vec3 shift;       // moves the joint's origin, metres

@@ -9,7 +9,6 @@
 namespace nook::bake {
 namespace {
 
-// The shadows at all key points in several poses.
 struct Shadows {
   std::size_t poses = 0, points = 0;
   std::vector<float> value;  // one pose after another

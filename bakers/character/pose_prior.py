@@ -7,8 +7,8 @@ FOLDER holds BVH files of the CMU Graphics Lab Motion Capture Database (http://m
 created with funding from NSF EIA-0196217) on the skeleton of Character Creator, whose joints are named CC_Base_*. The
 table has the centres of clusters of poses and the spread round them, and no pose of the database.
 
-A pose is described independently of the skeleton: the turns of chest and head, and the directions of limbs. Axes are
-left, up, forward; those of the trunk are the ones of a person who stands upright.
+A pose is described independently of the skeleton: the turns of chest and head, and the directions of limbs. Axes are left, up, forward; the trunk's axes are for a person who stands
+upright.
 """
 import pathlib
 import sys
@@ -151,7 +151,7 @@ def main():
     factors = (vectors[:, order] * np.sqrt(values[order])).T
     print(f"{len(points)} poses of {len(motions)} motions; the centres leave {rest.var() / points.var():.2f} of the "
           f"variance, and the factors hold {values[order].sum() / values.sum():.2f} of that")
-    # Between the numbers of poses, most of which stand and walk, and equal shares.
+    # A compromise between equal shares and the numbers of poses, because most poses stand and walk.
     write(centres, factors, np.sqrt(np.bincount(nearest, minlength=CENTRES)), len(points), len(motions))
 
 

@@ -8,13 +8,9 @@
 
 namespace nook::bake {
 
-// Lists the images of a folder, by the endings of their names.
-
 // Returns sorted paths. Both functions throw Failure(NOOK_ERROR_BAD_FILE) if the folder cannot be read.
 std::vector<std::filesystem::path> images_in(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> images_below(const std::filesystem::path& folder);
-
-// Checks an image's size before memory is taken for it.
 
 // Throws Failure(NOOK_ERROR_BAD_FILE) if an image has no texels, more than max_texels, or more than a file of
 // this many bytes can hold. `what` begins the message.

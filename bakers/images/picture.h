@@ -65,7 +65,6 @@ class BodyView {
   std::vector<Hit> hits_;  // samples^2 for each pixel
 };
 
-// Joins pictures of equal height in a row.
 Picture side_by_side(std::span<const Picture> pictures);
 
 // Returns the bytes of a .png file. Throws Failure(INTERNAL) with the reason.

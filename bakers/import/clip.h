@@ -44,7 +44,6 @@ Pose bone_matrices(const ImportedCharacter& character, const std::vector<Trs>& l
 
 Pose sample_clip(const ImportedCharacter& character, std::size_t clip, float time_s);
 
-// Identity matrices.
 Pose rest_pose(const ImportedCharacter& character);
 
 // Fails with INVALID_ARGUMENT and lists the names that exist.

@@ -259,7 +259,6 @@ bool belongs_to(const SurfaceParts::Part& part, const Surface& surface) {
   return part.node == surface[0] && (surface[1] == whole_node || part.primitive == surface[1]);
 }
 
-// The triangles of a surface.
 template <class Visit>
 void for_each_triangle(const Mesh& mesh, const Surface& surface, Visit visit) {
   for (std::size_t p = 0; p < mesh.parts.all.size(); ++p)

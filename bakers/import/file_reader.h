@@ -41,8 +41,6 @@ struct GltfPreflight {
 // The parser reports anything else. The time is linear in the text.
 GltfPreflight check_before_parsing(std::span<const std::byte> json);
 
-// Reads a glTF file and the files that it names, each within limits.
-
 // Reads a file that a user named, up to max_file_bytes. It may be a pipe. Fails with BAD_FILE.
 std::vector<std::byte> read_file_bytes(const std::filesystem::path& path);
 

@@ -71,7 +71,6 @@ void check_animation_types(const tinygltf::Model& model, const tinygltf::Animati
   }
 }
 
-// Counts one kind of fault and remembers the first.
 struct Fault {
   std::size_t count = 0;
   std::string first;

@@ -30,7 +30,7 @@ Interpolation interpolation_of(const std::string& text, const std::string& what)
                 what.c_str(), text.c_str());
 }
 
-// Faults of keys with only one sensible repair, counted over all channels.
+// Faults of keys with one sensible repair, counted over all channels.
 struct KeyRepairs {
   std::size_t equal_times = 0, not_unit = 0, twice = 0;
 };

@@ -227,8 +227,8 @@ double corner_angle(Vec3 normal, Vec3 to_next, Vec3 to_previous) {
   return std::acos(std::clamp(double(dot(a, b)), -1.0, 1.0));
 }
 
-// The direction of growing u in a triangle's plane, and the sign of its area in texture coordinates. Both are
-// 0 if one of the areas is not above 0.
+// along_u points to where u grows in a triangle's plane. sign belongs to its area in texture coordinates.
+// Both are 0 if one of the areas is not above 0.
 struct Slope {
   Vec3 along_u;
   int sign = 0;

@@ -25,8 +25,6 @@ struct Outcome {
 
 Outcome outcome_of(const std::exception_ptr& exception) noexcept;
 
-// Runs one bake on a thread of its own.
-
 // The stage of a job; it is finished once its result is known.
 struct JobProgress {
   bool finished = false;
@@ -67,8 +65,6 @@ class BakeJob {
   Outcome outcome_;
   std::thread thread_;  // the last member, because it uses all of the above
 };
-
-// Progress in the form of the C interface.
 
 inline nook_bake_progress public_progress(const JobProgress& p) {
   const nook_bake_state state = p.finished                     ? NOOK_BAKE_DONE

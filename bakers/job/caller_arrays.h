@@ -15,8 +15,6 @@
 
 namespace nook::bake {
 
-// Poses and points as the plain float arrays of the C interface.
-
 // Throws INVALID_ARGUMENT, which names the pose and the bone, if a number is not finite or beyond the bound
 // of a pose.
 std::vector<Pose> read_poses(const float* bones_3x4, std::size_t poses, std::size_t bones);

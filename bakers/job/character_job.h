@@ -17,8 +17,6 @@ namespace nook::bake {
 Recipe recipe_of(const nook_bake_character_desc& desc, const nook_bake_character_study_desc& study,
                  const ImportedCharacter& character);
 
-// Makes the bytes of a .nook file and a report from a recipe.
-
 // Recorded poses of a game, to which the constants of the vertices are fitted last; may be empty.
 struct CalibrationPoses {
   std::vector<Pose> poses;

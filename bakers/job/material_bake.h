@@ -32,8 +32,6 @@ struct MesoSource {
 // when it returns false.
 material::RawMaterial trace_meso_source(const MesoSource& source, const Progress& progress);
 
-// Makes the task of a material job from its descriptor.
-
 struct MaterialTask {
   std::optional<material::MesoParameters> meso;  // empty: measured data
   material::TraceSettings trace;                 // for meso
@@ -49,8 +47,6 @@ struct MaterialTask {
 // Throws INVALID_ARGUMENT for unknown names and enum values, numbers that are out of range or not finite, and
 // invalid directions.
 MaterialTask material_task_of(const nook_bake_material_desc& desc);
-
-// Makes the bytes of a .nook file and a report from a material task.
 
 struct CompressedMaterial {
   std::vector<std::byte> file;

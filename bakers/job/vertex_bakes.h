@@ -19,8 +19,6 @@ namespace nook::bake {
 // FILE_VERSION.
 CharacterModel model_of_character(std::span<const std::byte> bytes, const ImportedCharacter& character);
 
-// Adds bent normals to a model that is already baked.
-
 struct BentTask {
   std::uint32_t auto_poses = 48;
   std::uint32_t samples_per_clip = 3;

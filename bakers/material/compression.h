@@ -31,7 +31,7 @@ nook::material::ClusteredTensor compress_votf(const RawMaterial& raw, const std:
 // Returns the VOTF's values in a form: the mask, or its signed distances.
 std::vector<float> votf_values(const RawMaterial& raw, nook::material::VisibilityForm form);
 
-// A relief, and the raw material with its images moved onto it. raw is empty if the relief moves no texels.
+// A relief, and the raw material with its images on the relief. raw is empty if the relief moves no texels.
 struct MovedMaterial {
   nook::material::Relief relief;
   RawMaterial raw;

@@ -48,7 +48,7 @@ struct CompressionSettings {
   bool is_cta_mapped = false;   // CTA has view maps as well, whose cells show one cluster each
   std::uint32_t bits = 16;      // bits of stored numbers, see Material in sdk's material/material.h
   ReliefSource relief = ReliefSource::none;
-  // For a neural material: the number of feature channels, a multiple of 4, and of training steps.
+  // For a neural material: feature channels, a multiple of 4, and training steps.
   std::uint32_t neural_channels = 16, neural_steps = 8000;
   std::uint64_t seed = 1;
 

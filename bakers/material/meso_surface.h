@@ -22,7 +22,7 @@ struct MesoSurface {
   std::vector<std::array<std::uint32_t, 3>> triangle;
   float specular = 0;   // normal reflectance of a Blinn-Phong lobe on top of the diffuse one; 0: none
   float shininess = 1;  // its exponent
-  // Replaces Blinn-Phong if it is not empty. For each vertex: the GGX width and the reflectance at normal
+  // Replaces Blinn-Phong if it is not empty. Each vertex has a GGX width and a reflectance at normal
   // incidence, linear RGB, as in pbr_maps.h. Both arrays are empty, or neither is.
   std::vector<float> ggx_width;
   std::vector<Vec3> reflectance;

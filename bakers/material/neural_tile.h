@@ -1,6 +1,6 @@
-// A tile as a neural material: a small network over block-compressed features. It follows A. Kuznetsov, K.
-// Mullia, Z. Xu, M. Hasan, R. Ramamoorthi: NeuMIP, 2021 (the neural offset) and C. Weinreich, L. de Oliveira,
-// A. Houdard, G. Nader: Real-Time Neural Materials using Block-Compressed Features, 2023.
+// A neural material stores a tile in a small network over block-compressed features. It follows A. Kuznetsov,
+// K. Mullia, Z. Xu, M. Hasan, R. Ramamoorthi: NeuMIP, 2021 (the neural offset) and C. Weinreich, L. de
+// Oliveira, A. Houdard, G. Nader: Real-Time Neural Materials using Block-Compressed Features, 2023.
 #pragma once
 
 #include <cstdint>

@@ -204,7 +204,6 @@ void choose_lights(const RawMaterial& raw, std::uint64_t seed, std::uint32_t eac
   }
 }
 
-// Computes the gradient of a part of a batch.
 void part_gradient(const Trainer& t, const Targets& targets, const NeuralNumbers& numbers, std::uint64_t seed,
                    std::size_t first, std::size_t last, NeuralPass& pass) {
   const std::size_t texels = t.raw.texels(), rows = t.raw.light_rows();

@@ -32,8 +32,6 @@ struct Reflector {
 // surface, with the light above it. A view below 3 degrees counts as one at 3 degrees.
 Vec3 microfacet_reflection(const Reflector& surface, Vec3 normal, Vec3 view, Vec3 light);
 
-// The maps of a physically based material, and the surface that they describe.
-
 // The slopes of a surface around a point: dz / dx and dz / dy, and the mean of their variances.
 struct MapSlope {
   float x = 0, y = 0, variance = 0;

@@ -74,8 +74,8 @@ class TileFilter {
 
 // Gradient noise that repeats along x and y.
 
-// Perlin's noise, about -1 to 1, with `cells` lattice cells along a tile's side. It repeats after 1 along x
-// and y, but not along z.
+// Returns Perlin's noise, about -1 to 1, with `cells` lattice cells along a tile's side. It repeats after 1
+// along x and y, but not along z.
 float tile_noise(Vec3 p, std::uint32_t cells, std::uint64_t seed);
 
 // Adds octaves of tile_noise, each with twice the frequency and half the amplitude.

@@ -13,8 +13,6 @@
 
 namespace nook::bake::material {
 
-// The uncompressed appearance of a material, which is traced or measured. Compression is judged by it.
-
 // The last index is fastest. Texel (x, y) covers [x, x + 1] / width times [y, y + 1] / height of the tile.
 struct RawMaterial {
   std::string name;

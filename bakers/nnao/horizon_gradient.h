@@ -44,7 +44,7 @@ struct HorizonTrace {
   Lanes joined[HorizonNetwork::units], join_sums[HorizonNetwork::units], join_output[HorizonNetwork::units];
 };
 
-// Outputs of the network, or gradients of a loss with respect to them.
+// Outputs of the network, or gradients with respect to them.
 struct HorizonOutput {
   Lanes ao{};       // before the clamp to [0, 1]
   Lanes bent[3]{};  // x, y, z, not normalised

@@ -1,4 +1,4 @@
-// Shapes as functions of space: seeded noise, and surfaces of smooth bodies.
+// Shapes as functions of space. Makes seeded noise, and surfaces of smooth bodies.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,6 @@ float value_noise(std::uint64_t seed, Vec3 p);
 
 // Adds octaves. Each has half the amplitude and twice the frequency of the one before.
 float fractal_noise(std::uint64_t seed, Vec3 p, int octaves);
-
-// Surfaces of smooth bodies, given as functions of space.
 
 // Returns the approximate distance from the surface in metres; negative inside.
 using DistanceField = std::function<float(Vec3)>;

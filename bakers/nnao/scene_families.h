@@ -17,7 +17,7 @@ struct TrainingScene {
   Box cameras;  // the camera is inside
   Box subject;  // the camera looks at a point inside
 
-  // The size of the scene's things: 1 for the sizes in a room. Distances of cameras scale with it.
+  // The size of the scene's things; 1 is a room's. Distances of cameras scale with it.
   float size = 1;
 };
 

@@ -74,7 +74,6 @@ Mat3x4 tumbled_frame(Vec3 origin, Random& random);
 
 // The frame with its origin moved along its own axes.
 Mat3x4 moved(const Mat3x4& frame, Vec3 by);
-// Frames turned about their own x and z axes.
 Mat3x4 tilted(const Mat3x4& frame, float angle);
 Mat3x4 rolled(const Mat3x4& frame, float angle);
 

@@ -11,8 +11,8 @@
 
 namespace nook::bake {
 
-// The maximum radiance of a map's texel and of an emissive surface. It keeps sums of squares over any number
-// of paths far below the maximum of a float.
+// The maximum radiance of a map's texel and an emissive surface. It keeps sums of squares over any number of
+// paths far below the maximum of a float.
 inline constexpr double max_radiance = 1e15;
 
 // Rows go from +y to -y, and columns around y: the middle column looks along +x, and the column a quarter of

@@ -65,7 +65,6 @@ constexpr std::uint64_t mix_bits(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// Returns a uniform number in [0, 1) from the upper bits.
 constexpr float unit_float(std::uint64_t bits) {
   return float(bits >> 40) * 0x1p-24f;
 }

@@ -20,7 +20,6 @@ enum class DirectLight : std::uint8_t {
   all = 2
 };
 
-// Names of DirectLight, in its order, and back.
 const std::vector<std::string>& direct_names();
 DirectLight direct_of(const std::string& name);
 

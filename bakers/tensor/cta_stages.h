@@ -18,14 +18,10 @@ namespace nook::bake::tensor {
 std::vector<std::size_t> split_into_empty(std::vector<std::uint32_t>& membership, std::size_t mixture,
                                           std::size_t clusters, const std::vector<double>& error);
 
-// The clustering stage of Algorithm 1.
-
 // Searches the clusters of each sub-tensor, sets membership, mixing rows and cores (4.2.3), and fills empty
 // clusters. Returns the number of filled clusters. residual becomes A_G - A^.
 std::size_t clustering_stage(WorkingFit& fit, const TensorView& reduced, const ClusteredSettings& settings,
                              Tensor& residual);
-
-// The update stage of Algorithm 1.
 
 // Fits one cluster after the other to what the others leave of its members, (20) to (22). residual is A_G -
 // A^ before and after.

@@ -45,8 +45,6 @@ SubTensorMix search_exhaustive(const AtomGram& atoms, const Eigen::VectorXd& pro
 SubTensorMix search(Pursuit pursuit, const AtomGram& atoms, const Eigen::VectorXd& products,
                     std::size_t mixture);
 
-// Dual bases of clusters and their atoms.
-
 // Relative to the largest eigenvalue of uf(Z) uf(Z)^T; smaller eigenvalues are rounding of a core in floats.
 inline constexpr double rounded_eigenvalue = 1e-12;
 

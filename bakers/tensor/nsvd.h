@@ -37,8 +37,6 @@ Nsvd fit_nsvd(const TensorView& a, const NsvdSettings& settings, const OnNsvd& p
 
 Tensor reconstruct(const Nsvd& fit);
 
-// Alternating least squares of N-SVD from given bases.
-
 // Returns U_n of the truncated higher-order SVD for each mode. It is empty if R_n = I_n or if the mode is
 // kept whole.
 std::vector<Matrix> hosvd_bases(const TensorView& a, const std::vector<std::size_t>& ranks,
@@ -51,7 +49,7 @@ struct Alternation {
   double tolerance = 1e-4;
 };
 
-// Lowers the squared norm of A - Z x_n U_n in at least one sweep. The result is no worse than the given
+// Reduces the squared norm of A - Z x_n U_n in at least one sweep. The result is no worse than the given
 // bases. `squared` is the squared norm of A.
 Nsvd alternate(const TensorView& a, double squared, std::vector<Matrix> bases, const Alternation& settings,
                const OnNsvd& progress = {});

@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Index;
 
-// The two cells of a border, each with the cell behind it. The factors extrapolate from them to the border,
-// as decoding does. If the cell behind mixes other clusters, the value is constant towards the border.
+// The two cells of a border, each with the cell behind. The factors extrapolate from them to the border, as
+// decoding does. If the cell behind mixes other clusters, the value is constant towards the border.
 struct Border {
   std::array<std::size_t, 4> cell;
   std::array<double, 4> factor;

@@ -29,7 +29,6 @@ probe::Basis basis_of(const ProbeOptions& options);
 probe::FitSettings fit_of(const ProbeOptions& options);
 probe::Packing packing_of(const ProbeOptions& options);
 
-// Returns the options as JSON for recipes and reports.
 nlohmann::ordered_json describe(const ProbeOptions& options, const probe::Basis& basis);
 
 struct BoxArgument {

@@ -26,7 +26,7 @@ void visible_directions(const RayScene& scene, Vec3 origin, Vec3 normal, std::sp
 
 // Finds the lobes that reach each of a fixed set of directions.
 
-// The lobes with light from each direction, with their value times the direction's solid angle.
+// The lobes that send light from each direction, with their value times the direction's solid angle.
 struct LobesOfDirections {
   std::vector<std::uint32_t> begin;  // per direction, and one past the end
   std::vector<std::uint32_t> lobe;

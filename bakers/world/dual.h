@@ -1,4 +1,4 @@
-// Numbers with their derivatives with respect to the eight parameters of a capsule. Forward differentiation
+// A number carries its derivatives with respect to the eight parameters of a capsule. Forward differentiation
 // uses the same formulas as the runtime.
 #pragma once
 

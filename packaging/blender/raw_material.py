@@ -16,7 +16,7 @@ import numpy
 
 
 def spiral_directions(count, max_tilt_deg=75):
-    """Unit vectors on a spiral from the normal, each of about the same solid angle: those of `nook bake material`."""
+    """Returns the same directions as `nook bake material`: on a spiral from the normal, each with about the same solid angle."""
     i = numpy.arange(count)
     z = 1 - (1 - numpy.cos(numpy.radians(max_tilt_deg))) * i / (count - 1)
     radius, azimuth = numpy.sqrt(1 - z**2), numpy.pi * (3 - numpy.sqrt(5)) * i
@@ -36,7 +36,7 @@ def _round(lane, word):
 
 
 def _plain_xxh64(data):
-    """XXH64 with seed 0, by its specification: some tenths of a second for a megabyte."""
+    """Computes XXH64 with seed 0 by its specification, in some tenths of a second for a megabyte."""
     whole = len(data) & ~31
     if whole:
         lanes = [(P1 + P2) & MASK, P2, 0, -P1 & MASK]

@@ -1,5 +1,5 @@
-// A rigged glTF file for a viewer: one mesh, skins, nodes and clips. Vertices are in the order of the file,
-// and primitives follow the order of the nodes, which is also the order of Nook's AO. A mesh with
+// Reads a rigged glTF file for a viewer: one mesh, skins, nodes and clips. Vertices are in the order of the
+// file, and primitives follow the order of the nodes, which is also the order of Nook's AO. A mesh with
 // EXT_mesh_gpu_instancing is there once for each instance. It leaves out meshes that a bake leaves out:
 // hidden ones, lower levels of detail, and those that the caller names.
 #pragma once

@@ -1,5 +1,5 @@
-/* A room of 6 x 3 x 5 metres with a window in the wall at +x, a table, a shelf and four spheres. y is up,
- * and the origin is the middle of the floor. */
+/* Makes a room of 6 x 3 x 5 metres with a window in the wall at +x, a table, a shelf and four spheres. y is
+ * up, and the origin is the middle of the floor. */
 #ifndef RELIGHT_ROOM_H
 #define RELIGHT_ROOM_H
 

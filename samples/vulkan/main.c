@@ -137,7 +137,7 @@ static int save_room(engine* e, const char* path, int use_ao, unsigned char* rgb
   return !r && save_picture(path, rgba, 4);
 }
 
-/* Reads depth, and normals with four floats for each texel, of which three stay. */
+/* Reads depth, and normals with four floats for each texel; keeps three of them. */
 static VkResult read_texels(engine* e, Texels* texels) {
   VkResult r = engine_read(e, e->depth.image, VK_IMAGE_ASPECT_DEPTH_BIT, 4, texels->depth);
   if (r || !texels->normals) return r;
@@ -191,7 +191,7 @@ static int read_arguments(int argc, char** argv, Settings* s) {
   return 1;
 }
 
-/* Draws the frames of which the pictures show the last one. */
+/* Draws the frames; the pictures show the last one. */
 static VkResult draw_frames(Pass* p, engine* e, const Settings* s) {
   VkResult r = VK_SUCCESS;
   for (int frame = 0; !r && frame < (s->mean ? frames_of_mean : 1); ++frame) {

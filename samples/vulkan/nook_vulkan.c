@@ -336,7 +336,8 @@ static void record_first_layouts(const nook_vulkan* v, VkCommandBuffer commands)
   }
 }
 
-/* The numbers of the frame go into the buffer in order with the draws, after those of the frame before. */
+/* The numbers of the frame go into the buffer in order with the draws, after the numbers of the frame before.
+ */
 static void record_uniforms(const nook_vulkan* v, VkCommandBuffer commands, const float* constants) {
   const VkMemoryBarrier written = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                    .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,

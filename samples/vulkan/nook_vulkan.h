@@ -26,7 +26,7 @@ typedef struct nook_vulkan_stage {
   nook_nnao_stage_info info;
   VkRenderPass render_pass;
   VkPipeline pipeline;
-  /* Of even frames and of odd ones, which swap the images of earlier frames. */
+  /* For even and for odd frames, which swap the images of earlier frames. */
   VkFramebuffer framebuffers[2];
   VkDescriptorSet sets[2];
 } nook_vulkan_stage;

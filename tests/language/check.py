@@ -130,7 +130,7 @@ def texts_of(path):
 PLAIN = re.compile(r"`[^`]*`|https?://\S+|\[([^\]]*)\]\([^)]*\)")
 # The remarks in parentheses, and the lists of results that end the comment of a C function.
 LIST = re.compile(r"\([^()]*\)|Errors: .*$")
-NOT_PROSE = re.compile(r"^\s*([|#>*+-]|\d+\.|$)|[{};=]\s*$|\w+\(.*\);?\s*$|[^ ]  +[^ ]")
+NOT_PROSE = re.compile(r"^\s*([|#>*+-]|\d+\.|clang-format |$)|[{};=]\s*$|\w+\(.*\);?\s*$|[^ ]  +[^ ]")
 
 
 def sentences(text):

@@ -25,9 +25,9 @@ std::unique_ptr<measure::PoseRegression> fit_linear_pose(const bake::SkinnedMesh
 // of the pose to the centres blends the clusters' answers (moving least squares: the fits use the same
 // weights).
 //
-// Cross-validation over runs of poses chooses how rotations become parameters, the metric of poses, the
-// number of clusters, the rank of the basis, a ridge and the width of the blend. It takes the smallest model
-// within 0.5 % of the best. Deterministic for a seed on any number of threads.
+// Cross-validation over runs of poses chooses how rotations become parameters, the metric of poses and the
+// number of clusters. It also chooses the rank of the basis, a ridge and the width of the blend. It takes the
+// smallest model within 0.5 % of the best. Deterministic for a seed on any number of threads.
 std::unique_ptr<measure::PoseRegression> fit_pose_clusters(const bake::SkinnedMesh& mesh,
                                                            std::span<const bake::Pose> poses,
                                                            const bake::AoTargets& targets,

@@ -47,7 +47,7 @@ struct AoPanel {
   std::optional<FloorValues> floor_ao;  // one float per point
 };
 
-// A picture of a group in a light with given irradiance everywhere.
+// A picture of a group in a light with known irradiance.
 struct IrradiancePanel {
   VertexValues irradiance;  // three floats per vertex, one array per member
   FloorValues floor;        // three floats per point
@@ -96,8 +96,8 @@ struct ScreenSpaceSettings {
 };
 
 // Draws the group with no AO, static AO, Nook's AO by terms, the reference, and the difference of the last
-// two. If the settings are not null, three more panels show screen-space AO: alone, on the floor beside
-// Nook's AO, and traced with rays of the same radius on the reference's floor.
+// two. Three more panels show screen-space AO unless the settings are null: alone, on the floor beside Nook's
+// AO, and by rays of the same radius on the reference's floor.
 platform::Image ao_sheet(const Subject& subject, const ScreenSpaceSettings* screen_space);
 
 // Draws the group by Nook's default form and by one norm over the spheres of all bodies, beside the

@@ -42,7 +42,6 @@ nlohmann::ordered_json describe(const ScreenQuality& quality) {
           {"radius_m", ScreenPasses::radius_m}};
 }
 
-// Adds the counts of the world pass in the last frame.
 void describe_world(const Stage& stage, const CrowdScene& scene, const Options& o,
                     nlohmann::ordered_json& report) {
   const GladGLContext& gl = stage.context.gl();

@@ -15,7 +15,7 @@ struct ComparisonRequest {
   CrowdSize crowd;
   std::uint64_t seed = 1;  // for the rays
   std::filesystem::path out;
-  // The character's model, and the same character fitted with the paper's gamma 2.
+  // The character's model, and one fitted with the paper's gamma 2.
   std::span<const unsigned char> model, gamma_2_model;
 };
 

@@ -5,7 +5,7 @@
 
 namespace crowd::lab {
 
-// A texture on a square of the ground, for example AO from elsewhere.
+// A texture on a square of the ground, for example AO.
 struct FloorTexture {
   GLuint texture = 0;                 // 0 if there is none; filtered linearly, clamped to its edge
   glm::vec2 first_m{0}, extent_m{1};  // x and z of the texture's corner, and its sides

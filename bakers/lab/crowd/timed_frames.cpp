@@ -111,7 +111,6 @@ nook_world_frame_desc last_frame(const ScreenPasses& passes) {
   return frame;
 }
 
-// The mean over pixels with a surface.
 template <class Value>
 double mean_over_surfaces(const GladGLContext& gl, const ScreenPasses& passes, Value value) {
   const std::vector<float> depth = read(gl, passes, passes.frame.depth_texture, GL_DEPTH_COMPONENT);

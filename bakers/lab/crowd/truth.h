@@ -1,4 +1,4 @@
-// The reference of the crowd at one moment: ambient occlusion and light by ray tracing, and errors against
+// Makes the reference of the crowd at one moment: ray-traced ambient occlusion and light, and errors against
 // them.
 #pragma once
 

@@ -105,7 +105,7 @@ void main() {
 }
 )";
 
-// Lights the pixel by four lights and a probe of six lobes. Each lobe is a light along its axis.
+// This light is four lights and a probe of six lobes. Each lobe is a light along its axis.
 constexpr char ten_lights[] = R"(#include "shaders/material/host.glsl"
 in vec2 uv;
 in vec3 view;

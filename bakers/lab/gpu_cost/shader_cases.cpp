@@ -3,7 +3,7 @@
 namespace nook::lab {
 namespace {
 
-// Half of the surface's width and height, or two pixels per thread along each.
+// A thread makes two pixels along each side, or the surface is half as wide and high.
 constexpr double quarter = 0.25;
 
 PassCase nnao(const std::string& name, const std::string& occlusion, bool half, bool paper = false,

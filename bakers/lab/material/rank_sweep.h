@@ -13,7 +13,6 @@
 
 namespace nook::lab {
 
-// A line chart.
 struct ChartLine {
   std::string label;
   std::vector<std::pair<double, double>> points;  // x, y

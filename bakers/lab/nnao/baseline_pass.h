@@ -76,7 +76,7 @@ class BaselinePass {
   // Returns the texture (R8) that holds the AO until the next call. denoised: runs the tuning's denoiser.
   GLuint draw(const BaselineMethod& method, const measure::GpuView& view, const measure::AoRequest& request,
               bool denoised);
-  // The bent normals of XeGTAO before its denoiser, in view space, and the packed edges. Both go row by row.
+  // The bent normals of XeGTAO before its denoiser, in view space, with packed edges.
   struct BentImage {
     std::vector<Vec3> bent_normal;  // zero without a surface
     std::vector<float> edges;

@@ -38,7 +38,6 @@ nlohmann::ordered_json bent_rows(platform::Context& context, std::span<const Mea
                                  measure::AoRequest request,
                                  const std::function<bool(std::size_t, std::size_t)>& progress);
 
-// Returns the table of the means.
 std::string bent_markdown(const nlohmann::ordered_json& rows);
 
 }  // namespace nook::lab

@@ -8,9 +8,9 @@
 
 namespace nook::lab {
 
-// Makes a scene of thin objects: a picket fence, a wire mesh, bentwood chairs, a plant with blades and
-// leaves, and a hand, on a floor in front of a wall. No training scene contains them. They are difficult for
-// methods with one depth per pixel. The same seed gives the same scene.
+// Makes a scene of thin objects on a floor in front of a wall: a fence, a wire mesh, bentwood chairs, a plant
+// with blades and leaves, and a hand. No training scene contains them. They are difficult for methods with
+// one depth per pixel. The same seed gives the same scene.
 bake::nnao::TrainingScene make_thin_scene(std::uint64_t seed);
 
 // The place where a moving body is measured. The floor is at y = 0, and the wall is behind the way, which

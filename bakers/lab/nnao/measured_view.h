@@ -23,7 +23,7 @@ struct MeasuredView {
   std::vector<float> truth;
   double noise = 0;             // expected squared error of the truth
   std::vector<BentTruth> bent;  // if the settings request it
-  // The frames before the view, the oldest first, if the settings request a path.
+  // Earlier frames, the oldest first, if the settings request a path.
   std::vector<bake::nnao::TracedView> path;
 };
 

@@ -55,7 +55,6 @@ inline constexpr std::size_t fewest_part_pixels = 100;
 // more.
 nlohmann::ordered_json mover_report(std::span<const MeasuredMover> movers, std::uint64_t seed);
 
-// The tables of means and ratios.
 std::string mover_markdown(const nlohmann::ordered_json& report);
 
 }  // namespace nook::lab

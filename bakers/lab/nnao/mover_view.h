@@ -11,7 +11,7 @@
 
 namespace nook::lab {
 
-// A walking skinned character, with its surface in each frame of a sequence.
+// A walking skinned character and its surface in each frame.
 struct MovingBody {
   std::vector<std::array<std::uint32_t, 3>> triangle;
   std::vector<std::vector<Vec3>> position;  // vertices of each frame, the oldest first; world space, metres
@@ -48,8 +48,8 @@ inline constexpr std::size_t recent_frames = 3;
 
 struct MoverView {
   MeasuredView measured;  // the last frame with its reference, and the frames before as its path
-  // For each frame and pixel, two numbers: how many pixels its surface moved since the frame before, to the
-  // right and up. They are 0 in the first frame and for the sky.
+  // For each frame and pixel: how far its surface moved since the frame before, in pixels to the right and
+  // up. The values are 0 in the first frame and for the sky.
   std::vector<std::vector<float>> motion;
   std::vector<MoverPart> part;  // for each pixel of the last frame
 };

@@ -57,7 +57,7 @@ std::vector<std::string> distinct_names(std::span<const Item> items, std::string
 // null before the first value.
 nlohmann::ordered_json mean_or_null(const measure::Mean& mean);
 
-// Returns the mean of each column over the rows in which it is a number. Other members come from the first
+// Returns the mean of each column over the rows that have a number there. Other members come from the first
 // row. rows: one or more, with all columns.
 nlohmann::ordered_json mean_row(std::span<const nlohmann::ordered_json> rows,
                                 std::span<const std::string> columns);

@@ -45,7 +45,6 @@ inline constexpr std::size_t fewest_disoccluded = 100;
 // docs/nnao_protocol.md; `ratios`: of errors; `views`: each view and pass. views: one or more.
 nlohmann::ordered_json sequence_report(std::span<const SequenceView> views, std::uint64_t seed);
 
-// The tables of the means and of the ratios.
 std::string sequence_markdown(const nlohmann::ordered_json& report);
 
 }  // namespace nook::lab

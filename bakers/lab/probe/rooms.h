@@ -1,4 +1,4 @@
-// A building of closed rooms with different light and walls of 0.1 metres, where grids of probes leak.
+// Makes a building of closed rooms with different light and walls of 0.1 metres, where grids of probes leak.
 #pragma once
 
 #include <memory>

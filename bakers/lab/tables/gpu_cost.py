@@ -2,7 +2,7 @@
 """Counts the instructions of every shader with nook_gpu_cost, and prints the tables of docs/gpu_cost.md.
 
     bakers/lab/tables/gpu_cost.py [--write]     --write puts the tables into the document and the counts into the file that the test reads
-    bakers/lab/tables/gpu_cost.py --check       fails where the document's tables are not those of that file; counts nothing
+    bakers/lab/tables/gpu_cost.py --check       fails if the document's tables differ from that file; counts nothing
 """
 import argparse
 import json
@@ -29,7 +29,7 @@ def cycles(row):
 
 
 def by_name(rows, key):
-    """Rows of the first family, each with those of all families under the same name."""
+    """Rows of the first family, each with the rows of all families under the same name."""
     found = {}
     for row in rows:
         found.setdefault(row[key], {})[row["family"]] = row

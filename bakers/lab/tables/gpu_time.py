@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 SCRIPT = pathlib.Path(__file__).name
 DOCUMENT = ROOT / "docs/gpu_time.md"
 REFERENCE = "hbao 64"
-# Names of the methods in the model's table, by those of the timings.
+# Names of the methods in the model's table, by their names in the timings.
 METHODS = {"ssao": "SSAO", "ssao+": "SSAO+", "hbao": "HBAO", "gtao": "GTAO", "gtao_bitmask": "GTAO with bitmask",
            "n8ao": "N8AO", "s4ao": "S4AO", "vtk": "VTK", "qgis": "QGIS", "filament": "Filament"}
 XEGTAO = {"8": "Medium", "18": "High", "54": "Ultra"}

@@ -16,7 +16,7 @@ METALS = ((0.55, 0.32, 0.18, 1), (0.34, 0.36, 0.4, 1))
 
 
 def ring(column, row):
-    """Positions, normals and triangles of one ring; rows lean to either side."""
+    """Returns positions, normals and triangles of one ring; rows lean to either side."""
     a, b = numpy.meshgrid(2 * numpy.pi * numpy.arange(AROUND) / AROUND, 2 * numpy.pi * numpy.arange(TUBE) / TUBE, indexing="ij")
     out = numpy.stack([numpy.cos(a), 0 * a, numpy.sin(a)], -1)
     normal = numpy.cos(b)[..., None] * out + numpy.sin(b)[..., None] * numpy.array([0, 1, 0])

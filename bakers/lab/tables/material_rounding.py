@@ -3,7 +3,7 @@
 
     bakers/lab/tables/material_rounding.py RAW MATERIAL.nook [RAW MATERIAL.nook ...]
 
-The materials are those of `nook bake material --bits 16`, the raw ones those of `--keep-raw`. The S/E is that of the
+The materials come from `nook bake material --bits 16`, and the raw ones from `--keep-raw`. The S/E is for the
 fitted views and lights, without view maps and light maps.
 """
 import pathlib
@@ -43,7 +43,7 @@ class Numbers:
 
 
 class Btf:
-    """The cores, bases, rows and light basis of a material, and its raw data."""
+    """Reads the cores, bases, rows and light basis of a material, and its raw data."""
 
     def __init__(self, raw, material):
         files = sections(material)
@@ -60,7 +60,7 @@ class Btf:
         self.raw = numpy.frombuffer(sections(raw)["BTF_"], numpy.float16).reshape(3 * lights, views, w * h)
 
     def images(self, cores=None, x=None, y=None):
-        """The images S_c[a, b], clusters x light modes x view modes x texels."""
+        """Returns the images S_c[a, b], clusters x light modes x view modes x texels."""
         images = self.cores if cores is None else cores
         x, y = self.x if x is None else x, self.y if y is None else y
         if x.size:

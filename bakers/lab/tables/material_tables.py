@@ -24,7 +24,7 @@ SMALL = {"weave": ["--directions", "49", "--texels", "48"],
 # The tables compare methods by the paper's fits and half floats.
 NO_REFITS = ["--votf-refits", "0"]
 PAPER = [*NO_REFITS, "--bits", "16"]
-# Materials of the tables of numbers, with ranks that are compared with those of N-SVD.
+# Materials of the tables of numbers, with ranks to compare with N-SVD.
 NUMBERS = {"wood": ["--ranks", "12,20,24,24"], "49 x 49 fiber": [], "weave": [], "49 x 49 roughhole": []}
 SWEEP = [12, 20, 28, 36, 44, 60, 76]
 # The smallest ranks of `bake material`, for a raw material that is only a reference.
@@ -191,8 +191,8 @@ def jumps_table(bench):
 
 
 def between_rows(bench):
-    """The file of a material and the maps fitted to it, in views and under lights that neither has seen, and K-CTA of more
-    views at the same ranks, both without and with a relief."""
+    """Measures the file of a material and the maps fitted to it, in views and under lights that neither has seen. Also
+    measures K-CTA with more views at the same ranks, without and with a relief."""
     def evaluated(name, file, between):
         return bench.run(f"{file} between", "evaluate", "material", bench.path(f"{name}.raw"), bench.path(f"{file}.nook"),
                          "--unseen", between, "--jumps")["rows"][0]

@@ -32,7 +32,7 @@ class Unusable(Exception):
 
 
 class Gltf:
-    """The geometry of a glTF 2.0 file: its default scene's triangles in world space."""
+    """Reads the geometry of a glTF 2.0 file: its default scene's triangles in world space."""
 
     def __init__(self, path):
         data = path.read_bytes()
@@ -58,7 +58,7 @@ class Gltf:
         return (self.folder / urllib.parse.unquote(uri)).read_bytes()
 
     def values(self, index):
-        """The elements of an accessor: tuples, or numbers of a scalar one."""
+        """Reads the elements of an accessor: tuples, or numbers of a scalar one."""
         accessor = self.json["accessors"][index]
         if "sparse" in accessor:
             raise Unusable("sparse accessors are not read")

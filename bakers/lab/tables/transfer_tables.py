@@ -5,7 +5,7 @@ docs/transfer.md.
     bakers/lab/tables/transfer_tables.py --out out/transfer_tables [--material FIBER.nook --raw FIBER.raw] [--write]
 
 --only NAME,... makes some of the tables: vectors, pictures, raw, lights, times, reflections, holes, paper. A step whose report is in the output folder already is not repeated: remove the folder to measure anew. Without --material
-the fiber is baked first, which takes two minutes. Maps are those of NOOK_ASSETS, or of ../shared/assets.
+the fiber is baked first, which takes two minutes. Maps are in NOOK_ASSETS, or in ../shared/assets.
 """
 import argparse
 import json
@@ -153,7 +153,7 @@ def holes_table(bench):
     return table(["file", "", *MAPS], rows)
 
 
-# Clusters and ranks of vertices of clustered PCA, whose bytes are just below those of the paper's form: a cluster
+# Clusters and ranks of vertices of clustered PCA, with a few bytes less than the paper's form: a cluster
 # has a matrix of all lobes for each vertex mode.
 PCA = [(38, 1), (19, 2), (12, 3), (9, 4)]
 # The same with matrices of the 128 common combinations of lobes, which are stored once.

@@ -25,7 +25,6 @@ Work read_work(EvaluateNnaoOptions& options);
 // interrupted. Throws ToolError that names the scene's file.
 std::vector<MeasuredView> traced_views(const SceneRequest& scene, const EvaluateNnaoOptions& options);
 
-// The views of all scenes.
 std::vector<MeasuredView> traced_views(const Work& work, const EvaluateNnaoOptions& options);
 
 // Adds the conditions of all rows of a report: rays per reference, OpenGL and the seed.

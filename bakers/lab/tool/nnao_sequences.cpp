@@ -50,7 +50,7 @@ Json evaluate_sequences(EvaluateNnaoOptions& options) {
 
 namespace {
 
-// The shots of a character, each with a still and with a moving camera.
+// The shots of a character, with a still and with a moving camera.
 class Shots {
  public:
   Shots(const std::filesystem::path& file, const EvaluateNnaoOptions& options)

@@ -117,7 +117,6 @@ Comparison compare_views(const EvaluateNnaoOptions& options, platform::Context& 
       });
 }
 
-// The views of each source in their order.
 std::vector<ViewGroup> group_views(std::span<const MeasuredView> views, bool has_thin) {
   std::vector<ViewGroup> groups;
   for (std::size_t v = 0; v < views.size(); ++v) {

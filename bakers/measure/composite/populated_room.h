@@ -13,7 +13,7 @@
 
 namespace nook::measure {
 
-// A room with walls, steps, a table with chairs and a shelf. World space, metres, the floor at y = 0.
+// Makes a room with walls, steps, a table, chairs and a shelf. World space, metres, the floor at y = 0.
 bake::TriangleSoup own_room();
 
 // Reads the triangles of a glTF file with +y up, whose unit is this many metres. Adds the warnings of the

@@ -29,7 +29,6 @@ bake::Picture methods_sheet(const bake::material::RawMaterial& raw,
 // ten times. The light is tilted by 45 degrees, and there are two tiles each way.
 bake::Picture jump_strip(const nook::material::Material& material, const bake::material::ViewJumps& jumps);
 
-// Puts pictures of equal width in a column.
 bake::Picture below_each_other(std::span<const bake::Picture> pictures);
 
 }  // namespace nook::measure

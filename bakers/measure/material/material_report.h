@@ -21,7 +21,7 @@ struct MethodRow : BakedFigures {
   MethodRow() = default;
   explicit MethodRow(BakedFigures figures) : BakedFigures(std::move(figures)) {}
 
-  // The error when drawn from textures (table_error.h), and the textures' bytes per texel.
+  // The error when drawn from textures (table_error.h), and their bytes per texel.
   std::optional<double> se_db_drawn, se_db_drawn_unseen, gpu_bytes_texel;
   std::vector<LevelError> levels;     // for pixels that cover many texels
   std::vector<GrazingError> grazing;  // for pixels of tilted views

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t view_side = nook::material::default_map_side;
 
-// Two neighbouring texels of a repeating tile, and the position between their centres.
+// Two neighbouring texels of a repeating tile, and a position between them.
 struct Between {
   std::uint32_t low, high;
   float t;

@@ -1,5 +1,5 @@
-// A raw material as a surface for path tracing, without compression, interpolated between lights, views and
-// texels.
+// Serves a raw material as a surface for path tracing, without compression. It interpolates between lights,
+// views and texels.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// The error of a material as drawn: decoded from the tables in textures, at the middles of texels, for the
-// views and lights of the raw material. It includes the rounding of the tables, the view map and the light
+// Measures a material as drawn: decoded from the tables in textures, at the middles of texels, for the views
+// and lights of the raw material. The error includes the rounding of the tables, the view map and the light
 // map.
 #pragma once
 

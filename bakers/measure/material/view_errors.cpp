@@ -124,7 +124,6 @@ nook::material::PixelSides grazing_sides(const RawMaterial& raw, Vec3 view, Text
   return {middle, {-y / w, x / h}, {x / (view.z * w), y / (view.z * h)}};
 }
 
-// Sums over the pixels of a view.
 std::vector<GrazingError> errors_of_view(const RawMaterial& raw, const MaterialTables& tables,
                                          const Matrix& lights, std::size_t view) {
   std::vector<GrazingError> errors;

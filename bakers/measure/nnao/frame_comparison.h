@@ -32,7 +32,7 @@ struct FrameRow {
   // Empty for the recorded row itself. Also empty for other methods if the recorded AO has a layer, intensity
   // or power, because they have none.
   std::optional<AoDifference> from_recorded;
-  // Errors over pixels with a surface, for AO without intensity, power and layer.
+  // Errors over pixels with a surface, without intensity, power and layer.
   std::optional<double> oracle_mse, oracle_bias;
 };
 

@@ -1,4 +1,4 @@
-// The oracle: AO from a thousand taps on one screen's depth, integrated without any tuned number.
+// The oracle integrates AO from a thousand taps on one screen's depth, without any tuned number.
 #pragma once
 
 #include "bakers/measure/nnao/gpu_image.h"

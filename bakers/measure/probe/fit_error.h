@@ -22,7 +22,7 @@ class ExactFit {
   std::vector<Vec3> coefficients() const;
   // Returns the integral of (R - f)^2 over the region for any coefficients, summed over RGB.
   double square_error(std::span<const Vec3> coefficients) const;
-  // Returns the share by which it is above the minimum.
+  // Returns the excess of this error over the minimum, as a share of the minimum.
   double excess(std::span<const Vec3> coefficients) const;
   // Returns the squared norm of R - R_LS, over the squared norm of R_LS.
   double distance(std::span<const Vec3> coefficients) const;

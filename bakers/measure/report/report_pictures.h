@@ -14,7 +14,6 @@ namespace nook::report {
 // Converts 0 to 1 by the sRGB curve. Above is white, below is black.
 bake::Colour display(Vec3 linear);
 
-// A picture of one colour.
 bake::Picture plain_picture(int width, int height, bake::Colour colour);
 void set_pixel(bake::Picture& picture, int x, int y, bake::Colour colour);
 

@@ -1,7 +1,7 @@
 """Shows the bakes of a file that Blender opens without a window, as `blender -b FILE -a` does to render it.
 
-Nobody can press a button there. A bake is read unasked if it is in the folder of the .blend or below, and if Blender was told to trust
-the file; otherwise stderr says why it is not shown.
+Nobody can press a button there. A bake is read unasked if it is in the folder of the .blend or below, and the user
+trusts the file. Otherwise, stderr says why it is not shown.
 """
 import fnmatch
 import os

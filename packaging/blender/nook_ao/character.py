@@ -14,7 +14,7 @@ SURFACES = ("CURVE", "SURFACE", "FONT", "META")
 
 
 def armature_of(context):
-    """The selected armature, or that of the selected mesh."""
+    """The selected armature, or the armature of the selected mesh."""
     candidates = [o for o in (context.active_object, *context.selected_objects) if o is not None]
     for candidate in candidates:
         armature = armature_of_object(candidate)
@@ -94,7 +94,7 @@ def belongs_to(item, armature):
 
 
 class Part:
-    """A mesh of a character: deformed by the armature, or hanging on one bone."""
+    """A mesh of a character, which the armature deforms or which hangs on one bone."""
 
     def __init__(self, item, armature):
         self.item = item
@@ -141,7 +141,7 @@ def level_of(item):
 
 
 def is_left_out(name, patterns):
-    """Whether one of some names with * and ?, separated by commas, is that of an object."""
+    """Whether an object matches one of some names with * and ?, separated by commas."""
     # Brackets have no meaning of their own here, as in the command.
     return any(fnmatch.fnmatchcase(name, p.strip().replace("[", "[[]")) for p in patterns.split(",") if p.strip())
 
@@ -186,7 +186,7 @@ def check_paintable(armature, parts, scenes):
 
 
 def bind_points(armature, parts):
-    """The undeformed vertices of all parts in armature space, in metres of the scene."""
+    """Returns the undeformed vertices of all parts in armature space, in metres of the scene."""
     points = []
     for part in parts:
         own = np.empty(3 * len(part.item.data.vertices), dtype=np.float32)
@@ -204,8 +204,8 @@ def pose_matrices(armature):
 
 
 def skinning_matrices(armature, bone_names):
-    """How each bone moves points of the bind pose, in armature space; a name that is no bone moves nothing, as the bone of vertices
-    without weights."""
+    """How each bone moves points of the bind pose, in armature space; a name without a bone moves
+    nothing, like the bone of vertices without weights."""
     matrices = np.tile(np.eye(4), (len(bone_names), 1, 1))
     bones = armature.pose.bones
     place = {bone.name: at for at, bone in enumerate(bones)}

@@ -12,7 +12,7 @@ SLICE_S = 0.3
 
 
 def own_actions(armature):
-    """The actions in the rig's animation data, and those of its NLA that are not muted."""
+    """The actions in the rig's animation data, and the actions of its NLA that are not muted."""
     animation = armature.animation_data
     if animation is None:
         return []

@@ -100,7 +100,7 @@ def _primitive(file, surface, joints, weights, first, chosen, sets):
 
 
 def _add_bones(file, geometry):
-    """The armature's node, one for each bone, and their skin; the numbers of the bones' nodes."""
+    """Adds a node for the armature and for each bone, and their skin. Returns the numbers of the bones' nodes."""
     names = geometry.bone_names
     node_of_bone = [1 + at for at in range(len(names))]
     nodes = [{"name": "armature", "matrix": geometry.root.T.ravel().tolist(), "children": []}]

@@ -53,7 +53,7 @@ class Still:
         self._add_distance(entry)
 
     def _add_distance(self, entry):
-        """How far the vertices are from those of the model, and the normals of the bake."""
+        """How far the vertices are from the model's, and the normals of the bake."""
         self.same_vertices = len(self.positions) == entry.count
         self.distance, self.bake_normals = np.inf, None
         if self.same_vertices:
@@ -82,7 +82,7 @@ def _rig_pose(entry, played):
 
 
 def candidates(entry, scene, actions):
-    """Poses that are worth a look, each as what leads to it: frames of the timeline, those of actions, and the pose of now."""
+    """Poses that are worth a look, each as what leads to it: frames of the timeline, frames of actions, and the present pose."""
     frames = np.unique(np.linspace(scene.frame_start, scene.frame_end, MOST_FRAMES).round()).tolist()
     found = []
     with stage.opened(entry.armature) as played:
@@ -156,7 +156,7 @@ def add_errors(errors, entry, still, most=MOST_POINTS, rays=RAYS):
 
 
 def shear_of(pose):
-    """By how much the most sheared bone stretches one direction more than another."""
+    """Returns by how much the most sheared bone stretches one direction more than another."""
     sizes = np.linalg.svd(np.asarray(pose, dtype=np.float64)[:, :, :3], compute_uv=False)
     return float((sizes[:, 0] / np.maximum(sizes[:, 2], 1e-30)).max())
 

@@ -1,7 +1,7 @@
 """Matrices between Blender's spaces and Nook's. Plain numpy, so that it can be tested without Blender.
 
-Blender's world has z up; the file and Nook have y up. The rest space of Nook is where the file's root puts the bind-posed body; which
-matrix leads there is found from the vertices themselves, so that it does not depend on what the exporter does to bones.
+Blender's world has z up; the file and Nook have y up. The rest space of Nook is where the file's root puts the bind-posed
+body. The vertices themselves tell the matrix to it, so that it does not depend on what the exporter does to bones.
 """
 import numpy as np
 

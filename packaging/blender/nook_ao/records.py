@@ -93,7 +93,7 @@ def from_words(words):
 
 
 def folder_inside(folder):
-    """A folder as seen from that of the saved .blend; None where it is not inside, links followed."""
+    """A folder relative to the saved .blend's folder; None if it is not inside, with links followed."""
     if not bpy.data.filepath:
         return None
     own, other = os.path.realpath(os.path.dirname(bpy.data.filepath)), os.path.realpath(folder)
@@ -120,7 +120,7 @@ class Files:
 
 
 def files_of(armature):
-    """Where the bake of an armature is; None without one. A folder inside that of the .blend moves with it."""
+    """Where the bake of an armature is; None without one. A folder inside the .blend's folder moves with it."""
     record, owner = find(armature), f"the armature {armature.name}"
     if record is None or not record.folder:
         return Files(folders.resolved(armature[FOLDER_PROPERTY], owner), OLD_STEM) if FOLDER_PROPERTY in armature else None
@@ -143,7 +143,7 @@ def keep_files(record, files):
 
 
 def stem_of(name):
-    """A name as that of a file on every system."""
+    """Makes a name valid for a file on every system."""
     stem = re.sub(r'[\x00-\x1f<>:"/\\|?*]', "_", name).rstrip(" .") or "character"
     return f"{stem}_" if RESERVED.match(stem) else stem
 
@@ -159,7 +159,7 @@ def free_files(folder, name, key):
 
 
 def setting(armature, scene, name):
-    """A setting of the rig; where the rig has none, that of the scene, which scripts and older files set."""
+    """A setting of the rig, or of the scene if the rig has none; scripts and older files set the scene's."""
     return getattr(settings_of(armature, scene, name), name)
 
 
@@ -169,7 +169,7 @@ def settings_of(armature, scene, name):
 
 @bpy.app.handlers.persistent
 def before_save(*_):
-    """Forgets characters that are in no scene any more, and notes which folders are inside that of the file."""
+    """Forgets characters that are in no scene any more, and notes which folders are inside the file's folder."""
     for scene in bpy.data.scenes:
         for at in reversed(range(len(scene.nook_characters))):
             record = scene.nook_characters[at]

@@ -56,7 +56,7 @@ class Shown:
 
     def pose_of(self, evaluated):
         """The matrices of the pose that an evaluated armature has."""
-        # The order is that of the model's bones, which is that of the file.
+        # The order of bones is the same in the model and in the file.
         skinning = character.skinning_matrices(evaluated, self.model.bone_names)
         return poses.bone_matrices(character.matrix(evaluated.matrix_world), skinning, self.rest)
 
@@ -82,7 +82,7 @@ class Shown:
         return self.nook.trace_ao([(positions, self.character.triangles())], positions, normals, rays=rays, origin_offset=self.ray_offset)
 
     def to_vertices(self, values):
-        """Values of the file's vertices as those of Blender's, mesh after mesh."""
+        """Turns values of the file's vertices into values of Blender's vertices, mesh after mesh."""
         return poses.mean_of_copies(values, self.numbers, self.count)
 
     def paint(self, name, grey):

@@ -9,12 +9,12 @@ _open = 0
 
 
 def is_open():
-    """Whether frames that change now are those of a stage."""
+    """Whether the frames that change now belong to a stage."""
     return _open > 0
 
 
 def with_holders(items, armature):
-    """Items with the objects between them and the armature, such as an empty in a hand."""
+    """Returns items with the objects between them and the armature, such as an empty in a hand."""
     found = []
     for item in items:
         while item is not None and item != armature and item not in found:

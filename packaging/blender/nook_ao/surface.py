@@ -1,4 +1,4 @@
-"""Meshes as arrays, in the ways of Blender 3.4 and of 4.1 and newer."""
+"""Reads meshes as arrays, both in Blender 3.4 and in 4.1 and newer."""
 import numpy as np
 
 
@@ -9,7 +9,7 @@ def read(collection, name, kind, width=1):
 
 
 def corner_normals(mesh):
-    """The normals that Blender shades with, one for each corner of a face."""
+    """Returns the normals that Blender shades with, one for each corner of a face."""
     if hasattr(mesh, "calc_normals_split"):  # until 4.0
         mesh.calc_normals_split()
         return read(mesh.loops, "normal", np.float32, 3)
@@ -17,7 +17,7 @@ def corner_normals(mesh):
 
 
 class Surface:
-    """The triangles of a mesh: positions of vertices, and for each corner its vertex, normal and UV."""
+    """Returns the triangles of a mesh: positions of vertices, and for each corner its vertex, normal and UV."""
 
     def __init__(self, mesh):
         mesh.calc_loop_triangles()
