@@ -172,7 +172,7 @@ Planted planted(std::span<const Sheet> sheets) {
   return out;
 }
 
-constexpr Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+constexpr Vec3 x{1, 0, 0}, y{0, 1, 0};
 
 // Two primitives at the same places with the same normals and other weights.
 const Sheet doubled[] = {{{0, 0, 0}, x, y, {{0, 0.7f}, {1, 0.3f}}},
