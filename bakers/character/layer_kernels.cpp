@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bakers/character/mini_batch_fit.h"
-#include "sdk/src/core/compiler.h"
+#include "bakers/raytrace/clones.h"
 
 namespace nook::bake {
 namespace {
@@ -127,19 +127,27 @@ NOOK_INLINE SphereGradient sphere_gradient_loop(Gamma gamma, const float centre[
   return {gx, gy, gz, gr};
 }
 
-#define NOOK_PAIR_KERNEL(NAME, FORM, GAMMA_TYPE, GAMMA_VALUE)                                              \
-  NOOK_CLONES void add_##NAME(float gamma, const float* centre, float inverse_radius,                      \
-                              const KeyPointArrays& keys, float* sum) {                                    \
-    (void)gamma;                                                                                           \
-    add_sphere_loop<FORM, GAMMA_TYPE>(GAMMA_VALUE, centre, inverse_radius, keys, sum);                     \
-  }                                                                                                        \
-  NOOK_CLONES SphereGradient gradient_##NAME(float gamma, const float* centre, float inverse_radius,       \
-                                             const KeyPointArrays& keys, const float* gradient_sum,        \
-                                             const KeyPointGradients& out) {                               \
-    (void)gamma;                                                                                           \
-    return sphere_gradient_loop<FORM, GAMMA_TYPE>(GAMMA_VALUE, centre, inverse_radius, keys, gradient_sum, \
-                                                  out);                                                    \
-  }
+#define NOOK_PAIR_KERNEL(NAME, FORM, GAMMA_TYPE, GAMMA_VALUE)                                                \
+  NOOK_INLINE void add_##NAME##_plain(float gamma, const float* centre, float inverse_radius,                \
+                                      const KeyPointArrays& keys, float* sum) {                              \
+    (void)gamma;                                                                                             \
+    add_sphere_loop<FORM, GAMMA_TYPE>(GAMMA_VALUE, centre, inverse_radius, keys, sum);                       \
+  }                                                                                                          \
+  NOOK_CLONED(                                                                                               \
+      void, add_##NAME,                                                                                      \
+      (float gamma, const float* centre, float inverse_radius, const KeyPointArrays& keys, float* sum),      \
+      (gamma, centre, inverse_radius, keys, sum))                                                            \
+  NOOK_INLINE SphereGradient gradient_##NAME##_plain(float gamma, const float* centre, float inverse_radius, \
+                                                     const KeyPointArrays& keys, const float* gradient_sum,  \
+                                                     const KeyPointGradients& out) {                         \
+    (void)gamma;                                                                                             \
+    return sphere_gradient_loop<FORM, GAMMA_TYPE>(GAMMA_VALUE, centre, inverse_radius, keys, gradient_sum,   \
+                                                  out);                                                      \
+  }                                                                                                          \
+  NOOK_CLONED(SphereGradient, gradient_##NAME,                                                               \
+              (float gamma, const float* centre, float inverse_radius, const KeyPointArrays& keys,           \
+               const float* gradient_sum, const KeyPointGradients& out),                                     \
+              (gamma, centre, inverse_radius, keys, gradient_sum, out))
 
 NOOK_PAIR_KERNEL(paper_1, PaperForm, Gamma1, Gamma1{})
 NOOK_PAIR_KERNEL(paper_15, PaperForm, Gamma15, Gamma15{})
@@ -196,10 +204,12 @@ SphereGradient sphere_gradient(const Kernel& kernel, const float centre[3], floa
   return select(kernel).gradient(kernel.gamma, centre, inverse_radius, keys, gradient_sum, gradient);
 }
 
-NOOK_CLONES void linear_layer_gradient(const LinearLayerFit& linear, std::span<const float> vertex_weight,
-                                       const std::uint16_t* const* target, const float* shadow,
-                                       std::size_t first, std::size_t last, float* gradient_shadow,
-                                       float* gradient_alpha, float* gradient_bias) {
+static NOOK_INLINE void linear_layer_gradient_plain(const LinearLayerFit& linear,
+                                                    std::span<const float> vertex_weight,
+                                                    const std::uint16_t* const* target, const float* shadow,
+                                                    std::size_t first, std::size_t last,
+                                                    float* gradient_shadow, float* gradient_alpha,
+                                                    float* gradient_bias) {
   constexpr std::size_t lanes = batch_poses;
   const std::size_t entries = linear.entries;
   for (std::size_t i = first; i < last; ++i) {
@@ -235,5 +245,12 @@ NOOK_CLONES void linear_layer_gradient(const LinearLayerFit& linear, std::span<c
     }
   }
 }
+
+NOOK_CLONED(void, linear_layer_gradient,
+            (const LinearLayerFit& linear, std::span<const float> vertex_weight,
+             const std::uint16_t* const* target, const float* shadow, std::size_t first, std::size_t last,
+             float* gradient_shadow, float* gradient_alpha, float* gradient_bias),
+            (linear, vertex_weight, target, shadow, first, last, gradient_shadow, gradient_alpha,
+             gradient_bias))
 
 }  // namespace nook::bake

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bakers/raytrace/instruction_set.h"
 #include "sdk/src/character/shadow_kernels_rest.h"
 #include "sdk/src/core/failure.h"
 
@@ -26,7 +27,7 @@ Shadows evaluate(const CharacterModel& model, const Vector<ProxySphere>& spheres
   const RestSpheres rest_spheres(part);
   const RestKeyPoints rest_points(part);
   const std::uint32_t padded = rest_points.padded_count(), count = rest_spheres.view().count;
-  const ShadowKernels& kernels = best_shadow_kernels();
+  const ShadowKernels& kernels = *shadow_kernels(kernel_isa());
   std::vector<float> s(4 * count), p(6 * padded), sum(padded);
   const SphereTarget sphere_target{&s[0], &s[count], &s[2 * count], &s[3 * count]};
   const KeyPointTarget point_target{&p[0],          &p[padded],     &p[2 * padded],

@@ -1,5 +1,7 @@
 #include "bakers/nnao/horizon_gradient.h"
 
+#include "bakers/raytrace/clones.h"
+
 namespace nook::bake::nnao {
 namespace {
 
@@ -77,8 +79,8 @@ void HorizonBatch::set(int lane, const View& view, const DataPoint& point, TapNo
   join[1][lane] = border_distance(view, point.x, point.y, radius_px);
 }
 
-NOOK_CLONES void horizon_forward(const float* parameters, const HorizonBatch& batch, HorizonTrace& trace,
-                                 HorizonOutput& output) {
+static NOOK_INLINE void horizon_forward_plain(const float* parameters, const HorizonBatch& batch,
+                                              HorizonTrace& trace, HorizonOutput& output) {
   const auto [directions, steps] = batch.grid;
   for (int u = 0; u < units; ++u) trace.joined[u] = Lanes{};
   for (int i = 0; i < 3; ++i) output.bent[i] = batch.normal[i];
@@ -128,9 +130,13 @@ NOOK_CLONES void horizon_forward(const float* parameters, const HorizonBatch& ba
   output.ao = 1.0f - (trace.darkness < batch.bound ? trace.darkness : batch.bound);
 }
 
-NOOK_CLONES void horizon_backward(const float* parameters, const HorizonBatch& batch,
-                                  const HorizonTrace& trace, const HorizonOutput& output_gradient,
-                                  Lanes* gradient) {
+NOOK_CLONED(void, horizon_forward,
+            (const float* parameters, const HorizonBatch& batch, HorizonTrace& trace, HorizonOutput& output),
+            (parameters, batch, trace, output))
+
+static NOOK_INLINE void horizon_backward_plain(const float* parameters, const HorizonBatch& batch,
+                                               const HorizonTrace& trace,
+                                               const HorizonOutput& output_gradient, Lanes* gradient) {
   const auto [directions, steps] = batch.grid;
   const Lanes g_ao = trace.darkness < batch.bound ? output_gradient.ao : Lanes{};
   Lanes g_towards{};
@@ -173,5 +179,10 @@ NOOK_CLONES void horizon_backward(const float* parameters, const HorizonBatch& b
   }
   for (int i = 0; i < tap_count; ++i) gradient[tap_layer + i] += g_tap_layer[i];
 }
+
+NOOK_CLONED(void, horizon_backward,
+            (const float* parameters, const HorizonBatch& batch, const HorizonTrace& trace,
+             const HorizonOutput& output_gradient, Lanes* gradient),
+            (parameters, batch, trace, output_gradient, gradient))
 
 }  // namespace nook::bake::nnao

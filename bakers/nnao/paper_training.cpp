@@ -7,6 +7,7 @@
 
 #include "bakers/nnao/forms.h"
 #include "bakers/nnao/lanes.h"
+#include "bakers/raytrace/clones.h"
 #include "sdk/src/nnao/layers.h"
 
 namespace nook::bake::nnao {
@@ -41,7 +42,7 @@ void gather(const Dataset& data, const DataPoint& point, float* inputs) {
   }
 }
 
-NOOK_CLONES void dots(const float* weights, const float* inputs, float* sums) {
+NOOK_INLINE void dots_plain(const float* weights, const float* inputs, float* sums) {
   for (int u = 0; u < units; ++u) {
     // Sixteen parallel sums have the same order for any register width.
     Lanes sum{};
@@ -59,11 +60,16 @@ NOOK_CLONES void dots(const float* weights, const float* inputs, float* sums) {
   }
 }
 
-NOOK_CLONES void add_outer(const float* unit_gradient, const float* inputs, float* gradient) {
+NOOK_CLONED(void, dots, (const float* weights, const float* inputs, float* sums), (weights, inputs, sums))
+
+NOOK_INLINE void add_outer_plain(const float* unit_gradient, const float* inputs, float* gradient) {
   for (int u = 0; u < units; ++u)
     for (std::size_t i = 0; i < input_count; ++i)
       gradient[std::size_t(u) * input_count + i] += unit_gradient[u] * inputs[i];
 }
+
+NOOK_CLONED(void, add_outer, (const float* unit_gradient, const float* inputs, float* gradient),
+            (unit_gradient, inputs, gradient))
 
 // Returns the loss of one point and adds its gradient.
 double point_gradient(const Dataset& data, const PaperNormalisation& normalisation,

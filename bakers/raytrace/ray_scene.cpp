@@ -75,6 +75,9 @@ FlushDenormals::~FlushDenormals() {
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
+
+#include "bakers/raytrace/instruction_set.h"
 namespace nook::bake {
 namespace {
 
@@ -144,7 +147,8 @@ void attach_triangles(RTCDevice device, RTCScene scene, std::span<const Vec3> po
 
 // The device is single-threaded inside. Callers parallelise over scenes, so that results do not depend on
 // Embree's scheduling.
-RayDevice::RayDevice() : handle_(rtcNewDevice("threads=1,set_affinity=0")) {}
+RayDevice::RayDevice()
+    : handle_(rtcNewDevice((std::string("threads=1,set_affinity=0") + embree_isa()).c_str())) {}
 
 RayDevice::~RayDevice() {
   rtcReleaseDevice(handle_);
@@ -227,6 +231,14 @@ std::uint32_t RayScene::open_rays(Vec3 origin, std::span<const Vec3> directions,
   for (std::uint32_t lane = 0; lane < directions.size(); ++lane)
     open |= std::uint32_t(packet.tfar[lane] >= 0) << lane;
   return open;
+}
+
+std::string embree_version() {
+  const RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
+  const auto number = long(rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION));
+  rtcReleaseDevice(device);
+  return std::to_string(number / 10000) + "." + std::to_string(number / 100 % 100) + "." +
+         std::to_string(number % 100);
 }
 
 }  // namespace nook::bake
