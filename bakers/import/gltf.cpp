@@ -6,6 +6,7 @@
 
 #include "bakers/import/accessor.h"
 #include "bakers/import/coincident_surfaces.h"
+#include "bakers/import/content_hash.h"
 #include "bakers/import/file_reader.h"
 #include "bakers/import/fronts.h"
 #include "bakers/import/gltf_check.h"
@@ -16,7 +17,6 @@
 #include "bakers/import/shown_nodes.h"
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
-#include "sdk/src/core/hash.h"
 
 namespace nook::bake {
 namespace {
@@ -165,14 +165,6 @@ void warn_of_size(const SkinnedMesh& mesh, std::vector<std::string>& warnings) {
   warnings.push_back(text);
 }
 
-std::uint64_t hash_of(std::span<const std::byte> bytes, const tinygltf::Model& model) {
-  std::uint64_t hash = hash64(bytes);
-  for (const tinygltf::Buffer& buffer : model.buffers)
-    if (!buffer.uri.empty() && buffer.uri.compare(0, 5, "data:") != 0)
-      hash = hash64(std::as_bytes(std::span(buffer.data)), hash);
-  return hash;
-}
-
 // If no mesh has a skin and no clip moves a mesh, the file is a prop. Each root of its meshes becomes a bone.
 Skeleton skeleton_of(ImportedCharacter& character, const MeshNodes& mesh_nodes) {
   const NodeTree& nodes = character.nodes;
@@ -231,7 +223,6 @@ ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAcces
                                const MeshSelection& selection) {
   const tinygltf::Model model = parse_gltf(bytes, files);
   ImportedCharacter character;
-  character.source_hash = hash_of(bytes, model);
   character.nodes = read_nodes(model);
   character.warnings = document_warnings(model);
   character.clips = read_clips(model, character.nodes, character.warnings);
@@ -255,6 +246,7 @@ ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAcces
   character.mesh = weld(std::move(file), character.warnings, NOOK_ERROR_BAD_FILE);
   warn_of_size(character.mesh, character.warnings);
   warn_of_uneven_bones(character);
+  character.source_hash = short_hash(content_hash(character));
   return character;
 }
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bakers/import/content_hash.h"
 #include "bakers/import/weld.h"
 #include "bakers/raytrace/worker_arena.h"
 #include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/geometry.h"
-#include "sdk/src/core/hash.h"
 
 namespace nook::bake {
 
@@ -92,9 +92,7 @@ ImportedCharacter character_of_arrays(const nook_bake_source_desc& desc) {
   ImportedCharacter character;
   character.mesh = weld(to_file_mesh(arrays, NOOK_ERROR_INVALID_ARGUMENT), character.warnings,
                         NOOK_ERROR_INVALID_ARGUMENT);
-  std::uint64_t hash = hash64(std::as_bytes(std::span(position)));
-  hash = hash64(std::as_bytes(arrays.index), hash);
-  character.source_hash = hash64(std::as_bytes(arrays.weight), hash);
+  character.source_hash = short_hash(content_hash(character));
   return character;
 }
 
