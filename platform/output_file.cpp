@@ -43,6 +43,16 @@ void require_writable(const fs::path& named, const fs::path& target, const struc
   if (faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) fail_errno(named, errno);
 }
 
+// Devices, pipes and own streams are written behind their links; a link to anything else is replaced. Throws
+// std::runtime_error if links form a circle.
+fs::path written_place(const fs::path& named) {
+  const fs::path target = followed(named);
+  std::error_code error;
+  const fs::file_status status = fs::status(target, error);
+  const bool is_replaced = !fs::exists(status) || fs::is_regular_file(status);
+  return own_descriptor(target) < 0 && is_replaced ? named : target;
+}
+
 }  // namespace
 
 int own_descriptor(const fs::path& path) {
@@ -70,7 +80,7 @@ fs::path followed(const fs::path& path) {
 }
 
 OutputFile::OutputFile(fs::path target, FileEvents events)
-    : events_(std::move(events)), named_(std::move(target)), target_(followed(named_)) {
+    : events_(std::move(events)), named_(std::move(target)), target_(written_place(named_)) {
   if (const int own = own_descriptor(target_); own >= 0) {
     // A stream that was closed when the program started cannot be written; see standard_streams.h.
     const int flags = fcntl(own, F_GETFL);
@@ -104,8 +114,10 @@ void OutputFile::open_part() {
   if (!target_.has_filename()) fail(named_, "it is a folder", "add the name of a file");
   remove_abandoned_parts(target_);
   struct stat there;
-  const bool exists = stat(target_.c_str(), &there) == 0;
-  if (!exists && errno != ENOENT) fail_errno(named_, errno);
+  const bool is_there = lstat(target_.c_str(), &there) == 0;
+  if (!is_there && errno != ENOENT) fail_errno(named_, errno);
+  // A link is replaced by a new file, which has nothing of the file behind it.
+  const bool is_link = is_there && S_ISLNK(there.st_mode), exists = is_there && !is_link;
   if (exists) require_writable(named_, target_, there);
   const PartFile part = make_part(target_, exists ? 0600 : 0666);
   if (part.descriptor < 0) {
@@ -120,10 +132,8 @@ void OutputFile::open_part() {
   part_ = part.path;
   descriptor_ = part.descriptor;
   std::string note = exists ? take_attributes(descriptor_, target_, there) : "";
-  std::error_code error;
-  if (fs::is_symlink(named_, error))
-    note += (note.empty() ? "" : "; ") +
-            ("the link stays, and the file that it points to is replaced: " + target_.string());
+  if (is_link)
+    note = "the link is replaced by a file, and what it points to stays: " + followed(named_).string();
   if (!note.empty() && events_.replaces) events_.replaces(named_.string() + ": " + note);
 }
 

@@ -12,12 +12,13 @@ namespace platform {
 
 // The program writes a regular file to a part beside its target, TARGET.nook-part-PID. commit() renames the
 // part to the target; without commit() the destructor removes it. The new file takes over the old file's
-// mode, and its owner and attributes where the system allows that. Behind a symbolic link, the file that it
-// points to is replaced. Devices, pipes and the program's own streams (/dev/stdout) are never replaced:
-// commit() writes to them. The constructor opens everything and waits for the reader of a pipe, so that you
-// learn before the work begins if nothing can be written there. It refuses a write-protected file. It also
-// removes parts that dead processes left beside the target, which it recognises by their names and first
-// bytes. Failures are std::runtime_error with a text that names the file.
+// mode, and its owner and attributes where the system allows that. A symbolic link is replaced, and the file
+// that it points to stays as it is: it may be shared with others, as in a cache. Devices, pipes and the
+// program's own streams (/dev/stdout) are never replaced, also behind a link: commit() writes to them. The
+// constructor opens everything and waits for the reader of a pipe, so that you learn before the work begins
+// if nothing can be written there. It refuses a write-protected file. It also removes parts that dead
+// processes left beside the target, which it recognises by their names and first bytes. Failures are
+// std::runtime_error with a text that names the file.
 class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path target, FileEvents events = {});
@@ -40,7 +41,7 @@ class OutputFile {
   void replace_target(std::span<const std::byte> bytes);
 
   FileEvents events_;
-  std::filesystem::path named_, target_;  // as the user named it, and the file behind its symbolic links
+  std::filesystem::path named_, target_;  // as the user named it, and what commit() writes or replaces
   std::filesystem::path part_;            // empty: the target is written directly
   int descriptor_ = -1;
 };

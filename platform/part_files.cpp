@@ -69,7 +69,8 @@ bool has_mark(int descriptor, long process) {
 
 // A live process also holds a lock on its part. The kernel releases it however the process ends.
 void remove_if_abandoned(const fs::path& part, long process) {
-  const int descriptor = open(part.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  // NFS locks only what is open for writing.
+  const int descriptor = open(part.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (descriptor < 0) return;
   struct stat opened;
   if (fstat(descriptor, &opened) == 0 && S_ISREG(opened.st_mode) && has_mark(descriptor, process) &&

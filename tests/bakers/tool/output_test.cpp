@@ -131,20 +131,23 @@ TEST_CASE("the output stream can be named as a file") {
   CHECK(fs::is_symlink(folder.path("out")));
 }
 
-TEST_CASE("a symbolic link stays, and what it points to is replaced") {
+TEST_CASE("a symbolic link is replaced, and what it points to stays") {
   const TestFolder folder;
   fs::create_directory(folder.path("far"));
-  write_text(folder.path("far/model.nook"), "old");
+  write_text(folder.path("far/model.nook"), "shared");
+  REQUIRE(chmod(folder.path("far/model.nook").c_str(), 0444) == 0);
   fs::create_symlink("far/model.nook", folder.path("link.nook"));
-  fs::create_symlink("far/report.json", folder.path("new.json"));  // leads to nothing yet
+  fs::create_symlink("far/report.json", folder.path("new.json"));  // leads to nothing
   const ToolRun run =
       folder.run(small_probe(folder, folder.path("link.nook"), {"--report", folder.path("new.json")}));
   INFO(run.error);
   REQUIRE(run.exit_code == 0);
-  CHECK(fs::is_symlink(folder.path("link.nook")));
-  CHECK(fs::is_symlink(folder.path("new.json")));
-  CHECK(read_text(folder.path("far/model.nook")).substr(0, 4) == "NOOK");
-  CHECK(has(read_text(folder.path("far/report.json")), "rows"));
+  CHECK_FALSE(fs::is_symlink(folder.path("link.nook")));
+  CHECK_FALSE(fs::is_symlink(folder.path("new.json")));
+  CHECK(read_text(folder.path("far/model.nook")) == "shared");
+  CHECK_FALSE(fs::exists(folder.path("far/report.json")));
+  CHECK(read_text(folder.path("link.nook")).substr(0, 4) == "NOOK");
+  CHECK(has(read_text(folder.path("new.json")), "rows"));
 }
 
 TEST_CASE("links in a circle are an error") {
