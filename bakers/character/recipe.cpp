@@ -16,6 +16,7 @@
 #include "bakers/import/skinned_mesh.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/hash.h"
+#include "sdk/src/core/version.h"
 
 namespace nook::bake {
 
@@ -119,7 +120,41 @@ std::vector<std::size_t> clips_of_bits(const ImportedCharacter& character, const
   return clips;
 }
 
+// The order of names, and names that are given twice, choose nothing.
+std::vector<std::string> sorted_names(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+// Of the text of a recipe.
+MeshSelection meshes_of(const Json& j) {
+  MeshSelection meshes;
+  if (!j.contains("meshes")) return meshes;
+  const Json& stored = j.at("meshes");
+  if (stored.contains("only")) meshes.only = stored.at("only").get<std::vector<std::string>>();
+  if (stored.contains("without")) meshes.without = stored.at("without").get<std::vector<std::string>>();
+  return meshes;
+}
+
 }  // namespace
+
+std::string content_digits(const ImportedCharacter& character) {
+  return hex(character.source_hash);
+}
+
+bool reads_other_content(const Recipe& recipe, const ImportedCharacter& character) {
+  return !recipe.content.empty() && recipe.content != content_digits(character);
+}
+
+MeshSelection stored_meshes(std::string_view recipe_text) {
+  try {
+    const Json j = Json::parse(recipe_text);
+    return j.is_object() ? meshes_of(j) : MeshSelection();
+  } catch (const Json::exception&) {
+    return {};
+  }
+}
 
 const char* name_of(Preset preset) {
   return preset_names[std::size_t(preset)];
@@ -187,8 +222,8 @@ std::vector<Pose> recipe_poses(const ImportedCharacter& character, const Recipe&
 std::string recipe_text(const ImportedCharacter& character, const Recipe& recipe) {
   const BakeSettings& s = recipe.settings;
   Json j;
-  j["nook"] = std::to_string(NOOK_VERSION_MAJOR) + "." + std::to_string(NOOK_VERSION_MINOR);
-  j["source"] = hex(recipe.source_hash);
+  j["nook"] = version_text;
+  j["content"] = recipe.content;
   j["preset"] = name_of(recipe.preset);
   j["poses"] = name_of(recipe.poses);
   j["auto_poses"] = recipe.auto_poses;
@@ -201,14 +236,21 @@ std::string recipe_text(const ImportedCharacter& character, const Recipe& recipe
   j["generation"] = recipe.generation;
   j["single_joint_steps"] = recipe.single_joint_steps;
   j["extra_poses"] = recipe.extra_poses;
+  if (!recipe.meshes.only.empty()) j["meshes"]["only"] = sorted_names(recipe.meshes.only);
+  if (!recipe.meshes.without.empty()) j["meshes"]["without"] = sorted_names(recipe.meshes.without);
   if (!recipe.rig.empty()) j["rig"] = Json::parse(rig_text(character.mesh, recipe.rig));
   j["seed"] = s.seed;
   j["rays"] = s.rays;
   j["spheres"] = s.spheres;
   j["key_points"] = s.key_points;
+  j["entries"] = s.entries;
   j["steps"] = s.steps;
   j["kernel"] = name_of(s.kernel.form);
   j["fit"] = name_of(s.fit);
+  if (s.learn_gamma)
+    j["gamma"] = "learned";
+  else
+    j["gamma"] = s.kernel.gamma;
   j["saturation"] = s.used_saturation();
   j["time_limit_s"] = s.time_limit_s;
   return j.dump();
@@ -221,7 +263,8 @@ Recipe read_recipe(const ImportedCharacter& character, std::string_view text) {
     r.preset = Preset(index_of(preset_names, j.at("preset")));
     r.poses = PoseMode(index_of(pose_names, j.at("poses")));
     r.auto_poses = j.at("auto_poses");
-    r.source_hash = std::stoull(j.at("source").get<std::string>(), nullptr, 16);
+    r.content = j.value("content", std::string());
+    r.meshes = meshes_of(j);
     if (j.contains("clips")) {
       if (j.at("clip_names") != hash_of_names(character))
         throw Failure(NOOK_ERROR_BAD_FILE, "the model was baked from a file with other clips; bake it again");
@@ -239,6 +282,12 @@ Recipe read_recipe(const ImportedCharacter& character, std::string_view text) {
     r.settings.spheres = j.at("spheres");
     r.settings.key_points = j.at("key_points");
     r.settings.steps = j.at("steps");
+    r.settings.entries = j.value("entries", r.settings.entries);
+    // Recipes of earlier versions have no gamma.
+    if (const auto gamma = j.find("gamma"); gamma != j.end()) {
+      r.settings.learn_gamma = *gamma == "learned";
+      if (gamma->is_number()) r.settings.kernel.gamma = *gamma;
+    }
     r.settings.kernel.form = KernelForm(index_of(kernel_names, j.at("kernel")));
     r.settings.fit = FitMethod(index_of(fit_names, j.at("fit")));
     // Recipes of character files up to version 3 have no saturation.

@@ -49,8 +49,11 @@ struct Recipe {
   int generation = pose_generation;
   int single_joint_steps = 0;   // 0: none
   std::size_t extra_poses = 0;  // given by the host; a recipe cannot make them again
-  std::uint64_t source_hash = 0;
-  RigCorrections rig;  // of a rig file
+  // The first digits of the hash of what the bake read (content_hash.h). Empty: an earlier version, which
+  // hashed the bytes of the file.
+  std::string content;
+  MeshSelection meshes;  // what the bake was asked to read
+  RigCorrections rig;    // of a rig file
   BakeSettings settings;
 };
 
@@ -72,9 +75,20 @@ std::vector<Pose> automatic_poses(const ImportedCharacter& character, const Reci
 // make again.
 std::vector<Pose> recipe_poses(const ImportedCharacter& character, const Recipe& recipe);
 
+// The digits of an imported character's source_hash that a recipe stores; the key of the bake has four times
+// as many.
+std::string content_digits(const ImportedCharacter& character);
+
+// Returns whether the bake read something else than what the character is now. Recipes of earlier versions do
+// not say what the bake read.
+bool reads_other_content(const Recipe& recipe, const ImportedCharacter& character);
+
 // Returns one line of JSON. Clips are stored as bits over clips_by_name with a hash of all names, so that the
 // line stays short.
 std::string recipe_text(const ImportedCharacter& character, const Recipe& recipe);
+
+// Returns the choice of meshes in the text of a recipe; empty if there is none, or the text is not a recipe.
+MeshSelection stored_meshes(std::string_view recipe_text);
 
 // Fails with BAD_FILE if the text is not a recipe, or was made for a file with other clips.
 Recipe read_recipe(const ImportedCharacter& character, std::string_view text);

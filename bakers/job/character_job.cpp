@@ -8,6 +8,7 @@
 #include "bakers/character/judgement.h"
 #include "bakers/character/offset_fit.h"
 #include "bakers/character/pose_sets.h"
+#include "bakers/import/content_hash.h"
 #include "bakers/raytrace/worker_arena.h"
 #include "bakers/world/fit_casters.h"
 #include "platform/peak_memory.h"
@@ -166,7 +167,7 @@ Recipe recipe_of(const nook_bake_character_desc& desc, const nook_bake_character
   recipe.settings = preset.settings;
   choose_settings(desc, study, character.mesh.vertex_count(), recipe.settings);
   recipe.poses = mode_of(desc.pose_mode);
-  recipe.source_hash = character.source_hash;
+  recipe.content = content_digits(character);
   recipe.extra_poses = desc.extra_pose_count;
   if (desc.extra_pose_count) need(desc.extra_poses_3x4, "desc.extra_poses_3x4");
   check_at_most("desc.auto_pose_count", desc.auto_pose_count, max_poses);
@@ -381,7 +382,42 @@ void fit_to_use(CharacterModel& model, const ImportedCharacter& character, const
                     tracing(progress));
 }
 
+// Hashes the matrices of poses; empty for none.
+std::string hash_of_poses(std::span<const Pose> poses) {
+  if (poses.empty()) return "";
+  ContentHash hash;
+  for (const Pose& pose : poses) hash.add_list(pose);
+  return hash.hex();
+}
+
 }  // namespace
+
+BakeIdentity identify_character(const ImportedCharacter& character, const Recipe& recipe,
+                                std::span<const Pose> extra_poses, const CalibrationPoses& calibration) {
+  nlohmann::json settings = nlohmann::json::parse(recipe_text(character, recipe));
+  settings.erase("nook");     // the identity has both
+  settings.erase("content");  // for all bakes
+  // The text of a rig file can be long, and its order means nothing.
+  if (settings.contains("rig")) settings["rig"] = sha256(settings["rig"].dump());
+  const WorldCasterSettings casters = caster_settings(recipe);
+  settings["casters"] = {{"casters", casters.casters},
+                         {"poses", casters.poses},
+                         {"floor_points", casters.floor_points},
+                         {"wall_points", casters.wall_points},
+                         {"contact_points", casters.contact_points},
+                         {"neighbour_points", casters.neighbour_points},
+                         {"cone_points", casters.cone_points},
+                         {"rays", casters.rays},
+                         {"steps", casters.steps},
+                         {"pull", casters.pull},
+                         {"deviation_m", casters.deviation_m},
+                         {"deviation_radius", casters.deviation_radius},
+                         {"seed", casters.seed}};
+  nlohmann::json inputs = {{"character", content_hash(character)}};
+  if (!extra_poses.empty()) inputs["extra_poses"] = hash_of_poses(extra_poses);
+  if (!calibration.poses.empty()) inputs["calibration_poses"] = hash_of_poses(calibration.poses);
+  return identify_bake(BakeKind::character, settings, inputs);
+}
 
 BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recipe,
                          std::span<const Pose> extra_poses, const StageReport& progress,
@@ -407,7 +443,8 @@ BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recip
       judge_model(character, quantise(baked.model), recipe,
                   poses_to_judge(character, recipe, split_recording(calibration.poses)),
                   mix_bits(recipe.settings.seed ^ 0x6a75646765ull), tracing(progress));
-  baked.model.recipe = with_figures(recipe_text(character, recipe), judgement);
+  baked.model.recipe = with_identity(with_figures(recipe_text(character, recipe), judgement),
+                                     identify_character(character, recipe, extra_poses, calibration));
   BakedFile file;
   file.model = write_character_model(baked.model);
   file.report =
@@ -415,9 +452,17 @@ BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recip
   return file;
 }
 
+BakeIdentity identify_calibration(const ImportedCharacter& character, std::span<const std::byte> model_bytes,
+                                  const CalibrationPoses& calibration, const CalibrationTask& task) {
+  return identify_bake(BakeKind::calibration, {{"rays", task.rays}, {"seed", task.seed}},
+                       {{"character", content_hash(character)},
+                        {"model", sha256(model_bytes)},
+                        {"calibration_poses", hash_of_poses(calibration.poses)}});
+}
+
 BakedFile calibrate_file(const ImportedCharacter& character, CharacterModel model,
                          const CalibrationPoses& calibration, const CalibrationTask& task,
-                         const StageReport& progress) {
+                         const StageReport& progress, const BakeIdentity& identity) {
   const Recipe recipe =
       model.recipe.empty() ? Recipe() : read_recipe(character, std::string_view(model.recipe));
   const SplitRecording recording = split_recording(calibration.poses);
@@ -426,8 +471,9 @@ BakedFile calibrate_file(const ImportedCharacter& character, CharacterModel mode
   const Judgement judgement =
       judge_model(character, quantise(model), recipe, poses_to_judge(character, recipe, recording),
                   mix_bits(task.seed ^ 0x6a75646765ull), tracing(progress));
-  model.recipe =
-      with_figures(model.recipe.empty() ? std::string_view("{}") : std::string_view(model.recipe), judgement);
+  model.recipe = with_identity(
+      with_figures(model.recipe.empty() ? std::string_view("{}") : std::string_view(model.recipe), judgement),
+      identity);
   BakedFile file;
   file.model = write_character_model(model);
   Json report;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "bakers/character/recipe.h"
+#include "bakers/job/bake_identity.h"
 #include "bakers/job/baked_file.h"
 
 namespace nook::bake {
@@ -22,6 +23,10 @@ struct CalibrationPoses {
   std::vector<Pose> poses;
 };
 
+// Identifies the bake of bake_by_recipe with the same arguments.
+BakeIdentity identify_character(const ImportedCharacter& character, const Recipe& recipe,
+                                std::span<const Pose> extra_poses, const CalibrationPoses& calibration = {});
+
 // Throws Failure: INVALID_ARGUMENT (there are no poses, or settings are out of range), CANCELLED.
 BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recipe,
                          std::span<const Pose> extra_poses, const StageReport& progress,
@@ -35,10 +40,14 @@ struct CalibrationTask {
   std::uint64_t seed = 1;
 };
 
-// Throws Failure: INVALID_ARGUMENT (no poses), BAD_FILE (a recipe that is not that of the character),
-// CANCELLED.
+// Identifies the bake of calibrate_file for the model in these bytes.
+BakeIdentity identify_calibration(const ImportedCharacter& character, std::span<const std::byte> model_bytes,
+                                  const CalibrationPoses& calibration, const CalibrationTask& task);
+
+// The file stores the identity if it has text. Throws Failure: INVALID_ARGUMENT (no poses), BAD_FILE (a
+// recipe that is not that of the character), CANCELLED.
 BakedFile calibrate_file(const ImportedCharacter& character, CharacterModel model,
                          const CalibrationPoses& calibration, const CalibrationTask& task,
-                         const StageReport& progress);
+                         const StageReport& progress, const BakeIdentity& identity = {});
 
 }  // namespace nook::bake

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bakers/character/pose_sets.h"
+#include "bakers/character/recipe.h"
+#include "bakers/import/content_hash.h"
 #include "platform/peak_memory.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/character/clip_set.h"
@@ -28,7 +30,7 @@ std::string clip_recipe(const ImportedCharacter& character, const ClipTask& task
   recipe["seed"] = task.tables.seed;
   recipe["max_error"] = task.tables.max_error;
   recipe["max_bytes"] = task.tables.max_bytes;
-  recipe["source_hash"] = character.source_hash;
+  recipe["content"] = content_digits(character);
   return recipe.dump();
 }
 
@@ -78,8 +80,27 @@ ClipFrames frames_of(const ImportedCharacter& character, const ClipTask& task) {
   return frames;
 }
 
+BakeIdentity identify_clips(const ImportedCharacter& character, std::span<const std::byte> model_bytes,
+                            const ClipTask& task) {
+  const ClipTableSettings& tables = task.tables;
+  nlohmann::json names = nlohmann::json::array();
+  for (const std::size_t clip : chosen_clips(character, task.clips))
+    names.push_back(character.clips[clip].name);
+  return identify_bake(BakeKind::clips,
+                       {{"clips", names},
+                        {"frames_per_second", task.frames_per_second},
+                        {"rays", task.rays},
+                        {"seed", tables.seed},
+                        {"max_error", tables.max_error},
+                        {"max_pose_error", tables.max_pose_error},
+                        {"max_bytes", tables.max_bytes},
+                        {"max_modes", tables.max_modes}},
+                       {{"character", content_hash(character)}, {"model", sha256(model_bytes)}});
+}
+
 BakedFile bake_clips_file(const ImportedCharacter& character, const CharacterModel& model,
-                          const ClipFrames& frames, const ClipTask& task, const StageReport& progress) {
+                          const ClipFrames& frames, const ClipTask& task, const StageReport& progress,
+                          const BakeIdentity& identity) {
   const platform::Stopwatch watch;
   const AoTargets targets = trace_character_ao(
       character.mesh, frames.poses, task.rays, task.tables.seed,
@@ -89,7 +110,7 @@ BakedFile bake_clips_file(const ImportedCharacter& character, const CharacterMod
       measure_noise_floor(character.mesh, frames.poses, targets, task.rays, task.tables.seed);
   ClipTableReport tables;
   ClipSet set = make_clip_set(character.mesh, model, frames, targets, noise, task.tables, tables);
-  set.recipe = clip_recipe(character, task);
+  set.recipe = with_identity(clip_recipe(character, task), identity);
   BakedFile file;
   file.model = write_clip_set(set);
   Json report;

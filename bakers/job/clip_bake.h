@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bakers/character/clip_tables.h"
+#include "bakers/job/bake_identity.h"
 #include "bakers/job/baked_file.h"
 
 namespace nook::bake {
@@ -32,9 +33,14 @@ ClipTask clip_task_of(const nook_bake_clips_desc& desc);
 // too many frames.
 ClipFrames frames_of(const ImportedCharacter& character, const ClipTask& task);
 
-// Pass the model of the character and the frames of the task. The stage is JobStage::raytrace and counts
-// frames. Throws Failure: CANCELLED.
+// Identifies the bake of bake_clips_file for the model in these bytes. Throws what chosen_clips throws.
+BakeIdentity identify_clips(const ImportedCharacter& character, std::span<const std::byte> model_bytes,
+                            const ClipTask& task);
+
+// Pass the model of the character and the frames of the task. The file stores the identity if it has text.
+// The stage is JobStage::raytrace and counts frames. Throws Failure: CANCELLED.
 BakedFile bake_clips_file(const ImportedCharacter& character, const CharacterModel& model,
-                          const ClipFrames& frames, const ClipTask& task, const StageReport& progress);
+                          const ClipFrames& frames, const ClipTask& task, const StageReport& progress,
+                          const BakeIdentity& identity = {});
 
 }  // namespace nook::bake

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "bakers/job/material_identity.h"
 #include "bakers/material/baked_figures.h"
 #include "bakers/material/raw_relief.h"
 #include "bakers/raytrace/worker_arena.h"
@@ -337,7 +338,7 @@ JobStage stage_of(std::string_view stage) {
 
 CompressedMaterial compress_to_file(const RawMaterial& raw, ReliefSource relief, const ChooseSettings& choose,
                                     const Json& source, const Json& relief_source,
-                                    const StageProgress& progress) {
+                                    const StageProgress& progress, const BakeIdentity& identity) {
   const platform::Stopwatch watch;
   const MovedMaterial moved = move_views(raw, relief, progress);
   const CompressionSettings settings = choose(moved.or_still(raw));
@@ -346,6 +347,7 @@ CompressedMaterial compress_to_file(const RawMaterial& raw, ReliefSource relief,
   CompressedMaterial out;
   out.recipe = {{"source", source}, {"compression", describe(settings)}};
   if (!relief_source.is_null()) out.recipe["relief"] = relief_source;
+  store_identity(out.recipe, identity);
   // Names come from files and need not be UTF-8.
   material.recipe = out.recipe.dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
   set_core_rounding(raw, material);
@@ -359,6 +361,7 @@ CompressedMaterial compress_to_file(const RawMaterial& raw, ReliefSource relief,
 
 BakedFile bake_material(MaterialTask& task, const StageReport& progress) {
   const platform::Stopwatch watch;
+  const BakeIdentity identity = identify_material(task);
   const RawMaterial raw = obtain(task, progress);
   const double seconds_source = watch.seconds();
   CompressedMaterial compressed = compress_to_file(
@@ -366,7 +369,8 @@ BakedFile bake_material(MaterialTask& task, const StageReport& progress) {
       source_of(task, raw), {},
       [&](const char* stage, std::size_t done, std::size_t total) {
         return progress(stage_of(stage), done, total);
-      });
+      },
+      identity);
   Json report = std::move(compressed.row);
   report["seconds_source"] = seconds_source;
   report["file_bytes"] = compressed.file.size();

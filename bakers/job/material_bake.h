@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "bakers/job/bake_identity.h"
 #include "bakers/job/baked_file.h"
 #include "bakers/material/btf_file.h"
 #include "bakers/material/compression.h"
@@ -57,12 +58,13 @@ struct CompressedMaterial {
 // Chooses the settings from the images to fit: on the relief, if there is one.
 using ChooseSettings = std::function<material::CompressionSettings(const material::RawMaterial& fitted)>;
 
-// The recipe names `source`, and `relief_source`, the file of the heights, if it is not null. Throws what
-// choose throws, and Failure: CANCELLED.
+// The recipe names `source`, and `relief_source`, the file of the heights, if it is not null, and holds the
+// identity if that has text. Throws what choose throws, and Failure: CANCELLED.
 CompressedMaterial compress_to_file(const material::RawMaterial& raw, material::ReliefSource relief,
                                     const ChooseSettings& choose, const nlohmann::ordered_json& source,
                                     const nlohmann::ordered_json& relief_source,
-                                    const material::StageProgress& progress);
+                                    const material::StageProgress& progress,
+                                    const BakeIdentity& identity = {});
 
 // Consumes the task's measured data. Throws Failure: INVALID_ARGUMENT (ranks that the data do not allow, a
 // structure that cannot be built), CANCELLED.

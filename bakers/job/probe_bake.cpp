@@ -1,5 +1,6 @@
 #include "bakers/job/probe_bake.h"
 
+#include "bakers/import/content_hash.h"
 #include "bakers/probe/wall_fit.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/core/failure.h"
@@ -10,6 +11,15 @@ namespace {
 constexpr std::uint32_t passes_between_errors = 4;
 
 }  // namespace
+
+std::string content_hash(const Environment& map) {
+  ContentHash hash;
+  hash.add(std::string_view("nook environment 1"));
+  hash.add(map.width());
+  hash.add(map.height());
+  hash.add_list(map.rgb());
+  return hash.hex();
+}
 
 MapProbe bake_map_probe(const Environment& map, const probe::MapBakeSettings& settings,
                         const Progress& progress) {

@@ -11,6 +11,9 @@
 
 namespace nook::bake {
 
+// Hashes the texels of a map, 64 hexadecimal digits.
+std::string content_hash(const Environment& map);
+
 struct MapProbe {
   nook::probe::Probes probes;
   std::size_t samples = 0;

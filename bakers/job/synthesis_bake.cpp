@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bakers/import/sha256.h"
 #include "bakers/material/appearance.h"
 #include "bakers/material/raw_material.h"
 #include "bakers/synthesis/exemplar.h"
@@ -80,6 +81,7 @@ SynthesisTask synthesis_task(std::span<const std::byte> material, const Crop& cr
                              const synthesis::SynthesisSettings& settings) {
   const Looks looks = looks_of(material, settings.seed);
   SynthesisTask task;
+  task.material_hash = sha256(material);
   task.width = looks.width;
   task.height = looks.height;
   task.settings = settings;
@@ -102,6 +104,17 @@ SynthesisTask synthesis_task_of(const nook_bake_synthesis_desc& desc) {
                         settings);
 }
 
+BakeIdentity identify_synthesis(const SynthesisTask& task) {
+  return identify_bake(BakeKind::synthesis,
+                       {{"tiling", task.exemplar.shape.is_tiling},
+                        {"crop", {task.crop.x, task.crop.y, task.crop.width, task.crop.height}},
+                        {"side", task.settings.side},
+                        {"jitter", task.settings.jitter},
+                        {"passes", task.settings.passes},
+                        {"seed", task.settings.seed}},
+                       {{"material", task.material_hash}});
+}
+
 BakedFile bake_synthesis_file(const SynthesisTask& task, const StageReport& progress) {
   platform::Stopwatch watch;
   const std::vector<Texel> plane = synthesis::synthesise(
@@ -112,7 +125,9 @@ BakedFile bake_synthesis_file(const SynthesisTask& task, const StageReport& prog
                          after =
                              synthesis::measure_seams(task.exemplar, plane, std::int32_t(task.settings.side));
   nook::synthesis::Coordinates coordinates = coordinates_of(task, plane);
-  coordinates.recipe = synthesis_recipe(task).dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
+  Json recipe = synthesis_recipe(task);
+  store_identity(recipe, identify_synthesis(task));
+  coordinates.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
   BakedFile file;
   file.model = nook::synthesis::write_coordinates(coordinates);
   Json report;

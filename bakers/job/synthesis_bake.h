@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "bakers/job/bake_identity.h"
 #include "bakers/job/baked_file.h"
 #include "bakers/synthesis/synthesise.h"
 
@@ -22,7 +23,8 @@ struct SynthesisTask {
   synthesis::Exemplar exemplar;         // made from the crop
   Crop crop;
   synthesis::SynthesisSettings settings;
-  std::string source;  // the name of the file, if there is one
+  std::string source;         // the name of the file, if there is one
+  std::string material_hash;  // SHA-256 of the material's bytes
 };
 
 // Reads the looks of texels from the bytes of a .nook file that holds a material or a raw material.
@@ -32,6 +34,9 @@ SynthesisTask synthesis_task(std::span<const std::byte> material, const Crop& cr
                              const synthesis::SynthesisSettings& settings);
 // Throws what synthesis_task throws, and INVALID_ARGUMENT for a NULL material.
 SynthesisTask synthesis_task_of(const nook_bake_synthesis_desc& desc);
+
+// Identifies the bake of bake_synthesis_file.
+BakeIdentity identify_synthesis(const SynthesisTask& task);
 
 // The stage is JobStage::fit and counts texels. Throws Failure: CANCELLED.
 BakedFile bake_synthesis_file(const SynthesisTask& task, const StageReport& progress);

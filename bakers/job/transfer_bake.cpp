@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "bakers/import/content_hash.h"
 #include "bakers/import/surface_mesh.h"
 #include "platform/peak_memory.h"
 #include "platform/stopwatch.h"
@@ -27,6 +28,14 @@ std::string hash_text(std::uint64_t hash) {
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
   return text;
+}
+
+// The file stores the hash of the VOTF, and what the bake reads of it is made from it.
+std::string hash_of_holes(const transfer::HoleTable& holes) {
+  ContentHash hash;
+  hash.add(holes.votf_hash);
+  hash.add_list(holes.cover);
+  return hash.hex();
 }
 
 double mean_share(const nook::transfer::Transfer& transfer) {
@@ -92,12 +101,38 @@ TransferTask transfer_task_of(const nook_bake_transfer_desc& desc) {
                                 : "desc.material is NULL; NOOK_FORM_PAPER needs the file of a material");
   if (desc.material) {
     task.material = tables_of_material({static_cast<const std::byte*>(desc.material), desc.material_size});
+    task.material_hash = sha256(std::span(static_cast<const std::byte*>(desc.material), desc.material_size));
     task.paper.clusters = desc.clusters;
     transfer::check_paper_bake(mesh, task.paper);
   }
   if (desc.votf)
     task.settings.holes = holes_of_material({static_cast<const std::byte*>(desc.votf), desc.votf_size});
   return task;
+}
+
+BakeIdentity identify_transfer(const TransferTask& task) {
+  const transfer::BakeSettings& s = task.settings;
+  nlohmann::json settings = {{"form", task.material ? "paper" : "separated"},
+                             {"lobes", s.lobes},
+                             {"ray_side", s.side},
+                             {"bounces", s.bounces}};
+  nlohmann::json inputs = {{"shape", content_hash(task.mesh)}};
+  if (s.holes) {
+    settings["tiles"] = s.tiles;
+    inputs["votf"] = hash_of_holes(*s.holes);
+  }
+  if (task.material) {
+    const transfer::PaperSettings& paper = task.paper;
+    settings["paper"] = {{"clusters", paper.clusters},
+                         {"lobe_rank", paper.lobe_rank},
+                         {"vertex_rank", paper.vertex_rank},
+                         {"common_rank", paper.common_rank},
+                         {"iterations", paper.iterations},
+                         {"nearest", paper.nearest},
+                         {"seed", paper.seed}};
+    inputs["material"] = task.material_hash;
+  }
+  return identify_bake(BakeKind::transfer, settings, inputs);
 }
 
 BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progress) {
@@ -121,6 +156,7 @@ BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progre
     recipe["votf"] = hash_text(task.settings.holes->votf_hash);
     recipe["tiles"] = task.settings.tiles;
   }
+  store_identity(recipe, identify_transfer(task));
   transfer.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
   BakedFile file;
   file.model = nook::transfer::write_transfer(transfer);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bakers/job/bake_identity.h"
 #include "bakers/job/baked_file.h"
 #include "bakers/transfer/paper_bake.h"
 
@@ -17,6 +18,7 @@ struct TransferTask {
   std::shared_ptr<const nook::material::MaterialTables> material;
   transfer::PaperSettings paper;
   std::string source;                 // the name of the file, if there is one
+  std::string material_hash;          // SHA-256 of the file of the material; empty without one
   std::vector<std::string> warnings;  // warnings of the import
 };
 
@@ -29,6 +31,9 @@ std::shared_ptr<const nook::material::MaterialTables> tables_of_material(std::sp
 // Makes the holes of the material in the bytes of a .nook file, for BakeSettings. Throws Failure: what
 // read_material throws, and INVALID_ARGUMENT if the material has no VOTF.
 std::shared_ptr<const transfer::HoleTable> holes_of_material(std::span<const std::byte> bytes);
+
+// Identifies the bake of bake_transfer_file.
+BakeIdentity identify_transfer(const TransferTask& task);
 
 // The stage is JobStage::raytrace and counts vertices, once for the direct light and once for each
 // reflection. In the paper's form, JobStage::fit then counts clusters. Throws Failure: INVALID_ARGUMENT,

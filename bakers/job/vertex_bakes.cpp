@@ -8,6 +8,7 @@
 #include "bakers/character/pose_sets.h"
 #include "bakers/character/recipe.h"
 #include "bakers/character/vertex_fits.h"
+#include "bakers/import/content_hash.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/checks.h"
@@ -63,14 +64,26 @@ BentTask bent_task_of(const nook_bake_bent_desc& desc) {
   return {desc.auto_pose_count, desc.samples_per_clip, desc.rays, desc.seed};
 }
 
+BakeIdentity identify_bent(const ImportedCharacter& character, std::span<const std::byte> model_bytes,
+                           const BentTask& task) {
+  return identify_bake(BakeKind::bent,
+                       {{"auto_poses", task.auto_poses},
+                        {"samples_per_clip", task.samples_per_clip},
+                        {"rays", task.rays},
+                        {"seed", task.seed},
+                        {"pose_generation", pose_generation}},
+                       {{"character", content_hash(character)}, {"model", sha256(model_bytes)}});
+}
+
 BakedFile bake_bent_file(const ImportedCharacter& character, CharacterModel model, const BentTask& task,
-                         const StageReport& progress) {
+                         const StageReport& progress, const BakeIdentity& identity) {
   const platform::Stopwatch watch;
   const std::vector<Pose> poses = poses_of(character, model, task);
   const std::vector<OccludedEnds> ends = fit_occluded(
       character.mesh, poses, {task.rays, task.seed},
       [&](std::size_t done, std::size_t total) { return progress(JobStage::raytrace, done, total); });
   model.occluded.assign(ends.begin(), ends.end());
+  model.recipe = with_identity(model.recipe, identity);
   BakedFile file;
   file.model = write_character_model(model);
   Json report;
@@ -116,6 +129,17 @@ std::vector<Pose> training_poses(const ImportedCharacter& lod, const LodTask& ta
 
 }  // namespace
 
+BakeIdentity identify_lod(const ImportedCharacter& lod, std::span<const std::byte> model_bytes,
+                          const LodTask& task) {
+  return identify_bake(BakeKind::lod,
+                       {{"auto_poses", task.auto_poses},
+                        {"samples_per_clip", task.samples_per_clip},
+                        {"rays", task.rays},
+                        {"seed", task.seed},
+                        {"pose_generation", pose_generation}},
+                       {{"character", content_hash(lod)}, {"model", sha256(model_bytes)}});
+}
+
 BakedFile bake_lod_file(const ImportedCharacter& lod, std::span<const std::byte> model_bytes,
                         const LodTask& task, const StageReport& progress) {
   const platform::Stopwatch watch;
@@ -127,6 +151,7 @@ BakedFile bake_lod_file(const ImportedCharacter& lod, std::span<const std::byte>
       [&](std::size_t done, std::size_t total) { return progress(JobStage::raytrace, done, total); });
   model.bind = bind_data_of(lod);
   model.rest = rest_surface_of(lod.mesh);
+  model.recipe = with_identity(model.recipe, identify_lod(lod, model_bytes, task));
   BakedFile file;
   file.model = write_character_model(model);
   Json report;

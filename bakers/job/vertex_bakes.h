@@ -8,6 +8,7 @@
 #include <span>
 
 #include "bakers/import/gltf.h"
+#include "bakers/job/bake_identity.h"
 #include "bakers/job/baked_file.h"
 #include "sdk/src/character/model.h"
 
@@ -29,12 +30,16 @@ struct BentTask {
 // Throws Failure(INVALID_ARGUMENT) for a number out of its range.
 BentTask bent_task_of(const nook_bake_bent_desc& desc);
 
+// Identifies the bake of bake_bent_file for the model in these bytes.
+BakeIdentity identify_bent(const ImportedCharacter& character, std::span<const std::byte> model_bytes,
+                           const BentTask& task);
+
 // Adds occluded directions to the model of `character`, fitted to ray tracing in automatic poses and clips.
 // The clips are the ones that the model was fitted to, or all clips if it has no recipe. The rest of the
-// model stays as it is. The stage is JobStage::raytrace and counts poses. Throws Failure: BAD_FILE (a recipe
-// of another character), CANCELLED.
+// model stays as it is; its recipe takes the identity if that has text. The stage is JobStage::raytrace and
+// counts poses. Throws Failure: BAD_FILE (a recipe of another character), CANCELLED.
 BakedFile bake_bent_file(const ImportedCharacter& character, CharacterModel model, const BentTask& task,
-                         const StageReport& progress);
+                         const StageReport& progress, const BakeIdentity& identity = {});
 
 // Makes the model of a mesh with less detail from the bake of the full mesh.
 
@@ -44,6 +49,10 @@ struct LodTask {
   std::uint32_t rays = 128;
   std::uint64_t seed = 1;
 };
+
+// Identifies the bake of bake_lod_file.
+BakeIdentity identify_lod(const ImportedCharacter& lod, std::span<const std::byte> model_bytes,
+                          const LodTask& task);
 
 // `lod` needs the bones of the model in the same order, as meshes of one rig have. The result has the
 // spheres, key points, levels and casters of the model. Its vertices are fitted to ray tracing of `lod` in

@@ -35,7 +35,7 @@ struct Options {
 
 std::optional<bake::Recipe> known_recipe(const BakedCharacter& baked, const Options& options) {
   const auto recipe = naming_file(options.files.model, [&] { return stored_recipe(baked); });
-  if (recipe && recipe->source_hash != baked.character.source_hash && !options.common.quiet)
+  if (recipe && bake::reads_other_content(*recipe, baked.character) && !options.common.quiet)
     std::fprintf(stderr, "%s: the character file has changed since the bake; the numbers mix old and new\n",
                  platform::printable(options.files.model.string()).c_str());
   return recipe;

@@ -115,7 +115,7 @@ Measures measures_of(const BakedCharacter& baked, const Recipe* recipe, const Bo
     m.name["clip"] = found.clips.front().name;
   }
   if (recipe) {
-    m.value["source_changed"] = recipe->source_hash != baked.character.source_hash ? 1 : 0;
+    m.value["source_changed"] = reads_other_content(*recipe, baked.character) ? 1 : 0;
     m.value["draft"] = recipe->preset == Preset::draft ? 1 : 0;
     if (!motion_clips(baked.character).empty()) m.value["fitted_clips"] = double(recipe->clips.size());
   }
