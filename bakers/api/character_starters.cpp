@@ -2,8 +2,8 @@
 
 namespace nook::bake {
 
-api::Starter api::starter_of(std::uint32_t type) {
-  return type == NOOK_DESC_BAKE_CHARACTER ? start_character : nullptr;
+api::Bake api::bake_of(std::uint32_t type) {
+  return type == NOOK_DESC_BAKE_CHARACTER ? character_bake() : Bake();
 }
 
 }  // namespace nook::bake

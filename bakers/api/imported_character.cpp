@@ -21,8 +21,9 @@ using namespace nook::bake;
 
 namespace {
 
-void hand_out(ImportedCharacter imported, nook_bake_character* out) {
-  *out = new nook_bake_character_s{std::make_shared<const ImportedCharacter>(std::move(imported))};
+void hand_out(ImportedCharacter imported, MeshSelection meshes, nook_bake_character* out) {
+  *out = new nook_bake_character_s{std::make_shared<const ImportedCharacter>(std::move(imported)),
+                                   std::move(meshes)};
 }
 
 const ImportedCharacter& get(nook_bake_character character) {
@@ -71,7 +72,12 @@ std::vector<std::string> read_patterns(const char* name, const char* const* patt
   return out;
 }
 
-ImportedCharacter character_of(const nook_bake_source_desc& desc) {
+MeshSelection meshes_of(const nook_bake_source_desc& desc) {
+  return {read_patterns("desc.meshes", desc.meshes, desc.mesh_count),
+          read_patterns("desc.without", desc.without, desc.without_count)};
+}
+
+ImportedCharacter character_of(const nook_bake_source_desc& desc, const MeshSelection& meshes) {
   const bool has_arrays = desc.positions || desc.indices || desc.joints || desc.weights ||
                           desc.bone_parents || desc.bone_frames_3x4;
   const int sources = int(desc.path != nullptr) + int(desc.bytes != nullptr) + int(has_arrays);
@@ -79,8 +85,6 @@ ImportedCharacter character_of(const nook_bake_source_desc& desc) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc has %s of desc.path, desc.bytes and arrays such as desc.positions; give exactly one",
                   sources == 0 ? "none" : "more than one");
-  const MeshSelection meshes{read_patterns("desc.meshes", desc.meshes, desc.mesh_count),
-                             read_patterns("desc.without", desc.without, desc.without_count)};
   if (has_arrays && !(meshes.only.empty() && meshes.without.empty()))
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
@@ -182,7 +186,10 @@ nook_result nook_bake_character_create(const nook_bake_source_desc* desc, nook_b
   return api::enter("nook_bake_character_create", [&] {
     need(out, "out");
     *out = nullptr;
-    hand_out(character_of(read_descriptor(desc)), out);
+    const nook_bake_source_desc source = read_descriptor(desc);
+    MeshSelection meshes = meshes_of(source);
+    ImportedCharacter imported = character_of(source, meshes);
+    hand_out(std::move(imported), std::move(meshes), out);
   });
 }
 

@@ -1,5 +1,9 @@
-// Starts a bake by the type of its descriptor, bakes a character's model, and owns the life of a job.
+// Starts and identifies a bake by the type of its descriptor, bakes a character's model, and owns the life of
+// a job.
+#include <nook/experimental/nook_bake_key.h>
 #include <nook/nook_bake.h>
+
+#include <cstring>
 
 #include "bakers/api/bake_descriptors.h"
 #include "bakers/api/bake_entry.h"
@@ -35,37 +39,76 @@ const BakeJob& get(nook_bake_job job) {
   return job->job;
 }
 
-}  // namespace
+// What a descriptor asks for.
+struct CharacterRequest {
+  nook_bake_character_desc settings;
+  std::shared_ptr<const ImportedCharacter> character;
+  Recipe recipe;
+  std::vector<Pose> extra;
+  CalibrationPoses calibration;
+};
 
-nook_bake_job_s* api::start_character(const void* desc) {
+CharacterRequest character_request(const void* desc) {
   using Study = nook_bake_character_study_desc;
   const auto settings =
       read_descriptor<nook_bake_character_desc, Study>(static_cast<const nook_bake_character_desc*>(desc));
   const Study* const given = find_extension<Study>(settings.next);
   const Study study = given ? read_descriptor(given) : default_desc<Study>();
   need(settings.character, "desc.character");
-  const ImportedCharacter& imported = *settings.character->character;
-  Recipe recipe = recipe_of(settings, study, imported);
-  std::vector<Pose> extra =
-      read_poses(settings.extra_poses_3x4, settings.extra_pose_count, imported.mesh.bones.size());
-  CalibrationPoses calibration{
-      read_poses(study.calibration_poses_3x4, study.calibration_pose_count, imported.mesh.bones.size())};
-  return api::start_job(
-      settings, [shared = settings.character->character, recipe = std::move(recipe), extra = std::move(extra),
-                 calibration = std::move(calibration)](const StageReport& report) {
-        return bake_by_recipe(*shared, recipe, extra, report, calibration);
-      });
+  const std::shared_ptr<const ImportedCharacter>& imported = settings.character->character;
+  const std::size_t bones = imported->mesh.bones.size();
+  Recipe recipe = recipe_of(settings, study, *imported);
+  recipe.meshes = settings.character->meshes;
+  return {settings,
+          imported,
+          std::move(recipe),
+          read_poses(settings.extra_poses_3x4, settings.extra_pose_count, bones),
+          {read_poses(study.calibration_poses_3x4, study.calibration_pose_count, bones)}};
+}
+
+nook_bake_job_s* start_character(const void* desc) {
+  CharacterRequest request = character_request(desc);
+  const nook_bake_character_desc settings = request.settings;
+  return api::start_job(settings, [request = std::move(request)](const StageReport& report) {
+    return bake_by_recipe(*request.character, request.recipe, request.extra, report, request.calibration);
+  });
+}
+
+BakeIdentity identify_character_desc(const void* desc) {
+  const CharacterRequest request = character_request(desc);
+  return identify_character(*request.character, request.recipe, request.extra, request.calibration);
+}
+
+api::Bake need_bake(const void* desc) {
+  need(desc, "desc");
+  const std::uint32_t type = head_of(desc).type;
+  const api::Bake bake = api::bake_of(type);
+  if (!bake.start) refuse_type(type);
+  return bake;
+}
+
+}  // namespace
+
+api::Bake api::character_bake() {
+  return {start_character, identify_character_desc};
 }
 
 nook_result nook_bake_start(const void* desc, nook_bake_job* out) {
   return api::enter("nook_bake_start", [&] {
     need(out, "out");
     *out = nullptr;
-    need(desc, "desc");
-    const std::uint32_t type = head_of(desc).type;
-    const api::Starter start = api::starter_of(type);
-    if (!start) refuse_type(type);
-    *out = start(desc);
+    *out = need_bake(desc).start(desc);
+  });
+}
+
+nook_result nook_bake_key(const void* desc, char* key, size_t size) {
+  return api::enter("nook_bake_key", [&] {
+    need(key, "key");
+    if (size < NOOK_BAKE_KEY_SIZE)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "size is too small (got %zu, need %d bytes)", size,
+                    NOOK_BAKE_KEY_SIZE);
+    const std::string text = need_bake(desc).identify(desc).key();
+    std::memcpy(key, text.c_str(), text.size() + 1);
   });
 }
 

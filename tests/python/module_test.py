@@ -3,6 +3,7 @@ import array
 import base64
 import copy
 import ctypes
+import hashlib
 import io
 import json
 import math
@@ -83,6 +84,20 @@ class Characters(unittest.TestCase):
     def test_one_seed_gives_the_same_bytes_on_any_number_of_threads(self):
         with nook.bake_character(self.character, threads=1, **SMALL) as job:
             self.assertEqual(job.wait(), self.data)
+
+    def test_the_key_of_a_bake_is_the_hash_of_what_its_file_holds(self):
+        key = nook.bake_key(nook.bake_character, self.character, **SMALL)
+        # The recipe is the last text of the file, which is not compressed.
+        text = self.data.decode("latin-1")
+        start = text.index('"bake":') + len('"bake":')
+        end = json.JSONDecoder().raw_decode(text, start)[1]
+        self.assertEqual(key, hashlib.sha256(text[start:end].encode("latin-1")).hexdigest())
+        self.assertEqual(key, nook.bake_key(nook.bake_character, tube(), threads=1, **SMALL))
+        self.assertNotEqual(key, nook.bake_key(nook.bake_character, self.character, seed=2, **SMALL))
+        weave = dict(meso="weave", light_count=12, view_count=12, width=16, height=16)
+        self.assertNotEqual(nook.bake_key(nook.bake_material, **weave), nook.bake_key(nook.bake_material, **dict(weave, bits=16)))
+        with self.assertRaisesRegex(ValueError, "bake_character, bake_material or bake_transfer"):
+            nook.bake_key(print)
 
     def test_the_model_is_nearer_to_ray_tracing_than_a_static_bake(self):
         error = nook.model_error(self.character, self.model, [bent(1.5), bent(-1.3)], rays=256)

@@ -15,7 +15,7 @@ library's message; arrays of a wrong shape and numbers out of range raise ValueE
 from ._layouts import NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR, NOOK_VERSION_PATCH, NOOK_VERSION_SUFFIX
 from ._library import Cancelled, MissingLibrary, NookError
 from .characters import Character
-from .jobs import Job, Progress, bake_character, bake_material, bake_transfer
+from .jobs import Job, Progress, bake_character, bake_key, bake_material, bake_transfer
 from .materials import Material, MaterialValues
 from .probes import Probe, ProbeFit
 from .scenes import NO_VERTEX, CharacterModel, Context, Instance, Scene, Skin, VertexMatch, evaluate_pose, evaluate_poses
@@ -24,6 +24,6 @@ from .traces import ModelError, model_error, trace_ao
 __version__ = f"{NOOK_VERSION_MAJOR}.{NOOK_VERSION_MINOR}.{NOOK_VERSION_PATCH}{NOOK_VERSION_SUFFIX.replace('-', '')}"
 __all__ = [
     "Cancelled", "Character", "CharacterModel", "Context", "Instance", "Job", "Material", "MaterialValues", "MissingLibrary", "ModelError",
-    "NO_VERTEX", "NookError", "Probe", "ProbeFit", "Progress", "Scene", "Skin", "VertexMatch", "bake_character", "bake_material",
-    "bake_transfer", "evaluate_pose", "evaluate_poses", "model_error", "trace_ao",
+    "NO_VERTEX", "NookError", "Probe", "ProbeFit", "Progress", "Scene", "Skin", "VertexMatch", "bake_character", "bake_key",
+    "bake_material", "bake_transfer", "evaluate_pose", "evaluate_poses", "model_error", "trace_ao",
 ]

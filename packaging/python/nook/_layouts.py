@@ -13,6 +13,7 @@ NOOK_BAKE_ARRAY_TRIANGLES = 5
 NOOK_BAKE_ARRAY_WEIGHTS = 7
 NOOK_BAKE_DONE = 2
 NOOK_BAKE_GAMMA_LEARNED = -1.0
+NOOK_BAKE_KEY_SIZE = 65
 NOOK_BAKE_METHOD_CTA = 1
 NOOK_BAKE_METHOD_K_CTA = 0
 NOOK_BAKE_METHOD_NEURAL = 3
@@ -1260,6 +1261,7 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "nook_bake_character_sample_clip": (nook_result, [nook_bake_character, ctypes.c_uint32, ctypes.c_float, ctypes.POINTER(ctypes.c_float), ctypes.c_uint32]),
     "nook_bake_character_auto_poses": (nook_result, [nook_bake_character, ctypes.c_uint64, ctypes.c_uint32, ctypes.POINTER(ctypes.c_float), ctypes.c_uint32]),
     "nook_bake_character_skin": (nook_result, [nook_bake_character, ctypes.POINTER(ctypes.c_float), ctypes.c_uint32, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.c_uint32]),
+    "nook_bake_key": (nook_result, [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_size_t]),
     "nook_scene_record_pose": (nook_result, [nook_scene, nook_instance_id, ctypes.c_void_p, ctypes.POINTER(ctypes.c_size_t)]),
     "nook_model_recipe": (nook_result, [nook_model, ctypes.POINTER(ctypes.c_char_p)]),
     "nook_scene_describe_instance": (nook_result, [nook_scene, nook_instance_id, ctypes.POINTER(nook_scene_instance_info)]),

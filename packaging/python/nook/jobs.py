@@ -4,7 +4,7 @@ import ctypes
 import json
 import os
 import time
-from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Union
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -138,6 +138,15 @@ def bake_character(character: Character, *, preset: str = "standard", poses: Opt
     settings: spheres, key_points, rays, steps, auto_pose_count, samples_per_clip, seed, threads, gamma, saturation, time_limit_s, as
     nook_bake_character_desc has them. progress is called on threads of the job; it returns False to cancel.
     """
+    desc, keep = _character_bake(character, preset=preset, poses=poses, clips=clips, clip_split=clip_split, extra_poses=extra_poses,
+                                 calibration_poses=calibration_poses, form=form, **settings)
+    return Job(desc, progress, keep)
+
+
+def _character_bake(character: Character, *, preset: str = "standard", poses: Optional[str] = None, clips: Union[str, Sequence[str]] = (),
+                    clip_split: Optional[str] = None, extra_poses: Any = None, calibration_poses: Any = None, form: Optional[str] = None,
+                    **settings: Any) -> Tuple[Any, Any]:
+    """The descriptor of the bake, and what must live as long as it."""
     desc = descriptor(c.nook_bake_character_desc)
     desc.character = need(character, Character, "character").handle
     desc.preset = choice("NOOK_BAKE_PRESET_", preset, "preset")
@@ -162,7 +171,7 @@ def bake_character(character: Character, *, preset: str = "standard", poses: Opt
         put(desc, extra_poses_3x4=pointer(extra), extra_pose_count=len(extra))
     put_settings(desc, settings, ("spheres", "key_points", "rays", "steps", "auto_pose_count", "samples_per_clip", "seed", "threads",
                                   "gamma", "saturation", "time_limit_s"), "a character's bake")
-    return Job(desc, progress, (character, study, extra))
+    return desc, (character, study, extra, calibration, taken)
 
 
 def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any = None, lights: Any = None, views: Any = None,
@@ -175,6 +184,15 @@ def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any 
     Shih 2012. relief: views are aligned on the heights of meso, or with btf on heights: height x width, in tiles, or on a relief that is
     searched for. settings are the numbers of nook_bake_material_desc.
     """
+    desc, keep = _material_bake(meso=meso, btf=btf, coverage=coverage, lights=lights, views=views, method=method, form=form, relief=relief,
+                                heights=heights, **settings)
+    return Job(desc, progress, keep)
+
+
+def _material_bake(*, meso: Optional[str] = None, btf: Any = None, coverage: Any = None, lights: Any = None, views: Any = None,
+                   method: Optional[str] = None, form: Optional[str] = None, relief: bool = False, heights: Any = None,
+                   **settings: Any) -> Tuple[Any, Any]:
+    """The descriptor of the bake, and what must live as long as it."""
     desc = descriptor(c.nook_bake_material_desc)
     kept: List[Any] = []
     own = {"struct_size", "type", "next", "meso", "btf", "coverage", "lights", "views", "method", "form", "relief", "heights",
@@ -211,7 +229,7 @@ def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any 
     desc.relief = 1 if relief else 0
     if heights is not None:
         give("heights", heights, (desc.height, desc.width))
-    return Job(desc, progress, kept)
+    return desc, kept
 
 
 def bake_transfer(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tangents: Any = None, holes_of: Any = None,
@@ -221,6 +239,13 @@ def bake_transfer(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tan
     holes_of: the material through whose holes light falls, a Material or its .nook file as a path or bytes. settings: lobes,
     ray_side, threads, bounces, tiles.
     """
+    desc, keep = _transfer_bake(positions, normals, uvs, triangles, tangents=tangents, holes_of=holes_of, **settings)
+    return Job(desc, progress, keep)
+
+
+def _transfer_bake(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tangents: Any = None, holes_of: Any = None,
+                   **settings: Any) -> Tuple[Any, Any]:
+    """The descriptor of the bake, and what must live as long as it."""
     desc = descriptor(c.nook_bake_transfer_desc)
     holes: Optional[bytes] = None
     p = floats(positions, (None, 3), "positions")
@@ -234,4 +259,22 @@ def bake_transfer(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tan
         holes = holes_of.data if isinstance(holes_of, Material) else file_bytes(holes_of, "holes_of")
         put(desc, votf=ctypes.cast(ctypes.c_char_p(holes), ctypes.c_void_p), votf_size=len(holes))
     put_settings(desc, settings, ("lobes", "ray_side", "threads", "bounces", "tiles"), "a transfer's bake")
-    return Job(desc, progress, (p, n, uv, tangent, indices, holes))
+    return desc, (p, n, uv, tangent, indices, holes)
+
+
+def bake_key(bake: Callable[..., Job], *arguments: Any, **settings: Any) -> str:
+    """The key of a bake, 64 hexadecimal digits, without baking: two bakes with one key give the same file.
+
+    bake: bake_character, bake_material or bake_transfer; the rest is what you would pass to it. `nook bake character --print-key` gives
+    the same key for the same character and settings.
+    """
+    describers: Dict[Any, Callable[..., Tuple[Any, Any]]] = {
+        bake_character: _character_bake, bake_material: _material_bake, bake_transfer: _transfer_bake}
+    describe = describers.get(bake)
+    if describe is None:
+        raise ValueError(f"bake: need bake_character, bake_material or bake_transfer, got {came(bake)}")
+    settings.pop("progress", None)
+    desc, keep = describe(*arguments, **settings)
+    key = ctypes.create_string_buffer(c.NOOK_BAKE_KEY_SIZE)
+    call_interruptibly("nook_bake_key", ctypes.byref(desc), key, len(key), keep=keep)
+    return key.value.decode("ascii")
