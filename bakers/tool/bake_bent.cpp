@@ -8,6 +8,7 @@
 #include "bakers/tool/command_inputs.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
+#include "bakers/tool/stored_meshes.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {
@@ -15,27 +16,38 @@ namespace {
 
 struct Options {
   CommonOptions common;
-  std::filesystem::path model, input, output;
+  BakeOptions baking;
+  std::filesystem::path model, input;
   bake::ImportOptions reading;
   bake::BentTask task;
 };
 
-bake::BakedFile bake(const Options& o, const bake::ImportedCharacter& character) {
-  CharacterModel model = bake::model_of_character(read_file(o.model), character);
+bake::BakedFile bake(const Options& o, const bake::ImportedCharacter& character, const CharacterModel& model,
+                     const bake::BakeIdentity& identity) {
   platform::ProgressBar bar(o.common.quiet);
-  return bake::bake_bent_file(character, std::move(model), o.task,
-                              [&](bake::JobStage, std::size_t done, std::size_t total) {
-                                bar.show("ray tracing", "poses", done, total);
-                                return !interrupted();
-                              });
+  return bake::bake_bent_file(
+      character, model, o.task,
+      [&](bake::JobStage, std::size_t done, std::size_t total) {
+        bar.show("ray tracing", "poses", done, total);
+        return !interrupted();
+      },
+      identity);
+}
+
+PreparedBake prepare(const Options& o) {
+  const std::vector<std::byte> bytes = read_file(o.model);
+  bake::ImportedCharacter character = read_character(o.input, with_stored_meshes(o.reading, bytes), o.common);
+  CharacterModel model = naming_file(o.model, [&] { return bake::model_of_character(bytes, character); });
+  const bake::BakeIdentity identity = bake::identify_bent(character, bytes, o.task);
+  return {identity, [&o, character = std::move(character), model = std::move(model), identity] {
+            return one_row(naming_file(o.model, [&] { return bake(o, character, model, identity); }));
+          }};
 }
 
 void run(Options o) {
   o.task.seed = o.common.seed;
-  run_bake({o.common, o.output, {{{"the character", o.input}, {"the model", o.model}}, {}, {}}}, [&] {
-    const bake::ImportedCharacter character = read_character(o.input, o.reading, o.common);
-    return one_row(naming_file(o.model, [&] { return bake(o, character); }));
-  });
+  run_bake({o.common, o.baking, {{{"the character", o.input}, {"the model", o.model}}, {}, {}}},
+           [&] { return prepare(o); });
 }
 
 }  // namespace
@@ -50,7 +62,7 @@ void add_bake_bent(Command bake_command) {
   Options& o = *options;
   command.add_input("character", o.input, "the rigged character, .glb or .gltf").required();
   command.add_input("model", o.model, "its model, .nook").required();
-  command.add_option("-o,--output", o.output, "the .nook file to write").required();
+  add_bake_options(command, o.baking);
   command.add_option("--auto-poses", o.task.auto_poses, "generated poses to fit to")
       .check(in_range(8, 100000))
       .capture_default_str();

@@ -26,7 +26,8 @@ namespace {
 
 struct Options {
   CommonOptions common;
-  std::filesystem::path input, output, calibration, model, rig;
+  BakeOptions baking;
+  std::filesystem::path input, calibration, model, rig;
   bake::ImportOptions reading;
   std::int32_t preset = NOOK_BAKE_PRESET_STANDARD, poses = NOOK_BAKE_POSES_ALL, split = NOOK_BAKE_SPLIT_ALL;
   std::int32_t form = NOOK_FORM_DEFAULT, kernel = NOOK_FORM_DEFAULT, fit = NOOK_FORM_DEFAULT;
@@ -94,26 +95,6 @@ bake::CalibrationPoses recorded_poses(const Options& options, const bake::Skinne
   });
 }
 
-bake::BakedFile bake(const Options& options, const bake::ImportedCharacter& character) {
-  const bake::CalibrationPoses calibration = recorded_poses(options, character.mesh);
-  bake::Recipe recipe = requested_recipe(options, character);
-  recipe.rig = read_rig_file(options.rig, character.mesh);
-  platform::ProgressBar bar(options.common.quiet);
-  const auto show = [&](bake::JobStage stage, std::size_t done, std::size_t total) {
-    const bool traces = stage == bake::JobStage::raytrace;
-    bar.show(bake::text_of(stage), traces ? "poses" : "steps", done, total);
-    return !interrupted();
-  };
-  if (options.model.empty()) return bake::bake_by_recipe(character, recipe, {}, show, calibration);
-  return naming_file(options.model, [&] {
-    bake::CalibrationTask task;
-    if (options.rays) task.rays = options.rays;
-    task.seed = options.common.seed;
-    return bake::calibrate_file(character, bake::model_of_character(read_file(options.model), character),
-                                calibration, task, show);
-  });
-}
-
 // Leaves out of the table what only a file needs.
 BakeOutput output_of(bake::BakedFile file) {
   nlohmann::ordered_json row = nlohmann::ordered_json::parse(file.report);
@@ -121,6 +102,49 @@ BakeOutput output_of(bake::BakedFile file) {
   for (const char* key : {"summary", "judged", "clips", "warnings", "recipe", "curve"}) row.erase(key);
   return {std::move(file.model), file.report + "\n",
           summary + "\n\n" + table_text(nlohmann::ordered_json::array({row}))};
+}
+
+bake::StageReport shown_on(platform::ProgressBar& bar) {
+  return [&bar](bake::JobStage stage, std::size_t done, std::size_t total) {
+    const bool traces = stage == bake::JobStage::raytrace;
+    bar.show(bake::text_of(stage), traces ? "poses" : "steps", done, total);
+    return !interrupted();
+  };
+}
+
+PreparedBake prepare_calibration(const Options& options, bake::ImportedCharacter character,
+                                 bake::CalibrationPoses calibration) {
+  const std::vector<std::byte> bytes = read_file(options.model);
+  CharacterModel model =
+      naming_file(options.model, [&] { return bake::model_of_character(bytes, character); });
+  bake::CalibrationTask task;
+  if (options.rays) task.rays = options.rays;
+  task.seed = options.common.seed;
+  const bake::BakeIdentity identity = bake::identify_calibration(character, bytes, calibration, task);
+  return {identity, [&options, character = std::move(character), calibration = std::move(calibration), task,
+                     model = std::move(model), identity] {
+            platform::ProgressBar bar(options.common.quiet);
+            return output_of(naming_file(options.model, [&] {
+              return bake::calibrate_file(character, model, calibration, task, shown_on(bar), identity);
+            }));
+          }};
+}
+
+PreparedBake prepare(const Options& options) {
+  bake::ImportedCharacter character = read_character(options.input, options.reading, options.common);
+  require_clips(options.clips, character);
+  bake::CalibrationPoses calibration = recorded_poses(options, character.mesh);
+  if (!options.model.empty())
+    return prepare_calibration(options, std::move(character), std::move(calibration));
+  bake::Recipe recipe = requested_recipe(options, character);
+  recipe.meshes = options.reading.meshes;
+  recipe.rig = read_rig_file(options.rig, character.mesh);
+  const bake::BakeIdentity identity = bake::identify_character(character, recipe, {}, calibration);
+  return {identity, [&options, character = std::move(character), recipe = std::move(recipe),
+                     calibration = std::move(calibration)] {
+            platform::ProgressBar bar(options.common.quiet);
+            return output_of(bake::bake_by_recipe(character, recipe, {}, shown_on(bar), calibration));
+          }};
 }
 
 void run(const Options& options) {
@@ -132,11 +156,7 @@ void run(const Options& options) {
                             {"--rig", options.rig}},
                            {},
                            {}};
-  run_bake({options.common, options.output, files}, [&] {
-    const bake::ImportedCharacter character = read_character(options.input, options.reading, options.common);
-    require_clips(options.clips, character);
-    return output_of(bake(options, character));
-  });
+  run_bake({options.common, options.baking, files}, [&] { return prepare(options); });
 }
 
 using Names = std::map<std::string, std::int32_t>;
@@ -183,7 +203,7 @@ void add_bake_character(Command bake) {
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_input("input", o.input, "character, .glb or .gltf").required();
-  command.add_option("-o,--output", o.output, "the .nook file to write").required();
+  add_bake_options(command, o.baking);
   add_import_options(command, o.reading);
   add_choice(
       command, "--preset", o.preset,

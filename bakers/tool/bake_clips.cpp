@@ -9,6 +9,7 @@
 #include "bakers/tool/command_inputs.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
+#include "bakers/tool/stored_meshes.h"
 #include "platform/progress_bar.h"
 
 namespace nook::tool {
@@ -16,33 +17,51 @@ namespace {
 
 struct Options {
   CommonOptions common;
-  std::filesystem::path input, model, output;
+  BakeOptions baking;
+  std::filesystem::path input, model;
   bake::ImportOptions reading;
   bake::ClipTask task;
 };
 
-bake::BakedFile bake(const Options& o, const bake::ImportedCharacter& character) {
-  const CharacterModel model =
-      naming_file(o.model, [&] { return bake::model_of_character(read_file(o.model), character); });
-  return naming_file(o.input, [&] {
-    const bake::ClipFrames frames = bake::frames_of(character, o.task);
-    platform::ProgressBar bar(o.common.quiet);
-    return bake::bake_clips_file(character, model, frames, o.task,
-                                 [&](bake::JobStage, std::size_t done, std::size_t total) {
-                                   bar.show("ray tracing", "frames", done, total);
-                                   return !interrupted();
-                                 });
+struct Inputs {
+  bake::ImportedCharacter character;
+  CharacterModel model;
+  bake::ClipFrames frames;
+  bake::BakeIdentity identity;
+};
+
+bake::BakedFile bake(const Options& o, const Inputs& in) {
+  platform::ProgressBar bar(o.common.quiet);
+  return bake::bake_clips_file(
+      in.character, in.model, in.frames, o.task,
+      [&](bake::JobStage, std::size_t done, std::size_t total) {
+        bar.show("ray tracing", "frames", done, total);
+        return !interrupted();
+      },
+      in.identity);
+}
+
+PreparedBake prepare(const Options& o) {
+  Inputs in;
+  const std::vector<std::byte> bytes = read_file(o.model);
+  in.character = read_character(o.input, with_stored_meshes(o.reading, bytes), o.common);
+  require_clips(o.task.clips, in.character);
+  in.model = naming_file(o.model, [&] { return bake::model_of_character(bytes, in.character); });
+  naming_file(o.input, [&] {
+    in.frames = bake::frames_of(in.character, o.task);
+    in.identity = bake::identify_clips(in.character, bytes, o.task);
   });
+  const bake::BakeIdentity identity = in.identity;
+  return {identity, [&o, in = std::move(in)] {
+            // The table has one line for each row; the error by modes is for the report.
+            return one_row(naming_file(o.input, [&] { return bake(o, in); }), {"error_of_modes"});
+          }};
 }
 
 void run(Options o) {
   o.task.tables.seed = o.common.seed;
-  run_bake({o.common, o.output, {{{"the character", o.input}, {"the model", o.model}}, {}, {}}}, [&] {
-    const bake::ImportedCharacter character = read_character(o.input, o.reading, o.common);
-    require_clips(o.task.clips, character);
-    // The table has one line for each row; the error by modes is for the report.
-    return one_row(bake(o, character), {"error_of_modes"});
-  });
+  run_bake({o.common, o.baking, {{{"the character", o.input}, {"the model", o.model}}, {}, {}}},
+           [&] { return prepare(o); });
 }
 
 }  // namespace
@@ -56,7 +75,7 @@ void add_bake_clips(Command bake_command) {
   Options& o = *options;
   command.add_input("input", o.input, "the character, .glb or .gltf").required();
   command.add_input("model", o.model, "its baked model, .nook").required();
-  command.add_option("-o,--output", o.output, "the .nook file to write").required();
+  add_bake_options(command, o.baking);
   command.add_option("--clips", o.task.clips, "only these clips (default: all but T- and A-poses)")
       .delimiter(',');
   command.add_option("--frames-per-second", o.task.frames_per_second, "frames of each second of a clip")

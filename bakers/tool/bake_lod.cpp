@@ -15,7 +15,8 @@ namespace {
 
 struct Options {
   CommonOptions common;
-  std::filesystem::path model, input, output;
+  BakeOptions baking;
+  std::filesystem::path model, input;
   bake::ImportOptions reading;
   bake::LodTask task;
 };
@@ -29,13 +30,19 @@ bake::BakedFile bake(const Options& o, const std::vector<std::byte>& model,
   });
 }
 
+PreparedBake prepare(const Options& o) {
+  std::vector<std::byte> model = read_file(o.model);
+  bake::ImportedCharacter lod = read_character(o.input, o.reading, o.common);
+  const bake::BakeIdentity identity = bake::identify_lod(lod, model, o.task);
+  return {identity, [&o, model = std::move(model), lod = std::move(lod)] {
+            return one_row(naming_file(o.model, [&] { return bake(o, model, lod); }));
+          }};
+}
+
 void run(Options o) {
   o.task.seed = o.common.seed;
-  run_bake({o.common, o.output, {{{"the model", o.model}, {"the mesh", o.input}}, {}, {}}}, [&] {
-    const std::vector<std::byte> model = read_file(o.model);
-    const bake::ImportedCharacter lod = read_character(o.input, o.reading, o.common);
-    return one_row(naming_file(o.model, [&] { return bake(o, model, lod); }));
-  });
+  run_bake({o.common, o.baking, {{{"the model", o.model}, {"the mesh", o.input}}, {}, {}}},
+           [&] { return prepare(o); });
 }
 
 }  // namespace
@@ -49,7 +56,7 @@ void add_bake_lod(Command bake_command) {
   Options& o = *options;
   command.add_input("model", o.model, "the baked full mesh, .nook").required();
   command.add_input("mesh", o.input, "the other mesh with the same skeleton, .glb or .gltf").required();
-  command.add_option("-o,--output", o.output, "the .nook file to write").required();
+  add_bake_options(command, o.baking);
   command.add_option("--auto-poses", o.task.auto_poses, "generated poses to fit to")
       .check(in_range(8, 100000))
       .capture_default_str();

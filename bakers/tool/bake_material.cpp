@@ -9,6 +9,7 @@
 #include "bakers/images/pbr_reader.h"
 #include "bakers/images/ubo_reader.h"
 #include "bakers/job/material_bake.h"
+#include "bakers/job/material_identity.h"
 #include "bakers/measure/material/material_pictures.h"
 #include "bakers/tool/baking.h"
 #include "bakers/tool/command_end.h"
@@ -33,7 +34,8 @@ struct Options {
   CommonOptions common;
   CompressionOptions compression;
   std::string meso, visibility_mapping;
-  std::filesystem::path pbr, btf, raw, output, keep_raw, images;
+  BakeOptions baking;
+  std::filesystem::path pbr, btf, raw, keep_raw, images;
   std::filesystem::path relief;              // an image of heights; empty: none
   FloatColours colours = FloatColours::rgb;  // for the images of --btf
   std::uint32_t directions = 100, lights = 0, texels = 0;
@@ -136,17 +138,29 @@ RawMaterial read_measured(const Options& o, const bake::Progress& progress) {
   return raw;
 }
 
-RawMaterial obtain(const Options& o, platform::ProgressBar& bar) {
-  const auto progress = [&](const char* label, const char* unit) {
-    return [&bar, label, unit](std::size_t done, std::size_t total) {
-      bar.show(label, unit, done, total);
-      return !interrupted();
-    };
+bake::Progress shown_on(platform::ProgressBar& bar, const char* label, const char* unit) {
+  return [&bar, label, unit](std::size_t done, std::size_t total) {
+    bar.show(label, unit, done, total);
+    return !interrupted();
   };
+}
+
+// What a bake compresses: a raw material, or what is traced first; and the heights of --relief.
+struct Source {
+  RawMaterial raw;
+  std::optional<bake::MesoSource> traced;
+  PbrMaps relief;
+};
+
+RawMaterial read_raw(const Options& o) {
   if (!o.raw.empty()) return naming_file(o.raw, [&] { return read_raw_material(read_file(o.raw)); });
-  if (!o.btf.empty())
-    return naming_file(o.btf, [&] { return read_measured(o, progress("reading", "images")); });
-  RawMaterial raw = bake::trace_meso_source(source_of(o), progress("ray tracing", "views"));
+  platform::ProgressBar bar(o.common.quiet);
+  return naming_file(o.btf, [&] { return read_measured(o, shown_on(bar, "reading", "images")); });
+}
+
+RawMaterial obtain(const Options& o, const Source& source, platform::ProgressBar& bar) {
+  if (!source.traced) return source.raw;
+  RawMaterial raw = bake::trace_meso_source(*source.traced, shown_on(bar, "ray tracing", "views"));
   raw.name = !o.pbr.empty()    ? folder_name(o.pbr)
              : is_mesh(o.meso) ? std::filesystem::path(o.meso).stem().string()
                                : o.meso;
@@ -193,19 +207,37 @@ void write_pictures(const Options& o, const RawMaterial& raw, std::span<const st
                   measure::difference_sheet(raw, nook::material::read_material(file)));
 }
 
-BakeOutput bake(const Options& o) {
+bake::BakeIdentity identity_of(const Options& o, const Source& source) {
+  nlohmann::json settings = {{"compression", bake::settings_of(o.compression.settings)},
+                             {"ranks", o.compression.ranks},
+                             {"votf_ranks", o.compression.votf_ranks},
+                             {"threshold", o.compression.threshold}};
+  nlohmann::json inputs = nlohmann::json::object();
+  if (source.traced) {
+    settings["source"] = bake::settings_of(*source.traced);
+    inputs = bake::inputs_of(*source.traced);
+  } else {
+    inputs["raw"] = bake::content_hash(source.raw);
+  }
+  if (!o.relief.empty()) {
+    inputs["relief"] = bake::content_hash(source.relief);
+    settings["height_scale"] = o.height_scale_m;
+    settings["tile_side"] = o.tile_side_m;
+  }
+  return bake::identify_bake(bake::BakeKind::material, settings, inputs);
+}
+
+BakeOutput bake(const Options& o, const Source& source, const bake::BakeIdentity& identity) {
   std::optional<platform::OutputFile> raw_file;
   if (!o.keep_raw.empty()) raw_file.emplace(o.keep_raw, file_events(o.common.quiet));
   platform::ProgressBar bar(o.common.quiet);
-  PbrMaps relief;
-  if (!o.relief.empty()) relief = read_relief(o);
   const platform::Stopwatch watch;
-  RawMaterial raw = obtain(o, bar);
+  RawMaterial raw = obtain(o, source, bar);
   const double seconds_obtain = watch.seconds();
   if (raw_file) raw_file->commit(write_raw_material(raw));
   Json relief_source;
   if (!o.relief.empty()) {
-    set_heights(o, relief, raw);
+    set_heights(o, source.relief, raw);
     relief_source = {{"heights", o.relief.filename().string()},
                      {"height_scale", o.height_scale_m},
                      {"tile_side", o.tile_side_m}};
@@ -219,7 +251,7 @@ BakeOutput bake(const Options& o) {
   };
   bake::CompressedMaterial compressed =
       bake::compress_to_file(raw, o.compression.settings.relief, choose, recipe_of_trace(o), relief_source,
-                             stage_progress(bar, "compressing the "));
+                             stage_progress(bar, "compressing the "), identity);
   note_missing_map(o, settings);
   write_pictures(o, raw, compressed.file);
   Json json = compressed.row;
@@ -232,6 +264,17 @@ BakeOutput bake(const Options& o) {
   const Json report{{"rows", Json::array({json})}, {"recipe", compressed.recipe}};
   return {std::move(compressed.file), report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
           table_text(report["rows"])};
+}
+
+PreparedBake prepare(const Options& o) {
+  Source source;
+  if (!o.relief.empty()) source.relief = read_relief(o);
+  if (is_traced(o))
+    source.traced = source_of(o);
+  else
+    source.raw = read_raw(o);
+  const bake::BakeIdentity identity = identity_of(o, source);
+  return {identity, [&o, source = std::move(source), identity] { return bake(o, source, identity); }};
 }
 
 // Returns the sizes of a material that will be ray traced; without views if it will be read.
@@ -272,8 +315,9 @@ void run(Options& o) {
                       {"--relief", o.relief}},
                      {{"--keep-raw", o.keep_raw}},
                      o.images};
-  run_bake({o.common, o.output, std::move(files), "stopped; no material was written"},
-           [&] { return bake(o); });
+  BakeCommand command{o.common, o.baking, std::move(files), "stopped; no material was written"};
+  command.makes_more = !o.keep_raw.empty() || !o.images.empty();
+  run_bake(std::move(command), [&] { return prepare(o); });
 }
 
 }  // namespace
@@ -318,7 +362,7 @@ void add_bake_material(Command bake) {
       .check(one_of({"rgb", "xyz"}))
       .type_name("NAME");
   command.add_input("--raw", o.raw, "a raw material that --keep-raw wrote");
-  command.add_option("-o,--output", o.output, "the .nook file to write").required();
+  add_bake_options(command, o.baking);
   command.add_option("--keep-raw", o.keep_raw, "write the uncompressed material, for `evaluate material`");
   command.add_option("--images", o.images,
                      "write pictures of the raw and the decoded material to this folder");

@@ -23,12 +23,15 @@ void run(const BakeProbeOptions& options) {
     throw ToolError(exit_bad_arguments, "--walls: needs a grid of --basis harmonics --order 2 on the sphere");
   BakeCommand command{
       options.common,
-      options.output,
+      options.baking,
       {{{"the input", options.input}, {"--light", options.light}}, {{"--picture", options.picture}}, {}}};
   if (is_grid && options.preview_every_s > 0)
-    command.stopped = "stopped; " + options.output.string() + " holds the latest preview, if there was one";
+    command.stopped =
+        "stopped; " + options.baking.output.string() + " holds the latest preview, if there was one";
+  command.reads_images = is_grid && !options.no_textures;
+  command.makes_more = !options.picture.empty();
   run_bake(std::move(command),
-           [&] { return is_grid ? bake_probe_grid(options) : bake_probe_of_map(options); });
+           [&] { return is_grid ? prepare_probe_grid(options) : prepare_probe_of_map(options); });
 }
 
 }  // namespace
@@ -40,7 +43,7 @@ void add_bake_probe(Command bake_command) {
   BakeProbeOptions& o = *options;
   command.add_input("input", o.input, "a latitude-longitude map, .hdr or .exr, or a scene, .glb or .gltf")
       .required();
-  command.add_option("-o,--output", o.output, "the .nook file to write").required();
+  add_bake_options(command, o.baking);
   add_probe_options(command, o.probe);
   command
       .add_option(

@@ -13,7 +13,8 @@ namespace nook::tool {
 struct BakeProbeOptions {
   CommonOptions common;
   ProbeOptions probe;
-  std::filesystem::path input, output;
+  BakeOptions baking;
+  std::filesystem::path input;
 
   // For one map.
   std::filesystem::path picture;
@@ -33,7 +34,7 @@ struct BakeProbeOptions {
   std::uint32_t training_paths = 2048;
 };
 
-BakeOutput bake_probe_of_map(const BakeProbeOptions& options);
-BakeOutput bake_probe_grid(const BakeProbeOptions& options);
+PreparedBake prepare_probe_of_map(const BakeProbeOptions& options);
+PreparedBake prepare_probe_grid(const BakeProbeOptions& options);
 
 }  // namespace nook::tool

@@ -37,19 +37,10 @@ Json row_of(const BakeProbeOptions& options, const bake::Environment& map, const
   return row;
 }
 
-}  // namespace
-
-BakeOutput bake_probe_of_map(const BakeProbeOptions& options) {
-  MapBakeSettings settings;
-  settings.basis = basis_of(options.probe);
-  settings.fit = fit_of(options.probe);
-  settings.sampling = sampling_of(options.sampling);
-  if (options.samples > 0) settings.samples = options.samples;
-  settings.seed = options.common.seed;
+BakeOutput bake(const BakeProbeOptions& options, const bake::Environment& map,
+                const MapBakeSettings& settings, const bake::BakeIdentity& identity) {
   std::optional<platform::OutputFile> picture;
   if (!options.picture.empty()) picture.emplace(options.picture, file_events(options.common.quiet));
-  const bake::Environment map = read_map(options.input);
-
   platform::ProgressBar bar(options.common.quiet);
   const platform::Stopwatch watch;
   bake::MapProbe baked = bake::bake_map_probe(map, settings, [&](std::size_t done, std::size_t total) {
@@ -62,6 +53,7 @@ BakeOutput bake_probe_of_map(const BakeProbeOptions& options) {
   recipe["sampling"] = options.sampling;
   recipe["samples"] = baked.samples;
   recipe["seed"] = settings.seed;
+  bake::store_identity(recipe, identity);
   baked.probes.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::vector<std::byte> bytes = probe::write_probes(baked.probes, packing_of(options.probe));
 
@@ -70,6 +62,27 @@ BakeOutput bake_probe_of_map(const BakeProbeOptions& options) {
   const Json row = row_of(options, map, stored, bytes.size(), seconds);
   if (picture) picture->commit(bake::png_bytes(bake::probe::map_picture(map, stored.basis, stored.of(0))));
   return one_row({std::move(bytes), row.dump(-1, ' ', false, Json::error_handler_t::replace)});
+}
+
+}  // namespace
+
+PreparedBake prepare_probe_of_map(const BakeProbeOptions& options) {
+  MapBakeSettings settings;
+  settings.basis = basis_of(options.probe);
+  settings.fit = fit_of(options.probe);
+  settings.sampling = sampling_of(options.sampling);
+  if (options.samples > 0) settings.samples = options.samples;
+  settings.seed = options.common.seed;
+  bake::Environment map = read_map(options.input);
+  const bake::BakeIdentity identity = bake::identify_bake(bake::BakeKind::probe,
+                                                          {{"probe", settings_of(options.probe)},
+                                                           {"sampling", options.sampling},
+                                                           {"samples", settings.samples},
+                                                           {"seed", settings.seed}},
+                                                          {{"map", bake::content_hash(map)}});
+  return {identity, [&options, map = std::move(map), settings = std::move(settings), identity] {
+            return bake(options, map, settings, identity);
+          }};
 }
 
 }  // namespace nook::tool

@@ -18,7 +18,8 @@ namespace {
 
 struct Options {
   CommonOptions common;
-  std::filesystem::path input, output, images;
+  BakeOptions baking;
+  std::filesystem::path input, images;
   std::vector<std::uint32_t> crop;
   bool is_tiling = true;
   bake::synthesis::SynthesisSettings settings;
@@ -36,24 +37,31 @@ void write_pictures(const Options& o, std::span<const std::byte> material, const
                   measure::plane_sheet(tables, coordinates, {crop.x, crop.y, crop.width, crop.height}));
 }
 
-void run(Options& o) {
-  o.settings.seed = o.common.seed;
+PreparedBake prepare(const Options& o) {
   const bake::Crop crop =
       o.crop.empty() ? bake::Crop{} : bake::Crop{o.crop[0], o.crop[1], o.crop[2], o.crop[3]};
-  run_bake({o.common, o.output, {{{"the input", o.input}}, {}, o.images}}, [&] {
-    const std::vector<std::byte> material = read_file(o.input);
-    bake::SynthesisTask task =
-        naming_file(o.input, [&] { return bake::synthesis_task(material, crop, o.is_tiling, o.settings); });
-    task.source = o.input.filename().string();
-    platform::ProgressBar bar(o.common.quiet);
-    bake::BakedFile file =
-        bake::bake_synthesis_file(task, [&](bake::JobStage, std::size_t done, std::size_t total) {
-          bar.show("synthesis", "texels", done, total);
-          return !interrupted();
-        });
-    write_pictures(o, material, task.crop, file);
-    return one_row(std::move(file));
-  });
+  std::vector<std::byte> material = read_file(o.input);
+  bake::SynthesisTask task =
+      naming_file(o.input, [&] { return bake::synthesis_task(material, crop, o.is_tiling, o.settings); });
+  task.source = o.input.filename().string();
+  const bake::BakeIdentity identity = bake::identify_synthesis(task);
+  return {identity, [&o, material = std::move(material), task = std::move(task)] {
+            platform::ProgressBar bar(o.common.quiet);
+            bake::BakedFile file =
+                bake::bake_synthesis_file(task, [&](bake::JobStage, std::size_t done, std::size_t total) {
+                  bar.show("synthesis", "texels", done, total);
+                  return !interrupted();
+                });
+            write_pictures(o, material, task.crop, file);
+            return one_row(std::move(file));
+          }};
+}
+
+void run(Options& o) {
+  o.settings.seed = o.common.seed;
+  BakeCommand command{o.common, o.baking, {{{"the input", o.input}}, {}, o.images}};
+  command.makes_more = !o.images.empty();
+  run_bake(std::move(command), [&] { return prepare(o); });
 }
 
 }  // namespace
@@ -66,7 +74,7 @@ void add_bake_synthesis(Command bake_command) {
   command
       .add_input("input", o.input, "the material, a .nook file of `bake material`, or what --keep-raw wrote")
       .required();
-  command.add_option("-o,--output", o.output, "the .nook file to write").required();
+  add_bake_options(command, o.baking);
   command
       .add_option("--size", o.settings.side,
                   "texels along a side of the plane, which repeats after them: a multiple of 64")

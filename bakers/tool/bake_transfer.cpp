@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "bakers/import/sha256.h"
 #include "bakers/job/transfer_bake.h"
 #include "bakers/tool/baking.h"
 #include "bakers/tool/command_end.h"
@@ -17,7 +18,8 @@ namespace {
 
 struct Options {
   CommonOptions common;
-  std::filesystem::path input, output;
+  BakeOptions baking;
+  std::filesystem::path input;
   bake::ImportOptions reading;
   bake::transfer::BakeSettings settings;
   std::filesystem::path votf, material;
@@ -34,7 +36,9 @@ bake::TransferTask read_task(const Options& o) {
   task.paper = o.paper;
   task.paper.seed = o.common.seed;
   if (o.form == "paper") {
-    task.material = naming_file(o.material, [&] { return bake::tables_of_material(read_file(o.material)); });
+    const std::vector<std::byte> bytes = read_file(o.material);
+    task.material = naming_file(o.material, [&] { return bake::tables_of_material(bytes); });
+    task.material_hash = bake::sha256(bytes);
     bake::transfer::check_paper_bake(task.mesh, task.paper);
   }
   if (!o.votf.empty())
@@ -47,6 +51,20 @@ bake::TransferTask read_task(const Options& o) {
   return task;
 }
 
+PreparedBake prepare(const Options& o) {
+  bake::TransferTask task = read_task(o);
+  const bake::BakeIdentity identity = bake::identify_transfer(task);
+  return {identity, [&o, task = std::move(task)] {
+            platform::ProgressBar bar(o.common.quiet);
+            return one_row(bake::bake_transfer_file(
+                task, [&](bake::JobStage stage, std::size_t done, std::size_t total) {
+                  const bool is_fit = stage == bake::JobStage::fit;
+                  bar.show(is_fit ? "fitting" : "ray tracing", is_fit ? "clusters" : "vertices", done, total);
+                  return !interrupted();
+                }));
+          }};
+}
+
 void run(const Options& o) {
   if ((o.form == "paper") != !o.material.empty())
     throw ToolError(exit_bad_arguments, o.form == "paper" ? "--form paper needs --material"
@@ -54,16 +72,7 @@ void run(const Options& o) {
   CommandFiles files{{{"the input", o.input}}, {}, {}};
   if (!o.material.empty()) files.inputs.push_back({"--material", o.material});
   if (!o.votf.empty()) files.inputs.push_back({"--votf", o.votf});
-  run_bake({o.common, o.output, files}, [&] {
-    const bake::TransferTask task = read_task(o);
-    platform::ProgressBar bar(o.common.quiet);
-    return one_row(
-        bake::bake_transfer_file(task, [&](bake::JobStage stage, std::size_t done, std::size_t total) {
-          const bool is_fit = stage == bake::JobStage::fit;
-          bar.show(is_fit ? "fitting" : "ray tracing", is_fit ? "clusters" : "vertices", done, total);
-          return !interrupted();
-        }));
-  });
+  run_bake({o.common, o.baking, files}, [&] { return prepare(o); });
 }
 
 }  // namespace
@@ -74,7 +83,7 @@ void add_bake_transfer(Command bake_command) {
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_input("input", o.input, "the shape, .glb or .gltf, with texture coordinates").required();
-  command.add_option("-o,--output", o.output, "the .nook file to write").required();
+  add_bake_options(command, o.baking);
   command
       .add_option("--lobes", o.settings.lobes,
                   "lobes that will hold the light; the file has a byte for each lobe and vertex")

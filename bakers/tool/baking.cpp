@@ -1,23 +1,30 @@
 #include "bakers/tool/baking.h"
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bakers/raytrace/instruction_set.h"
 #include "bakers/raytrace/worker_arena.h"
+#include "bakers/tool/bake_cache.h"
 #include "bakers/tool/command_end.h"
 #include "bakers/tool/command_files.h"
+#include "bakers/tool/command_line.h"
+#include "bakers/tool/depfile.h"
 #include "bakers/tool/table.h"
 #include "platform/output_file.h"
+#include "platform/output_stream.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::tool {
 namespace {
 
-BakeOutput baked(const BakeCommand& command, const std::function<BakeOutput()>& bake) {
+// Runs a part of the bake on its threads, and turns what a stopped part throws into the message for its user.
+template <class Part>
+void run_part(const BakeCommand& command, Part&& part) {
   const auto stopped = [&] { return ToolError(exit_other, command.stopped); };
-  BakeOutput output;
   try {
-    bake::run_with_threads(command.common.threads, [&] { output = bake(); });
+    bake::run_with_threads(command.common.threads, part);
   } catch (const Failure& failure) {
     if (failure.code() == NOOK_ERROR_CANCELLED) throw stopped();
     throw;
@@ -28,10 +35,62 @@ BakeOutput baked(const BakeCommand& command, const std::function<BakeOutput()>& 
   }
   // Ctrl-C after the last report of progress still counts.
   if (interrupted()) throw stopped();
+}
+
+// main() has started the program again with the instruction set of --isa in its environment.
+void require_instruction_set(const BakeOptions& options) {
+  const char* const pinned = std::getenv(bake::isa_variable);
+  if (!options.isa.empty() && options.isa != (pinned ? pinned : ""))
+    throw ToolError(exit_other, "--isa: the program could not start itself again with " + options.isa +
+                                    "; set " + bake::isa_variable + "=" + options.isa +
+                                    " in the environment instead");
+  bake::isa_level();
+}
+
+std::optional<BakeCache> cache_of(const BakeOptions& options) {
+  if (!options.cache.empty()) return BakeCache(options.cache);
+  const char* const folder = std::getenv(cache_variable);
+  if (!folder || !*folder) return std::nullopt;
+  return BakeCache(folder);
+}
+
+// Takes the result from the cache, or bakes and keeps it there.
+BakeOutput obtain(const BakeCommand& command, const std::optional<BakeCache>& cache,
+                  const PreparedBake& prepared) {
+  if (!cache) return prepared.perform();
+  const std::string key = prepared.identity.key();
+  const bool quiet = command.common.quiet;
+  if (!command.makes_more)
+    if (std::optional<BakeOutput> hit = cache->find(key, quiet)) return std::move(*hit);
+  BakeOutput output = prepared.perform();
+  if (!interrupted()) cache->store(key, output);
   return output;
 }
 
+void print_key(const BakeCommand& command, const std::function<PreparedBake()>& prepare) {
+  std::string key;
+  run_part(command, [&] { key = prepare().identity.key(); });
+  platform::print(key + "\n");
+}
+
 }  // namespace
+
+void add_bake_options(Command command, BakeOptions& options) {
+  command.add_option("-o,--output", options.output, "the .nook file to write");
+  command.add_flag("--print-key", options.prints_key,
+                   "read the inputs, print the key of the bake and end: equal keys mean equal results "
+                   "(docs/guide/pipeline.md)");
+  command.add_option("--depfile", options.depfile,
+                     "write the names of all files that the bake reads as a rule for Make and Ninja");
+  command.add_option("--cache", options.cache,
+                     "a folder that keeps results by their keys: a bake whose key is there is copied; "
+                     "default NOOK_CACHE, if it is set");
+  command
+      .add_option("--isa", options.isa,
+                  "the instruction set to bake with, so that different processors give the same bytes: "
+                  "x86-64-v2, x86-64-v3, or native, the best of this one (default)")
+      .check(one_of({"native", "x86-64-v2", "x86-64-v3"}));
+}
 
 BakeOutput one_row(bake::BakedFile file, std::initializer_list<const char*> only_in_report) {
   using Json = nlohmann::ordered_json;
@@ -45,20 +104,32 @@ BakeOutput one_row(bake::BakedFile file, std::initializer_list<const char*> only
   return output;
 }
 
-void run_bake(BakeCommand command, const std::function<BakeOutput()>& bake) {
+void run_bake(BakeCommand command, const std::function<PreparedBake()>& prepare) {
+  const BakeOptions& options = command.baking;
+  require_instruction_set(options);
+  if (options.prints_key) return print_key(command, prepare);
+  if (options.output.empty()) throw ToolError(exit_bad_arguments, "--output is required");
   const std::filesystem::path& report = command.common.report;
   CommandFiles& files = command.files;
-  files.outputs.insert(files.outputs.begin(), {"-o", command.output});
+  files.outputs.insert(files.outputs.begin(), {"-o", options.output});
   files.outputs.push_back({"--report", report});
+  files.outputs.push_back({"--depfile", options.depfile});
   require_distinct_files(files);
+  const std::string rule =
+      options.depfile.empty() ? "" : depfile_text(options.output, files_read(files, command.reads_images));
+  const std::optional<BakeCache> cache = cache_of(options);
   const platform::FileEvents events = file_events(command.common.quiet);
-  platform::OutputFile output_file(command.output, events);
-  std::optional<platform::OutputFile> report_file;
+  platform::OutputFile output_file(options.output, events);
+  std::optional<platform::OutputFile> report_file, rule_file;
   if (!report.empty()) report_file.emplace(report, events);
+  if (!rule.empty()) rule_file.emplace(options.depfile, events);
   make_image_folder(files.images);
-  const BakeOutput output = baked(command, bake);
-  output_file.commit(output.file);
+  BakeOutput output;
+  run_part(command, [&] { output = obtain(command, cache, prepare()); });
+  // Whoever finds the file also finds its numbers, even if the program is killed here.
   if (report_file) report_file->commit(output.report);
+  if (rule_file) rule_file->commit(rule);
+  output_file.commit(output.file);
   print_table(command.common, output.table, true);
 }
 

@@ -5,15 +5,18 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <stdexcept>
 
+#include "bakers/tool/depfile.h"
 #include "platform/input_file.h"
 #include "platform/output_file.h"
 #include "sdk/src/core/container.h"
@@ -133,15 +136,29 @@ std::string decode_uri(const std::string& uri) {
   return text;
 }
 
-// Returns the files that a .gltf refers to. The import reports its errors.
-std::vector<NamedFile> referred_files(const NamedFile& gltf) {
-  std::vector<NamedFile> files;
+// Returns the JSON of a glTF file of either form; null if there is none. The import reports its errors.
+nlohmann::json document_of(const fs::path& path) {
   std::error_code error;
-  if (gltf.path.extension() != ".gltf" || !fs::is_regular_file(gltf.path, error)) return files;
-  std::ifstream stream(gltf.path, std::ios::binary);
-  const auto document = nlohmann::json::parse(stream, nullptr, false);
+  const fs::path extension = path.extension();
+  if ((extension != ".gltf" && extension != ".glb") || !fs::is_regular_file(path, error)) return {};
+  std::ifstream stream(path, std::ios::binary);
+  if (extension == ".gltf") return nlohmann::json::parse(stream, nullptr, false);
+  // By glTF 2.0, section 4.4, the JSON chunk has its length and type behind a header of 12 bytes.
+  std::array<unsigned char, 20> head{};
+  if (!stream.read(reinterpret_cast<char*>(head.data()), head.size())) return {};
+  const std::uint64_t length = head[12] | head[13] << 8 | head[14] << 16 | std::uint64_t(head[15]) << 24;
+  if (length > fs::file_size(path, error) || error) return {};
+  std::string text(length, 0);
+  stream.read(text.data(), std::streamsize(length));
+  return nlohmann::json::parse(text, nullptr, false);
+}
+
+// Returns the files that a glTF file refers to in these lists.
+std::vector<NamedFile> referred_files(const NamedFile& gltf, std::initializer_list<const char*> kinds) {
+  std::vector<NamedFile> files;
+  const auto document = document_of(gltf.path);
   if (!document.is_object()) return files;
-  for (const char* kind : {"buffers", "images"}) {
+  for (const char* kind : kinds) {
     const auto list = document.find(kind);
     if (list == document.end() || !list->is_array()) continue;
     for (const auto& entry : *list)
@@ -196,7 +213,7 @@ void require_not_among_pictures(const KnownFile& file, const fs::path& images) {
 void require_distinct_files(const CommandFiles& files) {
   std::vector<NamedFile> read = files.inputs;
   for (const NamedFile& input : files.inputs)
-    for (const std::vector<NamedFile>& more : {referred_files(input), files_in(input)})
+    for (const std::vector<NamedFile>& more : {referred_files(input, {"buffers", "images"}), files_in(input)})
       read.insert(read.end(), more.begin(), more.end());
   const std::vector<KnownFile> inputs = identify_all(read), outputs = identify_all(files.outputs);
   for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -209,6 +226,25 @@ void require_distinct_files(const CommandFiles& files) {
   if (files.images.empty()) return;
   for (const std::vector<KnownFile>* known : {&inputs, &outputs})
     for (const KnownFile& file : *known) require_not_among_pictures(file, files.images);
+}
+
+std::vector<fs::path> files_read(const CommandFiles& files, bool with_images) {
+  std::vector<fs::path> read;
+  for (const NamedFile& input : files.inputs) {
+    if (input.path.empty()) continue;
+    std::error_code error;
+    if (!fs::is_directory(input.path, error)) read.push_back(input.path);
+    std::vector<NamedFile> more = referred_files(input, {"buffers"});
+    if (with_images)
+      for (NamedFile& image : referred_files(input, {"images"})) more.push_back(std::move(image));
+    for (NamedFile& file : files_in(input)) more.push_back(std::move(file));
+    std::vector<fs::path> names;
+    for (const NamedFile& file : more)
+      if (fs::is_regular_file(file.path, error)) names.push_back(file.path);
+    std::sort(names.begin(), names.end());
+    read.insert(read.end(), names.begin(), names.end());
+  }
+  return read;
 }
 
 void make_image_folder(const std::filesystem::path& folder) {

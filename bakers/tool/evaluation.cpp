@@ -8,6 +8,7 @@
 #include "bakers/tool/command_inputs.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/common_options.h"
+#include "bakers/tool/stored_meshes.h"
 #include "bakers/tool/table.h"
 #include "platform/output_file.h"
 #include "sdk/src/core/failure.h"
@@ -45,8 +46,10 @@ std::vector<NamedFile> named_files(const EvaluatedFiles& files) {
 }
 
 measure::BakedCharacter read_evaluated_files(const EvaluatedFiles& files, const CommonOptions& options) {
-  bake::ImportedCharacter imported = read_character(files.character, files.reading, options);
+  // The model may be one of some of the meshes.
   auto bytes = read_file(files.model);
+  bake::ImportedCharacter imported =
+      read_character(files.character, with_stored_meshes(files.reading, bytes), options);
   return naming_file(files.model,
                      [&] { return measure::read_baked_character(std::move(imported), std::move(bytes)); });
 }

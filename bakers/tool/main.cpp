@@ -3,9 +3,11 @@
 
 #include <initializer_list>
 
+#include "bakers/tool/bake_cache.h"
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/command_program.h"
 #include "bakers/tool/commands.h"
+#include "bakers/tool/pinned_process.h"
 
 namespace {
 
@@ -41,6 +43,8 @@ void add_commands(CLI::App& tool) {
   CLI::App* write =
       tool.add_subcommand("export", "write what .nook files hold for other engines")->require_subcommand(1);
   nook::tool::add_export_casters(nook::tool::Command(*write));
+  CLI::App* cache = tool.add_subcommand("cache", "tidy the folder of bake --cache")->require_subcommand(1);
+  nook::tool::add_cache_prune(nook::tool::Command(*cache));
   nook::tool::add_inspect(nook::tool::Command(tool));
   nook::tool::add_report(nook::tool::Command(tool));
 }
@@ -67,6 +71,7 @@ nook::tool::ElsewhereWords lab_words() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  nook::tool::pin_process(argc, argv);
   return nook::tool::run_program(
       argc, argv, "nook",
       "Bakes ambient occlusion, light probes, materials and radiance transfer, measures them against ray "

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "bakers/raytrace/instruction_set.h"
 #include "bakers/tool/command_end.h"
 #include "bakers/tool/command_line.h"
 #include "sdk/src/core/geometry.h"
@@ -75,11 +76,18 @@ probe::FitSettings fit_of(const ProbeOptions& options) {
   probe::FitSettings settings;
   settings.method = probe::FitMethod(index_of(method_names, options.method));
   settings.constraint = probe::Constraint(index_of(constraint_names, options.constraint));
+  settings.isa = nook_isa(bake::kernel_isa());
   return settings;
 }
 
 probe::Packing packing_of(const ProbeOptions& options) {
   return probe::Packing(index_of(packing_names, options.packing));
+}
+
+nlohmann::json settings_of(const ProbeOptions& o) {
+  return {{"lobes", o.lobes},           {"sharpness", o.sharpness}, {"ambient", o.ambient},
+          {"hemisphere", o.hemisphere}, {"basis", o.basis},         {"method", o.method},
+          {"constraint", o.constraint}, {"packing", o.packing},     {"order", o.order}};
 }
 
 nlohmann::ordered_json describe(const ProbeOptions& options, const probe::Basis& basis) {

@@ -29,6 +29,9 @@ probe::Basis basis_of(const ProbeOptions& options);
 probe::FitSettings fit_of(const ProbeOptions& options);
 probe::Packing packing_of(const ProbeOptions& options);
 
+// Every option, for the identity of a bake.
+nlohmann::json settings_of(const ProbeOptions& options);
+
 nlohmann::ordered_json describe(const ProbeOptions& options, const probe::Basis& basis);
 
 struct BoxArgument {

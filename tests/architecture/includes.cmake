@@ -105,7 +105,10 @@ room(bakers/measure/material bakers/measure/material bakers/images bakers/materi
 room(bakers/measure/report bakers/measure bakers/images platform ${makers})
 room(bakers/job bakers/job ${process} ${makers})
 room(bakers/api bakers/api bakers/job ${makers})
-room(bakers/tool bakers/tool bakers/import/gltf.h bakers/import/gltf_contents.h bakers/import/import_options.h bakers/raytrace/worker_arena.h bakers/job bakers/measure bakers/images platform
+# Keys and caches need hashes and the instruction set; models say which meshes they were baked from.
+room(bakers/tool bakers/tool bakers/import/content_hash.h bakers/import/gltf.h bakers/import/gltf_contents.h
+     bakers/import/import_options.h bakers/import/sha256.h bakers/raytrace/instruction_set.h bakers/raytrace/worker_arena.h
+     bakers/character/recipe.h bakers/job bakers/measure bakers/images platform
      ${systems} sdk/src/core)
 
 # The lab compares Nook with other methods. It takes from every room and, to measure it, from the

@@ -1,5 +1,8 @@
 #include "bakers/tool/inspect/describe.h"
 
+#include <optional>
+
+#include "bakers/job/bake_identity.h"
 #include "bakers/job/material_bake.h"
 #include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/model_file.h"
@@ -39,11 +42,35 @@ Row describe(std::span<const std::byte> bytes) {
   return describe_character(bytes);  // refuses bytes that are not a .nook file, with the reason
 }
 
+namespace {
+
+// Adds the key of the bake, and whether this tool would make the file in the same way.
+void add_identity(Row& row, std::string_view recipe) {
+  const std::optional<bake::BakeIdentity> identity = bake::stored_identity(recipe);
+  row["key"] = identity ? Row(identity->key()) : Row();
+  if (!identity) {
+    row["of_this_tool"] = "unknown: baked before files had keys";
+    return;
+  }
+  const std::string difference = bake::difference_from_this_tool(*identity);
+  row["of_this_tool"] = difference.empty() ? "yes" : "no: " + difference;
+  const Row stored = Row::parse(identity->text, nullptr, false);
+  for (const char* name : {"kind", "generation", "isa", "embree", "compiler"})
+    if (stored.contains(name)) row[std::string("bake_") + name] = stored[name];
+  if (stored.contains("inputs") && stored["inputs"].is_object())
+    for (const auto& input : stored["inputs"].items()) row["input_" + input.key()] = input.value();
+}
+
+}  // namespace
+
 void add_recipe(Row& row, std::string_view recipe) {
   const Row entries = Row::parse(recipe, nullptr, false);
   if (!entries.is_object()) return;
+  add_identity(row, recipe);
   for (const auto& item : entries.items())
-    if (item.value().is_object())
+    if (item.key() == "bake" && item.value().is_object())
+      continue;
+    else if (item.value().is_object())
       for (const auto& part : item.value().items()) row[item.key() + "_" + part.key()] = part.value();
     else
       row["recipe_" + item.key()] = item.value();

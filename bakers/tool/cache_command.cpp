@@ -1,0 +1,54 @@
+// nook cache prune: removes old results from the folder of --cache.
+#include <cstdlib>
+#include <memory>
+#include <optional>
+
+#include "bakers/tool/bake_cache.h"
+#include "bakers/tool/command_end.h"
+#include "bakers/tool/command_line.h"
+#include "bakers/tool/table.h"
+
+namespace nook::tool {
+namespace {
+
+struct Options {
+  std::filesystem::path cache;
+  std::optional<float> days, megabytes;
+};
+
+void run(const Options& options) {
+  const char* const from_environment = std::getenv(cache_variable);
+  const std::filesystem::path folder =
+      options.cache.empty() && from_environment ? from_environment : options.cache;
+  if (folder.empty())
+    throw ToolError(exit_bad_arguments, "cache prune: no folder is given; need --cache DIR or NOOK_CACHE");
+  if (!options.days && !options.megabytes)
+    throw ToolError(exit_bad_arguments, "cache prune: nothing says what to remove; need --older or --size");
+  CacheLimits limits;
+  if (options.days) limits.days = double(*options.days);
+  if (options.megabytes) limits.bytes = std::uint64_t(double(*options.megabytes) * 1e6);
+  const PrunedCache pruned = prune_cache(folder, limits);
+  nlohmann::ordered_json row = {{"removed", pruned.removed},
+                                {"removed_bytes", pruned.removed_bytes},
+                                {"kept", pruned.kept},
+                                {"kept_bytes", pruned.kept_bytes}};
+  print_table(CommonOptions(), table_text(nlohmann::ordered_json::array({row})), false);
+}
+
+}  // namespace
+
+void add_cache_prune(Command cache) {
+  const Command command = cache.add_subcommand(
+      "prune", "remove results that were not used for long, and the oldest ones above a size");
+  const auto options = std::make_shared<Options>();
+  command.add_option("--cache", options->cache, "the folder; default NOOK_CACHE");
+  command.add_option("--older", options->days, "remove what was not used for so many days")
+      .check(non_negative_number());
+  command
+      .add_option("--size", options->megabytes,
+                  "then remove what was not used for the longest time, down to so many MB of 10^6 bytes")
+      .check(non_negative_number());
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace nook::tool
