@@ -11,13 +11,21 @@
 
 namespace nook::bake {
 
+// Where a leg's end goes, and how its foot lies there.
+struct AnimalRig::FootPlan {
+  Vec3 place;          // metres, rest space
+  bool hangs = false;  // the place is in the space of the hip's parent, so that it moves with the body
+  float planted = 1;   // 1: the foot keeps its direction in the world, 0: it goes with the leg
+  float curl = 0;      // of the foot to the back, radians
+  // How much more than the leg's other joints each joint behind the hip bends, 1 where it is empty.
+  std::vector<float> bend_share = {};
+};
+
 struct AnimalRig::Plan {
   AnimalAct act = AnimalAct::rest;
   float amount = 1;            // of all turns: small at rest
   Mat3x4 body;                 // of the whole body over its feet
-  std::vector<Vec3> foot;      // where each leg's end goes, metres
-  std::vector<float> planted;  // 1: the foot keeps its direction in the world, 0: it goes with the leg
-  std::vector<float> curl;     // of the foot to the back, radians
+  std::vector<FootPlan> foot;  // of each leg
   float phase = 0;             // of the gait, 0 to 1
   float gallop = 0;            // bends of the spine with the gait, radians
 };
@@ -139,20 +147,14 @@ void AnimalRig::find_chains() {
 
 namespace {
 
-// The phase of each leg in a gait; legs of a row and side. Four legs walk, trot or gallop; two alternate;
-// more move by tripods or their like: neighbours never at once.
-float leg_phase(const LegChain& leg, std::size_t legs, int gait) {
+// The phase of each leg in a gait with planted feet. Four legs walk or trot; two alternate; more move by
+// tripods or their like: neighbours never at once.
+float leg_phase(const LegChain& leg, std::size_t legs, bool trots) {
   const float side = leg.left ? 0.0f : 0.5f;
   if (legs != 4) return std::fmod(side + 0.5f * float(leg.row % 2), 1.0f);
   const bool hind = leg.row > 0;
-  switch (gait) {
-    case 0:  // walk: left hind, left fore, right hind, right fore
-      return std::fmod(side + (hind ? 0.0f : 0.25f), 1.0f);
-    case 1:  // trot: diagonals
-      return std::fmod(side + (hind ? 0.5f : 0.0f), 1.0f);
-    default:  // gallop: both hind legs, then both fore legs
-      return (hind ? 0.0f : 0.5f) + (leg.left ? 0.0f : 0.12f);
-  }
+  // Walk: left hind, left fore, right hind, right fore. Trot: diagonals.
+  return std::fmod(side + (trots ? (hind ? 0.5f : 0.0f) : (hind ? 0.0f : 0.25f)), 1.0f);
 }
 
 // The place of a foot along its stride, -1 behind to 1 ahead, and its lift, 0 to 1.
@@ -165,14 +167,24 @@ Step step_at(float phase, float stance) {
   return {-std::cos(std::numbers::pi_v<float> * swing), std::sin(std::numbers::pi_v<float> * swing)};
 }
 
+// Turns of a joint that are small most of the time and sometimes large, radians.
+float heavy_turn(PoseRandom& random, float usual, float most) {
+  const float turn = usual * random.normal();
+  return std::clamp(turn * std::exp(0.4f * random.normal()), -most, most);
+}
+
 }  // namespace
 
-AnimalRig::Plan AnimalRig::draw(PoseRandom& random) const {
-  Plan plan;
+AnimalAct random_act(PoseRandom& random) {
   const float kind = random.unit();
-  plan.act = kind < rest_share                ? AnimalAct::rest
-             : kind < rest_share + gait_share ? AnimalAct::gait
-                                              : AnimalAct::free;
+  if (kind < rest_share) return AnimalAct::rest;
+  if (kind < rest_share + gait_share) return AnimalAct::gait;
+  return kind < rest_share + gait_share + leap_share ? AnimalAct::leap : AnimalAct::free;
+}
+
+AnimalRig::Plan AnimalRig::draw(AnimalAct act, PoseRandom& random) const {
+  Plan plan;
+  plan.act = act;
   plan.amount = plan.act == AnimalAct::rest ? 0.35f : plan.act == AnimalAct::gait ? 0.8f : 1.0f;
   plan.phase = random.unit();
   const float loose = plan.amount;
@@ -184,45 +196,116 @@ AnimalRig::Plan AnimalRig::draw(PoseRandom& random) const {
   for (const LegChain& leg : legs_) middle += (1 / float(legs_.size())) * origin(leg.bones.front());
   plan.body = rotation_about(middle, turn);
   plan.body.m[7] -= drop * size_m_;
+  place_feet(plan, random);
+  // Legs of a row bend alike.
+  std::map<int, std::vector<float>> bends;
+  for (std::size_t l = 0; l < legs_.size(); ++l) {
+    std::vector<float>& share = bends[legs_[l].row];
+    while (share.size() + 1 < legs_[l].bones.size()) share.push_back(std::exp(0.4f * random.normal()));
+    plan.foot[l].bend_share = share;
+  }
   return plan;
 }
 
 void AnimalRig::place_feet(Plan& plan, PoseRandom& random) const {
-  const int gait = legs_.size() == 4 ? int(random.below(3)) : 0;
-  const bool runs = gait > 0 || random.chance(0.4f);
-  const float stride = runs ? random.between(0.2f, 0.75f) : random.between(0.12f, 0.35f);
-  const float rise = runs ? random.between(0.1f, 0.5f) : random.between(0.06f, 0.25f);
-  // A foot that leaves the ground is turned back: paws and fetlocks by much more than heels.
-  const float curl = random.between(15, 90) * degree;
-  const float stance = runs ? random.between(0.3f, 0.5f) : random.between(0.55f, 0.75f);
-  const bool tucked = plan.act == AnimalAct::free && random.chance(0.25f);  // jumps and falls
-  if (plan.act == AnimalAct::gait && gait == 2)
-    plan.gallop = 20 * degree * std::sin(2 * std::numbers::pi_v<float> * plan.phase);
+  switch (plan.act) {
+    case AnimalAct::rest:
+      stand(plan, random);
+      break;
+    case AnimalAct::gait:
+      step(plan, random);
+      break;
+    case AnimalAct::leap:
+      leap(plan, random);
+      break;
+    case AnimalAct::free:
+      random.chance(0.5f) ? move_feet(plan, random) : swing_legs(plan, random);
+      break;
+  }
+}
+
+void AnimalRig::stand(Plan& plan, PoseRandom& random) const {
   for (const LegChain& leg : legs_) {
-    Vec3 move;
-    float planted = 1, lifted = 0;
-    if (plan.act == AnimalAct::rest) {
-      move = in_body({0.02f * random.normal(), 0, 0.05f * random.normal()});
-      if (random.chance(0.08f)) move.y += random.between(0, 0.08f);  // a resting or stamping leg
-    } else if (plan.act == AnimalAct::gait) {
-      const float phase = plan.phase + leg_phase(leg, legs_.size(), gait) + 0.03f * random.normal();
-      const Step step = step_at(phase - std::floor(phase), stance);
-      move = in_body({0.02f * random.normal(), rise * step.lift, stride * step.along});
-      planted = 1 - step.lift;
-      lifted = step.lift;
-    } else {
-      const float up = tucked                ? random.between(0.1f, 0.6f)
-                       : random.chance(0.3f) ? random.between(0, 0.5f)
-                                             : 0.0f;
-      // Kicks, crouches and the gathered legs of a leap reach far under the body.
-      const float along = random.chance(0.4f) ? random.between(-0.9f, 0.9f) : 0.35f * random.normal();
-      move = in_body({0.08f * random.normal(), up, along});
-      planted = up > 0 ? 0.0f : 1.0f;
-      lifted = up > 0 ? random.unit() : 0.0f;
-    }
-    plan.foot.push_back(leg.end + leg.length_m * move);
-    plan.planted.push_back(planted);
-    plan.curl.push_back(lifted * curl);
+    Vec3 move = in_body({0.02f * random.normal(), 0, 0.05f * random.normal()});
+    if (random.chance(0.08f)) move.y += random.between(0, 0.08f);  // a resting or stamping leg
+    plan.foot.push_back({leg.end + leg.length_m * move});
+  }
+}
+
+void AnimalRig::step(Plan& plan, PoseRandom& random) const {
+  const bool trots = legs_.size() == 4 && random.chance(0.5f);
+  const bool runs = trots || random.chance(0.4f);
+  const float stride = runs ? random.between(0.2f, 0.75f) : random.between(0.12f, 0.45f);
+  const float rise = runs ? random.between(0.1f, 0.5f) : random.between(0.06f, 0.3f);
+  // A foot that leaves the ground is turned back: paws and fetlocks by much more than heels.
+  const float curl = random.between(15, 130) * degree;
+  const float stance = runs ? random.between(0.3f, 0.5f) : random.between(0.55f, 0.75f);
+  for (const LegChain& leg : legs_) {
+    const float phase = plan.phase + leg_phase(leg, legs_.size(), trots) + 0.03f * random.normal();
+    const Step at = step_at(phase - std::floor(phase), stance);
+    const Vec3 move = in_body({0.02f * random.normal(), rise * at.lift, stride * at.along});
+    plan.foot.push_back({leg.end + leg.length_m * move, false, 1 - at.lift, at.lift * curl});
+  }
+}
+
+// The end of a leg that swings from its hip by angles to the front and away from the body, radians; stretch
+// is its length over the length at rest.
+Vec3 AnimalRig::swung(const LegChain& leg, float forward, float aside, float stretch) const {
+  const Vec3 hip = origin(leg.bones.front());
+  const float mirror = leg.left ? 1.0f : -1.0f;
+  const Mat3x4 turn =
+      rotation_about({}, mirror * aside * frame_.forward) * rotation_about({}, -forward * frame_.left);
+  return hip + stretch * transform_vector(turn, leg.end - hip);
+}
+
+// Gallops, bounds, runs and jumps: legs swing from the hips while all feet may be in the air. In a gallop,
+// hind and fore legs swing against each other, and the spine bends with them. Whether it bends up or down
+// while they gather differs from animal to animal. A swing to the front is bent, one to the back is long.
+void AnimalRig::leap(Plan& plan, PoseRandom& random) const {
+  const float amplitude = random.between(20, 65) * degree;
+  const float bent = random.between(0.05f, 0.45f);
+  const float curl = random.between(0, 130) * degree;
+  const float lead = random.between(-0.15f, 0.15f);
+  const bool gallops = legs_.size() == 4;
+  const float apart = gallops ? 0.5f + 0.06f * random.normal() : 0.5f;
+  for (const LegChain& leg : legs_) {
+    const float row = gallops ? apart * float(leg.row == 0) : apart * float(leg.row % 2);
+    const float side = gallops ? (leg.left ? 0 : lead) : (leg.left ? 0 : 0.5f);
+    const float angle = 2 * std::numbers::pi_v<float> * (plan.phase + row + side + 0.03f * random.normal());
+    const float forward = amplitude * std::cos(angle) + 8 * degree * random.normal();
+    const float air = std::max(0.0f, -std::sin(angle));  // while it swings to the front
+    const float stretch = 1.1f - bent * air - 0.1f * random.unit();
+    plan.foot.push_back({swung(leg, forward, 4 * degree * random.normal(), stretch), true, 0.0f,
+                         (0.25f + 0.75f * air) * curl});
+  }
+  if (gallops)
+    plan.gallop =
+        random.between(-0.3f, 0.5f) * amplitude * std::cos(2 * std::numbers::pi_v<float> * plan.phase);
+}
+
+// Kicks, crouches and steps to any place that legs reach from a standing body.
+void AnimalRig::move_feet(Plan& plan, PoseRandom& random) const {
+  const bool tucked = random.chance(0.25f);  // jumps and falls
+  const float curl = random.between(15, 90) * degree;
+  for (const LegChain& leg : legs_) {
+    const float up = tucked                ? random.between(0.1f, 0.6f)
+                     : random.chance(0.3f) ? random.between(0, 0.5f)
+                                           : 0.0f;
+    const float along = random.chance(0.4f) ? random.between(-0.9f, 0.9f) : 0.35f * random.normal();
+    const Vec3 move = in_body({0.08f * random.normal(), up, along});
+    const bool lifted = up > 0;
+    plan.foot.push_back(
+        {leg.end + leg.length_m * move, false, lifted ? 0.0f : 1.0f, lifted ? random.unit() * curl : 0.0f});
+  }
+}
+
+// Each leg by itself, anywhere that it reaches from its hip.
+void AnimalRig::swing_legs(Plan& plan, PoseRandom& random) const {
+  for (const LegChain& leg : legs_) {
+    const float forward = heavy_turn(random, 35 * degree, 80 * degree);
+    const float aside = heavy_turn(random, 8 * degree, 40 * degree);
+    const float stretch = 1.05f - 0.5f * random.unit() * random.unit();
+    plan.foot.push_back({swung(leg, forward, aside, stretch), true, 0.0f, random.between(-20, 110) * degree});
   }
 }
 
@@ -249,10 +332,12 @@ Bends bends_of(std::span<const Vec3> points, Vec3 left) {
 
 // The turns of all joints behind the hip for one amount of flexion, radians; negative stretches. What is left
 // of each rest bend keeps a stretched leg from bending the wrong way.
-std::vector<Mat3x4> flexed(std::span<const Vec3> points, const Bends& bends, float flexion) {
+std::vector<Mat3x4> flexed(std::span<const Vec3> points, const Bends& bends, float flexion,
+                           std::span<const float> share) {
   std::vector<Mat3x4> turns;
   for (std::size_t i = 0; i < bends.axis.size(); ++i) {
-    const float angle = std::max(flexion, -0.9f * bends.angle[i]);
+    const float own = i < share.size() ? share[i] * flexion : flexion;
+    const float angle = std::max(own, -0.9f * bends.angle[i]);
     turns.push_back(rotation_about(points[i + 1], angle * bends.axis[i]));
   }
   return turns;
@@ -266,7 +351,8 @@ Vec3 end_of(std::span<const Vec3> points, std::span<const Mat3x4> turns) {
 
 }  // namespace
 
-std::vector<Mat3x4> AnimalRig::reach(const LegChain& leg, Vec3 place) const {
+std::vector<Mat3x4> AnimalRig::reach(const LegChain& leg, Vec3 place,
+                                     std::span<const float> bend_share) const {
   constexpr float most_flexion = 1.6f, most_stretch = -1.6f;  // radians a joint
   constexpr int halvings = 24;
   std::vector<Vec3> points;
@@ -287,9 +373,9 @@ std::vector<Mat3x4> AnimalRig::reach(const LegChain& leg, Vec3 place) const {
   float low = most_stretch, high = most_flexion;  // the longest and the shortest leg
   for (int i = 0; i < halvings; ++i) {
     const float middle = 0.5f * (low + high);
-    (length(end_of(own, flexed(own, bends, middle)) - own[0]) > wanted ? low : high) = middle;
+    (length(end_of(own, flexed(own, bends, middle, bend_share)) - own[0]) > wanted ? low : high) = middle;
   }
-  const std::vector<Mat3x4> turns = flexed(own, bends, 0.5f * (low + high));
+  const std::vector<Mat3x4> turns = flexed(own, bends, 0.5f * (low + high), bend_share);
   const Vec3 end = end_of(own, turns);
   std::vector<Mat3x4> all;
   if (girdle) all.push_back(first);
@@ -317,20 +403,21 @@ void AnimalRig::bend_chains(const Plan& plan, std::vector<Mat3x4>& local, PoseRa
                   a * snake * 10 * degree * random.normal(), a * 5 * degree * random.normal()}),
          in_body({a * snake * 5 * degree * random.normal(), a * snake * 12 * degree * random.normal(), 0}),
          a * 3 * degree);
-  // Heads look about, graze and are raised, and keep level while the neck moves.
+  // Heads look about, graze and are raised, and keep level while the neck moves. A standing body often moves
+  // nothing but its head.
+  const float h = plan.act == AnimalAct::rest && random.chance(0.5f) ? 1 : a;
   const float kind = random.unit();
-  const float pitch = kind < 0.55f   ? a * 22 * degree * random.normal()
+  const float pitch = kind < 0.55f   ? h * 22 * degree * random.normal()
                       : kind < 0.85f ? random.unit() * neck_reach_
-                                     : -a * random.between(5, 35) * degree;
+                                     : -h * random.between(5, 35) * degree;
   const float level = random.between(0.2f, 0.9f);
-  const Vec3 aside = in_body({0, a * 28 * degree * random.normal(), a * 8 * degree * random.normal()});
+  const Vec3 aside = in_body({0, h * 28 * degree * random.normal(), h * 8 * degree * random.normal()});
+  const Vec3 look = in_body({h * 10 * degree * random.normal(), h * 20 * degree * random.normal(), 0});
   for (const auto& neck : necks_) {
     const std::vector<std::size_t> below(neck.begin(), neck.end() - (neck.size() > 1));
     bend(below, pitch * frame_.left + aside,
-         in_body({a * 20 * degree * random.normal(), a * 12 * degree * random.normal(), 0}), a * 4 * degree);
-    if (neck.size() > 1)
-      bend({neck.back()}, (a * 10 * degree * random.normal() - level * pitch) * frame_.left - 0.3f * aside,
-           {}, a * 6 * degree);
+         in_body({h * 20 * degree * random.normal(), h * 12 * degree * random.normal(), 0}), a * 4 * degree);
+    if (neck.size() > 1) bend({neck.back()}, look - level * pitch * frame_.left, {}, a * 6 * degree);
   }
   for (const auto& tail : tails_)
     bend(tail, in_body({a * 45 * degree * random.normal(), a * 40 * degree * random.normal(), 0}),
@@ -376,9 +463,8 @@ void AnimalRig::turn_others(const Plan& plan, std::vector<Mat3x4>& local, PoseRa
   }
 }
 
-Pose AnimalRig::pose(PoseRandom& random) const {
-  Plan plan = draw(random);
-  place_feet(plan, random);
+Pose AnimalRig::pose(AnimalAct act, PoseRandom& random) const {
+  const Plan plan = draw(act, random);
   std::vector<Mat3x4> local(mesh_.bones.size());
   bend_chains(plan, local, random);
   turn_others(plan, local, random);
@@ -393,15 +479,16 @@ Pose AnimalRig::pose(PoseRandom& random) const {
     const Mat3x4 above = p >= 0 ? pose[std::size_t(p)] : plan.body;
     if (hip_of[b] >= 0) {
       const LegChain& leg = legs_[std::size_t(hip_of[b])];
-      const Vec3 place = transform_point(inverse_rigid(above), plan.foot[std::size_t(hip_of[b])]);
-      const std::vector<Mat3x4> turns = reach(leg, place);
+      const FootPlan& foot = plan.foot[std::size_t(hip_of[b])];
+      const Vec3 place = foot.hangs ? foot.place : transform_point(inverse_rigid(above), foot.place);
+      const std::vector<Mat3x4> turns = reach(leg, place, foot.bend_share);
       for (std::size_t i = 0; i < turns.size(); ++i) local[leg.bones[i]] = turns[i];
     }
     if (foot_of[b] >= 0) {
       // A planted foot stays level, one in the air hangs back.
-      const auto leg = std::size_t(foot_of[b]);
+      const FootPlan& foot = plan.foot[std::size_t(foot_of[b])];
       const Vec3 up = normalised(transform_vector(inverse_rigid(above), frame_.up));
-      const Vec3 turn = 0.9f * plan.planted[leg] * shortest_arc(frame_.up, up) + plan.curl[leg] * frame_.left;
+      const Vec3 turn = 0.9f * foot.planted * shortest_arc(frame_.up, up) + foot.curl * frame_.left;
       local[b] = rotation_about(origin(b), turn);
     }
     pose[b] = above * local[b];

@@ -10,10 +10,12 @@
 
 namespace nook::bake {
 
-// The act of a body in one pose. Games show characters that stand or walk most of the time. So a third of all
-// poses rest and a third walk or run. The last third shows the other acts of the body.
-enum class AnimalAct : std::uint8_t { rest, gait, free };
-constexpr float rest_share = 0.35f, gait_share = 0.35f;
+// What a body does in one pose. It rests, or it walks or trots with planted feet. In a leap, as in a gallop
+// or a jump, the legs swing from the hips. Free bodies move each part by itself. Games show characters that
+// stand or walk most of the time.
+enum class AnimalAct : std::uint8_t { rest, gait, leap, free };
+constexpr float rest_share = 0.3f, gait_share = 0.25f, leap_share = 0.25f;
+AnimalAct random_act(PoseRandom& random);
 
 // One leg: joints from the hip to its end, which stands on the ground at rest.
 struct LegChain {
@@ -30,19 +32,27 @@ class AnimalRig {
   // Both are kept by reference.
   AnimalRig(const SkinnedMesh& mesh, std::span<const Joint> joints);
 
-  Pose pose(PoseRandom& random) const;
+  Pose pose(AnimalAct act, PoseRandom& random) const;
   std::span<const LegChain> legs() const { return legs_; }
 
   // The turns of a leg's bones, of which the first is its hip, that bring its end to a place. In the space of
   // the hip's parent at rest. A place out of reach is approached as far as the leg stretches.
-  std::vector<Mat3x4> reach(const LegChain& leg, Vec3 place) const;
+  // bend_share: how much more each joint behind the hip bends than the others, 1 where the span has none.
+  std::vector<Mat3x4> reach(const LegChain& leg, Vec3 place, std::span<const float> bend_share = {}) const;
 
  private:
+  struct FootPlan;
   struct Plan;
   void find_legs();
   void find_chains();
-  Plan draw(PoseRandom& random) const;
+  Plan draw(AnimalAct act, PoseRandom& random) const;
   void place_feet(Plan& plan, PoseRandom& random) const;
+  void stand(Plan& plan, PoseRandom& random) const;
+  void step(Plan& plan, PoseRandom& random) const;
+  void leap(Plan& plan, PoseRandom& random) const;
+  void move_feet(Plan& plan, PoseRandom& random) const;
+  void swing_legs(Plan& plan, PoseRandom& random) const;
+  Vec3 swung(const LegChain& leg, float forward, float aside, float stretch) const;
   void bend_chains(const Plan& plan, std::vector<Mat3x4>& local, PoseRandom& random) const;
   void turn_others(const Plan& plan, std::vector<Mat3x4>& local, PoseRandom& random) const;
   Vec3 in_body(Vec3 v) const { return v.x * frame_.left + v.y * frame_.up + v.z * frame_.forward; }

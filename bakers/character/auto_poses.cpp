@@ -344,7 +344,7 @@ std::vector<Pose> poses_of_animal(const SkinnedMesh& mesh, std::span<const float
     float best = 0;
     std::vector<Vec3> posed;
     for (int attempt = 0; attempt < tries; ++attempt) {
-      Pose pose = rig.pose(random);
+      Pose pose = rig.pose(random_act(random), random);
       if (!known.poses.empty()) {
         const Pose& other = known.poses[std::min(std::size_t(random.unit() * float(known.poses.size())),
                                                  known.poses.size() - 1)];

@@ -10,6 +10,7 @@
 #include "bakers/character/hands.h"
 #include "bakers/character/rig_file.h"
 #include "bakers/character/rig_geometry.h"
+#include "bakers/character/rotation.h"
 #include "bakers/character/torn_edges.h"
 #include "sdk/src/core/failure.h"
 #include "tests/bakers/character/stick_figure.h"
@@ -252,6 +253,74 @@ TEST_CASE("a leg reaches the place that its foot is given") {
       // 24 halvings of 3.2 radians leave single precision over two joints of a leg of 0.7 m.
       CHECK(length(end - (chain.end + move)) < 1e-4f);
     }
+}
+
+TEST_CASE("a joint that bends more than the others leaves the foot where it was") {
+  const SkinnedMesh mesh = quadruped();
+  const std::vector<Joint> joints = joint_roles(mesh);
+  const AnimalRig rig(mesh, joints);
+  REQUIRE(rig.legs().size() == 4);
+  const LegChain& chain = rig.legs().front();
+  REQUIRE(chain.bones.size() >= 2);
+  const Vec3 place = chain.end + Vec3{0, 0.15f, 0.05f};
+  const std::vector<float> share(chain.bones.size() - 1, 1.5f);
+  const std::vector<Mat3x4> turns = rig.reach(chain, place, share);
+  Vec3 end = chain.end;
+  for (std::size_t i = turns.size(); i-- > 0;) end = transform_point(turns[i], end);
+  CHECK(length(end - place) < 1e-4f);  // as for the leg of the test above
+}
+
+namespace {
+
+// The angles of a leg in one pose, seen from its hip's parent: radians to the front of its direction at rest.
+float angle_of(const SkinnedMesh& mesh, const BodyTree& tree, const LegChain& chain, Vec3 forward,
+               const Pose& pose) {
+  const std::size_t hip = chain.bones.front();
+  const Vec3 origin = joint_origin(mesh.bones[hip]);
+  const Vec3 way = transform_point(pose[chain.bones.back()], chain.end) - transform_point(pose[hip], origin);
+  const Vec3 own = transform_vector(inverse_rigid(pose[std::size_t(tree.parent[hip])]), way);
+  const Vec3 rest = chain.end - origin;
+  return std::atan2(dot(own, forward), -own.y) - std::atan2(dot(rest, forward), -rest.y);
+}
+
+}  // namespace
+
+TEST_CASE("four legs gather under the belly and reach apart, as in a gallop") {
+  const SkinnedMesh mesh = quadruped();
+  const std::vector<Joint> joints = joint_roles(mesh);
+  const BodyTree tree = body_tree(mesh, joints);
+  const AnimalRig rig(mesh, joints);
+  const Vec3 forward = body_frame(mesh, joints).forward;
+  struct Counts {
+    int gathered = 0, apart = 0;
+  };
+  // Poses in which all four legs are farther than 20 degrees, the least amplitude of a leap, from rest.
+  const auto count = [&](std::span<const Pose> poses) {
+    Counts counts;
+    for (const Pose& pose : poses) {
+      int under = 0, out = 0;
+      for (const LegChain& chain : rig.legs()) {
+        const float angle = angle_of(mesh, tree, chain, forward, pose) * (chain.row == 0 ? -1.0f : 1.0f);
+        under += angle > 0.35f;
+        out += angle < -0.35f;
+      }
+      counts.gathered += under == 4;
+      counts.apart += out == 4;
+    }
+    return counts;
+  };
+  // An amplitude of 42 degrees, the mean, is beyond 20 degrees for a third of a cycle at each end. The lead
+  // of one side and the spread of the legs leave more than a third of it.
+  PoseRandom random(5);
+  std::vector<Pose> leaps;
+  for (int i = 0; i < 300; ++i) leaps.push_back(rig.pose(AnimalAct::leap, random));
+  const Counts drawn = count(leaps);
+  CHECK(drawn.gathered > 300 / 9);
+  CHECK(drawn.apart > 300 / 9);
+  // A quarter of the automatic poses leap. Where legs run into each other they are drawn again, but not all.
+  const Counts kept = count(poses_of(mesh, 300));
+  CHECK(kept.gathered >= 3);
+  CHECK(kept.apart >= 3);
 }
 
 TEST_CASE("feet stay on the ground when the animal rests") {
