@@ -345,7 +345,9 @@ CompressedMaterial compress_to_file(const RawMaterial& raw, ReliefSource relief,
   nook::material::Material material = compress_moved(raw, moved, settings, progress);
   const double seconds = watch.seconds();
   CompressedMaterial out;
+  out.verdict = judge(moved.or_still(raw), settings, progress);
   out.recipe = {{"source", source}, {"compression", describe(settings)}};
+  out.recipe.update(describe(out.verdict));
   if (!relief_source.is_null()) out.recipe["relief"] = relief_source;
   store_identity(out.recipe, identity);
   // Names come from files and need not be UTF-8.
@@ -356,6 +358,7 @@ CompressedMaterial compress_to_file(const RawMaterial& raw, ReliefSource relief,
   figures.method = method_name(settings.method);
   figures.seconds = seconds;
   out.row = report_row(raw.name, figures);
+  out.row.update(describe(out.verdict));
   return out;
 }
 

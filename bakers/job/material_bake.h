@@ -16,6 +16,7 @@
 #include "bakers/material/meso_surface.h"
 #include "bakers/material/raw_material.h"
 #include "bakers/material/trace_material.h"
+#include "bakers/material/verdict.h"
 
 namespace nook::bake {
 
@@ -52,7 +53,8 @@ MaterialTask material_task_of(const nook_bake_material_desc& desc);
 struct CompressedMaterial {
   std::vector<std::byte> file;
   nlohmann::ordered_json row;     // figures of the file, for reports
-  nlohmann::ordered_json recipe;  // recipe stored in the file
+  nlohmann::ordered_json recipe;  // recipe stored in the file, with the verdict
+  material::Verdict verdict;
 };
 
 // Chooses the settings from the images to fit: on the relief, if there is one.

@@ -28,6 +28,10 @@ MapProbe bake_map_probe(const Environment& map, const probe::MapBakeSettings& se
   const probe::Samples samples = probe::bake_samples(map, settings);
   const std::vector<Vec3> coefficients = probe::bake_map(settings, samples, progress);
   baked.probes.coefficients.assign(coefficients.begin(), coefficients.end());
+  if (settings.basis.kind == nook::probe::BasisKind::gaussians) {
+    const std::vector<Vec3> gloss = probe::map_gloss(map, settings.basis);
+    baked.probes.gloss.assign(gloss.begin(), gloss.end());
+  }
   baked.samples = samples.size();
   return baked;
 }

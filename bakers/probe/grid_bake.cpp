@@ -88,6 +88,12 @@ nook::probe::Probes GridBake::probes() {
   for (std::size_t p = 0; p < fits_.size(); ++p)
     fits_[p].all.read(
         std::span(probes.coefficients).subspan(p * settings_.basis.count, settings_.basis.count));
+  if (settings_.basis.kind == nook::probe::BasisKind::gaussians) {
+    probes.gloss.resize(probes.coefficients.size());
+    for (std::size_t p = 0; p < fits_.size(); ++p)
+      fits_[p].all.read_gloss(
+          std::span(probes.gloss).subspan(p * settings_.basis.count, settings_.basis.count));
+  }
   fill_inside(probes, inside_);
   return probes;
 }

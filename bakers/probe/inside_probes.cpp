@@ -44,9 +44,11 @@ std::vector<bool> inside_probes(const LitScene& scene, const Grid& grid) {
   return inside_probes(scene, grid_probes(grid));
 }
 
-void fill_inside(nook::probe::Probes& probes, std::vector<bool> inside) {
-  const Grid& grid = probes.grid;
-  const std::size_t row = grid.counts[0], slice = row * grid.counts[1], count = probes.basis.count;
+namespace {
+
+// Rows have `count` values for each probe.
+void fill_rows(const Grid& grid, std::size_t count, std::vector<bool> inside, std::span<Vec3> rows) {
+  const std::size_t row = grid.counts[0], slice = row * grid.counts[1];
   const auto left = [&] { return std::find(inside.begin(), inside.end(), true) != inside.end(); };
   while (left()) {
     // Finds all probes of one layer at once, so that their order does not matter.
@@ -57,7 +59,7 @@ void fill_inside(nook::probe::Probes& probes, std::vector<bool> inside) {
       float neighbours = 0;
       const auto add = [&](bool exists, std::size_t from) {
         if (!exists || before[from]) return;
-        for (std::size_t i = 0; i < count; ++i) sum[i] += probes.of(from)[i];
+        for (std::size_t i = 0; i < count; ++i) sum[i] += rows[from * count + i];
         ++neighbours;
       };
       const std::size_t x = p % row, y = p / row % grid.counts[1], z = p / slice;
@@ -68,11 +70,18 @@ void fill_inside(nook::probe::Probes& probes, std::vector<bool> inside) {
       add(z > 0, p - slice);
       add(z + 1 < grid.counts[2], p + slice);
       if (neighbours == 0) continue;
-      for (std::size_t i = 0; i < count; ++i) probes.coefficients[p * count + i] = sum[i] * (1 / neighbours);
+      for (std::size_t i = 0; i < count; ++i) rows[p * count + i] = sum[i] * (1 / neighbours);
       inside[p] = false;
     }
     if (inside == before) return;  // all of them are
   }
+}
+
+}  // namespace
+
+void fill_inside(nook::probe::Probes& probes, const std::vector<bool>& inside) {
+  fill_rows(probes.grid, probes.basis.count, inside, probes.coefficients);
+  if (probes.has_gloss()) fill_rows(probes.grid, probes.basis.count, inside, probes.gloss);
 }
 
 namespace {

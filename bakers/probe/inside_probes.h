@@ -18,7 +18,7 @@ std::vector<bool> inside_probes(const LitScene& scene, const std::vector<Vec3>& 
 std::vector<bool> inside_probes(const LitScene& scene, const nook::probe::Grid& grid);
 
 // Gives each probe inside the mean of its neighbours outside, at most six, and continues inwards from there.
-void fill_inside(nook::probe::Probes& probes, std::vector<bool> inside);
+void fill_inside(nook::probe::Probes& probes, const std::vector<bool>& inside);
 
 // Places the probes of a grid at their places in the grid, or moves them out of solids and away from walls.
 // Close to a wall, a probe would see mostly the wall.

@@ -9,6 +9,7 @@
 #include "bakers/raytrace/hemisphere.h"
 #include "bakers/raytrace/path_tracer.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/probe/gloss.h"
 
 namespace nook::bake::probe {
 namespace {
@@ -115,6 +116,20 @@ std::vector<Vec3> bake_map(const MapBakeSettings& settings, const Samples& sampl
   std::vector<Vec3> coefficients(settings.basis.count);
   fit.read(coefficients);
   return coefficients;
+}
+
+std::vector<Vec3> map_gloss(const Environment& map, const nook::probe::Basis& basis) {
+  const std::uint32_t n = basis.count;
+  const std::vector<Channels> moment = moments(without_suns(map), basis);
+  const Vector<double> gram = nook::probe::basis_gram(basis);
+  std::vector<Channels> amplitude(n);
+  std::vector<double> scratch(nook::probe::gloss_scratch_size(n));
+  for (std::size_t c = 0; c < 3; ++c)
+    nook::probe::fit_gloss(gram.data(), moment.data()->data() + c, n, 3, amplitude.data()->data() + c,
+                           scratch.data());
+  std::vector<Vec3> gloss;
+  for (const Channels& a : amplitude) gloss.push_back({float(a[0]), float(a[1]), float(a[2])});
+  return gloss;
 }
 
 }  // namespace nook::bake::probe

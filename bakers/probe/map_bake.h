@@ -64,4 +64,8 @@ inline std::vector<Vec3> bake_map(
   return bake_map(settings, bake_samples(map, settings), progress);
 }
 
+// Returns the amplitudes for glossy reflection, see sdk/src/probe/gloss.h, of the map without its suns, which
+// a host draws as lights. basis must be Gaussians. Integrals are exact, whatever the method of the bake is.
+std::vector<Vec3> map_gloss(const Environment& map, const nook::probe::Basis& basis);
+
 }  // namespace nook::bake::probe

@@ -47,6 +47,7 @@ struct Options {
   std::optional<std::uint32_t> count;
   std::optional<float> radius, thickness, roughness;
   float detail = 1;
+  bool strict = false;  // a material that judges itself bad is not written
 };
 
 MesoParameters meso_of(const Options& o) {
@@ -224,7 +225,23 @@ bake::BakeIdentity identity_of(const Options& o, const Source& source) {
     settings["height_scale"] = o.height_scale_m;
     settings["tile_side"] = o.tile_side_m;
   }
+  // A result that was kept without --strict may be bad.
+  if (o.strict) settings["strict"] = true;
   return bake::identify_bake(bake::BakeKind::material, settings, inputs);
+}
+
+// The table has no room for sentences, which stand above it.
+Json without_words(Json row) {
+  row.erase("verdict_words");
+  return row;
+}
+
+// Tells the user what the material is worth. Throws with --strict if it is bad, before a file is replaced.
+void tell_verdict(const Options& o, const Verdict& verdict) {
+  if (o.strict && verdict.grade == Grade::bad)
+    throw ToolError(exit_bad_result,
+                    "bake material: " + verdict.words + "; --strict writes no such material");
+  if (!o.common.quiet) std::fprintf(stderr, "nook: %s\n", verdict.words.c_str());
 }
 
 BakeOutput bake(const Options& o, const Source& source, const bake::BakeIdentity& identity) {
@@ -253,6 +270,7 @@ BakeOutput bake(const Options& o, const Source& source, const bake::BakeIdentity
       bake::compress_to_file(raw, o.compression.settings.relief, choose, recipe_of_trace(o), relief_source,
                              stage_progress(bar, "compressing the "), identity);
   note_missing_map(o, settings);
+  tell_verdict(o, compressed.verdict);
   write_pictures(o, raw, compressed.file);
   Json json = compressed.row;
   json["lights"] = raw.lights.size();
@@ -263,7 +281,7 @@ BakeOutput bake(const Options& o, const Source& source, const bake::BakeIdentity
   json["seconds_source"] = seconds_obtain;
   const Json report{{"rows", Json::array({json})}, {"recipe", compressed.recipe}};
   return {std::move(compressed.file), report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
-          table_text(report["rows"])};
+          table_text(Json::array({without_words(std::move(json))}))};
 }
 
 PreparedBake prepare(const Options& o) {
@@ -363,6 +381,10 @@ void add_bake_material(Command bake) {
       .type_name("NAME");
   command.add_input("--raw", o.raw, "a raw material that --keep-raw wrote");
   add_bake_options(command, o.baking);
+  command.add_flag(
+      "--strict", o.strict,
+      "fail with exit code 4, and write nothing, if the material judges itself bad: below 12 dB in "
+      "views and lights that were held out");
   command.add_option("--keep-raw", o.keep_raw, "write the uncompressed material, for `evaluate material`");
   command.add_option("--images", o.images,
                      "write pictures of the raw and the decoded material to this folder");

@@ -11,7 +11,13 @@
 
 namespace nook::tool {
 
-enum ExitCode { exit_done = 0, exit_other = 1, exit_bad_arguments = 2, exit_bad_input = 3 };
+enum ExitCode {
+  exit_done = 0,
+  exit_other = 1,
+  exit_bad_arguments = 2,
+  exit_bad_input = 3,
+  exit_bad_result = 4
+};
 
 class ToolError : public std::runtime_error {
  public:

@@ -135,7 +135,11 @@ Json evaluate(const Options& options, const ProbePeers* peers) {
     const Json instead =
         peers ? peers->rows_of_map(*map, name, options.lobes, options.common.seed, bar) : Json();
     for (const Json& row : instead) report["rows"].push_back(row);
-    if (instead.is_null()) append_methods(options, peers, name, *map, bar, report["rows"], over_maps);
+    if (instead.is_null()) {
+      append_methods(options, peers, name, *map, bar, report["rows"], over_maps);
+      for (const Json& row : measure::gloss_rows(*map, name, options.lobes, options.common.seed))
+        report["rows"].push_back(row);
+    }
     if (!options.images.empty()) write_picture(options, name, *map);
   }
   for (const Json& row : over_maps.rows()) report["rows"].push_back(row);

@@ -76,6 +76,6 @@ int main(int argc, char** argv) {
       argc, argv, "nook",
       "Bakes ambient occlusion, light probes, materials and radiance transfer, measures them against ray "
       "tracing, and inspects .nook files.\n"
-      "Exit codes: 0 done, 2 bad arguments, 3 bad input, 1 anything else.",
+      "Exit codes: 0 done, 2 bad arguments, 3 bad input, 4 a result that --strict refuses, 1 anything else.",
       add_commands, lab_words());
 }

@@ -62,7 +62,8 @@ void nook_material_decode_anisotropic(vec2 uv, vec2 dx, vec2 dy, vec3 view, int 
   nook_material_decode_at(nook_material_fetches_along(uv, dx, dy, NOOK_BTF_TEXELS, fetches), view, modes);
 }
 
-// Returns the radiance towards the view for an irradiance of 1 on a plane that faces the light.
+// Returns the radiance towards the view for an irradiance of 1 on a plane that faces the light. Compression may
+// leave a sum slightly negative, which is clamped.
 vec3 nook_material_radiance(vec4 modes[NOOK_LIGHT_VEC4_COUNT], vec3 light) {
   vec3 radiance = vec3(0.0);
   if (light.z <= 0.0) return radiance;
@@ -71,5 +72,5 @@ vec3 nook_material_radiance(vec4 modes[NOOK_LIGHT_VEC4_COUNT], vec3 light) {
     radiance += vec3(dot(modes[a], textureLod(nook_light_map, vec3(at, float(a)), 0.0)),
                      dot(modes[a], textureLod(nook_light_map, vec3(at, float(a + NOOK_LIGHT_VEC4_COUNT)), 0.0)),
                      dot(modes[a], textureLod(nook_light_map, vec3(at, float(a + 2 * NOOK_LIGHT_VEC4_COUNT)), 0.0)));
-  return radiance;
+  return max(radiance, 0.0);
 }

@@ -1,6 +1,7 @@
 // Reads a probe, or a grid of probes, from a table of RGBA32F texels in the layout of
 // sdk/src/gl/probe/probe_texture.cpp. It holds counts and number of lobes; origin; 1 / spacing; axis and
-// sharpness of each lobe; then the amplitudes of each probe. x varies fastest, then y, then z.
+// sharpness of each lobe; then the amplitudes of each probe. x varies fastest, then y, then z. If the fourth
+// number of the origin is 1, the amplitudes for gloss follow in the same order.
 #include "shaders/core/texels.glsl"
 #include "shaders/probe/lobe.glsl"
 
@@ -9,6 +10,7 @@ uniform NOOK_TEXELS nook_probe_texels;
 // The eight probes around a point, and their weights: trilinear, clamped at the grid's ends.
 struct NookProbePlace {
   int lobe_count;
+  int gloss;       // texels from an amplitude to the one for gloss; 0 if the probes have none
   int first[8];    // texel of the first amplitude
   float weight[8];
 };
@@ -18,8 +20,10 @@ NookProbePlace nook_probe_place(vec3 position_ws) {
   vec4 head = nook_texel(nook_probe_texels, 0);
   ivec3 counts = ivec3(head.xyz);
   place.lobe_count = int(head.w);
-  vec3 origin = nook_texel(nook_probe_texels, 1).xyz, inverse_spacing = nook_texel(nook_probe_texels, 2).xyz;
-  vec3 at = clamp((position_ws - origin) * inverse_spacing, vec3(0.0), vec3(counts - 1));
+  vec4 origin = nook_texel(nook_probe_texels, 1);
+  vec3 inverse_spacing = nook_texel(nook_probe_texels, 2).xyz;
+  place.gloss = int(origin.w) * place.lobe_count * counts.x * counts.y * counts.z;
+  vec3 at = clamp((position_ws - origin.xyz) * inverse_spacing, vec3(0.0), vec3(counts - 1));
   ivec3 low = min(ivec3(at), max(counts - 2, 0));
   vec3 share = at - vec3(low);
   int row = counts.x, slice = counts.x * counts.y;
@@ -33,12 +37,22 @@ NookProbePlace nook_probe_place(vec3 position_ws) {
   return place;
 }
 
-// Returns lobe i of the light at a place.
-NookLobe nook_probe_lobe_at(NookProbePlace place, int i) {
+// Returns lobe i of the light at a place, with the amplitude that lies `apart` texels from the light's.
+NookLobe nook_probe_read_lobe(NookProbePlace place, int i, int apart) {
   vec4 shape = nook_texel(nook_probe_texels, 3 + i);
   vec3 amplitude = vec3(0.0);
   for (int corner = 0; corner < 8; ++corner)
     if (place.weight[corner] > 0.0)
-      amplitude += place.weight[corner] * nook_texel(nook_probe_texels, place.first[corner] + i).xyz;
+      amplitude += place.weight[corner] * nook_texel(nook_probe_texels, place.first[corner] + i + apart).xyz;
   return NookLobe(shape.xyz, shape.w, amplitude, 0.0);
+}
+
+// Returns lobe i of the light, for irradiance.
+NookLobe nook_probe_lobe_at(NookProbePlace place, int i) {
+  return nook_probe_read_lobe(place, i, 0);
+}
+
+// Returns lobe i for glossy reflection, whose amplitude is never negative if the probe has gloss.
+NookLobe nook_probe_gloss_lobe_at(NookProbePlace place, int i) {
+  return nook_probe_read_lobe(place, i, place.gloss);
 }

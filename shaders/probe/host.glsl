@@ -32,19 +32,20 @@ vec3 nook_probe_irradiance_inner_product(NookProbePlace place, vec3 normal) {
   return max(sum, 0.0);
 }
 
-// Returns the radiance that a GGX surface reflects to the eye.
+// Returns the radiance that a GGX surface reflects to the eye. It reads the amplitudes for gloss, which are not
+// negative. A probe without them reads the light's, and what falls below 0 is clamped.
 vec3 nook_probe_specular_isotropic(NookProbePlace place, NookProbeSurface surface) {
   NookProbeReflection reflection = nook_probe_reflection_isotropic(surface);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < place.lobe_count; ++i)
-    sum += nook_sg_lobe_specular_isotropic(nook_probe_lobe_at(place, i), reflection);
+    sum += nook_sg_lobe_specular_isotropic(nook_probe_gloss_lobe_at(place, i), reflection);
   return max(sum, 0.0);
 }
 vec3 nook_probe_specular_anisotropic(NookProbePlace place, NookProbeSurface surface) {
   NookProbeReflection reflection = nook_probe_reflection_anisotropic(surface);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < place.lobe_count; ++i)
-    sum += nook_sg_lobe_specular_anisotropic(nook_probe_lobe_at(place, i), reflection);
+    sum += nook_sg_lobe_specular_anisotropic(nook_probe_gloss_lobe_at(place, i), reflection);
   return max(sum, 0.0);
 }
 

@@ -142,6 +142,39 @@ TEST_CASE("a fitted sky gives the light of the sky, as lobes and as harmonics") 
   radiance_from_above(nook_sg_specular(lobes, 12, NOOK_PROBE_SPECULAR_ANISOTROPIC, &mirror, rgb, 1), rgb);
 }
 
+TEST_CASE("gloss: fits have lobes for it that are never negative, and other probes say what they lack") {
+  const ProbeStage stage;
+  nook_lobe light[12], gloss[12];
+  REQUIRE(nook_probe_read_lobes(stage.probe, nullptr, light, 12) == NOOK_OK);
+  REQUIRE(nook_probe_read_gloss(stage.probe, nullptr, gloss, 12) == NOOK_OK);
+  for (int i = 0; i < 12; ++i) {
+    CHECK(std::equal(gloss[i].axis, gloss[i].axis + 3, light[i].axis));
+    CHECK(gloss[i].sharpness == light[i].sharpness);
+    CHECK(*std::min_element(gloss[i].amplitude, gloss[i].amplitude + 3) >= 0);
+  }
+  // A file keeps them, and a place looks them up.
+  std::vector<std::byte> file(4096);
+  std::size_t size = file.size();
+  REQUIRE(nook_probe_save(stage.probe, NOOK_PROBE_PACKING_FLOAT, file.data(), &size) == NOOK_OK);
+  nook_probe loaded = nullptr;
+  REQUIRE(nook_probe_load(stage.context, file.data(), size, &loaded) == NOOK_OK);
+  nook_lobe again[12];
+  const float place[3] = {1, 2, 3};
+  REQUIRE(nook_probe_read_gloss(loaded, place, again, 12) == NOOK_OK);
+  CHECK(std::memcmp(again, gloss, sizeof gloss) == 0);
+  nook_probe_destroy(&loaded);
+  CHECK(nook_probe_read_gloss(stage.probe, nullptr, gloss, 11) == NOOK_ERROR_INVALID_ARGUMENT);
+  // Lobes that the host gives are the light's alone.
+  nook_probe_desc desc = probe_desc();
+  desc.lobes = light;
+  desc.lobe_count = 12;
+  nook_probe given = nullptr;
+  REQUIRE(nook_probe_create(stage.context, &desc, &given) == NOOK_OK);
+  CHECK(nook_probe_read_gloss(given, nullptr, gloss, 12) == NOOK_ERROR_UNSUPPORTED);
+  CHECK(last_is("nook_probe_read_gloss: ", "no amplitudes for gloss"));
+  nook_probe_destroy(&given);
+}
+
 TEST_CASE("lobes: the product is sharper than its factors, the convolution is wider, and axes turn") {
   nook_lobe lobes[2] = {{{1, 0, 0}, 4, {2, 1, 0}, 0}, {{0, 1, 0}, 6, {1, 1, 2}, 0}}, out;
   REQUIRE(nook_sg_product(&lobes[0], &lobes[1], &out) == NOOK_OK);

@@ -99,6 +99,11 @@ void use_probe(nook_context context, nook_probe probe, Script& script) {
   if (std::isfinite(place[0] + place[1] + place[2])) evaluate(probe, place);
   std::vector<nook_lobe> lobes(info.function_count);
   if (ok(nook_probe_read_lobes(probe, outside, lobes.data(), info.function_count))) use_lobes(script, lobes);
+  if (ok(nook_probe_read_gloss(probe, outside, lobes.data(), info.function_count))) {
+    for (const nook_lobe& lobe : lobes)
+      require(std::min({lobe.amplitude[0], lobe.amplitude[1], lobe.amplitude[2]}) >= 0);
+    use_lobes(script, lobes);
+  }
   save(context, probe);
   nook_gl_upload grid = nullptr;
   if (ok(nook_gl_upload_probe(gl_of_tier(33), probe, nook_gl_probe_form(script.below(2)), &grid)))

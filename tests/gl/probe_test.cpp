@@ -41,6 +41,34 @@ struct ProbeRequest {
   nook_probe_basis basis = NOOK_PROBE_BASIS_LOBES;
 };
 
+// A grid of fits, each to a dim sky with another lamp, under which the light's lobes ring below 0.
+Probe make_fitted_probe(nook_context context) {
+  nook_probe_fit_desc fit_desc;
+  NOOK_OK_OR_FAIL(nook_probe_fit_desc_init(&fit_desc));
+  nook_probe_desc desc;
+  NOOK_OK_OR_FAIL(nook_probe_desc_init(&desc));
+  const std::uint32_t counts[3] = {2, 1, 3};
+  std::copy_n(counts, 3, desc.counts);
+  std::vector<nook_probe_fit> fits(6);
+  Numbers numbers(3);
+  for (nook_probe_fit& fit : fits) {
+    NOOK_OK_OR_FAIL(nook_probe_fit_create(context, &fit_desc, &fit));
+    const Vec3 lamp = numbers.direction();
+    for (int i = 0; i < 4096; ++i) {
+      const Vec3 d = numbers.direction();
+      const float direction[3] = {d.x, d.y, d.z}, light = dot(d, lamp) > 0.9f ? 20.0f : 0.5f;
+      const float radiance[3] = {light, 0.8f * light, 1};
+      NOOK_OK_OR_FAIL(nook_probe_fit_add_samples(fit, direction, radiance, nullptr, 1));
+    }
+  }
+  desc.fits = fits.data();
+  desc.fit_count = 6;
+  nook_probe probe = nullptr;
+  NOOK_OK_OR_FAIL(nook_probe_create(context, &desc, &probe));
+  for (nook_probe_fit& fit : fits) nook_probe_fit_destroy(&fit);
+  return Probe(probe);
+}
+
 Probe make_probe(nook_context context, const ProbeRequest& request, unsigned seed = 1) {
   nook_probe_fit_desc fit_desc;
   NOOK_OK_OR_FAIL(nook_probe_fit_desc_init(&fit_desc));
@@ -78,6 +106,15 @@ std::vector<nook_lobe> lobes_of(nook_probe probe, const float* position_ws) {
   NOOK_OK_OR_FAIL(nook_probe_describe(probe, &info));
   std::vector<nook_lobe> lobes(info.function_count);
   NOOK_OK_OR_FAIL(nook_probe_read_lobes(probe, position_ws, lobes.data(), info.function_count));
+  return lobes;
+}
+
+// The lobes that glossy reflection reads: the light's if the probe has no others.
+std::vector<nook_lobe> gloss_of(nook_probe probe, const float* position_ws) {
+  std::vector<nook_lobe> lobes = lobes_of(probe, position_ws);
+  const nook_result result =
+      nook_probe_read_gloss(probe, position_ws, lobes.data(), std::uint32_t(lobes.size()));
+  if (result != NOOK_ERROR_UNSUPPORTED) NOOK_OK_OR_FAIL(result);
   return lobes;
 }
 
@@ -210,10 +247,11 @@ std::vector<float> computed(nook_probe probe, const std::vector<Query>& queries)
         {NOOK_PROBE_IRRADIANCE_INNER_PRODUCT, inner_product}};
     for (const auto& [form, answer] : forms)
       NOOK_OK_OR_FAIL(nook_sg_irradiance(lobes.data(), count, form, n, at(answer), 1));
+    const std::vector<nook_lobe> gloss = gloss_of(probe, position);
     NOOK_OK_OR_FAIL(
-        nook_sg_specular(lobes.data(), count, NOOK_PROBE_SPECULAR_ISOTROPIC, &round, at(isotropic), 1));
+        nook_sg_specular(gloss.data(), count, NOOK_PROBE_SPECULAR_ISOTROPIC, &round, at(isotropic), 1));
     NOOK_OK_OR_FAIL(
-        nook_sg_specular(lobes.data(), count, NOOK_PROBE_SPECULAR_ANISOTROPIC, &surface, at(anisotropic), 1));
+        nook_sg_specular(gloss.data(), count, NOOK_PROBE_SPECULAR_ANISOTROPIC, &surface, at(anisotropic), 1));
   }
   return rgb;
 }
@@ -340,6 +378,22 @@ TEST_CASE("a grid is interpolated in shaders as on the CPU, inside and beyond it
     const std::vector<Query> queries = random_queries(48);
     compare(ask(context.gl(), info_of(fixture.upload(probe)), queries), computed(probe.get(), queries));
   }
+}
+
+TEST_CASE("gloss in shaders reads its own amplitudes, which an update without them takes away") {
+  NOOK_NEED_CONTEXT(context);
+  Fixture fixture(context);
+  const std::vector<Query> queries = random_queries(48);
+  const Probe fitted = make_fitted_probe(fixture.host.handle);
+  const GlProbe uploaded = fixture.upload(fitted);
+  // The GLSL clamps irradiance and gloss at 0; under these lamps only radiance falls below.
+  std::vector<float> expected = computed(fitted.get(), queries);
+  for (std::size_t i = queries.size() * 3; i < expected.size(); ++i)
+    expected[i] = std::max(expected[i], 0.0f);
+  compare(ask(context.gl(), info_of(uploaded), queries), expected);
+  const Probe other = make_probe(fixture.host.handle, {});
+  NOOK_OK_OR_FAIL(nook_gl_update_probe(uploaded.get(), other.get()));
+  compare(ask(context.gl(), info_of(uploaded), queries), computed(other.get(), queries));
 }
 
 TEST_CASE("an update shows the new probe under the old name") {

@@ -47,6 +47,9 @@ TEST_CASE("probes come back from their file") {
         CHECK(std::abs(a.y - b.y) <= bound * largest);
         CHECK(std::abs(a.z - b.z) <= bound * largest);
       }
+      CHECK(read.has_gloss() == probes.has_gloss());
+      // The sample's amplitudes are exact in every packing.
+      CHECK(std::equal(read.gloss.begin(), read.gloss.end(), probes.gloss.begin(), probes.gloss.end()));
       CHECK(write_probes(read, packing) == file);  // packing what was packed changes nothing
     }
     CHECK(write_probes(probes, Packing::half).size() < write_probes(probes, Packing::float32).size());
@@ -105,6 +108,37 @@ TEST_CASE("coefficients that a packing cannot hold are not written") {
     refused({NAN, 0, 0}, packing, "out of range");
     refused({0, INFINITY, 0}, packing, "out of range");
   }
+}
+
+TEST_CASE("amplitudes for gloss that no bake makes are neither written nor read") {
+  const auto refused = [](const Probes& probes, const char* part) {
+    try {
+      write_probes(probes, Packing::half);
+      FAIL("written");
+    } catch (const Failure& failure) {
+      CHECK(failure.code() == NOOK_ERROR_INVALID_ARGUMENT);
+      CHECK(std::string(failure.what()).find(part) != std::string::npos);
+    }
+  };
+  Probes probes = test::sample_gloss();
+  probes.gloss[1].y = -1;
+  refused(probes, "gloss amplitude 1 of probe 0 is out of range (got -1");
+  probes.gloss[1].y = 7e4f;
+  refused(probes, "too large for this packing (got 70000");
+  probes.gloss.pop_back();
+  refused(probes, "number of amplitudes for gloss is wrong (got 5, need 6");
+  Probes harmonics = test::sample_probes(harmonic_basis(2));
+  harmonics.gloss.resize(harmonics.coefficients.size());
+  refused(harmonics, "number of amplitudes for gloss is wrong");
+  // A minus sign in the file is found behind its checksum.
+  const Probes good = test::sample_gloss();
+  std::vector<std::byte> file = write_probes(good, Packing::float32);
+  const auto* first = reinterpret_cast<const std::byte*>(good.gloss.data());
+  const auto at = std::search(file.begin(), file.end(), first, first + 24);
+  REQUIRE(at != file.end());
+  *(at + 7) |= std::byte{0x80};
+  repair_checksum(file);
+  CHECK(read_result(file) == NOOK_ERROR_BAD_FILE);
 }
 
 TEST_CASE("a file with two equal lobes is refused by name") {

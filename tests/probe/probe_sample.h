@@ -30,11 +30,22 @@ inline probe::Probes sample_walls() {
   return probes;
 }
 
+// Lobes with amplitudes for gloss.
+inline probe::Probes sample_gloss() {
+  probe::Probes probes = sample_probes(probe::vogel_basis(3), {2, 1, 1});
+  for (std::size_t i = 0; i < probes.coefficients.size(); ++i)
+    probes.gloss.push_back({0.5f * float(i), 3, 1.25f * float(i % 2)});
+  return probes;
+}
+
 inline std::vector<probe::Probes> all_sample_probes() {
   using namespace probe;
   return {sample_probes(vogel_basis(3, true), {2, 1, 2}),
           sample_probes(vogel_basis(2, false, Domain::hemisphere, {0, 1, 0})),
-          sample_probes(harmonic_basis(2), {1, 2, 1}), sample_probes(dice_basis()), sample_walls()};
+          sample_probes(harmonic_basis(2), {1, 2, 1}),
+          sample_probes(dice_basis()),
+          sample_walls(),
+          sample_gloss()};
 }
 
 }  // namespace nook::test

@@ -144,6 +144,7 @@ for (const member of ["axis", "amplitude"])
 for (const value of wrongNumbers) refused("nook_scene_set_light", "lobes[0].sharpness", () => scene.setLight(id, [{ ...lobe, sharpness: value }]));
 for (const value of [undefined, {}, "lobes", new Float32Array(7), [1], [null]]) refused("nook_scene_set_light", "lobes", () => scene.setLight(id, value));
 refusedLists("nook_probe_read_lobes", "position", 3, (position) => probe.lobes(position), { optional: true });
+refusedLists("nook_probe_read_gloss", "position", 3, (position) => probe.glossLobes(position), { optional: true });
 for (const value of [...wrongLists, [0, 1], [0, 1, NaN]]) {
   refused("nook_probe_irradiance", "normals", () => probe.irradiance(value));
   refused("nook_probe_radiance", "directions", () => probe.radiance(value));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "bakers/measure/probe/gloss_error.h"
+#include "bakers/probe/map_bake.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::measure {
@@ -61,6 +63,31 @@ Json error_row(const GridError& e) {
           {"irradiance_bias_relative", number_or_null(e.bias / e.mean)},
           {"irradiance_worst_relative", number_or_null(e.worst / e.mean)},
           {"noise_rms_relative", number_or_null(e.noise / e.mean)}};
+}
+
+Json gloss_keys(const GlossError& e) {
+  return {{"gloss_dark", e.dark},
+          {"gloss_negative", e.negative},
+          {"gloss_lowest", number_or_null(e.lowest)},
+          {"gloss_rms", number_or_null(e.rms)},
+          {"gloss_mean", number_or_null(e.mean)}};
+}
+
+std::vector<SphericalGaussian> lobes_of(const Basis& basis, std::span<const Vec3> amplitudes) {
+  std::vector<SphericalGaussian> lobes(basis.count);
+  nook::probe::to_lobes(basis, amplitudes, lobes);
+  return lobes;
+}
+
+// Adds what a metal ball shows of the amplitudes that glossy reflection reads. Only lobes over the sphere do.
+void add_gloss(const bake::Environment& map, const nook::probe::Probes& probes, Json& row) {
+  const Basis& basis = probes.basis;
+  if (basis.kind != nook::probe::BasisKind::gaussians || basis.domain != Domain::sphere) return;
+  const std::span<const Vec3> amplitudes =
+      probes.has_gloss() ? std::span<const Vec3>(probes.gloss).first(basis.count) : probes.of(0);
+  const GlossError all = GlossTruth(map).errors(lobes_of(basis, amplitudes)).back();
+  row["gloss_dark"] = all.dark;
+  row["gloss_negative"] = all.negative;
 }
 
 double geometric_mean(const std::vector<double>& values) {
@@ -160,17 +187,45 @@ Json probe_file_row(const bake::Environment& map, const std::string& map_name, c
                   "holds a grid of %zu probes, which no map alone can measure; give --scene and --light",
                   std::size_t(probes.grid.size()));
   const Json errors = probe_errors(map, probes);
-  return {{"map", map_name},
-          {"domain", probes.basis.domain == Domain::sphere ? "sphere" : "hemisphere"},
-          {"method", file_name},
-          {"lobes", probes.basis.count},
-          {"floats", 3 * probes.basis.count},
-          {"radiance_rms", errors["radiance_rms"]},
-          {"irradiance_rms", errors["irradiance_rms"]},
-          {"irradiance_relative", errors["irradiance_relative"]},
-          {"excess_mse", errors["excess_mse"]},
-          {"mean", errors["mean_ratio"]},
-          {"irradiance_minimum", errors["irradiance_minimum"]}};
+  Json row{{"map", map_name},
+           {"domain", probes.basis.domain == Domain::sphere ? "sphere" : "hemisphere"},
+           {"method", file_name},
+           {"lobes", probes.basis.count},
+           {"floats", 3 * probes.basis.count},
+           {"radiance_rms", errors["radiance_rms"]},
+           {"irradiance_rms", errors["irradiance_rms"]},
+           {"irradiance_relative", errors["irradiance_relative"]},
+           {"excess_mse", errors["excess_mse"]},
+           {"mean", errors["mean_ratio"]},
+           {"irradiance_minimum", errors["irradiance_minimum"]}};
+  add_gloss(map, probes, row);
+  return row;
+}
+
+Json gloss_rows(const bake::Environment& map, const std::string& map_name, std::uint32_t lobes,
+                std::uint64_t seed) {
+  MapBakeSettings settings;
+  settings.basis = nook::probe::vogel_basis(lobes);
+  settings.seed = seed;
+  const std::pair<const char*, std::vector<Vec3>> amplitudes[] = {
+      {"gloss of the light's amplitudes", bake_map(map, settings)},
+      {"gloss of the light's amplitudes, without suns", bake_map(bake::without_suns(map), settings)},
+      {"gloss of its own amplitudes", map_gloss(map, settings.basis)}};
+  const GlossTruth truth(map);
+  Json rows = Json::array();
+  for (const auto& [name, own] : amplitudes) {
+    const std::vector<GlossError> errors = truth.errors(lobes_of(settings.basis, own));
+    for (std::size_t r = 0; r < errors.size(); ++r) {
+      Json row{{"map", map_name}, {"domain", "sphere"}, {"method", name}, {"lobes", lobes}};
+      if (r < std::size(gloss_roughness))
+        row["roughness"] = std::round(100 * double(gloss_roughness[r])) / 100;
+      else
+        row["roughness"] = "all";
+      row.update(gloss_keys(errors[r]));
+      rows.push_back(row);
+    }
+  }
+  return rows;
 }
 
 Json grid_rows(const bake::LitScene& scene, const bake::TriangleSoup& soup, const nook::probe::Probes& probes,

@@ -45,8 +45,16 @@ nlohmann::ordered_json probe_method_rows(const bake::Environment& map, const std
 // excess_mse, mean_ratio and irradiance_minimum.
 nlohmann::ordered_json probe_errors(const bake::Environment& map, const probe::Probes& probes);
 
-// Compares a baked file with its map. Throws Failure (BAD_FILE) for a grid, because a map alone cannot
-// measure it.
+// Returns rows on what a metal ball shows of the lobes that `nook bake probe` makes of the map over the
+// sphere. Three sets of amplitudes have rows: the light's, the light's without suns, and the ones for gloss.
+// Each set has a row for every roughness and one for all. GlossError explains the keys gloss_dark,
+// gloss_negative, gloss_lowest, gloss_rms and gloss_mean. Truth is the map without its suns.
+nlohmann::ordered_json gloss_rows(const bake::Environment& map, const std::string& map_name,
+                                  std::uint32_t lobes, std::uint64_t seed);
+
+// Compares a baked file with its map. Lobes over the sphere also have gloss_dark and gloss_negative over all
+// roughnesses, of the amplitudes that glossy reflection reads. Throws Failure (BAD_FILE) for a grid, because
+// a map alone cannot measure it.
 nlohmann::ordered_json probe_file_row(const bake::Environment& map, const std::string& map_name,
                                       const std::string& file_name, const probe::Probes& probes);
 

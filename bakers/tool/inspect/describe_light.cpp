@@ -39,6 +39,7 @@ Row describe_probes(std::span<const std::byte> bytes) {
     row["sharpness_lowest"] = *low;
     row["sharpness_highest"] = *high;
   }
+  if (basis.kind == probe::BasisKind::gaussians) row["gloss"] = probes.has_gloss();
   row["packing"] = text_of(packing_names, std::size_t(probe::packing_of(bytes)));
   if (probes.walls.any()) {
     row["cells"] = grid.cells();

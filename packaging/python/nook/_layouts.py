@@ -1274,6 +1274,7 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "nook_sg_radiance": (nook_result, [ctypes.POINTER(nook_lobe), ctypes.c_uint32, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),
     "nook_sg_irradiance": (nook_result, [ctypes.POINTER(nook_lobe), ctypes.c_uint32, nook_probe_irradiance_form, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),
     "nook_sg_specular": (nook_result, [ctypes.POINTER(nook_lobe), ctypes.c_uint32, nook_probe_specular_form, ctypes.POINTER(nook_probe_surface), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),
+    "nook_probe_read_gloss": (nook_result, [nook_probe, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(nook_lobe), ctypes.c_uint32]),
     "nook_sg_integral": (nook_result, [ctypes.POINTER(nook_lobe), ctypes.POINTER(ctypes.c_float)]),
     "nook_sg_product": (nook_result, [ctypes.POINTER(nook_lobe), ctypes.POINTER(nook_lobe), ctypes.POINTER(nook_lobe)]),
     "nook_sg_convolve": (nook_result, [ctypes.POINTER(nook_lobe), ctypes.POINTER(nook_lobe), ctypes.POINTER(nook_lobe)]),

@@ -386,6 +386,8 @@ export class Probe extends Owned {
   private constructor();
   readonly info: ProbeInfo;
   lobes(position?: Numbers): Lobe[];
+  /** The same for glossy reflection, with amplitudes that are never negative. Throws for a probe that has none. */
+  glossLobes(position?: Numbers): Lobe[];
   /** Three floats for each function of a probe of the grid. */
   coefficients(index?: number): Float32Array;
   /** The position is three floats for all directions, or three for each. */

@@ -41,13 +41,20 @@ export class Probe extends Owned {
 
   // The lobes at a point, or those of the first probe: { axis, sharpness, amplitude } each.
   lobes(position) {
+    return this.#readLobes("nook_probe_read_lobes", position);
+  }
+  // The same for glossy reflection, with amplitudes that are never negative.
+  glossLobes(position) {
+    return this.#readLobes("nook_probe_read_gloss", position);
+  }
+  #readLobes(name, position) {
     const { library } = this;
-    checkNumbers("nook_probe_read_lobes", "position", position, { count: 3, optional: true });
+    checkNumbers(name, "position", position, { count: 3, optional: true });
     const count = this.info.functionCount;
-    return library.call("nook_probe_read_lobes", () => {
+    return library.call(name, () => {
       const { size } = library.layouts.struct("nook_lobe");
       const address = library.room.take(size * count);
-      library.check(library.module._nook_probe_read_lobes(this.handle, library.floats(position), address, count));
+      library.check(library.module[`_${name}`](this.handle, library.floats(position), address, count));
       return Array.from({ length: count }, (_, i) => library.read("nook_lobe", address + i * size));
     });
   }

@@ -128,8 +128,8 @@ typedef struct nook_material_info {
 NOOK_API nook_result nook_material_describe(nook_material material, nook_material_info* info);
 
 typedef struct nook_material_value {
-  /* Linear RGB towards the view, if the irradiance on a plane that faces the light is 1. Compression may
-     leave it slightly negative, but not for a neural material. */
+  /* Linear RGB towards the view, if the irradiance on a plane that faces the light is 1. Never
+     negative: what compression leaves below 0 is clamped, here as in the GLSL. */
   float radiance[3];
   /* The VOTF: a filtered mask in [0, 1], or a distance in [-1, 1]; 1 without a VOTF. */
   float occlusion;

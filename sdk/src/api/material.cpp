@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "sdk/src/api/descriptor_list.h"
@@ -89,7 +90,8 @@ Pixel checked(const nook_material_pixel& given, std::uint32_t index, std::uint32
 }
 
 nook_material_value value_of(const MaterialTables& tables, const Radiance& radiance, float occlusion) {
-  return {{radiance.red, radiance.green, radiance.blue},
+  // Compression may leave radiance slightly negative, which nothing should draw.
+  return {{std::max(radiance.red, 0.0f), std::max(radiance.green, 0.0f), std::max(radiance.blue, 0.0f)},
           occlusion,
           visibility_of(tables.visibility, tables.mapping, occlusion)};
 }

@@ -190,6 +190,10 @@ nook_result nook_probe_fit_solve(nook_probe_fit fit, nook_probe* out) {
     probes.basis = fit->fit.basis();
     probes.coefficients.resize(probes.basis.count);
     fit->fit.read(probes.coefficients);
+    if (probes.basis.kind == BasisKind::gaussians) {
+      probes.gloss.resize(probes.basis.count);
+      fit->fit.read_gloss(probes.gloss);
+    }
     *out = Owned<nook_probe_s>::make(fit->context->memory(), Ref<nook_context_s>::share(fit->context),
                                      std::move(probes))
                .detach();

@@ -1,3 +1,4 @@
+#include <nook/experimental/nook_sg.h>
 #include <nook/nook_probe.h>
 
 #include <algorithm>
@@ -47,6 +48,11 @@ void read_fits(const nook_probe_desc& desc, Probes& probes) {
   for (std::size_t i = 0; i < desc.fit_count; ++i)
     desc.fits[i]->fit.read(
         std::span<Vec3>(probes.coefficients).subspan(i * probes.basis.count, probes.basis.count));
+  if (probes.basis.kind != BasisKind::gaussians) return;
+  probes.gloss.resize(probes.coefficients.size());
+  for (std::size_t i = 0; i < desc.fit_count; ++i)
+    desc.fits[i]->fit.read_gloss(
+        std::span<Vec3>(probes.gloss).subspan(i * probes.basis.count, probes.basis.count));
 }
 
 // Returns the functions of lobes. The last one is the ambient term if its sharpness is 0.
@@ -110,6 +116,27 @@ Probes probes_of(const nook_probe_desc& desc, nook::Memory* memory) {
     read_coefficients(desc, probes);
   check_probes(probes, NOOK_ERROR_INVALID_ARGUMENT);
   return probes;
+}
+
+// Files of older versions have no amplitudes for gloss, so that glossy reflection reads the light's.
+bool lacks_gloss(const Probes& probes) {
+  return probes.basis.kind == BasisKind::gaussians && !probes.has_gloss() &&
+         std::any_of(probes.coefficients.begin(), probes.coefficients.end(), [](Vec3 v) {
+           return std::min({v.x, v.y, v.z}) < 0;
+         });
+}
+
+void check_lobes(const Probes& probes) {
+  if (probes.basis.kind != BasisKind::gaussians)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the probe's functions are no lobes (got basis %d, need NOOK_PROBE_BASIS_LOBES)",
+                  int(probes.basis.kind));
+}
+
+void write_lobes(const Basis& basis, std::span<const Vec3> coefficients, nook_lobe* lobes) {
+  std::array<SphericalGaussian, max_functions> read;
+  to_lobes(basis, coefficients, read);
+  for (std::uint32_t i = 0; i < basis.count; ++i) lobes[i] = api::to_public(read[i]);
 }
 
 void check_count(const Probes& probes, std::uint32_t function_count) {
@@ -177,6 +204,11 @@ nook_result nook_probe_load(nook_context context, const void* bytes, size_t size
     const Probes& loaded = (*out)->probes;
     context->log(NOOK_LOG_INFO, "light probes: %zu of %u functions, %zu bytes", loaded.grid.size(),
                  loaded.basis.count, size);
+    if (lacks_gloss(loaded))
+      context->log(
+          NOOK_LOG_WARNING,
+          "light probes: the file has no amplitudes for gloss, and the light's are partly negative, so "
+          "that glossy reflections may have black patches; bake it again");
   });
 }
 
@@ -244,16 +276,32 @@ nook_result nook_probe_read_lobes(nook_probe probe, const float* position_ws, no
     need(probe, "probe");
     need(lobes, "lobes");
     const Probes& probes = probe->probes;
-    if (probes.basis.kind != BasisKind::gaussians)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "the probe's functions are no lobes (got basis %d, need NOOK_PROBE_BASIS_LOBES)",
-                    int(probes.basis.kind));
+    check_lobes(probes);
     check_count(probes, function_count);
     Coefficients storage;
-    const std::span<const Vec3> coefficients = coefficients_at(probes, position_ws, storage);
-    std::array<SphericalGaussian, max_functions> read;
-    to_lobes(probes.basis, coefficients, read);
-    for (std::uint32_t i = 0; i < function_count; ++i) lobes[i] = api::to_public(read[i]);
+    write_lobes(probes.basis, coefficients_at(probes, position_ws, storage), lobes);
+  });
+}
+
+nook_result nook_probe_read_gloss(nook_probe probe, const float* position_ws, nook_lobe* lobes,
+                                  uint32_t function_count) {
+  return api::enter("nook_probe_read_gloss", [&] {
+    need(probe, "probe");
+    need(lobes, "lobes");
+    const Probes& probes = probe->probes;
+    check_lobes(probes);
+    check_count(probes, function_count);
+    if (!probes.has_gloss())
+      throw Failure(NOOK_ERROR_UNSUPPORTED,
+                    "the probe has no amplitudes for gloss, as it does not come from a fit or from a file "
+                    "that has them; bake it again, or take the lobes of nook_probe_read_lobes");
+    Coefficients storage;
+    const std::span<Vec3> amplitudes = std::span(storage).first(probes.basis.count);
+    if (position_ws)
+      interpolate_gloss(probes, vec3(position_ws), amplitudes);
+    else
+      std::copy_n(probes.gloss.begin(), amplitudes.size(), amplitudes.begin());
+    write_lobes(probes.basis, amplitudes, lobes);
   });
 }
 

@@ -108,6 +108,9 @@ class Fit {
 
   // Reads one coefficient for each function; 0 before the first sample. Allocates nothing.
   void read(std::span<Vec3> coefficients);
+  // Reads the amplitudes for glossy reflection of the same samples, see gloss.h; 0 before the first sample.
+  // Only for Gaussians. Allocates nothing.
+  void read_gloss(std::span<Vec3> amplitudes);
 
   const Basis& basis() const { return basis_; }
   const FitSettings& settings() const { return settings_; }
@@ -172,6 +175,7 @@ class Fit {
   void factor_samples(const Gathered& gathered, double scale, double* gram, double* factor) const;
   void solve_samples(const Gathered& gathered, double* coefficients);
   void make_non_negative(const Gathered& gathered, double* coefficients);
+  const double* gloss_moments(const Gathered& gathered, double* moments);
 
   Basis basis_;
   FitSettings settings_;

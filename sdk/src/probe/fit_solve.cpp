@@ -7,6 +7,7 @@
 #include "sdk/src/core/failure.h"
 #include "sdk/src/probe/dense.h"
 #include "sdk/src/probe/fit.h"
+#include "sdk/src/probe/gloss.h"
 #include "sdk/src/probe/probe.h"
 
 namespace nook::probe {
@@ -144,6 +145,51 @@ void Fit::make_non_negative(const Gathered& gathered, double* b) {
     non_negative_solve(gram, target, n, x, rest);
     for (std::size_t i = 0; i < n; ++i) b[3 * i + c] = x[i];
   }
+}
+
+// Fills moments, function by function, RGB, and returns the Gram matrix that belongs to them: the samples'
+// own where the method has it. A running average knows only coefficients, so that its own light gives the
+// moments.
+const double* Fit::gloss_moments(const Gathered& gathered, double* moments) {
+  const std::size_t n = basis_.count;
+  const double scale = domain_area(basis_.domain) / gathered.counts.weight;
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < n; ++i) {
+      double& moment = moments[3 * i + c];
+      if (!is_running(settings_.method)) {
+        moment = gathered.state.sums[c * padded_ + i] * scale;
+        continue;
+      }
+      moment = 0;
+      for (std::size_t k = 0; k < n; ++k)
+        moment += gram_[i * n + k] * gathered.state.coefficients[c * padded_ + k];
+    }
+  if (settings_.method != FitMethod::least_squares &&
+      settings_.method != FitMethod::non_negative_least_squares)
+    return gram_.data();
+  double* const gram = scratch_.data();
+  factor_samples(gathered, 1 / scale, gram, gram + n * n);
+  for (std::size_t i = 0; i < n * n; ++i) gram[i] *= scale;
+  return gram;
+}
+
+void Fit::read_gloss(std::span<Vec3> amplitudes) {
+  const std::uint32_t n = basis_.count;
+  if (amplitudes.size() != n || basis_.kind != BasisKind::gaussians)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "gloss needs the amplitudes of lobes (got %zu of basis %d, need %u of basis 0)",
+                  amplitudes.size(), int(basis_.kind), n);
+  std::fill(amplitudes.begin(), amplitudes.end(), Vec3{});
+  take_recent();
+  const Gathered gathered = present(room());
+  if (!(gathered.counts.weight > 0)) return;
+  if (!is_block()) unwhiten(gathered.state);
+  std::array<double, 3 * max_functions> moments, b;
+  const double* const gram = gloss_moments(gathered, moments.data());
+  double* const scratch = scratch_.data() + std::size_t(n) * n;
+  for (std::size_t c = 0; c < 3; ++c) fit_gloss(gram, moments.data() + c, n, 3, b.data() + c, scratch);
+  for (std::size_t i = 0; i < n; ++i)
+    amplitudes[i] = {in_range(b[3 * i]), in_range(b[3 * i + 1]), in_range(b[3 * i + 2])};
 }
 
 double Fit::band_weight() const {

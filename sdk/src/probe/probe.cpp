@@ -77,6 +77,19 @@ void check_walls(const Probes& probes, nook_result code) {
   }
 }
 
+void check_gloss(const Probes& probes, nook_result code) {
+  if (!probes.has_gloss()) return;
+  if (probes.basis.kind != BasisKind::gaussians || probes.gloss.size() != probes.coefficients.size())
+    throw Failure(code, "the number of amplitudes for gloss is wrong (got %zu, need %zu of lobes, or none)",
+                  probes.gloss.size(), probes.coefficients.size());
+  for (std::size_t i = 0; i < probes.gloss.size(); ++i)
+    for (const float channel : {probes.gloss[i].x, probes.gloss[i].y, probes.gloss[i].z})
+      if (!(channel >= 0 && channel <= max_coefficient))
+        throw Failure(code, "gloss amplitude %zu of probe %zu is out of range (got %g, need 0 to %g)",
+                      i % probes.basis.count, i / probes.basis.count, double(channel),
+                      double(max_coefficient));
+}
+
 }  // namespace
 
 GridPlace place_in(const Grid& grid, Vec3 position_ws) {
@@ -122,24 +135,38 @@ void check_probes(const Probes& probes, nook_result code) {
         throw Failure(code, "coefficient %zu of probe %zu is out of range (got %g, need at most %g)",
                       i % probes.basis.count, i / probes.basis.count, double(channel),
                       double(max_coefficient));
+  check_gloss(probes, code);
   check_walls(probes, code);
 }
 
-void interpolate(const Probes& probes, Vec3 position_ws, std::span<Vec3> coefficients) {
-  const Grid& grid = probes.grid;
+namespace {
+
+// Interpolates rows of `out.size()` values, one row for each probe.
+void interpolate_rows(const Grid& grid, std::span<const Vec3> rows, Vec3 position_ws, std::span<Vec3> out) {
   const Between x = between(position_ws.x, grid.origin_ws.x, grid.spacing_ws.x, grid.counts[0]);
   const Between y = between(position_ws.y, grid.origin_ws.y, grid.spacing_ws.y, grid.counts[1]);
   const Between z = between(position_ws.z, grid.origin_ws.z, grid.spacing_ws.z, grid.counts[2]);
-  std::fill(coefficients.begin(), coefficients.end(), Vec3{});
+  std::fill(out.begin(), out.end(), Vec3{});
   for (int corner = 0; corner < 8; ++corner) {
     const bool bx = corner & 1, by = corner & 2, bz = corner & 4;
     const float weight =
         (bx ? x.weight : 1 - x.weight) * (by ? y.weight : 1 - y.weight) * (bz ? z.weight : 1 - z.weight);
     if (weight == 0) continue;
     const std::size_t row = std::size_t(bz ? z.second : z.first) * grid.counts[1] + (by ? y.second : y.first);
-    const std::span<const Vec3> from = probes.of(row * grid.counts[0] + (bx ? x.second : x.first));
-    for (std::size_t i = 0; i < from.size(); ++i) coefficients[i] += from[i] * weight;
+    const std::size_t probe = row * grid.counts[0] + (bx ? x.second : x.first);
+    const std::span<const Vec3> from = rows.subspan(probe * out.size(), out.size());
+    for (std::size_t i = 0; i < from.size(); ++i) out[i] += from[i] * weight;
   }
+}
+
+}  // namespace
+
+void interpolate(const Probes& probes, Vec3 position_ws, std::span<Vec3> coefficients) {
+  interpolate_rows(probes.grid, probes.coefficients, position_ws, coefficients);
+}
+
+void interpolate_gloss(const Probes& probes, Vec3 position_ws, std::span<Vec3> amplitudes) {
+  interpolate_rows(probes.grid, probes.gloss, position_ws, amplitudes);
 }
 
 void interpolate(const Probes& probes, Vec3 position_ws, Vec3 normal, std::span<Vec3> coefficients) {

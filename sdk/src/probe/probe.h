@@ -99,17 +99,21 @@ GridPlace place_in(const Grid& grid, Vec3 position_ws);
 std::array<float, 8> corner_weights(Vec3 in_cell, float least);
 
 struct Probes {
-  explicit Probes(Memory* memory = default_memory()) : coefficients(memory), recipe(memory), walls(memory) {}
+  explicit Probes(Memory* memory = default_memory())
+      : coefficients(memory), gloss(memory), recipe(memory), walls(memory) {}
 
   Basis basis;
   Grid grid;
   Vector<Vec3> coefficients;  // probe by probe (x fastest, then y, z), basis.count of RGB each
+  Vector<Vec3> gloss;         // Gaussians: amplitudes for glossy reflection, none negative, see gloss.h, in
+                              // the order of coefficients; empty: glossy reflection reads coefficients
   String recipe;              // how they were baked, JSON; may be empty
   GridWalls walls;            // of the grid's cells
 
   std::span<const Vec3> of(std::size_t index) const {
     return std::span(coefficients).subspan(index * basis.count, basis.count);
   }
+  bool has_gloss() const { return !gloss.empty(); }
 };
 
 // Both throw Failure(code) if a grid, a basis or a coefficient is out of range.
@@ -118,7 +122,10 @@ void check_probes(const Probes& probes, nook_result code);
 
 // Interpolates the coefficients at a point: trilinear between the grid's probes, clamped at its ends.
 void interpolate(const Probes& probes, Vec3 position_ws, std::span<Vec3> coefficients);
-// The same for a surface with this normal, using only probes that count on its side of the grid's walls.
+// Interpolates the amplitudes of gloss, which the probes must have, in the same way.
+void interpolate_gloss(const Probes& probes, Vec3 position_ws, std::span<Vec3> amplitudes);
+// The same as `interpolate` for a surface with this normal, using only probes that count on its side of the
+// grid's walls.
 void interpolate(const Probes& probes, Vec3 position_ws, Vec3 normal, std::span<Vec3> coefficients);
 
 // Gaussians only: writes function i as a lobe with coefficient i.

@@ -70,6 +70,17 @@ void check_fits(const Probes& probes, Packing packing) {
                     "non-negative method or pack as half floats",
                     function, probe, double(least < 0 ? least : most), double(max_rgb9e5));
   }
+  const float limit = packing == Packing::half     ? max_half
+                      : packing == Packing::rgb9e5 ? max_rgb9e5
+                                                   : max_coefficient;
+  for (std::size_t i = 0; i < probes.gloss.size(); ++i) {
+    const float most = std::max({probes.gloss[i].x, probes.gloss[i].y, probes.gloss[i].z});
+    if (most > limit)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "gloss amplitude %zu of probe %zu is too large for this packing (got %g, need at most "
+                    "%g); scale the light down or pack as floats",
+                    i % probes.basis.count, i / probes.basis.count, double(most), double(limit));
+  }
 }
 
 void write_coefficient(ByteWriter& out, Packing packing, Vec3 v) {
@@ -156,6 +167,14 @@ void complete(Basis& basis) {
   basis = made;
 }
 
+void read_coefficients(ByteReader in, Packing packing, std::uint32_t count, const char* what,
+                       Vector<Vec3>& out) {
+  in.check_count(count, 8 * packed_bytes(packing), what);
+  out.resize(count);
+  for (Vec3& v : out) v = read_coefficient(in, packing);
+  in.check_end();
+}
+
 void write_walls(ByteWriter& out, const GridWalls& walls) {
   out.f32(walls.bias);
   for (const CellWalls& cell : walls.cell) {
@@ -209,6 +228,11 @@ std::vector<std::byte> write_probes(const Probes& probes, Packing packing) {
   }
   for (const Vec3 v : probes.coefficients) write_coefficient(coefficients, packing, v);
   sections.push_back({four_letters("COEF"), coefficients.bytes()});
+  if (probes.has_gloss()) {
+    ByteWriter gloss;
+    for (const Vec3 v : probes.gloss) write_coefficient(gloss, packing, v);
+    sections.push_back({four_letters("GLOS"), gloss.bytes()});
+  }
   recipe.text(probes.recipe);
   sections.push_back({four_letters("RECP"), recipe.bytes()});
   ContainerKind kind = probe_kind;
@@ -237,12 +261,10 @@ Probes read_probes(std::span<const std::byte> bytes, Memory* memory) {
   else
     complete(probes.basis);
   check_grid(probes.grid, NOOK_ERROR_BAD_FILE);
-  ByteReader coefficients = file.section("COEF");
   const auto count = std::uint32_t(probes.grid.size() * probes.basis.count);
-  coefficients.check_count(count, 8 * packed_bytes(head.packing), "coefficients");
-  probes.coefficients.resize(count);
-  for (Vec3& v : probes.coefficients) v = read_coefficient(coefficients, head.packing);
-  coefficients.check_end();
+  read_coefficients(file.section("COEF"), head.packing, count, "coefficients", probes.coefficients);
+  if (file.has("GLOS"))
+    read_coefficients(file.section("GLOS"), head.packing, count, "gloss amplitudes", probes.gloss);
   ByteReader recipe = file.section("RECP");
   probes.recipe = recipe.text(recipe.remaining());
   if (file.version() >= 2 && file.has("WALL"))

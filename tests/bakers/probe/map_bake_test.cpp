@@ -104,3 +104,20 @@ TEST_CASE("a bake is the same on any number of threads and can be cancelled") {
   CHECK(one == bake_map(map, settings));
   CHECK_THROWS_AS(bake_map(map, settings, [](std::size_t, std::size_t) { return false; }), Failure);
 }
+
+TEST_CASE("gloss of a map leaves its suns out and is above 0 wherever there is light") {
+  const Basis basis = nook::probe::vogel_basis(12);
+  const auto sky = [](Vec3 d) { return Vec3{1 + 0.5f * d.x, 1, 1 - 0.5f * d.z}; };
+  const Environment plain = map_of(128, 64, sky);
+  const Environment sunny = map_of(128, 64, [&](Vec3 d) {
+    return d.y > 0.999f ? Vec3{1e5f, 1e5f, 1e5f} : sky(d);
+  });
+  const std::vector<Vec3> under_plain = map_gloss(plain, basis), under_sun = map_gloss(sunny, basis);
+  for (std::size_t i = 0; i < 12; ++i) {
+    CHECK(std::min({under_sun[i].x, under_sun[i].y, under_sun[i].z}) > 0);
+    // A hundred times the sky stays of the sun on the 0.0075 sr of the map's first row. One lobe, whose
+    // square has the integral 0.52, takes 0.75 / 0.52 of it in each channel. The sun itself would be a
+    // thousand.
+    CHECK(length(under_sun[i] - under_plain[i]) < 2.6f);
+  }
+}

@@ -77,6 +77,17 @@ NOOK_API nook_result nook_sg_specular(const nook_lobe* lobes, uint32_t lobe_coun
                                       nook_probe_specular_form form, const nook_probe_surface* surfaces,
                                       float* rgb, size_t count);
 
+/* Writes the lobes for glossy reflection at a point, which you pass to nook_sg_specular. They have the axes
+ * and sharpnesses of nook_probe_read_lobes, and amplitudes of their own that are never negative. The lobes of
+ * nook_probe_read_lobes suit irradiance, because they keep the light's bands 0 to 2. Their radiance falls
+ * below 0 between strong lights, which a glossy surface shows as a black patch. A probe has amplitudes for
+ * gloss if it comes from fits, or from the file of a bake. `nook bake probe` first takes suns out of a map,
+ * which your engine draws as lights. position_ws and function_count are as in nook_probe_read_lobes. The GLSL
+ * of an upload reads the same amplitudes. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT
+ * (also, the basis is not NOOK_PROBE_BASIS_LOBES), UNSUPPORTED (the probe has no amplitudes for gloss). */
+NOOK_API nook_result nook_probe_read_gloss(nook_probe probe, const float* position_ws, nook_lobe* lobes,
+                                           uint32_t function_count);
+
 /* Computes the integral of a lobe over the sphere.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sg_integral(const nook_lobe* lobe, float rgb[3]);

@@ -12,10 +12,11 @@ namespace nook::gl {
 
 // Returns the number of texels, which hold four floats each. They are counts and number of lobes; origin; 1 /
 // spacing; axis and sharpness of each lobe; then the amplitudes of each probe. x varies fastest, then y, then
-// z.
-std::uint64_t probe_texel_count(const probe::Probes& probes);
+// z. If the probes have amplitudes for gloss, these follow in the same order, and the texel of the origin
+// says so. They are left out where the table has no room for both.
+std::uint64_t probe_texel_count(const probe::Probes& probes, bool gloss);
 std::uint64_t first_amplitude_texel(std::uint32_t lobes, std::size_t probe);
-Vector<float> probe_texels(const probe::Probes& probes, Memory* memory);
+Vector<float> probe_texels(const probe::Probes& probes, bool gloss, Memory* memory);
 
 class ProbeTexture {
  public:
@@ -24,7 +25,8 @@ class ProbeTexture {
   ProbeTexture(Device& device, const probe::Probes& probes);
   void update(const probe::Probes& probes);
 
-  // Replaces the amplitudes of one probe by texels of a GPU buffer, as TexelTable::copy does.
+  // Replaces the amplitudes of one probe, also those for gloss, by texels of a GPU buffer, as
+  // TexelTable::copy does.
   void copy_probe(std::size_t index, GLuint buffer, std::uint64_t offset_bytes) const;
 
   const probe::Basis& basis() const { return basis_; }
@@ -37,6 +39,7 @@ class ProbeTexture {
   TexelTable table_;
   probe::Basis basis_;
   probe::Grid grid_;
+  bool has_gloss_ = false;
 };
 
 // Returns the text for the host's shaders: shaders/probe/host.glsl and everything it includes.
