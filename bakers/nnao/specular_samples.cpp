@@ -53,41 +53,83 @@ float any_radius(const TracedView& view, std::vector<Surface> surfaces, Random& 
   return random.log_between(12, 110) / std::abs(nook::nnao::pixel_scale(view.camera.rays, middle->depth).y);
 }
 
-// Returns AO and bent normal of a pixel after the pass's filter.
-LitPixel filtered_pixel(const nook::nnao::Network& network, const RayScene& rays, const TracedView& traced,
-                        const Surface& surface, float radius, std::uint32_t taps) {
-  // nook_nnao_desc.blur_sharpness, and a radius of half the screen at most.
-  constexpr float sharpness = 16;
-  const nook::nnao::View view = traced.view();
-  const nook::nnao::Sampling sampling{radius, 0.5f * float(view.height), taps};
-  std::array<float, 9> ao;
-  std::array<std::uint8_t, 9> edges{};
-  std::array<Vec3, 9> bent{};
-  ao.fill(1);
-  for (std::size_t i = 0; i < ao.size(); ++i) {
-    const std::uint32_t x = surface.x + std::uint32_t(i % 3) - 1, y = surface.y + std::uint32_t(i / 3) - 1;
+// AO, bent normal and packed edges of a pixel of the pass.
+struct ScreenPixel {
+  float ao = 1;
+  Vec3 bent;
+  std::uint8_t edges = 0;
+};
+
+// What the pass computes for any pixel before its filter; open beyond the border and without a surface.
+class UnfilteredPass {
+ public:
+  UnfilteredPass(const nook::nnao::Network& network, const RayScene& rays, const TracedView& traced,
+                 float radius, std::uint32_t taps)
+      : network_(network),
+        rays_(rays),
+        traced_(traced),
+        sampling_{radius, 0.5f * float(traced.camera.height), taps},
+        edge_tolerance_(radius / sharpness) {}
+
+  std::uint32_t taps() const { return sampling_.taps; }
+
+  ScreenPixel at(int column, int row) const {
+    const nook::nnao::View view = traced_.view();
+    const std::uint32_t x = std::uint32_t(column), y = std::uint32_t(row);
     // Beyond the border x and y wrap to large numbers.
-    if (x >= view.width || y >= view.height || !view.has_surface(x, y)) continue;
-    const Vec3 normal = view_direction(traced.camera, surface_at(rays, traced, x, y).normal);
+    if (x >= view.width || y >= view.height || !view.has_surface(x, y)) return {};
+    const Vec3 normal = view_direction(traced_.camera, surface_at(rays_, traced_, x, y).normal);
     const nook::nnao::Openness open =
-        nook::nnao::evaluate_openness(network, view, normal, sampling, x, y, nook::nnao::tap_noise(x, y));
-    ao[i] = std::clamp(open.ao, 0.0f, 1.0f);
-    bent[i] = open.bent_normal;
-    edges[i] = nook::nnao::packed_edges(nook::nnao::neighbours_of(view, x, y, radius / sharpness).connected);
+        nook::nnao::evaluate_openness(network_, view, normal, sampling_, x, y, nook::nnao::tap_noise(x, y));
+    return {std::clamp(open.ao, 0.0f, 1.0f), open.bent_normal,
+            nook::nnao::packed_edges(nook::nnao::neighbours_of(view, x, y, edge_tolerance_).connected)};
   }
-  const std::array<float, 9> weights =
-      nook::nnao::filter_weights(ao, edges, 3, 3, 1, 1, nook::nnao::filter_range_sharpness(taps));
-  LitPixel pixel{
-      {}, view_direction(traced.camera, surface.normal), view_direction(traced.camera, surface.to_viewer), 0};
+
+ private:
+  static constexpr float sharpness = 16;  // nook_nnao_desc.blur_sharpness
+
+  const nook::nnao::Network& network_;
+  const RayScene& rays_;
+  const TracedView& traced_;
+  nook::nnao::Sampling sampling_;  // with a radius of half the screen at most
+  float edge_tolerance_;
+};
+
+using PixelLine = std::array<ScreenPixel, 5>;
+
+// Filters the middle one of five pixels along an axis; its edges stay.
+ScreenPixel filtered_line(const PixelLine& pixels, nook::nnao::FilterAxis axis, std::uint32_t taps) {
+  nook::nnao::FilterLine line;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    line.ao[i] = pixels[i].ao;
+    line.edges[i] = pixels[i].edges;
+  }
+  const std::array<float, 5> weights =
+      nook::nnao::filter_weights(line, axis, nook::nnao::filter_range_sharpness(taps, axis));
+  ScreenPixel sum{0, {}, pixels[2].edges};
   float whole = 0;
-  for (std::size_t i = 0; i < ao.size(); ++i) {
-    pixel.ao += weights[i] * ao[i];
-    pixel.bent_normal += weights[i] * bent[i];
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    sum.ao += weights[i] * pixels[i].ao;
+    sum.bent += weights[i] * pixels[i].bent;
     whole += weights[i];
   }
-  pixel.ao /= whole;
-  pixel.bent_normal = normalised(pixel.bent_normal);
-  return pixel;
+  sum.ao /= whole;
+  sum.bent = sum.bent * (1 / whole);
+  return sum;
+}
+
+// Returns AO and bent normal of a pixel after the pass's filter.
+LitPixel filtered_pixel(const UnfilteredPass& pass, const TracedView& traced, const Surface& surface) {
+  PixelLine column;
+  for (int up = -2; up <= 2; ++up) {
+    PixelLine row;
+    for (int aside = -2; aside <= 2; ++aside)
+      row[std::size_t(aside + 2)] = pass.at(int(surface.x) + aside, int(surface.y) + up);
+    column[std::size_t(up + 2)] = filtered_line(row, nook::nnao::FilterAxis::x, pass.taps());
+  }
+  const ScreenPixel filtered = filtered_line(column, nook::nnao::FilterAxis::y, pass.taps());
+  return {normalised(filtered.bent), view_direction(traced.camera, surface.normal),
+          view_direction(traced.camera, surface.to_viewer), filtered.ao};
 }
 
 std::vector<SpecularSample> samples_of(const nook::nnao::Network& network, const RayScene& rays,
@@ -108,10 +150,11 @@ std::vector<SpecularSample> samples_of(const nook::nnao::Network& network, const
   }
   const Openness open =
       trace_openness(rays, {position, normal, radii, offset}, {.rays = settings.data.rays, .seed = seed});
+  const UnfilteredPass pass(network, rays, view, radius, settings.taps);
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const Surface& surface = surfaces[i];
     SpecularSample& sample = samples.emplace_back();
-    sample.network = filtered_pixel(network, rays, view, surface, radius, settings.taps);
+    sample.network = filtered_pixel(pass, view, surface);
     sample.reference = sample.network;
     sample.reference.ao = open.ao[i];
     const Vec3 bent = normalised(view_direction(view.camera, open.direction[i]));

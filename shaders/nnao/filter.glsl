@@ -1,14 +1,26 @@
-// A bilateral filter over 3 x 3 texels. It averages the noise of the taps, which repeats after as many
-// texels. Only texels that the edges connect and whose AO is similar take part.
+// A bilateral filter along one axis of the screen. Run along x and then along y, it averages 5 x 5 texels with
+// the weights 1, 2, 3, 2, 1 of each axis. All values of the noise of the taps, which repeats after three texels,
+// then count alike. A texel takes part if all edges on the way to it are connected and its AO is similar.
 uniform sampler2D nook_ao;  // AO, edges, and the bent normal in passes that have it
 
-uint nook_edge_bits(float packed_edges) {
-  return uint(255.0 * packed_edges + 0.5);
-}
+#ifdef NOOK_FILTER_ALONG_Y
+const ivec2 nook_filter_step = ivec2(0, 1);
+const uint nook_back_bit = 2u, nook_ahead_bit = 0u;
+#else
+const ivec2 nook_filter_step = ivec2(1, 0);
+const uint nook_back_bit = 6u, nook_ahead_bit = 4u;
+#endif
+// Along x the texels are single ones. With nine taps they are too noisy to be compared, and with more they are
+// compared half as sharply.
+#ifdef NOOK_FILTER_ALONG_Y
+#define NOOK_FILTER_SHARPNESS nook_range_sharpness
+#elif NOOK_DIRECTIONS > 3
+#define NOOK_FILTER_SHARPNESS (0.5 * nook_range_sharpness)
+#endif
 
-// Left, right, below, above; each is 0 to 3.
-vec4 nook_edges_of(uint bits) {
-  return vec4(bits >> 6u, bits >> 4u & 3u, bits >> 2u & 3u, bits & 3u);
+// Returns an edge of a value of nook_ao, 0 to 3.
+float nook_edge(vec4 texel, uint bit) {
+  return float(uint(255.0 * texel.g + 0.5) >> bit & 3u);
 }
 
 struct NookFilterSum {
@@ -16,9 +28,10 @@ struct NookFilterSum {
   vec2 bent;
 };
 
-// centre and texel are values of nook_ao.
-void nook_add_texel(inout NookFilterSum sum, vec4 centre, vec4 texel, float connected) {
-  float weight = connected * clamp(2.0 - nook_range_sharpness * abs(texel.r - centre.r), 0.0, 1.0);
+void nook_add_texel(inout NookFilterSum sum, vec4 centre, vec4 texel, float weight) {
+#ifdef NOOK_FILTER_SHARPNESS
+  weight *= clamp(2.0 - NOOK_FILTER_SHARPNESS * abs(texel.r - centre.r), 0.0, 1.0);
+#endif
   sum.ao += weight * texel.r;
   sum.weight += weight;
 #if NOOK_BENT_NORMALS
@@ -26,29 +39,21 @@ void nook_add_texel(inout NookFilterSum sum, vec4 centre, vec4 texel, float conn
 #endif
 }
 
-// Weighs a corner. horizontal and vertical: the centre's edges on the way to it. back: the corner's edges on
-// the way to the centre's neighbours, (along x, along y).
-void nook_add_corner(inout NookFilterSum sum, vec4 centre, vec4 texel, float horizontal, float vertical, vec2 back) {
-  nook_add_texel(sum, centre, texel, max(horizontal * back.y, vertical * back.x) / 9.0);
+// Adds the two texels on one side. edge: the centre's edge towards them, 0 to 3.
+void nook_add_side(inout NookFilterSum sum, vec4 centre, float edge, ivec2 near, ivec2 far, uint bit) {
+  vec4 texel = texelFetch(nook_ao, near, 0);
+  nook_add_texel(sum, centre, texel, edge * (2.0 / 9.0));
+  nook_add_texel(sum, centre, texelFetch(nook_ao, far, 0), edge * nook_edge(texel, bit) * (1.0 / 27.0));
 }
 
 // Returns a texel after the filter; its edges stay the same.
 vec4 nook_filtered(ivec2 texel, ivec2 last) {
-  ivec2 low = max(texel - 1, ivec2(0)), high = min(texel + 1, last);
+  ivec2 one = nook_filter_step, two = 2 * nook_filter_step;
   vec4 centre = texelFetch(nook_ao, texel, 0);
-  vec4 edges = nook_filter_strength * nook_edges_of(nook_edge_bits(centre.g));
-  NookFilterSum sum = NookFilterSum(centre.r, 1.0, centre.ba);
-  nook_add_texel(sum, centre, texelFetch(nook_ao, ivec2(low.x, texel.y), 0), edges.x / 3.0);
-  nook_add_texel(sum, centre, texelFetch(nook_ao, ivec2(high.x, texel.y), 0), edges.y / 3.0);
-  nook_add_texel(sum, centre, texelFetch(nook_ao, ivec2(texel.x, low.y), 0), edges.z / 3.0);
-  nook_add_texel(sum, centre, texelFetch(nook_ao, ivec2(texel.x, high.y), 0), edges.w / 3.0);
-  vec4 corner = texelFetch(nook_ao, low, 0);
-  nook_add_corner(sum, centre, corner, edges.x, edges.z, nook_edges_of(nook_edge_bits(corner.g)).yw);
-  corner = texelFetch(nook_ao, ivec2(high.x, low.y), 0);
-  nook_add_corner(sum, centre, corner, edges.y, edges.z, nook_edges_of(nook_edge_bits(corner.g)).xw);
-  corner = texelFetch(nook_ao, ivec2(low.x, high.y), 0);
-  nook_add_corner(sum, centre, corner, edges.x, edges.w, nook_edges_of(nook_edge_bits(corner.g)).yz);
-  corner = texelFetch(nook_ao, high, 0);
-  nook_add_corner(sum, centre, corner, edges.y, edges.w, nook_edges_of(nook_edge_bits(corner.g)).xz);
+  NookFilterSum sum = NookFilterSum(nook_own_weight * centre.r, nook_own_weight, nook_own_weight * centre.ba);
+  nook_add_side(sum, centre, nook_edge(centre, nook_back_bit), max(texel - one, ivec2(0)), max(texel - two, ivec2(0)),
+                nook_back_bit);
+  nook_add_side(sum, centre, nook_edge(centre, nook_ahead_bit), min(texel + one, last), min(texel + two, last),
+                nook_ahead_bit);
   return vec4(sum.ao / sum.weight, centre.g, sum.bent / sum.weight);
 }

@@ -17,7 +17,7 @@ uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 #define nook_edges_per_extent nook_frame[NOOK_FRAME_INPUT].y  // the same for radii in pixels, relative to the extent
 #define nook_array_layer int(nook_frame[NOOK_FRAME_INPUT].z)  // of the host's texture arrays
 #define nook_log_rate nook_frame[NOOK_FRAME_INPUT].x  // not 0: depth is logarithmic, s = exp2(nook_log_rate stored)
-#define nook_range_sharpness nook_frame[NOOK_FRAME_SPREAD].w  // values of AO that differ by twice its inverse are not averaged
+#define nook_range_sharpness nook_frame[NOOK_FRAME_SPREAD].w  // along y, values of AO that differ by twice its inverse are not averaged
 #define nook_radius nook_frame[NOOK_FRAME_RADIUS].x         // metres
 #define nook_max_radius_px nook_frame[NOOK_FRAME_RADIUS].y  // texels of the surface
 #define nook_min_radius_px nook_frame[NOOK_FRAME_FADE].x    // texels of the surface, at most nook_max_radius_px
@@ -39,7 +39,8 @@ uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 #define nook_normal_matrix mat3(nook_frame[NOOK_FRAME_NORMAL_MATRIX].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 1].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 2].xyz)
 
 #define nook_noise_shift vec2(nook_frame[NOOK_FRAME_NORMAL_MATRIX].w, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 1].w)  // of this frame
-#define nook_filter_strength nook_frame[NOOK_FRAME_NORMAL_MATRIX + 2].w  // 1, or 0: the filter leaves every texel as it is
+#define nook_own_weight nook_frame[NOOK_FRAME_NORMAL_MATRIX + 2].w  // of a texel in its filtered value: 1, or so much that the filter leaves
+                                                                    // every texel as it is
 
 // The depth where there is no surface: sky and far plane. Its square is still a float.
 const float nook_no_surface = 1.0e15;

@@ -4,6 +4,7 @@
 #include "shaders/nnao/host_depth.glsl"
 #include "shaders/nnao/upsample.glsl"
 #else
+#define NOOK_FILTER_ALONG_Y 1
 #include "shaders/nnao/filter.glsl"
 #endif
 #if NOOK_BENT_NORMALS

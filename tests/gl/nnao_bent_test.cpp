@@ -214,8 +214,8 @@ TEST_CASE("nnao: bent normals need a network of the horizon form, and their memo
   desc.bent_normals = 1;
   std::uint64_t bytes = 0;
   NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));
-  CHECK(bytes == std::uint64_t{3840} * 2160 * 12);
-  CHECK(bytes <= 120'000'000);
+  CHECK(bytes == std::uint64_t{3840} * 2160 * 16);
+  CHECK(bytes <= 140'000'000);
   desc.half_resolution = 1;
   NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));
   CHECK(bytes == std::uint64_t{3840} * 2160 * 7);

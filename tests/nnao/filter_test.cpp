@@ -90,26 +90,51 @@ TEST_CASE("edges are kept in two bits each") {
   CHECK(packed_edges({1, 0, 0.34f, 0.6f}) == (3 << 6 | 0 << 4 | 1 << 2 | 2));
 }
 
+namespace {
+
+float filtered_at(const std::vector<float>& ao, const std::vector<std::uint8_t>& edges, std::uint32_t x,
+                  std::uint32_t y, FilterAxis axis, float range_sharpness) {
+  return filtered(ao, edges, width, height, x, y, axis, range_sharpness);
+}
+
+std::vector<float> filtered_image(std::vector<float> ao, const std::vector<std::uint8_t>& edges) {
+  for (const FilterAxis axis : {FilterAxis::x, FilterAxis::y}) {
+    const std::vector<float> before = ao;
+    for (std::uint32_t y = 0; y < height; ++y)
+      for (std::uint32_t x = 0; x < width; ++x) ao[y * width + x] = filtered_at(before, edges, x, y, axis, 0);
+  }
+  return ao;
+}
+
+}  // namespace
+
 TEST_CASE("the filter keeps a constant, averages noise of 3 x 3 pixels, and crosses no edge") {
   Picture picture = plane({0, 0, 1}, false);
   for (std::uint32_t y = 0; y < height; ++y)
     for (std::uint32_t x = 12; x < width; ++x) picture.depth[y * width + x] = 4;
   const std::vector<std::uint8_t> edges = edges_of(picture, 0.05f);
   std::vector<float> ao(width * height, 0.375f);
-  for (std::uint32_t y = 0; y < height; ++y)
-    for (std::uint32_t x = 0; x < width; ++x)
-      CHECK(std::abs(filtered(ao, edges, width, height, x, y, 2) - 0.375f) < 1e-6f);
-  // Without a range every texel weighs the same: the mean of the nine.
+  for (const float value : filtered_image(ao, edges)) CHECK(std::abs(value - 0.375f) < 1e-6f);
+  // Without a range every noise value weighs the same over 5 x 5 pixels: the mean of the nine.
   for (std::uint32_t y = 0; y < height; ++y)
     for (std::uint32_t x = 0; x < width; ++x)
       ao[y * width + x] = (x < 12 ? 0.2f : 0.7f) + 0.02f * float(x % 3 * 3 + y % 3);
-  for (std::uint32_t x = 1; x < width - 1; ++x) {
-    const float mean = filtered(ao, edges, width, height, x, 7, 0);
-    if (x == 11 || x == 12)
-      CHECK(std::abs(mean - (x < 12 ? 0.28f : 0.78f)) < 0.05f);
-    else
-      CHECK(std::abs(mean - (x < 12 ? 0.28f : 0.78f)) < 1e-5f);
+  ao = filtered_image(ao, edges);
+  for (std::uint32_t x = 2; x < width - 2; ++x) {
+    const bool beside_edge = x >= 10 && x < 14;
+    CHECK(std::abs(ao[7 * width + x] - (x < 12 ? 0.28f : 0.78f)) < (beside_edge ? 0.05f : 1e-5f));
   }
+}
+
+TEST_CASE("the filter takes no pixel behind an edge, though that one is connected with its own neighbours") {
+  FilterLine line{{0.1f, 0.2f, 0.3f, 0.4f, 0.5f}, {255, 255, 255, 255, 255}};
+  line.edges[2] = packed_edges({0, 1, 1, 1});
+  line.edges[3] = packed_edges({1, 0, 1, 1});
+  const std::array<float, 5> weights = filter_weights(line, FilterAxis::x, 0);
+  CHECK(weights == std::array<float, 5>{0, 0, 1, 2.0f / 3, 0});
+  // Along y the same edges do not count.
+  CHECK(filter_weights(line, FilterAxis::y, 0) ==
+        std::array<float, 5>{1.0f / 3, 2.0f / 3, 1, 2.0f / 3, 1.0f / 3});
 }
 
 TEST_CASE("the filter leaves apart what differs too much") {
@@ -117,8 +142,8 @@ TEST_CASE("the filter leaves apart what differs too much") {
   const std::vector<std::uint8_t> edges = edges_of(picture, 0.05f);
   std::vector<float> ao(width * height, 0.9f);
   for (std::uint32_t x = 0; x < width; ++x) ao[8 * width + x] = 0.3f;  // a dark line, one pixel wide
-  CHECK(std::abs(filtered(ao, edges, width, height, 12, 8, 4) - 0.3f) < 1e-6f);
-  CHECK(std::abs(filtered(ao, edges, width, height, 12, 7, 4) - 0.9f) < 1e-6f);
-  // Six of nine texels are 0.6 away, each with the weight 2 - 2.5 x 0.6.
-  CHECK(std::abs(filtered(ao, edges, width, height, 12, 8, 2.5f) - (3 * 0.3f + 6 * 0.5f * 0.9f) / 6) < 1e-5f);
+  CHECK(std::abs(filtered_at(ao, edges, 12, 8, FilterAxis::y, 4) - 0.3f) < 1e-6f);
+  CHECK(std::abs(filtered_at(ao, edges, 12, 7, FilterAxis::y, 4) - 0.9f) < 1e-6f);
+  // The weights 2/3 and 1/3 of four pixels that are 0.6 away, times 2 - 2.5 x 0.6.
+  CHECK(std::abs(filtered_at(ao, edges, 12, 8, FilterAxis::y, 2.5f) - (0.3f + 2 * 0.5f * 0.9f) / 2) < 1e-5f);
 }

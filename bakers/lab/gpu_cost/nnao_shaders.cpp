@@ -118,9 +118,14 @@ std::vector<ShaderCase> nnao_shaders() {
         add(Stage::fragment, "occlusion.frag", ", paper's form" + taps, defines(half, false, grid),
             paper_loops(grid));
     }
-    for (const bool with : {false, true})
-      for (const char* file : {"filter.frag", "resolve.frag"})
-        add(Stage::fragment, file, with ? bent : "", defines(half, true, grids[0], with), {});
+    for (const bool with : {false, true}) {
+      const std::string nine = defines(half, true, grids[0], with), outputs = with ? bent : "";
+      add(Stage::fragment, "filter.frag", " along x" + outputs, nine, {});
+      add(Stage::fragment, "filter.frag", " along x, 16 taps or more" + outputs,
+          defines(half, true, grids[1], with), {});
+      add(Stage::fragment, "filter.frag", " along y" + outputs, nine + "#define NOOK_FILTER_ALONG_Y 1\n", {});
+      add(Stage::fragment, "resolve.frag", outputs, nine, {});
+    }
     add(Stage::fragment, "accumulate.frag", "", defines(half, true, grids[0]), {});
     add(Stage::fragment, "resolve.frag", ", layered",
         defines(half, true, grids[0]) + "#define NOOK_LAYERED 1\n", {});

@@ -6,16 +6,23 @@ namespace {
 // A thread makes two pixels along each side, or the surface is half as wide and high.
 constexpr double quarter = 0.25;
 
-PassCase nnao(const std::string& name, const std::string& occlusion, bool half, bool paper = false,
-              const std::string& outputs = "") {
+// With nine taps the filter along x does not compare AO.
+std::string filter_along_x(const std::string& taps) {
+  return taps == "9" ? "filter.frag along x" : "filter.frag along x, 16 taps or more";
+}
+
+// stage: the network's, up to its number of taps.
+PassCase nnao(const std::string& name, const std::string& stage, const std::string& taps, bool half,
+              bool paper = false, const std::string& outputs = "") {
   const std::string size = half ? ", half" : "";
   const double share = half ? quarter : 1;
   PassCase pass{name + size,
                 {{"depth.frag" + size, share},
-                 {occlusion + outputs + size, share},
+                 {stage + taps + outputs + size, share},
+                 {filter_along_x(taps) + outputs + size, share},
                  {"resolve.frag" + outputs + size, 1}}};
   if (paper) pass.shaders.push_back({"normals.frag" + size, share});
-  if (half) pass.shaders.push_back({"filter.frag" + outputs + size, share});
+  if (half) pass.shaders.push_back({"filter.frag along y" + outputs + size, share});
   return pass;
 }
 
@@ -91,25 +98,26 @@ std::vector<PassCase> all_passes() {
   std::vector<PassCase> passes;
   for (const bool half : {false, true})
     for (const std::string taps : {"9", "16", "32", "64"})
-      passes.push_back(nnao("NNAO " + taps, "occlusion.frag, " + taps, half));
+      passes.push_back(nnao("NNAO " + taps, "occlusion.frag, ", taps, half));
   for (const bool half : {false, true})
     for (const std::string taps : {"9", "16", "32"})
       passes.push_back(
-          nnao("NNAO " + taps + bent_normals, "occlusion.frag, " + taps, half, false, bent_normals));
+          nnao("NNAO " + taps + bent_normals, "occlusion.frag, ", taps, half, false, bent_normals));
   for (const bool half : {false, true}) {
-    PassCase mean = nnao("NNAO 9, mean over frames", "occlusion.frag, 9", half);
+    PassCase mean = nnao("NNAO 9, mean over frames", "occlusion.frag, ", "9", half);
     mean.shaders.push_back({half ? "accumulate.frag, half" : "accumulate.frag", half ? quarter : 1});
     passes.push_back(mean);
   }
   for (const std::string taps : {"9", "16"}) {
-    PassCase twice = nnao("NNAO " + taps + ", filtered twice", "occlusion.frag, " + taps, false);
-    twice.shaders.push_back({"filter.frag", 1});
+    PassCase twice = nnao("NNAO " + taps + ", filtered twice", "occlusion.frag, ", taps, false);
+    twice.shaders.push_back({filter_along_x(taps), 1});
+    twice.shaders.push_back({"filter.frag along y", 1});
     passes.push_back(twice);
   }
   for (const std::string taps : {"16", "64"}) {
-    passes.push_back(nnao("NNAO " + taps + ", compute", "occlusion.comp, " + taps, false));
+    passes.push_back(nnao("NNAO " + taps + ", compute", "occlusion.comp, ", taps, false));
     passes.push_back(
-        nnao("NNAO, paper's form, " + taps, "occlusion.frag, paper's form, " + taps, false, true));
+        nnao("NNAO, paper's form, " + taps, "occlusion.frag, paper's form, ", taps, false, true));
   }
   constexpr double far = 1.0 / 64;
   passes.push_back({"world, half resolution, draws",

@@ -12,11 +12,15 @@ constexpr BaselineMethod methods[] = {
     //   VTK       vtkSSAOPass.h, 32 points, no blur; a bias of a hundredth of the radius, as in Kitware's article
     //   QGIS      pull request 49702, intensity and threshold 0.5, 64 points
     //   Filament  quality Low, a bias of 0.5 mm of 0.3 m, always squared; full resolution, though half is its default
+    //   XeGTAO    XeGTAO.h, 1.30: radius multiplier 1.457, falloff range 0.615, final power 2.2, denoised once
     {Baseline::n8ao, 16, {1, 5, 0.2f, 0, false, Border::depth, Denoiser::disc}, true},
     {Baseline::s4ao, 12, {1, 1, 0.25f, 0, false, Border::depth, Denoiser::none, 2}, true},
     {Baseline::vtk, 32, {1, 1, 0.01f, 0, false, Border::depth, Denoiser::none}, true},
     {Baseline::qgis, 64, {1, 1, 0.5f, 0, false, Border::depth, Denoiser::box, 0.5f}, true},
     {Baseline::filament, 7, {1, 2, 0.0017f, 0, false, Border::depth, Denoiser::gaussian}, true},
+    {Baseline::xegtao, 8, {1.457f, 2.2f, 0.615f, 0, false, Border::depth, Denoiser::edges_1}, true},
+    {Baseline::xegtao, 18, {1.457f, 2.2f, 0.615f, 0, false, Border::depth, Denoiser::edges_1}, true},
+    {Baseline::xegtao, 54, {1.457f, 2.2f, 0.615f, 0, false, Border::depth, Denoiser::edges_1}, true},
 };
 
 struct Names {

@@ -121,13 +121,13 @@ GLuint NetworkPass::draw(const GpuView& view, const AoRequest& request, bool blu
 
 int NetworkPass::fetches(bool blurred) const {
   // Counts fetches: the host's depth; depth and its four neighbours, the host's normal, the taps; AO in each
-  // filter. The stage of normals of the paper's form also reads these five and the normal. At half
-  // resolution, a quarter of the texels have these fetches. The upsample then reads the host's depth, four
-  // depths and four values of AO.
+  // filter, five times along each axis. The stage of normals of the paper's form also reads these five and
+  // the normal. At half resolution, a quarter of the texels have these fetches. The upsample then reads the
+  // host's depth, four depths and four values of AO.
   const int before = horizon_form() ? 1 + 5 + 1 + info_.taps : 1 + 2 * 6 + 6 * info_.taps;
-  const int filters = blurred ? 9 * form_.blur : 0;
+  const int filters = blurred ? 10 * form_.blur : 0;
   if (form_.half_resolution) return (before + filters) / 4 + 9;
-  return before + (blurred ? filters : 9);
+  return before + (blurred ? filters : 10);
 }
 
 }  // namespace nook::measure

@@ -52,7 +52,7 @@ typedef struct nook_nnao_desc {
   /* 1: AO is computed at half width and height, and upsampled by a joint-bilateral filter. Default -1: the
    * preset's. */
   int32_t half_resolution;
-  /* The number of bilateral filters over 3 x 3 pixels: 0, 1 or 2. A filter averages the noise of the taps.
+  /* The number of bilateral filters over 5 x 5 pixels: 0, 1 or 2. A filter averages the noise of the taps.
    * The second time takes noise at edges away, and fine lines with it. Default -1: the preset's. */
   int32_t blur;
   /* > 0, default 16. The filter does not cross depths that depart from a surface by more than 1 /

@@ -66,44 +66,36 @@ std::uint8_t packed_edges(const std::array<float, 4>& connected) {
   return std::uint8_t(bits);
 }
 
-std::array<float, 9> filter_weights(std::span<const float> ao, std::span<const std::uint8_t> edges,
-                                    std::uint32_t width, std::uint32_t height, std::uint32_t x,
-                                    std::uint32_t y, float range_sharpness) {
-  const std::size_t centre = std::size_t(y) * width + x;
-  const std::array<float, 4> own = unpacked(edges[centre]);
-  std::array<float, 9> weights{};
-  weights[4] = 1;
-  // aside and up are -1 to 1.
-  const auto set = [&](int aside, int up, float connected) {
-    const std::size_t texel = near_texel(width, height, x, y, aside, up);
-    weights[std::size_t(4 + aside + 3 * up)] =
-        connected * std::clamp(2 - range_sharpness * std::abs(ao[texel] - ao[centre]), 0.0f, 1.0f);
+std::array<float, 5> filter_weights(const FilterLine& line, FilterAxis axis, float range_sharpness) {
+  constexpr std::size_t middle = 2;
+  constexpr float share_one = 2.0f / 3, share_two = 1.0f / 3;
+  const std::size_t back = axis == FilterAxis::x ? 0 : 2, ahead = back + 1;
+  const auto similar = [&](std::size_t at) {
+    return std::clamp(2 - range_sharpness * std::abs(line.ao[at] - line.ao[middle]), 0.0f, 1.0f);
   };
-  set(-1, 0, own[0] / 3);
-  set(1, 0, own[1] / 3);
-  set(0, -1, own[2] / 3);
-  set(0, 1, own[3] / 3);
-  for (const int up : {-1, 1})
-    for (const int aside : {-1, 1}) {
-      // Two ways lead to a corner: first along x and then along the corner's own edge in y, or first along y.
-      const std::array<float, 4> back = unpacked(edges[near_texel(width, height, x, y, aside, up)]);
-      const float x_first = own[aside < 0 ? 0 : 1] * back[up < 0 ? 3 : 2],
-                  y_first = own[up < 0 ? 2 : 3] * back[aside < 0 ? 1 : 0];
-      set(aside, up, std::max(x_first, y_first) / 9);
-    }
-  return weights;
+  const auto edge = [&](std::size_t at, std::size_t side) { return unpacked(line.edges[at])[side] / 3; };
+  const float one_back = edge(middle, back), one_ahead = edge(middle, ahead);
+  return {share_two * one_back * edge(1, back) * similar(0), share_one * one_back * similar(1), 1,
+          share_one * one_ahead * similar(3), share_two * one_ahead * edge(3, ahead) * similar(4)};
 }
 
 float filtered(std::span<const float> ao, std::span<const std::uint8_t> edges, std::uint32_t width,
-               std::uint32_t height, std::uint32_t x, std::uint32_t y, float range_sharpness) {
-  const std::array<float, 9> weights = filter_weights(ao, edges, width, height, x, y, range_sharpness);
+               std::uint32_t height, std::uint32_t x, std::uint32_t y, FilterAxis axis,
+               float range_sharpness) {
+  FilterLine line;
+  for (int i = 0; i < 5; ++i) {
+    const int along = i - 2;
+    const std::size_t texel = axis == FilterAxis::x ? near_texel(width, height, x, y, along, 0)
+                                                    : near_texel(width, height, x, y, 0, along);
+    line.ao[std::size_t(i)] = ao[texel];
+    line.edges[std::size_t(i)] = edges[texel];
+  }
+  const std::array<float, 5> weights = filter_weights(line, axis, range_sharpness);
   float sum = 0, whole = 0;
-  for (int up = -1; up <= 1; ++up)
-    for (int aside = -1; aside <= 1; ++aside) {
-      const float weight = weights[std::size_t(4 + aside + 3 * up)];
-      sum += weight * ao[near_texel(width, height, x, y, aside, up)];
-      whole += weight;
-    }
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    sum += weights[i] * line.ao[i];
+    whole += weights[i];
+  }
   return sum / whole;
 }
 

@@ -32,22 +32,37 @@ Vec3 rebuilt_normal(const View& view, std::uint32_t x, std::uint32_t y, const Ne
 // Packs the four values of `connected` in two bits each: 0, 1/3, 2/3, 1.
 std::uint8_t packed_edges(const std::array<float, 4>& connected);
 
-// AO values that differ by less than the inverse of this are averaged with full weight; values that differ by
-// more than twice as much are not averaged. Fewer taps are noisier.
+// A filter along x and then one along y make the filter of the pass.
+enum class FilterAxis { x, y };
+
+// Along y, AO values that differ by less than the inverse of this are averaged with full weight; values that
+// differ by more than twice as much are not averaged. Fewer taps are noisier.
 constexpr float filter_range_sharpness(std::uint32_t taps) {
-  return taps < 16 ? 2.0f : taps < 32 ? 2.5f : 4.0f;
+  return taps < 16 ? 4.0f : taps < 32 ? 5.0f : 8.0f;
 }
 
-// Returns the weights of the 3 x 3 pixels around one in its filtered value, row by row from the lower left;
-// the pixel's own is 1. edges are packed_edges of every pixel, 0 where there is no surface. A corner takes
-// the better of the two ways around. Beyond the border, side weights are 0, and the pixel nearest to a corner
-// stands for it.
-std::array<float, 9> filter_weights(std::span<const float> ao, std::span<const std::uint8_t> edges,
-                                    std::uint32_t width, std::uint32_t height, std::uint32_t x,
-                                    std::uint32_t y, float range_sharpness);
+// Returns the same along x. There the filter still reads single pixels: with nine taps it does not compare
+// them, and with more it compares half as sharply.
+constexpr float filter_range_sharpness(std::uint32_t taps, FilterAxis axis) {
+  return axis == FilterAxis::y ? filter_range_sharpness(taps)
+         : taps < 16           ? 0
+                               : 0.5f * filter_range_sharpness(taps);
+}
 
-// Filters AO over 3 x 3 pixels with these weights.
+// AO and packed_edges of five pixels in a row or in a column; the middle one is filtered. edges are 0 where
+// there is no surface.
+struct FilterLine {
+  std::array<float, 5> ao{};
+  std::array<std::uint8_t, 5> edges{};
+};
+
+// Returns the weights of the five pixels in the middle one's filtered value; the middle one's own is 1.
+// Without a range, they are 1, 2, 3, 2, 1 over 3, times the edges on the way.
+std::array<float, 5> filter_weights(const FilterLine& line, FilterAxis axis, float range_sharpness);
+
+// Filters AO along an axis. Beyond the border the weights are 0.
 float filtered(std::span<const float> ao, std::span<const std::uint8_t> edges, std::uint32_t width,
-               std::uint32_t height, std::uint32_t x, std::uint32_t y, float range_sharpness);
+               std::uint32_t height, std::uint32_t x, std::uint32_t y, FilterAxis axis,
+               float range_sharpness);
 
 }  // namespace nook::nnao

@@ -12,7 +12,7 @@
 namespace nook::nnao {
 
 // Two numbers in (0, 1). Each takes 9 evenly spaced values over a block of 3 x 3 pixels. Together they form
-// the Hammersley set in base 3, so that a filter over 3 x 3 pixels contains every value once.
+// the Hammersley set in base 3. The filter weighs all values alike.
 struct TapNoise {
   float rotation = 0.5f, offset = 0.5f;
 };

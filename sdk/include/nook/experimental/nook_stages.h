@@ -129,11 +129,12 @@ NOOK_API nook_result nook_nnao_stages_describe_image(nook_nnao_stages stages, no
 typedef struct nook_nnao_stage_info {
   uint32_t struct_size;
   nook_nnao_image output;
-  /* "depth", "depth_apart", "occlusion", "accumulate", "filter", "resolve" or "resolve_layered", and the text
-   * of its fragment shader; valid while the object lives. The first two stages are depth and depth_apart: a
-   * frame runs the second if frame.gbuffer_ao is NOOK_GBUFFER_AO_EXCLUDE, and the first otherwise. The last
-   * two are resolve and resolve_layered: a frame runs the first if frame.gbuffer_ao is NOOK_GBUFFER_AO_NONE,
-   * and the second otherwise. nook_nnao_frame_values.drawn_stages has the choice. */
+  /* "depth", "depth_apart", "occlusion", "accumulate", "filter_x", "filter_y", "resolve" or
+   * "resolve_layered", and the text of its fragment shader; valid while the object lives. The first two
+   * stages are depth and depth_apart: a frame runs the second if frame.gbuffer_ao is NOOK_GBUFFER_AO_EXCLUDE,
+   * and the first otherwise. The last two are resolve and resolve_layered: a frame runs the first if
+   * frame.gbuffer_ao is NOOK_GBUFFER_AO_NONE, and the second otherwise. nook_nnao_frame_values.drawn_stages
+   * has the choice. */
   const char* name;
   const char* fragment_shader;
   /* 1: the viewport is nook_nnao_frame_values.viewport; 0: it is surface_width x surface_height at (0, 0). */
@@ -197,8 +198,8 @@ NOOK_API nook_result nook_clips_read_table(nook_clips clips, nook_clips_table ta
 
 /* ---- Memory and time of a pass ---- */
 
-/* Computes the texture memory that a pass will take, before you create it: 58 MB at 3840 x 2160, 25 MB at
- * half resolution, 100 and 58 MB with bent normals. docs/nnao.md has the bytes for each option. Makes no
+/* Computes the texture memory that a pass will take, before you create it: 75 MB at 3840 x 2160, 25 MB at
+ * half resolution, 133 and 58 MB with bent normals. docs/nnao.md has the bytes for each option. Makes no
  * OpenGL call. Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION. */
 NOOK_API nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* bytes);
 

@@ -47,6 +47,14 @@ NnaoFrame layer_frame(const NnaoFrame& frame, int layer) {
   return one;
 }
 
+namespace {
+
+// The own weight of a texel that the filter leaves as it is: the other weights, 2 at most, change it by far
+// less than a step of 8 bits. A 16-bit float holds it.
+constexpr float unfiltered_weight = 32768;
+
+}  // namespace
+
 FrameConstants frame_constants(const NnaoFrame& frame, const nook_nnao_desc& pass, std::uint32_t count,
                                int layer) {
   FrameConstants constants;
@@ -100,7 +108,7 @@ FrameConstants frame_constants(const NnaoFrame& frame, const nook_nnao_desc& pas
   const nnao::DistanceFade fade = nnao::distance_fade(frame.fade_begin, frame.fade_end);
   set(NOOK_FRAME_FADE, half ? 0.5f * radius.min_px : radius.min_px, fade.per_metre, fade.offset, 0);
   const nnao::TapNoise shift = nnao::frame_noise_step(count);
-  const float last[] = {shift.rotation, shift.offset, float(filters)};
+  const float last[] = {shift.rotation, shift.offset, filters ? 1 : unfiltered_weight};
   for (int column = 0; column < 3; ++column)
     set(NOOK_FRAME_NORMAL_MATRIX + column, n[3 * column], n[3 * column + 1], n[3 * column + 2], last[column]);
   return constants;

@@ -117,8 +117,8 @@ void NnaoPass::render_layer(const NnaoFrame& frame, int layer) {
   bind_depth(frame.depth_texture);
   bind_texture(NOOK_UNIT_AO, frame.show == NOOK_NNAO_VIEW_RAW ? ao_[0].texture() : mean);
   bind_host(NOOK_UNIT_LAYER, layered ? frame.gbuffer_ao_texture : 0);
-  for (int pass = 0; pass < drawn_filters(desc_); ++pass) {
-    draw_stage(filter_stage_, constants, ao_[(pass + 1) % 2], surface);
+  for (int pass = 0; pass < filter_draws(desc_); ++pass) {
+    draw_stage(filter_stages_[pass % 2], constants, ao_[(pass + 1) % 2], surface);
     bind_texture(NOOK_UNIT_AO, ao_[(pass + 1) % 2].texture());
   }
   end_stage();

@@ -1,9 +1,10 @@
 // The screen-space pass on the GPU: linear depth, the network, the filter, and the output.
 //
 // The network's stage, AO, is a draw or a dispatch; the other stages are draws.
-//   full resolution  host depth -> depth -> AO and edges -> [mean ->] [filter ->] filter and resolve
-//   half resolution  host depth -> depth of every fourth pixel -> AO and edges -> [mean ->] filter ->
-//                    [filter ->] upsample and resolve
+//   full resolution  host depth -> depth -> AO and edges -> [mean ->] [filter along x and y ->]
+//                    filter along x -> filter along y and resolve
+//   half resolution  host depth -> depth of every fourth pixel -> AO and edges -> [mean ->]
+//                    [filter along x and y ->] filter along x and y -> upsample and resolve
 // Passes with max_history_frames have the mean over frames. Passes with views draw them one after the other.
 // The paper's form has a stage between depth and AO that writes normals, because it reads them at its taps.
 #pragma once
@@ -26,9 +27,10 @@ const char* screen_ao_glsl();
 
 std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form);
 
-// Returns how often the filter is a separate draw: at full resolution, the last filter is part of resolve.
-constexpr int drawn_filters(const nook_nnao_desc& desc) {
-  return desc.half_resolution || desc.blur == 0 ? desc.blur : desc.blur - 1;
+// Returns how many draws filter, along x and y in turn: at full resolution, the last filter along y is part
+// of resolve.
+constexpr int filter_draws(const nook_nnao_desc& desc) {
+  return desc.half_resolution || desc.blur == 0 ? 2 * desc.blur : 2 * desc.blur - 1;
 }
 
 // Every call may change any of the touched state; the caller must hold a StateGuard.
@@ -80,13 +82,13 @@ class NnaoPass : public ScreenPass {
   }
 
   nook_nnao_path path_;
-  // Only the paper's form has a stage of normals. The filter has a stage if it is a separate draw.
+  // Only the paper's form has a stage of normals. The filters are those along x and y.
   ScreenStage depth_stage_, apart_depth_stage_, normals_stage_, occlusion_stage_, accumulate_stage_,
-      filter_stage_, resolve_stage_, layered_stage_, show_normals_stage_;
+      filter_stages_[2], resolve_stage_, layered_stage_, show_normals_stage_;
   GLint earlier_location_ = -1;  // of accumulate_stage_
   std::array<LayerTextures, max_layers> layers_;
   RenderTexture normals_;  // of the surface
-  RenderTexture ao_[2];    // of the surface; the second if the filter is a separate draw
+  RenderTexture ao_[2];    // of the surface; the second for the filter
   TexelTable filters_;     // of the paper's form
   std::optional<StageTimer> timer_;
 };

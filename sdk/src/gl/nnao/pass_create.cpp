@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "sdk/src/core/failure.h"
@@ -80,7 +81,7 @@ PassFormats formats_of(const nook_nnao_desc& desc, const Functions& gl, nook_nna
 
 PassPlan plan_of(const nook_nnao_desc& desc, nnao::NetworkForm form, const PassFormats& formats) {
   const bool half = desc.half_resolution != 0, paper = form == nnao::NetworkForm::paper,
-             filtered = drawn_filters(desc) > 0;
+             filtered = filter_draws(desc) > 0;
   const int width = surface_length(desc.max_width, half), height = surface_length(desc.max_height, half);
   const int temporal_width = desc.max_history_frames ? width : 0;
   return {{{formats.depth, width, height, "nook: linear depth"},
@@ -154,9 +155,10 @@ void NnaoPass::make_programs(const nnao::Network& network) {
   const nnao::TapGrid grid = nnao::horizon_grid(static_cast<std::uint32_t>(desc_.taps));
   const PassDefines given = pass_defines(desc_, horizon, grid);
   const char* const defines = given.text;
-  char layered[sizeof given.text + 32], apart[sizeof given.text + 64];
+  char layered[sizeof given.text + 32], apart[sizeof given.text + 64], along_y[sizeof given.text + 32];
   std::snprintf(layered, sizeof layered, "%s#define NOOK_LAYERED 1\n", defines);
   std::snprintf(apart, sizeof apart, "%s#define NOOK_NO_SURFACE_ABOVE NOOK_EXCLUDED_ABOVE\n", defines);
+  std::snprintf(along_y, sizeof along_y, "%s#define NOOK_FILTER_ALONG_Y 1\n", defines);
   const bool samples = desc_.depth_samples > 0, sample_arrays = samples && desc_.views > 0;
   const auto drawn = [&](const char* path, const char* text, bool medium_precision = false) {
     return make_stage(
@@ -175,8 +177,9 @@ void NnaoPass::make_programs(const nnao::Network& network) {
   }
   // The filter of AO at half resolution was measured to cost no error in medium precision
   // (docs/opengl_es.md).
-  if (drawn_filters(desc_) > 0)
-    filter_stage_ = drawn("nnao/filter.frag", defines, half() && desc_.bent_normals == 0);
+  for (int axis = 0; axis < std::min(filter_draws(desc_), 2); ++axis)
+    filter_stages_[axis] =
+        drawn("nnao/filter.frag", axis == 0 ? defines : along_y, half() && desc_.bent_normals == 0);
   resolve_stage_ = drawn("nnao/resolve.frag", defines);
   layered_stage_ = drawn("nnao/resolve.frag", layered);
   show_normals_stage_ = drawn("nnao/show_normals.frag", defines);

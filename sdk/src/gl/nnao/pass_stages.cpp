@@ -146,7 +146,7 @@ bool uses(const nook_nnao_desc& desc, nook_nnao_image image) {
     case NOOK_NNAO_IMAGE_TARGET:
       return true;
     case NOOK_NNAO_IMAGE_FILTERED:
-      return drawn_filters(desc) > 0;
+      return filter_draws(desc) > 0;
     case NOOK_NNAO_IMAGE_ACCUMULATED_AO:
     case NOOK_NNAO_IMAGE_HISTORY_DEPTH:
     case NOOK_NNAO_IMAGE_HISTORY_AO:
@@ -192,9 +192,11 @@ PassStages pass_stages(const NnaoSettings& desc, const nnao::Network& network, M
              {"nook_depth", "nook_ao", "nook_history", "nook_history_depth", "nook_motion"});
     ao = NOOK_NNAO_IMAGE_ACCUMULATED_AO;
   }
-  for (int filter = 0; filter < drawn_filters(desc); ++filter) {
+  for (int filter = 0; filter < filter_draws(desc); ++filter) {
     const nook_nnao_image to = filter % 2 == 0 ? NOOK_NNAO_IMAGE_FILTERED : NOOK_NNAO_IMAGE_AO;
-    list.add("filter", "nnao/filter.frag", to, {"nook_ao"}, ao);
+    const bool along_y = filter % 2 == 1;
+    list.add(along_y ? "filter_y" : "filter_x", "nnao/filter.frag", to, {"nook_ao"}, ao,
+             along_y ? "#define NOOK_FILTER_ALONG_Y 1\n" : "");
     ao = to;
   }
   const auto resolve = [&](const char* name, const char* more, bool layered) {

@@ -36,7 +36,8 @@ TEST_CASE("the table of tunings is a row for each method of the comparison") {
                                          {gtao, 6},
                                          {bitmask, 6},
                                          {xegtao, 3}});
-  CHECK(shipped == std::map<Baseline, int>{{n8ao, 1}, {s4ao, 1}, {vtk, 1}, {qgis, 1}, {filament, 1}});
+  CHECK(shipped ==
+        std::map<Baseline, int>{{n8ao, 1}, {s4ao, 1}, {vtk, 1}, {qgis, 1}, {filament, 1}, {xegtao, 3}});
 }
 
 TEST_CASE("tuning never ends above where it began, and a planted truth is found") {
