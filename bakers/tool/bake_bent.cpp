@@ -53,25 +53,24 @@ void run(Options o) {
 }  // namespace
 
 void add_bake_bent(Command bake_command) {
-  const Command command =
-      bake_command.add_subcommand("bent",
-                                  "bent normals for a baked character: for each vertex two vectors of the "
-                                  "directions that its body blocks, by ray tracing in a few poses. All else "
-                                  "in the model stays as it is");
+  const Command command = bake_command.add_subcommand(
+      "bent",
+      "add bent normals to a baked character.\nFor each vertex, ray tracing in a few poses finds two vectors "
+      "that describe which directions the body blocks. Everything else in the model stays the same.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("character", o.input, "the rigged character, .glb or .gltf").required();
-  command.add_input("model", o.model, "its model, .nook").required();
+  command.add_input("character", o.input, "the rigged character, a .glb or .gltf file").required();
+  command.add_input("model", o.model, "the model that was baked from the character, a .nook file").required();
   add_bake_options(command, o.baking);
-  command.add_option("--auto-poses", o.task.auto_poses, "generated poses to fit to")
+  command.add_option("--auto-poses", o.task.auto_poses, "number of generated poses to trace")
       .check(in_range(8, 100000))
       .capture_default_str();
   command
       .add_option("--samples-per-clip", o.task.samples_per_clip,
-                  "poses of each clip that the model was fitted to")
+                  "number of poses from each clip that the model was fitted to")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--rays", o.task.rays, "rays for each vertex and pose")
+  command.add_option("--rays", o.task.rays, "rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
   add_import_options(command, o.reading);

@@ -175,23 +175,23 @@ void add_choice(Command command, const char* name, std::int32_t& value, const Na
 // The form of the model and how it is fitted.
 void add_form_options(Command command, Options& o) {
   add_choice(command, "--form", o.form, {{"default", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
-             "default, or paper: kernel, fit and gamma 2 of Le et al. 2019");
+             "method to use: default, or paper for the kernel, the fit and the gamma of 2 of Le et al. 2019");
   add_choice(command, "--kernel", o.kernel, {{"nook", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
-             "for comparisons: paper takes the kernel of the paper's form with any fit");
+             "for comparisons: paper selects the paper's kernel and leaves the fit as it is");
   add_choice(command, "--fit", o.fit, {{"nook", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
-             "for comparisons: paper takes its fit (block coordinate descent with L-BFGS) with any kernel");
+             "for comparisons: paper selects the paper's fit (block coordinate descent with L-BFGS) and "
+             "leaves the kernel as it is");
   command
       .add_option_function(
           "--gamma", [&o](const std::string& text) { o.gamma = gamma_of(text); },
-          "exponent of the shadow norm, 1 to 8 (default 1, and 2 with --form paper), or learned: the best of "
-          "several short fits")
+          "exponent of the shadow norm, 1 to 8, or learned to try several values in short fits and keep the "
+          "best; default 1, or 2 with --form paper")
       .type_name("G|learned")
       .check(in_range(1.0, 8.0) | one_of({"learned"}));
   command
-      .add_option(
-          "--saturation", o.saturation,
-          "saturation of the key points before the fit (default 0.5, and none with --form paper, --fit "
-          "paper or another --gamma than 1), which the fit changes; 0: none")
+      .add_option("--saturation", o.saturation,
+                  "saturation of the key points at the start of the fit, which then adjusts it; 0: no "
+                  "saturation; default 0.5, or 0 with --form paper, --fit paper or a --gamma other than 1")
       .check(in_range(0.0, 64.0));
 }
 
@@ -202,54 +202,52 @@ void add_bake_character(Command bake) {
       bake.add_subcommand("character", "bake a rigged character for dynamic ambient occlusion");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("input", o.input, "character, .glb or .gltf").required();
+  command.add_input("input", o.input, "the rigged character, a .glb or .gltf file").required();
   add_bake_options(command, o.baking);
   add_import_options(command, o.reading);
-  add_choice(
-      command, "--preset", o.preset,
-      {{"draft", NOOK_BAKE_PRESET_DRAFT},
-       {"standard", NOOK_BAKE_PRESET_STANDARD},
-       {"production", NOOK_BAKE_PRESET_PRODUCTION}},
-      "draft (about 20 s), standard (up to 5 minutes, the default) or production (up to half an hour)");
+  add_choice(command, "--preset", o.preset,
+             {{"draft", NOOK_BAKE_PRESET_DRAFT},
+              {"standard", NOOK_BAKE_PRESET_STANDARD},
+              {"production", NOOK_BAKE_PRESET_PRODUCTION}},
+             "time to spend: draft (about 20 s), standard (up to 5 minutes, default) or production (up to "
+             "half an hour)");
   add_choice(command, "--poses", o.poses,
              {{"auto", NOOK_BAKE_POSES_AUTO},
               {"single-joint", NOOK_BAKE_POSES_SINGLE_JOINT},
               {"clips", NOOK_BAKE_POSES_CLIPS},
               {"all", NOOK_BAKE_POSES_ALL}},
-             "what to fit: auto (generated poses), single-joint (a grid of rotations of each joint alone), "
-             "clips, or all (auto "
-             "and clips, the default)");
-  command.add_option("--clips", o.clips, "fit only these clips of the file").delimiter(',');
+             "poses to fit: auto (generated poses), single-joint (each joint alone on a grid of rotations), "
+             "clips (the file's clips), or all (auto and clips, default)");
+  command.add_option("--clips", o.clips, "fit only these clips of the file, separated by commas")
+      .delimiter(',');
   add_choice(
       command, "--split", o.split,
       {{"all", NOOK_BAKE_SPLIT_ALL}, {"half", NOOK_BAKE_SPLIT_HALF}, {"families", NOOK_BAKE_SPLIT_FAMILIES}},
-      "without --clips: all motion clips (default), or half: every second one in byte order of the names, "
-      "so that `evaluate` measures on the others, or families: the same with clips whose names begin with "
-      "the same word, behind a prefix that all of them share, taken together, such as Jump_Start and "
-      "Jump_Land. T- and A-poses are never fitted");
+      "which clips to fit when --clips is not given: all (default), half or families. half: every second "
+      "clip in byte order of the names, so that `evaluate` can measure on the others. families: like half, "
+      "but clips whose names begin with the same word stay together, such as Jump_Start and Jump_Land; a "
+      "prefix that all names share does not count. T-poses and A-poses are never fitted");
   command.add_input("--rig", o.rig,
-                    "a rig file that corrects roles, limbs and parents of bones (docs/character.md, Rigs); "
-                    "`nook inspect FILE --rig` shows what was understood without it");
-  command.add_option("--spheres", o.spheres, "proxy spheres at most").check(in_range(1, 1024));
-  command.add_option("--key-points", o.key_points, "key points at most").check(in_range(1, 4096));
-  command.add_option("--rays", o.rays, "rays for each vertex and pose").check(in_range(1, 65536));
+                    "rig file that corrects roles, limbs and parents of bones (see Rigs in "
+                    "docs/character.md); `nook inspect FILE --rig` shows what the bake finds without it");
+  command.add_option("--spheres", o.spheres, "largest number of proxy spheres").check(in_range(1, 1024));
+  command.add_option("--key-points", o.key_points, "largest number of key points").check(in_range(1, 4096));
+  command.add_option("--rays", o.rays, "rays per vertex and pose").check(in_range(1, 65536));
   command.add_option("--auto-poses", o.auto_poses, "number of generated poses").check(in_range(1, 1000000));
-  command.add_option("--samples-per-clip", o.samples_per_clip, "poses of each clip")
+  command.add_option("--samples-per-clip", o.samples_per_clip, "number of poses from each clip")
       .check(in_range(1, 1000000));
-  command.add_option("--steps", o.steps, "steps of the fit (--fit paper: rounds)")
+  command.add_option("--steps", o.steps, "number of steps of the fit; with --fit paper, number of rounds")
       .check(in_range(1, 10000000));
   add_form_options(command, o);
-  command.add_input(
-      "--calibrate", o.calibration,
-      "recorded poses of your game (nook_scene_record_pose): the constant and the scale of each vertex are "
-      "fitted to them last");
-  command.add_input(
-      "--model", o.model,
-      "with --calibrate: fit constants and scales of this baked model of the character, and bake "
-      "nothing else; only --rays and --seed count");
+  command.add_input("--calibrate", o.calibration,
+                    "poses recorded from your game with nook_scene_record_pose; as the last step, the bake "
+                    "fits the constant and the scale of each vertex to them");
+  command.add_input("--model", o.model,
+                    "with --calibrate: take this baked model of the character and fit only its constants and "
+                    "scales; of the other options, only --rays and --seed have an effect");
   command
       .add_option("--time-limit", o.time_limit_s,
-                  "end the fit after so many seconds; such a bake is not reproducible bit for bit")
+                  "end the fit after this many seconds; two such bakes can differ in their bits")
       .check(positive_number());
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });

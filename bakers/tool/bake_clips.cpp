@@ -69,32 +69,35 @@ void run(Options o) {
 void add_bake_clips(Command bake_command) {
   const Command command = bake_command.add_subcommand(
       "clips",
-      "the ray-traced AO and the poses of a character's clips as a small table over frames: a crowd that is "
-      "drawn from baked animation needs no bones on the CPU");
+      "bake ray-traced AO and poses of a character's clips.\nThe file is a small table over the frames. A "
+      "crowd that is drawn from baked animation needs no bones on the CPU with it.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("input", o.input, "the character, .glb or .gltf").required();
-  command.add_input("model", o.model, "its baked model, .nook").required();
+  command.add_input("input", o.input, "the character, a .glb or .gltf file").required();
+  command.add_input("model", o.model, "the model that was baked from the character, a .nook file").required();
   add_bake_options(command, o.baking);
-  command.add_option("--clips", o.task.clips, "only these clips (default: all but T- and A-poses)")
+  command
+      .add_option("--clips", o.task.clips,
+                  "bake only these clips, separated by commas; default: all but T-poses and A-poses")
       .delimiter(',');
-  command.add_option("--frames-per-second", o.task.frames_per_second, "frames of each second of a clip")
+  command.add_option("--frames-per-second", o.task.frames_per_second, "frames per second of a clip")
       .check(in_range(0.1, 1000.0))
       .capture_default_str();
-  command.add_option("--rays", o.task.rays, "rays for each vertex and frame")
+  command.add_option("--rays", o.task.rays, "rays per vertex and frame")
       .check(in_range(1, 65536))
       .capture_default_str();
   command
       .add_option("--max-error", o.task.tables.max_error,
-                  "AO, root mean square: the file takes as many modes as this needs")
+                  "root mean square error of AO to reach; the file gets as many modes as this needs")
       .check(in_range(1e-4, 1.0))
       .capture_default_str();
   command
-      .add_option("--max-bytes", o.task.tables.max_bytes,
-                  "bytes of the file for each frame and vertex; modes beyond it are left out")
+      .add_option(
+          "--max-bytes", o.task.tables.max_bytes,
+          "largest size of the file in bytes per frame and vertex; modes that would exceed it are left out")
       .check(in_range(1e-4, 100.0))
       .capture_default_str();
-  command.add_option("--max-modes", o.task.tables.max_modes, "modes of AO, a multiple of 4")
+  command.add_option("--max-modes", o.task.tables.max_modes, "largest number of AO modes, a multiple of 4")
       .check(in_range(4u, ClipSet::max_ao_modes))
       .capture_default_str();
   add_import_options(command, o.reading);

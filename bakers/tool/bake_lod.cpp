@@ -48,22 +48,26 @@ void run(Options o) {
 }  // namespace
 
 void add_bake_lod(Command bake_command) {
-  const Command command = bake_command.add_subcommand(
-      "lod",
-      "the model of another mesh of a baked character, such as a level of detail: the mesh keeps the "
-      "character's spheres, key points and casters, and its vertices are fitted to its own shape in seconds");
+  const Command command =
+      bake_command.add_subcommand("lod",
+                                  "bake another mesh of a baked character, such as a level of detail.\nThe "
+                                  "new model keeps the character's spheres, key points and casters. Only the "
+                                  "vertices are fitted to the new mesh, which takes seconds.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("model", o.model, "the baked full mesh, .nook").required();
-  command.add_input("mesh", o.input, "the other mesh with the same skeleton, .glb or .gltf").required();
+  command.add_input("model", o.model, "the model that was baked from the full mesh, a .nook file").required();
+  command.add_input("mesh", o.input, "the other mesh, a .glb or .gltf file with the same skeleton")
+      .required();
   add_bake_options(command, o.baking);
-  command.add_option("--auto-poses", o.task.auto_poses, "generated poses to fit to")
+  command.add_option("--auto-poses", o.task.auto_poses, "number of generated poses to fit")
       .check(in_range(8, 100000))
       .capture_default_str();
-  command.add_option("--samples-per-clip", o.task.samples_per_clip, "poses of each clip of the mesh's file")
+  command
+      .add_option("--samples-per-clip", o.task.samples_per_clip,
+                  "number of poses from each clip of the mesh's file")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--rays", o.task.rays, "rays for each vertex and pose")
+  command.add_option("--rays", o.task.rays, "rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
   add_import_options(command, o.reading);

@@ -341,80 +341,101 @@ void run(Options& o) {
 }  // namespace
 
 void add_bake_material(Command bake) {
-  const Command command = bake.add_subcommand(
-      "material",
-      "compress a meso-structure, the maps of a material or a measured BTF for real-time decoding");
+  const Command command =
+      bake.add_subcommand("material",
+                          "compress a material with depth for real-time decoding.\nThe source is a "
+                          "meso-structure, a folder of material maps, or a measured BTF.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   std::string names;
   for (const std::string_view name : meso_names()) names.append(names.empty() ? "" : ", ").append(name);
   command
-      .add_input(
-          "--meso", o.meso,
-          "a meso-structure, ray traced: " + names + ", or one tile as a closed mesh, y up, .glb or .gltf")
+      .add_input("--meso", o.meso,
+                 "source: a meso-structure to ray trace, one of " + names +
+                     ", or a closed mesh of one tile, y up, in a .glb or .gltf file")
       .type_name("NAME|TILE.glb");
   command.add_input("--pbr", o.pbr,
-                    "a folder with the maps of a physically based material, ray traced: base colour, normal, "
-                    "roughness or gloss, metalness, height, by their names");
+                    "source: a folder with the maps of a physically based material to ray trace; base "
+                    "colour, normal, roughness or gloss, metalness and height are recognised by their names");
   command
       .add_option("--height-scale", o.height_scale_m,
-                  "of --pbr and of an image of --relief: metres from 0 to 1 of the height map; 1 where it "
-                  "holds metres")
+                  "for --pbr and an image in --relief: height in metres of the value 1 in the height map; "
+                  "give 1 if the map holds metres")
       .check(non_negative_number())
       .capture_default_str();
   command
-      .add_option("--tile-size", o.tile_side_m,
-                  "metres after which the mesh of --meso repeats along x and z, and the maps of --pbr and "
-                  "the image of --relief")
+      .add_option(
+          "--tile-size", o.tile_side_m,
+          "side of one tile in metres, for a mesh in --meso, the maps of --pbr and an image in --relief")
       .check(positive_number())
       .capture_default_str();
   add_import_options(command, o.reading);
   command.add_input("--btf", o.btf,
-                    "a folder of measured images, tl pl tv pv in their names (UBO 2003, UTIA), or a .btf "
-                    "file (UBO 2014)");
+                    "source: a measured BTF; a folder of images with tl, pl, tv and pv in their names (UBO "
+                    "2003, UTIA), or a .btf file (UBO 2014)");
   command
       .add_option_function(
           "--btf-colours",
           [&o](const std::string& v) { o.colours = v == "xyz" ? FloatColours::xyz : FloatColours::rgb; },
-          "of float images of --btf: linear rgb (default), or xyz under D65 (UTIA)")
+          "colour space of float images in --btf: rgb (linear, default), or xyz under D65 (UTIA)")
       .check(one_of({"rgb", "xyz"}))
       .type_name("NAME");
-  command.add_input("--raw", o.raw, "a raw material that --keep-raw wrote");
+  command.add_input("--raw", o.raw, "source: a raw material that --keep-raw wrote");
   add_bake_options(command, o.baking);
-  command.add_flag(
-      "--strict", o.strict,
-      "fail with exit code 4, and write nothing, if the material judges itself bad: below 12 dB in "
-      "views and lights that were held out");
-  command.add_option("--keep-raw", o.keep_raw, "write the uncompressed material, for `evaluate material`");
+  command.add_flag("--strict", o.strict,
+                   "fail with exit code 4 and write nothing if the material judges itself bad: below 12 dB in views "
+                   "and lights that were held out");
+  command.add_option("--keep-raw", o.keep_raw,
+                     "also write the uncompressed material to this file, for `evaluate material`");
   command.add_option("--images", o.images,
-                     "write pictures of the raw and the decoded material to this folder");
-  command.add_option("--directions", o.directions, "light and view directions of --meso and --pbr")
+                     "write pictures of the raw and the decoded material into this folder");
+  command
+      .add_option("--directions", o.directions,
+                  "for --meso and --pbr: number of view directions, and of light directions without --lights")
       .check(in_range(4, 1024))
       .capture_default_str();
-  command.add_option("--lights", o.lights, "light directions, where they are to be others than the views")
+  command
+      .add_option(
+          "--lights", o.lights,
+          "for --meso and --pbr: number of light directions, if they should differ from the view directions")
       .check(in_range(4, 1024));
-  command.add_option("--max-tilt", o.max_tilt_deg, "their largest angle to the normal, degrees")
+  command
+      .add_option("--max-tilt", o.max_tilt_deg,
+                  "for --meso and --pbr: largest angle between a direction and the normal, in degrees")
       .check(in_range(10.0, 80.0))
       .capture_default_str();
   command
       .add_option("--texels", o.texels,
-                  "--meso, --pbr: texels a side, default 96; --btf: a square from the middle, default all")
+                  "texels along a side; with --meso and --pbr the resolution, default 96; with --btf the "
+                  "size of a square cut from the middle, default all")
       .check(in_range(1, 1024));
-  command.add_option("--samples", o.trace.samples, "view rays along a texel's side")
+  command
+      .add_option("--samples", o.trace.samples,
+                  "for --meso and --pbr: view rays along the side of a texel; a texel takes the square of "
+                  "this number")
       .check(in_range(1, 16))
       .capture_default_str();
-  command.add_option("--bounces", o.trace.bounces, "diffuse inter-reflections")
+  command.add_option("--bounces", o.trace.bounces, "for --meso and --pbr: number of diffuse bounces")
       .check(in_range(0, 16))
       .capture_default_str();
-  command.add_option("--bounce-rays", o.trace.bounce_rays, "rays that gather light at a vertex")
+  command
+      .add_option("--bounce-rays", o.trace.bounce_rays,
+                  "for --meso and --pbr: rays that gather bounced light at each vertex")
       .check(in_range(1, 4096))
       .capture_default_str();
-  command.add_option("--count", o.count, "of --meso: fibres; holes a side; yarns a side")
+  command
+      .add_option("--count", o.count,
+                  "for --meso: number of fibres, of holes along a side, or of yarns along a side")
       .check(in_range(1, 1000));
-  command.add_option("--radius", o.radius, "of --meso: of a fibre; of a hole; half a yarn's width; tiles");
-  command.add_option("--thickness", o.thickness, "of --meso: of the mat; of the plate; of a yarn; tiles");
-  command.add_option("--roughness", o.roughness, "of --meso: wander of fibres; noise; depth of plies");
-  command.add_option("--detail", o.detail, "of --meso: triangles along a length, relative to the default")
+  command.add_option(
+      "--radius", o.radius,
+      "for --meso: radius of a fibre or a hole, or half the width of a yarn, as a share of the tile's side");
+  command.add_option("--thickness", o.thickness,
+                     "for --meso: thickness of the mat, the plate or a yarn, as a share of the tile's side");
+  command.add_option(
+      "--roughness", o.roughness,
+      "for --meso: how much fibres wander, how strong the noise is, or how deep the plies of a yarn are");
+  command.add_option("--detail", o.detail, "for --meso: triangles per length, relative to the default")
       .check(in_range(0.1, 4.0));
   CompressionSettings& s = o.compression.settings;
   command
@@ -426,19 +447,17 @@ void add_bake_material(Command bake) {
                        : v == "neural" ? Method::neural
                                        : Method::k_cta;
           },
-          "k-cta (default), cta, n-svd, or neural: a small network over features of the texels, for flat and "
-          "glossy "
-          "materials, which trains for minutes; its visibility is that of k-cta")
+          "compression: k-cta (default), cta, n-svd or neural. neural trains a small network for minutes and "
+          "suits flat and glossy materials; its visibility is compressed by k-cta")
       .check(one_of({"k-cta", "cta", "n-svd", "neural"}))
       .type_name("NAME");
   command
-      .add_option(
-          "--channels", s.neural_channels,
-          "of --method neural: channels of the features, a multiple of 4 up to 64; half a byte of the file "
-          "each for a texel")
+      .add_option("--channels", s.neural_channels,
+                  "for --method neural: feature channels per texel, a multiple of 4 up to 64; each takes "
+                  "half a byte per texel in the file")
       .check(in_range(4, 64))
       .capture_default_str();
-  command.add_option("--steps", s.neural_steps, "of --method neural: steps of the training")
+  command.add_option("--steps", s.neural_steps, "for --method neural: number of training steps")
       .check(in_range(1, 1000000))
       .capture_default_str();
   command
@@ -449,26 +468,25 @@ void add_bake_material(Command bake) {
                            : v == "binary" ? VisibilityForm::binary
                                            : VisibilityForm::distance;
           },
-          "visibility as distance (default), binary or none")
+          "how to store visibility: distance (default), binary or none")
       .check(one_of({"distance", "binary", "none"}))
       .type_name("NAME");
   command
-      .add_option(
-          "--visibility-mapping", o.visibility_mapping,
-          "threshold and weight that make visibility of the VOTF's values; paper: 0.5,1 of masks, 0.05,12 of "
-          "distances. Default: 0.5,1 of masks; of distances T half a texel, W = 1 / T")
+      .add_option("--visibility-mapping", o.visibility_mapping,
+                  "threshold T and weight W that turn stored values into visibility; paper selects 0.5,1 for "
+                  "--votf binary and 0.05,12 for --votf distance; default 0.5,1 for binary, and half a texel "
+                  "and 1 / T for distance")
       .type_name("T,W|paper");
   command
       .add_option("--view-map", s.map_side,
-                  "cells along the side of K-CTA's resampled view maps; 0: none, decoding then "
-                  "mixes the three nearest views, for up to three times the work")
+                  "for --method k-cta: cells along a side of the resampled view maps; 0: no view map, and "
+                  "decoding mixes the three nearest views, which costs up to three times as much")
       .check(in_range(0, 512))
       .capture_default_str();
   command
-      .add_option(
-          "--step-penalty", s.step_penalty,
-          "of the steps between cells of the BTF's view map, for a calmer picture as the view moves; 10 "
-          "halves the largest for some error")
+      .add_option("--step-penalty", s.step_penalty,
+                  "penalty on differences between neighbouring cells of the view map; a larger value gives a "
+                  "calmer picture in motion and a larger error; 10 halves the largest jump")
       .check(in_range(0.0, 1000.0))
       .capture_default_str();
   command
@@ -480,9 +498,10 @@ void add_bake_material(Command bake) {
                                           : ReliefSource::known;
             o.relief = s.relief == ReliefSource::known && v != "known" ? v : "";
           },
-          "estimated: views are aligned by heights that they agree on, which pixels march, so that what lies "
-          "between them is sharper; no relief where that predicts no view better. known: by the heights of "
-          "--meso or --pbr; or those of an image, as --pbr reads them. none (default)")
+          "heights that shaders march, to sharpen views between the stored ones: none (default), estimated, "
+          "known, or an image of heights that is scaled as with --pbr. known takes the heights of --meso or "
+          "--pbr. estimated finds heights on which the views agree, and stores none if they predict no view "
+          "better")
       .type_name("none|estimated|known|IMAGE");
   command.reads(o.relief);
   add_compression_options(command, o.compression);

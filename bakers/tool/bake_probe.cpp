@@ -37,70 +37,71 @@ void run(const BakeProbeOptions& options) {
 }  // namespace
 
 void add_bake_probe(Command bake_command) {
-  const Command command = bake_command.add_subcommand(
-      "probe", "spherical-Gaussian light probes of an environment map, or of a path-traced scene");
+  const Command command = bake_command.add_subcommand("probe",
+                                                      "bake light probes from an environment map, or a grid "
+                                                      "of them in a scene.\nEach probe stores light as a "
+                                                      "few spherical Gaussians. A scene is path traced.");
   const auto options = std::make_shared<BakeProbeOptions>();
   BakeProbeOptions& o = *options;
-  command.add_input("input", o.input, "a latitude-longitude map, .hdr or .exr, or a scene, .glb or .gltf")
+  command.add_input("input", o.input, "a latitude-longitude map (.hdr or .exr), or a scene (.glb or .gltf)")
       .required();
   add_bake_options(command, o.baking);
   add_probe_options(command, o.probe);
   command
       .add_option(
           "--sampling", o.sampling,
-          "of a map: texels takes each once, luminance and uniform draw; automatic: texels where the method "
-          "solves, else luminance")
+          "for a map, how to take samples: texels takes each texel once, luminance and uniform draw at "
+          "random; automatic takes texels if --method solves for all samples at once, otherwise luminance")
       .check(one_of({"automatic", "texels", "luminance", "uniform"}))
       .capture_default_str();
   command
-      .add_option(
-          "--samples", o.samples,
-          "of a map: how many to draw (default 1048576); of a scene: at most for each probe (default 65536)")
+      .add_option("--samples", o.samples,
+                  "for a map: number of samples to draw, default 1048576; for a scene: largest number of "
+                  "samples per probe, default 65536")
       .check(in_range(64u, 1u << 30));
   command.add_option(
       "--picture", o.picture,
-      "of a map: write its picture, the probe's radiance and irradiance and the error as one .png");
+      "for a map: write one .png with the map, the probe's radiance and irradiance, and the error");
   command
       .add_option_function(
           "--grid", [&o](const std::string& text) { o.grid = parse_grid_counts(text); },
-          "of a scene: probes along x, y and z, AxBxC")
+          "for a scene: number of probes along x, y and z")
       .type_name("AxBxC");
-  command.add_input("--light", o.light, "of a scene: the map round it");
+  command.add_input("--light", o.light, "for a scene: the environment map around it");
   command
       .add_option_function(
           "--box", [&o](const std::string& text) { o.box = parse_grid_box(text); },
-          "of a scene: what the grid fills, x0,y0,z0,x1,y1,z1 in metres; default all of it")
+          "for a scene: the box that the grid fills, as x0,y0,z0,x1,y1,z1 in metres; default the whole scene")
       .type_name("BOX");
   command
       .add_option("--error", o.error,
-                  "of a scene: stop at this statistical error, relative to the light there is")
+                  "for a scene: stop once the statistical error falls below this share of the light")
       .check(in_range(0.0, 1.0))
       .capture_default_str();
   command
       .add_option("--preview-every", o.preview_every_s,
-                  "of a scene: seconds after which the output is written as far as it is")
+                  "for a scene: write a preview to the output file each time this many seconds have passed")
       .check(in_range(0.0, 1e9));
-  command.add_option("--max-bounces", o.max_bounces, "of a scene: reflections that count; default all");
+  command.add_option("--max-bounces", o.max_bounces,
+                     "for a scene: largest number of bounces; default unlimited");
   command
       .add_option(
           "--direct", o.direct,
-          "of a scene: what probes hold of the map's light that reaches them straight: none, the sky without "
-          "suns, "
-          "or all; reflected light always counts, and the report names the suns that are left to the host")
+          "for a scene, which direct light of the map probes store: none, the sky without suns, or all. "
+          "Bounced light is always stored. The report lists the suns that your engine then has to draw")
       .check(one_of(bake::direct_names()))
       .capture_default_str();
-  command.add_flag(
-      "--walls", o.walls,
-      "of a scene: move probes out of solids, learn at which side of a wall which probe counts, and "
-      "fit the probes to the light on surfaces; needs --basis harmonics --order 2");
+  command.add_flag("--walls", o.walls,
+                   "for a scene: move probes out of solids, learn which probes lie on which side of a wall, "
+                   "and fit the probes to the light on surfaces; needs --basis harmonics --order 2");
   command
       .add_option("--training-paths", o.training_paths,
-                  "with --walls: for each place that walls and probes are fitted to")
+                  "with --walls: paths traced for each place that walls and probes are fitted to")
       .check(in_range(1u, 1u << 24))
       .capture_default_str();
   add_import_options(command, o.reading);
   command.add_flag("--no-textures", o.no_textures,
-                   "of a scene: colour factors stand for textures, and alpha masks are solid");
+                   "for a scene: use colour factors in place of textures, and treat alpha masks as solid");
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });
 }

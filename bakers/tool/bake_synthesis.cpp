@@ -68,32 +68,35 @@ void run(Options& o) {
 
 void add_bake_synthesis(Command bake_command) {
   const Command command = bake_command.add_subcommand(
-      "synthesis", "a coordinate texture that spreads a material over a plane without visible repeats");
+      "synthesis",
+      "spread a material over a plane without visible repeats.\nWrites a texture of coordinates, which says "
+      "for each texel of the plane which texel of the material it shows.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command
-      .add_input("input", o.input, "the material, a .nook file of `bake material`, or what --keep-raw wrote")
+      .add_input("input", o.input,
+                 "the material: a .nook file of `bake material`, or a file that --keep-raw wrote")
       .required();
   add_bake_options(command, o.baking);
   command
       .add_option("--size", o.settings.side,
-                  "texels along a side of the plane, which repeats after them: a multiple of 64")
+                  "texels along a side of the plane, a multiple of 64; the plane repeats after them")
       .check(in_range(bake::synthesis::side_step, nook::synthesis::max_side))
       .capture_default_str();
   command.add_flag("!--no-tile", o.is_tiling,
-                   "the material does not repeat without a seam, as measured ones");
-  command.add_option("--crop", o.crop, "X Y WIDTH HEIGHT: the part of the material that may show, in texels")
+                   "the material has seams where it repeats, as measured materials do");
+  command.add_option("--crop", o.crop, "the part of the material that may show, in texels: X Y WIDTH HEIGHT")
       .expected(4);
   command
       .add_option("--jitter", o.settings.jitter,
-                  "random movement, 0 to 1: more of it repeats less and has more seams")
+                  "strength of random movement, 0 to 1; more movement gives fewer repeats and more seams")
       .check(in_range(0.0f, 1.0f))
       .capture_default_str();
-  command.add_option("--passes", o.settings.passes, "corrections at each level")
+  command.add_option("--passes", o.settings.passes, "number of correction passes at each level")
       .check(in_range(1u, 16u))
       .capture_default_str();
   command.add_option("--images", o.images,
-                     "write a picture of the plane without and with the coordinates to this folder");
+                     "write pictures of the plane with and without the coordinates into this folder");
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });
 }

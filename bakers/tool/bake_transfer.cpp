@@ -79,46 +79,50 @@ void run(const Options& o) {
 
 void add_bake_transfer(Command bake_command) {
   const Command command = bake_command.add_subcommand(
-      "transfer", "the visibility of a static shape, which lights its materials under any light");
+      "transfer",
+      "bake how much of each direction's light reaches a static shape.\nAt run time any light can then shade "
+      "the shape's materials, with the shadows that the shape casts on itself.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("input", o.input, "the shape, .glb or .gltf, with texture coordinates").required();
+  command.add_input("input", o.input, "the shape, a .glb or .gltf file with texture coordinates").required();
   add_bake_options(command, o.baking);
   command
       .add_option("--lobes", o.settings.lobes,
-                  "lobes that will hold the light; the file has a byte for each lobe and vertex")
+                  "number of lobes that represent the light; each takes a byte per vertex in the file")
       .check(in_range(transfer::min_lobes, transfer::max_lobes))
       .capture_default_str();
   command
       .add_option("--ray-side", o.settings.side,
-                  "cells along a face of the cube of ray directions; a vertex has 6 times its square")
+                  "rays per vertex: 6 times the square of this number, on the faces of a cube")
       .check(in_range(8u, bake::transfer::max_ray_side))
       .capture_default_str();
   command
       .add_option("--bounces", o.settings.bounces,
-                  "reflections of the shape onto itself; each adds 18 bytes for a vertex")
+                  "number of bounces between parts of the shape; each adds 18 bytes per vertex")
       .check(in_range(0u, transfer::max_bounces))
       .capture_default_str();
   command.add_input("--votf", o.votf,
-                    "the .nook file of the material that the shape wears: light falls through its holes");
-  command.add_option("--tiles", o.settings.tiles, "tiles of that material in one unit of texture coordinates")
+                    "the .nook file of the material on the shape, if light should fall through its holes");
+  command
+      .add_option("--tiles", o.settings.tiles, "tiles of the --votf material per unit of texture coordinates")
       .check(in_range(0.01f, 1000.0f))
       .capture_default_str();
   command
-      .add_option("--form", o.form,
-                  "separated: takes any material; paper: matrices of one --material, compressed by CTA")
+      .add_option(
+          "--form", o.form,
+          "separated works with any material; paper stores matrices for one --material, compressed by CTA")
       .check(one_of({"separated", "paper"}))
       .capture_default_str();
-  command.add_input("--material", o.material, "the .nook file of the material, for --form paper");
+  command.add_input("--material", o.material, "for --form paper: the .nook file of the material");
   command
       .add_option("--clusters", o.paper.clusters,
-                  "clusters of vertices, of --form paper; 0: one for each 360")
+                  "for --form paper: number of vertex clusters; 0: one per 360 vertices")
       .check(in_range(0u, transfer::max_clusters))
       .capture_default_str();
-  command.add_option("--lobe-rank", o.paper.lobe_rank, "lobe modes of a cluster, of --form paper")
+  command.add_option("--lobe-rank", o.paper.lobe_rank, "for --form paper: lobe modes per cluster")
       .check(in_range(1u, transfer::max_lobe_rank))
       .capture_default_str();
-  command.add_option("--vertex-rank", o.paper.vertex_rank, "vertex modes of a cluster, of --form paper")
+  command.add_option("--vertex-rank", o.paper.vertex_rank, "for --form paper: vertex modes per cluster")
       .check(in_range(1u, transfer::max_vertex_rank))
       .capture_default_str();
   add_import_options(command, o.reading);

@@ -5,33 +5,32 @@
 namespace nook::tool {
 
 void add_common_options(Command command, CommonOptions& options) {
-  command.add_option("--threads", options.threads, "threads to work with; 0: all cores")
+  command.add_option("--threads", options.threads, "number of threads; 0: one per core")
       .check(in_range(0, 1024))
       .capture_default_str();
   command
       .add_option("--seed", options.seed,
-                  "of everything random; the same seed gives the same output on any number of threads")
+                  "seed of all random numbers; the same seed gives the same output on any number of threads")
       .capture_default_str();
-  command.add_option("--report", options.report, "write a report as JSON to this file");
-  command.add_flag("--quiet", options.quiet, "say nothing but errors");
+  command.add_option("--report", options.report, "write a JSON report to this file");
+  command.add_flag("--quiet", options.quiet, "print errors only");
 }
 
 void add_import_options(Command command, bake::ImportOptions& options) {
   command.add_flag_callback(
       "--allow-outside-files", [&options] { options.linked = bake::LinkedFiles::anywhere; },
-      "of a .gltf file: also read buffers and images that it names outside of its own folder (../)");
+      "for a .gltf file: also read buffers and images outside the file's folder (../)");
   command
-      .add_option(
-          "--mesh", options.meshes.only,
-          "read only meshes of this name, of the node or the mesh; * and ? stand for any text and any "
-          "character. Repeat it for more. Default: all that the file shows, without lower levels of "
-          "detail (LOD1 and so on); `nook inspect` lists them")
+      .add_option("--mesh", options.meshes.only,
+                  "read only the meshes whose node or mesh has this name; * matches any text and ? any "
+                  "character. You can repeat the option. Default: all visible meshes without lower levels of "
+                  "detail (LOD1 and so on); `nook inspect` lists them")
       .one_each()
       .type_name("NAME");
   command
       .add_option("--without", options.meshes.without,
-                  "leave out meshes of this name, as --mesh; give the options of the bake to other commands "
-                  "as well")
+                  "leave out the meshes of this name, matched as in --mesh. If you bake with --mesh or "
+                  "--without, give them to other commands on the same character too")
       .one_each()
       .type_name("NAME");
 }

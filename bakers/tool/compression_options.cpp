@@ -38,39 +38,42 @@ void add_compression_options(Command command, CompressionOptions& o) {
   command
       .add_option(
           "--ranks", o.ranks,
-          "L,V,X,Y: ranks of the BTF's modes, V in total over the clusters; auto: by --threshold. Built-in "
-          "materials have ranks of their own, others auto")
+          "ranks of the BTF for light (L), views (V, in all clusters together) and texels (X, Y); auto "
+          "chooses them by --threshold. Default: their own ranks for built-in materials, auto for others")
       .type_name("L,V,X,Y|auto");
-  command.add_option("--votf-ranks", o.votf_ranks, "X,Y: ranks of the VOTF").type_name("X,Y");
+  command
+      .add_option("--votf-ranks", o.votf_ranks, "ranks of the visibility (VOTF) along the texture's x and y")
+      .type_name("X,Y");
   command
       .add_option("--threshold", o.threshold,
-                  "squared error that --ranks auto allows in each mode, a share of the square norm")
+                  "for --ranks auto: squared error that each mode may add, as a share of the squared norm")
       .check(in_range(1e-6, 0.5))
       .capture_default_str();
-  command.add_option("--cluster-rank", s.cluster_rank_view, "view rank of one cluster")
+  command.add_option("--cluster-rank", s.cluster_rank_view, "ranks for views in one cluster")
       .check(in_range(1, 64))
       .capture_default_str();
-  command.add_option("--clusters", s.clusters, "clusters of views; default V / cluster rank")
+  command.add_option("--clusters", s.clusters, "number of view clusters; default V / --cluster-rank")
       .check(in_range(1, 1024));
-  command.add_option("--mixture", s.mixture, "clusters K that a view is mixed from")
+  command.add_option("--mixture", s.mixture, "number of clusters that each view mixes")
       .check(in_range(1, 8))
       .capture_default_str();
   command
       .add_option("--votf-refits", s.votf_refits,
-                  "further fits of the VOTF, which count on which side of the threshold values lie")
+                  "number of further fits of the visibility (VOTF), which aim at the right side of the "
+                  "threshold for each value and no longer at the value itself")
       .check(in_range(0, 16))
       .capture_default_str();
   command
       .add_option("--bits", s.bits,
-                  "of a number: 8, integers in the file and in textures, or 16, half floats, for twice the "
-                  "room and 0.1 dB")
+                  "bits per number: 8 for integers in the file and in textures, or 16 for half floats, which "
+                  "take twice the space and gain 0.1 dB")
       .check(one_of_numbers({8, 16}))
       .capture_default_str();
   command
       .add_option_function(
           "--seeding",
           [&s](const std::string& v) { s.seeding = v == "values" ? Seeding::values : Seeding::directions; },
-          "first clusters by view directions (default) or by k-means of values")
+          "how the first clusters are chosen: directions (by view direction, default) or values (by k-means)")
       .check(one_of({"directions", "values"}))
       .type_name("NAME");
 }

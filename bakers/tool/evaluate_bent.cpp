@@ -80,38 +80,44 @@ Json evaluate(const Options& options) {
 void add_evaluate_bent(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "bent",
-      "bent normals of a character against ray tracing, and specular occlusion from them beside S. Lagarde's "
-      "form of the same AO, at five values of roughness, under uniform light and under maps");
+      "measure bent normals and specular occlusion of a character against ray tracing.\nSpecular occlusion "
+      "is "
+      "measured at five roughness values, under uniform light and under maps, beside S. Lagarde's formula "
+      "with the same AO.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   o.poses.most = 24;
   add_evaluated_files(command, o.files);
   const Option maps =
-      command.add_input("--maps", o.maps, "latitude-longitude maps to be glossy under, at most 8")
+      command
+          .add_input("--maps", o.maps,
+                     "latitude-longitude maps that light the glossy body, separated by commas, at most 8")
           .delimiter(',')
           .expected(1, int(bake::max_glossy_maps));
-  command.add_option("--clips", o.poses.clips, "measure only these clips").delimiter(',');
-  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
+  command.add_option("--clips", o.poses.clips, "measure only these clips, separated by commas")
+      .delimiter(',');
+  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "number of poses from each clip")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
+  command.add_option("--max-poses", o.poses.most, "measure at most this many poses, picked evenly")
       .check(in_range(1, 10000000))
       .capture_default_str();
-  command.add_option("--points", o.study.points, "vertices of each pose")
+  command.add_option("--points", o.study.points, "number of vertices measured in each pose")
       .check(in_range(1, 10000000))
       .capture_default_str();
-  command.add_option("--rays", o.study.rays, "rays for the AO of a vertex; a reflection takes a quarter")
+  command.add_option("--rays", o.study.rays, "rays per vertex for AO; a reflection takes a quarter of them")
       .check(in_range(8, 65536))
       .capture_default_str();
   command
       .add_option("--images", o.images,
-                  "draw the body as a glossy mirror under the first map, not occluded, by S. Lagarde's "
-                  "form, by bent normals and path traced: PNG files in this directory")
+                  "write PNG files into this folder that show a glossy body under the first map: without "
+                  "occlusion, with S. Lagarde's formula, with bent normals, and path traced")
       .needs(maps);
-  command.add_option("--image-count", o.image_count, "poses to draw")
+  command.add_option("--image-count", o.image_count, "number of poses to draw")
       .check(in_range(1, 1000))
       .capture_default_str();
-  command.add_option("--image-roughness", o.image_roughness, "perceptual roughness of the drawn body")
+  command
+      .add_option("--image-roughness", o.image_roughness, "perceptual roughness of the body in the pictures")
       .check(in_range(0.01, 1.0))
       .capture_default_str();
   add_common_options(command, o.common);

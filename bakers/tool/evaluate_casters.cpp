@@ -76,46 +76,45 @@ Json evaluate(const Options& options) {
 }  // namespace
 
 void add_evaluate_casters(Command evaluate_command) {
-  const Command command =
-      evaluate_command.add_subcommand("casters",
-                                      "a lone neighbour from 0.3 to 10 m away: mean darkening of the body "
-                                      "by each form and by ray tracing, and its error, over several "
-                                      "bearings and poses");
+  const Command command = evaluate_command.add_subcommand(
+      "casters",
+      "measure how a neighbour darkens a body, from 0.3 to 10 m away.\nPrints the mean darkening by ray "
+      "tracing and by each form, and the error, over several directions and poses.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(command, o.files);
-  command.add_option("--rays", o.study.rays, "rays for each vertex")
+  command.add_option("--rays", o.study.rays, "rays per vertex")
       .check(in_range(1, 65536))
       .capture_default_str();
-  const Option bearings = command.add_option("--bearings", o.study.bearings, "directions of the neighbour")
-                              .check(in_range(1, 360))
-                              .capture_default_str();
-  const Option poses = command.add_option("--poses", o.poses, "poses, spread over the clips")
+  const Option bearings =
+      command.add_option("--bearings", o.study.bearings, "number of directions in which the neighbour stands")
+          .check(in_range(1, 360))
+          .capture_default_str();
+  const Option poses = command.add_option("--poses", o.poses, "number of poses, spread over the clips")
                            .check(in_range(1, 1000))
                            .capture_default_str();
   const Option distances =
       command
-          .add_option(
-              "--distances", o.study.distances,
-              "metres between the bodies' middles along the ground, separated by commas; vertices that "
-              "lie inside the neighbour are left out")
+          .add_option("--distances", o.study.distances,
+                      "distances between the middles of both bodies along the ground, in metres, separated "
+                      "by commas; vertices inside the neighbour are left out")
           .delimiter(',')
           .check(in_range(0.01, 1000.0))
           .default_str("0.3,0.5,0.75,1,2,3,5,10");
   const Option radii =
       command.add_flag("--radii", o.study.in_radii,
-                       "distances are in bounding radii of the body instead of metres, so that bodies of any "
-                       "size compare; a person's is about 1 m");
+                       "give --distances in bounding radii of the body and not in metres, to compare bodies "
+                       "of different size; the radius of a person is about 1 m");
   const Option contact = command.add_option(
       "--contact", o.contact,
-      "two bodies in the middles of two clips instead, each darkened by the other: the names of "
-      "both clips, the place of the second body seen from the first one's middle (x, y and z in "
-      "metres), and its turn about the vertical axis in degrees");
+      "instead measure two bodies that darken each other, each in the middle of a clip. Give the names of "
+      "both clips, the position of the second body relative to the first body's middle (x, y and z in "
+      "metres), and the second body's turn about the vertical axis in degrees");
   contact.type_name("CLIP CLIP X Y Z DEGREES");
   for (const Option unused : {bearings, poses, distances, radii}) contact.excludes(unused);
-  command.add_option("--images", o.images,
-                     "draw both bodies of the contact, or of a pair at each distance: PNG files in this "
-                     "directory");
+  command.add_option(
+      "--images", o.images,
+      "write PNG files into this folder that show both bodies of --contact, or a pair at each distance");
   add_common_options(command, o.common);
   command.callback([options] {
     run_evaluation(options->common, {named_files(options->files), {}, options->images},

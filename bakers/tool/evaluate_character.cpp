@@ -104,41 +104,40 @@ void add_evaluate_character(Command evaluate_command) {
 }
 
 void add_evaluate_character(Command evaluate_command, std::span<const CharacterPeer> peers) {
-  const Command command =
-      evaluate_command.add_subcommand("character",
-                                      "measure a baked character against ray tracing.\n"
-                                      "mse is over all vertices and poses, mse_visible over those that ray "
-                                      "tracing does not find black (AO of at least 0.01; visible_share is "
-                                      "their share); mse_area weights vertices by area; mse_static is the AO "
-                                      "baked in the rest pose, mse_oracle the best that any static bake "
-                                      "could do");
+  const Command command = evaluate_command.add_subcommand(
+      "character",
+      "measure a baked character against ray tracing.\nmse: mean squared error over all vertices and poses. "
+      "mse_visible: the same over vertices with a traced AO of 0.01 or more; visible_share is their share. "
+      "mse_area: vertices weighted by area. mse_static: the error if AO is baked once in the rest pose. "
+      "mse_oracle: the error of the best possible static bake.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(command, o.files);
   command
       .add_option_function(
           "--poses", [&o](const std::string& name) { o.poses.training = name == "training"; },
-          "clips (default: without --clips those that were not fitted, or all if all were), or training (the "
-          "poses it was "
-          "fitted to)")
+          "clips (default), or training for the poses that the model was fitted to. Without --clips, clips "
+          "takes those that were not fitted, or all if all were fitted")
       .check(one_of({"clips", "training"}))
       .type_name("NAME");
-  command.add_option("--clips", o.poses.clips, "measure only these clips").delimiter(',');
-  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
+  command.add_option("--clips", o.poses.clips, "measure only these clips, separated by commas")
+      .delimiter(',');
+  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "number of poses from each clip")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
+  command.add_option("--max-poses", o.poses.most, "measure at most this many poses, picked evenly")
       .check(in_range(1, 10000000));
-  command.add_option("--rays", o.rays, "rays for each vertex and pose")
+  command.add_option("--rays", o.rays, "rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
-  command.add_flag(
-      "--motion", o.is_motion,
-      "measure motion instead: the steps of AO from frame to frame at 60 Hz, beside those of ray "
-      "tracing, in a run of frames of each clip (--max-poses: frames of all, default 480). "
-      "share_beyond is the share of vertex-frames whose step is beyond the truth's by 0.02");
-  command.add_option("--images", o.images, "draw the error on the body: PNG files in this directory");
-  command.add_option("--image-count", o.image_count, "poses to draw")
+  command.add_flag("--motion", o.is_motion,
+                   "instead measure motion: how much AO changes from frame to frame at 60 Hz, beside ray "
+                   "tracing, over a run of frames of each clip. --max-poses limits the frames of all clips "
+                   "together (default 480). share_beyond is the share of vertices and frames whose AO "
+                   "changes by 0.02 more than the ray-traced AO");
+  command.add_option("--images", o.images,
+                     "write PNG files into this folder that show the error on the body");
+  command.add_option("--image-count", o.image_count, "number of poses to draw")
       .check(in_range(1, 1000))
       .capture_default_str();
   add_common_options(command, o.common);

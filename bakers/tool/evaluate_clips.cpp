@@ -87,23 +87,27 @@ Json evaluate(const Options& options) {
 void add_evaluate_clips(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "clips",
-      "measure baked clips against ray tracing at the frames, half-way between frames, and with one "
-      "neighbour of the same clips, beside the live model in the same poses. mse_visible is over the "
-      "vertex-poses with a traced AO of at least 0.01");
+      "measure baked clips against ray tracing.\nMeasures at the frames, half-way between frames, and beside "
+      "one neighbour in the same clips, and compares with the live model in the same poses. mse_visible is "
+      "the mean squared error over vertices with a traced AO of 0.01 or more.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(command, o.files);
-  command.add_input("clips", o.clips, "the baked clips, .nook").required();
-  command.add_option("--rays", o.study.rays, "rays for each vertex and pose")
+  command.add_input("clips", o.clips, "the baked clips, a .nook file").required();
+  command.add_option("--rays", o.study.rays, "rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
-  command.add_option("--max-poses", o.study.max_poses, "poses at the frames and half-way, evenly picked")
+  command
+      .add_option("--max-poses", o.study.max_poses,
+                  "number of poses at the frames, and half-way between them, picked evenly")
       .check(in_range(1, 10000000))
       .capture_default_str();
-  command.add_option("--pairs", o.study.max_pairs, "poses with a neighbour at each distance")
+  command.add_option("--pairs", o.study.max_pairs, "number of poses with a neighbour at each distance")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--distances", o.study.distances_m, "metres from body to body")
+  command
+      .add_option("--distances", o.study.distances_m,
+                  "distances between the bodies in metres, separated by commas")
       .delimiter(',')
       .check(in_range(0.01, 1000.0));
   add_common_options(command, o.common);

@@ -91,28 +91,32 @@ Json evaluate(const Options& options) {
 void add_evaluate_lods(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "lods",
-      "measure the AO of meshes with fewer triangles, made from the character by meshoptimizer, that take "
-      "their weights from the bake of the full mesh (nook_model_resample), against ray tracing of "
-      "those meshes. refitted: the vertices are fitted to ray tracing of their own mesh, as nook bake lod "
-      "does; resampled: they lie between baked vertices (nook_model_resample); nearest: each takes "
-      "the AO of the baked vertex at its place");
+      "measure lower levels of detail of a character against ray tracing.\nmeshoptimizer makes meshes with "
+      "fewer triangles from the character, and each is compared with ray tracing of itself. refitted: the "
+      "vertices are fitted to their own mesh, as nook bake lod does. resampled: the weights are interpolated "
+      "from the full mesh (nook_model_resample). nearest: each vertex takes the AO of the nearest baked "
+      "vertex.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   o.poses.samples_per_clip = 4;
   add_evaluated_files(command, o.files);
-  command.add_option("--shares", o.shares, "shares of the triangles")
+  command
+      .add_option("--shares", o.shares,
+                  "triangles of each level as a share of the full mesh, separated by commas")
       .delimiter(',')
       .check(in_range(0.001, 1.0))
       .capture_default_str();
-  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
+  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "number of poses from each clip")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
+  command.add_option("--max-poses", o.poses.most, "measure at most this many poses, picked evenly")
       .check(in_range(1, 10000000));
-  command.add_option("--training-poses", o.training_poses, "poses that the refitted form is fitted to")
+  command
+      .add_option("--training-poses", o.training_poses,
+                  "number of poses to which the refitted vertices are fitted")
       .check(in_range(8, 100000))
       .capture_default_str();
-  command.add_option("--rays", o.rays, "rays for each vertex and pose")
+  command.add_option("--rays", o.rays, "rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
   add_common_options(command, o.common);

@@ -113,12 +113,13 @@ Json evaluate(const Options& o, const MaterialPeers* peers) {
 void add_mode_options(Command command, nook::material::ModeForm& form) {
   command
       .add_choice("--modes", form.blocks, block_forms,
-                  "draw with spatial modes as the file has them (plain), or in blocks of a context: rgtc or "
-                  "eac; for all that is measured as it is drawn")
+                  "how the spatial modes are stored when the material is drawn: plain (as in the file), or "
+                  "block-compressed as rgtc or eac")
       .type_name("FORM");
   command
-      .add_option("--whole-light-modes", form.whole_light_modes,
-                  "with blocks, the first light modes that stay whole, in steps of 4")
+      .add_option(
+          "--whole-light-modes", form.whole_light_modes,
+          "for --modes rgtc and eac: how many of the first light modes stay uncompressed, a multiple of 4")
       .check(in_range(0u, nook::material::max_light_modes))
       .capture_default_str();
 }
@@ -134,24 +135,21 @@ void add_evaluate_material(Command evaluate_command, std::shared_ptr<MaterialPee
       evaluate_command.add_subcommand("material", "measure a compressed material against the raw one");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("raw", o.raw, "the raw material, written by `bake material --keep-raw`").required();
-  command.add_input("material", o.material, "the .nook file").required();
+  command.add_input("raw", o.raw, "the raw material, which `bake material --keep-raw` wrote").required();
+  command.add_input("material", o.material, "the compressed material, a .nook file").required();
   command.add_input("--unseen", o.unseen,
-                    "a raw material of other views, and of other lights where they differ, for the error "
-                    "between the samples");
-  command.add_flag(
-      "--jumps", o.jumps,
-      "measure jumps as the view moves by 0.1 degrees, with and without the view map; with --images a "
-      "picture of the largest");
-  command.add_flag(
-      "--mipmaps", o.mipmaps,
-      "measure pixels that cover 2 x 2, 4 x 4 and more texels, at their mipmap level and at the finest");
-  command.add_flag(
-      "--grazing", o.grazing,
-      "measure pixels of views between 60 and 85 degrees against supersampling, with 1 to 8 fetches along "
-      "them");
+                    "a raw material with other views, and other lights if they differ, to measure the error "
+                    "between the stored samples");
+  command.add_flag("--jumps", o.jumps,
+                   "measure how much the picture jumps as the view moves by 0.1 degrees, with and without "
+                   "the view map; --images draws the largest jump");
+  command.add_flag("--mipmaps", o.mipmaps,
+                   "measure pixels that cover 2 x 2, 4 x 4 and more texels, with mipmaps and without them");
+  command.add_flag("--grazing", o.grazing,
+                   "measure pixels at view angles of 60 to 85 degrees against supersampling, with 1 to 8 "
+                   "fetches along the pixel");
   add_mode_options(command, o.form);
-  command.add_option("--images", o.images, "write pictures to this folder");
+  command.add_option("--images", o.images, "write pictures into this folder");
   if (peers) peers->add_options(command);
   add_common_options(command, o.common);
   command.callback([options, peers] {

@@ -129,25 +129,24 @@ Json evaluate_frames(platform::Context& context, const FrameWords& words, const 
 void add_evaluate_nnao(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "nnao",
-      "recorded frames of the screen-space pass: replayed, by the presets, and against the oracle; "
-      "nook-lab evaluate nnao measures scenes");
+      "measure recorded frames of the screen-space pass.\nReplays each frame, draws it with the presets, and "
+      "compares with the recorded oracle. `nook-lab evaluate nnao` measures scenes.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("--frame", o.frames, "a frame that nook_nnao_record wrote; any number of times")
+  command.add_input("--frame", o.frames, "frame that nook_nnao_record wrote; you can repeat the option")
       .required()
       .type_name("FILE.nook");
   std::vector<std::string> names{"all", file_name};
   for (const std::string& name : frame_method_names()) names.push_back(name);
   for (const Oracle oracle : all_oracles) names.push_back(oracle_name(oracle));
   command
-      .add_option(
-          "--methods", o.methods,
-          "draw these alone, NAME or NAME:TAPS, separated by commas; default: replayed, fast, default, best "
-          "and oracle, and nnao_file with --network")
+      .add_option("--methods", o.methods,
+                  "draw only these, each NAME or NAME:TAPS, separated by commas; default: replayed, fast, "
+                  "default, best and oracle, and nnao_file with --network")
       .delimiter(',')
       .check([names](const std::string& text) { return one_of(names)(text.substr(0, text.find(':'))); });
   command.add_input("--network", o.network,
-                    "a file of `nook train nnao`, such as the paper's form, drawn as well: nnao_file");
+                    "also draw with this network, a file that `nook train nnao` wrote; its row is nnao_file");
   command.add_option("--images", o.images, "write pictures of each frame into this folder");
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });

@@ -157,48 +157,52 @@ void add_evaluate_probe(Command evaluate_command) {
 void add_evaluate_probe(Command evaluate_command, std::shared_ptr<ProbePeers> peers) {
   const Command command =
       evaluate_command.add_subcommand("probe",
-                                      "the fit of a bake and baked probes against environment maps; "
-                                      "baked grids against path tracing");
+                                      "measure light probes.\nProbes and fits are compared with their "
+                                      "environment map, grids with path tracing.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command
-      .add_input(
-          "files", o.files,
-          "latitude-longitude maps, .hdr or .exr, each followed by .nook files that were baked from it; with "
-          "--scene: .nook files of grids")
+      .add_input("files", o.files,
+                 "latitude-longitude maps (.hdr or .exr), each followed by the .nook files that were baked "
+                 "from it; with --scene: .nook files of grids")
       .required();
-  command.add_input("--scene", o.grid.scene, "of grids: the scene that they were baked from, .glb or .gltf");
-  command.add_input("--light", o.grid.light, "of grids: the map round it");
+  command.add_input("--scene", o.grid.scene,
+                    "for grids: the scene that they were baked from, a .glb or .gltf file");
+  command.add_input("--light", o.grid.light, "for grids: the environment map around the scene");
   command
-      .add_option("--points", o.grid.points, "of grids: random points on surfaces, and as many in the open")
+      .add_option("--points", o.grid.points,
+                  "for grids: number of random points on surfaces; as many lie in the open")
       .check(in_range(1u, 1u << 24))
       .capture_default_str();
-  command.add_option("--paths", o.grid.paths, "of grids: for each point")
+  command.add_option("--paths", o.grid.paths, "for grids: paths traced from each point")
       .check(in_range(2u, 1u << 24))
       .capture_default_str();
-  command.add_option("--max-bounces", o.grid.max_bounces, "of grids: reflections that count; default all");
+  command.add_option("--max-bounces", o.grid.max_bounces,
+                     "for grids: largest number of bounces; default unlimited");
   command
       .add_option("--direct", o.grid.direct,
-                  "of grids: what both sides hold of the map's light that comes straight: none, the sky "
-                  "without suns, or all; default as the grid was baked")
+                  "for grids, which direct light of the map to compare: none, the sky without suns, or all; "
+                  "default as the grid was baked")
       .check(one_of(bake::direct_names()));
   add_import_options(command, o.grid.reading);
   command.add_flag("--no-textures", o.grid.no_textures,
-                   "of grids: colour factors stand for textures, and alpha masks are solid");
-  command.add_option("--lobes", o.lobes, "spherical Gaussians of the forms that are fitted here")
+                   "for grids: use colour factors in place of textures, and treat alpha masks as solid");
+  command
+      .add_option("--lobes", o.lobes,
+                  "number of lobes (spherical Gaussians) in the fits that this command makes")
       .check(in_range(1u, nook::probe::max_functions - 1))
       .capture_default_str();
-  command.add_option("--seeds", o.comparison.seeds, "independent sets of samples")
+  command
+      .add_option("--seeds", o.comparison.seeds, "repeat each fit with this many independent sets of samples")
       .check(in_range(1, 1000))
       .capture_default_str();
   command
       .add_option(
           "--rotations", o.comparison.rotations,
-          "solve the lobes' forms again with their axes rotated at random, this often, and report the "
-          "spread")
+          "repeat the fits of lobes this many times with randomly rotated axes, and report the spread")
       .check(in_range(0, 1000))
       .capture_default_str();
-  command.add_option("--images", o.images, "write a picture of each map and its lobes here");
+  command.add_option("--images", o.images, "write a picture of each map and its lobes into this folder");
   if (peers) peers->add_options(command);
   add_common_options(command, o.common);
   command.callback([options, peers] {

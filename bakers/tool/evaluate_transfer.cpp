@@ -147,34 +147,36 @@ void add_evaluate_transfer(Command evaluate_command) {
       "transfer", "measure baked radiance transfer against direct sums and path tracing");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("mesh", o.mesh, "the shape, .glb or .gltf").required();
-  command.add_input("transfer", o.transfer, "the .nook file that was baked from it").required();
-  command.add_input("--material", o.material, "the .nook file of the material that it wears").required();
-  command.add_input(
-      "--raw", o.raw,
-      "the raw material, written by `bake material --keep-raw`: pictures are compared with it in "
-      "place of the decoded material");
-  command.add_input("--light", o.lights, "latitude-longitude maps, .hdr or .exr").required();
+  command.add_input("mesh", o.mesh, "the shape, a .glb or .gltf file").required();
+  command.add_input("transfer", o.transfer, "the .nook file that was baked from the shape").required();
+  command.add_input("--material", o.material, "the .nook file of the material on the shape").required();
+  command.add_input("--raw", o.raw,
+                    "compare pictures with this raw material, which `bake material --keep-raw` wrote, and "
+                    "not with the decoded one");
+  command.add_input("--light", o.lights, "latitude-longitude maps, .hdr or .exr, as light").required();
   command.add_flag("--without-suns", o.without_suns,
-                   "take suns out of the maps first, as a host does that draws them with shadow maps");
-  command.add_option("--images", o.images, "write a picture of each light, truth and forms side by side");
-  command.add_flag("--no-pictures", o.no_pictures, "measure vectors only");
-  command.add_option("--width", o.picture.width, "pixels of a picture")
+                   "remove suns from the maps first, for engines that draw suns with shadow maps");
+  command.add_option("--images", o.images,
+                     "write a picture for each light into this folder, with the path-traced truth and each "
+                     "form side by side");
+  command.add_flag("--no-pictures", o.no_pictures, "do not draw pictures; measure only the transfer vectors");
+  command.add_option("--width", o.picture.width, "width of a picture in pixels")
       .check(in_range(16, 4096))
       .capture_default_str();
-  command.add_option("--height", o.picture.height, "pixels of a picture")
+  command.add_option("--height", o.picture.height, "height of a picture in pixels")
       .check(in_range(16, 4096))
       .capture_default_str();
-  command.add_option("--paths", o.picture.paths, "light samples of a pixel of the truth")
+  command.add_option("--paths", o.picture.paths, "light samples per pixel of the path-traced picture")
       .check(in_range(2u, 1u << 20))
       .capture_default_str();
   command
       .add_option("--truth-bounces", o.truth_bounces,
-                  "reflections that the truth of pictures follows, in place of the file's")
+                  "number of bounces in the path-traced picture; default as in the file")
       .check(in_range(0u, 8u));
   command.add_flag("--truth-holes", o.truth_holes,
-                   "light falls through the holes of the material in the truth, also if the file has none");
-  command.add_option("--tiles", o.tiles, "tiles of the material in one unit of texture coordinates")
+                   "let light fall through the material's holes in the path-traced picture, even if it does "
+                   "not in the file");
+  command.add_option("--tiles", o.tiles, "tiles of the material per unit of texture coordinates")
       .check(in_range(0.01f, 1000.0f))
       .capture_default_str();
   add_import_options(command, o.reading);

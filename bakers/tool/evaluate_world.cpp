@@ -129,53 +129,54 @@ Json evaluate(const Options& options) {
 void add_evaluate_world(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "world",
-      "measure what a baked character darkens besides itself: a floor, a wall at 0.3 m, the contact ring, a "
-      "neighbour and cones of light, by its world casters and by what engines use, against ray tracing.\n"
-      "over_none is the mean squared error over that of no darkening, over_capsules over that of one capsule "
-      "for each bone; low and high are 95 % bounds of a bootstrap over the poses");
+      "measure how a baked character darkens the world around it, against ray tracing.\nThe receivers are a "
+      "floor, a wall 0.3 m away, the ring around a contact, a neighbour and cones of light. Nook's world "
+      "casters are compared with what engines use. over_none: mean squared error as a share of the error "
+      "without darkening. over_capsules: the same as a share of the error with one capsule per bone. low and "
+      "high: 95 % bounds from a bootstrap over the poses.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   o.poses.most = 48;
   add_evaluated_files(command, o.files);
-  command.add_option("--clips", o.poses.clips, "measure only these clips").delimiter(',');
-  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "poses of each clip")
+  command.add_option("--clips", o.poses.clips, "measure only these clips, separated by commas")
+      .delimiter(',');
+  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "number of poses from each clip")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--max-poses", o.poses.most, "measure at most so many poses, evenly picked")
+  command.add_option("--max-poses", o.poses.most, "measure at most this many poses, picked evenly")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--points", o.study.points, "points of each surface and pose")
+  command.add_option("--points", o.study.points, "number of points on each surface in each pose")
       .check(in_range(1, 90000))
       .capture_default_str();
-  command.add_option("--rays", o.study.rays, "rays for each point; a cone takes an eighth")
+  command.add_option("--rays", o.study.rays, "rays per point; a cone takes an eighth of them")
       .check(in_range(8, 65536))
       .capture_default_str();
-  command.add_option(
-      "--images", o.images,
-      "draw floor and wall by ray tracing, Nook, capsules and blobs, with --composite a view of each room by "
-      "ray tracing, Nook and the screen pass alone, with --light a view of each room in its light by ray "
-      "tracing, Nook, AO times the probe and capsules: PNG files in this directory");
-  command.add_option("--image-count", o.image_count, "poses to draw")
+  command.add_option("--images", o.images,
+                     "write PNG files into this folder: floor and wall by ray tracing, Nook, capsules and "
+                     "blobs. With --composite: each room by ray tracing, Nook, and the screen pass alone. "
+                     "With --light: each lit room by ray tracing, Nook, AO times the probe, and capsules");
+  command.add_option("--image-count", o.image_count, "number of poses to draw")
       .check(in_range(1, 1000))
       .capture_default_str();
-  const Option composite = command.add_flag(
-      "--composite", o.composite,
-      "measure instead the darkening by characters and the screen pass together, in rooms with "
-      "characters, over pixels that the characters darken and elsewhere");
+  const Option composite =
+      command.add_flag("--composite", o.composite,
+                       "instead measure characters and the screen pass together, in rooms with characters; "
+                       "pixels that the characters darken are reported apart from the others");
   command
       .add_input("--light", o.lights,
-                 "measure instead the irradiance of floor and wall under this latitude-longitude map, "
-                 "channel by channel against path tracing; any number of maps")
+                 "instead measure the irradiance of floor and wall under this latitude-longitude map, each "
+                 "colour channel against path tracing; you can give several maps")
       .check(existing_file())
       .excludes(composite);
-  command.add_input("--scene", o.scenes, "a room in glTF, with +y up, beside the built-in one")
+  command.add_input("--scene", o.scenes, "also measure in this room, a glTF file with +y up")
       .check(existing_file());
-  command.add_option("--scene-metres", o.scene_metres, "metres of a unit of each --scene, default 1")
+  command.add_option("--scene-metres", o.scene_metres, "metres per unit of each --scene; default 1")
       .check(in_range(1e-4f, 1e4f));
-  command.add_option("--views", o.rooms.views, "views of each room")
+  command.add_option("--views", o.rooms.views, "number of views of each room")
       .check(in_range(1, 1000))
       .capture_default_str();
-  command.add_option("--figures", o.rooms.figures, "characters in each room")
+  command.add_option("--figures", o.rooms.figures, "number of characters in each room")
       .check(in_range(1, 100))
       .capture_default_str();
   add_common_options(command, o.common);

@@ -36,8 +36,11 @@ void run_evaluation(const CommonOptions& options, CommandFiles files,
 }
 
 void add_evaluated_files(Command command, EvaluatedFiles& files) {
-  command.add_input("input", files.character, "the character it was baked from, .glb or .gltf").required();
-  command.add_input("model", files.model, "the .nook file").required();
+  command
+      .add_input("input", files.character,
+                 "the character that the model was baked from, a .glb or .gltf file")
+      .required();
+  command.add_input("model", files.model, "the baked model, a .nook file").required();
   add_import_options(command, files.reading);
 }
 

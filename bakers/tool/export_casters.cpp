@@ -64,16 +64,17 @@ void run(const Options& o) {
 void add_export_casters(Command export_command) {
   const Command command = export_command.add_subcommand(
       "casters",
-      "write the world casters of a baked character for engines that do not link Nook: a physics asset of "
-      "Unreal as text, a list of capsules for Source 2, extras of a glTF file.\n"
-      "rms and largest are the AO by which the floor below the rest pose differs from that of Nook's own "
-      "casters, over_none its mean squared error over that of no darkening");
+      "write the world casters of a baked character for other engines.\nThe formats are a physics asset for "
+      "Unreal as text, a list of capsules for Source 2, or extras of a glTF file. rms and largest compare AO "
+      "on the floor below the rest pose with Nook's own casters: root mean square and largest difference. "
+      "over_none is the mean squared difference as a share of the difference without any casters.");
   const auto options = std::make_shared<Options>();
-  command.add_input("model", options->model, "a .nook file of nook bake character").required();
+  command.add_input("model", options->model, "a model that `nook bake character` wrote").required();
   command.add_option("-o,--output", options->output, "the file to write").required();
-  command.add_choice("--format", options->format, formats, "unreal, source2 or gltf (default)");
+  command.add_choice("--format", options->format, formats,
+                     "format to write: unreal, source2 or gltf (default)");
   command.add_choice("--radii", options->radii, radii_names,
-                     "ao (default) or light: which radii capsules of Unreal and Source 2 have");
+                     "for unreal and source2: radii that are fitted to ao (default) or to light");
   add_common_options(command, options->common);
   command.callback([options] { run(*options); });
 }

@@ -116,10 +116,10 @@ void run(const Options& options) {
 }  // namespace
 
 void add_inspect(Command tool) {
-  const Command command = tool.add_subcommand("inspect",
-                                              "show what a .nook file holds, or list the meshes, skins and "
-                                              "clips of a glTF file and what of them a bake "
-                                              "takes");
+  const Command command = tool.add_subcommand(
+      "inspect",
+      "show what a .nook or glTF file contains.\nFor a glTF file, lists meshes, skins and "
+      "clips, and which of the meshes a bake takes.");
   const auto options = std::make_shared<Options>();
   command.add_input("file", options->input, "a .nook, .glb or .gltf file").required();
   add_import_options(command, options->reading);
@@ -130,14 +130,14 @@ void add_inspect(Command tool) {
             options->shows_rig = true;
             options->rig = path;
           },
-          "of a glTF file: show what a bake understands of its rig, each bone's role, side, limb, partner "
-          "and "
-          "parent, and how many edges automatic poses tear; with a rig file, after its corrections")
+          "for a glTF file: show how a bake understands the rig. Lists each bone's role, side, limb, partner "
+          "and parent, and counts the edges that automatic poses tear. With a rig file: the same after its "
+          "corrections")
       .expected(0, 1)
       .type_name("[FILE]");
   command.add_option(
       "--images", options->images,
-      "with --rig: draw the body coloured by the roles of its bones, rig.png in this directory");
+      "with --rig: write rig.png into this folder, the body coloured by the roles of its bones");
   add_common_options(command, options->common);
   command.callback([options] { run(*options); });
 }

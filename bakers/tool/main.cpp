@@ -12,12 +12,12 @@
 namespace {
 
 void add_commands(CLI::App& tool) {
-  CLI::App* bake = tool.add_subcommand("bake", "make .nook files")->require_subcommand(1);
-  CLI::App* evaluate =
-      tool.add_subcommand("evaluate",
-                          "measure .nook files against ray tracing; nook-lab evaluate, which -DNOOK_LAB=ON "
-                          "builds, adds other methods")
-          ->require_subcommand(1);
+  CLI::App* bake = tool.add_subcommand("bake", "make .nook files from characters, maps, materials and shapes")
+                       ->require_subcommand(1);
+  CLI::App* evaluate = tool.add_subcommand("evaluate",
+                                           "measure .nook files against ray tracing.\nnook-lab evaluate, "
+                                           "which -DNOOK_LAB=ON builds, adds other methods.")
+                           ->require_subcommand(1);
   nook::tool::add_bake_character(nook::tool::Command(*bake));
   nook::tool::add_bake_bent(nook::tool::Command(*bake));
   nook::tool::add_bake_clips(nook::tool::Command(*bake));
@@ -36,12 +36,14 @@ void add_commands(CLI::App& tool) {
   nook::tool::add_evaluate_material(nook::tool::Command(*evaluate));
   nook::tool::add_evaluate_transfer(nook::tool::Command(*evaluate));
   nook::tool::add_evaluate_world(nook::tool::Command(*evaluate));
-  CLI::App* train = tool.add_subcommand("train", "train networks")->require_subcommand(1);
+  CLI::App* train =
+      tool.add_subcommand("train", "train networks, and fit the constants that Nook has built in")
+          ->require_subcommand(1);
   nook::tool::add_train_bent(nook::tool::Command(*train));
   nook::tool::add_train_nnao(nook::tool::Command(*train));
   nook::tool::add_train_specular(nook::tool::Command(*train));
-  CLI::App* write =
-      tool.add_subcommand("export", "write what .nook files hold for other engines")->require_subcommand(1);
+  CLI::App* write = tool.add_subcommand("export", "write the contents of .nook files for other engines")
+                        ->require_subcommand(1);
   nook::tool::add_export_casters(nook::tool::Command(*write));
   CLI::App* cache = tool.add_subcommand("cache", "tidy the folder of bake --cache")->require_subcommand(1);
   nook::tool::add_cache_prune(nook::tool::Command(*cache));

@@ -26,30 +26,37 @@ std::size_t index_of(const std::vector<std::string>& names, const std::string& n
 }  // namespace
 
 void add_probe_options(Command command, ProbeOptions& options) {
-  command.add_option("--lobes", options.lobes, "spherical Gaussians, on a Vogel spiral")
+  command
+      .add_option("--lobes", options.lobes,
+                  "number of lobes (spherical Gaussians), evenly spread on a Vogel spiral")
       .check(in_range(1u, probe::max_functions))
       .capture_default_str();
-  command.add_option("--sharpness", options.sharpness, "of all lobes; 0: by their number")
+  command
+      .add_option("--sharpness", options.sharpness,
+                  "sharpness of all lobes; 0: chosen by the number of lobes")
       .check(in_range(0.0f, probe::max_sharpness))
       .capture_default_str();
-  command.add_flag("--ambient", options.ambient, "a constant term after the lobes");
-  command.add_flag("--hemisphere", options.hemisphere, "only directions above the horizon (+y)");
-  command.add_option("--method", options.method, "how coefficients are fitted")
+  command.add_flag("--ambient", options.ambient, "add a constant term to the lobes");
+  command.add_flag("--hemisphere", options.hemisphere, "use only directions above the horizon (+y is up)");
+  command.add_option("--method", options.method, "how the coefficients are fitted")
       .check(one_of(method_names))
       .capture_default_str();
   command
-      .add_option(
-          "--constraint", options.constraint,
-          "bands: lobes keep the light's spherical harmonics of bands 0 to 2; none: least squares alone")
+      .add_option("--constraint", options.constraint,
+                  "bands: lobes reproduce the light's spherical harmonics of bands 0 to 2 exactly; none: "
+                  "plain least squares")
       .check(one_of(constraint_names))
       .capture_default_str();
-  command.add_option("--basis", options.basis, "what the probe is made of")
+  command
+      .add_option(
+          "--basis", options.basis,
+          "functions that the probe is made of: spherical Gaussians, spherical harmonics or ambient dice")
       .check(one_of(basis_names))
       .capture_default_str();
-  command.add_option("--order", options.order, "harmonics: the highest band")
+  command.add_option("--order", options.order, "for --basis harmonics: highest band")
       .check(in_range(1u, probe::max_order))
       .capture_default_str();
-  command.add_option("--packing", options.packing, "of coefficients in the file")
+  command.add_option("--packing", options.packing, "number format of the coefficients in the file")
       .check(one_of(packing_names))
       .capture_default_str();
 }

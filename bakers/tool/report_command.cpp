@@ -220,24 +220,27 @@ void run(const Options& options) {
 }  // namespace
 
 void add_report(Command tool) {
-  const Command command =
-      tool.add_subcommand("report",
-                          "write one HTML page for artists: pictures of the error beside ray "
-                          "tracing, worst clips and places, a view that turns, "
-                          "sizes, and advice");
+  const Command command = tool.add_subcommand(
+      "report",
+      "write one HTML page about a .nook file, for artists.\nThe page shows pictures of the error beside ray "
+      "tracing, the worst clips and places, a view that you can turn, sizes, and advice.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_input("file", o.file, "a .nook file").required();
-  command.add_input("sources", o.sources, "what it was baked from; see docs/guide/artists.md");
-  command.add_option("-o,--output", o.output, "the page").required();
-  command.add_option("--rays", o.body.rays, "of a character: rays for each vertex and pose")
+  command.add_input(
+      "sources", o.sources,
+      "the files that it was baked from; docs/guide/artists.md lists them for each kind of file");
+  command.add_option("-o,--output", o.output, "the HTML page to write").required();
+  command.add_option("--rays", o.body.rays, "for a character: rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
   command
       .add_option("--samples-per-clip", o.body.samples_per_clip,
-                  "of a character: poses of each clip; default as many as take about a minute, up to 20")
+                  "for a character: number of poses from each clip; default: as many as take about a minute, "
+                  "up to 20")
       .check(in_range(1, 100000));
-  command.add_option("--licence", o.licence, "words about the licence of what is shown, for the page");
+  command.add_option("--licence", o.licence,
+                     "licence note for what the page shows; it is printed on the page");
   add_import_options(command, o.reading);
   add_common_options(command, o.common);
   command.callback([options] {

@@ -53,21 +53,22 @@ Json train(const Options& options) {
 }  // namespace
 
 void add_train_bent(Command train_command) {
-  const Command command = train_command.add_subcommand("bent",
-                                                       "fit the specular occlusion by AO and bent normals of "
-                                                       "characters to ray tracing of one with bent normals");
+  const Command command =
+      train_command.add_subcommand("bent",
+                                   "fit the specular occlusion of characters to ray tracing.\nThe fit reads "
+                                   "AO and bent normals of one character that was baked with bent normals.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(command, o.files);
-  command.add_option("-o,--output", o.output, "the header to write, shaders/character/specular_numbers.h")
+  command.add_option("-o,--output", o.output, "the C++ header to write, shaders/character/specular_numbers.h")
       .required();
-  command.add_option("--max-poses", o.poses, "poses, evenly picked over the clips")
+  command.add_option("--max-poses", o.poses, "number of poses, picked evenly over the clips")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--points", o.study.points, "vertices of each pose")
+  command.add_option("--points", o.study.points, "number of vertices in each pose")
       .check(in_range(1, 10000000))
       .capture_default_str();
-  command.add_option("--steps", o.fit.steps, "steps of the fit")
+  command.add_option("--steps", o.fit.steps, "number of steps of the fit")
       .check(in_range(1, 1000000))
       .capture_default_str();
   add_common_options(command, o.common);

@@ -133,8 +133,9 @@ void run(Options& options) {
 }  // namespace
 
 void add_train_nnao(Command train) {
-  const Command command = train.add_subcommand(
-      "nnao", "train a screen-space network on procedural scenes; Ctrl-C stops, the same command goes on");
+  const Command command = train.add_subcommand("nnao",
+                                               "train a screen-space network on procedural scenes.\nCtrl-C "
+                                               "stops the training, and the same command continues it.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_option("-o,--output", o.output, "the .nook file to write").required();
@@ -144,26 +145,30 @@ void add_train_nnao(Command train) {
           [&o](const std::string& name) {
             o.training.form = name == "paper" ? NetworkForm::paper : NetworkForm::horizon;
           },
-          "horizon (default; the embedded network) or paper (Holden et al. 2016)")
+          "form of the network: horizon (default, the embedded network), or paper (Holden et al. 2016)")
       .check(one_of({"horizon", "paper"}))
       .type_name("NAME");
-  command.add_option("--scenes", o.data.scenes, "procedural scenes, a sixth of them for validation")
+  command
+      .add_option("--scenes", o.data.scenes,
+                  "number of procedural scenes; a sixth of them is kept for validation")
       .check(in_range(48, 100000));
-  command.add_option("--views", o.data.views, "cameras over all scenes").check(in_range(16, 1000000));
-  command.add_option("--points", o.data.points_per_view, "points of each view").check(in_range(1, 100000));
-  command.add_option("--rays", o.data.rays, "rays of each point").check(in_range(1, 65536));
-  command.add_option("--epochs", o.training.epochs, "passes over the training points")
+  command.add_option("--views", o.data.views, "number of cameras over all scenes")
+      .check(in_range(16, 1000000));
+  command.add_option("--points", o.data.points_per_view, "number of points in each view")
+      .check(in_range(1, 100000));
+  command.add_option("--rays", o.data.rays, "rays per point").check(in_range(1, 65536));
+  command.add_option("--epochs", o.training.epochs, "number of passes over the training points")
       .check(in_range(1, 100000));
   command
       .add_option("--time-limit", o.time_limit_s,
-                  "stop after so many seconds of training, as Ctrl-C does: the same command goes on")
+                  "stop after this many seconds of training; the same command continues it")
       .check(positive_number());
   command
       .add_option("--dark-weight", o.training.dark_weight,
-                  "horizon form: a point counts 1 + this x (1 - AO)^2 times")
+                  "for --form horizon: weight w of dark points; a point has the weight 1 + w x (1 - AO)^2")
       .check(in_range(0.0, 100.0))
       .capture_default_str();
-  command.add_option("--batch", o.training.batch, "points a step, a multiple of 16")
+  command.add_option("--batch", o.training.batch, "points per training step, a multiple of 16")
       .check(in_range(16, 65536));
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });

@@ -64,19 +64,24 @@ void run(Options& options) {
 }  // namespace
 
 void add_train_specular(Command train) {
-  const Command command = train.add_subcommand(
-      "specular", "fit the specular occlusion by AO and bent normals to ray tracing in procedural scenes");
+  const Command command =
+      train.add_subcommand("specular",
+                           "fit the specular occlusion of the screen pass to ray tracing.\nThe fit reads AO "
+                           "and bent normals of procedural scenes.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_option("-o,--output", o.output, "the header to write, shaders/nnao/specular_numbers.h")
+  command.add_option("-o,--output", o.output, "the C++ header to write, shaders/nnao/specular_numbers.h")
       .required();
-  command.add_option("--scenes", o.fit.data.scenes, "procedural scenes, a sixth of them for validation")
+  command
+      .add_option("--scenes", o.fit.data.scenes,
+                  "number of procedural scenes; a sixth of them is kept for validation")
       .check(in_range(48, 100000));
-  command.add_option("--views", o.fit.data.views, "cameras over all scenes").check(in_range(48, 1000000));
-  command.add_option("--points", o.fit.data.points_per_view, "points of each view")
+  command.add_option("--views", o.fit.data.views, "number of cameras over all scenes")
+      .check(in_range(48, 1000000));
+  command.add_option("--points", o.fit.data.points_per_view, "number of points in each view")
       .check(in_range(1, 100000));
-  command.add_option("--rays", o.fit.rays, "rays of each reflection").check(in_range(1, 65536));
-  command.add_option("--steps", o.fit.steps, "steps of the fit").check(in_range(1, 1000000));
+  command.add_option("--rays", o.fit.rays, "rays per reflection").check(in_range(1, 65536));
+  command.add_option("--steps", o.fit.steps, "number of steps of the fit").check(in_range(1, 1000000));
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });
 }

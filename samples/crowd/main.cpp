@@ -45,29 +45,35 @@ int parse(int argc, char** argv, Options& o) {
   CLI::App app("Draws a crowd of animated characters with Nook's ambient occlusion.");
   // The last of several values wins, so that the caller of a script can override its values.
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  app.add_option("hero", o.hero_glb, "a rigged .glb or .gltf; without it, the built-in character")
+  app.add_option("hero", o.hero_glb, "rigged character, a .glb or .gltf file; default: a built-in character")
       ->check(CLI::ExistingFile);
-  app.add_option("model", o.hero_nook, "its baked .nook; without it, one is baked (draft preset) and cached")
+  app.add_option("model", o.hero_nook,
+                 "model that was baked from the character, a .nook file; default: bake one (draft preset) "
+                 "and cache it")
       ->check(CLI::ExistingFile);
   app.add_option("--context", o.context, std::string("OpenGL context: ") + platform::context_kinds())
       ->check(CLI::IsMember({"window", "egl", "osmesa"}));
   app.add_option("--characters", o.crowd.characters, "number of characters")->check(CLI::Range(1, 10000));
-  app.add_option("--neighbours", o.crowd.neighbours, "nearest neighbours that darken each character")
+  app.add_option("--neighbours", o.crowd.neighbours,
+                 "number of nearest neighbours that darken each character")
       ->check(CLI::Range(0, 16));
-  app.add_option("--frames", o.frames, "pictures to draw without a window")->check(CLI::Range(1, 100000));
-  app.add_option("--size", o.size, "pixels of a picture, WIDTHxHEIGHT");
-  app.add_option("--out", o.out, "folder of the pictures");
+  app.add_option("--frames", o.frames, "number of pictures to draw without a window")
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--size", o.size, "size of a picture in pixels, WIDTHxHEIGHT");
+  app.add_option("--out", o.out, "folder to write the pictures into");
   app.add_option("--tier", o.crowd.tier, "highest OpenGL tier: 33, 43 or best")
       ->transform(CLI::CheckedTransformer(std::map<std::string, int>{{"33", 33}, {"43", 43}, {"best", 0}}));
-  app.add_option("--seed", o.seed, "of the places of the crowd");
-  app.add_option("--debug", o.window.debug, "what a window shows first, with a comma between: spheres, links")
+  app.add_option("--seed", o.seed, "seed of the positions in the crowd");
+  app.add_option("--debug", o.window.debug,
+                 "what the window shows at the start, separated by commas: spheres, links")
       ->delimiter(',')
       ->check(CLI::IsMember({"spheres", "links"}))
       ->allow_extra_args(false)  // what follows are files
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--debug-bodies", o.window.bodies, "bodies that spheres are shown for")
+  app.add_option("--debug-bodies", o.window.bodies, "number of bodies whose spheres are shown")
       ->check(CLI::Range(1, 16));
-  app.add_option("--window-picture", o.window.picture, "a window writes a picture of itself and closes");
+  app.add_option("--window-picture", o.window.picture,
+                 "write a picture of the window to this file, then close the window");
   app.add_flag("--quiet", o.quiet, "show no progress");
   try {
     app.parse(argc, argv);

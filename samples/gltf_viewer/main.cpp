@@ -27,16 +27,19 @@ struct Options {
 bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   CLI::App app("Shows an animated glTF character with Nook's ambient occlusion.");
   std::string size = "960x720";
-  app.add_option("character", o.character, "a rigged .glb or .gltf")->required()->check(CLI::ExistingFile);
-  app.add_option("model", o.model, "its model, from `nook bake character`")
+  app.add_option("character", o.character, "rigged character, a .glb or .gltf file")
       ->required()
       ->check(CLI::ExistingFile);
-  app.add_option("--clip", o.clip, "name of a clip; without it, the first one of the file");
-  app.add_option("--without", o.without, "nodes that the bake left out by --without")
+  app.add_option("model", o.model, "model of the character, which `nook bake character` wrote")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app.add_option("--clip", o.clip, "name of a clip; default: the first in the file");
+  app.add_option("--without", o.without, "names of nodes that the bake left out with --without")
       ->allow_extra_args(false);
-  app.add_option("--frames", o.frames, "pictures, spread over the clip")->check(CLI::Range(1, 100000));
-  app.add_option("--size", size, "pixels of a picture, WIDTHxHEIGHT");
-  app.add_option("--out", o.out, "folder of the pictures; without it, a window opens");
+  app.add_option("--frames", o.frames, "number of pictures, spread over the clip")
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--size", size, "size of a picture in pixels, WIDTHxHEIGHT");
+  app.add_option("--out", o.out, "folder to write pictures into; default: open a window instead");
   try {
     app.parse(argc, argv);
     char rest = 0;

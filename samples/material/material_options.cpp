@@ -21,21 +21,23 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   app.add_option("--context", o.context, std::string("OpenGL context: ") + platform::context_kinds())
       ->check(CLI::IsMember({"window", "egl", "osmesa"}));
   CLI::Option* const frames =
-      app.add_option("--frames", o.frames, "pictures of each material (window: 0 runs until it is closed)")
+      app.add_option(
+             "--frames", o.frames,
+             "number of pictures of each material; with --context window, 0 runs until you close the window")
           ->check(CLI::Range(0, 100000));
-  app.add_option("--size", size, "pixels of a picture, WIDTHxHEIGHT");
-  app.add_option("--tile", o.tile_m, "side of a material's tile on the shapes, metres")
+  app.add_option("--size", size, "size of a picture in pixels, WIDTHxHEIGHT");
+  app.add_option("--tile", o.tile_m, "side of one tile of the material on the shapes, in metres")
       ->check(CLI::Range(0.01f, 1.0f));
-  app.add_option(
-         "--fetches", o.fetches,
-         "fetches of each mode along the longer side of a pixel, which keep grazing views sharp; 0 takes "
-         "one at the level of that side")
+  app.add_option("--fetches", o.fetches,
+                 "fetches of each mode along the longer side of a pixel; more keep the picture sharp at "
+                 "grazing angles. 0: one fetch, at the mipmap level of the longer side")
       ->check(CLI::Range(0, int(NOOK_MATERIAL_MAX_FETCHES)));
   app.add_flag("--one-sided", o.is_one_sided,
-               "leave out the insides of the shapes, which show through holes");
-  app.add_option("--out", o.out, "folder of the pictures");
-  app.add_option("--report", o.report, "JSON with sizes, fetches and times (default: report.json in --out)");
-  app.add_flag("--quiet", o.quiet, "no progress");
+               "do not draw the insides of the shapes, which are visible through holes");
+  app.add_option("--out", o.out, "folder to write the pictures into");
+  app.add_option("--report", o.report,
+                 "JSON file to write sizes, fetches and times to; default: report.json in --out");
+  app.add_flag("--quiet", o.quiet, "show no progress");
   try {
     app.parse(argc, argv);
     char rest = 0;

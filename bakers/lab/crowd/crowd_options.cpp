@@ -40,55 +40,60 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   o.cache = CROWD_CACHE;
   // The last of several values wins, so that a script's caller can override its values.
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  app.add_option("hero", o.hero_glb, "a rigged .glb or .gltf; without it, the built-in character")
+  app.add_option("hero", o.hero_glb, "rigged character, a .glb or .gltf file; default: a built-in character")
       ->check(CLI::ExistingFile);
-  app.add_option("model", o.hero_nook, "its baked .nook; without it, one is baked (draft preset) and cached")
+  app.add_option("model", o.hero_nook,
+                 "model that was baked from the character, a .nook file; default: bake one (draft preset) "
+                 "and cache it")
       ->check(CLI::ExistingFile);
   app.add_option("--context", o.context, std::string("OpenGL context: ") + platform::context_kinds())
       ->check(CLI::IsMember({"egl", "osmesa"}));
   app.add_option("--characters", o.crowd.characters, "number of characters")->check(CLI::Range(1, 10000));
-  app.add_option("--neighbours", o.crowd.neighbours, "nearest neighbours that darken each character")
+  app.add_option("--neighbours", o.crowd.neighbours,
+                 "number of nearest neighbours that darken each character")
       ->check(CLI::Range(0, 16));
-  app.add_option("--frames", o.frames, "pictures to draw")->check(CLI::Range(1, 100000));
-  app.add_option("--size", size, "pixels of a picture, WIDTHxHEIGHT");
-  app.add_option("--out", o.out, "folder of the pictures");
-  app.add_option("--report", o.report, "JSON with times and errors (default: report.json in --out)");
+  app.add_option("--frames", o.frames, "number of pictures to draw")->check(CLI::Range(1, 100000));
+  app.add_option("--size", size, "size of a picture in pixels, WIDTHxHEIGHT");
+  app.add_option("--out", o.out, "folder to write the pictures into");
+  app.add_option("--report", o.report,
+                 "JSON file to write times and errors to; default: report.json in --out");
   app.add_option("--tier", tier, "highest OpenGL tier: 33, 43 or best")
       ->check(CLI::IsMember({"33", "43", "best"}));
-  app.add_option(
-         "--screen-space", screen_space,
-         "on or off: AO on the floor by the screen and by the characters, beside the AO of the characters")
+  app.add_option("--screen-space", screen_space,
+                 "on or off: AO on the floor from the screen pass and from the characters, beside the AO on "
+                 "the characters")
       ->check(CLI::IsMember({"on", "off"}));
   app.add_option("--light", o.lights,
-                 "probe (.nook) or environment (.hdr, .exr). The first one lights the frames, and each is "
-                 "compared with path tracing. The option may repeat. Without it a built-in sky lights the "
-                 "frames")
+                 "probe (.nook) or environment map (.hdr, .exr). The first one lights the frames, and each "
+                 "one is compared with path tracing. You can repeat the option. Default: a built-in sky")
       ->check(CLI::ExistingFile)
       ->allow_extra_args(false)  // what follows are files
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_flag("!--no-light", o.probe_light,
-               "light the frames by plain ambient light times AO and a key light");
+               "light the frames with constant ambient light times AO, and a key light");
   app.add_option("--record", o.record,
-                 "folder for recorded frames of the screen-space pass, frame_0000.nook and so on");
-  app.add_flag(
-      "--measure-world", o.measure_world,
-      "compare the world pass of the last frame with every caster at every pixel; slow without a GPU");
-  app.add_option(
-         "--debug", debug,
-         "debug views over the picture, with commas between: spheres, key-points, links, levels, error")
+                 "folder to record frames of the screen-space pass into, as frame_0000.nook and so on");
+  app.add_flag("--measure-world", o.measure_world,
+               "compare the world pass of the last frame with a pass that evaluates every caster at every "
+               "pixel; slow without a GPU");
+  app.add_option("--debug", debug,
+                 "debug views to draw over the picture, separated by commas: spheres, key-points, links, "
+                 "levels, error")
       ->delimiter(',')
       ->check(CLI::IsMember({"spheres", "key-points", "links", "levels", "error"}))
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--debug-bodies", bodies,
-                 "bodies that spheres, key points and errors are shown for, the nearest to the camera first")
+                 "number of bodies that debug views of spheres, key points and errors cover, nearest to the "
+                 "camera first")
       ->check(CLI::Range(1, 10000));
-  app.add_option("--lod-error", o.lod_error,
-                 "error of a level of detail that is allowed at 10 m, root mean square of AO; 0: full detail")
+  app.add_option(
+         "--lod-error", o.lod_error,
+         "error that a level of detail may have at 10 m, as root mean square of AO; 0: always full detail")
       ->check(CLI::Range(0.0f, 1.0f));
-  app.add_option("--seed", o.seed, "seed of the places, the clips and the rays");
-  app.add_option("--cache", o.cache, "folder where baked characters are kept");
-  app.add_flag("!--no-sheets", o.sheets, "no comparison sheets, and no ray tracing except for --light");
+  app.add_option("--seed", o.seed, "seed of positions, clips and rays");
+  app.add_option("--cache", o.cache, "folder that caches baked characters");
+  app.add_flag("!--no-sheets", o.sheets, "write no comparison sheets, and trace no rays except for --light");
   app.add_flag("--quiet", o.quiet, "show no progress");
   try {
     app.parse(argc, argv);

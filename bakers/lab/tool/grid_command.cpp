@@ -105,47 +105,50 @@ Json evaluate(const Options& options) {
 }  // namespace
 
 void add_evaluate_grid(Command evaluate_command) {
-  const Command command = evaluate_command.add_subcommand(
-      "grid", "ways to look up a grid of light probes near walls, in built-in closed rooms or in a scene");
+  const Command command =
+      evaluate_command.add_subcommand("grid",
+                                      "compare ways to look up a grid of light probes near walls.\nThe grid "
+                                      "is in built-in closed rooms, or in a scene.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("--scene", o.scene, "a scene in place of the rooms, .glb or .gltf");
-  command.add_input("--light", o.light, "of a scene: the map round it");
+  command.add_input("--scene", o.scene, "a scene in place of the built-in rooms, a .glb or .gltf file");
+  command.add_input("--light", o.light, "for a scene: the environment map around it");
   command
       .add_option_function(
           "--grid", [&o](const std::string& text) { o.counts = parse_grid_counts(text); },
-          "probes along x, y and z, AxBxC; default 6x2x5, eight a room")
+          "number of probes along x, y and z; default 6x2x5, which puts eight into each room")
       .type_name("AxBxC");
   command
       .add_option_function(
           "--box", [&o](const std::string& text) { o.box = parse_grid_box(text); },
-          "what the grid fills, x0,y0,z0,x1,y1,z1 in metres; default all of the scene")
+          "box that the grid fills, as x0,y0,z0,x1,y1,z1 in metres; default the whole scene")
       .type_name("BOX");
-  command.add_option("--points", o.settings.points, "random points on surfaces, and as many in the open")
+  command
+      .add_option("--points", o.settings.points,
+                  "number of random points on surfaces; as many lie in the open")
       .check(in_range(1u, 1u << 24))
       .capture_default_str();
-  command.add_option("--paths", o.settings.paths, "for each point")
+  command.add_option("--paths", o.settings.paths, "paths traced from each point")
       .check(in_range(2u, 1u << 24))
       .capture_default_str();
-  command.add_option("--samples", o.settings.samples, "for each probe")
+  command.add_option("--samples", o.settings.samples, "paths traced from each probe")
       .check(in_range(64u, 1u << 30))
       .capture_default_str();
   command
       .add_option("--training-paths", o.settings.training_paths,
-                  "for each place that walls and coefficients are fitted to")
+                  "paths traced for each place that walls and coefficients are fitted to")
       .check(in_range(1u, 1u << 24))
       .capture_default_str();
   command
       .add_option("--direct", o.direct,
-                  "what both sides hold of the map's light that comes straight: none, the sky without suns, "
-                  "or all")
+                  "which direct light of the map to compare: none, the sky without suns, or all")
       .check(one_of(bake::direct_names()))
       .capture_default_str();
-  command.add_option(
-      "--picture", o.picture,
-      "of the rooms: write the light on their floor as one .png, path traced, trilinear and with walls");
+  command.add_option("--picture", o.picture,
+                     "for the built-in rooms: write one .png of the light on their floor, path traced, "
+                     "trilinear and with walls");
   add_import_options(command, o.reading);
-  command.add_flag("--no-textures", o.no_textures, "colour factors stand for textures");
+  command.add_flag("--no-textures", o.no_textures, "use colour factors in place of textures");
   add_common_options(command, o.common);
   command.callback([options] {
     const CommandFiles files{

@@ -29,23 +29,22 @@ class Peers : public tool::MaterialPeers {
  public:
   void add_options(Command command) override {
     command
-        .add_option(
-            "--methods", methods_,
-            "only these methods beside the file: n-svd, cta, k-cta-2, k-cta-3, k-cta-4 at the file's "
-            "ranks, n-svd-filled and pca at the bytes of the whole file, pbr, the maps of a physically "
-            "based material with parallax, neural, networks of a small size and of the bytes of the "
-            "whole file, which train for minutes, or none; default all but neural")
+        .add_option("--methods", methods_,
+                    "methods to compare with the file, separated by commas: n-svd, cta, k-cta-2, k-cta-3 and "
+                    "k-cta-4 at the file's ranks; n-svd-filled and pca at the size of the whole file; pbr, "
+                    "material maps with parallax; neural, one small network and one of the size of the whole "
+                    "file, which train for minutes; or none. Default: all but neural")
         .delimiter(',')
         .check(tool::one_of(choices()))
         .type_name("NAME,...");
-    command
-        .add_option("--votf-refits", votf_refits_,
-                    "further fits of the VOTF of the methods beside the file, as in bake material")
+    command.add_option("--votf-refits", votf_refits_, "--votf-refits of bake material, for the other methods")
         .check(tool::in_range(0, 16))
         .capture_default_str();
     command.add_flag("--compare-seeding", seeding_,
-                     "CTA and K-CTA from clusters of directions and of values");
-    command.add_option("--sweep", sweep_, "total view ranks, for all methods (plots with --images)")
+                     "compare CTA and K-CTA with first clusters by directions and by values");
+    command
+        .add_option("--sweep", sweep_,
+                    "total view ranks at which all methods are measured; --images plots them")
         .delimiter(',');
   }
 

@@ -88,12 +88,11 @@ void run(EvaluateNnaoOptions& options) {
 }  // namespace
 
 void add_evaluate_nnao(Command evaluate_command) {
-  const Command command =
-      evaluate_command.add_subcommand("nnao",
-                                      "the screen-space pass, and SSAO, SSAO+, HBAO, GTAO, "
-                                      "GTAO with a visibility bitmask, XeGTAO, and forms of "
-                                      "what N8AO, Godot, VTK, QGIS and Filament ship, "
-                                      "against ray tracing");
+  const Command command = evaluate_command.add_subcommand(
+      "nnao",
+      "compare the screen-space pass and other methods with ray tracing.\nThe "
+      "other methods are SSAO, SSAO+, HBAO, GTAO, GTAO with a visibility "
+      "bitmask, XeGTAO, and what N8AO, Godot, VTK, QGIS and Filament ship.");
   const auto options = std::make_shared<EvaluateNnaoOptions>();
   add_options(command, *options);
   command.callback([options] { run(*options); });

@@ -71,48 +71,53 @@ void check_options(const EvaluateNnaoOptions& options) {
 }
 
 void add_options(Command command, EvaluateNnaoOptions& options) {
-  command.add_input("scene", options.scenes.files,
-                    "scenes in metres, y up, .glb or .gltf; of several, the means are reported as well");
+  command.add_input(
+      "scene", options.scenes.files,
+      "scenes in metres, y up, .glb or .gltf files; with more than one, the means are reported too");
   add_import_options(command, options.scenes.reading);
   command.add_input("--views", options.views,
-                    "a list of scenes with their cameras, such as docs/nnao_views.json, instead of files");
+                    "list of scenes with their cameras in place of files, such as docs/nnao_views.json");
   command.add_option("--folder", options.folder,
-                     "where the scenes of --views lie, each as NAME.glb; default: here");
+                     "folder with the scenes of --views, each as NAME.glb; default: the current folder");
   command
-      .add_option("--sources", options.sources, "measure these sources of --views alone, separated by commas")
+      .add_option("--sources", options.sources, "measure only these sources of --views, separated by commas")
       .delimiter(',');
   command.add_flag("--thin", options.scenes.thin,
-                   "a built-in scene of thin things, called thin; it enters no mean");
+                   "also measure a built-in scene of thin objects, called thin; means leave it out");
   command
       .add_input("--frame", options.frames,
-                 "replay frames that nook_nnao_record wrote, instead of scenes: against the recorded AO and "
-                 "the oracle; any number of times")
+                 "frame that nook_nnao_record wrote, replayed in place of scenes and compared with the "
+                 "recorded AO and the oracle; you can repeat the option")
       .type_name("FILE.nook");
   std::vector<std::string> baselines{"all"};
   for (const Baseline baseline : all_baselines) baselines.push_back(baseline_name(baseline));
   command
       .add_option("--tune", options.tune,
-                  "tune one baseline, or all, on training scenes and print their table instead")
+                  "tune one baseline, or all, on training scenes, and print the results in place of errors")
       .check(one_of(baselines));
   command
-      .add_option(
-          "--camera", options.scenes.cameras,
-          "eye, target and vertical field of view in degrees: [SCENE:]ox,oy,oz,tx,ty,tz,fov; any number "
-          "of times. SCENE is a file's name without .glb, or thin; without it, of every scene")
+      .add_option("--camera", options.scenes.cameras,
+                  "camera as [SCENE:]ox,oy,oz,tx,ty,tz,fov: eye, target and vertical field of view in "
+                  "degrees; you can repeat the option. SCENE is the name of a file without .glb, or thin; "
+                  "without SCENE, the camera is for every scene")
       .type_name("CAMERA");
-  command.add_option("--cameras", options.placed_cameras, "how many to place where none is given")
+  command
+      .add_option("--cameras", options.placed_cameras,
+                  "number of cameras to place in a scene for which none is given")
       .check(in_range(1, 1000))
       .capture_default_str();
-  command.add_option("--radius", options.scenes.radii, "of the AO, metres, 0.5 by default: [SCENE:]R")
+  command
+      .add_option("--radius", options.scenes.radii, "radius of the AO in metres, as [SCENE:]R; default 0.5")
       .type_name("RADIUS");
   command
-      .add_option("--max-radius-px", options.max_radius_px,
-                  "where the radius covers more pixels, every method shrinks it; 0: half the height")
+      .add_option(
+          "--max-radius-px", options.max_radius_px,
+          "largest radius in pixels; every method shrinks a radius that covers more; 0: half the height")
       .check(in_range(0.0, 1e4));
   command
       .add_option(
           "--intensity", options.intensity,
-          "nook_nnao_frame_desc.intensity of the library's pass with its filter; the others have none")
+          "nook_nnao_frame_desc.intensity for Nook's filtered pass; other methods have no such setting")
       .check(in_range(0.0, 16.0))
       .capture_default_str();
   command
@@ -122,14 +127,15 @@ void add_options(Command command, EvaluateNnaoOptions& options) {
             parse_size(text, options.truth);
             options.sized = true;
           },
-          "pixels; 640x360, or what the list of --views has")
+          "size of a picture in pixels; default 640x360, or as in the list of --views")
       .type_name("WxH");
   command
-      .add_option("--rays", options.truth.rays, "rays for each pixel; 128, or what the list of --views has")
+      .add_option("--rays", options.truth.rays, "rays per pixel; default 128, or as in the list of --views")
       .check(in_range(1, 65536))
       .each([&options](const std::string&) { options.rays_given = true; });
-  command.add_option("--references", options.references,
-                     "keep the ray-traced references in this folder, and take those that are there");
+  command.add_option(
+      "--references", options.references,
+      "folder that keeps ray-traced references; a reference that is already there is not traced again");
   std::vector<std::string> methods{"all", "nnao", half_name, twice_name, "nnao_paper", "nnao_file"};
   methods.insert(methods.end(), baselines.begin() + 1, baselines.end());
   for (const BaselineMethod& method : baseline_methods())
@@ -137,42 +143,41 @@ void add_options(Command command, EvaluateNnaoOptions& options) {
   for (const Oracle oracle : all_oracles) methods.push_back(oracle_name(oracle));
   for (const std::string& name : frame_method_names()) methods.push_back(name);
   command
-      .add_option(
-          "--methods", options.methods,
-          "measure these alone, NAME or NAME:TAPS, separated by commas; default: all, which leaves out "
-          "the slow oracle and oracle_bitmask; with --frame replayed, fast, default, best and oracle")
+      .add_option("--methods", options.methods,
+                  "measure only these, each NAME or NAME:TAPS, separated by commas; default: all but the "
+                  "slow oracle and oracle_bitmask; with --frame: replayed, fast, default, best and oracle")
       .delimiter(',')
       .check([methods](const std::string& text) { return one_of(methods)(text.substr(0, text.find(':'))); });
   command
       .add_option("--ratio", options.ratios,
-                  "report the ratio of two methods' errors with its bounds, besides those of --views: "
-                  "METHOD:TAPS,METHOD:TAPS; any number of times")
+                  "also report the ratio of two methods' errors with its bounds, as METHOD:TAPS,METHOD:TAPS; "
+                  "you can repeat the option")
       .type_name("RATIO");
   command.add_flag("--bent-normals", options.bent,
-                   "measure bent normals and specular occlusion in place of AO, at every 16th pixel");
+                   "measure bent normals and specular occlusion in place of AO, at each 16th pixel");
   command.add_flag("--temporal", options.temporal,
-                   "measure means over the frames of a moving camera in place of single frames");
+                   "measure means over the frames of a moving camera, not single frames");
   command
       .add_option("--path-step", options.truth.path.step_px,
-                  "with --temporal: pixels by which surfaces at the median depth move in a frame; 0: the "
+                  "with --temporal: how many pixels per frame a surface at the median depth moves; 0: the "
                   "camera stands still")
       .check(in_range(0.0, 100.0))
       .capture_default_str();
   command
       .add_input("--mover", options.movers,
-                 "with --temporal, instead of scenes: a character that walks before a wall, .glb or .gltf "
-                 "with clips; any number of times")
+                 "with --temporal: a character that walks in front of a wall, in place of scenes, a .glb or "
+                 ".gltf file with clips; you can repeat the option")
       .type_name("FILE");
   command.add_option("--clip", options.clip,
-                     "the clip of --mover; default: the first whose name has walk in it, or the first");
-  command.add_option("--walk-speed", options.walk_speed, "of --mover along its way, metres a second")
+                     "clip of --mover; default: the first with walk in its name, or else the first");
+  command.add_option("--walk-speed", options.walk_speed, "speed of --mover in metres per second")
       .check(in_range(0.0, 100.0))
       .capture_default_str();
-  command.add_flag("!--no-raw", options.raw, "measure each method with its blur alone");
+  command.add_flag("!--no-raw", options.raw, "measure each method only with its own blur");
   command.add_input("--network", options.network,
-                    "a file of `nook train nnao`, such as the paper's form, measured as well");
+                    "also measure this network, a file that `nook train nnao` wrote");
   command.add_option("--images", options.images,
-                     "write sheets of each view and pictures of the networks into this folder");
+                     "write sheets of each view, and pictures of the networks, into this folder");
   command.add_option("--markdown", options.markdown, "write the tables of docs/nnao.md to this file");
   add_common_options(command, options.common);
 }

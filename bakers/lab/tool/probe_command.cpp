@@ -16,9 +16,10 @@ class Peers : public tool::ProbePeers {
  public:
   void add_options(tool::Command command) override {
     command.add_flag("--glossy", glossy_,
-                     "of maps: what random glossy surfaces reflect of the lobes and of the map, beside "
-                     "prefiltered cube maps, in place of all forms of fitting");
-    command.add_option("--surfaces", surfaces_.surfaces, "with --glossy: random ones of each kind")
+                     "for maps: compare the lobes on random glossy surfaces with prefiltered cube maps, in "
+                     "place of the forms of fitting");
+    command
+        .add_option("--surfaces", surfaces_.surfaces, "with --glossy: number of random surfaces of each kind")
         .check(tool::in_range(1u, 1u << 20))
         .capture_default_str();
   }
