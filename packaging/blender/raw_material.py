@@ -157,7 +157,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("output", help="the raw material to write")
     parser.add_argument("--directions", type=int, default=25)
-    parser.add_argument("--texels", type=int, default=32, help="along a side")
+    parser.add_argument("--texels", type=int, default=32, help="texels along a side")
     options = parser.parse_args()
     directions = spiral_directions(options.directions)
     one_view = hills(options.texels, directions)

@@ -126,13 +126,13 @@ def read_options():
     parser = argparse.ArgumentParser(prog="render_material.py", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("output", type=pathlib.Path, help="the raw material to write")
-    parser.add_argument("--tile-size", type=float, default=1, help="metres along a side")
-    parser.add_argument("--directions", type=int, default=49, help="of views, and of lights without --lights")
+    parser.add_argument("--tile-size", type=float, default=1, help="side of the tile in metres")
+    parser.add_argument("--directions", type=int, default=49, help="number of view directions, and of light directions without --lights")
     parser.add_argument("--lights", type=int, default=0)
-    parser.add_argument("--max-tilt", type=float, default=75, help="their largest angle to the normal, degrees")
-    parser.add_argument("--texels", type=int, default=48, help="along a side")
-    parser.add_argument("--samples", type=int, default=64, help="paths for each texel")
-    parser.add_argument("--repeats", type=int, default=1, help="copies on either side of the tile; 0 where the scene repeats itself")
+    parser.add_argument("--max-tilt", type=float, default=75, help="largest angle between a direction and the normal, in degrees")
+    parser.add_argument("--texels", type=int, default=48, help="texels along a side")
+    parser.add_argument("--samples", type=int, default=64, help="paths per texel")
+    parser.add_argument("--repeats", type=int, default=1, help="copies on either side of the tile; 0 if the scene already repeats")
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
 
 

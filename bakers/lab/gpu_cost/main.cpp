@@ -147,13 +147,13 @@ int run(int argc, char** argv) {
       "Exit codes: 0 done, 77 no RADV or another version of it than the old numbers', 2 bad arguments, 1 "
       "anything else.",
       "nook_gpu_cost");
-  tool.add_option("--root", options.root, "tree of the shaders")->check(CLI::ExistingDirectory);
-  tool.add_option("--family", options.families, "GPU families that RADV knows")
+  tool.add_option("--root", options.root, "folder of the shaders")->check(CLI::ExistingDirectory);
+  tool.add_option("--family", options.families, "GPU families to compile for, by their names in RADV")
       ->delimiter(',')
       ->capture_default_str()
       ->check(CLI::IsMember(known_families));
-  tool.add_option("--only", options.only, "shaders whose name contains this");
-  tool.add_option("--define", options.defines, "NAME or NAME=VALUE, in front of every shader");
+  tool.add_option("--only", options.only, "count only shaders whose name contains this text");
+  tool.add_option("--define", options.defines, "macro to define in every shader, NAME or NAME=VALUE");
   tool.add_flag("--buffers-as-textures", options.buffers_as_textures,
                 "read texture buffers from 2D textures with rows of 2,048 texels");
   tool.add_option("--report", options.report, "write the numbers to this JSON file");
@@ -169,7 +169,7 @@ int run(int argc, char** argv) {
                    "folder of a tree, or report; --define and --buffers-as-textures are for this one")
       ->required()
       ->check(CLI::ExistingPath);
-  compare->add_option("--limit", options.limit, "fail where a ratio is above this");
+  compare->add_option("--limit", options.limit, "exit with an error if a ratio is above this");
   try {
     tool.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -91,18 +91,23 @@ int run(int argc, char** argv) {
       "Exit codes: 0 done, 2 bad arguments, 3 anything else.",
       "nook_gpu_time");
   tool.add_option("--context", options.context, std::string("OpenGL context: ") + platform::context_kinds());
-  tool.add_option("--width", options.width, "pixels")->check(CLI::Range(16, 16384))->capture_default_str();
-  tool.add_option("--height", options.height, "pixels")->check(CLI::Range(16, 16384))->capture_default_str();
-  tool.add_option("--batches", options.batches, "of which the median is taken")
+  tool.add_option("--width", options.width, "width in pixels")
+      ->check(CLI::Range(16, 16384))
+      ->capture_default_str();
+  tool.add_option("--height", options.height, "height in pixels")
+      ->check(CLI::Range(16, 16384))
+      ->capture_default_str();
+  tool.add_option("--batches", options.batches, "number of batches; the result is their median")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  tool.add_option("--batch-ms", options.batch_ms, "length of a batch, milliseconds")
+  tool.add_option("--batch-ms", options.batch_ms, "length of a batch in milliseconds")
       ->check(CLI::Range(0.0, 10000.0))
       ->capture_default_str();
-  tool.add_option("--model", options.model, "character file; with it characters and the world pass are timed")
+  tool.add_option("--model", options.model,
+                  "character model; also time characters and the world pass with it")
       ->check(CLI::ExistingFile);
-  tool.add_option("--material", options.materials, "material files")->check(CLI::ExistingFile);
-  tool.add_option("--only", options.only, "rows whose name contains this");
+  tool.add_option("--material", options.materials, "material files to time")->check(CLI::ExistingFile);
+  tool.add_option("--only", options.only, "measure only rows whose name contains this text");
   tool.add_option("--report", options.report, "write the numbers to this JSON file");
   try {
     tool.parse(argc, argv);

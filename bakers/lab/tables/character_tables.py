@@ -96,7 +96,7 @@ def main():
     parser.add_argument("--assets", type=pathlib.Path, default=ROOT.parent / "shared/assets")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="folder for models and reports")
     parser.add_argument("--without-baselines", action="store_true",
-                        help="leave out the other methods and their table, which take half of the time")
+                        help="leave out the other methods and their table; this halves the time")
     parser.add_argument("--write", action="store_true", help="put the tables into the documents instead of printing them")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)

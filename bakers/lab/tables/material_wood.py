@@ -98,7 +98,7 @@ def radiance(m, light, view):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("output", help="the raw material to write")
-    parser.add_argument("--texels", type=int, default=64, help="along a side")
+    parser.add_argument("--texels", type=int, default=64, help="texels along a side")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--views", choices=("fitted", "between"), default="fitted")
     options = parser.parse_args()

@@ -267,11 +267,11 @@ def make_scene(scene, files, scratch, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=pathlib.Path, help="where the .glb files go")
-    parser.add_argument("--views", type=pathlib.Path, default=VIEWS, help="the list of sources")
-    parser.add_argument("--mirrors", type=pathlib.Path, help="a folder of git directories, owner+name; no network is used")
-    parser.add_argument("--assets", type=pathlib.Path, help="a folder with the files that have no repository")
-    parser.add_argument("--only", action="append", help="a scene's name; any number of times")
+    parser.add_argument("folder", type=pathlib.Path, help="folder to write the .glb files into")
+    parser.add_argument("--views", type=pathlib.Path, default=VIEWS, help="list of sources")
+    parser.add_argument("--mirrors", type=pathlib.Path, help="folder of git directories named owner+name, to read in place of the network")
+    parser.add_argument("--assets", type=pathlib.Path, help="folder with the files that are in no repository")
+    parser.add_argument("--only", action="append", help="name of a scene to make; you can repeat the option")
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     failures = 0
