@@ -91,8 +91,8 @@ const char* context_kinds() {
 
 std::unique_ptr<Context> create_context(const ContextRequest& request) {
   if (request.es && request.kind != "egl")
-    throw std::runtime_error("create_context: OpenGL ES contexts are of the kind egl alone (got " +
-                             request.kind + ")");
+    throw std::runtime_error("create_context: OpenGL ES contexts need the kind egl (got " + request.kind +
+                             ")");
   if (request.kind == "egl") return create_egl_context(request);
   if (request.kind == "window") return create_window_context(request);
 #ifdef PLATFORM_HAS_OSMESA

@@ -264,7 +264,7 @@ nook_result nook_bake_character_read(nook_bake_character character, nook_bake_ar
         need_count("count", count, mesh.file_to_welded.size());
         return read_skin(mesh, array, out, stride);
       default:
-        throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "array is unknown (got %d); use a NOOK_BAKE_ARRAY_",
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "array is unknown (got %d); use a NOOK_BAKE_ARRAY_ value",
                       int(array));
     }
   });

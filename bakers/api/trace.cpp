@@ -63,9 +63,8 @@ Environment read_environment(const nook_bake_environment& map) {
   if (map.width == 0 && !map.rgb) return Environment(1, 1, {0, 0, 0});
   need(map.rgb, "desc.environment.rgb");
   if (map.width < 1 || map.width > most_columns || map.height < 1 || map.height > most_rows)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.environment is of %u x %u texels (need 1 x 1 to %u x %u)", map.width, map.height,
-                  most_columns, most_rows);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.environment has %u x %u texels (need 1 x 1 to %u x %u)",
+                  map.width, map.height, most_columns, most_rows);
   const std::size_t size = 3 * std::size_t(map.width) * map.height;
   return Environment(map.width, map.height, {map.rgb, map.rgb + size});
 }

@@ -149,7 +149,7 @@ PbrFiles arrange_pbr_names(std::span<const std::string> names) {
     if (!name) continue;
     std::optional<std::size_t>& place = places.of(*name);
     if (place)
-      throw Failure(NOOK_ERROR_BAD_FILE, "%.150s and %.150s are the same map by their names; one is needed",
+      throw Failure(NOOK_ERROR_BAD_FILE, "%.150s and %.150s have names of the same map; remove one of them",
                     names[*place].c_str(), names[i].c_str());
     place = i;
   }
@@ -214,7 +214,7 @@ MapImage read_image(const fs::path& path, bool needs_colour) {
   const auto input = open_image(path, config, why);
   if (!input) fail(path, why);
   const OIIO::ImageSpec& spec = input->spec();
-  if (spec.nchannels < 1 || spec.depth > 1) fail(path, "it is no flat image");
+  if (spec.nchannels < 1 || spec.depth > 1) fail(path, "it is not a flat image");
   std::error_code unknown;  // on an error, the size is the largest number
   check_image_size(path.c_str(), spec.width, spec.height, most_texels, fs::file_size(path, unknown));
   if (spec.width != spec.height)

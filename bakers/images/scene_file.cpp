@@ -78,13 +78,12 @@ void check_layout(const OIIO::ImageSpec& spec, const char* format) {
   if (spec.nchannels < 3)
     throw Failure(NOOK_ERROR_BAD_FILE, "an image of %d channels (need red, green and blue)", spec.nchannels);
   if (spec.depth > 1)
-    throw Failure(NOOK_ERROR_BAD_FILE, "an image of %d layers is no map (need 1)", spec.depth);
+    throw Failure(NOOK_ERROR_BAD_FILE, "a map has one layer (got an image of %d layers)", spec.depth);
   if (spec.width != 2 * std::int64_t{spec.height} || spec.width < fewest_columns || spec.width > most_columns)
-    throw Failure(
-        NOOK_ERROR_BAD_FILE,
-        "an image of %d x %d pixels is no latitude-longitude map (need twice as wide as high, %d to %d "
-        "pixels wide)",
-        spec.width, spec.height, fewest_columns, most_columns);
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "an image of %d x %d pixels is not a latitude-longitude map (need twice as wide as high, "
+                  "%d to %d pixels wide)",
+                  spec.width, spec.height, fewest_columns, most_columns);
 }
 
 void check_radiance(const std::vector<float>& rgb) {
@@ -101,11 +100,10 @@ void check_radiance(const std::vector<float>& rgb) {
         "the light down",
         out_of_range, max_radiance);
   if (negative > most_negative * light)
-    throw Failure(
-        NOOK_ERROR_BAD_FILE,
-        "its negative values add up to %.3g of the positive ones (need at most %g, which filters leave); "
-        "an image of differences is no map",
-        light > 0 ? negative / light : 1.0, most_negative);
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "its negative values add up to %.3g of the positive ones (need at most %g, the share that "
+                  "filters leave); an image of differences is not a map",
+                  light > 0 ? negative / light : 1.0, most_negative);
 }
 
 }  // namespace

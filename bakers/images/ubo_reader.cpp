@@ -80,11 +80,10 @@ std::vector<Pair> read_pairs(std::span<const std::string> names) {
     const auto angles = parse_ubo_name(name);
     if (!angles || angles->light_tilt < 0 || angles->light_tilt >= 90 || angles->view_tilt < 0 ||
         angles->view_tilt >= 90)
-      throw Failure(
-          NOOK_ERROR_BAD_FILE,
-          "the name %.200s tells no directions; it needs tl, pl, tv and pv once each with degrees behind "
-          "them, tilts below 90",
-          name.c_str());
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "the name %.200s gives no directions; it needs tl, pl, tv and pv once each, followed by "
+                    "degrees, with tilts below 90",
+                    name.c_str());
     pairs.push_back({canonical(angles->light_tilt, angles->light_azimuth),
                      canonical(angles->view_tilt, angles->view_azimuth)});
   }
@@ -147,8 +146,7 @@ UboGrid arrange_ubo_names(std::span<const std::string> names) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::size_t& cell = grid.image[lights[pairs[i].light] * views.size() + views[pairs[i].view]];
     if (cell != none)
-      throw Failure(NOOK_ERROR_BAD_FILE,
-                    "%.150s and %.150s are of the same directions; one of them is needed",
+      throw Failure(NOOK_ERROR_BAD_FILE, "%.150s and %.150s have the same directions; remove one of them",
                     names[cell].c_str(), names[i].c_str());
     cell = i;
   }
@@ -185,7 +183,7 @@ class UboImage {
     input_ = open_image(path, {}, why);
     if (!input_) fail(why);
     const OIIO::ImageSpec& spec = input_->spec();
-    if (spec.nchannels < 1 || spec.depth > 1) fail("it is no flat image");
+    if (spec.nchannels < 1 || spec.depth > 1) fail("it is not a flat image");
     std::error_code unknown;  // on an error, the size is the largest number
     check_image_size(path.c_str(), spec.width, spec.height, most_image_texels, fs::file_size(path, unknown));
     find_channels(spec, colours);
@@ -310,7 +308,8 @@ RawMaterial read_ubo_folder(const fs::path& folder, std::uint32_t texels, const 
   const auto width = std::uint32_t(first.width), height = std::uint32_t(first.height);
   if (texels > std::min(width, height))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "a square of %u texels from images of %u x %u; use a smaller one", texels, width, height);
+                  "a square of %u texels is larger than the images (%u x %u); use a smaller one", texels,
+                  width, height);
   raw.width = texels ? texels : width;
   raw.height = texels ? texels : height;
   const Region middle{
@@ -335,7 +334,7 @@ RawMaterial read_ubo_folder(const fs::path& folder, std::uint32_t texels, const 
       const Size size = image.size();
       if (size != first)
         throw Failure(NOOK_ERROR_BAD_FILE,
-                      "%.200s: is of %d x %d texels, %.150s of %d x %d; all must be of one size",
+                      "%.200s: has %d x %d texels, %.150s has %d x %d; all must be of one size",
                       paths[i].c_str(), size.width, size.height, names[grid.image[0]].c_str(), first.width,
                       first.height);
       copy_image(image.read(middle), cell / raw.views.size(), cell % raw.views.size(), raw);

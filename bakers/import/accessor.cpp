@@ -148,7 +148,7 @@ void visit(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has component type %d and type %d, which glTF does not have",
                   what.c_str(), accessor.componentType, accessor.type);
   if (wanted_components > 0 && components != wanted_components)
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s has %d components an element (need %d)", what.c_str(), components,
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s has %d components per element (need %d)", what.c_str(), components,
                   wanted_components);
   if (accessor.count > max_elements)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu elements (need at most %zu)", what.c_str(), accessor.count,

@@ -50,7 +50,7 @@ bool needs_decoding(const tinygltf::Model& model, const tinygltf::Primitive& pri
 int whole_number(const tinygltf::Value& object, const char* name, const std::string& what) {
   if (!object.IsObject() || !object.Has(name) || !object.Get(name).IsInt() ||
       object.Get(name).GetNumberAsInt() < 0)
-    refuse(what, std::string("\"").append(name).append("\" is missing or no whole number from 0"));
+    refuse(what, std::string("\"").append(name).append("\" is missing or not a whole number of 0 or more"));
   return object.Get(name).GetNumberAsInt();
 }
 
@@ -168,7 +168,7 @@ class Decompressed {
     const int components = attribute.num_components();
     if (components < 1 || components > 4 ||
         tinygltf::GetNumComponentsInType(std::uint32_t(accessor.type)) != components)
-      refuse(what, std::to_string(components) + " components an element do not fit the accessor");
+      refuse(what, std::to_string(components) + " components per element do not fit the accessor");
     accessor.count = mesh.num_points();
     switch (accessor.componentType) {
       case TINYGLTF_COMPONENT_TYPE_BYTE:

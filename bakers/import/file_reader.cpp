@@ -117,14 +117,13 @@ void check_version(const Json& document) {
   int major = 0, minor = 0;
   if (!read_version((*asset)["version"], major, minor) || major != 2)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the file is of glTF version %s, by its asset.version (need 2.x); export it as glTF 2.0",
+                  "asset.version says that the file has glTF version %s (need 2.x); export it as glTF 2.0",
                   written("version").c_str());
   if (!asset->contains("minVersion")) return;
   if (!read_version((*asset)["minVersion"], major, minor) || major != 2 || minor > 0)
     throw Failure(
         NOOK_ERROR_BAD_FILE,
-        "the file needs a reader of glTF version %s, by its asset.minVersion (this one reads 2.0); export "
-        "it as glTF 2.0",
+        "asset.minVersion asks for a reader of glTF version %s (this one reads 2.0); export it as glTF 2.0",
         written("minVersion").c_str());
 }
 
@@ -361,7 +360,7 @@ bool LinkedFileReader::may_open(const std::string& path) {
     return refuse(name,
                   "a link that leads outside of its own folder; copy the file there, or "
                   "allow files outside (--allow-outside-files)");
-  if (!std::filesystem::is_regular_file(status)) return refuse(name, "which is no regular file");
+  if (!std::filesystem::is_regular_file(status)) return refuse(name, "which is not a regular file");
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error || size > left_) return refuse(name, "with which its files have more than 2 GiB");
   return true;

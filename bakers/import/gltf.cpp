@@ -177,7 +177,7 @@ Skeleton skeleton_of(ImportedCharacter& character, const MeshNodes& mesh_nodes) 
   }
   skeleton = build_skeleton(nodes, mesh_nodes.skins, moves, mesh_nodes.rigid_nodes);
   character.warnings.push_back(
-      "no mesh has a skin and no clip moves one, so that the file is a rigid prop of " +
+      "no mesh has a skin and no clip moves a mesh, so the file is a rigid prop of " +
       std::to_string(skeleton.bones.size()) + " bones");
   return skeleton;
 }
@@ -205,7 +205,7 @@ void append_meshes(const tinygltf::Model& model, const MeshNodes& mesh_nodes, co
     MeshBinding binding = at.is_skinned ? skeleton.skins[at.binding] : skeleton.rigid_parts[at.binding];
     if (binding.bone.empty()) {
       character.warnings.push_back("mesh node \"" + character.nodes.nodes[at.node].name +
-                                   "\" has no skin and hangs on no joint and was left out");
+                                   "\" has no skin and follows no joint, so it was left out");
       continue;
     }
     const Affine rest_from_node = binding.rest_from_mesh;

@@ -58,11 +58,11 @@ void add_warnings(const KeyRepairs& repairs, std::vector<std::string>& warnings)
   const auto warn = [&](std::size_t count, const char* what) {
     if (count > 0) warnings.push_back(std::to_string(count) + what);
   };
-  warn(repairs.equal_times, " animation channels have equal key times; the last key of each time counts");
+  warn(repairs.equal_times, " animation channels have equal key times; the last key of each time is used");
   warn(repairs.not_unit,
        " animation channels have rotations that are not unit quaternions; they were normalised");
   warn(repairs.twice,
-       " animation channels move what another channel of their clip moves; the last one counts");
+       " animation channels move the same value as another channel of their clip; the last one is used");
 }
 
 // left: what remains of max_key_floats. The channel subtracts what it takes.
@@ -88,7 +88,7 @@ Channel read_channel(const tinygltf::Model& model, const tinygltf::Animation& an
   const std::size_t per_key = channel.interpolation == Interpolation::cubic_spline ? 3 : 1;
   if (channel.time_s.empty() || output.count != per_key * channel.time_s.size())
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%s has %zu values for %zu keys (need %zu a key, and one key at least)", what.c_str(),
+                  "%s has %zu values for %zu keys (need %zu per key, and at least one key)", what.c_str(),
                   output.count, channel.time_s.size(), per_key);
   channel.value = std::move(output.value);
   const auto is_finite = [](float v) { return std::isfinite(v); };

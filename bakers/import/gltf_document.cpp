@@ -33,7 +33,7 @@ std::span<const std::byte> json_of_binary(std::span<const std::byte> bytes) {
   const std::uint32_t json = load_u32(bytes, 12);
   if (version != 2)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the file is of glTF version %u, by its binary header (need 2); export it as glTF 2.0",
+                  "the binary header says that the file has glTF version %u (need 2); export it as glTF 2.0",
                   version);
   if (total > bytes.size() || total < 20)
     throw Failure(NOOK_ERROR_BAD_FILE, "truncated .glb (got %zu bytes, its header says %u)", bytes.size(),

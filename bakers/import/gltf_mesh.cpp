@@ -104,8 +104,9 @@ Influences read_influences(const tinygltf::Model& model, const tinygltf::Primiti
     const std::size_t joint_count = element_count(model, joint_accessor, what + "." + joints);
     const std::size_t weight_count = element_count(model, weight_accessor, what + "." + weights);
     if (joint_count != vertices || weight_count != vertices)
-      throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu joints and %zu weights for %zu vertices (need as many)",
-                    what.c_str(), joint_count, weight_count, vertices);
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "%s has %zu joints and %zu weights for %zu vertices (need the same number)", what.c_str(),
+                    joint_count, weight_count, vertices);
     out.joint.push_back(read_integers(model, joint_accessor, 4, what + "." + joints));
     out.weight.push_back(read_floats(model, weight_accessor, 4, what + "." + weights));
   }

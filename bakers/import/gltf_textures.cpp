@@ -57,8 +57,7 @@ std::string name_of(const tinygltf::Image& image, int index) {
 std::uint32_t GltfTextures::image_of(const tinygltf::Texture& texture, const std::string& what) {
   const int source = texture.source;
   if (source < 0)
-    throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%s has no image that glTF itself knows, only an extension's; convert it to PNG or JPEG",
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s has an image only in a glTF extension; convert it to PNG or JPEG",
                   what.c_str());
   if (std::size_t(source) >= model_.images.size())
     throw Failure(NOOK_ERROR_BAD_FILE, "%s names image %d (file has %zu)", what.c_str(), source,
@@ -69,8 +68,8 @@ std::uint32_t GltfTextures::image_of(const tinygltf::Texture& texture, const std
   const std::span<const unsigned char> bytes = bytes_of(model_, image);
   if (bytes.empty())
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%s: %s cannot be read; put it, a regular file, where the scene's file says, in its folder "
-                  "or below, or allow files outside",
+                  "%s: %s cannot be read; it must be a regular file at the path that the scene's file names, "
+                  "in that file's folder or below, or allow files outside",
                   what.c_str(), name_of(image, source).c_str());
   if (bytes.size() > max_file_bytes - bytes_)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s: images of more than 2 GiB in all", what.c_str());

@@ -35,7 +35,7 @@ std::uint64_t number(const Json& object, const char* name, bool is_needed, std::
   const auto found = object.find(name);
   if (found == object.end() && !is_needed) return 0;
   if (found == object.end() || !found->is_number_unsigned())
-    refuse(view, std::string("\"").append(name).append("\" is missing or no whole number from 0"));
+    refuse(view, std::string("\"").append(name).append("\" is missing or not a whole number of 0 or more"));
   return found->get<std::uint64_t>();
 }
 
@@ -57,7 +57,7 @@ Value named(const Json& object, const char* name, const std::array<std::pair<con
 CompressedView read_view(const Json& object, std::size_t view) {
   using Mode = CompressedView::Mode;
   using Filter = CompressedView::Filter;
-  if (!object.is_object()) refuse(view, "the extension is no object");
+  if (!object.is_object()) refuse(view, "the extension is not an object");
   CompressedView out;
   out.view = view;
   out.buffer = number(object, "buffer", true, view);
@@ -89,7 +89,7 @@ void check_layout(const CompressedView& view) {
     refuse(view.view, "byteStride " + std::to_string(stride) +
                           (is_index ? " (need 2 or 4)" : " (need a multiple of 4 up to 256)"));
   if (view.mode == Mode::triangles && view.count % 3 != 0)
-    refuse(view.view, std::to_string(view.count) + " indices (need three a triangle)");
+    refuse(view.view, std::to_string(view.count) + " indices (need three per triangle)");
   if (is_index && view.filter != Filter::none) refuse(view.view, "a filter for indices");
   if ((view.filter == Filter::octahedral && stride != 4 && stride != 8) ||
       (view.filter == Filter::quaternion && stride != 8))

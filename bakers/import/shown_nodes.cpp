@@ -241,7 +241,8 @@ InstanceAttributes instance_attributes(const tinygltf::Model& model, std::size_t
     const int accessor = value.IsNumber() ? value.GetNumberAsInt() : -1;
     const std::size_t count = element_count(model, accessor, out.what + "." + name);
     if (counted_attributes++ > 0 && count != out.count)
-      throw Failure(NOOK_ERROR_BAD_FILE, "%s has attributes of %zu and of %zu instances (need as many)",
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "%s has attributes for %zu and for %zu instances (need the same number)",
                     out.what.c_str(), out.count, count);
     out.count = count;
     return accessor;
@@ -289,12 +290,11 @@ void check_instances(const tinygltf::Model& model, const std::vector<NodeState>&
     vertices += double(attributes.count) * double(size.vertices);
     corners += double(attributes.count) * double(size.corners);
     if (instances > max_instances || vertices > double(max_file_vertices) || corners > 3.0 * max_triangles)
-      throw Failure(
-          NOOK_ERROR_BAD_FILE,
-          "%s makes too much of its mesh: %zu instances of %zu vertices (need at most %zu instances, "
-          "%zu vertices and %zu triangles in all); bake fewer",
-          attributes.what.c_str(), attributes.count, size.vertices, max_instances, max_file_vertices,
-          max_triangles);
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "%s repeats its mesh too often: %zu instances of %zu vertices (need at most %zu "
+                    "instances, %zu vertices and %zu triangles in all); bake fewer",
+                    attributes.what.c_str(), attributes.count, size.vertices, max_instances,
+                    max_file_vertices, max_triangles);
   }
 }
 

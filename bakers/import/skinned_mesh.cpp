@@ -151,7 +151,7 @@ void validate_vertices(const std::vector<Vec3>& position, const std::vector<Skin
   if (position.size() > max_file_vertices)
     throw Failure(code, "too many vertices (got %zu, need at most %zu)", position.size(), max_file_vertices);
   if (weights.size() != position.size())
-    throw Failure(code, "%zu skinning weights for %zu vertices (need as many)", weights.size(),
+    throw Failure(code, "%zu skinning weights for %zu vertices (need the same number)", weights.size(),
                   position.size());
   refuse_any(position.size(), "vertices with a position that is not finite or beyond 1e6 m", code,
              [&](std::size_t v) { return !is_place(position[v]); });

@@ -326,8 +326,9 @@ std::vector<Tangent> surface_tangents(const SurfaceMesh& mesh, std::vector<std::
   }
   warn(warnings, degenerate,
        " triangles have no area, or none in their texture coordinates, and do not count for tangents");
-  warn(warnings, shared,
-       " vertices are shared by mirrored and other texture coordinates; split them for correct tangents");
+  warn(
+      warnings, shared,
+      " vertices are shared by mirrored and unmirrored texture coordinates; split them for correct tangents");
   warn(warnings, without, " vertices have no triangle with an area, and got arbitrary tangents");
   return tangent;
 }

@@ -340,7 +340,7 @@ FileMesh to_file_mesh(const MeshArrays& arrays, nook_result code) {
     throw Failure(code, "%zu joints and %zu weights for %zu vertices with %zu influences each",
                   arrays.joint.size(), arrays.weight.size(), vertices, arrays.influences);
   if (arrays.index.size() % 3 != 0)
-    throw Failure(code, "%zu indices (need three a triangle)", arrays.index.size());
+    throw Failure(code, "%zu indices (need three per triangle)", arrays.index.size());
   FileMesh mesh;
   mesh.bones = arrays.bones;
   mesh.position.assign(arrays.position.begin(), arrays.position.end());

@@ -21,20 +21,18 @@ using ConstMap = Eigen::Map<const Matrix>;
 void need_sizes(const RawMaterial& raw, const ClusteredTensor& t, const char* what) {
   const auto& s = t.shape;
   if (s.views != raw.views.size() || s.width != raw.width || s.height != raw.height)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "the %s is of %u views and %u x %u texels, the raw material of %zu and %u x %u; evaluate it with the "
-        "raw file that it was baked from",
-        what, s.views, s.width, s.height, raw.views.size(), raw.width, raw.height);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the %s has %u views and %u x %u texels, the raw material has %zu and %u x %u; evaluate it "
+                  "with the raw file that it was baked from",
+                  what, s.views, s.width, s.height, raw.views.size(), raw.width, raw.height);
 }
 
 void need_texels(const RawMaterial& raw, std::uint32_t width, std::uint32_t height, const char* what) {
   if (width != raw.width || height != raw.height)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "the %s is of %u x %u texels, the raw material of %u x %u; evaluate it with the raw file that it "
-        "was baked from",
-        what, width, height, raw.width, raw.height);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the %s has %u x %u texels, the raw material has %u x %u; evaluate it with the raw file "
+                  "that it was baked from",
+                  what, width, height, raw.width, raw.height);
 }
 
 NeuralTables neural_tables(const nook::material::Material& material) {
@@ -92,7 +90,7 @@ BtfError error_of_views(const RawMaterial& raw, const Decode& decode) {
 
 void need_lights(const RawMaterial& raw, std::size_t numbers, std::uint32_t rank) {
   if (numbers != raw.light_rows() * rank)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the light basis is of %zu lights, the raw material of %zu",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the light basis has %zu lights, the raw material has %zu",
                   numbers / (3 * rank), raw.lights.size());
 }
 

@@ -279,8 +279,9 @@ RawMaterial read_btf_file(std::span<const std::byte> bytes, std::uint32_t texels
   read_directions(rest, raw);
   const Size size = read_size(rest, rotated);
   if (texels > std::min(size.width, size.height))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a square of %u texels from %u x %u; use a smaller one",
-                  texels, size.width, size.height);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "a square of %u texels is larger than the image (%u x %u); use a smaller one", texels,
+                  size.width, size.height);
   raw.width = texels ? texels : size.width;
   raw.height = texels ? texels : size.height;
   const double values = double(raw.light_rows()) * double(raw.views.size()) * double(raw.texels());
@@ -294,8 +295,7 @@ RawMaterial read_btf_file(std::span<const std::byte> bytes, std::uint32_t texels
   std::array<Channel, 3> channels;
   for (Channel& channel : channels) channel = read_channel(rest, size, raw);
   if (rest.size() != 0)
-    throw Failure(NOOK_ERROR_BAD_FILE, "%zu bytes are left over behind the .btf file's channels",
-                  rest.size());
+    throw Failure(NOOK_ERROR_BAD_FILE, "%zu bytes are left over after the .btf file's channels", rest.size());
   raw.btf.resize(std::size_t(values));
   tbb::parallel_for(std::size_t{0}, raw.views.size(),
                     [&](std::size_t v) { decode_view(v, channels, colour, has_cosine, raw); });

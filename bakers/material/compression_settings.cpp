@@ -18,9 +18,10 @@ void check_file_limits(const CompressionSettings& s, const RawMaterial& raw) {
   const std::uint64_t rank = clustered ? s.cluster_rank_view : s.rank_view;
   const std::uint64_t row = rank * (s.method == Method::k_cta ? s.mixture : 1);
   if (row > nook::material::max_row)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "%llu coefficients a view (its clusters times their view rank); the file format allows %u",
-                  static_cast<unsigned long long>(row), nook::material::max_row);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "each view has %llu coefficients (its clusters times their view rank); the file format allows %u",
+        static_cast<unsigned long long>(row), nook::material::max_row);
   const auto round_up_to_4 = [](std::uint64_t n) { return (n + 3) / 4 * 4; };
   const std::uint64_t expanded = (clustered ? s.cluster_count() : 1) * round_up_to_4(s.rank_light) *
                                  round_up_to_4(rank) * raw.width * raw.height;
@@ -69,7 +70,7 @@ void check_neural(const CompressionSettings& s) {
                   s.neural_steps, max_neural_steps);
   if (s.relief != ReliefSource::none)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "a neural material has no relief, because its features have an offset of their own");
+                  "a neural material has no relief, because its features already have an offset");
 }
 
 void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
@@ -110,8 +111,9 @@ void check_settings(const CompressionSettings& s, const RawMaterial& raw, bool h
     check(s.mixture, std::min(s.cluster_count(), nook::material::max_mixture), "the mixture K",
           "the number of clusters, and the file format,");
   if (s.map_side == 1 || s.map_side > nook::material::max_map_side)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a view map of %u cells a side; need 2 to %u, or 0 for none",
-                  s.map_side, nook::material::max_map_side);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the view map has %u cells along a side; need 2 to %u, or 0 for none", s.map_side,
+                  nook::material::max_map_side);
 }
 
 void set_lowest_ranks(const RawMaterial& sizes, CompressionSettings& s) {

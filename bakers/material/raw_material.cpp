@@ -77,7 +77,7 @@ void check_directions(const std::vector<Vec3>& directions, const char* what) {
     const Vec3 d = directions[i];
     if (!(std::abs(length(d) - 1) < 1e-3f && d.z >= 0))
       throw Failure(NOOK_ERROR_BAD_FILE,
-                    "%s direction %zu, (%g, %g, %g), is no unit vector of the upper hemisphere", what, i,
+                    "%s direction %zu, (%g, %g, %g), is not a unit vector of the upper hemisphere", what, i,
                     double(d.x), double(d.y), double(d.z));
     for (std::size_t k = 0; k < i; ++k)
       if (directions[k] == d)
@@ -145,9 +145,10 @@ RawMaterial read_raw_material(std::span<const std::byte> bytes) {
   head.check_end();
   if (lights == 0 || views == 0 || lights > most_directions || views > most_directions || raw.texels() == 0 ||
       raw.width > most_texels_a_side || raw.height > most_texels_a_side)
-    throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%u lights, %u views, %u x %u texels are no material; bake the file again", lights, views,
-                  raw.width, raw.height);
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "%u lights, %u views, %u x %u texels: a material needs 1 or more of each; bake the file again",
+        lights, views, raw.width, raw.height);
   raw.lights = read_directions(directions, lights);
   raw.views = read_directions(directions, views);
   directions.check_end();

@@ -22,8 +22,7 @@ void check(const TraceSettings& s, std::span<const Vec3> lights, std::span<const
   if (s.samples < 1 || s.samples > 16)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%u samples along a texel's side; need 1 to 16", s.samples);
   if (s.bounces > 0 && s.bounce_rays < 1)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "inter-reflection without rays; need 1 or more, or no bounces");
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "bounces need rays (got 0, need 1 or more, or no bounces)");
   if (lights.empty() || views.empty())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "no directions (got %zu lights and %zu views, need 1 each)",
                   lights.size(), views.size());
@@ -31,8 +30,8 @@ void check(const TraceSettings& s, std::span<const Vec3> lights, std::span<const
     for (const Vec3 d : set)
       if (!(std::abs(length(d) - 1) < 1e-3f) || d.z < lowest_traced_z)
         throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                      "direction (%g, %g, %g) is no unit vector within 85 degrees of the normal", double(d.x),
-                      double(d.y), double(d.z));
+                      "direction (%g, %g, %g) is not a unit vector within 85 degrees of the normal",
+                      double(d.x), double(d.y), double(d.z));
 }
 
 // Checks the memory before it is taken, for the BTF and, at each vertex, for the light and rays of

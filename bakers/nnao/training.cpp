@@ -215,8 +215,9 @@ TrainingState read_checkpoint(std::span<const std::byte> bytes, std::string_view
   const Container file(bytes, checkpoint_kind);
   ByteReader head = file.section("HEAD"), numbers = file.section("NUMB");
   if (head.u64() != fingerprint(recipe))
-    throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the checkpoint is of a training with other settings; remove it, or use those settings");
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "the checkpoint belongs to a training with other settings; remove it, or use those settings");
   TrainingState state(parameter_count(form));
   state.epochs_done = head.u32();
   state.adam.steps = head.u64();
@@ -230,8 +231,8 @@ TrainingState read_checkpoint(std::span<const std::byte> bytes, std::string_view
       *value = numbers.f32();
     if (!is_reachable(state.parameter[i], state.adam.mean[i], state.adam.square[i]))
       throw Failure(NOOK_ERROR_BAD_FILE,
-                    "parameter %zu of the checkpoint is no number that training leaves (got %g, its mean "
-                    "gradient %g, mean squared gradient %g); remove it",
+                    "parameter %zu of the checkpoint cannot come from training (got %g, its mean gradient "
+                    "%g, mean squared gradient %g); remove it",
                     i, double(state.parameter[i]), double(state.adam.mean[i]), double(state.adam.square[i]));
   }
   numbers.check_end();

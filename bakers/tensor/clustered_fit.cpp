@@ -78,7 +78,7 @@ void check_seeds(std::size_t sub_tensors, const ClusteredSettings& s) {
 
 void check_ranks(const Dimensions& dimensions, const std::vector<std::size_t>& ranks) {
   if (ranks.size() != dimensions.size())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%zu ranks for a tensor of order %zu; one a mode is needed",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%zu ranks for a tensor of order %zu; one per mode is needed",
                   ranks.size(), dimensions.size());
   for (std::size_t n = 0; n < ranks.size(); ++n)
     if (ranks[n] < 1 || ranks[n] > dimensions[n])

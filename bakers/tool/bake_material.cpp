@@ -382,9 +382,10 @@ void add_bake_material(Command bake) {
       .type_name("NAME");
   command.add_input("--raw", o.raw, "source: a raw material that --keep-raw wrote");
   add_bake_options(command, o.baking);
-  command.add_flag("--strict", o.strict,
-                   "fail with exit code 4 and write nothing if the material judges itself bad: below 12 dB in views "
-                   "and lights that were held out");
+  command.add_flag(
+      "--strict", o.strict,
+      "fail with exit code 4 and write nothing if the material judges itself bad: below 12 dB in views "
+      "and lights that were held out");
   command.add_option("--keep-raw", o.keep_raw,
                      "also write the uncompressed material to this file, for `evaluate material`");
   command.add_option("--images", o.images,

@@ -42,8 +42,7 @@ void write_pictures(const std::filesystem::path& folder, const std::string& fram
 void warn_about_network(const std::string& frame, const Recording& recording) {
   if (!nook::nnao::recorded_network(recording).readable)
     std::fprintf(stderr,
-                 "%s: its network is not one that this version evaluates; the embedded network takes its "
-                 "place\n",
+                 "%s: this version cannot evaluate its network; the embedded network is used instead\n",
                  frame.c_str());
 }
 
@@ -112,7 +111,7 @@ Json evaluate_frames(platform::Context& context, const FrameWords& words, const 
       const std::vector<FrameRow> drawn =
           compare_frame(replay, recording, words.methods, words.network, show, methods);
       if (drawn.empty() || drawn.back().method == recorded_name)
-        throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: none can replay this frame");
+        throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: none of them can replay this frame");
       for (const Json& row : frame_rows(name, recording, drawn)) rows.push_back(row);
       if (!words.images.empty()) write_pictures(words.images, name, replay.view(), drawn);
     });

@@ -115,7 +115,8 @@ Json evaluate_grids(const EvaluateGridOptions& options, const CommonOptions& com
 
 Json evaluate(const Options& options, const ProbePeers* peers) {
   if (options.grid.scene.empty() != options.grid.light.empty())
-    throw ToolError(exit_bad_arguments, "evaluate probe: grids need both --scene and --light, maps neither");
+    throw ToolError(exit_bad_arguments,
+                    "evaluate probe: grids need both --scene and --light, maps need neither");
   if (!options.grid.scene.empty()) return evaluate_grids(options.grid, options.common, options.files);
   Json report;
   report["rows"] = Json::array();

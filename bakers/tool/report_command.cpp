@@ -80,7 +80,7 @@ void require_sources(const ReportSources& sources, const TakenSources& taken, co
   if (sources.nooks.size() > taken.nooks) extra = &sources.nooks[taken.nooks];
   if (extra)
     throw ToolError(exit_bad_arguments,
-                    extra->string() + ": is no source of the page of a " + kind + "; give " + need);
+                    extra->string() + ": is not a source for the page of a " + kind + "; give " + need);
 }
 
 struct Options {

@@ -43,8 +43,8 @@ TrainingState starting_state(const Options& options, const Dataset& data, const 
     return read_checkpoint(read_file(options.resume), recipe, options.training.form);
   });
   if (!options.common.quiet)
-    std::fprintf(stderr, "%s: going on after %u of %u epochs\n", platform::printable(options.resume).c_str(),
-                 state.epochs_done, options.training.epochs);
+    std::fprintf(stderr, "%s: continuing after %u of %u epochs\n",
+                 platform::printable(options.resume).c_str(), state.epochs_done, options.training.epochs);
   return state;
 }
 
@@ -125,7 +125,7 @@ void run(Options& options) {
   } catch (const Failure& failure) {
     if (failure.code() != NOOK_ERROR_CANCELLED) throw;
     throw ToolError(exit_other, !options.resume.empty() && std::filesystem::exists(options.resume)
-                                    ? "stopped; the same command goes on from " + options.resume
+                                    ? "stopped; the same command continues from " + options.resume
                                     : std::string("stopped; nothing was written"));
   }
 }

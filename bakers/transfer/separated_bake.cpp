@@ -62,7 +62,7 @@ template <class Number>
 void need_unit(Vec3 v, const char* what, Number index) {
   if (!(std::abs(length(v) - 1) <= 1e-3f))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the %s of vertex %zu has no unit length (got %g %g %g); normalise it", what,
+                  "the %s of vertex %zu is not of unit length (got %g %g %g); normalise it", what,
                   std::size_t(index), double(v.x), double(v.y), double(v.z));
 }
 
@@ -86,11 +86,10 @@ void check_bake(const SurfaceMesh& mesh, const BakeSettings& settings) {
                   "the number of vertices is out of range (got %zu, need 1 to %u)", count,
                   nook::transfer::max_vertices);
   if (mesh.normal.size() != count || mesh.tangent.size() != count || mesh.uv.size() != count)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "the mesh has %zu positions, %zu normals, %zu tangents and %zu texture coordinates (need as "
-        "many)",
-        count, mesh.normal.size(), mesh.tangent.size(), mesh.uv.size());
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the mesh has %zu positions, %zu normals, %zu tangents and %zu texture coordinates (need "
+                  "the same number)",
+                  count, mesh.normal.size(), mesh.tangent.size(), mesh.uv.size());
   for (std::size_t v = 0; v < count; ++v) {
     const Vec3 p = mesh.position[v];
     if (!is_place(p))

@@ -362,7 +362,7 @@ static int same_character(const App* a) {
   const int same = body->file_vertex_count == a->info.file_vertex_count &&
                    body->bone_count == a->info.bone_count && body->clip_count > 0;
   if (!same)
-    fputs("clips: the .glb file is not the one of the clips; pass the file that you baked\n", stderr);
+    fputs("clips: the clips were baked from another .glb file; pass the file that you baked\n", stderr);
   return same;
 }
 

@@ -93,7 +93,8 @@ void read_nodes(const tinygltf::Model& model, CharacterFile& out) {
     if (out.nodes[n].parent < 0) out.parents_first.push_back(int(n));
   for (std::size_t i = 0; i < out.parents_first.size(); ++i)
     for (const int child : model.nodes[std::size_t(out.parents_first[i])].children) {
-      if (out.parents_first.size() == out.nodes.size()) throw std::runtime_error("its nodes are no tree");
+      if (out.parents_first.size() == out.nodes.size())
+        throw std::runtime_error("its nodes do not form a tree");
       out.parents_first.push_back(child);
     }
 }
@@ -338,7 +339,7 @@ void read_file(const std::filesystem::path& path, const std::vector<std::string>
   const bool is_binary = path.extension() == ".glb";
   if (!(is_binary ? loader.LoadBinaryFromFile(&model, &error, &warning, path.string())
                   : loader.LoadASCIIFromFile(&model, &error, &warning, path.string())))
-    throw std::runtime_error(error.empty() ? "it is no glTF file" : error);
+    throw std::runtime_error(error.empty() ? "it is not a glTF file" : error);
   read_nodes(model, out);
   read_skins(model, out);
   read_clips(model, out);

@@ -408,7 +408,8 @@ int main(int argc, char** argv) {
       saved = !result && picture_write(argv[1], picture, 2 * panel_width, 2 * panel_height);
       if (!result && !saved)
         fprintf(stderr,
-                "relight: %s cannot be written; check that its folder exists and that it is no folder\n",
+                "relight: %s cannot be written; check that its folder exists and that it is not a folder "
+                "itself\n",
                 argv[1]);
     }
   }

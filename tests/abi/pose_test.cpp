@@ -296,7 +296,8 @@ TEST_CASE("checks and matches refuse what they cannot compare") {
   no_weights(
       weights, [](nook_vertex_match_desc& m) { m.influences = 0; }, "desc.influences");
   no_weights(
-      weights, [](nook_vertex_match_desc& m) { m.skin = 77; }, "desc.skin is none of the model's (got 77");
+      weights, [](nook_vertex_match_desc& m) { m.skin = 77; },
+      "desc.skin is not a skin of the model (got 77");
   no_weights(
       weights, [](nook_vertex_match_desc& m) { m.joint_stride = 6; }, "desc.joint_stride");
   no_weights(

@@ -431,7 +431,7 @@ TEST_CASE("probes: bad parameters and bad files") {
   CHECK(nook_probe_read_lobes(other, nullptr, lobes, 9) == invalid);
   nook_probe_destroy(&other);
   nook_probe_fit_destroy(&fit);
-  CHECK(last_is("nook_probe_read_lobes: ", "no lobes"));
+  CHECK(last_is("nook_probe_read_lobes: ", "not lobes"));
 }
 
 // The probes of a grid from fits, from lobes and from coefficients are the same.

@@ -202,7 +202,7 @@ CASES = [
     ("version_1", asset(version="1.0"), [], 3, ['glTF version "1.0"']),
     ("version_2_1", asset(version="2.1"), [], 0, [], "plain"),
     ("minimum_2_1", asset(version="2.1", minVersion="2.1"), [], 3, ['glTF version "2.1"', "minVersion"]),
-    ("header_1", header_version, [], 3, ["glTF version 1, by its binary header"]),
+    ("header_1", header_version, [], 3, ["binary header says that the file has glTF version 1"]),
     # Types of accessors.
     ("indices_float", indices(FLOAT), [], 3, ["indices (accessor 3) is SCALAR of FLOAT"]),
     ("indices_signed", indices(I16), [], 3, ["indices (accessor 3) is SCALAR of SHORT"]),

@@ -254,7 +254,7 @@ TEST_CASE("a texture's width and format are checked as far as the context tells 
     CHECK(write() == NOOK_OK);
     target.texture_width = 63;
     CHECK(write() == NOOK_ERROR_INVALID_ARGUMENT);
-    says("target.texture_width is not that of texture");
+    says("target.texture_width differs from the width of texture");
   } else {
     CHECK(write() == NOOK_ERROR_INVALID_ARGUMENT);
     says("target.texture_width is 0 (OpenGL ES 3.0 does not tell it");
@@ -264,7 +264,8 @@ TEST_CASE("a texture's width and format are checked as far as the context tells 
   if (!context.is_es()) return;  // uploads convert there
   target.format = NOOK_FORMAT_UNORM8;
   CHECK(write() == (asked ? NOOK_ERROR_INVALID_ARGUMENT : NOOK_ERROR_GL));
-  says(asked ? "target.format is not that of texture" : "on OpenGL ES target.format must be the texture's");
+  says(asked ? "target.format differs from the format of texture"
+             : "on OpenGL ES target.format must be the texture's");
   take_debug_messages();
 }
 

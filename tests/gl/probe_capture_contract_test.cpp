@@ -69,8 +69,8 @@ TEST_CASE("what is not a cube map for a capture is refused, and the light stays"
     CHECK(gl.GetError() == GL_NO_ERROR);
   };
   Textures textures(gl);
-  refused(0, "no texture");
-  refused(4000000, "no texture");
+  refused(0, "not a texture");
+  refused(4000000, "not a texture");
   refused(textures.floats(GL_RGBA32F, 4, 8, 8, {}), "another kind");
   GLint major = 0, minor = 0;
   gl.GetIntegerv(GL_MAJOR_VERSION, &major);

@@ -329,8 +329,8 @@ TEST_CASE("a material with a fault is not written, and the message names it") {
   CHECK(refusal([](Material& m) { m.relief.steps = 65; }, bumpy).says("steps of the relief"));
   CHECK(refusal([](Material& m) { m.relief.steps = 0; }, bumpy).says("levels of the relief"));
   CHECK(refusal([](Material& m) { m.relief.levels.pop_back(); }, bumpy).says("levels of the relief"));
-  CHECK(
-      refusal([](Material& m) { m.relief.low = 0; }, {.relief_height = 0.1f}).says("no steps, but heights"));
+  CHECK(refusal([](Material& m) { m.relief.low = 0; }, {.relief_height = 0.1f})
+            .says("no steps, but has heights"));
   CHECK(refusal([](Material& m) {
           m.btf.shape = {9, 1024, 1024, 15, 9, 1, 1, 9, 1};
         }).says("expanded size of the BTF"));

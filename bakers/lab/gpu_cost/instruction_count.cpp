@@ -76,7 +76,7 @@ std::vector<Span> find_loops(const std::vector<Block>& blocks) {
       const auto target = place.find(instruction.target);
       if (target == place.end())
         throw std::runtime_error("nook_gpu_cost: a branch goes to " + instruction.target +
-                                 ", which is no block");
+                                 ", which is not a block");
       if (target->second <= i) last_of[target->second] = std::max(last_of[target->second], i);
     }
   std::vector<Span> spans;

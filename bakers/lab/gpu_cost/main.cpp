@@ -107,7 +107,8 @@ int compare_two(const Options& options) {
   const CostReport after = report_of(options, options.after, first_lines(options));
   if (before.driver != after.driver) {
     std::printf(
-        "SKIPPED: the old numbers are of %s, the new ones of %s; numbers of two compilers do not compare\n",
+        "SKIPPED: the old numbers come from %s, the new ones from %s; numbers of two compilers cannot be "
+        "compared\n",
         before.driver.c_str(), after.driver.c_str());
     return exit_skipped;
   }

@@ -167,7 +167,7 @@ MoverView trace_mover(const bake::TriangleSoup& still, const MovingBody& body, c
   const std::size_t count = body.position.size();
   if (count < 2 || settings.path.frames != count)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "movers: a body of %zu frames and a path of %zu, need as many, 2 or more", count,
+                  "movers: the body has %zu frames and the path %zu (need the same number, 2 or more)", count,
                   settings.path.frames);
   const bake::RayScene last(with_body(still, body, count - 1));
   std::vector<MoverFrame> frames(count);

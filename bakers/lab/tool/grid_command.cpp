@@ -83,7 +83,7 @@ Json rows_of(const Options& options, const LookupScene& scene, float origin_offs
 Json evaluate(const Options& options) {
   if (options.scene.empty() != options.light.empty())
     throw ToolError(exit_bad_arguments,
-                    "evaluate grid: a scene needs both --scene and --light, the built-in rooms neither");
+                    "evaluate grid: a scene needs both --scene and --light, the built-in rooms need neither");
   Json report;
   if (options.scene.empty()) {
     const Rooms rooms = make_rooms();

@@ -28,19 +28,20 @@ namespace {
 
 void check_movers(const EvaluateNnaoOptions& options) {
   if (options.movers.empty()) {
-    if (!options.clip.empty()) throw ToolError(exit_bad_arguments, "evaluate nnao: --clip: it needs --mover");
+    if (!options.clip.empty()) throw ToolError(exit_bad_arguments, "evaluate nnao: --clip needs --mover");
     return;
   }
   if (!options.temporal || !options.scenes.cameras.empty() || !options.scenes.radii.empty() ||
       !options.references.empty())
-    throw ToolError(exit_bad_arguments,
-                    "evaluate nnao: --mover: it needs --temporal, and has no --camera, --radius and "
-                    "--references");
+    throw ToolError(
+        exit_bad_arguments,
+        "evaluate nnao: --mover needs --temporal, and does not go with --camera, --radius or --references");
   for (std::size_t i = 0; i < options.movers.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (options.movers[i].stem() == options.movers[j].stem())
-        throw ToolError(exit_bad_arguments, "evaluate nnao: --mover: two characters have one name (got " +
-                                                options.movers[i].stem().string() + ")");
+        throw ToolError(exit_bad_arguments,
+                        "evaluate nnao: --mover: two characters have the same name (got " +
+                            options.movers[i].stem().string() + ")");
 }
 
 }  // namespace
@@ -55,19 +56,21 @@ void check_options(const EvaluateNnaoOptions& options) {
         "evaluate nnao: need scenes (files, --views or --thin), or --frame, or --mover, or else --tune");
   if (!options.frames.empty() &&
       (!options.markdown.empty() || !options.scenes.cameras.empty() || !options.scenes.radii.empty()))
-    throw ToolError(exit_bad_arguments,
-                    "evaluate nnao: --frame: --markdown, --camera and --radius are of scenes alone");
+    throw ToolError(
+        exit_bad_arguments,
+        "evaluate nnao: --frame does not go with --markdown, --camera or --radius, which are for scenes");
   check_movers(options);
   if (options.intensity != 1 && (!has_scenes || options.bent || options.temporal))
-    throw ToolError(exit_bad_arguments, "evaluate nnao: --intensity: it is of AO of single frames of scenes");
+    throw ToolError(exit_bad_arguments,
+                    "evaluate nnao: --intensity is only for the AO of single frames of scenes");
   if (options.temporal &&
       ((!has_scenes && options.movers.empty()) || options.bent || !options.methods.empty() ||
        !options.network.empty() || !options.ratios.empty() || (has_scenes && !options.images.empty())))
     throw ToolError(exit_bad_arguments,
-                    "evaluate nnao: --temporal: it needs scenes or --mover, and has no --bent-normals, "
-                    "--methods, --network and --ratio, and --images with --mover alone");
+                    "evaluate nnao: --temporal needs scenes or --mover. It does not go with --bent-normals, "
+                    "--methods, --network or --ratio, and goes with --images only beside --mover");
   if (!options.views.empty() && !options.scenes.files.empty())
-    throw ToolError(exit_bad_arguments, "evaluate nnao: --views: its scenes take the place of files");
+    throw ToolError(exit_bad_arguments, "evaluate nnao: --views brings its own scenes; leave out the files");
 }
 
 void add_options(Command command, EvaluateNnaoOptions& options) {

@@ -81,7 +81,8 @@ std::vector<SceneRequest> parse_scenes(const SceneWords& words) {
   if (words.thin) scenes.push_back({"thin", {}, 0.5f, {}, words.reading, {}});
   for (std::size_t i = 0; i < scenes.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (scenes[i].name == scenes[j].name) refuse("two scenes have one name (got " + scenes[i].name + ")");
+      if (scenes[i].name == scenes[j].name)
+        refuse("two scenes have the same name (got " + scenes[i].name + ")");
   for (const std::string& text : words.radii)
     apply(scenes, "--radius", text,
           [](SceneRequest& scene, const std::string& value) { scene.radius = parse_radius(value); });
@@ -158,7 +159,7 @@ SceneRequest read_scene(const Json& json, const std::string& source, const std::
   SceneRequest scene;
   scene.name = json.at("name").get<std::string>();
   if (scene.name.empty() || scene.name.find_first_of("/\\") != std::string::npos)
-    refuse_list("a scene has a name that is no file's (got " + scene.name + ")");
+    refuse_list("a scene has a name that no file can have (got " + scene.name + ")");
   scene.file = folder / (scene.name + ".glb");
   scene.source = source;
   scene.radius = read_radius(json, scene.name);

@@ -95,7 +95,7 @@ void check_methods(const std::vector<std::string>& methods, const std::string& o
   for (const std::string& method : methods)
     for (const std::string& of_frames : frame_method_names())
       if (method.substr(0, method.find(':')) == of_frames)
-        throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: " + method + " is of --frame alone");
+        throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: " + method + " is only for --frame");
 }
 
 Comparison compare_views(const EvaluateNnaoOptions& options, platform::Context& context,

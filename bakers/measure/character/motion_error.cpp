@@ -81,9 +81,8 @@ MotionErrors measure_motion(const ImportedCharacter& character, const CharacterM
                             std::span<const std::size_t> clips, std::size_t most_frames, std::uint32_t rays,
                             std::uint64_t seed, const Progress& progress) {
   if (clips.empty())
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "the file has no clip that shows motion, whose frames could be measured; give one that has");
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "no clip of the file shows motion; give a file with a clip that does");
   const std::size_t each = std::max(least_frames, most_frames / clips.size());
   MotionErrors errors;
   for (std::size_t c = 0; c < clips.size(); ++c) {

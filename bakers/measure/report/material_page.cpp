@@ -73,7 +73,7 @@ void add_raw(PageParts& parts, Measures& measures, std::span<const std::byte> by
              "The raw material, the decoded one and three times their difference, for a view from above and "
              "a tilted one; below them the visibility",
              Html("From the left: ray traced, decoded, three times the difference; above a view near the "
-                  "normal, below a tilted one. Black in the third column is no difference.")) +
+                  "normal, below a tilted one. Black in the third column means no difference.")) +
       table(rows) + Html("</section>\n");
 }
 
@@ -93,8 +93,8 @@ PageParts material_parts(std::span<const std::byte> bytes, const nook::material:
           sheet.picture,
           "The tile twice each way, for three views from left to right and three lights from top to bottom",
           Html("From left to right the viewer sinks from above to the horizon of x; from top to bottom the "
-               "light sinks from above to that of y. Look for seams at the middle of each panel and for "
-               "patches that change suddenly.")) +
+               "light sinks from above to the horizon of y. Look for seams at the middle of each panel and "
+               "for patches that change suddenly.")) +
       Html("</section>\n");
   if (raw) add_raw(parts, measures, bytes, material, *raw);
   parts.lead = text(std::to_string(tables.btf.width)) + Html(" x ") +

@@ -108,8 +108,8 @@ Html error_scale(double end, Markup unit) {
          Html(" and more\"><span class=\"ramp\" style=\"background:linear-gradient(90deg,") + ramp +
          Html(")\"></span><span class=\"ticks\">") + labels + Html("</span><small>") + Html(unit) +
          Html(
-             "; the colours are those of viridis, which grow evenly lighter and stay apart for colour-blind "
-             "readers</small></div>\n");
+             "; the colours are viridis: they grow evenly lighter, and colour-blind readers can tell them "
+             "apart</small></div>\n");
 }
 
 Html share_bar(double share) {

@@ -149,7 +149,8 @@ std::string gltf_text(const CharacterModel& model) {
 // Returns a comment before Unreal's and Source 2's text. glTF has a member instead.
 std::string note_of(const ExportError& error, CasterRadii radii) {
   std::string text;
-  add(text, "capsules of one radius, that of %s; AO on the floor below the rest pose: rms %.5f, at most %.5f",
+  add(text,
+      "capsules with one radius, fitted to %s; AO on the floor below the rest pose: rms %.5f, at most %.5f",
       radii == CasterRadii::ao ? "AO" : "light", error.rms, error.largest);
   return text;
 }

@@ -15,7 +15,8 @@ namespace {
 
 void copy_static_ao(const CharacterModel& m, std::byte* out, std::size_t stride) {
   if (m.static_ao.empty())
-    throw Failure(NOOK_ERROR_UNSUPPORTED, "the model was baked without static AO; bake it with it");
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the model was baked without static AO; bake it again with static AO");
   for (const std::uint32_t welded : m.file_to_welded) {
     std::memcpy(out, &m.static_ao[welded], sizeof(float));
     out += stride;

@@ -22,15 +22,15 @@ void log_topics(const Context& context, const char* subject, const CharacterMode
                 const PoseNotes& notes, std::uint32_t topics) {
   if (topics & PoseNotes::topic_zero)
     context.log(NOOK_LOG_WARNING,
-                "%s: all %u matrices of the pose are zero, so that the body shrinks to nothing and neither "
-                "darkens nor is darkened; fill the matrices before the call if this is not meant",
+                "%s: all %u matrices of the pose are zero, so the body shrinks to nothing and has no "
+                "shadows; fill the matrices before the call if you did not intend this",
                 subject, notes.bones);
   if (topics & PoseNotes::topic_uneven) log_uneven(context, subject, model, notes);
   if (topics & PoseNotes::topic_surplus)
-    context.log(
-        NOOK_LOG_INFO,
-        "%s: the pose has %u transforms, and the first %u count, because NOOK_POSE_FLAG_SURPLUS is set",
-        subject, notes.transforms_given, notes.transforms_used);
+    context.log(NOOK_LOG_INFO,
+                "%s: the pose has %u transforms, and only the first %u are used, because "
+                "NOOK_POSE_FLAG_SURPLUS is set",
+                subject, notes.transforms_given, notes.transforms_used);
 }
 
 }  // namespace

@@ -77,11 +77,10 @@ void read_lobes(const nook_probe_desc& desc, Probes& probes) {
   const std::size_t count = desc.lobe_count, all = probes.grid.size() * count;
   for (std::size_t i = count; i < all; ++i)
     if (!same_function(desc.lobes[i], desc.lobes[i % count]))
-      throw Failure(
-          NOOK_ERROR_INVALID_ARGUMENT,
-          "lobe %zu of probe %zu has another axis or sharpness than that of probe 0; all probes need "
-          "the same",
-          i % count, i / count);
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "lobe %zu of probe %zu has another axis or sharpness than in probe 0; all probes need "
+                    "the same lobes",
+                    i % count, i / count);
   probes.basis = basis_of(desc.lobes, desc.lobe_count);
   probes.coefficients.resize(all);
   for (std::size_t i = 0; i < all; ++i) probes.coefficients[i] = vec3(desc.lobes[i].amplitude);
@@ -129,7 +128,7 @@ bool lacks_gloss(const Probes& probes) {
 void check_lobes(const Probes& probes) {
   if (probes.basis.kind != BasisKind::gaussians)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the probe's functions are no lobes (got basis %d, need NOOK_PROBE_BASIS_LOBES)",
+                  "the probe's functions are not lobes (got basis %d, need NOOK_PROBE_BASIS_LOBES)",
                   int(probes.basis.kind));
 }
 

@@ -47,8 +47,8 @@ VectorOutput output_of(float* vectors, std::uint32_t count, std::uint32_t stride
 Vec3 unit(const char* name, const float* v, std::uint32_t index) {
   const Vec3 d{v[0], v[1], v[2]};
   if (!(std::abs(length(d) - 1) <= 1e-3f))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the %s of vertex %u has no unit length (got %g %g %g)", name,
-                  index, double(d.x), double(d.y), double(d.z));
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the %s of vertex %u is not of unit length (got %g %g %g)",
+                  name, index, double(d.x), double(d.y), double(d.z));
   return d;
 }
 
@@ -159,7 +159,7 @@ nook_result nook_transfer_read_frames(nook_transfer transfer, float* normals, fl
     const Transfer& baked = transfer->transfer;
     if (baked.paper.is_used())
       throw Failure(NOOK_ERROR_UNSUPPORTED,
-                    "the paper's form of transfer has no frames; keep those of the mesh");
+                    "the paper's form of transfer has no frames; keep the frames of the mesh");
     if (vertex_count != baked.vertex_count())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "vertex_count is not the transfer's (got %u, need %u)",
                     vertex_count, baked.vertex_count());
@@ -252,7 +252,7 @@ nook_result nook_transfer_shade(nook_material material, const nook_material_pixe
     const std::uint32_t modes = material->tables.btf.light_modes;
     if (vector_floats != 3 * modes)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "vector_floats is not that of the material (got %u, need %u)", vector_floats, 3 * modes);
+                    "vector_floats differs from the material's (got %u, need %u)", vector_floats, 3 * modes);
     if (count == 0) return;
     need(pixels, "pixels");
     need(vectors, "vectors");

@@ -22,8 +22,8 @@ constexpr float max_irradiance = 1e15f;
 
 MapView map_of(const nook_transfer_light_desc& desc) {
   if (desc.layout != NOOK_TRANSFER_MAP_LATLONG && desc.layout != NOOK_TRANSFER_MAP_CUBE)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.layout is unknown (got %d); use a NOOK_TRANSFER_MAP_",
-                  int(desc.layout));
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.layout is unknown (got %d); use a NOOK_TRANSFER_MAP_ value", int(desc.layout));
   if (desc.split_suns != 0 && desc.split_suns != 1)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.split_suns is %d, need 0 or 1", desc.split_suns);
   MapView map{MapLayout(desc.layout), desc.width, desc.height, {}};
@@ -44,8 +44,8 @@ Mat3x4 rotation_of(const float* rows) {
       for (int c = 0; c < 3; ++c) product += rows[3 * r + c] * rows[3 * s + c];
       if (!(std::abs(product - float(r == s)) <= 1e-3f))
         throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                      "light_from_shape is no rotation: the product of its rows %d and %d is %g (need %d)", r,
-                      s, double(product), int(r == s));
+                      "light_from_shape is not a rotation: the product of its rows %d and %d is %g (need %d)",
+                      r, s, double(product), int(r == s));
     }
   return matrix;
 }
@@ -81,7 +81,7 @@ void read_probe(const nook_transfer_light_desc& desc, nook_transfer_light_s& lig
 void read_direction(const nook_transfer_light_desc& desc, nook_transfer_light_s& light) {
   const Vec3 d{desc.direction[0], desc.direction[1], desc.direction[2]};
   if (!(std::abs(length(d) - 1) <= 1e-3f))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.direction has no unit length (got %g); normalise it",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.direction is not of unit length (got %g); normalise it",
                   double(length(d)));
   for (const float irradiance : desc.irradiance)
     check_fits("desc.irradiance", irradiance, std::abs(irradiance) <= max_irradiance,

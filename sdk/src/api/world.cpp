@@ -51,7 +51,7 @@ nook_result nook_model_read_capsules(nook_model model, nook_model_capsule* out, 
     *count = own;
     if (own == 0)
       throw Failure(NOOK_ERROR_UNSUPPORTED,
-                    "the model has no world casters, because it was baked without; bake the character again");
+                    "the model was baked without world casters; bake the character again");
     if (!out) return;
     if (room < own)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "*count is too small (got %u, need %u)", room, own);

@@ -59,7 +59,7 @@ Vec3 checked_light(const char* descriptor, const float (&axis)[3], float degrees
   const Vec3 towards = vector_of(axis);
   if (!(std::abs(length(towards) - 1) <= 1e-3f))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "%s.light_axis is not of unit length (got %g, need 1 to 0.001)", descriptor,
+                  "%s.light_axis is not of unit length (got %g, need 1 within 0.001)", descriptor,
                   double(length(towards)));
   return normalised(towards);
 }

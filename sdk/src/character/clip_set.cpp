@@ -71,7 +71,7 @@ void check_clip_counts(const ClipSet& set, nook_result code) {
   check_count(set.ao.rows, 1, max_vertices, "vertices", code);
   check_count(set.ao.modes, 4, ClipSet::max_ao_modes, "modes of AO", code);
   if (set.ao.modes % 4 != 0)
-    throw Failure(code, "the number of modes of AO is no multiple of 4 (got %u); bake the clips again",
+    throw Failure(code, "the number of AO modes is not a multiple of 4 (got %u); bake the clips again",
                   set.ao.modes);
   check_count(set.pose.modes, 1, ClipSet::max_pose_modes, "modes of the pose", code);
 }

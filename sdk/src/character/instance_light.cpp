@@ -16,7 +16,7 @@ constexpr float max_sharpness = 1e4f, max_amplitude = 1e18f;
 void check_lobe(const SphericalGaussian& lobe, std::size_t index) {
   if (!(std::abs(length(lobe.axis) - 1) <= 1e-3f))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the axis of lobe %zu is not of unit length (got %g, need 1 to 0.001)", index,
+                  "the axis of lobe %zu is not of unit length (got %g, need 1 within 0.001)", index,
                   double(length(lobe.axis)));
   if (!(lobe.sharpness >= 0 && lobe.sharpness <= max_sharpness))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

@@ -17,9 +17,10 @@ void check_influences(const CharacterModel& model) {
                   model.influence.size(), model.alpha.size(), model.blend.size(), entries);
   for (std::size_t e = 0; e < entries; ++e)
     if (model.alpha[e] != 0 && model.influence[e] >= model.key_points.size())
-      throw Failure(NOOK_ERROR_BAD_FILE,
-                    "vertex %zu is shaded by key point %u, which is not one of the model's (need < %zu)",
-                    e / model.influences, static_cast<unsigned>(model.influence[e]), model.key_points.size());
+      throw Failure(
+          NOOK_ERROR_BAD_FILE,
+          "vertex %zu is shaded by key point %u, which the model does not have (need less than %zu)",
+          e / model.influences, static_cast<unsigned>(model.influence[e]), model.key_points.size());
 }
 
 std::uint32_t block_count_of(std::size_t vertices) {
@@ -140,9 +141,10 @@ LinearLayer::LinearLayer(const CharacterModel& model, Memory* memory)
   }
   for (std::size_t i = 0; i < file_to_slot_.size(); ++i) {
     if (model.file_to_welded[i] >= order.size())
-      throw Failure(NOOK_ERROR_BAD_FILE,
-                    "file vertex %zu is welded vertex %u, which is not one of the model's (need < %zu)", i,
-                    static_cast<unsigned>(model.file_to_welded[i]), order.size());
+      throw Failure(
+          NOOK_ERROR_BAD_FILE,
+          "file vertex %zu refers to welded vertex %u, which the model does not have (need less than %zu)", i,
+          static_cast<unsigned>(model.file_to_welded[i]), order.size());
     file_to_slot_[i] = welded_to_slot[model.file_to_welded[i]];
   }
   const float alpha_step = alpha_step_of(alpha), blend_step = blend_step_of(blend);

@@ -47,7 +47,7 @@ struct Check {
   }
   void unit(const char* what, std::size_t index, Vec3 n) const {
     if (!is_unit(n))
-      throw Failure(code, "%s %zu is no unit vector (got %g %g %g); bake the model again", what, index,
+      throw Failure(code, "%s %zu is not a unit vector (got %g %g %g); bake the model again", what, index,
                     double(n.x), double(n.y), double(n.z));
   }
 };

@@ -225,11 +225,10 @@ void set_tolerance(Check& check, double tolerance) {
 [[noreturn]] void fail_without_vertices(const Check& check) {
   const RestVertex& rest = check.model.bind.vertices[check.all[0].rest_vertex];
   const std::size_t bone = rest.bone[std::min(first_missing(check, rest), rest.bone_count - 1)];
-  throw Failure(
-      NOOK_ERROR_INVALID_ARGUMENT,
-      "none of the vertices hangs on bones of this pose alone (bone %zu, \"%s\", has no transform); "
-      "check the skin that moves them",
-      bone, check.model.bone_names[bone].c_str());
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                "every vertex follows at least one bone that this pose does not move (bone %zu, \"%s\", has "
+                "no transform); check which skin moves the vertices",
+                bone, check.model.bone_names[bone].c_str());
 }
 
 bool fits(Check& check, const Reading& reading) {

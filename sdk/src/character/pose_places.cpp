@@ -120,17 +120,17 @@ bool explain_by_known_place(const PosedPoints& points, const Affine& true_place,
   if (is_of_vertices && fits_under(points, points.vertex_place)) {
     if (is_given)
       explain(finding, fault,
-              "desc.place_3x4 is not the place of the vertices: the pose stands elsewhere, and fits with "
-              "check.place_3x4");
+              "desc.place_3x4 is not the place of the vertices: the pose stands at another place, and fits "
+              "with check.place_3x4");
     else
       explain(finding, fault, "desc.place_3x4 is missing: the pose fits with check.place_3x4");
     return true;
   }
   if (is_given && fits_under(points, none)) {
-    explain(finding, fault,
-            "the pose stands elsewhere than the vertices, and fits without desc.place_3x4: the transforms "
-            "lead to "
-            "the world already, or check.place_3x4, the place of the vertices, is missing");
+    explain(
+        finding, fault,
+        "the pose stands at another place than the vertices, and fits without desc.place_3x4: the transforms "
+        "lead to the world already, or check.place_3x4, the place of the vertices, is missing");
     return true;
   }
   return false;
@@ -176,11 +176,10 @@ bool explain_by_place(const PosedPoints& points, PoseFinding& finding) {
         "desc.place_3x4 of the pose as well",
         axis);
   } else {
-    explain(
-        finding, NOOK_POSE_FAULT_PLACE,
-        "the pose is right in itself, and stands elsewhere than the vertices: it fits when turned by %.3g "
-        "degrees and moved by (%.4g %.4g %.4g); one of the two places is wrong or missing",
-        turn_degrees(map, scale), map.m[3], map.m[7], map.m[11]);
+    explain(finding, NOOK_POSE_FAULT_PLACE,
+            "the pose is right, but stands at another place than the vertices: it fits when turned by %.3g "
+            "degrees and moved by (%.4g %.4g %.4g); one of the two places is wrong or missing",
+            turn_degrees(map, scale), map.m[3], map.m[7], map.m[11]);
   }
   return true;
 }

@@ -173,7 +173,7 @@ void describe(const CharacterModel& model, const PoseSource& given, const Readin
         finding.fitting_skin = skin;
       break;
     case NOOK_POSE_FAULT_SKIN:
-      if (explain(finding, reading.fault, "the skinning matrices are those of skin %u, not of skin %u", skin,
+      if (explain(finding, reading.fault, "the skinning matrices belong to skin %u, not to skin %u", skin,
                   model.bind.skins[given.skin].file_index))
         finding.fitting_skin = skin;
       break;
@@ -188,7 +188,7 @@ void describe(const CharacterModel& model, const PoseSource& given, const Readin
     case NOOK_POSE_FAULT_PLACE:
       explain(
           finding, reading.fault,
-          "the transforms are a mirror image in %c, as left-handed engines have them; negate what is of %c",
+          "the transforms are a mirror image in %c, as in left-handed engines; negate everything along %c",
           "xyz"[reading.mirrored_axis], "xyz"[reading.mirrored_axis]);
       break;
     case NOOK_POSE_FAULT_UNIT:

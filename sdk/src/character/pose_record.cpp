@@ -28,8 +28,8 @@ struct Head {
 Head read_head(ByteReader& in, std::size_t record) {
   if (in.remaining() < pose_record_head || in.text(magic.size()) != magic)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "record %zu does not begin as a recorded pose; give the bytes that nook_scene_record_pose "
-                  "wrote, one record behind the other",
+                  "record %zu does not begin like a recorded pose; give the bytes that "
+                  "nook_scene_record_pose wrote, one record after the other",
                   record);
   const std::uint32_t version = in.u32();
   if (version != record_version)

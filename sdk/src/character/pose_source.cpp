@@ -26,8 +26,8 @@ std::uint32_t find_skin(const CharacterModel& model, std::uint32_t file_index) {
                                   [&](const SkinBind& skin) { return skin.file_index == file_index; });
   if (found == skins.end())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.skin is none of the model's %zu skins (got %u); nook_model_describe_skin lists them, "
-                  "and a model without skins takes NOOK_POSE_JOINT_TO_WORLD",
+                  "desc.skin is not one of the model's %zu skins (got %u); nook_model_describe_skin lists "
+                  "them, and a model without skins takes NOOK_POSE_JOINT_TO_WORLD",
                   skins.size(), file_index);
   return static_cast<std::uint32_t>(found - skins.begin());
 }
@@ -74,11 +74,11 @@ void take_surplus_off(PoseSource& source, std::size_t expected) {
                   "desc.transform_of_bone for another order",
                   what, got, expected);
   if (!source.allows_surplus)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.transform_count is more than the number of %s (got %u, need %zu); set "
-                  "NOOK_POSE_FLAG_SURPLUS if the first %zu count, or give desc.transform_of_bone for another "
-                  "order",
-                  what, got, expected, expected);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.transform_count is more than the number of %s (got %u, need %zu); set NOOK_POSE_FLAG_SURPLUS "
+        "to use only the first %zu, or give desc.transform_of_bone for another order",
+        what, got, expected, expected);
   source.transform_count = static_cast<std::uint32_t>(expected);
 }
 
@@ -232,13 +232,12 @@ PoseNotes notes_of_place(const CharacterModel& model, const Mat3x4& place) {
 }
 
 void fail_uneven(const CharacterModel& model, std::size_t bone, const BoneAxes<double>& axes) {
-  throw Failure(
-      NOOK_ERROR_INVALID_ARGUMENT,
-      "the matrix of bone %zu (\"%s\") is no rotation with one scale (its axes have lengths %g %g %g, "
-      "and the largest cosine between them is %g; need equal to 1 %% and at most 0.01); check "
-      "desc.layout, a transposed matrix looks like this; without strict_poses and NOOK_POSE_FLAG_STRICT the "
-      "matrix is projected",
-      bone, name_of(model, bone), axes.length(0), axes.length(1), axes.length(2), axes.cosine());
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                "the matrix of bone %zu (\"%s\") is not a rotation with one scale (its axes have lengths %g "
+                "%g %g, and the largest cosine between them is %g; need lengths that agree within 1 %% and a "
+                "cosine of at most 0.01); check desc.layout, a transposed matrix looks like this; without "
+                "strict_poses and NOOK_POSE_FLAG_STRICT the matrix is projected",
+                bone, name_of(model, bone), axes.length(0), axes.length(1), axes.length(2), axes.cosine());
 }
 
 void fail_without_transform(const CharacterModel& model, std::size_t bone) {

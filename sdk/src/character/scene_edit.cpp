@@ -308,9 +308,9 @@ PoseNotes set_clip(Scene& scene, nook_instance_id id, Ref<const LoadedClips> cli
   Instance& instance = instance_of(scene, id);
   const CharacterModel& model = instance.model->model;
   if (clips->model.get() != instance.model.get())
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "the clips were loaded for another model than that of instance %u; load them with its model", id);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the clips were loaded for another model than instance %u has; load them with its model",
+                  id);
   const PoseNotes notes = notes_of_place(model, place);
   if (notes.is_place_uneven && scene.settings.strict_poses) fail_uneven(model, notes.first, notes.axes);
   const std::span<Mat3x4> posed(scene.converted.data(), instance.input.bones.size());
@@ -332,7 +332,8 @@ void link(Scene& scene, nook_instance_id receiver, nook_instance_id caster) {
   Instance& casting = instance_of(scene, caster);
   if (receiver == caster)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "receiver and caster are the same instance %u; its own shadow is always there", receiver);
+                  "receiver and caster are the same instance %u; an instance always shadows itself",
+                  receiver);
   const std::uint32_t slot = slot_of(scene, casting);
   if (std::binary_search(instance.input.linked.begin(), instance.input.linked.end(), slot)) return;
   make_room_for_one(instance.input.linked);
@@ -347,8 +348,8 @@ void unlink(Scene& scene, nook_instance_id receiver, nook_instance_id caster) {
   Instance& casting = instance_of(scene, caster);
   if (!erase_slot(instance.input.linked, slot_of(scene, casting)))
     throw Failure(NOOK_ERROR_INVALID_HANDLE,
-                  "instance %u is not linked to caster %u; links of link_nearest are not unlinked", receiver,
-                  caster);
+                  "instance %u is not linked to caster %u; unlink takes only links of nook_scene_link",
+                  receiver, caster);
   erase_slot(casting.input.receivers, slot_of(scene, instance));
 }
 
@@ -366,7 +367,7 @@ void set_ground(Scene& scene, nook_instance_id id, const Plane* plane) {
   Instance& instance = instance_of(scene, id);
   if (plane && !(std::abs(length(plane->normal) - 1) <= 1e-3f))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the normal of the plane is not of unit length (got %g, need 1 to 0.001)",
+                  "the normal of the plane is not of unit length (got %g, need 1 within 0.001)",
                   double(length(plane->normal)));
   if (plane)
     check_fits("the offset of the plane", plane->offset, std::abs(plane->offset) <= 1e9f, "finite metres");

@@ -9,8 +9,9 @@ namespace {
 
 void check_bone(const CharacterModel& model, std::uint16_t bone, const char* owner, std::size_t index) {
   if (bone >= model.bone_count())
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s %zu follows bone %u, which is not one of the model's (need < %zu)",
-                  owner, index, static_cast<unsigned>(bone), model.bone_count());
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%s %zu follows bone %u, which the model does not have (need less than %zu)", owner, index,
+                  static_cast<unsigned>(bone), model.bone_count());
 }
 
 // Returns six arrays of `stride` numbers, one after another.

@@ -40,7 +40,7 @@ void check_directions(const Vector<Vec3>& directions, const Check& check) {
     // The tolerance of 1e-3 is far above rounding and far below any intended difference.
     if (!(std::abs(length(d) - 1) <= 1e-3f) || !(d.z >= 0))
       throw Failure(check.code,
-                    "direction %zu of the %s is no unit vector of the upper hemisphere (got %g %g %g)", i,
+                    "direction %zu of the %s is not a unit vector of the upper hemisphere (got %g %g %g)", i,
                     check.name, double(d.x), double(d.y), double(d.z));
     for (std::size_t j = 0; j < i; ++j)
       if (length(directions[j] - d) < min_distance)
@@ -98,7 +98,7 @@ void check_relief(const Relief& relief, const TensorShape& btf, nook_result code
   check.range("the number of steps", relief.steps, 0, max_relief_steps);
   check.sized("levels", relief.levels.size(), is_plane ? 0 : std::size_t(btf.width) * btf.height);
   if (is_plane && relief.low != relief.high)
-    throw Failure(code, "the relief has no steps, but heights of %g to %g", double(relief.low),
+    throw Failure(code, "the relief has no steps, but has heights of %g to %g", double(relief.low),
                   double(relief.high));
 }
 
@@ -123,7 +123,7 @@ void check_neural(const Material& material, nook_result code) {
   check.sized("the light basis", material.light_basis.size(), 0);
   check.sized("the view map's side", material.btf.map.side, 0);
   if (material.relief.moves())
-    throw Failure(code, "the material is neural and has a relief; its features have an offset of their own");
+    throw Failure(code, "the material is neural and has a relief; its features already have an offset");
 }
 
 void check_btf(const Material& material, nook_result code) {
@@ -152,7 +152,7 @@ void check_neural_shape(const NeuralShape& s, nook_result code) {
   for (const auto& size : sizes) {
     check.range(size.what, size.got, 4, size.most);
     if (size.got % 4 != 0)
-      throw Failure(code, "%s of the neural material is no multiple of 4 (got %u)", size.what, size.got);
+      throw Failure(code, "%s of the neural material is not a multiple of 4 (got %u)", size.what, size.got);
   }
 }
 
@@ -171,11 +171,10 @@ void check_block_bytes(const BlockSize& size) {
 
 void refuse_neural(bool is_neural, const char* what) {
   if (is_neural)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "the material is neural, and its radiance is no sum of light modes, which %s needs; bake it with the "
-        "method k-cta",
-        what);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the material is neural: its radiance is not a sum of light modes, but %s needs one; bake "
+                  "it with the method k-cta",
+                  what);
 }
 
 void check_shape(const TensorShape& shape, std::size_t lights, std::size_t views, const char* name,

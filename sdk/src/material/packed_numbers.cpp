@@ -76,7 +76,7 @@ float read_step(ByteReader& in) {
   const float step = in.f32();
   if (step > 0 && std::isfinite(step)) return step;
   throw Failure(NOOK_ERROR_BAD_FILE,
-                "section %s holds a step that is no positive number (got %g); bake the file again", in.name(),
+                "section %s holds a step that is not positive (got %g); bake the file again", in.name(),
                 double(step));
 }
 

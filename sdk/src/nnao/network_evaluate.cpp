@@ -264,7 +264,7 @@ void evaluate(const Network& network, const View& view, const Sampling& sampling
   const std::size_t pixels = std::size_t(view.width) * view.height;
   if (view.depth.size() != pixels || view.normal.size() != pixels || ao.size() != pixels)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "depths, normals and AO must have one entry a pixel (got %zu, %zu and %zu, need %zu)",
+                  "depths, normals and AO must have one entry per pixel (got %zu, %zu and %zu, need %zu)",
                   view.depth.size(), view.normal.size(), ao.size(), pixels);
   if (!(sampling.radius > 0) || !std::isfinite(sampling.radius) || !(sampling.max_radius_px >= 1))
     throw Failure(

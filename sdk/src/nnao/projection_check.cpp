@@ -163,11 +163,10 @@ void check_perspective_depth(const Matrix& m, ClipRange clip) {
 }
 
 [[noreturn]] void refuse_hand(const Matrix& m, int element) {
-  throw Failure(
-      NOOK_ERROR_INVALID_ARGUMENT,
-      "frame.projection is left-handed, of a camera that looks along +z (got [%d] %g, need less "
-      "than 0); negate its elements 8 to 11, and the z that frame.view and frame.normal_matrix give",
-      element, m[element]);
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                "frame.projection is left-handed: its camera looks along +z (got [%d] %g, need less than 0); "
+                "negate its elements 8 to 11, and the z that frame.view and frame.normal_matrix give",
+                element, m[element]);
 }
 
 // In a left-handed orthographic projection, the whole box lies behind a camera that looks along -z.
@@ -226,8 +225,8 @@ void check_projection(const float (&projection)[16], DepthKind kind, ClipRange c
   check_kind_of_matrix(m, clip);
   if (m.zero(0) || m.zero(5) || (m.perspective() ? m[11] > 0 : !(m[15] > 0)))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.projection is no projection of a camera that looks along -z, or singular (got [0] "
-                  "%g, [5] %g, [11] %g, [15] %g; need [0] and [5] other than 0, and [11] below 0 or [15] "
+                  "frame.projection is not a projection of a camera that looks along -z, or is singular (got "
+                  "[0] %g, [5] %g, [11] %g, [15] %g; need [0] and [5] other than 0, and [11] below 0 or [15] "
                   "above 0); a view-projection is not one, give the projection alone",
                   m[0], m[5], m[11], m[15]);
   if (const int i = stray_element(m); i >= 0)

@@ -36,7 +36,7 @@ void check_settings(const Basis& basis, const FitSettings& settings) {
                            settings.method == FitMethod::non_negative_least_squares;
   if (signed_only && basis.kind == BasisKind::harmonics)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "method %d needs functions that are never negative, which harmonics are; use a running "
+                  "method %d needs functions that are never negative, but harmonics can be; use a running "
                   "average, moments or least squares",
                   int(settings.method));
 }

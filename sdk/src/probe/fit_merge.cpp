@@ -26,7 +26,8 @@ void Fit::seed(Fit& short_run) {
                   "short_run has another basis; make both with the same functions and domain");
   if (!is_running(settings_.method)) return;
   if (counts().used > 0)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the fit has samples already; seed it before, or reset it");
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the fit already has samples; seed it before you add samples, or reset it");
   std::array<Vec3, max_functions> start;
   short_run.read(std::span(start).first(basis_.count));
   const State state = state_at(state_.data());

@@ -73,7 +73,7 @@ void check_walls(const Probes& probes, nook_result code) {
           throw Failure(code, "a plane of cell %zu is out of range (got %g, need at most %g)", i,
                         double(value), double(max_plane));
     for (const std::uint8_t mask : walls.cell[i].counts)
-      if (mask == 0) throw Failure(code, "no probe counts on a side of cell %zu (need 1 at least)", i);
+      if (mask == 0) throw Failure(code, "one side of cell %zu has no probe (need at least 1)", i);
   }
 }
 

@@ -39,8 +39,7 @@ void check_coordinates(const Coordinates& coordinates, nook_result code) {
   for (std::size_t i = 0; i < texels; ++i) {
     const Cell cell = coordinates.cells[i];
     if (cell.x >= coordinates.width || cell.y >= coordinates.height)
-      throw Failure(code,
-                    "texel %zu of the plane shows (%u, %u), which is no texel of the material (%u x %u)", i,
+      throw Failure(code, "texel %zu of the plane shows (%u, %u), which is outside the material (%u x %u)", i,
                     unsigned(cell.x), unsigned(cell.y), coordinates.width, coordinates.height);
   }
 }

@@ -69,8 +69,8 @@ void check_paper(const Transfer& transfer, nook_result code) {
   check_halves(p.coefficients, 1, "coefficients", code);
   for (std::size_t v = 0; v < vertices; ++v)
     if (p.cluster[v] >= p.clusters)
-      throw Failure(code, "vertex %zu is of cluster %u (there are %u)", v, std::uint32_t(p.cluster[v]),
-                    p.clusters);
+      throw Failure(code, "vertex %zu belongs to cluster %u, but there are only %u", v,
+                    std::uint32_t(p.cluster[v]), p.clusters);
 }
 
 }  // namespace
@@ -119,8 +119,8 @@ void check_same_mesh(const Transfer& transfer, const MeshArrays& mesh) {
     const std::uint64_t hash = hash_floats(array.values);
     if (hash != array.baked)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "the %s of the mesh are not those of the baked one (got the hash %016llx, need "
-                    "%016llx); bake the transfer of this mesh",
+                    "the %s of the mesh differ from the baked mesh (got the hash %016llx, need %016llx); "
+                    "bake the transfer of this mesh",
                     array.name, static_cast<unsigned long long>(hash),
                     static_cast<unsigned long long>(array.baked));
   }
@@ -149,17 +149,16 @@ void check_same_light(const Transfer& transfer, std::uint32_t light_modes, std::
 
 void check_same_lobes(const Transfer& transfer, std::uint32_t lobes) {
   if (transfer.lobes == lobes) return;
-  throw Failure(
-      NOOK_ERROR_INVALID_ARGUMENT,
-      "lobe_count is not that of the transfer (got %u, need %u); make the response and the fit with "
-      "as many",
-      lobes, transfer.lobes);
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                "lobe_count differs from the transfer's (got %u, need %u); make the response and the fit "
+                "with the same number",
+                lobes, transfer.lobes);
 }
 
 void check_amplitudes(const float* amplitudes, std::uint32_t got, std::uint32_t lobes) {
   constexpr float max_amplitude = 1e22f;
   if (got != lobes)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "lobe_count is not that of the response (got %u, need %u)",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "lobe_count differs from the response's (got %u, need %u)",
                   got, lobes);
   for (std::uint32_t i = 0; i < 3 * lobes; ++i)
     if (!(std::abs(amplitudes[i]) <= max_amplitude))

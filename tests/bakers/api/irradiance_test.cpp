@@ -91,7 +91,7 @@ TEST_CASE("lighting that makes no sense is refused") {
   }
   SECTION("a map without height") {
     lighting.desc.environment.height = 0;
-    expected = "desc.environment is of 1 x 0 texels";
+    expected = "desc.environment has 1 x 0 texels";
   }
   SECTION("a map without texels") {
     lighting.desc.environment.rgb = nullptr;

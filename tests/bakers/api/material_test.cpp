@@ -452,7 +452,7 @@ TEST_CASE("what a material cannot be baked from is named") {
   desc = small_weave();
   desc.method = NOOK_BAKE_METHOD_NEURAL;
   desc.view_map_side = 1;
-  CHECK(refused(desc, "a view map of 1 cells"));
+  CHECK(refused(desc, "the view map has 1 cells"));
   desc = small_weave();
   desc.method = NOOK_BAKE_METHOD_NEURAL;
   desc.clusters = 2;
@@ -480,7 +480,7 @@ TEST_CASE("what a material cannot be baked from is named") {
   measured = Measured();
   measured.view_set[5] = 0;
   CHECK(measured.start(&job) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(message_has("no unit vector"));
+  CHECK(message_has("not a unit vector"));
   measured = Measured();
   measured.desc.light_count = lights;
   measured.desc.lights = nullptr;

@@ -42,7 +42,8 @@ TEST_CASE("files that are missing, empty, folders or something else") {
   CHECK(failure_of(GltfBuilder::bytes_of("{}")).find("no asset.version") != std::string::npos);
   std::vector<std::byte> old_version = tube_file().glb();
   old_version[4] = std::byte{1};
-  CHECK(failure_of(old_version).find("glTF version 1, by its binary header (need 2)") != std::string::npos);
+  CHECK(failure_of(old_version).find("the binary header says that the file has glTF version 1 (need 2)") !=
+        std::string::npos);
 }
 
 TEST_CASE("a binary file cut anywhere is refused") {
@@ -98,7 +99,7 @@ TEST_CASE("faults of the mesh") {
   }
   SECTION("a list that is not made of threes") {
     tube.index.pop_back();
-    check_refused(tube_file(tube), "need three a triangle");
+    check_refused(tube_file(tube), "need three per triangle");
   }
   SECTION("a joint out of range") {
     tube.joint[4 * 3] = 2;

@@ -235,9 +235,9 @@ TEST_CASE("hostile meshopt views are refused by name") {
     view["mode"] = "SOUP";
     check("\"mode\" is \"SOUP\", which is not read");
   }
-  SECTION("no whole number") {
+  SECTION("not a whole number") {
     view["buffer"] = -1;
-    check("\"buffer\" is missing or no whole number");
+    check("\"buffer\" is missing or not a whole number");
   }
   SECTION("another buffer") {
     view["buffer"] = 7;
@@ -354,7 +354,7 @@ TEST_CASE("hostile Draco data is refused by name") {
   }
   SECTION("no number") {
     extension["bufferView"] = "x";
-    check("\"bufferView\" is missing or no whole number");
+    check("\"bufferView\" is missing or not a whole number");
   }
 }
 

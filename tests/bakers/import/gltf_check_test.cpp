@@ -51,7 +51,7 @@ TEST_CASE("versions of glTF other than 2 are refused by their number") {
   for (const Json& version : {Json("3.0"), Json("1.0"), Json("1.1"), Json(1.0), Json("2.0beta"), Json("-2.0"),
                               Json("two"), Json::array()}) {
     asset["version"] = version;
-    contains(failure_of(file), "the file is of glTF version " + version.dump());
+    contains(failure_of(file), "the file has glTF version " + version.dump());
     contains(failure_when([&] { import_static_scene(file.glb()); }), "glTF version " + version.dump());
   }
   asset["version"] = "2.1";
@@ -60,13 +60,13 @@ TEST_CASE("versions of glTF other than 2 are refused by their number") {
   CHECK(failure_of(file) == "");
   for (const char* version : {"2.1", "3.0", "1.0", "x"}) {
     asset["minVersion"] = version;
-    contains(failure_of(file), std::string("needs a reader of glTF version \"") + version);
+    contains(failure_of(file), std::string("asks for a reader of glTF version \"") + version);
   }
   file.document.erase("asset");
   contains(failure_of(file), "no asset.version");
   std::vector<std::byte> glb = tube_file().glb();
   glb[4] = std::byte{1};
-  contains(failure_when([&] { import_gltf(glb); }), "glTF version 1, by its binary header");
+  contains(failure_when([&] { import_gltf(glb); }), "binary header says that the file has glTF version 1");
 }
 
 TEST_CASE("accessors have the types that the specification allows") {

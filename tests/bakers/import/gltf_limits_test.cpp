@@ -164,13 +164,13 @@ TEST_CASE("only regular files in the file's own folder are read") {
   SECTION("a pipe, which would wait for a writer") {
     REQUIRE(mkfifo((folder / "tube.bin").c_str(), 0600) == 0);
     write_gltf(folder / "tube.gltf", file, "tube.bin");
-    CHECK(contains(import("tube.gltf"), "\"tube.bin\", which is no regular file"));
+    CHECK(contains(import("tube.gltf"), "\"tube.bin\", which is not a regular file"));
   }
   SECTION("a file without end") {
     write_gltf(folder / "tube.gltf", file, "zero");
     fs::create_symlink("/dev/zero", folder / "zero");
     CHECK(contains(import("tube.gltf"), "\"zero\", a link that leads outside"));
-    CHECK(contains(import("tube.gltf", LinkedFiles::anywhere), "\"zero\", which is no regular file"));
+    CHECK(contains(import("tube.gltf", LinkedFiles::anywhere), "\"zero\", which is not a regular file"));
   }
   SECTION("a file of 3 GB") {
     std::ofstream(folder / "tube.bin").put('x');

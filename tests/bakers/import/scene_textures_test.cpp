@@ -106,7 +106,7 @@ TEST_CASE("textures that cannot be read are refused by name") {
   } faults[] = {
       {"/images/0", {{"uri", "nowhere.png"}}, "image 0 (\"nowhere.png\") cannot be read"},
       {"/textures/1/source", 5, "baseColorTexture names image 5 (file has 2)"},
-      {"/textures/1", {{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}}, "only an extension's"},
+      {"/textures/1", {{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}}, "only in a glTF extension"},
       {"/textures/1/sampler", 3, "names sampler 3 (file has 1)"},
       {"/materials/1/emissiveTexture/index", 7, "emissiveTexture is texture 7 (file has 2)"},
       {"/materials/1/pbrMetallicRoughness/baseColorTexture/texCoord", 2, "reads TEXCOORD_2"},

@@ -270,7 +270,7 @@ TEST_CASE("instances that cannot be read are refused by name") {
   CHECK(message() == "");
   attributes["SCALE"] = file.add_floats({1, 1, 1}, "VEC3");
   CHECK(contains(message(),
-                 "node 1 (\"floor\"): EXT_mesh_gpu_instancing has attributes of 2 and of 1 instances"));
+                 "node 1 (\"floor\"): EXT_mesh_gpu_instancing has attributes for 2 and for 1 instances"));
   attributes["SCALE"] = 99;
   CHECK(contains(message(), "EXT_mesh_gpu_instancing.SCALE names accessor 99"));
   attributes.erase("SCALE");
@@ -280,7 +280,7 @@ TEST_CASE("instances that cannot be read are refused by name") {
   // An accessor without a buffer view holds zeros and costs nothing.
   file.document["accessors"].push_back({{"componentType", 5126}, {"count", 3'000'000}, {"type", "VEC3"}});
   attributes["TRANSLATION"] = file.document["accessors"].size() - 1;
-  CHECK(contains(message(), "makes too much of its mesh: 3000000 instances of 4 vertices"));
+  CHECK(contains(message(), "repeats its mesh too often: 3000000 instances of 4 vertices"));
 
   GltfBuilder tube = tube_file();
   tube.document["nodes"][3]["extensions"] = {

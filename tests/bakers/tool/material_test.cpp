@@ -232,7 +232,7 @@ TEST_CASE("bake material refuses what it cannot bake, by name, and leaves nothin
   refused(small_bake(folder, "a.nook", {{"--radius", "0"}}), 2, "radius");
   refused(small_bake(folder, "a.nook", {{"--votf-ranks", "13,8"}}), 2, "VOTF's x rank is 13");
   refused(small_bake(folder, "a.nook", {{"--ranks", "auto"}, {"--clusters", "20"}}), 2, "clusters is 20");
-  for (const auto& [option, value, word] : {std::tuple("--view-map", "1", "view map of 1"),
+  for (const auto& [option, value, word] : {std::tuple("--view-map", "1", "view map has 1"),
                                             std::tuple("--visibility-mapping", "-1,12", "threshold -1"),
                                             std::tuple("--votf-ranks", "8,13", "VOTF's y rank is 13")})
     refused(small_bake(folder, "a.nook", {{"--method", "neural"}, {option, value}}), 2, word);

@@ -42,7 +42,7 @@ TEST_CASE("train nnao stops at a signal, goes on to the same bits, and leaves no
   CHECK(folder.names() == std::vector<std::string>{"a.nook.resume"});
   const ToolRun resumed = folder.run(arguments);
   REQUIRE(resumed.exit_code == 0);
-  CHECK(resumed.error.find("going on after") != std::string::npos);
+  CHECK(resumed.error.find("continuing after") != std::string::npos);
   CHECK(folder.names() == std::vector<std::string>{"a.nook"});
   auto whole = arguments;
   for (std::string& a : whole)

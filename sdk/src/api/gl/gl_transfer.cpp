@@ -27,7 +27,7 @@ nook_gl_upload upload_vectors(nook_gl gl, nook_transfer_response response, std::
 
 void check_count(std::uint64_t float_count, std::uint64_t needed) {
   if (float_count != needed)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "float_count is not that of the upload (got %llu, need %llu)",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "float_count differs from the upload's (got %llu, need %llu)",
                   static_cast<unsigned long long>(float_count), static_cast<unsigned long long>(needed));
 }
 

@@ -43,7 +43,7 @@ gl::NnaoFrame checked_frame(const nook_gl_frame_desc* given, const nook_nnao_fra
   if (frame.show == NOOK_NNAO_VIEW_RAW && desc.max_history_frames)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
-        "debug.show %d does not go with the pass's max_history_frames %d here; read NOOK_NNAO_IMAGE_AO",
+        "debug.show %d cannot be read in a pass with max_history_frames %d; read NOOK_NNAO_IMAGE_AO",
         frame.show, desc.max_history_frames);
   frame.blend = blend;
   // The host's format is unknown. But a bias other than 0 shows that the format has integers.

@@ -72,7 +72,7 @@ void check_targets(nook_gl gl, const nook_gl_capture_desc& desc) {
   if (desc.probe && desc.probe->probe()->basis().domain != probe::Domain::sphere)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
-        "the lobes of desc.probe are those of a hemisphere; a cube map needs NOOK_PROBE_DOMAIN_SPHERE");
+        "the lobes of desc.probe cover only a hemisphere; a cube map needs NOOK_PROBE_DOMAIN_SPHERE");
   if (desc.probe && desc.grid && !(desc.probe->probe()->grid() == desc.grid->grid()->grid()))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.probe and desc.grid are different grids; both need the same counts, origin and "

@@ -104,9 +104,10 @@ void AoOutput::write_packed(const VertexValues& source, const BufferTarget& targ
 void AoOutput::write_strided(const VertexValues& source, const BufferTarget& target) {
   const Functions& gl = device_.gl;
   if (!gl.can.compute)
-    throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "target.stride needs compute shaders (OpenGL 4.3 or OpenGL ES 3.1), which this context has "
-                  "not; write tightly packed values and read them as a vertex attribute of their own");
+    throw Failure(
+        NOOK_ERROR_UNSUPPORTED,
+        "target.stride needs compute shaders (OpenGL 4.3 or OpenGL ES 3.1), which this context does not "
+        "have; write tightly packed values and read them as a vertex attribute of their own");
   Object& program = strided_[static_cast<std::size_t>(target.format)];
   if (!program.name())
     program = compute_program(device_, "character/pack_strided.comp", PackDefines(target.format).text);
@@ -152,8 +153,8 @@ std::uint32_t checked_width(const Device& device, const VertexValues& source, co
   gl.GetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_HEIGHT, &height);
   if (target.width != 0 && target.width != static_cast<std::uint32_t>(width))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "target.texture_width is not that of texture %u (got %u, need %d or 0)", target.texture,
-                  target.width, width);
+                  "target.texture_width differs from the width of texture %u (got %u, need %d or 0)",
+                  target.texture, target.width, width);
   const std::uint64_t texels = std::uint64_t(width) * std::uint64_t(height);
   if (target.first_texel > texels || source.vertices > texels - target.first_texel)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -177,7 +178,7 @@ void check_format(const Device& device, const TextureTarget& target) {
   if (!fits)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
-        "target.format is not that of texture %u (got %d for red in %d bits; OpenGL ES needs "
+        "target.format differs from the format of texture %u (got %d for red in %d bits; OpenGL ES needs "
         "NOOK_FORMAT_FLOAT for GL_R32F, NOOK_FORMAT_HALF for GL_R16F, NOOK_FORMAT_UNORM8 for GL_R8)",
         target.texture, target.format, bits);
 }

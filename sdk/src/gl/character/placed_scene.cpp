@@ -70,10 +70,10 @@ void fail_without_place(nook_instance_id instance) {
 }
 
 void fail_without_light(nook_instance_id instance) {
-  throw Failure(NOOK_ERROR_INVALID_HANDLE,
-                "the last update saw no light of instance %u; call nook_scene_set_light, then "
-                "nook_gl_scene_update",
-                instance);
+  throw Failure(
+      NOOK_ERROR_INVALID_HANDLE,
+      "the last update had no light for instance %u; call nook_scene_set_light, then nook_gl_scene_update",
+      instance);
 }
 
 }  // namespace nook::gl

@@ -125,11 +125,10 @@ void check_view(const float (&m)[16]) {
   if (!finite || !near(dot(x, x), 1) || !near(dot(y, y), 1) || !near(dot(z, z), 1) || !near(dot(x, y), 0) ||
       !near(dot(y, z), 0) || !near(dot(z, x), 0) || !near(m[3], 0) || !near(m[7], 0) || !near(m[11], 0) ||
       !near(m[15], 1))
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "frame.view is no rotation with a translation (its first axis is %g %g %g; need a rigid matrix "
-        "from world to view space, column-major)",
-        double(m[0]), double(m[1]), double(m[2]));
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.view is not a rotation with a translation (its first axis is %g %g %g; need a rigid "
+                  "matrix from world to view space, column-major)",
+                  double(m[0]), double(m[1]), double(m[2]));
 }
 
 void check_frame(const NnaoFrame& frame, const nook_nnao_desc& pass) {
@@ -142,10 +141,10 @@ void check_frame(const NnaoFrame& frame, const nook_nnao_desc& pass) {
     return;
   }
   if (frame.target == NOOK_TARGET_FRAMEBUFFER)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.target %d does not go with desc.views %d; give a texture array by "
-                  "NOOK_TARGET_TEXTURE",
-                  frame.target, pass.views);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "frame.target %d does not go with desc.views %d; use NOOK_TARGET_TEXTURE with a texture array",
+        frame.target, pass.views);
   for (int layer = 0; layer < pass.views; ++layer) {
     try {
       check_matrices(layer_frame(frame, layer), pass);

@@ -110,7 +110,7 @@ BoundTexture bind_checked(const Device& device, const HostImages& images, ImageF
   const BoundTexture texture{device, kind.target, name, framebuffer, facts.answers};
   if (!gl.IsTexture(name))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "%s is no texture of this OpenGL context (got %u, need the name of a 2D texture)", field,
+                  "%s is not a texture of this OpenGL context (got %u, need the name of a 2D texture)", field,
                   name);
   gl.ActiveTexture(GL_TEXTURE0 + kind.unit);
   gl.BindTexture(kind.target, name);
@@ -251,7 +251,7 @@ void check_framebuffer(const Device& device, const HostImages& images) {
   const Functions& gl = device.gl;
   if (images.target_name != 0 && !gl.IsFramebuffer(images.target_name))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.target_name is no framebuffer of this OpenGL context (got %u, need a name or 0)",
+                  "frame.target_name is not a framebuffer of this OpenGL context (got %u, need a name or 0)",
                   images.target_name);
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, images.target_name);
   check_complete(gl, images);

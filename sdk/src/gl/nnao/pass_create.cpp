@@ -127,7 +127,7 @@ NnaoPass::NnaoPass(Device& device, const NnaoSettings& desc, const nnao::Network
   make_objects({aside, aside, 1, 1});
   if (desc.timers && !device.gl.can.timestamps)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "debug.timers needs time stamps, which this %s has not (need OpenGL 3.3 or "
+                  "debug.timers needs time stamps, which this %s does not have (need OpenGL 3.3 or "
                   "GL_EXT_disjoint_timer_query); leave debug.timers 0",
                   api_name(device.gl));
   if (desc.timers) timer_.emplace(device);

@@ -54,10 +54,10 @@ void check_face(const Functions& gl, const CubeMap& cube, GLenum face) {
 void bind_checked(const Device& device, const CubeMap& cube) {
   const Functions& gl = device.gl;
   if (!gl.IsTexture(cube.name))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "cube_map is no texture of this OpenGL context (got %u, need the name of a "
-                  "GL_TEXTURE_CUBE_MAP)",
-                  cube.name);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "cube_map is not a texture of this OpenGL context (got %u, need the name of a GL_TEXTURE_CUBE_MAP)",
+        cube.name);
   gl.BindTexture(GL_TEXTURE_CUBE_MAP, cube.name);
   if (GLuint(integer(gl, GL_TEXTURE_BINDING_CUBE_MAP)) != cube.name) {
     clear_refusal(gl);

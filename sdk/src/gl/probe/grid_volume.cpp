@@ -88,8 +88,8 @@ GridTexelPlan plan_grid(const probe::Probes& probes, GridForm form) {
 Vector<std::uint16_t> grid_texels(const probe::Probes& probes, const GridTexelPlan& plan, Memory* memory) {
   if (probes.basis.kind == probe::BasisKind::dice)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the probe is of ambient dice; upload one that was fitted with NOOK_PROBE_BASIS_LOBES or "
-                  "NOOK_PROBE_BASIS_SH");
+                  "the probe consists of ambient dice; upload one that was fitted with "
+                  "NOOK_PROBE_BASIS_LOBES or NOOK_PROBE_BASIS_SH");
   Vector<std::uint16_t> texels(memory);
   texels.resize(4 * plan.texels());
   Writer writer(texels, probes.grid);

@@ -40,8 +40,9 @@ ProbeTexture::ProbeTexture(Device& device, const probe::Probes& probes)
 
 void ProbeTexture::update(const probe::Probes& probes) {
   if (probes.basis.kind != probe::BasisKind::gaussians)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the probe is not of lobes; upload one that was fitted with NOOK_PROBE_BASIS_LOBES");
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the probe does not consist of lobes; upload one that was fitted with NOOK_PROBE_BASIS_LOBES");
   const bool gloss = probes.has_gloss() && probe_texel_count(probes, true) <= device_.max_texels;
   const std::uint64_t count = probe_texel_count(probes, gloss);
   if (count > device_.max_texels)
