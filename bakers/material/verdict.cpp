@@ -145,7 +145,7 @@ std::string number(const char* format, double value) {
 // What helps a material whose unseen views are wrong.
 std::string cure(const RawMaterial& raw) {
   const std::size_t directions = std::min(raw.lights.size(), raw.views.size());
-  std::string text = "this gloss needs ";
+  std::string text = "this material needs ";
   if (directions < enough_directions) text += "about 100 view and light directions, or ";
   return text + "--method neural, or an ordinary PBR material";
 }

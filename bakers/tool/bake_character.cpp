@@ -156,7 +156,9 @@ void run(const Options& options) {
                             {"--rig", options.rig}},
                            {},
                            {}};
-  run_bake({options.common, options.baking, files}, [&] { return prepare(options); });
+  BakeCommand command{options.common, options.baking, files};
+  command.has_time_limit = options.time_limit_s > 0;
+  run_bake(std::move(command), [&] { return prepare(options); });
 }
 
 using Names = std::map<std::string, std::int32_t>;

@@ -57,7 +57,7 @@ std::optional<BakeCache> cache_of(const BakeOptions& options) {
 // Takes the result from the cache, or bakes and keeps it there.
 BakeOutput obtain(const BakeCommand& command, const std::optional<BakeCache>& cache,
                   const PreparedBake& prepared) {
-  if (!cache) return prepared.perform();
+  if (!cache || command.has_time_limit) return prepared.perform();
   const std::string key = prepared.identity.key();
   const bool quiet = command.common.quiet;
   if (!command.makes_more)

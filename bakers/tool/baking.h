@@ -35,6 +35,8 @@ struct BakeCommand {
   // The bake makes more than its file and report, such as pictures, which a cache does not hold.
   bool makes_more = false;
   bool reads_images = false;  // of its glTF files
+  // A time limit makes the result depend on the speed of the machine; such a result stays out of the cache.
+  bool has_time_limit = false;
 };
 
 struct BakeOutput {

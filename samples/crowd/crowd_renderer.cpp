@@ -37,7 +37,8 @@ uniform vec3 background;
 out vec4 colour;
 void main() {
 #ifdef GROUND
-  // The open shares of soft light, and in alpha that of the sun, behind characters and the screen.
+  // RGB is how much of the soft light is open after the occlusion by characters and the screen. Alpha is the
+  // same for the sun.
   vec4 open = mix(vec4(1.0), use_screen_ao ? fetch_screen_light() : vec4(1.0), ao_strength);
   vec3 irradiance = ground_irradiance * open.rgb + ground_sun_irradiance * open.a;
 #else

@@ -157,8 +157,9 @@ TEST_CASE("materials: a round pixel and one fetch read the mipmap level of the h
     const nook::material::Radiance wanted = evaluate_btf(tables, sample);
     // Whole levels are exact; log2 rounds the others.
     const float rounding = level == std::floor(level) ? 0.0f : 1e-5f;
-    CHECK(std::abs(value.radiance[0] - wanted.red) <= rounding);
-    CHECK(std::abs(value.radiance[2] - wanted.blue) <= rounding);
+    // The call clamps what compression left below 0.
+    CHECK(std::abs(value.radiance[0] - std::max(wanted.red, 0.0f)) <= rounding);
+    CHECK(std::abs(value.radiance[2] - std::max(wanted.blue, 0.0f)) <= rounding);
     CHECK(std::abs(value.occlusion - evaluate_votf(tables, sample)) <= rounding);
     lowest = std::min(lowest, wanted.red);
     highest = std::max(highest, wanted.red);

@@ -1,6 +1,7 @@
 # Levels are made by the bakers, of which these tests need no other part.
 add_executable(nook_scene_tests
   ${PROJECT_SOURCE_DIR}/bakers/character/levels.cpp
+  ${PROJECT_SOURCE_DIR}/bakers/raytrace/instruction_set.cpp
   bent_normal_test.cpp
   clips_test.cpp
   model_file_test.cpp

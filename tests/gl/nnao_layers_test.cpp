@@ -191,7 +191,7 @@ TEST_CASE("nnao: texture arrays are refused where they do not fit, and nothing i
   std::vector<float> projections = both.projections;
   projections[16 + 5] = 0;
   bad = good, bad.view_projections = projections.data();
-  refused(bad, "view 1: frame.projection is no projection");
+  refused(bad, "view 1: frame.projection is not a projection");
   nook_nnao_recording recording = nullptr;
   CHECK(nook_nnao_record(pass, &good, &good, nullptr, &recording) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(recording == nullptr);

@@ -224,16 +224,16 @@ TEST_CASE("nnao: values of stages follow from the arguments alone, without memor
   CHECK(std::memcmp(&first, &second, sizeof first) == 0);
   CHECK(first.viewport[2] == width);
   CHECK(first.surface_height == height);
-  // depth, depth_apart, occlusion, resolve, resolve_layered.
+  // depth, depth_apart, occlusion, filter_x, resolve, resolve_layered.
   const auto drawn = [&](nook_gbuffer_ao layer) {
     ScreenFrame layered = frame;
     layered.gbuffer_ao = layer;
     NOOK_OK_OR_FAIL(nook_nnao_stages_frame(stages, &layered, &layered, nullptr, 0, 0, &second));
     return second.drawn_stages;
   };
-  CHECK(drawn(NOOK_GBUFFER_AO_NONE) == 0b01101);
-  CHECK(drawn(NOOK_GBUFFER_AO_MIN) == 0b10101);
-  CHECK(drawn(NOOK_GBUFFER_AO_EXCLUDE) == 0b10110);
+  CHECK(drawn(NOOK_GBUFFER_AO_NONE) == 0b011101);
+  CHECK(drawn(NOOK_GBUFFER_AO_MIN) == 0b101101);
+  CHECK(drawn(NOOK_GBUFFER_AO_EXCLUDE) == 0b101110);
   check_info<nook_nnao_frame_values>([&](nook_nnao_frame_values* values) {
     return nook_nnao_stages_frame(stages, &frame, &frame, nullptr, 0, 0, values);
   });
@@ -249,7 +249,7 @@ TEST_CASE("nnao: bad arguments of stages are refused with their name") {
   auto image = sized<nook_nnao_image_info>();
   auto values = sized<nook_nnao_frame_values>();
   CHECK(nook_nnao_stages_describe_stage(stages, 99, &stage) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(message_has("nook_nnao_stages_describe_stage: index is out of range (got 99, need less than 6)"));
+  CHECK(message_has("nook_nnao_stages_describe_stage: index is out of range (got 99, need less than 7)"));
   CHECK(nook_nnao_stages_describe_image(stages, 11, &image) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(message_has("image is unknown (got 11, need 0 to 10)"));
   const ScreenFrame good = frame_desc(plain_camera(1.4f), width, height, 0, 0, 0.5f);
@@ -297,7 +297,7 @@ TEST_CASE("nnao: stages describe their shaders, the network and the images that 
   nook_nnao_stages stages = make_stages(host.handle, pass_desc(width, height));
   auto info = sized<nook_nnao_stages_info>();
   NOOK_OK_OR_FAIL(nook_nnao_stages_describe(stages, &info));
-  CHECK(info.stage_count == 5);
+  CHECK(info.stage_count == 6);
   CHECK(info.network != nullptr);
   CHECK(info.network_bytes % 16 == 0);
   for (std::uint32_t i = 0; i < info.stage_count; ++i) {

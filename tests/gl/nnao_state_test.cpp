@@ -202,8 +202,8 @@ TEST_CASE("nnao: a target is discarded only where a frame writes all of it") {
     NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
     trace.reset();
     NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
-    // Depth and AO.
-    return trace.calls("glInvalidateFramebuffer") - 2;
+    // Depth, AO and the filter along x.
+    return trace.calls("glInvalidateFramebuffer") - 3;
   };
   if (context.is_es() || version_of(context) >= 43) {
     ScreenFrame frame = stage.frame();
@@ -257,13 +257,13 @@ TEST_CASE("nnao: a frame allocates nothing, reads nothing back and queries OpenG
       NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
     }
     CHECK(stage.fixture.host.allocations == allocations);
-    // Depth, AO, at half resolution the filter, resolve.
-    CHECK(trace.calls("glDrawArrays") == 6 * ((half ? 4 : 3) - dispatches));
+    // Depth, AO, the filter along x, at half resolution along y, resolve.
+    CHECK(trace.calls("glDrawArrays") == 6 * ((half ? 5 : 4) - dispatches));
     CHECK(trace.calls("glDispatchCompute") == 6 * dispatches);
     // Every draw into a texture of the pass, but of the results the first alone: the others have a viewport
     // that is a part of the target.
     const bool discards = context.is_es() || version_of(context) >= 43;
-    CHECK(trace.calls("glInvalidateFramebuffer") == (discards ? 6 * ((half ? 3 : 2) - dispatches) + 1 : 0));
+    CHECK(trace.calls("glInvalidateFramebuffer") == (discards ? 6 * ((half ? 4 : 3) - dispatches) + 1 : 0));
     // Before the dispatch and after it.
     CHECK(trace.calls("glMemoryBarrier") == 12 * dispatches);
     for (const char* forbidden : {"glGen", "glTexImage", "glBufferData", "glGetBufferSubData", "glGetError",

@@ -244,7 +244,7 @@ TEST_CASE("nnao: bad descriptions of means over frames are refused with their fi
   std::uint64_t bytes = 0;
   desc.max_history_frames = 8;
   NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));
-  CHECK(bytes == std::uint64_t{3840} * 2160 * 19);
+  CHECK(bytes == std::uint64_t{3840} * 2160 * 21);
   desc.bent_normals = 1;
   CHECK(nook_nnao_memory(&desc, &bytes) == NOOK_ERROR_INVALID_ARGUMENT);
   desc.bent_normals = 0;

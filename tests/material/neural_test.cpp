@@ -208,7 +208,7 @@ TEST_CASE("a neural material with a fault is not written, and the message names 
     return false;
   };
   CHECK(refused([](Material& m) { m.neural.shape.channels = 6; },
-                "channels of the neural material is no multiple"));
+                "channels of the neural material is not a multiple"));
   CHECK(refused([](Material& m) { m.neural.shape.channels = 68; },
                 "channels of the neural material is out of range"));
   CHECK(

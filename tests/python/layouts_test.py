@@ -10,7 +10,7 @@ from nook import _layouts as layouts
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HEADERS = ["nook_character.h", "nook_material.h", "nook_bake.h"] + [f"experimental/nook_{name}.h" for name in
-           ("bake_materials", "debug", "lod", "poses", "sg", "trace", "transfer")]
+           ("bake_key", "bake_materials", "debug", "lod", "poses", "sg", "trace", "transfer")]
 
 
 def structures():

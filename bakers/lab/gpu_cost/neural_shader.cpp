@@ -52,7 +52,7 @@ vec4 nook_neural_feature(int node, int i, vec2 uv, vec2 dx, vec2 dy) {
                     textureGrad(nook_neural_features, vec3(uv, layer + 1.0), dx, dy).xy) - 1.0;
 }
 
-// The sums of the first layer for a pixel, without those of a light.
+// Sums the first layer for a pixel, without the light's inputs.
 void nook_neural_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 units[UNIT_VEC4S]) {
   uv += view.xy / view.z * nook_neural_height(uv, dx, dy, view);
   for (int u = 0; u < UNIT_VEC4S; ++u) units[u] = nook_neural_position[u] * vec4(view, 1.0);

@@ -21,16 +21,18 @@ RULE(body, "feet_share", at_least, 0.25, "share of the feet in what is seen wron
 RULE(body, "head_share", at_least, 0.35, "share of head and neck in what is seen wrong",
      "Head and neck hold {percent} of what is seen wrong. Hair cards, eyes and teeth are often the cause: "
      "they move with one bone, and a material of their own with AO from a texture serves them better.")
-RULE(body, "worst_clip_ratio", at_least, 1.5, "error of the worst clip over that of the middle one",
+RULE(body, "worst_clip_ratio", at_least, 1.5,
+     "error of the worst clip as a multiple of the middle clip's error",
      "The clip {clip} is {value} times as wrong as the middle one. If players see it often, fit it: "
-     "`--clips` with its name and those of clips like it.")
+     "`--clips` with its name and the names of clips like it.")
 RULE(body, "too_dark", at_least, 0.02, "mean of ray traced less model",
      "The model is too dark, by {value} of AO on average. A weight of less than 1 on its occlusion in the "
      "shader hides most of it.")
 RULE(body, "too_bright", at_least, 0.02, "mean of model less ray traced",
      "The model is too bright, by {value} of AO on average. More proxy spheres (`--spheres`) or a higher "
      "preset find more of the occlusion.")
-RULE(body, "ratio_to_static", at_least, 0.5, "squared error over that of AO baked once into a texture",
+RULE(body, "ratio_to_static", at_least, 0.5,
+     "squared error as a share of the error of AO baked once into a texture",
      "AO that is baked once into a texture has only {oneover} times the squared error: this body hardly "
      "moves against itself, and the texture is cheaper.")
 RULE(body, "noise_share", at_least, 0.25, "share of the measurement's own noise in the squared error",

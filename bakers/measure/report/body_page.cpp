@@ -42,8 +42,8 @@ std::vector<std::size_t> shown_motion(const ImportedCharacter& character, const 
   std::vector<std::size_t> unseen;
   for (const std::size_t clip : all)
     if (!recipe || std::ranges::find(recipe->clips, clip) == recipe->clips.end()) unseen.push_back(clip);
-  protocol =
-      unseen.empty() ? "clips, all of which the bake has seen" : "clips that were not part of the bake";
+  protocol = unseen.empty() ? "clips, and all of them were part of the bake"
+                            : "clips that were not part of the bake";
   return unseen.empty() ? all : unseen;
 }
 

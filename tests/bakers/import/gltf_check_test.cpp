@@ -209,7 +209,7 @@ TEST_CASE("what has one reading is read with a warning") {
   }
   SECTION("two channels for one thing") {
     file.add_channel(2, "rotation", {0, 1}, {0, 0, 0, 1, 0, 0, 0, 1});
-    CHECK(warnings_with(file, "1 animation channels move what another channel") == 1);
+    CHECK(warnings_with(file, "1 animation channels move the same value as another channel") == 1);
   }
   SECTION("a joint twice") {
     file.document["skins"][0]["joints"] = {1, 2, 2};

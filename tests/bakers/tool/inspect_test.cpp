@@ -61,7 +61,7 @@ TEST_CASE("inspect shows what a model holds and refuses what is none") {
   CHECK(row.at("vertices") == 140);
   CHECK(row.at("spheres").get<int>() <= 6);
   CHECK(row.at("recipe_poses") == "all");
-  CHECK(row.at("recipe_clips") == "3");  // both clips: two bits of one hexadecimal digit
+  CHECK(row.at("recipe_clips") == "3");           // both clips: two bits of one hexadecimal digit
   CHECK(row.at("bytes_RECP").get<int>() < 2600);  // half of it identifies the bake
   CHECK(row.at("world_casters").get<int>() > 0);
   CHECK(row.at("bytes_WCAS").get<int>() <= 2048);

@@ -47,14 +47,14 @@ TEST_CASE("evaluate nnao measures every method on the thin scene and draws a she
     CHECK(read_text(folder.path("sheets/" + std::string(picture) + ".png")).substr(1, 3) == "PNG");
   const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
   CHECK(report.at("scenes").at(0).at("noise_floor_mse") > 0);
-  REQUIRE(report.at("rows").size() == 2 * (6 + 4 + 3 + 3 + 3 + 6 + 6 + 3 + 6 + 5));
+  REQUIRE(report.at("rows").size() == 2 * (6 + 4 + 3 + 3 + 3 + 6 + 6 + 3 + 6 + 8));
   for (const auto& row : report.at("rows"))
     for (const char* key :
          {"method", "taps", "blurred", "scene", "resolution", "gpu", "mse", "rmse", "ssim", "r", "dark_bias",
           "calibration", "border_bias", "flicker", "fetches", "ms", "ratio_to_nnao", "denoiser"})
       CHECK(row.contains(key));
   CHECK(report.at("rows").at(0).at("resolution") == "64x48");
-  REQUIRE(report.at("borders").size() == 6 + 4 + 3 + 3 + 3 + 6 + 6 + 3 + 6 + 5);
+  REQUIRE(report.at("borders").size() == 6 + 4 + 3 + 3 + 3 + 6 + 6 + 3 + 6 + 8);
   for (const char* border : {"left", "right", "bottom", "top"})
     CHECK(report.at("borders").at(0).at(border).size() == 3);
 }
