@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """zip_folder.py ARCHIVE FOLDER NAME: FOLDER/NAME as a .zip file.
 
-Its bytes depend on the files and on a time alone: SOURCE_DATE_EPOCH, or without it the commit's, or else the first that .zip files know.
+Its bytes depend only on the files and on a time: SOURCE_DATE_EPOCH, or else the commit's time, or else the earliest time that
+.zip files can store.
 """
 import functools
 import os

@@ -69,7 +69,7 @@ Vec3 normal3(PoseRandom& random) {
 }
 
 void plan_arm(LimbPlan& plan, PoseRandom& random) {
-  // Elevation is from straight down, azimuth from the front.
+  // Elevation is measured from the downward axis, azimuth from the front.
   const float kind = random.unit();
   float elevation, azimuth;
   if (kind < 0.45f) {

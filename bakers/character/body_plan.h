@@ -11,7 +11,7 @@ namespace nook::bake {
 
 // Whole-body poses of people, drawn from statistics of motion capture (pose_prior.py), independent of a rig.
 
-// Axes are left, up and forward, those of the chest for arms and those of the pelvis for legs.
+// Axes are left, up and forward: of the chest for arms, of the pelvis for legs.
 struct PriorLimbs {
   Vec3 upper_arm, forearm, hand, thigh, calf, foot;  // directions, unit length
 };

@@ -70,7 +70,7 @@ std::size_t hold_out(std::vector<Pose>& poses) {
   return count;
 }
 
-// So many that their noise is far below any error of a fit.
+// With this many rays, the noise is far below the error of any fit.
 constexpr std::uint32_t precise_rays = 512;
 
 // A spread of the fitted poses, traced anew: at most 24, and at most a quarter of the rays that the fit
@@ -98,7 +98,7 @@ std::vector<float> vertex_weights(std::span<const float> area, FitMethod fit) {
 }
 
 // Non-negative least squares over all candidates of a vertex: near key points have no weights for added
-// casters, and an entry stays however little it gains.
+// casters, and an entry stays even if it gains little.
 LinearFitSettings plain_linear_fit(std::size_t entries) {
   LinearFitSettings plain;
   plain.entries = entries;
@@ -170,7 +170,7 @@ void fit_by_mini_batches(Fit& fit, const TrainingSet& set, const BakeSettings& s
   std::size_t done = 0;
   for (std::size_t r = 0; r < rounds; ++r) {
     MiniBatchSettings batch;
-    // The last round is the longest: the key points are chosen, what is left is polish.
+    // The last round is the longest: the key points are chosen, and this round only refines them.
     batch.steps = r + 1 < rounds ? settings.steps / 4 : settings.steps - done;
     batch.seed = settings.seed + r;
     batch.final_rate = r + 1 < rounds ? 0.3f : 0.01f;
@@ -284,8 +284,8 @@ struct Start {
   Candidates candidates;
 };
 
-// Makes clusters, key points and spheres. weight is that of each vertex for spheres, which cast as well and
-// so have to cover the body; key_point_weight is that for key points.
+// Makes clusters, key points and spheres. weight has a value for each vertex and is for spheres, which also
+// cast and so have to cover the body. key_point_weight is the same for key points.
 Start initialise(const SkinnedMesh& mesh, const Surface& surface, std::span<const float> weight,
                  std::span<const float> key_point_weight, const BakeSettings& settings,
                  const std::function<void(std::size_t)>& step) {

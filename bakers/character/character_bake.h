@@ -21,7 +21,7 @@ enum class FitMethod : std::uint8_t {
 struct BakeSettings {
   std::size_t spheres = 130;
   std::size_t key_points = 500;
-  std::size_t entries = 7;    // key points a vertex, at most 8
+  std::size_t entries = 7;    // key points per vertex, at most 8
   std::uint32_t rays = 16;    // a vertex and pose
   std::size_t steps = 20000;  // mini-batches (nook), or rounds of block descent (paper)
   double time_limit_s = 0;    // of the fit; 0: none. A fit that it ends is not reproducible bit for bit

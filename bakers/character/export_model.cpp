@@ -34,7 +34,7 @@ KeyPoint key_point_of(const FitState& state, std::size_t k) {
   return p;
 }
 
-// Of the entries of a vertex, the one whose surface frame is nearest in place and direction.
+// Returns the vertex's entry whose surface frame is nearest in place and direction.
 std::size_t nearest_key_point(const CharacterModel& model, std::size_t vertex, Vec3 position, Vec3 normal) {
   constexpr float metres_of_a_normal = 0.1f;
   std::size_t nearest = 0;
@@ -52,8 +52,8 @@ std::size_t nearest_key_point(const CharacterModel& model, std::size_t vertex, V
   return nearest;
 }
 
-// Where added casters are felt: the mean of the vertices nearest to a key point among those that use it, by
-// k-means. A mean of all of them would be a place inside the body and a blurred direction.
+// The place where added casters act on a key point: the mean of the nearest vertices among the vertices that
+// use it, by k-means. A mean of all of them would be a place inside the body and a blurred direction.
 void set_surface_frames(CharacterModel& model, const SkinnedMesh& mesh, std::span<const float> vertex_area,
                         std::span<const Vec3> vertex_normal) {
   for (KeyPoint& p : model.key_points) {
@@ -302,7 +302,7 @@ std::vector<std::vector<std::uint32_t>> vertices_of_bones(const SkinnedMesh& mes
   return out;
 }
 
-// The vertex that tells most about its bone: a large weight far from what is known already.
+// Returns the vertex that determines its bone best: it has a large weight and is far from the known point.
 std::uint32_t clearest(const SkinnedMesh& mesh, const std::vector<std::uint32_t>& vertices, Vec3 known) {
   const auto clarity = [&](std::uint32_t v) {
     const float weight = mesh.weights[v].weight[0];
@@ -311,7 +311,8 @@ std::uint32_t clearest(const SkinnedMesh& mesh, const std::vector<std::uint32_t>
   return *std::ranges::max_element(vertices, {}, clarity);
 }
 
-// First the clearest vertex of each bone, from the bones with most vertices on, then a second one of each.
+// Takes the clearest vertex of each bone first, in order of the bones' vertex counts, and then a second one
+// of each.
 std::vector<std::uint32_t> spread_vertices(const SkinnedMesh& mesh) {
   const auto vertices = vertices_of_bones(mesh);
   std::vector<std::uint32_t> bones(mesh.bones.size());

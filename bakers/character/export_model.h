@@ -11,8 +11,8 @@
 
 namespace nook::bake {
 
-// vertex_area and vertex_normal are of the rest pose; static_ao is its ray-traced AO, a value a welded
-// vertex. caster_weight of every sphere is left at 1, blend weights are left to fit_blend_weights.
+// vertex_area and vertex_normal are from the rest pose. static_ao is the rest pose's ray-traced AO, one value
+// per welded vertex. caster_weight of every sphere is left at 1, blend weights are left to fit_blend_weights.
 CharacterModel export_model(const FitState& state, const SkinnedMesh& mesh,
                             std::span<const float> vertex_area, std::span<const Vec3> vertex_normal,
                             std::span<const float> static_ao);

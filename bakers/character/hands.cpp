@@ -57,8 +57,8 @@ Vec3 across_knuckles(const Rig& rig, const Hand& hand, Vec3 up) {
   return normalised(across - dot(across, hand.along) * hand.along);
 }
 
-// The axis across the knuckles, turned so that fingers curl towards the palm. Rest curl, where there is any,
-// is the surest sign; else the palm is where the thumb hangs.
+// Returns the axis across the knuckles, turned so that fingers curl towards the palm. Rest curl, where there
+// is any, is the surest sign; else the palm is where the thumb hangs.
 Vec3 finger_axis(const Rig& rig, const Hand& hand, Vec3 across) {
   constexpr float least_curl = 0.05f;  // sine of the turn from joint to joint, mean over fingers
   Vec3 bend;
@@ -75,7 +75,8 @@ Vec3 finger_axis(const Rig& rig, const Hand& hand, Vec3 across) {
   return sign < 0 ? -across : across;
 }
 
-// The thumb folds over the palm: half about its own length seen from the palm.
+// Returns the axis of the thumb, which folds over the palm. The axis is at right angles to the thumb,
+// half-way between the palm's normal and the axis across the knuckles.
 Vec3 thumb_axis(const Hand& hand, Vec3 finger_axis, Vec3 across) {
   const Vec3 palm = cross(finger_axis, hand.along);
   const Vec3 fold = cross(normalised(hand.thumb), normalised(palm - across));

@@ -1,4 +1,4 @@
-// The palms of a rig, and the axes about which its fingers curl.
+// Finds the palms of a rig, and the axes about which its fingers curl.
 #pragma once
 
 #include <array>
@@ -15,7 +15,8 @@ struct BodyPoint {
   Vec3 point;
 };
 
-// Of the left and the right hand: the middle of the knuckles, or the wrist where there are none.
+// Returns for the left and the right hand the middle of the knuckles, or the wrist if the hand has no
+// knuckles.
 std::array<BodyPoint, 2> palms(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree);
 
 // A hand in its rest pose. Directions have unit length and are zero where the rig has no fingers.

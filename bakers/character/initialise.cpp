@@ -11,7 +11,7 @@
 namespace nook::bake {
 namespace {
 
-// A flat bone's spheres stand for patches of a surface. Where the vertices lie on a line, they stand for
+// A flat bone's spheres represent patches of a surface. If the vertices lie on a line, the spheres represent
 // stretches of the line. Spheres as small as the thickness would cast no shadow at all. So a radius is at
 // least these shares of breadth and length, which are thinner than any limb, ear or finger.
 float least_radius(const float (&spread)[3]) {

@@ -61,7 +61,7 @@ struct Judgement {
   std::vector<JudgedPart> clips, parts, meshes;  // the worst first: clips by ratio, the others by share
   double torn_edges = 0;     // share of edge-poses of the automatic poses; 0 where there are none
   double torn_by_clips = 0;  // the same of the file's own clips
-  std::vector<std::string> bones_without_role;  // those that move at least 2 % of the body's area
+  std::vector<std::string> bones_without_role;  // the joints that move at least 2 % of the body's area
 
   double over_static() const { return errors.by_vertices.over_static(); }
   double over_oracle() const { return errors.oracle > 0 ? errors.by_vertices.model / errors.oracle : 0; }

@@ -20,9 +20,9 @@ struct LinearFitSettings {
   std::size_t entries = 7;   // at most this many key points per vertex
   double ridge = 1e-4;       // on alpha, relative to the mean variance of the shadows
   double least_gain = 1e-3;  // an entry must lower the vertex's squared error by this share of its variance
-  // The first `anchors` candidates of a vertex are the key points nearest to it. They always take part, with
-  // weights of at least anchor_floor in all, shared by nearness. The darkening by other casters is blended
-  // from the same entries, and needs near ones.
+  // The first `anchors` candidates of a vertex are the key points nearest to it. They always take part. Their
+  // weights sum to at least anchor_floor, shared by nearness. The darkening by other casters is blended from
+  // the same entries, and needs near ones.
   std::size_t anchors = 3;
   double anchor_floor = 0.06;
 };

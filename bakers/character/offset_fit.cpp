@@ -13,7 +13,8 @@ namespace nook::bake {
 namespace {
 
 constexpr double old_constant_poses = 4;
-// The weight of the old scale, in squares of shadow for each pose, and for so many poses more.
+// The weight of the old scale: it counts as much as this squared shadow in each pose, and in this many poses
+// more.
 constexpr double scale_ridge = 2e-3, old_scale_poses = 20;
 constexpr double least_scale = 0.05, most_scale = 4;
 // Targets this near to black or white count as black or white: one ray of 64 reaches it.

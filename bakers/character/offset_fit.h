@@ -1,6 +1,6 @@
 // The constant and the scale of each vertex of a model, fitted anew to the poses that are most likely in use.
-// A constant costs neither capacity nor time in a frame, and the mean of all poses that a body can take is
-// not the mean of those that a game shows.
+// A constant costs neither capacity nor time per frame. It is needed because the mean over all possible poses
+// differs from the mean over the poses that a game shows.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +31,8 @@ double calibrate_offsets(CharacterModel& model, const SkinnedMesh& mesh, std::sp
                          const OffsetFitSettings& settings, const Progress& progress = {});
 
 // The weight of the rest pose, in poses, at the end of a bake without clips, and so its share beside the old
-// constants, which count as four: a third. Bodies rest as they stand or idle, unless they rest with spread
-// arms; docs/character.md has what other weights and other poses gain.
+// constants, which count as four: a third. The rest pose resembles standing or idling, unless the arms are
+// spread; docs/character.md measures other weights and poses.
 inline constexpr std::size_t rest_pose_weight = 2;
 
 }  // namespace nook::bake

@@ -1,4 +1,4 @@
-// Edges of a mesh that a pose tears: a sign that a bone moves without the bone that its skin hangs on.
+// Finds edges of a mesh that a pose tears: a sign that a bone moves without the bone that its skin follows.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace nook::bake {
 
-// A torn edge is stretched more than so many times its rest length ...
+// A torn edge is stretched to more than this multiple of its rest length ...
 constexpr float torn_stretch = 2.5f;
 // ... and grows by more than this share of the diagonal of the resting body. Short edges of an elbow stretch
 // far without a visible tear.

@@ -87,7 +87,7 @@ CharacterModel refit_vertices(const CharacterModel& model, const SkinnedMesh& me
 namespace {
 
 // Weight, in poses, of the two observations that hold for every vertex. A traced observation has noise from
-// its rays and from what AO does not say. Some ten poses that differ in AO outweigh these two.
+// its rays, and depends on more than AO. Some ten poses that differ in AO outweigh these two.
 constexpr double known_weight = 0.1;
 
 Mat3x4 blended_bones(const SkinWeights& weights, const Pose& pose) {

@@ -98,7 +98,7 @@ std::string list_of(std::span<const std::string> names) {
   return list + (names.size() > most ? ", ..." : "");
 }
 
-// The files chosen for each map, before some give way to others.
+// The candidate files for each map, before one of them is chosen.
 struct Places {
   std::optional<std::size_t> base_colour, normal_up, normal_down, roughness, gloss, metalness, height, packed;
 
@@ -215,7 +215,7 @@ MapImage read_image(const fs::path& path, bool needs_colour) {
   if (!input) fail(path, why);
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.nchannels < 1 || spec.depth > 1) fail(path, "it is not a flat image");
-  std::error_code unknown;  // on an error, the size is the largest number
+  std::error_code unknown;  // on an error, file_size returns the largest number
   check_image_size(path.c_str(), spec.width, spec.height, most_texels, fs::file_size(path, unknown));
   if (spec.width != spec.height)
     throw Failure(NOOK_ERROR_BAD_FILE,

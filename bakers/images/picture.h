@@ -77,7 +77,7 @@ void write_png(const std::filesystem::path& path, const Picture& picture);
 
 namespace nook::bake::probe {
 
-// Draws a map beside what a probe makes of it.
+// Draws a map beside a probe that was fitted to it.
 
 // Draws four latitude-longitude panels in a row, panel_width by half of it:
 //   1. the map;

@@ -51,7 +51,7 @@ std::optional<float> number_behind(std::string_view text, std::string_view key) 
   return found;
 }
 
-// At a tilt of 0, all azimuths are one direction.
+// At a tilt of 0, all azimuths give the same direction.
 Angles canonical(float tilt, float azimuth) {
   return {tilt, tilt == 0 ? 0 : azimuth};
 }
@@ -90,7 +90,7 @@ std::vector<Pair> read_pairs(std::span<const std::string> names) {
   return pairs;
 }
 
-// A lamp cannot stand in the camera, so the database moves it where light and view would be equal. Such a
+// A lamp cannot be at the camera's place, so the database moves it if light and view would be equal. Such a
 // light exists for one view only. Its image replaces the missing pair.
 void put_moved_lights_back(std::vector<Pair>& pairs) {
   std::map<Angles, std::set<Angles>> views_of;

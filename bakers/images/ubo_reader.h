@@ -17,7 +17,7 @@ namespace nook::bake::material {
 // File names of measured BTFs in the layout of Bonn's 2003 database, which UTIA's database uses as well.
 // There is one image for each light and view direction. Its name holds tl, pl, tv, pv (tilt and azimuth of
 // light and view, degrees), each followed by a number, such as "00012_tl015_pl060_tv030_pv090.png". UTIA has
-// a folder for each view, and moves lights that would stand in the camera.
+// a folder for each view, and moves lights that would be at the camera's place.
 
 struct UboAngles {
   float light_tilt = 0, light_azimuth = 0, view_tilt = 0, view_azimuth = 0;  // degrees

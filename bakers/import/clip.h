@@ -21,7 +21,8 @@ struct Channel {
   ChannelPath path = ChannelPath::translation;
   Interpolation interpolation = Interpolation::linear;
   std::vector<float> time_s;  // ascending, from the clip's first key on
-  std::vector<float> value;  // 3 or 4 (x, y, z, w) floats a key; cubic_spline: in-tangent, value, out-tangent
+  std::vector<float>
+      value;  // 3 or 4 (x, y, z, w) floats per key; cubic_spline: in-tangent, value, out-tangent
 
   int components() const { return path == ChannelPath::rotation ? 4 : 3; }
 };

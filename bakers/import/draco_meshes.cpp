@@ -67,8 +67,8 @@ std::pair<const char*, std::size_t> source_of(const tinygltf::Model& model, int 
   return {reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength};
 }
 
-// The library's own reports come back as errors. So does what it throws on damaged data, such as a failed
-// allocation.
+// The library's own reports come back as errors. Its exceptions on damaged data, such as a failed allocation,
+// do the same.
 std::unique_ptr<draco::Mesh> decode(std::pair<const char*, std::size_t> source, const std::string& what) {
   try {
     draco::DecoderBuffer buffer;

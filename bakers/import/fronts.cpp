@@ -46,8 +46,8 @@ Vector corner_of(std::span<const float> three, std::uint32_t v) {
   return {double(three[3 * v]), double(three[3 * v + 1]), double(three[3 * v + 2])};
 }
 
-// Six times the volume that triangles enclose, and twice their area. Open ones enclose it with the cone to
-// their first corner.
+// Six times the volume that triangles enclose, and twice their area. An open surface is closed by the cone to
+// its first corner.
 struct Enclosed {
   double volume = 0, area = 0;
   template <class Corner>
@@ -61,7 +61,8 @@ struct Enclosed {
   bool is_outside_out() const { return volume > 1e-4 * area * std::sqrt(area); }
 };
 
-// Which order of corners has the front outside, by the volume. Nothing for what encloses none.
+// Returns true if the enclosed volume shows that the order of corners has the front inside. Returns nothing
+// if the surface encloses no volume.
 std::optional<bool> encloses_backwards(const PrimitiveSurface& surface) {
   const auto corner = [&](std::uint32_t v) { return corner_of(surface.position, v); };
   Enclosed sum;
@@ -123,7 +124,7 @@ struct PlaceHash {
   }
 };
 
-// Equal numbers for equal positions; 0 and up.
+// Numbers the distinct positions from 0, and returns each position's number.
 std::vector<std::uint32_t> places_of(std::span<const Vec3> position) {
   std::vector<std::uint32_t> out;
   std::unordered_map<std::array<float, 3>, std::uint32_t, PlaceHash> known;

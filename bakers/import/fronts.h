@@ -18,7 +18,7 @@ namespace nook::bake {
 
 // The vertices and triangles of one primitive as the file has them, in the space of its mesh.
 struct PrimitiveSurface {
-  std::span<const float> position;  // three a vertex
+  std::span<const float> position;  // three per vertex
   std::span<const float> normal;    // the same; empty: the primitive has none
   std::span<const std::array<std::uint32_t, 3>> triangle;
 };
@@ -28,15 +28,15 @@ struct PrimitiveSurface {
 std::vector<float> read_normals(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                                 std::size_t vertices, const std::string& what);
 
-// True where most of the area faces against the normals, and false where most faces along them. Returns
-// nothing where the two differ by less than 1 % of the area, as on cards with the normals of one side.
+// Returns true if most of the area faces against the normals, and false if most of it faces along them.
+// Returns nothing if the two differ by less than 1 % of the area, as on cards with the normals of one side.
 std::optional<bool> faces_against_normals(const PrimitiveSurface& surface);
 
 // Returns whether the corners of each triangle must change their order, so that they go round the front
-// counter-clockwise after `space_from_mesh`. The normals decide. Without them, the sign of the determinant of
-// the node's global transform does (glTF 2.0, section 3.7.4), and where a skin mirrors otherwise than its
-// node, the side that the primitive encloses. Exporters mirror positions and normals, but not the order.
-// Linear in the primitive.
+// counter-clockwise after `space_from_mesh`. The normals decide. Without normals, the sign of the determinant
+// of the node's global transform decides (glTF 2.0, section 3.7.4). If a skin mirrors and its node does not,
+// or the reverse, the side that the primitive encloses decides. Exporters mirror positions and normals, but
+// not the order. Linear in the primitive.
 bool turns_round(const PrimitiveSurface& surface, const Affine& space_from_mesh, bool node_mirrors);
 
 // Closed parts of a mesh (connected triangles without a border) whose triangles face inwards. The wall of a

@@ -47,7 +47,7 @@ struct ImportedCharacter {
   // For each primitive of the mesh the node of the file that shows it.
   std::vector<std::uint32_t> node_of_primitive;
   std::vector<std::string> warnings;  // what was left out or repaired, one sentence each
-  std::uint64_t source_hash = 0;      // XXH64 of the file's bytes and of the external buffers it names
+  std::uint64_t source_hash = 0;      // the first 64 bits of the hash of what the import read
 };
 
 // Fails with BAD_FILE; the message names the fault, and the caller adds the name of the file.

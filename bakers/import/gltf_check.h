@@ -1,5 +1,5 @@
-// Checks a parsed document against the specification. It refuses faults that decide shapes or poses. It warns
-// of faults that leave one way to read the file.
+// Checks a parsed document against the specification. It refuses faults that change shapes or poses. It warns
+// about faults that leave only one way to read the file.
 #pragma once
 
 #include <tiny_gltf.h>

@@ -63,8 +63,8 @@ void add_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& 
 
 namespace {
 
-// 64 joints a vertex, of which SkinWeights::max_bones are kept, and a GiB of memory for those of one
-// primitive.
+// The file may give 64 joints per vertex, and SkinWeights::max_bones of them are kept. The joints of one
+// primitive may take a GiB of memory.
 constexpr std::size_t max_influence_sets = 16, max_influence_elements = std::size_t{1} << 25;
 
 // The joints and weights of one primitive: JOINTS_0, JOINTS_1 and so on.
@@ -113,8 +113,8 @@ Influences read_influences(const tinygltf::Model& model, const tinygltf::Primiti
   return out;
 }
 
-// The bone of JOINTS_0.x, for a vertex without weights: exporters leave them out where painting missed a
-// vertex, and the slot names the joint that it would follow, or the root.
+// Returns the bone of JOINTS_0.x for a vertex without weights. Exporters write no weights if painting missed
+// a vertex, and JOINTS_0.x then names the joint that it would follow, or the root.
 std::uint16_t first_bone(const Influences& influences, const MeshBinding& binding, std::size_t vertex,
                          const std::string& what) {
   const std::uint32_t joint = influences.joint[0].value[4 * vertex];

@@ -13,7 +13,7 @@ namespace nook::bake {
 
 // Morph targets at the weights that a file gives them by default: they are part of the shape that it shows.
 
-// The weights of a mesh as a node shows it: the node's own, else the mesh's; empty where they are all 0.
+// Returns the morph weights of a node's mesh: the node's own weights, or else the mesh's. Empty if all are 0.
 std::vector<double> default_morph_weights(const tinygltf::Mesh& mesh, const tinygltf::Node& node);
 
 // Adds the weighted displacements of a primitive's targets to its positions, 3 floats for each vertex. Fails
@@ -47,13 +47,13 @@ struct PlacedMesh {
   bool node_mirrors = false;  // the determinant of its global transform is negative, which only skins need
 };
 
-// Appends all triangle primitives of a node's mesh, which is there, with their fronts outside (turns_round).
-// Where the node has a skin, joints and weights are read; else everything rides on binding.bone[0]. Fails
-// with BAD_FILE. The time is linear in the vertices and indices that it appends, and in the primitives: a
-// file may show 2^20.
+// Appends all triangle primitives of a node's mesh with their fronts outside (turns_round). The node must
+// have a mesh. If it has a skin, joints and weights are read; otherwise everything follows binding.bone[0].
+// Fails with BAD_FILE. The time is linear in the vertices and indices that it appends, and in the primitives:
+// a file may show 2^20.
 void append_mesh(const tinygltf::Model& model, const PlacedMesh& placed, FileMesh& out, MeshRepairs& repairs);
 
-// Fails with BAD_FILE where more than 1 % of the skinned vertices have no weights: that is no slip of a few.
+// Fails with BAD_FILE if more than 1 % of the skinned vertices have no weights: so many are not an oversight.
 void add_warnings(const MeshRepairs& repairs, std::vector<std::string>& warnings);
 
 }  // namespace nook::bake

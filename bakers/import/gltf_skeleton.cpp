@@ -41,8 +41,8 @@ struct Builder {
       if (nodes.nodes[i].parent >= 0) depth[i] = depth[nodes.nodes[i].parent] + 1;
   }
 
-  // Returns the rest frame of a node that is not a joint itself. The node hangs on its nearest ancestor with
-  // a bind pose, or stands where the default pose has it.
+  // Returns the rest frame of a node that is not a joint itself. The node follows its nearest ancestor with a
+  // bind pose, or stays where the default pose puts it.
   Affine implied_bind(std::uint32_t node) const {
     if (!implied.empty()) return implied[node];
     Affine below;

@@ -28,8 +28,8 @@ std::vector<CompressedView> find_compressed_views(const nlohmann::json& document
 bool is_fallback_buffer(const nlohmann::json& buffer);
 
 // Decompresses the views into buffers that it appends, and points the views to them. Fails with BAD_FILE; the
-// message names the view. The size of the compressed bytes bounds the memory before it is taken, and 2 GiB
-// bound it in all. The time is linear in the memory.
+// message names the view. The size of the compressed bytes limits the memory before it is taken. The limit
+// for all views is 2 GiB. The time is linear in the memory.
 void decompress_views(const std::vector<CompressedView>& views, tinygltf::Model& model);
 
 }  // namespace nook::bake

@@ -26,7 +26,7 @@ bool is_letter(char c, char lower) {
   return c == lower || c == lower - 'a' + 'A';
 }
 
-// Bytes of the first UTF-8 character; one for bytes that are no UTF-8.
+// Returns the number of bytes of the first UTF-8 character, or 1 if the bytes are not UTF-8.
 std::size_t character_bytes(std::string_view text) {
   std::size_t n = 1;
   while (n < text.size() && n < 4 && (static_cast<unsigned char>(text[n]) & 0xc0) == 0x80) ++n;

@@ -39,7 +39,7 @@ std::vector<NodeState> node_states(const tinygltf::Model& model, const NodeTree&
 
 struct ShownNodes {
   std::vector<NodeState> state;    // of each node
-  std::vector<std::string> notes;  // names what the file itself has out, one sentence for each reason
+  std::vector<std::string> notes;  // names what the file itself leaves out, one sentence for each reason
 
   bool shows(std::size_t node) const { return state[node] == NodeState::in; }
 };
@@ -48,8 +48,8 @@ struct ShownNodes {
 // (EXT_mesh_gpu_instancing) would exceed the limits of vertices and triangles or belong to a skin.
 ShownNodes choose_nodes(const tinygltf::Model& model, const NodeTree& nodes, const MeshSelection& selection);
 
-// The matrices from the mesh of a node to the node: those of its instances, else the identity. Fails with
-// BAD_FILE.
+// Returns the matrices from a node's mesh to the node: one for each instance, or else the identity. Fails
+// with BAD_FILE.
 std::vector<Affine> mesh_instances(const tinygltf::Model& model, std::size_t node);
 
 // The number after LOD at the end of a name, in any case and behind the beginning, a space or one of _ . -;

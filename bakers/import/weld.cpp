@@ -118,8 +118,8 @@ void divide(std::span<Sheet> sheets) {
           sheet.side = sides;
 }
 
-// The smallest bend of a surface where it goes on over the two edges of a corner, as a cosine, with a margin
-// for rounding.
+// The smallest bend of a surface that continues across both edges of a corner, as a cosine, with a margin for
+// rounding.
 struct Neighbour {
   double over_next = -1, over_previous = -1;
 };
@@ -190,13 +190,13 @@ Groups group(std::size_t items, std::size_t groups, GroupOf group_of) {
   return out;
 }
 
-// Returns for each vertex the side of its place: 0 for nearly all, 1 and up where faces at one place look
-// opposite ways.
+// Returns for each vertex the side of its place: 0 for nearly all; 1 and more if faces at one place look in
+// opposite directions.
 //
 // Vertices at one place whose faces meet at an edge form a sheet, so that the tip of a cone is one sheet
-// however its faces split it. Over an edge of more than two faces, each goes on to the face at the smallest
-// angle, and no sheet folds back on itself. Two sheets are opposite if their area-weighted normals are more
-// than 135 degrees apart.
+// however its faces split it. At an edge of more than two faces, each face continues with the face at the
+// smallest angle, and no sheet folds back on itself. Two sheets are opposite if their area-weighted normals
+// are more than 135 degrees apart.
 //
 // A place with opposite sheets is divided between the two that are furthest apart. Each other sheet goes to
 // the nearer one, until no side holds opposite sheets. The order of vertices and triangles decides only which

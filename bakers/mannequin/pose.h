@@ -85,7 +85,7 @@ struct ReachPlan {
 /// Turns the arm so that the hand lies as planned, or as near as the arm reaches.
 void place_hand(Pose& pose, Side side, const ReachPlan& plan);
 
-/// Curls the fingers by so many degrees at each joint. The thumb has a value of its own.
+/// Curls the fingers by this many degrees at each joint. The thumb has a value of its own.
 void curl_fingers(Pose& pose, Side side, double fingers_deg, double thumb_deg);
 void make_fist(Pose& pose, Side side);
 /// Brings the spread fingers of the bind pose together. At 1 they are parallel.

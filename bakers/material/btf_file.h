@@ -26,9 +26,10 @@ namespace nook::bake::material {
 // If `texels` is above 0, reads the square of this side in the middle. If the data lack the cosine of the
 // light, it is multiplied in. The result has no VOTF.
 //
-// Throws Failure(BAD_FILE) for another signature, a fault of the layout, other than three channels, a number
-// that is not finite, or more than `most_bytes` of BTF. Throws it also if lights differ between views, or the
-// colour model has no public definition. Throws Failure(INVALID_ARGUMENT) if `texels` exceeds the file's.
+// Throws Failure(BAD_FILE) if the signature is another one, the layout has a fault, there are not three
+// channels, or a number is not finite. Throws it also if the BTF exceeds `most_bytes`, lights differ between
+// views, or the colour model has no public definition. Throws Failure(INVALID_ARGUMENT) if `texels` exceeds
+// the file's.
 RawMaterial read_btf_file(std::span<const std::byte> bytes, std::uint32_t texels,
                           std::size_t most_bytes = std::size_t{6} << 30);
 

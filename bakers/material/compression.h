@@ -10,7 +10,7 @@
 
 namespace nook::bake::material {
 
-// Returns false to stop. stage names what goes on.
+// Returns false to stop. stage is the name of the current step.
 using StageProgress = std::function<bool(const char* stage, std::size_t done, std::size_t total)>;
 
 // Both functions throw Failure(NOOK_ERROR_CANCELLED) when progress returns false. The same seed gives the
@@ -31,7 +31,7 @@ nook::material::ClusteredTensor compress_votf(const RawMaterial& raw, const std:
 // Returns the VOTF's values in a form: the mask, or its signed distances.
 std::vector<float> votf_values(const RawMaterial& raw, nook::material::VisibilityForm form);
 
-// A relief, and the raw material with its images on the relief. raw is empty if the relief moves no texels.
+// A relief, and the raw material whose images lie on the relief. raw is empty if the relief moves no texels.
 struct MovedMaterial {
   nook::material::Relief relief;
   RawMaterial raw;

@@ -38,7 +38,8 @@ struct CompressionSettings {
   std::uint32_t cluster_rank_view = 4;
   std::uint32_t clusters = 0;  // C; 0: rank_view / cluster_rank_view
   std::uint32_t mixture = 3;   // K of K-CTA
-  // Further fits of the VOTF, to targets that count the sides of values; see visibility_values.h.
+  // Further fits of the VOTF, to targets that only ask on which side of the threshold a value lies; see
+  // visibility_values.h.
   std::uint32_t votf_refits = 2;
   Seeding seeding = Seeding::directions;
   nook::material::VisibilityForm visibility = nook::material::VisibilityForm::distance;

@@ -41,7 +41,7 @@ std::vector<Taps> unhidden_taps(const Relief& relief, const ReliefTables& tables
   return taps;
 }
 
-// Images of a view and their sums; each has as many numbers as there are texels.
+// Images of a view and their sums; each has one number per texel.
 struct ConjugateWork {
   std::vector<float> step, rest, along, image;
 };

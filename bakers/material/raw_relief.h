@@ -25,8 +25,8 @@ nook::material::Relief relief_of_heights(const RawMaterial& raw, const std::vect
 void check_heights(const RawMaterial& raw);
 
 // Estimates the heights that the views agree on. Candidates are these heights smoothed over several lengths,
-// a plane at their mean, and no relief at all. Returns the one on which views of the raw material are
-// predicted best from other views. With fewer than 8 views there is no relief.
+// a plane at their mean, and no relief at all. Returns the candidate that predicts views of the raw material
+// best from other views. With fewer than 8 views there is no relief.
 nook::material::Relief estimate_relief(const RawMaterial& raw, const ReliefProgress& progress = {});
 
 // The same for the raw material's own heights, which are a candidate without smoothing too. Throws what

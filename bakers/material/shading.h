@@ -64,9 +64,9 @@ struct LightScratch {
 void direct_cosines(const TiledScene& scene, const SurfaceHit& hit, Vec3 shading_normal,
                     std::span<const Vec3> lights, std::span<float> cosine, LightScratch& scratch);
 
-// The light of the meso-surface on itself. It has the irradiance after up to `bounces` diffuse reflections
-// for each vertex and light, RGB, vertex-major. `rays` cosine-weighted rays leave each vertex. The same seed
-// gives the same bits on any number of threads.
+// The light that the meso-surface reflects onto itself. It has the irradiance after up to `bounces` diffuse
+// reflections for each vertex and light, RGB, vertex-major. `rays` cosine-weighted rays leave each vertex.
+// The same seed gives the same bits on any number of threads.
 class InterReflection {
  public:
   InterReflection(const MesoSurface& surface, const TiledScene& scene, std::span<const Vec3> lights,

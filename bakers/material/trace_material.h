@@ -21,8 +21,8 @@ struct TraceSettings {
 
 // A view ray passes through its texel on the plane z = 0; it comes in above the structure and leaves below
 // it. The BTF is the mean over the texel's samples that meet the structure. It is filled from neighbours if
-// no sample does. The mask tells whether half of them or more do. With settings.finds_heights, heights are
-// the means of the highest points over a texel's samples, filled in the same way.
+// no sample does. The mask is set if at least half of the samples do. With settings.finds_heights, heights
+// are the means of the highest points over a texel's samples, filled in the same way.
 //
 // Progress counts views. Any number of threads gives the same bits. Throws Failure(NOOK_ERROR_CANCELLED) when
 // progress returns false. Throws Failure(INVALID_ARGUMENT) for settings or directions that make no sense, or

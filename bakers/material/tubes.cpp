@@ -25,7 +25,7 @@ struct Tube {
 // twisted.
 Vec3 surface_point(const Tube& tube, float t, float angle) {
   const float step = 0.25f / float(tube.segments);
-  // Differences wrap at the ends, where the curve goes on in the next tile.
+  // Differences wrap at the ends, because the curve continues in the next tile.
   const float before = t - step, after = t + step;
   const Vec3 jump = tube.centre(1) - tube.centre(0);
   const Vec3 a = before < 0 ? tube.centre(before + 1) - jump : tube.centre(before);

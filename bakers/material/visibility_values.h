@@ -20,12 +20,12 @@ inline constexpr float distance_scale = 2.5f / 96;
 // longer side.
 float saturated_distance(float distance_texels, std::uint32_t longer_side);
 
-// masks: view x width x height, visible above 0.5; textures repeat. Returns as many values in [-1, 1]: the
-// saturated distance from a texel's centre to the boundary, positive where visible, as (26) reads it. A mask
-// without a boundary is +1 or -1 throughout.
+// masks: view x width x height, visible above 0.5; textures repeat. Returns the same number of values in [-1,
+// 1]: the saturated distance from a texel's centre to the boundary, positive where visible, as (26) reads it.
+// A mask without a boundary is +1 or -1 throughout.
 std::vector<float> signed_distances(std::span<const float> masks, std::uint32_t width, std::uint32_t height);
 
-// Makes targets for the VOTF's fit that count sides instead of sizes.
+// Makes targets for the VOTF's fit that only ask on which side of the threshold a value lies.
 
 // The decoder only sees on which side of the threshold a value lies, so that least squares wastes ranks on
 // the sizes of values. Returns targets of the next fit. A decoded value on the right side by the margin is

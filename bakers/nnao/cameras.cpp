@@ -136,7 +136,7 @@ Vec3 point_in(const Box& box, Random& random) {
 
 struct Line {
   Vec3 eye, target;
-  float nearest;  // surfaces nearer than this are in the way, metres
+  float nearest;  // surfaces nearer than this block the view, metres
   float widest = 100 * degree;
 };
 

@@ -15,7 +15,7 @@ struct DatasetSettings {
   std::uint32_t views = 1440;
   std::uint32_t points_per_view = 600;
   std::uint32_t rays = 128;                 // per point
-  std::uint32_t width = 480, height = 270;  // screens of other shapes have as many pixels
+  std::uint32_t width = 480, height = 270;  // screens of other shapes have the same number of pixels
   bool normals = true;  // keep the normals of all pixels; only the paper's form reads them
 
   // The share of views whose G-buffer has normals like a host's, see host_normals.h. The reference remains

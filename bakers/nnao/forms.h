@@ -1,5 +1,5 @@
-// What depends on the network's form in training: its numbers in a row, their initial values, their gradient
-// over a minibatch, and the conversion to a network.
+// The parts of training that depend on the network's form: its numbers as one array, their initial values,
+// their gradient over a minibatch, and the conversion to a network.
 #pragma once
 
 #include <span>

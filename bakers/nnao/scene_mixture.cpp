@@ -8,7 +8,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// The triangles that hang together by their corners, as indices of triangles.
+// Triangles that are connected by their corners, as indices of triangles.
 struct Piece {
   Vec3 low{1e9f, 1e9f, 1e9f}, high{-1e9f, -1e9f, -1e9f};
   std::vector<std::uint32_t> triangles;

@@ -104,7 +104,7 @@ std::size_t steps_of_starts(std::size_t length) {
   return steps;
 }
 
-// length: steps of a start in the first round. step_done is called after each step.
+// length: the number of steps that each start takes in the first round. step_done is called after each step.
 TrainingState best_start(Trainer& trainer, std::size_t length, std::size_t batches,
                          const std::function<void()>& step_done) {
   const std::vector<std::uint32_t> order = shuffled(trainer.data.training.size(), trainer.epoch_seed(0));

@@ -46,7 +46,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// The outputs of one point: with its own noise, and the mean over all.
+// The outputs of one point: with the point's own noise values, and the mean over all noise values.
 struct PointOutput {
   double own = 0, mean = 0;  // AO
   Vec3 bent_normal;          // the mean's

@@ -12,8 +12,8 @@
 
 namespace nook::bake {
 
-// Which part of the environment's light counts if it arrives directly at the receiving point. Its light by
-// way of surfaces always counts, suns included, and so does light that surfaces emit.
+// Which part of the environment's light counts if it arrives directly at the receiving point. Its light that
+// surfaces reflect always counts, suns included, and so does light that surfaces emit.
 enum class DirectLight : std::uint8_t {
   none = 0,
   sky = 1,  // the environment without its suns, see environment.h

@@ -323,7 +323,7 @@ std::vector<Texel> synthesise(const Exemplar& exemplar, const SynthesisSettings&
   check_synthesis(exemplar, settings);
   const std::uint32_t levels = level_count(exemplar.shape);
   const std::vector<Matrix> stack = gaussian_stack(exemplar, levels);
-  // The search for similar texels of a level counts for as many texels as the exemplar has.
+  // In the progress, a level's search for similar texels counts as one step per texel of the exemplar.
   std::size_t total = 0;
   for (std::uint32_t l = 0; l <= levels; ++l) {
     const std::size_t side = settings.side >> l;

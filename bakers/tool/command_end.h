@@ -49,7 +49,7 @@ void watch_for_interrupt();
 bool interrupted();
 
 // Makes files that may be pipes stop waiting at the flag. The error stream tells the user what a command
-// waits for. Without --quiet, it also tells what else happens to a file that is replaced.
+// waits for. Without --quiet, it also reports other effects on a file that is replaced.
 platform::FileEvents file_events(bool quiet);
 
 }  // namespace nook::tool

@@ -39,8 +39,8 @@ nook::transfer::Frame frame_at(const SurfaceMesh& mesh, const RayHit& hit);
 
 class SurfaceHoles {
  public:
-  // The material has `tiles` tiles in one unit of texture coordinates. Rays stand for the light within
-  // spread_rad of them. Both references must outlive this object.
+  // The material has `tiles` tiles in one unit of texture coordinates. Each ray represents the light within
+  // spread_rad of it. Both references must outlive this object.
   SurfaceHoles(const SurfaceMesh& mesh, const HoleTable& table, float tiles, float spread_rad);
 
   // Returns the share of a ray that the surface at a hit stops. A line through the structure meets the same

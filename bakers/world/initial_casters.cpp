@@ -59,7 +59,7 @@ SkinnedMesh refined(const SkinnedMesh& mesh) {
 
 namespace {
 
-// Vertices that one capsule stands for.
+// The vertices that one capsule represents.
 struct Part {
   std::uint16_t bone = 0;
   std::vector<std::uint32_t> vertex;

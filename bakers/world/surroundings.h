@@ -15,7 +15,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 struct SurfacePoints {
   std::vector<Vec3> position, normal;
-  std::vector<float> weight;  // proportional to the area that a point stands for
+  std::vector<float> weight;  // proportional to the area that a point represents
 
   std::size_t size() const { return position.size(); }
   void add(Vec3 at, Vec3 facing, float area) {

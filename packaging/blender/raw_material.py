@@ -122,7 +122,8 @@ def write(path, name, lights, views, radiance, mask=None):
 
 
 def _write_whole(path, data):
-    """A file appears whole or not at all, with the mode of the one that it replaces; pipes and devices are written to."""
+    """Writes a file whole or not at all. The file keeps the mode of the file that it replaces. Pipes and devices are written to
+    directly."""
     if os.path.exists(path) and not os.path.isfile(path):
         with open(path, "wb") as out:
             out.write(data)

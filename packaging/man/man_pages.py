@@ -49,7 +49,7 @@ def escaped(text):
 
 
 def spelled(name):
-    """An option or argument in bold, and behind it in plain words what value it takes."""
+    """Returns an option or argument in bold, followed by the kind of value that it takes, in plain words."""
     option, _, kind = name.partition(" ")
     option = re.sub(r"\{.*\}$", "", option)
     kind = re.sub(r":\(.*\)$|:FILE(?=$| )", "", kind).replace("FLOAT:POSITIVE", "number above 0")

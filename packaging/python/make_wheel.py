@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""make_wheel.py VERSION FOLDER: the module as a wheel, of the same bytes for the same sources and SOURCE_DATE_EPOCH."""
+"""make_wheel.py VERSION FOLDER: writes the module as a wheel. The same sources and SOURCE_DATE_EPOCH give the same bytes."""
 import base64
 import hashlib
 import pathlib

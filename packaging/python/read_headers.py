@@ -2,8 +2,8 @@
 """Writes nook/_layouts.py: constants, structures and functions of the public C headers as ctypes has them.
 
 With --check nothing is written; the exit code is 1 where the file differs from what the headers give.
-The headers are read by tests/abi/describe.py, which also guards the interface. Those of OpenGL are left out: a pipeline has
-no context, and the library of the module no OpenGL half.
+The headers are read by tests/abi/describe.py, which also guards the interface. The OpenGL headers are left out: a pipeline has no
+context, and the module's library has no OpenGL part.
 """
 import pathlib
 import re
@@ -49,7 +49,7 @@ def parameter(text, known):
 
 
 def split(text, letter):
-    """The parts between letters outside of parentheses."""
+    """Splits text at a letter, but not inside parentheses."""
     parts, depth, start = [], 0, 0
     for i, c in enumerate(text):
         depth += {"(": 1, ")": -1}.get(c, 0)

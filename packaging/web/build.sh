@@ -21,7 +21,7 @@ rm -rf "$folder/package" "$folder"/nook-web-*.tgz
 mkdir -p "$folder/package"
 cp "$here"/src/*.js "$here"/src/*.d.ts "$here/README.md" "$root/LICENSE" "$root/NOTICE" "$folder/wasm/package.json" \
   "$folder/wasm/nook.mjs" "$folder/wasm/nook.wasm" "$folder/package/"
-# The class for three.js is that of the sample, whose test drives it.
+# The class for three.js comes from the sample, because the sample's test drives it.
 cp "$root/samples/hosts/three/nook_three.js" "$folder/package/three.js"
 chmod 644 "$folder/package/nook.wasm"
 (cd "$folder" && npm pack --silent ./package)

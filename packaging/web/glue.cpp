@@ -1,5 +1,5 @@
-// What JavaScript needs beside the library's own functions: the layouts of its structs and the values of its
-// constants as tables in memory, the loader of WebGL functions, and a log.
+// What JavaScript needs beside the library's own functions: the loader of WebGL functions, a log, and tables
+// in memory with the layouts of structs and the values of constants.
 #include <emscripten.h>
 #include <nook/experimental/nook_debug.h>
 #include <nook/experimental/nook_lod.h>

@@ -57,7 +57,7 @@ static const char fragment_text[] =
     "  float haze = 1.0 - exp(-0.003 * pow(max(length(from_eye) - 9.0, 0.0), 2.0));\n"
     "  pixel = vec4(pow(mix(albedo * light * ao, sky, haze), vec3(1.0 / 2.2)), 1.0);\n"
     "}\n";
-/* For the comparison with the CPU: each vertex is a point on a texel of its own. */
+/* For the comparison with the CPU: draws each vertex as a point on its own texel. */
 static const char point_text[] =
     "uniform ivec2 frames, size; uniform float share; flat out float ao;\n"
     "void main() {\n"
@@ -176,7 +176,7 @@ static nook_result pose_hero(App* a, const Member* m, int number, float* bones) 
 /* ---- In each frame, for a member of the crowd: the clip, the time and the place ---- */
 static nook_result pose_crowd(App* a, const Member* m, float* bones) {
   nook_result r = nook_scene_set_clip(a->scene, m->id, a->clips, &m->time, m->place);
-  /* An engine that keeps its animation in textures of its own leaves this out. */
+  /* Leave this out if your engine already keeps its animation in textures. */
   if (!r) r = nook_clips_read_pose(a->clips, &m->time, m->place, bones, a->info.bone_count);
   return r;
 }

@@ -31,8 +31,8 @@ struct DrawnInstance {
 
 // The result of the passes over the screen for the same instances through the same camera.
 struct ScreenAo {
-  // 0 if there was no such pass. Red is AO; under a light red, green and blue are the open shares of soft
-  // light, and alpha is that of the sun.
+  // 0 if there was no such pass. Red is AO. Under a light, red, green and blue are the open shares of the
+  // soft light, and alpha is the open share of the sun.
   GLuint texture = 0;
   GLuint depth = 0;  // single-sampled, as large as the viewport
 };

@@ -20,12 +20,12 @@ struct CrowdSize {
 
 class CrowdScene {
  public:
-  // Throws if the model is of another character than the hero. The hero must outlive this object.
+  // Throws if the model belongs to another character than the hero. The hero must outlive this object.
   CrowdScene(platform::Context& context, const Hero& hero, std::span<const unsigned char> model,
              const CrowdSize& size, const nook_scene_desc& desc = nook::scene_desc());
 
-  // Gives all characters another model of the hero. Throws if it is of another character, and then changes
-  // nothing.
+  // Gives all characters another model of the hero. Throws if it belongs to another character, and then
+  // changes nothing.
   void set_model(std::span<const unsigned char> model);
   void link_nearest(std::uint32_t neighbours);
   // Lights all characters by the same lobes from the next update on. Without lobes there is no light.

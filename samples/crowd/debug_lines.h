@@ -11,7 +11,8 @@ struct DebugView {
   int bodies = 1;        // the bodies that spheres are shown for, the nearest to the camera first
 };
 
-// Draws over everything but ImGui's panels, within an ImGui frame. The parts are those of the last update.
+// Draws over everything but ImGui's panels, within an ImGui frame. Spheres and links are as of the last
+// update.
 void draw_debug_lines(const CrowdScene& scene, const Camera& camera, const DebugView& view);
 
 }  // namespace crowd

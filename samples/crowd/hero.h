@@ -1,4 +1,4 @@
-// The character of the crowd: its mesh, its clips and its baked model, all by the library of the bakers.
+// The character of the crowd: its mesh, its clips and its baked model, which come from nook_bake.
 #pragma once
 
 #include <filesystem>
@@ -44,7 +44,7 @@ class Hero {
 // Makes the built-in character and returns the path of its file in the folder.
 std::filesystem::path built_in_glb(const std::filesystem::path& folder);
 
-// The bytes of the model's file for a character, from the cache. If the cache has none, this bakes one with
+// Returns the bytes of the model's file for a character from the cache. If the cache has none, bakes one with
 // the draft preset and shows the progress. gamma is the exponent of the norm that adds up shadows; 0 takes
 // the preset's.
 std::vector<unsigned char> cached_model(const Hero& hero, const std::filesystem::path& glb,

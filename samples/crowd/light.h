@@ -1,4 +1,5 @@
-// The light of the crowd: lobes, of which one may be a sun, and what the passes and the shaders need of them.
+// The light of the crowd as lobes, one of which may be a sun, and what the passes and the shaders need from
+// them.
 #pragma once
 
 #include <nook/nook_probe.h>
@@ -9,7 +10,7 @@
 namespace crowd {
 
 struct Light {
-  // If has_sun, the last lobe is a sun: a cone stands for it, and the other lobes are soft light.
+  // If has_sun is set, the last lobe is a sun, which is drawn as a cone; the other lobes are soft light.
   explicit Light(std::vector<nook_lobe> all_lobes, bool has_sun = false);
 
   // The radiance of the lobes in a unit direction, not below 0.

@@ -40,7 +40,7 @@ void require_window(const CLI::App& app, const Options& o) {
     if (app.count(option) > 0) throw CLI::ValidationError(option, "needs --context window");
 }
 
-// Returns the code of the program's end, or -1 to go on.
+// Returns the program's exit code, or -1 to continue.
 int parse(int argc, char** argv, Options& o) {
   CLI::App app("Draws a crowd of animated characters with Nook's ambient occlusion.");
   // The last of several values wins, so that the caller of a script can override its values.

@@ -32,7 +32,7 @@ std::vector<Outline> clip_outlines(const Hero& hero);
 std::vector<Placement> make_layout(const std::vector<Outline>& outlines, std::uint32_t count,
                                    std::uint32_t seed);
 
-// The distance of the farthest root from the origin, with room for the body.
+// Returns the distance of the farthest root from the origin, plus room for the body.
 float crowd_radius_m(const std::vector<Placement>& places);
 
 // The pose of a character's clip at a time, moved to the character's place in the world.

@@ -12,7 +12,7 @@
 
 namespace crowd {
 
-// The defaults are those of NOOK_NNAO_PRESET_BEST: a picture may take longer than a frame of a game.
+// The defaults match NOOK_NNAO_PRESET_BEST, because a picture may take longer than a frame of a game.
 struct ScreenQuality {
   int taps = 32;
   bool half_resolution = false;
@@ -31,11 +31,11 @@ class ScreenPasses {
   const int width_px, height_px;
   const ScreenQuality quality;
 
-  // The texture has 1 on characters: the lighting multiplies it with the AO of their vertices, which already
-  // has what the passes would count again. The instances are those of the scene, by whose casters they darken
-  // the floor once: the screen-space pass leaves them out. Leaves another framebuffer bound.
-  // With a light, which must outlive the next draw, red, green and blue are the open shares of its soft part,
-  // and alpha is that of its sun.
+  // The texture is 1 on characters. The lighting multiplies it with the AO of their vertices, and the passes
+  // would count the same occlusion twice. The instances must be the instances of `scene`: its casters darken
+  // the floor, and the screen-space pass leaves characters out. Leaves another framebuffer bound. With a
+  // light, red, green and blue are the open shares of its soft part, and alpha is the open share of its sun.
+  // The light must outlive the next draw.
   ScreenAo draw(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
                 nook_scene scene, const Light* light);
   // The screen-space pass alone. With NOOK_GBUFFER_AO_NONE the texture has its AO on characters too.

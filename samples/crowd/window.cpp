@@ -100,7 +100,7 @@ void move_camera(Controls& c, GLFWwindow* window) {
   c.distance_m = std::clamp(c.distance_m * std::pow(0.9f, nearer), 1.5f, 200.0f);
 }
 
-// Loads the model again. A file that does not fit leaves the model from before.
+// Loads the model again. If the file does not fit the character, the old model stays.
 std::string load_again(CrowdScene& scene, const std::filesystem::path& model) {
   try {
     scene.set_model(platform::read_file(model));
@@ -169,7 +169,7 @@ class Window {
   void scale_panel() {
     float scale = 1;
     glfwGetWindowContentScale(context_.window(), &scale, nullptr);
-    // Where a unit of the window is more than a pixel, ImGui scales by itself. While the window changes its
+    // If a unit of the window is more than a pixel, ImGui scales on its own. While the window changes its
     // size, both sizes may be of different frames, and their quotient may be anything.
     const float unit_px = ImGui::GetIO().DisplayFramebufferScale.x;
     if (!(unit_px > 0)) return;

@@ -2,7 +2,7 @@
 //
 //   gltf_viewer CHARACTER.glb MODEL.nook [--clip NAME] [--without NODE] [--frames N --size WxH --out DIR]
 //
-// nook_ao.h is all that concerns Nook. The other files stand in for an engine.
+// nook_ao.h is all that concerns Nook. The other files play the part of an engine.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>

@@ -102,7 +102,7 @@ Renderer::Renderer(const GladGLContext& gl, const CharacterFile& file, int width
   gl.VertexAttribPointer(albedo_slot, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(Vertex, albedo)));
   gl.VertexAttribIPointer(joints_slot, 4, GL_UNSIGNED_SHORT, stride, at(offsetof(Vertex, matrices)));
   gl.VertexAttribPointer(weights_slot, 4, GL_FLOAT, GL_FALSE, stride, at(offsetof(Vertex, weights)));
-  // Until a frame brings its AO, the attribute reads a float that is there.
+  // Until a frame brings its AO, the attribute reads a constant float from a buffer.
   gl.VertexAttribPointer(ao_slot, 1, GL_FLOAT, GL_FALSE, stride, at(offsetof(Vertex, weights)));
 
   gl.GenTextures(texture_count, textures_);

@@ -115,7 +115,7 @@ void read_skins(const tinygltf::Model& model, CharacterFile& out) {
   }
 }
 
-// Returns the nodes that clips move, the joints, and what hangs on either. Other parts do not belong to the
+// Returns the nodes that clips move, the joints, and the children of both. Other parts do not belong to the
 // character.
 std::vector<bool> moving_nodes(const CharacterFile& file) {
   std::vector<bool> moves(file.nodes.size());

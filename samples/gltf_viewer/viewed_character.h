@@ -1,7 +1,7 @@
 // Reads a rigged glTF file for a viewer: one mesh, skins, nodes and clips. Vertices are in the order of the
 // file, and primitives follow the order of the nodes, which is also the order of Nook's AO. A mesh with
 // EXT_mesh_gpu_instancing is there once for each instance. It leaves out meshes that a bake leaves out:
-// hidden ones, lower levels of detail, and those that the caller names.
+// hidden meshes, lower levels of detail, and meshes that the caller names.
 #pragma once
 
 #include <cstdint>

@@ -52,7 +52,7 @@ void start_counting_gl_errors();
 // Writes the picture, rows from top to bottom, three bytes each, and prints a report in JSON.
 void finish(const char* name, const Options& options, const unsigned char* rgb);
 
-// The colours of all hosts, which take the AO of a vertex and of a pixel: GLSL without #version.
+// The colours that all hosts use. They take the AO of a vertex and of a pixel: GLSL without #version.
 extern const char* const light_glsl;
 
 // Runs the body and prints what it throws. Returns the exit code.

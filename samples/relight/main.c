@@ -32,7 +32,8 @@ static const char vertex_text[] =
     "}\n";
 static const char shadow_text[] = "#version 330 core\nvoid main() {}\n";
 static const char fragment_begin[] = "#version 330 core\n";
-/* exposure is 0 where a cube map is drawn: it takes radiance, and glossy surfaces as matt ones. */
+/* exposure is 0 when a cube map is drawn: the map stores radiance, and glossy surfaces are drawn as matt
+ * ones. */
 static const char fragment_end[] =
     "in vec3 position_ws, normal_ws, albedo; in vec2 roughness_reflectance; out vec4 pixel;\n"
     "uniform vec3 eye_ws, sun_direction, sun_irradiance; uniform mat4 sun_camera;\n"

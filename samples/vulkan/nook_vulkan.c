@@ -109,7 +109,7 @@ static VkResult make_uniforms(nook_vulkan* v) {
   return r ? r : vkBindBufferMemory(v->device, v->uniforms, v->uniform_memory, 0);
 }
 
-/* One layout for every stage: two uniform buffers, then as many images as a stage has at most. */
+/* All stages share one layout: two uniform buffers, then the largest number of images of any stage. */
 static VkResult make_layouts(nook_vulkan* v) {
   VkDescriptorSetLayoutBinding binding[bindings];
   const VkSamplerCreateInfo nearest = {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
@@ -263,7 +263,7 @@ static VkResult make_set(nook_vulkan* v, nook_vulkan_stage* stage, const nook_vu
       writes[i].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
       writes[i].pBufferInfo = &blocks[i];
     } else {
-      /* Those that no input has hold depth, because some drivers read every descriptor of a set. */
+      /* Bindings without an input hold depth, because some drivers read every descriptor of a set. */
       const uint32_t input = i - first_image;
       const nook_nnao_image which =
           input < stage->info.input_count ? stage->info.inputs[input] : NOOK_NNAO_IMAGE_HOST_DEPTH;

@@ -8,8 +8,8 @@
 #include <vulkan/vulkan.h>
 
 /* Images of the host, of the size of its frames, which shaders may read without a filter. They are in
- * VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL when the pass runs. Those that its frames never use may be
- * VK_NULL_HANDLE: depth takes their place. */
+ * VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL when the pass runs. Images that the frames never use may be
+ * VK_NULL_HANDLE: depth is bound in their place. */
 typedef struct nook_vulkan_inputs {
   VkImageView depth; /* the aspect of depth alone; required */
   VkImageView normal, layer, motion;
@@ -26,7 +26,7 @@ typedef struct nook_vulkan_stage {
   nook_nnao_stage_info info;
   VkRenderPass render_pass;
   VkPipeline pipeline;
-  /* For even and for odd frames, which swap the images of earlier frames. */
+  /* One each for even and odd frames, because they swap the images of earlier frames. */
   VkFramebuffer framebuffers[2];
   VkDescriptorSet sets[2];
 } nook_vulkan_stage;

@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # Builds the page: the native tools bake its data, packaging/web/build.sh makes nook-web, and npm installs it beside the page.
 #   samples/web/build.sh [FOLDER]        FOLDER (default: build-web) takes FOLDER/site, which any file server can serve
-# Native tools are built in NOOK_BUILD_DIR (default: build). samples/web/packages.txt lists the packages that it needs beside
-# those of packages.txt.
+# Native tools are built in NOOK_BUILD_DIR (default: build). It needs the packages of packages.txt and of samples/web/packages.txt.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)

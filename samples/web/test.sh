@@ -22,7 +22,7 @@ trap 'rm -rf "$scratch"' EXIT
 printf '{ "private": true, "type": "module" }\n' > "$scratch/package.json"
 (cd "$scratch" && npm install --silent --no-audit --no-fund --no-package-lock --offline "$folder"/nook-web-*.tgz)
 cp "$here/package_test.mjs" "$scratch/"
-# Emscripten 3.1.6 takes the fetch of newer versions of node for that of a browser.
+# Emscripten 3.1.6 mistakes the fetch function of newer node versions for a browser's fetch.
 (cd "$scratch" && node package_test.mjs "$folder/site/data")
 
 cmake --build "$build" -j "${NOOK_JOBS:-$(nproc)}" --target web_screen web_picture

@@ -1,6 +1,5 @@
-// Writes what the page needs beside the .nook file of a character: its geometry, its clips as matrices,
-// ray-traced ambient occlusion of one pose of each clip, and what the native library makes of two linked
-// instances.
+// Writes what the page needs beside the .nook file of a character: geometry, clips as matrices, ray-traced
+// ambient occlusion of one pose of each clip, and the native library's AO of two linked instances.
 //
 //   web_data CHARACTER.glb CHARACTER.nook FOLDER
 //
@@ -145,7 +144,7 @@ std::vector<float> trace(const Character& character, const std::vector<float>& b
   return ao;
 }
 
-// The first picture has one frame of each clip: the one of the reference.
+// The first picture has one frame of each clip: the frame of the reference.
 nlohmann::json add_clips(const Character& character, Arrays& arrays, Arrays& showcase) {
   nlohmann::json clips = nlohmann::json::array();
   std::vector<float> frames, stills, references;
@@ -174,7 +173,7 @@ nlohmann::json add_clips(const Character& character, Arrays& arrays, Arrays& sho
   return clips;
 }
 
-// The AO by the native library of two linked instances on the ground, in the middle of the first two clips.
+// Adds the native library's AO of two linked instances on the ground, in the middle of the first two clips.
 void add_expected(const Character& character, const std::string& model_path, Arrays& arrays) {
   const std::vector<char> file = read_file(model_path);
   const std::uint32_t bones = character.info.bone_count;

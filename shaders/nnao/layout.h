@@ -53,7 +53,8 @@
 #define NOOK_EXCLUDED_ABOVE 0.5
 #define NOOK_REPLACED_ABOVE 0.998
 
-// The noise of the taps repeats after this many pixels along each axis. The filter averages as many.
+// The noise of the taps repeats after this many pixels along each axis. The filter averages the same number
+// of pixels.
 #define NOOK_NOISE_SIZE 3
 #define NOOK_NOISE_COUNT 9
 

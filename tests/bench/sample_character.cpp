@@ -31,8 +31,8 @@ class Draw {
   std::mt19937 random_;
 };
 
-// Vertices are a 74 x 100 grid on a cylinder's surface, key points are scattered over it, and each vertex
-// uses seven of its ten nearest: near vertices share most of them, as after a fit, but no two need agree.
+// Vertices are a 74 x 100 grid on a cylinder's surface, and key points are scattered over it. Each vertex
+// uses seven of its ten nearest. As after a fit, near vertices share most of them, but no two need agree.
 void add_linear_layer(CharacterModel& model, Draw& draw) {
   constexpr std::size_t columns = 74;
   std::vector<std::array<float, 2>> place(key_points);

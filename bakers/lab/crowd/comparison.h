@@ -109,7 +109,7 @@ platform::Image double_shadowing_sheet(const Subject& subject, EvaluatedCrowd& o
 
 // ---- Light: AO alone, AO times the probe, and the occlusion of each lobe ----
 
-// A light as lobes and as the environment that the lobes stand for.
+// A light as lobes, and as the environment that the lobes represent.
 struct Light {
   std::span<const nook_lobe> lobes;
   nook_bake_environment environment;

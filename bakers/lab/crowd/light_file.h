@@ -1,4 +1,4 @@
-// Lights from files: the lobes, and the environment that the lobes stand for.
+// Reads lights from files: the lobes, and the environment that the lobes represent.
 #pragma once
 
 #include <nook/experimental/nook_trace.h>

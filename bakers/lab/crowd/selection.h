@@ -43,8 +43,8 @@ struct Group {
   View view;
 };
 
-// Chooses up to 12 characters around the busiest place. The camera is where the fewest others stand in the
-// way.
+// Chooses up to 12 characters around the busiest place. Places the camera where the fewest other bodies block
+// the view.
 Group choose_group(std::span<const Place> places);
 
 // A square of the floor that reaches margin_m farther than the members' bodies, with side x side points.

@@ -13,7 +13,7 @@ constexpr int label_height_px = 30;
 // Draws white text on a dark strip of label_height_px along the top. Letters have 5 by 7 dots of two pixels.
 void draw_label(platform::Image& image, const std::string& text);
 
-// Puts pictures of equal size into rows of so many columns, with a thin white gap between them.
+// Puts pictures of equal size into rows with the given number of columns, with a thin white gap between them.
 platform::Image tile(const std::vector<platform::Image>& pictures, int columns);
 
 }  // namespace nook::lab::crowd

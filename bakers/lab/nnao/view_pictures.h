@@ -1,4 +1,4 @@
-// Pictures of what methods make of one view, and of what a network has learned.
+// Draws one view by several methods, and shows what a network has learned.
 #pragma once
 
 #include <span>

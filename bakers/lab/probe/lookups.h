@@ -1,5 +1,5 @@
-// Looks up a grid of probes near walls, by the library's ways and by those that others use. A way is a
-// function from a place to coefficients.
+// Looks up a grid of probes near walls, in Nook's ways and in the ways of other engines. A way is a function
+// from a place to coefficients.
 #pragma once
 
 #include <functional>
@@ -25,8 +25,8 @@ Lookup visibility_lookup(const probe::Probes& probes, const bake::LitScene& scen
 // Moments of distance with Chebyshev's bound (Z. Majercik, J.-P. Guertin, D. Nowrouzezahrai, M. McGuire,
 // Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields, 2019, section 4). It multiplies
 // trilinear weights by the wrapped cosine to the probe and by the cubed bound, and crushes small weights.
-// Like the paper, it takes means over directions by the power 50 of the cosine. It takes them for the exact
-// direction from the probe to the place, and not for a texel of an octahedral map, so that no resolution
+// Like the paper, it takes means over directions by the power 50 of the cosine. It evaluates them in the
+// exact direction from the probe to the place, not at a texel of an octahedral map, so that no resolution
 // limits them.
 class Moments {
  public:

@@ -91,7 +91,7 @@ def methods_table(reports):
 
 
 def unseen_table(reports, views, unseen_views):
-    """Error texels are of 10,000."""
+    """Error texels are counted per 10,000 texels."""
     def share(texels, of):
         return "-" if texels is None else f"{1e4 * texels / (of * 96 * 96):.0f}"
     return table(["material", "method", "K", "file, MiB", "S/E, dB: fitted views", "unseen views",
@@ -165,7 +165,7 @@ BLOCKS = {"half floats": ("plain", 4), "signed bytes, light map of blocks": ("rg
 
 
 def blocks_table(bench):
-    """The bytes of textures and what they draw, of the files of half floats that numbers_rows makes."""
+    """Writes the bytes and the errors of textures in blocks, for the half-float files that numbers_rows makes."""
     rows = []
     for material in NUMBERS:
         for name, (modes, whole) in BLOCKS.items():

@@ -3,12 +3,11 @@
 
     bakers/lab/tables/material_wood.py wood.raw [--texels 64] [--seed 1] [--views fitted|between]
 
-It has no geometry: a texel is fibres under a varnish, with a colour of its own. Light that enters leaves by a diffuse
-lobe and by the cone of the fibres, which tilt from place to place as in curly maple. Light that does not enter leaves
-by a glossy lobe around the varnish's uneven normal (S. Marschner and others: Measuring and Modeling the Appearance of
-Finished Wood, 2005, equations 1 to 4). The 81 directions are from the University of Bonn's measurements of 2003: tilts
-of 0 to 75 degrees in steps of 15, with 1, 6, 12, 18, 20 and 24 azimuths. `between` has as many views halfway between
-those azimuths, for errors in views that were not fitted.
+It has no geometry: each texel is fibres under a varnish, with its own colour. Light that enters leaves by a diffuse lobe and by the
+cone of the fibres, which tilt from place to place as in curly maple. Light that does not enter leaves by a glossy lobe around the
+varnish's uneven normal (S. Marschner and others: Measuring and Modeling the Appearance of Finished Wood, 2005, equations 1 to 4).
+The 81 directions are from the University of Bonn's measurements of 2003: tilts of 0 to 75 degrees in steps of 15, with 1, 6, 12,
+18, 20 and 24 azimuths. `between` has as many views halfway between those azimuths, for errors in views that were not fitted.
 """
 import argparse
 import pathlib

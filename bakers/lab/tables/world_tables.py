@@ -4,9 +4,8 @@
     bakers/lab/tables/world_tables.py --nook build/bakers/tool/nook [--write] [--keep DIR] [--room SCENE.glb=METRES] [--light MAP.hdr] CHARACTER.glb ...
 
 Half of the clips are fitted, the others measured. The self-shadow is fitted in a hurry (--steps 100 --rays 4), which the casters do not
-depend on. --keep keeps models and reports, and takes those that are there. The table of rooms has
-the first character in the built-in room and in the rooms of --room, with the given metres per unit. Without --room, this table
-stays as it is. With
+depend on. --keep keeps models and reports, and uses the ones that exist. The table of rooms has the first character in the built-in
+room and in the rooms of --room, with the given metres per unit. Without --room, this table stays as it is. With
 --light the table of irradiance under these maps is the only one.
 """
 import argparse

@@ -1,5 +1,5 @@
-// Bent normals and specular occlusion of a character against ray tracing, beside the plain normal and
-// S. Lagarde's form of the same AO.
+// Measures bent normals and specular occlusion of a character against ray tracing, beside the plain normal
+// and S. Lagarde's formula with the same AO.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@
 
 namespace nook::measure {
 
-// A posed character with AO and bent normals as its model gives them to a host: one entry for each welded
-// vertex, in world space and metres; normals have unit length.
+// A posed character with the AO and bent normals that its model gives to a host. Each array has one entry per
+// welded vertex, in world space and metres. Normals have unit length.
 struct BentBody {
   std::vector<Vec3> position, normal, bent;
   std::vector<float> ao;
@@ -50,9 +50,9 @@ struct BentStudy {
 // Rows of the methods "normal" (in place of the bent normal), "nook", and "reference", which has the traced
 // AO and bent normal: method, map ("visibility", under uniform light, or a map's name), poses, points;
 // angle_median, angle_mean and angle_p90 (degrees, where the traced AO is below 0.7); specular_mse,
-// lagarde_mse and specular_ratio, and both errors for each roughness of 0.1 to 0.9. Under a map errors are of
-// radiance, in units of the map's mean radiance. Each error is the product of those against two references
-// with their own rays, so that it has no noise floor. Throws Failure: UNSUPPORTED (the model was baked
+// lagarde_mse and specular_ratio, and both errors for each roughness of 0.1 to 0.9. Under a map, the errors
+// compare radiance, in units of the map's mean radiance. Each error is the product of the errors against two
+// references with their own rays, so it has no noise floor. Throws Failure: UNSUPPORTED (the model was baked
 // without bent normals), CANCELLED.
 nlohmann::ordered_json bent_rows(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                  std::span<const bake::Pose> poses, std::span<const GlossyMap> maps,
@@ -69,7 +69,7 @@ std::vector<bake::nnao::SpecularSample> bent_samples(const bake::SkinnedMesh& me
 // Returns the mean over all directions and channels.
 double mean_radiance(const bake::Environment& map);
 
-// A map of a few texels without its suns: each is the mean of those that it covers.
+// A map of a few texels without its suns: each texel is the mean of the texels that it covers.
 bake::Environment coarse_map(const bake::Environment& with_suns, std::uint32_t width);
 
 }  // namespace nook::measure

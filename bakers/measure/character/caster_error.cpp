@@ -27,7 +27,7 @@ Pose placed(const Pose& pose, Vec3 centre, float yaw_radians, Vec3 move) {
   return out;
 }
 
-// The AO of a receiver with one linked caster, for each welded vertex.
+// Returns the AO of a receiver with one linked caster, for each welded vertex.
 class LinkedPair {
  public:
   LinkedPair(const CharacterModel& model, nook_form combine, float far_error)

@@ -1,4 +1,4 @@
-// The darkening of a neighbour by a character: a lone caster at several distances, by each form and by ray
+// Measures how a character darkens a neighbour: a lone caster at several distances, by each form and by ray
 // tracing.
 #pragma once
 
@@ -13,15 +13,15 @@
 namespace nook::measure {
 
 // Means are by area, over the receiver's vertices outside the neighbour, bearings and poses. Darkening is the
-// AO of the body alone minus that with the neighbour.
+// AO of the body alone minus its AO beside the neighbour.
 struct CasterRow {
   float distance_m = 0;      // between the two bodies' centres, along the ground
   float distance_radii = 0;  // the same in bounding radii of the body
   const char* form = "";     // "composed" or "paper"
   double darkening = 0;
   double darkening_traced = 0;
-  double mse_over_none = 0;  // mean squared error of the darkening over that of no darkening, without the
-                             // noise of the rays
+  double mse_over_none = 0;  // mean squared error of the darkening, as a share of the error without
+                             // darkening, without the noise of the rays
   double rms_darkened = 0;   // root mean squared error where the traced darkening is above darkened_from
   double share_inside = 0;   // of the area, left out: inside the neighbour, where no camera sees it
   // Root mean square over vertices, by area, of what a scene's default far_error changes, by the neighbour
@@ -35,7 +35,7 @@ struct CasterStudy {
   std::vector<float> distances{0.3f, 0.5f, 0.75f, 1, 2, 3, 5, 10};
   bool in_radii = false;  // distances are in bounding radii of the body instead of metres
   std::size_t bearings = 6;
-  std::uint32_t rays = 256;  // a vertex, in two halves; the same rays with and without the neighbour
+  std::uint32_t rays = 256;  // per vertex, in two halves; the same rays with and without the neighbour
   std::uint64_t seed = 1;
 };
 
@@ -47,33 +47,34 @@ struct BodyPair {
   bake::Pose receiver, caster;
 };
 
-// Pose p of the receiver and the next one of the caster, which is turned and stands at a bearing of its
-// centre.
+// Takes pose p for the receiver and the next pose for the caster. The caster is turned, and stands at a
+// bearing from the receiver's centre.
 BodyPair body_pair(const CharacterModel& model, std::span<const bake::Pose> poses, std::size_t p,
                    std::size_t bearing, std::size_t bearings, float distance_m);
 
-// The caster turned about the vertical axis through its centre, and moved from the receiver's centre by
+// Turns the caster about the vertical axis through its centre, and moves it from the receiver's centre by
 // `offset` (x, y and z, metres).
 BodyPair body_pair(const CharacterModel& model, const bake::Pose& receiver, const bake::Pose& caster,
                    Vec3 offset, float yaw_radians);
 
-// The traced AO of the receiver's vertices, alone and with the caster.
+// Returns the ray-traced AO of the receiver's vertices, alone and with the caster.
 struct TracedPair {
   std::vector<float> alone, together;
 };
 TracedPair trace_pair(const bake::SkinnedMesh& mesh, const BodyPair& pair, std::uint32_t rays,
                       std::uint64_t seed);
 
-// The AO of a receiver with one linked caster, by the runtime itself. Nothing is culled.
+// Returns the AO that the runtime computes for a receiver with one linked caster. Nothing is culled.
 std::vector<float> linked_ao(const CharacterModel& model, const BodyPair& pair);
 
-// poses: of the receiver, each also of the caster in turn; placed on +y-up ground. Two rows a distance.
+// poses: of the receiver, each also of the caster in turn; placed on +y-up ground. Returns two rows per
+// distance.
 std::vector<CasterRow> measure_casters(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                        std::span<const bake::Pose> poses, const CasterStudy& study,
                                        const bake::Progress& progress = {});
 
-// One pair: means over the vertices of both bodies, each darkened by the other. Two rows, whose distance is
-// along the ground.
+// Measures one pair: the means over the vertices of both bodies, each darkened by the other. Returns two
+// rows; their distance is measured along the ground.
 std::vector<CasterRow> measure_pair(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                     const BodyPair& pair, const CasterStudy& study);
 

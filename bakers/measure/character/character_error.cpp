@@ -76,7 +76,7 @@ double truth_at(const AoTargets& targets, std::size_t pose, std::size_t vertex) 
   return double(targets.row(pose)[vertex]) * double(AoTargets::scale);
 }
 
-// The mean truth of every vertex: of all poses, and of those in which it is visible.
+// The mean ray-traced AO of every vertex: over all poses, and over the poses in which the vertex is visible.
 struct Oracle {
   std::vector<double> mean, visible_mean;
   VisibleTotal visible_total;

@@ -12,8 +12,8 @@
 
 namespace nook::measure {
 
-// Vertex-poses whose ray-traced AO is below this are black: inside the body or in a fist, where no camera
-// sees them and any model is right that says 0. Two rays of 128 reach it.
+// A vertex in a pose counts as black if its ray-traced AO is below this. Such vertices are inside the body or
+// in a fist: no camera sees them, and a model that says 0 is always right. Two rays of 128 reach this value.
 inline constexpr double visible_truth = 0.01;
 
 struct ErrorColumns {
@@ -41,13 +41,14 @@ struct CharacterEvaluation {
   ErrorColumns model, static_bake, oracle;
   std::vector<PoseErrorSums> pose_visible;  // a value a pose
   bake::AoTargets truth;                    // what was measured against, for other methods on the same
-  std::vector<float> vertex_rms;  // of the model, a value a welded vertex: what a picture of the error shows
+  std::vector<float>
+      vertex_rms;  // of the model, one value per welded vertex: what a picture of the error shows
 };
 
-// The prediction of a model for one pose, by the scalar reference: a value a welded vertex, clamped.
+// Returns a model's clamped prediction for one pose, by the scalar reference: one value per welded vertex.
 std::vector<float> predict_ao(const CharacterModel& model, std::span<const Mat3x4> bones);
 
-// The error against targets that are given, a row for each pose; rays and noise_floor_mse stay 0.
+// Measures the error against the given targets, one row per pose. rays and noise_floor_mse stay 0.
 CharacterEvaluation score_character(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                     std::span<const bake::Pose> poses, bake::AoTargets targets);
 

@@ -90,7 +90,7 @@ BodyCamera pair_camera(std::span<const Vec3> position, Vec3 towards) {
           margin * std::max(wide / float(pair_width_px), tall / float(height_px))};
 }
 
-// Obliquely, because one body hides the other where both stand in a row.
+// The view is oblique, because one body would hide the other if both stood in a row.
 Picture draw_pair(const DrawnPair& pair) {
   std::vector<Picture> panels;
   for (const Vec3 towards : {Vec3{0.8f, 0, 0.6f}, Vec3{-0.8f, 0, -0.6f}}) {

@@ -1,4 +1,4 @@
-// Pictures of a character: the error of its model drawn on the body, and its specular occlusion beside path
+// Draws pictures of a character: the error of its model on the body, and its specular occlusion beside path
 // tracing.
 #pragma once
 
@@ -22,8 +22,8 @@ void write_pictures(const std::filesystem::path& directory, const bake::SkinnedM
                     const CharacterModel& model, std::span<const bake::Pose> poses, std::size_t count,
                     std::span<const float> vertex_rms, std::uint32_t rays, std::uint64_t seed);
 
-// Two bodies, each darkened by itself and the other, obliquely from before: traced, predicted, |error| x 4,
-// then the same from behind. The file's directory is created.
+// Draws two bodies that darken themselves and each other, obliquely from the front: traced, predicted,
+// |error| x 4, then the same from behind. The file's directory is created.
 void write_pair_picture(const std::filesystem::path& path, const bake::SkinnedMesh& mesh,
                         const CharacterModel& model, const BodyPair& pair, const CasterStudy& study);
 
@@ -34,9 +34,10 @@ struct GlossyPictureSettings {
   std::uint64_t seed = 1;
 };
 
-// Four panels from the front: reflections that nothing hides, S. Lagarde's form of the model's AO, the
-// model's AO and bent normals, and path traced. The body is a mirror of the roughness, without colour; the
-// map's mean radiance is middle grey. Throws Failure: UNSUPPORTED (the model was baked without bent normals).
+// Draws four panels from the front: reflections without occlusion, with S. Lagarde's formula and the model's
+// AO, with the model's AO and bent normals, and path traced. The body is a mirror of the roughness, without
+// colour; the map's mean radiance is middle grey. Throws Failure: UNSUPPORTED (the model was baked without
+// bent normals).
 bake::Picture glossy_picture(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                              const bake::Pose& pose, const GlossyMap& map,
                              const GlossyPictureSettings& settings);

@@ -23,7 +23,7 @@ double ratio(double error, double baseline) {
   return baseline > 0 ? error / baseline : 0;
 }
 
-// The clip whose error is the largest share of that of the static bake over its own poses.
+// Finds the clip whose error is the largest in relation to the static bake's error over the clip's own poses.
 void add_worst_clip(Json& row, const EvaluatedPoses& measured, const CharacterEvaluation& e) {
   if (measured.clip.size() != e.pose_visible.size()) return;
   std::vector<PoseErrorSums> clips(measured.clips.size());

@@ -42,7 +42,8 @@ struct CharacterReport {
   CharacterEvaluation evaluation;
 };
 
-// Throws Failure (INVALID_ARGUMENT) for other methods where the model's training poses cannot be made again.
+// Throws Failure (INVALID_ARGUMENT) if other methods need the model's training poses and these cannot be made
+// again.
 CharacterReport measure_character(const BakedCharacter& baked, const bake::Recipe* recipe,
                                   const EvaluatedPoses& measured, const CharacterReportSettings& settings,
                                   const StageProgress& progress);
@@ -52,8 +53,8 @@ std::uint64_t evaluation_ray_seed(std::uint64_t seed);
 
 // Poses spread over the motion clips; the rest pose where there are none.
 std::vector<bake::Pose> caster_poses(const bake::ImportedCharacter& character, std::size_t count);
-// Two bodies in the middles of two clips, the caster moved from the receiver's middle by `offset` metres and
-// turned about the vertical axis. Throws Failure (INVALID_ARGUMENT) for an unknown clip.
+// Puts two bodies in the middles of two clips, and moves the caster from the receiver's middle by `offset`
+// metres and turns it about the vertical axis. Throws Failure (INVALID_ARGUMENT) for an unknown clip.
 BodyPair contact_pair(const BakedCharacter& baked, const std::string& receiver_clip,
                       const std::string& caster_clip, Vec3 offset, float turn_degrees);
 nlohmann::ordered_json caster_rows(const std::vector<CasterRow>& rows);

@@ -155,8 +155,8 @@ ClipErrorRow measure_alone(const char* at, const SkinnedMesh& mesh, std::span<co
   return row;
 }
 
-// Turns the caster about the vertical axis through its body, and moves the body to the distance from that of
-// the receiver, at the bearing.
+// Turns the caster about the vertical axis through its body, and moves it to the given distance and bearing
+// from the receiver's body.
 Mat3x4 place_of(const CharacterModel& model, const Pose& receiver, const Pose& caster, float distance_m,
                 float bearing, float yaw) {
   const Vec3 own = transform_point(receiver[model.root_bone], model.bounding_centre),

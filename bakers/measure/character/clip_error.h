@@ -1,4 +1,4 @@
-// The error of baked clips against ray tracing, beside that of the live model in the same poses.
+// Measures baked clips against ray tracing, beside the live model in the same poses.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ struct ClipErrorRow {
   double darkening = 0, darkening_live = 0, darkening_traced = 0;
 };
 
-// The set is that of the character and the model. Throws Failure(NOOK_ERROR_CANCELLED).
+// The set must have been baked from this character and this model. Throws Failure(NOOK_ERROR_CANCELLED).
 std::vector<ClipErrorRow> measure_clips(const bake::ImportedCharacter& character, const CharacterModel& model,
                                         const ClipSet& set, const ClipStudy& study,
                                         const bake::Progress& progress);

@@ -19,7 +19,8 @@ struct BakedCharacter {
   CharacterModel model;
 };
 
-// Throws Failure (BAD_FILE, FILE_VERSION) for bytes that are no model, or the model of another character.
+// Throws Failure (BAD_FILE, FILE_VERSION) if the bytes are not a model, or are the model of another
+// character.
 BakedCharacter read_baked_character(bake::ImportedCharacter character, std::vector<std::byte> model_bytes);
 
 // Which poses to measure.
@@ -27,7 +28,7 @@ struct PoseChoice {
   bool training = false;           // the poses that the model was fitted to, made again from its recipe
   std::vector<std::string> clips;  // only these, all of the file; empty: see below
   std::size_t samples_per_clip = 20;
-  std::size_t most = 0;  // 0: all; otherwise about so many, evenly picked
+  std::size_t most = 0;  // 0: all; otherwise about this many, picked evenly
 };
 
 struct EvaluatedPoses {

@@ -27,7 +27,7 @@ std::vector<std::uint32_t> simplified_indices(const SkinnedMesh& mesh, double sh
   return kept;
 }
 
-// A model whose welded vertices are some of those of another.
+// Returns a model with only some of another model's welded vertices.
 CharacterModel picked(const CharacterModel& model, std::span<const std::uint32_t> welded) {
   CharacterModel out = model;
   out.influence.clear();

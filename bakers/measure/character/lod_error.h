@@ -1,4 +1,5 @@
-// The AO of meshes of less detail from the bake of the full mesh, against ray tracing of those meshes.
+// Measures the AO that the bake of the full mesh gives to meshes with less detail, against ray tracing of
+// these meshes.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +11,9 @@
 
 namespace nook::measure {
 
-// The mesh with about `share` of its triangles, by edge collapses of meshoptimizer, which keep vertices where
-// they are; collapses that would change the topology end it earlier. welded_vertex gives for each vertex that
-// of the full mesh.
+// The mesh with about `share` of its triangles. meshoptimizer collapses edges, and vertices stay where they
+// are. It stops earlier if a collapse would change the topology. welded_vertex gives the full mesh's vertex
+// for each vertex.
 struct LodMesh {
   bake::SkinnedMesh mesh;
   std::vector<std::uint32_t> welded_vertex;
@@ -26,7 +27,7 @@ struct LodRow {
   CharacterEvaluation refitted;   // `nook bake lod`
 };
 
-// Truth is traced on the mesh of less detail, with its own normals. The refitted form is fitted to the
+// Truth is traced on the mesh with less detail, with its own normals. The refitted form is fitted to the
 // training poses. Throws Failure: BAD_FILE (a model without rest positions), CANCELLED.
 LodRow measure_lod(const LodMesh& lod, const CharacterModel& model, std::span<const bake::Pose> training,
                    const bake::RefitSettings& refit, std::span<const bake::Pose> measured, std::uint32_t rays,

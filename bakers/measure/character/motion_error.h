@@ -1,4 +1,4 @@
-// The motion of AO: the steps of a model from frame to frame at 60 Hz beside those of ray tracing.
+// Measures the motion of AO: how much a model's AO changes from frame to frame at 60 Hz, beside ray tracing.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace nook::measure {
 
 inline constexpr double motion_frames_per_second = 60;
-// A step beyond that of the truth by more than this may be seen as a flicker.
+// A step that exceeds the ray-traced step by more than this may be seen as a flicker.
 inline constexpr double visible_step = 0.02;
 
 struct MotionErrors {

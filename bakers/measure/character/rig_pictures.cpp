@@ -52,7 +52,7 @@ Colour colour_of_value(float value) {
   return colour;
 }
 
-// Faces with corners of their own, so that colours end at edges.
+// Faces do not share corners, so that colours end at edges.
 struct ColouredFaces {
   std::vector<std::array<std::uint32_t, 3>> triangle;
   std::vector<Vec3> position;

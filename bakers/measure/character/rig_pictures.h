@@ -10,7 +10,8 @@
 
 namespace nook::measure {
 
-// The colour of a role in the picture, the same for every rig. Left limbs are lighter than right ones.
+// Returns the colour of a role in the picture. It is the same for every rig. Left limbs are lighter than
+// right ones.
 bake::Colour colour_of(bake::JointRole role);
 
 // rig.png: the resting body obliquely from the front and from the back. A face has the colour of the bone

@@ -10,8 +10,8 @@
 
 namespace nook::measure {
 
-// A row for each bone: its name, role, side, limb, partner and parent in the body. moved tells that this
-// parent is another one than the rig's, and vertices counts those that the bone moves most.
+// A row for each bone: its name, role, side, limb, partner and parent in the body. moved is true if this
+// parent differs from the rig's. vertices counts the vertices that the bone moves most.
 nlohmann::ordered_json bone_rows(const bake::SkinnedMesh& mesh, const bake::RigCorrections& corrections);
 
 // One row: by which plan automatic poses move the body, and the share of the mesh's edges that 60 of them

@@ -29,7 +29,7 @@ std::optional<float> floor_at(const RayScene& room, const Bounds& bounds, float 
     const RayHit hit = room.nearest({x, y, z}, {0, -1, 0});
     if (!(hit.distance < INFINITY)) break;
     const float at = y - hit.distance;
-    // The ray sees both sides of a triangle, so that only the distance to the ceiling tells a floor.
+    // The ray can hit both sides of a triangle, so only the distance to the ceiling identifies a floor.
     if (hit.normal.y > 0.95f && ceiling - at > 2 && ceiling < INFINITY) found = at;
     ceiling = at;
     y = at - 1e-3f;

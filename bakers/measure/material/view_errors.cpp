@@ -158,7 +158,7 @@ Eigen::Index mode_count(const Material& material, const MaterialTables& tables) 
   return tables.neural.is_used() ? 3 * Eigen::Index(material.lights.size()) : tables.btf.light_modes;
 }
 
-// Returns the light modes of the grid's texels for a view, a row each.
+// Returns the light modes of the grid's texels for a view, one row per texel.
 Rows modes_of(const Material& material, const MaterialTables& tables, Vec3 view) {
   const std::uint32_t width = std::min(grid, tables.btf.width), height = std::min(grid, tables.btf.height);
   Rows out(Eigen::Index(width) * height, mode_count(material, tables));

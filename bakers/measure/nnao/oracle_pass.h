@@ -6,7 +6,7 @@
 namespace nook::measure {
 
 // solid: everything behind a surface within the radius is solid, as horizons assume. bitmask: a surface is
-// half a radius thick, and light passes behind it.
+// half a radius thick, and light passes through the space behind it.
 enum class Oracle { solid, bitmask };
 inline constexpr Oracle all_oracles[] = {Oracle::solid, Oracle::bitmask};
 inline constexpr int oracle_taps = 1024;

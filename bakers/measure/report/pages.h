@@ -25,8 +25,8 @@ struct BodySettings {
   std::uint64_t max_rays = 400'000'000;  // over all poses; takes a minute and a half on two cores
 };
 
-// Shows poses of the clips that the bake has not seen, or of all clips if there are none. Without clips it
-// shows the poses of the bake. Throws Failure(CANCELLED).
+// Shows poses of the clips that were not part of the bake, or of all clips if there are none. Without clips
+// it shows the poses of the bake. Throws Failure(CANCELLED).
 PageParts body_parts(const measure::BakedCharacter& baked, const BodySettings& settings,
                      const measure::StageProgress& progress);
 

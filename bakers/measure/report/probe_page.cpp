@@ -29,7 +29,7 @@ Vec3 irradiance_of(const Probes& probes, std::size_t index, Vec3 normal) {
   return nook::probe::irradiance(probes.basis, probes.of(index), nook::probe::IrradianceForm::bands, normal);
 }
 
-// The irradiance in fourteen directions, the faces and corners of a cube.
+// Compares the irradiance in fourteen directions: the faces and corners of a cube.
 struct BallLight {
   float mean = 0;      // luminance
   int below_zero = 0;  // directions with a luminance below 0

@@ -40,7 +40,7 @@ Row describe_character(std::span<const std::byte> bytes) {
     row[std::string("bytes_") + name] = container.has(letters) ? container.section(letters).remaining() : 0;
   }
   add_recipe(row, model.recipe);
-  // The host memory of the loaded model and an instance, as in nook_model_describe.
+  // Computes the host memory of the loaded model and of an instance, as nook_model_describe does.
   MeteredMemory memory(default_memory());
   const Ref<LoadedModel> loaded = Owned<LoadedModel>::make(&memory, Ref<const RefCounted>(),
                                                            read_character_model(bytes, &memory), &memory);

@@ -1,4 +1,4 @@
-"""A rigged character of the scene: an armature, the meshes that it deforms, and those that hang on its bones."""
+"""A rigged character of the scene: an armature, the meshes that it deforms, and the meshes that follow its bones."""
 import fnmatch
 import re
 
@@ -8,7 +8,7 @@ from .faults import Fault
 
 LEVEL = re.compile(r"(?:^|[_.\- ])LOD(\d+)$", re.IGNORECASE)
 
-# Constraints by which an object hangs on a bone, as artists hold a sword in a hand.
+# Constraints that make an object follow a bone, such as a sword in a hand.
 HOLDING = ("CHILD_OF", "COPY_TRANSFORMS", "ARMATURE")
 SURFACES = ("CURVE", "SURFACE", "FONT", "META")
 
@@ -66,7 +66,8 @@ def local_place(item):
 
 
 def hanging_place(item, armature):
-    """The bone on which an object hangs, and the matrix from the object to armature space in the rest pose; None without a bone."""
+    """Returns the bone that an object follows, and the matrix from the object to armature space in the rest pose; None without a
+    bone."""
     bones = armature.data.bones
     for target, name in held_by(item):
         if target == armature and name in bones:
@@ -94,7 +95,7 @@ def belongs_to(item, armature):
 
 
 class Part:
-    """A mesh of a character, which the armature deforms or which hangs on one bone."""
+    """A mesh of a character, which the armature deforms or which follows one bone."""
 
     def __init__(self, item, armature):
         self.item = item
@@ -142,7 +143,7 @@ def level_of(item):
 
 def is_left_out(name, patterns):
     """Whether an object matches one of some names with * and ?, separated by commas."""
-    # Brackets have no meaning of their own here, as in the command.
+    # Brackets have no special meaning here, as in the command.
     return any(fnmatch.fnmatchcase(name, p.strip().replace("[", "[[]")) for p in patterns.split(",") if p.strip())
 
 
@@ -154,7 +155,7 @@ def without_coarse(parts, left_out):
 
 
 def parts_of(armature, view_layer, without=""):
-    """The parts of a character in the order of their names, and what is left out, as pairs of a name and the reason."""
+    """Returns the parts of a character in the order of their names, and what is left out, as pairs of a name and a reason."""
     rendered = rendered_objects(view_layer.layer_collection)
     shapes = {b.custom_shape for b in armature.pose.bones if b.custom_shape is not None}
     parts, left_out = [], []

@@ -30,7 +30,7 @@ def fits(action, armature):
 
 
 def chosen_actions(armature, actions):
-    """What is exported: the rig's own actions, and those that are ticked and fit."""
+    """Returns the actions to export: the rig's own, and the ticked ones that fit."""
     own = own_actions(armature)
     return own + [a for a in actions if a.nook_bake and a not in own and fits(a, armature)]
 

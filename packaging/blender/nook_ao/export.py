@@ -62,7 +62,7 @@ class Geometry:
         world = character.matrix(armature.matrix_world)
         if not abs(np.linalg.det(world)) > 0:
             raise Fault(f"the armature {armature.name} has a scale of zero; give it another one")
-        # A mirrored armature becomes a mirrored body on an unmirrored one, so that no reader has to turn it around.
+        # A mirrored armature is written as a mirrored body on an unmirrored armature, so that readers need not handle mirroring.
         self.mirror = np.diag([-1.0, 1, 1, 1]) if np.linalg.det(world) < 0 else np.eye(4)
         self.root = Y_UP @ world @ self.mirror
         self.rest = self.mirror @ np.array([character.matrix(b.matrix_local) for b in bones]).reshape(-1, 4, 4) @ self.mirror

@@ -16,7 +16,7 @@ class Glb:
         self._chunks, self._size = [], 0
 
     def add(self, values, target=None, bounds=False):
-        """An accessor for an array; its number."""
+        """Adds an accessor for an array and returns its number."""
         values = np.ascontiguousarray(values)
         data = values.tobytes()
         view = {"buffer": 0, "byteOffset": self._size, "byteLength": len(data)}
@@ -46,7 +46,7 @@ def to_turns(matrices):
     scales = np.linalg.norm(matrices[:, :3, :3], axis=1)
     scales[np.linalg.det(matrices[:, :3, :3]) < 0] *= -1
     r = matrices[:, :3, :3] / np.where(scales == 0, 1, scales)[:, None, :]
-    # Of four ways to a quaternion the one that divides by the largest number.
+    # Of the four ways to compute a quaternion, takes the one that divides by the largest number.
     squares = np.stack([1 + r[:, 0, 0] - r[:, 1, 1] - r[:, 2, 2], 1 - r[:, 0, 0] + r[:, 1, 1] - r[:, 2, 2],
                         1 - r[:, 0, 0] - r[:, 1, 1] + r[:, 2, 2], 1 + r[:, 0, 0] + r[:, 1, 1] + r[:, 2, 2]], axis=1)
     yx, zx, zy = r[:, 1, 0] + r[:, 0, 1], r[:, 2, 0] + r[:, 0, 2], r[:, 2, 1] + r[:, 1, 2]

@@ -6,7 +6,8 @@ from . import character, clips, poses, shown, stage, surface
 POSES, MOST_POINTS, RAYS = 3, 3000, 128
 MOST_FRAMES, MOST_ACTIONS, FRAMES_OF_ACTION = 24, 12, 4
 VISIBLE = 0.01
-# How much worse than the model's own error the colours may be before a reason is looked for: noise of the rays stays below.
+# The colours may be this much worse than the model's own error before the add-on looks for a reason. Noise of the rays stays below
+# it.
 ALLOWED = 0.01
 # Of the size of the body: what is further away is another surface.
 NEAR = 1e-3
@@ -121,7 +122,7 @@ def farthest(entry, found):
 
 
 def take_pose(entry, way, actions):
-    """The still of one pose, from a stage of its own."""
+    """Takes a still of one pose, on a stage that is made for it."""
     kind, name, value = way
     with stage.opened(entry.armature, entry.items) as played:
         if kind == "turned":

@@ -91,10 +91,10 @@ class CommandOperator(bpy.types.Operator):
 
     bl_options = {"REGISTER"}
     is_kept = False  # whether Escape comes too late
-    then = ""  # its name behind "nook.", which the dialog about a folder calls
+    then = ""  # the operator (without "nook.") that the dialog about a folder calls
 
     def folder(self, context):
-        """The folder that the command reads or writes, or None for one of its own."""
+        """The folder that the command reads or writes, or None for a temporary one."""
         raise NotImplementedError
 
     def work(self, context):

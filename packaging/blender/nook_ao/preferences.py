@@ -28,7 +28,7 @@ def confirm_chosen(settings, _context):
 
 
 class NookSettings(bpy.types.PropertyGroup):
-    """Settings of a rig, and settings of a scene for rigs without their own. An override of a library keeps its own."""
+    """Settings of a rig, and settings of a scene for rigs without their own. A library override keeps its own settings."""
 
     preset: bpy.props.EnumProperty(name="Preset", items=PRESETS, default="draft", override=OVERRIDABLE, description="How long the bake may take")
     poses: bpy.props.EnumProperty(name="Poses", items=POSES, default="all", override=OVERRIDABLE, description="Poses that the bake learns from")

@@ -78,7 +78,7 @@ def to_words(record):
 
 
 def from_words(words):
-    """The record again, if its objects are there and have no other one."""
+    """Restores the record if its objects exist and have no other record."""
     scene_name, rig_name, parts, values = words
     scene, rig = bpy.data.scenes.get(scene_name), bpy.data.objects.get(rig_name)
     items = [bpy.data.objects.get(name) for name, _ in parts]

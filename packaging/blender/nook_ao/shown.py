@@ -35,8 +35,8 @@ class Shown:
         self.instance = self.scene.add_instance(self.model)
 
     def _bind_places(self, armature, parts, rest):
-        """Vertices in armature space and in the file. What hangs on a bone by a constraint may have been moved since: left out, if
-        there are others."""
+        """Vertices in armature space and in the file. Objects that follow a bone by a constraint may have moved since, so they are
+        left out if there are others."""
         numbers = self.numbers
         deformed = np.repeat([not part.bone for part in parts], self.counts)
         chosen = deformed[numbers] if deformed.any() else np.ones(len(numbers), dtype=bool)
@@ -223,8 +223,8 @@ def _stop(key, reason):
 def follow(scene, depsgraph=None):
     """Paints all shown characters at a new frame, and in a new pose.
 
-    A render evaluates the scene by itself, and so does every view; the rig that the meshes follow is the one of that evaluation. While
-    a render runs, views do not paint.
+    A render and every view evaluate the scene separately; the meshes follow the rig of that evaluation. While a render runs, views
+    do not paint.
     """
     if not _shown or depsgraph is None or stage.is_open() or (is_rendering() and depsgraph.mode != "RENDER"):
         return

@@ -1,4 +1,4 @@
-"""A scene of its own in which copies of a character move, so that the artist's scene keeps its frame, its pose and its selection."""
+"""A separate scene in which copies of a character move, so that the artist's scene keeps its frame, its pose and its selection."""
 import contextlib
 import math
 import random

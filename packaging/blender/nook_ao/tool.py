@@ -55,7 +55,7 @@ class Run:
                 self.last_line = line
 
     def is_done(self):
-        """Whether the command has ended; last_line has what it said before."""
+        """True if the command has ended; last_line has its last output."""
         done = self._process.poll() is not None
         if done:
             for reader in self._readers:

@@ -1,8 +1,8 @@
 """Which of Blender's vertices each vertex of a glTF file is.
 
-A file splits a vertex where its corners differ in normal or UV, and puts what is left in an order of its own. Positions alone do
-not tell which is which: the two sides of a cloth and the shells of hair lie at one place. Each vertex therefore carries its number as
-an attribute through the file. A float holds whole numbers up to 2^24 exactly, and the attribute is the same at all corners of a
+A file splits a vertex if its corners differ in normal or UV, and stores the vertices in another order. Positions alone do not tell
+which is which: the two sides of a cloth and the shells of hair lie at one place. Each vertex therefore carries its number as an
+attribute through the file. A float holds whole numbers up to 2^24 exactly, and the attribute is the same at all corners of a
 vertex, so that it splits nothing.
 """
 import json

@@ -35,11 +35,11 @@ class Cancelled(NookError):
 
 
 class MissingLibrary(NookError, ImportError):
-    """No library was found, or it lacks a function, such as those of the bakers."""
+    """No library was found, or it lacks a function, such as a baker's."""
 
 
 def _candidates() -> List[str]:
-    """Paths of libraries, each of which may hold a part of the functions; the first that has one gives it."""
+    """Paths of libraries. Each may have only some of the functions; a function comes from the first library that has it."""
     named = os.environ.get("NOOK_LIBRARY")
     if named:
         return named.split(os.pathsep)
@@ -116,7 +116,7 @@ def integer(value: Any, kind: Any, what: str) -> int:
 
 
 def number(value: Any, kind: Any, what: str) -> float:
-    """A number that a floating-point type of C holds. Raises ValueError for a finite one that would become infinite."""
+    """Converts a number to a floating-point type of C. Raises ValueError if a finite number would become infinite."""
     try:
         if isinstance(value, (str, bytes, bytearray)):
             raise TypeError
@@ -146,7 +146,7 @@ def _fields(structure: Any) -> Dict[str, Any]:
 
 
 def put(structure: Any, **values: Any) -> None:
-    """Sets fields of a structure; what they do not hold raises ValueError or TypeError that names the field."""
+    """Sets fields of a structure. A value that does not fit raises ValueError or TypeError, which names the field."""
     kind: Any = type(structure)
     kinds = _fields(kind)
     for name, value in values.items():
@@ -189,9 +189,9 @@ def call_interruptibly(name: str, *arguments: Any, stop: Optional[Callable[[], N
                        entries: Optional[int] = None) -> Any:
     """call(), which Ctrl+C ends: a call of C on the main thread would hold back Ctrl+C until it returns.
 
-    The call runs on another thread. After Ctrl+C, stop() asks it to end; if it has not ended soon, it goes on alone, and nobody sees
-    what comes of it. So it may write only into what nobody else has; keep is what its descriptor points to. A call with few entries
-    ends soon anyway, and needs no thread.
+    The call runs on another thread. After Ctrl+C, stop() asks it to end. If it does not end soon, it continues without a reader,
+    and its result is lost. So it may write only into what nobody else has; keep is what its descriptor points to. A call with few
+    entries ends soon anyway, and needs no thread.
     """
     # Signals come to the main thread alone.
     if threading.current_thread() is not threading.main_thread() or (entries is not None and entries < 50_000):
@@ -262,7 +262,7 @@ class Handle:
             self._handle = self._kind()
 
     def __reduce_ex__(self, protocol: Any) -> Any:
-        # A copied handle would name an object that another process has not, or that is destroyed twice.
+        # A copied handle would name an object that another process does not have, or that is destroyed twice.
         raise TypeError(f"a nook.{type(self).__name__} cannot be pickled or copied: {self._no_copy}")
 
     def __enter__(self: Own) -> Own:
@@ -279,7 +279,7 @@ class Handle:
 
 
 def need(value: Any, kind: Type[Any], what: str) -> Any:
-    """The value, if it is of the class. Raises TypeError, which names what came."""
+    """Returns the value if it is an instance of the class. Raises TypeError, which names what came."""
     if not isinstance(value, kind):
         raise TypeError(f"{what}: need a nook.{kind.__name__}, got {came(value)}")
     return value
@@ -299,7 +299,7 @@ def encoded(value: Any, what: str) -> bytes:
 
 
 def names(values: Any, what: str) -> List[bytes]:
-    """Names for C: one str is one name, and None is no name."""
+    """Names for C: a str becomes one name, and None becomes an empty list."""
     if values is None:
         return []
     if isinstance(values, str):
@@ -341,7 +341,7 @@ def path_or_bytes(value: Any, what: str) -> Union[str, bytes]:
 
 
 def file_bytes(value: Any, what: str) -> bytes:
-    """The bytes of a file that a path or a buffer stands for. Raises OSError for a path that cannot be read."""
+    """Returns the bytes of a file that is given as a path or a buffer. Raises OSError for a path that cannot be read."""
     found = path_or_bytes(value, what)
     return pathlib.Path(found).read_bytes() if isinstance(found, str) else found
 
@@ -403,7 +403,7 @@ def _words(beginning: str) -> Dict[str, Any]:
 
 
 def choice(beginning: str, name: str, what: str) -> int:
-    """The constant that a word stands for: "standard" is NOOK_BAKE_PRESET_STANDARD. Raises ValueError with all words."""
+    """Returns the constant for a word: "standard" is NOOK_BAKE_PRESET_STANDARD. Raises ValueError with all words."""
     words = _words(beginning)
     if not isinstance(name, str):
         raise TypeError(f"{what}: need one of the words {', '.join(sorted(words))}, got {came(name)}")

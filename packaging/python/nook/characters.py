@@ -30,7 +30,7 @@ class Character(Handle):
         path is a str, an os.PathLike, or bytes in any form: bytes, bytearray, memoryview, a numpy array, a binary file that is open.
         data is another name for it. meshes and without are names of nodes or meshes to take and to leave out; one str is one name,
         and * and ? stand for any text and any character. Without meshes you get all that the file shows, except lower levels of
-        detail. The file may name other files of its own folder; with allow_outside_files, of any folder.
+        detail. The file may name other files in its own folder. With allow_outside_files it may name files in any folder.
         """
         super().__init__()
         if (path is None) == (data is None):

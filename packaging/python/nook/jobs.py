@@ -1,4 +1,4 @@
-"""Bakes as jobs on threads of their own, with progress and cancel."""
+"""Runs bakes as jobs on their own threads, with progress and cancel."""
 import contextlib
 import ctypes
 import json
@@ -179,10 +179,10 @@ def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any 
                   progress: Optional[ProgressFunction] = None, **settings: Any) -> Job:
     """Starts to bake a material and returns at once.
 
-    meso: fiber, roughhole or weave; or btf: lights x views x height x width x 3, with lights and views as directions in tangent
-    space, and coverage: views x height x width. method: k_cta, cta, n_svd or neural. form: default, or paper: Tsai and
-    Shih 2012. relief: views are aligned on the heights of meso, or with btf on heights: height x width, in tiles, or on a relief that is
-    searched for. settings are the numbers of nook_bake_material_desc.
+    Pass meso (fiber, roughhole or weave), or btf (lights x views x height x width x 3). With btf, lights and views are directions
+    in tangent space, and coverage is views x height x width. method: k_cta, cta, n_svd or neural. form: default, or paper (Tsai and
+    Shih 2012). relief aligns the views on a relief: the heights of meso; with btf, `heights` (height x width, in tiles), or a
+    relief that the bake searches for. settings are the numbers of nook_bake_material_desc.
     """
     desc, keep = _material_bake(meso=meso, btf=btf, coverage=coverage, lights=lights, views=views, method=method, form=form, relief=relief,
                                 heights=heights, **settings)

@@ -18,7 +18,7 @@ class MaterialValues(NamedTuple):
 
 
 class Material(Handle):
-    """A baked material: its .nook file as a path, or as bytes in any form."""
+    """A baked material. Pass its .nook file as a path, or as bytes in any form."""
 
     _kind = c.nook_material
     _destroy = "nook_material_destroy"

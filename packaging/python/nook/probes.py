@@ -15,7 +15,7 @@ _STUDIES = ("naive", "running_average_original", "moments")
 
 
 class Probe(Handle):
-    """One probe, or a grid of them: a .nook file as a path, or as bytes in any form.
+    """One probe, or a grid of probes. Pass its .nook file as a path, or as bytes in any form.
 
     Directions are n x 3 unit vectors, light is n x 3 linear RGB.
     """
@@ -45,7 +45,8 @@ class Probe(Handle):
         return self._evaluate("nook_probe_radiance", directions, "directions", position)
 
     def irradiance(self, normals: Any, position: Any = None) -> FloatArray:
-        """Light on surfaces; a white one reflects it divided by pi. position is one for all, or one for each normal."""
+        """Light on surfaces; a white one reflects it divided by pi. position is one position for all normals, or one for each
+        normal."""
         return self._evaluate("nook_probe_irradiance", normals, "normals", position)
 
     def _evaluate(self, function: str, directions: Any, what: str, position: Any) -> FloatArray:

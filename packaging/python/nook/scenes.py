@@ -61,8 +61,8 @@ class Skin(NamedTuple):
 
 
 class VertexMatch(NamedTuple):
-    """vertices has the model's vertex for each of yours, or NO_VERTEX for the unmatched ones, which are counted. ambiguous counts those
-    that fit several vertices with other AO, and text names the first of each."""
+    """vertices has the model's vertex for each of yours, or NO_VERTEX for the unmatched ones, which are counted. ambiguous counts
+    the vertices that fit several vertices with different AO, and text names the first of each kind."""
 
     vertices: npt.NDArray[np.uint32]
     unmatched: int
@@ -77,7 +77,7 @@ _KINDS = ("rest_to_world", "joint_to_world", "skinning")
 
 
 class CharacterModel(Handle):
-    """A baked character: its .nook file as a path, or as bytes in any form."""
+    """A baked character. Pass its .nook file as a path, or as bytes in any form."""
 
     _kind = c.nook_model
     _destroy = "nook_model_destroy"
@@ -117,8 +117,8 @@ class CharacterModel(Handle):
 
         positions are n x 3, as the file's POSITION has them; with in_rest_space, in rest space and metres. normals are n x 3 and tell
         the two sides of a card apart. joints and weights are n x k, with k from 1 to 8, and tell vertices apart where meshes meet; skin
-        is the index of their skin in the file. primitive is the one of the file that your vertices come from; None is all of them. tolerance is
-        the largest distance as a share of the diagonal of the model's box; 0 is 1e-4.
+        is the index of their skin in the file. primitive is the file's primitive that your vertices come from; None is all
+        primitives. tolerance is the largest distance as a share of the diagonal of the model's box; 0 is 1e-4.
         """
         desc = descriptor(c.nook_vertex_match_desc)
         p = floats(positions, (None, 3), "positions")
@@ -165,7 +165,7 @@ class CharacterModel(Handle):
         return transforms
 
     def convert_pose(self, pose: Any, kind: str = "rest_to_world", **options: Any) -> FloatArray:
-        """A pose of any kind as bones x 3 x 4, from rest space to the world. The options are those of Instance.set_pose()."""
+        """Returns a pose of any kind as bones x 3 x 4, from rest space to the world. Takes the options of Instance.set_pose()."""
         bones = np.empty((self.bone_count, 3, 4), np.float32)
         desc, _kept = _pose(self, pose, kind, **options)
         call("nook_model_convert_pose", self.handle, ctypes.byref(desc), pointer(bones), self.bone_count)
@@ -221,15 +221,15 @@ class Instance:
         raise TypeError("a nook.Instance cannot be pickled or copied: it belongs to its scene; pass on its model and its pose")
 
     def set_pose(self, pose: Any, kind: str = "rest_to_world", **options: Any) -> None:
-        """The pose of the next update.
+        """Sets the pose for the next update.
 
         kind says what the matrices are. rest_to_world: bones x 3 x 4, from rest space to the world. joint_to_world: the world matrices
         of the joints, one for each bone. skinning: joint matrix times inverse bind matrix, one for each joint of the file's skin.
         Matrices are n x 3 x 4, or n x 4 x 4 for column vectors, with the translation in the last column.
 
-        options: layout (rows_3x4, rows_4x4, columns_4x4, columns_4x3, dual_quaternion, trs) for other forms of a transform; skin, the
-        file's index of the skin; transform_of_bone, the answer of CharacterModel.map_bones(); place, a 3 x 4 matrix that is applied
-        after every transform; strict, which makes a sheared bone an error.
+        options: layout (rows_3x4, rows_4x4, columns_4x4, columns_4x3, dual_quaternion, trs) is the form of a transform. skin is the
+        file's index of the skin. transform_of_bone is the result of CharacterModel.map_bones(). place is a 3 x 4 matrix that is
+        applied after every transform. strict makes a sheared bone an error.
         """
         desc, _kept = _pose(self.model, pose, kind, **options)
         call("nook_scene_set_pose", self.scene.handle, self.number, ctypes.byref(desc))

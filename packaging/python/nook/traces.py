@@ -39,7 +39,7 @@ def trace_ao(meshes: Sequence[Tuple[Any, Any]], positions: Any, normals: Any, *,
 
 
 class ModelError(NamedTuple):
-    """Mean squared errors over vertices of the file and poses; mse_visible over those that ray tracing does not find black."""
+    """Mean squared errors over vertices of the file and poses. mse_visible leaves out vertices that ray tracing finds black."""
 
     mse: float
     mse_visible: float
@@ -48,10 +48,10 @@ class ModelError(NamedTuple):
 
 
 def model_error(character: Character, model: CharacterModel, poses: Any, *, rays: int = 128, seed: int = 1, threads: int = 0) -> ModelError:
-    """The error of a model against ray tracing in poses, beside that of AO baked once in the rest pose.
+    """Measures a model against ray tracing in poses, beside AO that is baked once in the rest pose.
 
-    `nook evaluate character` weighs welded vertices alike; this function weighs those of the file, so that its numbers differ where
-    a file splits vertices.
+    `nook evaluate character` gives all welded vertices the same weight. This function gives all vertices of the file the same
+    weight, so its numbers differ if the file splits vertices.
     """
     need(character, Character, "character")
     need(model, CharacterModel, "model")

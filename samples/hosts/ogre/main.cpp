@@ -1,4 +1,4 @@
-// OGRE draws a character of its own classes, skinned by OGRE's skeleton, with Nook's ambient occlusion.
+// OGRE draws a character with its own classes and skeleton, and with Nook's ambient occlusion.
 //
 //   nook_host_ogre CHARACTER.glb MODEL.nook --out PICTURE.png
 //

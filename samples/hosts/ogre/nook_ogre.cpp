@@ -55,7 +55,7 @@ void NookOgre::set_pose() {
   scene_.set_pose(character_, desc);
 }
 
-// OGRE draws from buffers of its own only, so that the AO is written to one.
+// OGRE draws only from its own buffers, so Nook writes the AO into one of them.
 void NookOgre::update_on_gpu() {
   set_pose();
   gl_.update(scene_);

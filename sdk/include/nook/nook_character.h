@@ -228,7 +228,7 @@ NOOK_API nook_result nook_scene_read(nook_scene scene, nook_instance_id instance
 
 typedef struct nook_scene_info {
   uint32_t struct_size;
-  /* All instances, and those that the last update evaluated. */
+  /* All instances, and the instances that the last update evaluated. */
   uint32_t instances, instances_updated;
   /* Pairs of receiver and caster that it evaluated; and casters, occluders and grounds that it skipped. */
   uint32_t links, links_culled;

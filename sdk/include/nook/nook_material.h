@@ -80,7 +80,7 @@ typedef struct nook_material_tensor {
   uint32_t rank_light, rank_view;
   /* R_x and R_y, the ranks of the spatial modes. */
   uint32_t rank_x, rank_y;
-  /* C and K: the clusters, and those that a view mixes. */
+  /* C, the number of clusters, and K, the number of them that a view mixes. */
   uint32_t clusters, mixture;
   /* Cells along the side of the view map. 0: the file has none, and decoding mixes the three nearest
    * views. */

@@ -71,13 +71,13 @@ typedef struct nook_nnao_desc {
    * more frames follow changes later. It follows surfaces by nook_gl_frame_desc.view and motion_vectors. 0
    * (default): each frame stands alone. Not with bent_normals. */
   int32_t max_history_frames;
-  /* 1 to 16: depth is GL_TEXTURE_2D_MULTISAMPLE with so many samples, which needs OpenGL 3.3 or OpenGL ES
+  /* 1 to 16: depth is GL_TEXTURE_2D_MULTISAMPLE with this many samples, which needs OpenGL 3.3 or OpenGL ES
    * 3.1, or with views GL_TEXTURE_2D_MULTISAMPLE_ARRAY, which needs OpenGL 3.3 or OpenGL ES 3.2. A pixel
    * takes the median of its depths, of two the nearer one. Motion vectors, G-buffer AO and target stay
    * single-sampled. 0 (default): 2D textures, or arrays of them. */
   int32_t depth_samples;
-  /* 1 to 8: the pass draws so many views in one call, such as two eyes. Depth, normals, motion vectors,
-   * G-buffer AO and target are then GL_TEXTURE_2D_ARRAY with at least so many layers, and so is the pass's
+  /* 1 to 8: the pass draws this many views in one call, such as two eyes. Depth, normals, motion vectors,
+   * G-buffer AO and target are then GL_TEXTURE_2D_ARRAY with at least this many layers, and so is the pass's
    * own texture. 0 (default): 2D textures. */
   int32_t views;
   /* 0 (default): normals are single-sampled. Otherwise the same number as depth_samples: they are

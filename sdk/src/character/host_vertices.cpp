@@ -99,7 +99,7 @@ std::uint16_t space_of(const CharacterModel& model, std::uint32_t file_vertex) {
 Candidates candidates_of(const CharacterModel& model, const HostVertices& host, Memory* memory) {
   const BindData& bind = model.bind;
   const Vector<const CloseVertex*> close = close_vertices(model, memory);
-  // Vertices that welding made one are one vertex, so that seams of the file do not count twice.
+  // Vertices that were welded count as one vertex, so that seams of the file do not count twice.
   Vector<std::uint32_t> seen_in_space(model.vertex_count(), no_vertex, memory);
   Candidates candidates(memory);
   for (std::size_t p = 0; p < model.primitives.size(); ++p) {

@@ -78,8 +78,8 @@ inline constexpr std::uint32_t no_vertex = UINT32_MAX;
 CharacterModel remapped(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,
                         Memory* memory);
 
-// The vertex of a host's mesh that lies farthest from the model. It tells whether the mesh is of the same
-// body, such as a level of detail.
+// The vertex of a host's mesh that lies farthest from the model. It shows whether the mesh belongs to the
+// same body, such as a level of detail.
 
 struct FarVertex {
   std::uint32_t vertex = 0;  // of the host

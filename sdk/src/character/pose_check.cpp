@@ -150,7 +150,7 @@ Distances compare(const Check& check) {
   return compare(check, [](const Point3& p) { return p; });
 }
 
-// Returns the transform under which a vertex that hangs on one bone matches the host's, or -1.
+// Returns the transform under which a vertex that follows one bone matches the host's, or -1.
 std::int64_t fitting_transform(const Check& check, const RestVertex& vertex, const Point3& host) {
   double nearest = 3 * check.tolerance_ws;
   std::int64_t fitting = -1;
@@ -166,7 +166,8 @@ std::int64_t fitting_transform(const Check& check, const RestVertex& vertex, con
   return fitting;
 }
 
-// A vertex that hangs almost entirely on one bone, is off, and matches under another bone's transform.
+// A vertex that follows almost only one bone, is at the wrong place, and matches under another bone's
+// transform.
 struct Misplaced {
   std::uint32_t bone = 0;
   std::int64_t transform = -1;

@@ -84,7 +84,7 @@ struct SkinnedVertex {
 
 // Expects vertices that vertex_place has been applied to, and a source that passed check_pose_source.
 // Distances up to `tolerance`, a share of the bounding radius, count as equal. Throws Failure if no vertex
-// hangs only on bones with transforms, or for the reasons of for_each_transform.
+// follows only bones with transforms, or for the reasons of for_each_transform.
 PoseFinding find_pose_fault(const CharacterModel& model, const PoseSource& source,
                             std::span<const SkinnedVertex> vertices, const Affine& vertex_place,
                             double tolerance, Memory* memory);

@@ -41,9 +41,9 @@ std::uint64_t hash_of_bone_names(const Names& names) {
 // out has pose_record_size bytes.
 void write_pose_record(std::uint64_t names_hash, std::span<const Mat3x4> bones, std::span<std::byte> out);
 
-// The poses of a file that are of a body with these bones. A file may hold poses of other bodies too, which
-// are counted. Throws Failure: BAD_FILE (no records, a record that is cut off or of another version, a matrix
-// that is not finite or far too large).
+// Returns the poses of a file that belong to a body with these bones. A file may hold poses of other bodies
+// too, which are counted. Throws Failure: BAD_FILE (no records, a record that is cut off or of another
+// version, a matrix that is not finite or far too large).
 struct RecordedPoses {
   std::vector<std::vector<Mat3x4>> poses;
   std::size_t of_others = 0;

@@ -18,7 +18,7 @@ constexpr float other_side = 0.7f;
 constexpr float fitting_cosine = 0.9962f, unfitting_cosine = 0.9848f;
 
 // Half a step of 8 bits for each of 8 weights is within this sum of absolute differences. If no candidate
-// fits so well, the weights are of another skin.
+// fits this well, the weights belong to another skin.
 constexpr float fitting_weights = 0.1f;
 // The steps of the file's weights.
 constexpr float weight_steps = 2e-4f;
@@ -186,7 +186,7 @@ class Matcher {
 
   float slack_of_places(Memory* memory) const;
   void gather(std::uint32_t vertex, float reach, const Order& order);
-  // The vertex of the file that a fit is: one that goes on with the host's order, else the first.
+  // The file's vertex of a fit: the one that continues the host's order, or else the first.
   std::uint32_t file_vertex(const Fit& fit, const Order& order) const;
   bool is_vertex_of(const Fit& fit, std::uint32_t file_vertex) const;
   const Fit* fit_of(std::uint32_t file_vertex) const;
@@ -264,7 +264,8 @@ std::uint32_t Matcher::file_vertex(const Fit& fit, const Order& order) const {
   return fit.candidate->file_vertex;
 }
 
-// Null: nothing decides. A successor goes before a number where the mesh is known to have another order.
+// Returns null if nothing decides. If the mesh is known to have another order, a successor is preferred to a
+// number.
 const Fit* Matcher::decide(const Order& order) const {
   const Fit* const successor = order.is_sure ? fit_of(order.successor) : nullptr;
   if (successor && order.is_kept()) return successor;

@@ -23,8 +23,8 @@ struct VertexMatches {
   std::uint32_t taken = no_vertex, other = no_vertex;
 };
 
-// Writes the file vertex of each host vertex, or no_vertex. The model has a rest surface and bind data, and
-// the primitive is one of its own. The time is linear in the vertices, but for a logarithm and for models
+// Writes the file vertex of each host vertex, or no_vertex. The model must have a rest surface and bind data,
+// and the primitive must belong to it. The time is linear in the vertices, but for a logarithm and for models
 // with many vertices at one place.
 VertexMatches match_vertices(const CharacterModel& model, const HostVertices& host,
                              std::span<std::uint32_t> file_vertices, Memory* memory);

@@ -67,8 +67,8 @@ void check_index(const char* name, std::size_t index, std::size_t count);
 void check_at_most(const char* name, std::uint32_t value, std::uint32_t most);
 
 // Returns the distance in bytes between `count` elements of the caller's array: stride, or element_bytes if
-// stride is 0. Throws INVALID_ARGUMENT if elements overlap. It also throws if no memory can hold so many
-// elements so far apart, so that addresses beyond it are never computed. name: the stride's name.
+// stride is 0. Throws INVALID_ARGUMENT if elements overlap. It also throws if no memory can hold this many
+// elements at this distance, so that addresses beyond it are never computed. name: the stride's name.
 std::size_t checked_stride(const char* name, std::size_t stride, std::size_t count,
                            std::size_t element_bytes);
 

@@ -26,12 +26,3 @@
 #if defined(__GNUC__)
 #define NOOK_TRAILING_ZEROS(word) __builtin_ctz(word)
 #endif
-
-// NOOK_CLONES: the compiler vectorises one plain source into a clone for each instruction set, and the
-// program picks one when it loads. This needs the resolvers of the ELF format. Sanitizers do not work with
-// these, so they run the plain version.
-#if defined(__x86_64__) && defined(__ELF__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define NOOK_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define NOOK_CLONES
-#endif

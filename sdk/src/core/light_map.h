@@ -38,8 +38,8 @@ struct MapTexel {
 };
 MapTexel map_texel(const MapView& map, std::uint32_t column, std::uint32_t row);
 
-// Treats a cube of side x side cells a face like the texels of a cube map. Returns the unit direction through
-// a cell's centre, and its solid angle in steradians.
+// Treats a cube of side x side cells per face like the texels of a cube map. Returns the unit direction
+// through a cell's centre, and its solid angle in steradians.
 Vec3 cube_cell_direction(std::uint32_t face, std::uint32_t column, std::uint32_t row, std::uint32_t side);
 double cube_cell_angle(std::uint32_t column, std::uint32_t row, std::uint32_t side);
 // Returns the number of the cell that holds a direction.

@@ -88,8 +88,8 @@ bool has_extension(const Functions& gl, const Loader& loader, const char* name) 
   return false;
 }
 
-// Only WebGL lists formats of extensions that the page has enabled. Its list of extensions has those that a
-// page may enable, so this checks the list of formats.
+// Only WebGL lists formats of extensions that the page has enabled. Its list of extensions has the ones that
+// a page may enable, so this checks the list of formats.
 bool lists_compressed_format(const Functions& gl, GLenum format) {
   GLint count = 0;
   gl.GetIntegerv(GL_NUM_COMPRESSED_TEXTURE_FORMATS, &count);

@@ -59,7 +59,7 @@ void restore_active_texture(const Functions& gl, const SavedState& s) {
   gl.ActiveTexture(s.active_texture);
 }
 
-// The next two items are those of unit 0, whichever unit is active. The item above restores the active unit.
+// The next two items belong to unit 0, whichever unit is active. The item above restores the active unit.
 void query_texture_unit_0(const Functions& gl, SavedState& s) {
   gl.ActiveTexture(GL_TEXTURE0);
   s.texture_unit_0 = integer(gl, gl.can.texture_buffers ? GL_TEXTURE_BINDING_BUFFER : GL_TEXTURE_BINDING_2D);

@@ -46,7 +46,7 @@ struct PixelStore {
   GLint values[std::size(pixel_store_names)] = {4};
 };
 
-// The last one is not of OpenGL ES.
+// OpenGL ES does not have the last one.
 inline constexpr GLenum pixel_pack_names[] = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS,
                                               GL_PACK_SKIP_PIXELS, GL_PACK_SWAP_BYTES};
 struct PixelPack {
@@ -108,7 +108,7 @@ void set_viewport(const Functions& gl, const GLfloat (&box)[4]);
 void set_pixel_store(const Functions& gl, const PixelStore& store);
 void set_pixel_pack(const Functions& gl, const PixelPack& pack);
 void set_scissor_test(const Functions& gl, bool enabled);
-// Nothing on OpenGL ES, whose restart index is that of the index type alone.
+// Does nothing on OpenGL ES, where the restart index depends on the index type alone.
 void set_primitive_restart(const Functions& gl, bool enabled);
 // Sets blend, masks, tests and capabilities so that one triangle fills its viewport without side effects.
 void set_plain_drawing(const Functions& gl);

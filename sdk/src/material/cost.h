@@ -11,8 +11,8 @@ struct DecodeCost {
   std::uint32_t multiply_adds = 0;
 };
 
-// Returns the fetches that each further place of a footprint adds, all of spatial modes. A mode in blocks
-// takes two.
+// Returns the fetches of spatial modes that each further place of a footprint adds. A mode in blocks takes
+// two fetches.
 inline std::uint32_t further_fetches(const TensorTables& t) {
   return t.terms * t.view_vec4_count * (t.light_modes + t.packed_modes);
 }

@@ -2,7 +2,7 @@
 //   HEAD  u32: library version, width, height
 //         u8: depth kind, clip, layer, view; f32: sky_depth, normal_scale, normal_bias, normal_matrix 9,
 //         projection 16, radius, max_radius_px, intensity, power; u8: radius kind, which version 1 has not;
-//         f32: min_radius_px, fade_begin, fade_end, which version 2 has not
+//         f32: min_radius_px, fade_begin, fade_end, which version 2 lacks
 //   PASS  u32 taps; u8: half_resolution, blur, path; f32 blur_sharpness
 //   DPTH  depth, one number for each pixel; u8 bits, u8 normalisation, then the numbers (exact_packing.h)
 //   NORM  normals, three for each pixel, in the same way; only if there are any

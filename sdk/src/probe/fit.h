@@ -191,7 +191,7 @@ class Fit {
   RunningView running_;  // constants alone
   const float* whitening_ = nullptr;
   AlignedArray<RecentSamples> recent_;   // one
-  AlignedArray<SampleColumns> samples_;  // one: those that wait
+  AlignedArray<SampleColumns> samples_;  // one: the samples that wait
   AlignedArray<float> floats_;           // what lobes_, running_ and whitening_ point to
   AlignedArray<float> values_;           // of a chunk
   AlignedArray<double> gram_;            // of the domain, count x count

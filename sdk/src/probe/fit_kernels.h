@@ -53,7 +53,7 @@ struct LobeSoa {
 struct RunningView {
   std::uint32_t count = 0;
   std::uint32_t padded = 0;
-  float* value[3] = {nullptr, nullptr, nullptr};   // the coefficients, a row a channel
+  float* value[3] = {nullptr, nullptr, nullptr};   // the coefficients, one row per channel
   float* change[3] = {nullptr, nullptr, nullptr};  // since the chunk began
   float* square = nullptr;                         // the mean of B_i^2 over the samples
   const float* true_square = nullptr;              // and over the domain

@@ -22,8 +22,8 @@ struct Surface {
   float reflectance = 0.04f;  // at normal incidence
 };
 
-// A surface seen from a direction. The plane of incidence contains normal and view. Straight on, any plane
-// does, and the tangent's is used.
+// A surface seen from a direction. The plane of incidence contains normal and view. If the view is along the
+// normal, any plane is right, and the tangent's is used.
 struct SurfaceView {
   Vec3 tangent, bitangent;
   float view_x, view_y;  // dot(view, tangent), dot(view, bitangent)

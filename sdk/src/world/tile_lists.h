@@ -10,8 +10,8 @@
 
 namespace nook::world {
 
-// A viewport divided into tiles of tile_px pixels a side. View space x is (x_scale pixel + x_offset) times
-// the depth, or times 1 in an orthographic view; y works the same way.
+// A viewport divided into tiles with sides of tile_px pixels. View space x is (x_scale pixel + x_offset)
+// times the depth, or times 1 in an orthographic view; y works the same way.
 struct TileGrid {
   std::uint32_t width_px = 0, height_px = 0, tile_px = 32;
   float x_scale = 1, x_offset = 0, y_scale = 1, y_offset = 0;

@@ -4,7 +4,7 @@
 #include "shaders/probe/capture/layout.h"
 
 uniform NOOK_TEXELS nook_table;
-uniform ivec4 nook_rows;        // the texel of the first row's first sum, sums a row, rows, the texel of the average so far
+uniform ivec4 nook_rows;        // the texel of the first row's first sum, sums per row, rows, the texel of the average so far
 uniform vec2 nook_scale_share;  // a factor of the mean, and the share of this map in the average
 
 out vec4 nook_mean;  // w: the solid angle of the texels that counted, steradians

@@ -27,9 +27,9 @@ NOOK_API nook_result nook_scene_record_pose(nook_scene scene, nook_instance_id i
 
 /* Gives the recipe of a model, a JSON object, valid while the model lives. Its entry "judged" has the error
  * on poses that were not fitted: over_static and over_static_by_area, against the AO of the rest pose;
- * over_oracle, against the best static bake; worst_clip_over_static; on, which poses; and poses, how many. A
- * pipeline may refuse a model by them. Models of earlier bakes lack the entry, and the text may be empty.
- * Any thread. Errors: INVALID_ARGUMENT. */
+ * over_oracle, against the best static bake; worst_clip_over_static; on, the kind of poses; and poses, their
+ * number. A pipeline may refuse a model by these values. Models of earlier bakes lack the entry, and the text
+ * may be empty. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_model_recipe(nook_model model, const char** json);
 
 #ifdef __cplusplus

@@ -30,7 +30,7 @@ typedef struct nook_gl_capture_desc {
   nook_gl_upload probe;
   /* The upload of form NOOK_GL_PROBE_SH or NOOK_GL_PROBE_ZH3 whose harmonics or ZH3 the capture replaces, or
    * NULL; walls stay as they are. If probe is not NULL, both have the same counts, origin and spacing. At
-   * least one of both is needed. */
+   * least one of them is needed. */
   nook_gl_upload grid;
   /* Texels, 4 to 512, default 64: the side of a face of every cube map, at the level below. */
   uint32_t face_size_px;
@@ -38,8 +38,8 @@ typedef struct nook_gl_capture_desc {
    * mipmaps and takes the level of 64 texels or less. */
   uint32_t level;
   /* Maps, 1 to 65536, default 1: a probe is the running average of its maps, in which map n has the share
-   * 1 / min(n, history). 1 keeps the latest map alone; more smooths noisy maps, or changes of light over
-   * frames. */
+   * 1 / min(n, history). 1 keeps only the latest map. A larger number smooths noisy maps, and changes of
+   * light over frames. */
   uint32_t history;
   /* Default NOOK_GL_CAPTURE_ALL. */
   nook_gl_capture_light light;

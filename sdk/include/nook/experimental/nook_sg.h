@@ -175,8 +175,8 @@ typedef int32_t nook_probe_denominator;
 typedef struct nook_probe_fit_study_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* Default NOOK_PROBE_FIT_STUDY_DEFAULT. Another method replaces nook_probe_fit_desc.method, which must have
-   * its default then, as form must. */
+  /* Default NOOK_PROBE_FIT_STUDY_DEFAULT. Another method replaces nook_probe_fit_desc.method; method and form
+   * must then have their defaults. */
   nook_probe_study_method method;
   /* 1: running averages take the published step. At each sample (w, v), with a the domain's area and n the
    * weight so far, b_i += (1 / n) (B_i(w) (v - sum over k != i of b_k B_k(w)) / D_i - b_i), where D_i is an

@@ -43,8 +43,7 @@ typedef struct nook_nnao_stages_s* nook_nnao_stages;
 
 /* Images that stages read or write. The first four are the host's: texture arrays for passes with views, and
  * multisampled depth for passes with depth_samples, as well as multisampled normals for those with
- * normal_samples. The host gives those that its frames have,
- * and any 1 x 1 image for others. */
+ * normal_samples. The host gives the images that its frames have, and any 1 x 1 image for the others. */
 enum {
   NOOK_NNAO_IMAGE_HOST_DEPTH = 0,
   NOOK_NNAO_IMAGE_HOST_NORMAL = 1,
@@ -58,8 +57,8 @@ enum {
   NOOK_NNAO_IMAGE_FILTERED = 6,
   /* With max_history_frames: the mean over frames, and what it and linear depth were in the frame before.
    * After each frame you must swap NOOK_NNAO_IMAGE_DEPTH with NOOK_NNAO_IMAGE_HISTORY_DEPTH, and
-   * NOOK_NNAO_IMAGE_ACCUMULATED_AO with NOOK_NNAO_IMAGE_HISTORY_AO. Each view has four such images of its
-   * own. */
+   * NOOK_NNAO_IMAGE_ACCUMULATED_AO with NOOK_NNAO_IMAGE_HISTORY_AO. Each view has its own four images of this
+   * kind. */
   NOOK_NNAO_IMAGE_ACCUMULATED_AO = 7,
   NOOK_NNAO_IMAGE_HISTORY_DEPTH = 8,
   NOOK_NNAO_IMAGE_HISTORY_AO = 9,
@@ -116,9 +115,9 @@ NOOK_API nook_result nook_nnao_stages_describe(nook_nnao_stages stages, nook_nna
 
 typedef struct nook_nnao_image_info {
   uint32_t struct_size;
-  /* NOOK_NNAO_FORMAT_NONE for images of the host, and for those that no stage uses. */
+  /* NOOK_NNAO_FORMAT_NONE for images of the host, and for images that no stage uses. */
   nook_nnao_format format;
-  /* Pixels at the pass's maximum size; 0 for images of the host, and for those that no stage uses. */
+  /* Pixels at the pass's maximum size; 0 for images of the host, and for images that no stage uses. */
   int32_t width, height;
 } nook_nnao_image_info;
 

@@ -40,7 +40,8 @@ class Tier {
   virtual ~Tier() = default;
 
   // Assigns a place to every instance of the scene, and makes all buffers and programs that its update needs.
-  // It is cheap if nothing has changed. Throws Failure; the next call goes on with what was made until then.
+  // It is cheap if nothing has changed. Throws Failure; the next call continues with what was made until
+  // then.
   virtual void prepare(const Scene& scene) = 0;
   // Evaluates a prepared scene. Throws Failure; the next update makes up for this one.
   virtual void update(Scene& scene) = 0;

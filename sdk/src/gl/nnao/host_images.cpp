@@ -20,7 +20,7 @@ void clear_refusal(const Device& device) {
 // A kind of texture that a pass reads.
 struct TextureKind {
   GLenum target = GL_TEXTURE_2D, binding = GL_TEXTURE_BINDING_2D;
-  GLuint unit = 0;  // to which it is bound for queries
+  GLuint unit = 0;  // the unit where it is bound for queries
   const char* name = "2D texture without layers or samples";
 };
 constexpr TextureKind texture_array{GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BINDING_2D_ARRAY, host_depth_unit,
@@ -97,7 +97,7 @@ GLint bits_of(const BoundTexture& texture, GLenum channel) {
 }
 GLint type_of(const BoundTexture& texture, GLenum channel) {
   if (texture.device.gl.can.texture_sizes) return texture.level(GL_TEXTURE_RED_TYPE + channel);
-  // The answer is one for all channels.
+  // All channels have the same type.
   if (bits_of(texture, channel) == 0) return GL_NONE;
   return ask_attached(texture, GL_COLOR_ATTACHMENT0, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE);
 }

@@ -12,7 +12,7 @@ namespace nook::gl {
 struct HostImages {
   int width = 0, height = 0;
   int layers = 0;   // of texture arrays; 0: 2D textures
-  int samples = 0;  // of depth; 0: it is no multisample texture
+  int samples = 0;  // of depth; 0: it is not a multisample texture
   int normal_samples = 0;
   nook_depth_kind depth_kind = 0;
   nook_gbuffer_ao layer = 0;
@@ -37,9 +37,9 @@ struct ImageFacts {
 };
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless every image exists and has a suitable size and format,
-// and no input is the target. own_texture is that of the pass, and target_framebuffer one without
-// attachments, which textures are tried in. Binds 2D textures to unit 0, arrays and multisample
-// textures to unit 1, and the draw framebuffer; leaves no OpenGL error.
+// and no input is the target. own_texture is the pass's own texture. target_framebuffer is a framebuffer
+// without attachments, to try textures in. Binds 2D textures to unit 0, arrays and multisample textures to
+// unit 1, and the draw framebuffer; leaves no OpenGL error.
 ImageFacts check_images(const Device& device, const HostImages& images, std::uint32_t own_texture,
                         std::uint32_t target_framebuffer);
 
