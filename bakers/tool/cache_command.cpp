@@ -43,11 +43,11 @@ void add_cache_prune(Command cache) {
   const auto options = std::make_shared<Options>();
   command.add_option("--cache", options->cache, "the folder; default NOOK_CACHE");
   command.add_option("--older", options->days, "remove what was not used for so many days")
-      .check(non_negative_number());
+      .check(in_range(0.0, 36500.0));
   command
       .add_option("--size", options->megabytes,
                   "then remove what was not used for the longest time, down to so many MB of 10^6 bytes")
-      .check(non_negative_number());
+      .check(in_range(0.0, 1e9));
   command.callback([options] { run(*options); });
 }
 
