@@ -91,7 +91,8 @@ void measure_stages(NnaoFixture& fixture, nook_nnao_stages stages, const Camera&
   for (std::uint32_t i = 0; i + 1 < info.stage_count; ++i) {
     auto stage = sized<nook_nnao_stage_info>();
     NOOK_OK_OR_FAIL(nook_nnao_stages_describe_stage(stages, i, &stage));
-    if (names.back() != stage.name) names.push_back(stage.name);
+    // Two filters draw filter_x and filter_y twice; a name stands for both of its draws.
+    if (std::find(names.begin(), names.end(), stage.name) == names.end()) names.push_back(stage.name);
   }
   std::vector<float> high;
   for (const std::string& name : names) {
