@@ -117,7 +117,7 @@ void measure_stages(NnaoFixture& fixture, nook_nnao_stages stages, const Camera&
 
 }  // namespace
 
-TEST_CASE("nnao: the error of each stage in medium precision is printed, and the filter's is none") {
+TEST_CASE("nnao: the error of each stage in medium precision is printed, and the filter's is small") {
   NOOK_NEED_CONTEXT(context);
   if (!context.is_es() || version_of(context) < 31) {
     std::printf("medium precision is measured on OpenGL ES 3.1 and later\n");
@@ -150,11 +150,12 @@ TEST_CASE("nnao: the error of each stage in medium precision is printed, and the
           pass.name, name.c_str(), sum.squared / sum.pixels, sum.squared / high,
           100 * sum.changed / sum.pixels, 100 * sum.beyond / sum.pixels);
     // The pass draws its filter at half resolution in medium precision. AO is rounded to 8 bits afterwards,
-    // so that a few percent of the pixels take the next step: up or down, so that no error comes of it; half
-    // a thousandth is room for another driver.
+    // so that 1 to 4 % of the pixels take the next step. At an rms error of 0.065, the squared error changes
+    // by 2 * 0.04 * 0.065 / 255 / 0.0042 = 0.5 % if all of them step away from the truth. Half of that may
+    // happen; measured: -0.1 to 0.1 %.
     if (pass.half) {
       for (const char* const filter : {"filter_x", "filter_y"}) {
-        CHECK(measured.at(filter).squared < 1.0005 * high);
+        CHECK(measured.at(filter).squared < 1.0025 * high);
         CHECK(measured.at(filter).beyond == 0);
       }
     }
