@@ -1,6 +1,7 @@
 // Objects that a call deletes while the host has them bound: OpenGL unbinds them, without an error and
 // without making their names anew, as it would if the host had deleted them itself.
 #include <functional>
+#include <optional>
 #include <set>
 
 #include "tests/gl/nnao_images.h"
@@ -113,13 +114,22 @@ struct Host {
             }};
   }
   std::vector<Place> buffer_places() const {
-    std::vector<Place> all = {// First, because binding a range also binds the target of its kind.
-                              indexed_place("transform feedback 0", GL_TRANSFORM_FEEDBACK_BUFFER,
+    // First those that also bind a target: a range binds the target of its kind, an attribute reads "array".
+    std::vector<Place> all = {indexed_place("transform feedback 0", GL_TRANSFORM_FEEDBACK_BUFFER,
                                             GL_TRANSFORM_FEEDBACK_BUFFER_BINDING, 0),
-                              buffer_place("array", GL_ARRAY_BUFFER, GL_ARRAY_BUFFER_BINDING),
-                              buffer_place("unpack", GL_PIXEL_UNPACK_BUFFER, GL_PIXEL_UNPACK_BUFFER_BINDING),
-                              buffer_place("pack", GL_PIXEL_PACK_BUFFER, GL_PIXEL_PACK_BUFFER_BINDING),
-                              buffer_place("uniform", GL_UNIFORM_BUFFER, GL_UNIFORM_BUFFER_BINDING),
+                              {"attribute of the host's vertex array",
+                               [this](GLuint object) {
+                                 gl.BindVertexArray(array);
+                                 gl.BindBuffer(GL_ARRAY_BUFFER, object);
+                                 gl.VertexAttribPointer(1, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
+                                 gl.BindBuffer(GL_ARRAY_BUFFER, 0);
+                               },
+                               [this] {
+                                 gl.BindVertexArray(array);
+                                 GLint value = -1;
+                                 gl.GetVertexAttribiv(1, GL_VERTEX_ATTRIB_ARRAY_BUFFER_BINDING, &value);
+                                 return value;
+                               }},
                               {"index of the host's vertex array",
                                [this](GLuint object) {
                                  gl.BindVertexArray(array);
@@ -129,50 +139,43 @@ struct Host {
                                  gl.BindVertexArray(array);
                                  return integer(gl, GL_ELEMENT_ARRAY_BUFFER_BINDING);
                                }},
-                              {"attribute of the host's vertex array",
-                               [this](GLuint object) {
-                                 gl.BindVertexArray(array);
-                                 gl.BindBuffer(GL_ARRAY_BUFFER, object);
-                                 gl.VertexAttribPointer(1, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
-                               },
-                               [this] {
-                                 gl.BindVertexArray(array);
-                                 GLint value = -1;
-                                 gl.GetVertexAttribiv(1, GL_VERTEX_ATTRIB_ARRAY_BUFFER_BINDING, &value);
-                                 return value;
-                               }}};
+                              buffer_place("array", GL_ARRAY_BUFFER, GL_ARRAY_BUFFER_BINDING),
+                              buffer_place("unpack", GL_PIXEL_UNPACK_BUFFER, GL_PIXEL_UNPACK_BUFFER_BINDING),
+                              buffer_place("pack", GL_PIXEL_PACK_BUFFER, GL_PIXEL_PACK_BUFFER_BINDING),
+                              buffer_place("uniform", GL_UNIFORM_BUFFER, GL_UNIFORM_BUFFER_BINDING)};
     if (storage())
       for (GLuint i = 0; i < 4; ++i)
         all.push_back(indexed_place("storage of an index", GL_SHADER_STORAGE_BUFFER,
                                     GL_SHADER_STORAGE_BUFFER_BINDING, i));
     return all;
   }
-  // A texture can be bound to the target of its kind alone.
-  std::vector<Place> texture_places(GLuint name) const {
+  // A texture can be bound to the target of its kind alone. Slot 0 is an attachment where the kind can be
+  // one.
+  std::optional<Place> texture_place(GLuint name, GLuint slot) const {
     const std::pair<GLenum, GLenum> targets[] = {{GL_TEXTURE_2D, GL_TEXTURE_BINDING_2D},
                                                  {GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BINDING_2D_ARRAY},
                                                  {GL_TEXTURE_3D, GL_TEXTURE_BINDING_3D},
                                                  {GL_TEXTURE_BUFFER, GL_TEXTURE_BINDING_BUFFER}};
-    std::vector<Place> all;
+    gl.ActiveTexture(GL_TEXTURE0 + slot);
     for (const auto& [target, binding] : targets) {
       if (es && target == GL_TEXTURE_BUFFER && version < 32) continue;
       gl.BindTexture(target, name);
       if (gl.GetError() != GL_NO_ERROR) continue;
       gl.BindTexture(target, 0);
-      for (GLuint unit = 0; unit < 5; ++unit)
-        all.push_back({"unit " + std::to_string(unit),
-                       [=, this, target = target](GLuint object) {
-                         gl.ActiveTexture(GL_TEXTURE0 + unit);
-                         gl.BindTexture(target, object);
-                       },
-                       [=, this, binding = binding] {
-                         gl.ActiveTexture(GL_TEXTURE0 + unit);
-                         return integer(gl, binding);
-                       }});
-      if (target == GL_TEXTURE_2D) all.push_back(attachment());
+      take_debug_messages();
+      if (target == GL_TEXTURE_2D && slot == 0) return attachment();
+      return Place{"unit " + std::to_string(slot),
+                   [=, this, target = target](GLuint object) {
+                     gl.ActiveTexture(GL_TEXTURE0 + slot);
+                     gl.BindTexture(target, object);
+                   },
+                   [=, this, binding = binding] {
+                     gl.ActiveTexture(GL_TEXTURE0 + slot);
+                     return integer(gl, binding);
+                   }};
     }
     take_debug_messages();
-    return all;
+    return {};
   }
   Place attachment() const {
     return {"attachment of the host's framebuffer",
@@ -188,38 +191,49 @@ struct Host {
               return value;
             }};
   }
-  std::vector<Place> places(int kind, GLuint name) const {
+  // How many objects of a kind can be bound at once, each to a place of its own.
+  std::size_t slots(int kind) const {
     switch (kind) {
       case buffers:
-        return buffer_places();
+        return buffer_places().size();
       case textures:
-        return texture_places(name);
-      case samplers: {
-        std::vector<Place> all;
-        for (GLuint unit = 0; unit < 5; ++unit)
-          all.push_back({"unit", [=, this](GLuint object) { gl.BindSampler(unit, object); },
-                         [=, this] {
-                           gl.ActiveTexture(GL_TEXTURE0 + unit);
-                           return integer(gl, GL_SAMPLER_BINDING);
-                         }});
-        return all;
-      }
+      case samplers:
+        return 5;
       case framebuffers:
-        return {place("draw", GL_DRAW_FRAMEBUFFER_BINDING,
-                      [this](GLuint object) { gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, object); }),
-                place("read", GL_READ_FRAMEBUFFER_BINDING,
-                      [this](GLuint object) { gl.BindFramebuffer(GL_READ_FRAMEBUFFER, object); })};
-      case renderbuffers:
-        return {place("renderbuffer", GL_RENDERBUFFER_BINDING,
-                      [this](GLuint object) { gl.BindRenderbuffer(GL_RENDERBUFFER, object); })};
-      case vertex_arrays:
-        return {place("vertex array", GL_VERTEX_ARRAY_BINDING,
-                      [this](GLuint object) { gl.BindVertexArray(object); })};
-      case feedbacks:
-        return {place("transform feedback", GL_TRANSFORM_FEEDBACK_BINDING,
-                      [this](GLuint object) { gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, object); })};
+        return 2;
       default:
-        return {place("program", GL_CURRENT_PROGRAM, [this](GLuint object) { gl.UseProgram(object); })};
+        return 1;
+    }
+  }
+  std::optional<Place> place_of(int kind, GLuint name, std::size_t slot) const {
+    switch (kind) {
+      case buffers:
+        return buffer_places()[slot];
+      case textures:
+        return texture_place(name, GLuint(slot));
+      case samplers:
+        return Place{"unit " + std::to_string(slot),
+                     [=, this](GLuint object) { gl.BindSampler(GLuint(slot), object); },
+                     [=, this] {
+                       gl.ActiveTexture(GL_TEXTURE0 + GLuint(slot));
+                       return integer(gl, GL_SAMPLER_BINDING);
+                     }};
+      case framebuffers:
+        return slot == 0 ? place("draw", GL_DRAW_FRAMEBUFFER_BINDING,
+                                 [this](GLuint object) { gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, object); })
+                         : place("read", GL_READ_FRAMEBUFFER_BINDING,
+                                 [this](GLuint object) { gl.BindFramebuffer(GL_READ_FRAMEBUFFER, object); });
+      case renderbuffers:
+        return place("renderbuffer", GL_RENDERBUFFER_BINDING,
+                     [this](GLuint object) { gl.BindRenderbuffer(GL_RENDERBUFFER, object); });
+      case vertex_arrays:
+        return place("vertex array", GL_VERTEX_ARRAY_BINDING,
+                     [this](GLuint object) { gl.BindVertexArray(object); });
+      case feedbacks:
+        return place("transform feedback", GL_TRANSFORM_FEEDBACK_BINDING,
+                     [this](GLuint object) { gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, object); });
+      default:
+        return place("program", GL_CURRENT_PROGRAM, [this](GLuint object) { gl.UseProgram(object); });
     }
   }
 
@@ -236,58 +250,88 @@ struct Scenario {
   std::function<void(const Step& before, const Step& after)> run;
 };
 
-enum class Fate { no_such_object, lives, gone };
+// Kinds whose places are apart, so that objects of all of them can be bound at once. The places of the second
+// list change what those of the first one bind to.
+const std::vector<int> apart[] = {{buffers, textures, samplers, renderbuffers, programs},
+                                  {framebuffers, vertex_arrays, feedbacks}};
 
-// Binds the index-th object of a kind that the scenario has made, to every place of its kind. `outside`:
-// objects of the kind that are there without the scenario. preserves: the call puts the host's bindings back
-// before it deletes. Otherwise what is bound while it deletes is its own affair, and only errors are looked
-// for.
-Fate check_bound(const Host& host, const Scenario& scenario, int kind, std::size_t index,
-                 const std::set<GLuint>& outside, bool preserves) {
-  const GladGLContext& gl = host.gl;
-  GLuint name = 0;
-  std::vector<Place> places;
-  std::vector<GLint> bound;
-  Fate fate = Fate::no_such_object;
+struct BoundObject {
+  int kind;
+  GLuint name;
+  Place place;
+  GLint bound = -1;
+};
+
+struct Round {
+  std::vector<BoundObject> bound;
+  int gone = 0;
+  bool last = true;  // no kind has objects for another round
+};
+
+// Binds the index-th objects of a kind that the scenario has made, as many as the kind has places. `outside`:
+// objects that are there without the scenario.
+void bind_round(const Host& host, int kind, std::size_t index, const std::set<GLuint>& outside,
+                Round& round) {
+  std::vector<GLuint> made;
+  for (const GLuint candidate : living(host.gl, kind))
+    if (!outside.count(candidate)) made.push_back(candidate);
+  std::vector<BoundObject> bound;
+  const std::size_t slots = host.slots(kind);
+  for (std::size_t slot = 0; slot < slots; ++slot) {
+    // Rounds begin at another place each, so that few objects do not all meet the first ones.
+    const std::size_t i = index * slots + (slot + index) % slots;
+    if (i >= made.size()) continue;
+    if (const std::optional<Place> place = host.place_of(kind, made[i], slot))
+      bound.push_back({kind, made[i], *place});
+  }
+  for (const BoundObject& object : bound) object.place.bind(object.name);
+  for (BoundObject& object : bound) object.bound = object.place.bound();
+  round.bound.insert(round.bound.end(), bound.begin(), bound.end());
+  round.last = round.last && made.size() <= (index + 1) * slots;
+}
+
+// Returns whether the object is gone. preserves: the call puts the host's bindings back before it deletes.
+// Otherwise what is bound while it deletes is its own affair, and only errors are looked for.
+bool check_bound(const Host& host, const BoundObject& object, bool preserves) {
+  const bool gone = !lives(host.gl, object.kind, object.name);
+  INFO(kind_names[object.kind] << " " << object.name << (gone ? ", gone, " : ", lives, ")
+                               << object.place.name);
+  // OpenGL keeps a deleted program as long as it is current.
+  const bool unbound = gone && object.kind != programs;
+  if (preserves) CHECK(object.place.bound() == (unbound ? 0 : object.bound));
+  return gone;
+}
+
+Round check_round(const Host& host, const Scenario& scenario, const std::vector<int>& together,
+                  std::size_t index, const std::set<GLuint> (&outside)[kinds], bool preserves) {
+  Round round;
   const Step before = [&] {
-    std::vector<GLuint> made;
-    for (const GLuint candidate : living(gl, kind))
-      if (!outside.count(candidate)) made.push_back(candidate);
-    if (index >= made.size()) return;
-    name = made[index];
-    places = host.places(kind, name);
-    for (const Place& place : places) place.bind(name);
-    for (const Place& place : places) bound.push_back(place.bound());
-    REQUIRE(gl.GetError() == GL_NO_ERROR);
+    for (const int kind : together) bind_round(host, kind, index, outside[kind], round);
+    REQUIRE(host.gl.GetError() == GL_NO_ERROR);
   };
   const Step after = [&] {
-    if (name == 0) return;
-    INFO(scenario.name << ": " << kind_names[kind] << " " << name);
-    CHECK(gl.GetError() == GL_NO_ERROR);
-    fate = lives(gl, kind, name) ? Fate::lives : Fate::gone;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      INFO((fate == Fate::gone ? "gone, " : "lives, ") << places[i].name);
-      // OpenGL keeps a deleted program as long as it is current.
-      const bool unbound = fate == Fate::gone && kind != programs;
-      if (preserves) CHECK(places[i].bound() == (unbound ? 0 : bound[i]));
-      places[i].bind(0);
-    }
-    REQUIRE(gl.GetError() == GL_NO_ERROR);
+    INFO(scenario.name);
+    CHECK(host.gl.GetError() == GL_NO_ERROR);
+    for (const BoundObject& object : round.bound) round.gone += check_bound(host, object, preserves);
+    for (const BoundObject& object : round.bound) object.place.bind(0);
+    REQUIRE(host.gl.GetError() == GL_NO_ERROR);
   };
   scenario.run(before, after);
-  return fate;
+  return round;
 }
 
 // Returns how many objects the call of the scenario deletes.
 int check_scenario(platform::Context& context, const Scenario& scenario, bool preserves = true) {
   const Host host(context);
   int gone = 0;
-  for (int kind = 0; kind < kinds; ++kind) {
-    const std::set<GLuint> outside = living(host.gl, kind);
-    for (std::size_t index = 0;; ++index) {
-      const Fate fate = check_bound(host, scenario, kind, index, outside, preserves);
-      if (fate == Fate::no_such_object) break;
-      gone += fate == Fate::gone;
+  std::set<GLuint> outside[kinds];
+  for (int kind = 0; kind < kinds; ++kind) outside[kind] = living(host.gl, kind);
+  for (const std::vector<int>& together : apart) {
+    bool last = false;
+    for (std::size_t index = 0; !last; ++index) {
+      const Round round = check_round(host, scenario, together, index, outside, preserves);
+      gone += round.gone;
+      last = round.last;
     }
   }
   GLuint newest = 0;
