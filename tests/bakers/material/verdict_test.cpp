@@ -9,6 +9,7 @@
 #include "bakers/material/btf_error.h"
 #include "bakers/material/seen_views.h"
 #include "tests/catch.h"
+#include "tests/sanitized.h"
 
 using namespace nook;
 using namespace nook::bake::material;
@@ -85,7 +86,8 @@ double unseen_db(const Look& look, const RawMaterial& raw) {
 TEST_CASE("every hopeless material is called bad, and no good one") {
   const std::vector<Vec3> directions = spiral_directions(36);
   int good = 0, poor = 0, hopeless = 0;
-  for (std::uint32_t i = 0; i < 36; ++i) {
+  constexpr int part = test::sanitized ? 4 : 1;
+  for (std::uint32_t i = 0; i < 36; i += part) {
     // A third each: matt, of a wide gloss, and of a highlight between the directions of the fit.
     const float step = float(i % 12) / 11;
     const Look look = i < 12   ? Look{0.8f + 0.4f * step, 0.25f * step, 0.15f, i}
@@ -108,9 +110,9 @@ TEST_CASE("every hopeless material is called bad, and no good one") {
     }
   }
   // The script makes what it promises.
-  CHECK(good >= 12);
-  CHECK(poor >= 12);
-  CHECK(hopeless >= 12);
+  CHECK(good >= 12 / part);
+  CHECK(poor >= 12 / part);
+  CHECK(hopeless >= 12 / part);
 }
 
 TEST_CASE("a verdict has the same bits again, and says why a material is not judged") {
