@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/bakers/tool/glb_tube.h"
+#include "tests/bakers/tool/gltf_parts.h"
 #include "tests/bakers/tool/rgbe_map.h"
 #include "tests/bakers/tool/tool_run.h"
 #include "tests/catch.h"
@@ -62,18 +63,6 @@ std::uint32_t word_at(const std::string& bytes, std::size_t offset) {
   std::uint32_t word = 0;
   std::memcpy(&word, bytes.data() + offset, sizeof word);
   return word;
-}
-
-// Writes a .glb file as a .gltf file and its buffer, with changes to its JSON.
-void write_parts(const std::string& glb, const std::string& gltf, const std::string& buffer,
-                 const std::string& uri, const Json& more = Json::object()) {
-  constexpr std::size_t head = 12, chunk_head = 8, json = head + chunk_head;
-  const std::size_t json_bytes = word_at(glb, head);
-  Json document = Json::parse(glb.substr(json, json_bytes));
-  document["buffers"][0]["uri"] = uri;
-  document.update(more);
-  write_text(gltf, document.dump());
-  write_text(buffer, glb.substr(json + json_bytes + chunk_head));
 }
 
 struct Pair {
@@ -223,15 +212,15 @@ TEST_CASE("the key follows what is read, and not the bytes of the file") {
   const auto key = [&](const char* name) {
     return key_of(folder, small_bake(folder.path(name), folder.path("x.nook")));
   };
-  write_parts(glb, folder.path("hero.gltf"), folder.path("hero.bin"), "hero.bin");
+  write_gltf_parts(glb, folder.path("hero.gltf"), folder.path("hero.bin"), "hero.bin");
   CHECK(key("hero.gltf") == key("hero.glb"));
   // A texture, a material, another generator.
   write_text(folder.path("skin.png"), "not read");
-  write_parts(glb, folder.path("painted.gltf"), folder.path("hero.bin"), "hero.bin",
-              {{"images", {{{"uri", "skin.png"}}}},
-               {"textures", {{{"source", 0}}}},
-               {"materials", {{{"name", "skin"}}}},
-               {"asset", {{"version", "2.0"}, {"generator", "another"}}}});
+  write_gltf_parts(glb, folder.path("painted.gltf"), folder.path("hero.bin"), "hero.bin",
+                   {{"images", {{{"uri", "skin.png"}}}},
+                    {"textures", {{{"source", 0}}}},
+                    {"materials", {{{"name", "skin"}}}},
+                    {"asset", {{"version", "2.0"}, {"generator", "another"}}}});
   CHECK(key("painted.gltf") == key("hero.glb"));
   // A clip that moves otherwise.
   write_text(folder.path("clip.glb"), glb_tube({"bend", "wave"}));
@@ -242,7 +231,7 @@ TEST_CASE("the key follows what is read, and not the bytes of the file") {
   while (word_at(moved, at) == 0) at += 4;
   moved[at] = char(moved[at] ^ 1);
   write_text(folder.path("moved.bin"), moved);
-  write_parts(glb, folder.path("moved.gltf"), folder.path("unused.bin"), "moved.bin");
+  write_gltf_parts(glb, folder.path("moved.gltf"), folder.path("unused.bin"), "moved.bin");
   CHECK(key("moved.gltf") != key("hero.glb"));
 }
 
@@ -298,8 +287,8 @@ TEST_CASE("a depfile names what a bake reads, with the escapes of Ninja") {
   const TestFolder folder;
   const std::string glb = glb_tube({"bend"});
   write_text(folder.path("skin.png"), "not read");
-  write_parts(glb, folder.path("my hero.gltf"), folder.path("a $#.bin"), "a%20$%23.bin",
-              {{"images", {{{"uri", "skin.png"}}}}});
+  write_gltf_parts(glb, folder.path("my hero.gltf"), folder.path("a $#.bin"), "a%20$%23.bin",
+                   {{"images", {{{"uri", "skin.png"}}}}});
   write_text(folder.path("rig.json"), R"({"bones": {"tip": {"role": "tail"}}})");
   const ToolRun run = folder.run(small_bake(folder.path("my hero.gltf"), folder.path("my hero.nook"),
                                             {"--depfile", folder.path("hero.d")}));
