@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 namespace {
@@ -116,6 +117,91 @@ std::string glb_tube(const std::vector<std::string>& clips, bool skin) {
          {"samplers", Json::array({{{"input", times}, {"output", turns}}})},
          {"channels", Json::array({{{"sampler", 0}, {"target", {{"node", 2}, {"path", "rotation"}}}}})}});
   }
+  arrays.finish(file);
+  return glb(file, arrays.bytes());
+}
+
+namespace {
+
+struct PersonJoint {
+  const char* name;
+  int parent;  // -1: none
+  float x, y, z;
+};
+
+// A person who stands in a T-pose and looks along +z; y is up, in metres.
+constexpr PersonJoint person[] = {{"Hips", -1, 0, 1, 0},
+                                  {"Spine", 0, 0, 1.15f, 0},
+                                  {"Chest", 1, 0, 1.32f, 0},
+                                  {"Neck", 2, 0, 1.5f, 0},
+                                  {"Head", 3, 0, 1.62f, 0},
+                                  {"LeftUpLeg", 0, 0.1f, 0.92f, 0},
+                                  {"LeftLeg", 5, 0.1f, 0.5f, 0},
+                                  {"LeftFoot", 6, 0.1f, 0.08f, 0},
+                                  {"LeftShoulder", 2, 0.07f, 1.44f, 0},
+                                  {"LeftArm", 8, 0.2f, 1.44f, 0},
+                                  {"LeftForeArm", 9, 0.45f, 1.44f, 0},
+                                  {"LeftHand", 10, 0.7f, 1.44f, 0},
+                                  {"RightUpLeg", 0, -0.1f, 0.92f, 0},
+                                  {"RightLeg", 12, -0.1f, 0.5f, 0},
+                                  {"RightFoot", 13, -0.1f, 0.08f, 0},
+                                  {"RightShoulder", 2, -0.07f, 1.44f, 0},
+                                  {"RightArm", 15, -0.2f, 1.44f, 0},
+                                  {"RightForeArm", 16, -0.45f, 1.44f, 0},
+                                  {"RightHand", 17, -0.7f, 1.44f, 0}};
+
+}  // namespace
+
+std::string glb_person() {
+  constexpr float radius = 0.07f;
+  // The corners of an octahedron are +x, -x, +y, -y, +z, -z.
+  constexpr int corners = 6, faces[8][3] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                                            {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  std::vector<float> position, weight, inverse_bind;
+  std::vector<std::uint8_t> joint_of;
+  std::vector<std::uint16_t> index;
+  Json nodes = Json::array({{{"mesh", 0}, {"name", "body"}, {"skin", 0}}}), joints = Json::array();
+  float low[3] = {9, 9, 9}, high[3] = {-9, -9, -9};
+  for (int j = 0; j < int(std::size(person)); ++j) {
+    const PersonJoint& at = person[j];
+    const float place[3] = {at.x, at.y, at.z};
+    const PersonJoint origin{"", -1, 0, 0, 0};
+    const PersonJoint& parent = at.parent < 0 ? origin : person[at.parent];
+    nodes.push_back(
+        {{"name", at.name}, {"translation", {at.x - parent.x, at.y - parent.y, at.z - parent.z}}});
+    joints.push_back(j + 1);
+    if (at.parent >= 0) nodes[std::size_t(at.parent) + 1]["children"].push_back(j + 1);
+    inverse_bind.insert(inverse_bind.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -at.x, -at.y, -at.z, 1});
+    for (int c = 0; c < corners; ++c) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const float side = c / 2 == axis ? (c % 2 ? -radius : radius) : 0;
+        position.push_back(place[axis] + side);
+        low[axis] = std::fmin(low[axis], position.back());
+        high[axis] = std::fmax(high[axis], position.back());
+      }
+      joint_of.insert(joint_of.end(), {std::uint8_t(j), 0, 0, 0});
+      weight.insert(weight.end(), {1, 0, 0, 0});
+    }
+    for (const auto& face : faces)
+      for (const int corner : face) index.push_back(std::uint16_t(corners * j + corner));
+  }
+  Arrays arrays;
+  Json file;
+  file["asset"] = {{"version", "2.0"}};
+  const int vertices_of_person = corners * int(std::size(person));
+  Json attributes;
+  attributes["POSITION"] = arrays.add(position, real, "VEC3", vertices_of_person, Json::array({low, high}));
+  attributes["JOINTS_0"] = arrays.add(joint_of, unsigned_byte, "VEC4", vertices_of_person);
+  attributes["WEIGHTS_0"] = arrays.add(weight, real, "VEC4", vertices_of_person);
+  const int indices = arrays.add(index, unsigned_short, "SCALAR", int(index.size()));
+  file["meshes"] =
+      Json::array({{{"primitives", Json::array({{{"attributes", attributes}, {"indices", indices}}})}}});
+  file["nodes"] = nodes;
+  file["scenes"] = Json::array({{{"nodes", {0, 1}}}});
+  file["scene"] = 0;
+  file["skins"] = Json::array(
+      {{{"joints", joints},
+        {"inverseBindMatrices", arrays.add(inverse_bind, real, "MAT4", int(std::size(person)))}}});
   arrays.finish(file);
   return glb(file, arrays.bytes());
 }

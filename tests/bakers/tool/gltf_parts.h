@@ -5,6 +5,6 @@
 #include <string>
 
 // Writes the JSON of the bytes of a .glb file to `gltf`, and its buffer to `buffer`. The JSON names the
-// buffer by `uri`; the members of `more` are added, or take the place of those of the file.
+// buffer by `uri`; the members of `more` are added, or replace the members of the file.
 void write_gltf_parts(const std::string& glb, const std::string& gltf, const std::string& buffer,
                       const std::string& uri, const nlohmann::json& more = nlohmann::json::object());
