@@ -20,7 +20,7 @@ OUTSIDE = {"README.md": "readme.md", "ARCHITECTURE.md": "architecture.md", "CONT
 # The order of the pages at the side; a page that is missing here is found by the search and by links.
 TREE = [("Use it", ["readme", "start", "concepts", "install", "conventions", "poses", "performance", "troubleshooting", "messages", "limits"]),
         ("Guide", ["guide/README", "guide/character", "guide/world", "guide/screen_space", "guide/probes", "guide/materials",
-                   "guide/transfer", "guide/reports", "guide/pipeline", "guide/artists", "guide/three"]),
+                   "guide/transfer", "guide/reports", "guide/pipeline", "guide/farms", "guide/artists", "guide/three"]),
         ("Evidence", ["evidence", "character", "world", "nnao", "nnao_protocol", "nnao_training", "probes", "materials",
                       "material_decoding", "transfer", "gpu_cost"]),
         ("Platforms", ["platforms", "opengl_es", "web", "python", "hosts", "instruction_sets", "gl_state"]),
