@@ -1,5 +1,8 @@
+#include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/bakers/tool/tool_run.h"
 #include "tests/catch.h"
@@ -31,13 +34,24 @@ TEST_CASE("train nnao writes a network that inspect reads, the same on any numbe
   CHECK(inspected.out.find("screen-space network") != std::string::npos);
 }
 
-TEST_CASE("train nnao stops at a signal, goes on to the same bits, and leaves no half file") {
+TEST_CASE("train nnao that is killed or stopped goes on to the same bits, and leaves no half file") {
   const TestFolder folder;
   auto arguments = tiny_training(folder.path("a.nook"), "2");
   for (std::string& a : arguments)
     if (a == "2" && &a != &arguments.back()) a = "120";  // epochs
+  // A farm kills without a warning, and starts the same command again.
+  const int child = folder.start(arguments);
+  const auto wait_started = std::chrono::steady_clock::now();
+  while (!std::filesystem::exists(folder.path("a.nook.resume")) &&
+         std::chrono::steady_clock::now() - wait_started < std::chrono::minutes(5))
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  kill(child, SIGKILL);
+  REQUIRE(folder.finish(child).exit_code == 128 + SIGKILL);
+  REQUIRE(std::filesystem::exists(folder.path("a.nook.resume")));
+  CHECK_FALSE(std::filesystem::exists(folder.path("a.nook")));
   const ToolRun stopped = folder.run_and_signal(arguments, SIGINT, "validation mse");
   REQUIRE(stopped.exit_code == 1);
+  CHECK(stopped.error.find("continuing after") != std::string::npos);
   CHECK(stopped.error.find("a.nook.resume") != std::string::npos);
   CHECK(folder.names() == std::vector<std::string>{"a.nook.resume"});
   const ToolRun resumed = folder.run(arguments);
