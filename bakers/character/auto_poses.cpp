@@ -34,9 +34,16 @@ class PlannedRig {
 
   Pose pose(const BodyPlan& plan, PoseRandom& random) const;
 
+  // True where a clavicle takes a share of the swing of its arm.
+  bool swings_shoulders() const {
+    return std::find(carries_arm_.begin(), carries_arm_.end(), 1) != carries_arm_.end();
+  }
+
  private:
   Vec3 in_body(Vec3 v) const { return v.x * frame_.left + v.y * frame_.up + v.z * frame_.forward; }
   Vec3 joint_turn(std::size_t bone, const BodyPlan& plan, PoseRandom& random) const;
+  Vec3 arm_direction(const BodyPlan& plan, std::size_t arm) const;
+  void swing_shoulders(const BodyPlan& plan, std::vector<Mat3x4>& local) const;
   void place_arms(const BodyPlan& plan, std::vector<Mat3x4>& local) const;
   void place_limbs_of_motion(const BodyPlan& plan, std::vector<Mat3x4>& local) const;
 
@@ -46,7 +53,7 @@ class PlannedRig {
   BodyFrame frame_;
   std::vector<char> posable_;
   std::vector<Vec3> curl_axis_;
-  std::vector<char> laden_;
+  std::vector<char> laden_, parted_, carries_arm_;
   std::array<BodyPoint, 2> palm_;  // left, right
   std::size_t spine_count_ = 1, neck_count_ = 1;
 };
@@ -86,6 +93,25 @@ std::size_t count_of(std::span<const Joint> joints, JointRole role) {
       std::count_if(joints.begin(), joints.end(), [&](const Joint& joint) { return joint.role == role; }));
 }
 
+// True for clavicles that begin near the shoulder instead of near the breastbone: the arm swings by them as
+// much as by the upper arm's own joint.
+std::vector<char> shoulders_of(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,
+                               const BodyFrame& frame) {
+  // Of the way from the middle of the body to the upper arm. Clavicles of people begin at 0.1 to 0.45 of it.
+  constexpr float least_share = 0.65f;
+  std::vector<char> carries(joints.size(), 0);
+  for (std::size_t arm = 0; arm < joints.size(); ++arm) {
+    const std::int32_t clavicle = tree.parent[arm];
+    if (joints[arm].role != JointRole::upper_arm || clavicle < 0 ||
+        joints[std::size_t(clavicle)].role != JointRole::clavicle)
+      continue;
+    const float inner = dot(joint_origin(mesh.bones[std::size_t(clavicle)]), frame.left);
+    const float outer = dot(joint_origin(mesh.bones[arm]), frame.left);
+    carries[std::size_t(clavicle)] = inner * outer > 0 && std::fabs(inner) > least_share * std::fabs(outer);
+  }
+  return carries;
+}
+
 PlannedRig::PlannedRig(const SkinnedMesh& mesh, std::vector<Joint> joints)
     : mesh_(mesh),
       joints_(std::move(joints)),
@@ -94,6 +120,8 @@ PlannedRig::PlannedRig(const SkinnedMesh& mesh, std::vector<Joint> joints)
       posable_(mesh.bones.size(), 0),
       curl_axis_(curl_axes(mesh, joints_, tree_, frame_.up)),
       laden_(laden_fingers(mesh, joints_, tree_)),
+      parted_(parted_palms(joints_, tree_)),
+      carries_arm_(shoulders_of(mesh, joints_, tree_, frame_)),
       palm_(palms(mesh, joints_, tree_)),
       spine_count_(std::max<std::size_t>(1, count_of(joints_, JointRole::spine))),
       neck_count_(
@@ -137,6 +165,7 @@ Pose PlannedRig::pose(const BodyPlan& plan, PoseRandom& random) const {
     const Vec3 turn = joint_turn(b, plan, random);
     local[b] = rotation_about(joint_origin(mesh_.bones[b]), turn);
   }
+  swing_shoulders(plan, local);
   if (!plan.arms_of_motion) place_arms(plan, local);
   place_limbs_of_motion(plan, local);
   Pose pose(local.size());
@@ -168,7 +197,7 @@ Vec3 PlannedRig::joint_turn(std::size_t b, const BodyPlan& plan, PoseRandom& ran
     case JointRole::clavicle:
       return limb.clavicle;
     case JointRole::hand:
-      return limb.hand;
+      return parted_[b] ? Vec3{} : limb.hand;
     case JointRole::finger: {
       const float curl = limb.curl + 0.2f * random.normal();
       const Vec3 spread = joint.segment == 0 ? 0.08f * random.normal() * up : Vec3{};
@@ -216,7 +245,7 @@ void PlannedRig::place_limbs_of_motion(const BodyPlan& plan, std::vector<Mat3x4>
   if (!plan.arms_of_motion && !plan.legs_of_motion) return;
   for (const std::uint32_t b : tree_.order) {
     const Vec3 wish = wished(plan, joints_[b]);
-    if (dot(wish, wish) == 0) continue;
+    if (dot(wish, wish) == 0 || parted_[b]) continue;
     Vec3 rest = limb_direction(mesh_, joints_, b);
     if (joints_[b].role == JointRole::hand && palm_[joints_[b].side == Side::right].bone == std::int32_t(b))
       rest = normalised(palm_[joints_[b].side == Side::right].point - joint_origin(mesh_.bones[b]));
@@ -233,6 +262,29 @@ void PlannedRig::place_limbs_of_motion(const BodyPlan& plan, std::vector<Mat3x4>
   }
 }
 
+// Where the plan points an upper arm, seen from the trunk, in rest space.
+Vec3 PlannedRig::arm_direction(const BodyPlan& plan, std::size_t arm) const {
+  const Joint& joint = joints_[arm];
+  if (plan.arms_of_motion) return in_body(wished(plan, joint));
+  const float mirror = joint.side == Side::right ? -1.0f : 1.0f;
+  const Vec3 direction = plan.limb[joint.side == Side::right ? 1 : 0].arm_direction;
+  return normalised(in_body({mirror * direction.x, direction.y, direction.z}));
+}
+
+// A clavicle that carries the arm takes a share of the arm's swing.
+void PlannedRig::swing_shoulders(const BodyPlan& plan, std::vector<Mat3x4>& local) const {
+  for (std::size_t arm = 0; arm < joints_.size(); ++arm) {
+    const std::int32_t shoulder = tree_.parent[arm];
+    if (joints_[arm].role != JointRole::upper_arm || shoulder < 0 || !carries_arm_[std::size_t(shoulder)])
+      continue;
+    const Vec3 rest = limb_direction(mesh_, joints_, arm), wish = arm_direction(plan, arm);
+    if (dot(rest, rest) == 0 || dot(wish, wish) == 0) continue;
+    Mat3x4& own = local[std::size_t(shoulder)];
+    const Vec3 swing = plan.shoulder_share * shortest_arc(rest, wish);
+    own = rotation_about(joint_origin(mesh_.bones[std::size_t(shoulder)]), swing) * own;
+  }
+}
+
 // Upper arms and forearms go where the plan points, whatever pose they rest in.
 void PlannedRig::place_arms(const BodyPlan& plan, std::vector<Mat3x4>& local) const {
   const auto& [left, up, forward] = frame_;
@@ -242,11 +294,13 @@ void PlannedRig::place_arms(const BodyPlan& plan, std::vector<Mat3x4>& local) co
     const LimbPlan& limb = plan.limb[joints_[b].side == Side::right ? 1 : 0];
     const Vec3 rest = limb_direction(mesh_, joints_, b);
     if (dot(rest, rest) == 0) continue;
-    const Vec3 wish = normalised(mirror * limb.arm_direction.x * left + limb.arm_direction.y * up +
-                                 limb.arm_direction.z * forward);
+    const std::int32_t shoulder = tree_.parent[b];
+    const bool carried = shoulder >= 0 && carries_arm_[std::size_t(shoulder)];
+    const Mat3x4 above = carried ? local[std::size_t(shoulder)] : Mat3x4{};
+    const Vec3 wish = arm_direction(plan, b);
+    const Vec3 own = carried ? transform_vector(inverse_rigid(above), wish) : wish;
     const Vec3 origin = joint_origin(mesh_.bones[b]);
-    local[b] =
-        rotation_about(origin, limb.arm_twist * wish) * rotation_about(origin, shortest_arc(rest, wish));
+    local[b] = rotation_about(origin, limb.arm_twist * own) * rotation_about(origin, shortest_arc(rest, own));
     const std::int32_t elbow = joints_[b].continuation;
     if (elbow < 0) continue;
     // The forearm bends forwards, a little up and inwards, seen from the posed upper arm, then back into
@@ -254,7 +308,7 @@ void PlannedRig::place_arms(const BodyPlan& plan, std::vector<Mat3x4>& local) co
     const Vec3 lean = forward + 0.5f * up - 0.5f * mirror * left + limb.elbow_lean;
     const Vec3 inward = normalised(lean - dot(lean, wish) * wish);
     const Vec3 axis_posed = normalised(cross(wish, inward));
-    const Vec3 axis = transform_vector(inverse_rigid(local[b]), axis_posed);
+    const Vec3 axis = transform_vector(inverse_rigid(carried ? above * local[b] : local[b]), axis_posed);
     // The rest pose may hold a slight bend already: first straighten, then bend.
     const Vec3 fore = limb_direction(mesh_, joints_, std::size_t(elbow));
     const Vec3 joint = joint_origin(mesh_.bones[std::size_t(elbow)]);
@@ -285,6 +339,7 @@ std::vector<Pose> poses_of_person(const SkinnedMesh& mesh, std::span<const float
     float best = 0;
     for (int attempt = 0; attempt < tries; ++attempt) {
       BodyPlan plan = plan_body(random);
+      if (rig.swings_shoulders()) plan.shoulder_share = random.between(0.5f, 1);
       if (random.chance(of_motion)) {
         Random motion(random.bits());
         plan.motion = prior_pose(motion);
@@ -314,25 +369,14 @@ std::vector<Pose> poses_of_person(const SkinnedMesh& mesh, std::span<const float
 }
 
 // The share of edges that a pose may tear. The widest poses of clips tear about twice the clips' mean.
-float allowed_tears(const KnownMotion& known) {
-  return std::max(0.0005f, 2 * float(known.torn_share));
-}
-
-// Mixed with a pose of a clip, some more of one and some more of the other.
-Pose mixed_with(const SkinnedMesh& mesh, const BodyTree& tree, const Pose& pose, const Pose& known,
-                float share) {
-  const std::vector<JointMotion> from = joint_motions(mesh, tree, known),
-                                 to = joint_motions(mesh, tree, pose);
-  std::vector<JointMotion> mixed;
-  for (std::size_t b = 0; b < from.size(); ++b) mixed.push_back(between(from[b], to[b], share));
-  return pose_of(mesh, tree, mixed);
+float allowed_tears(double torn_by_clips) {
+  return std::max(0.0005f, 2 * float(torn_by_clips));
 }
 
 std::vector<Pose> poses_of_animal(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                                   const std::vector<Joint>& joints, std::size_t count, std::uint64_t seed,
-                                  const RigCorrections& corrections, const KnownMotion& known) {
+                                  const RigCorrections& corrections, double torn_by_clips) {
   const AnimalRig rig(mesh, joints);
-  const BodyTree tree = body_tree(mesh, joints);
   const SelfCollision collision(mesh, vertex_area, corrections);
   const std::vector<MeshEdge> edges = mesh_edges(mesh);
   std::vector<Pose> poses(count);
@@ -345,15 +389,10 @@ std::vector<Pose> poses_of_animal(const SkinnedMesh& mesh, std::span<const float
     std::vector<Vec3> posed;
     for (int attempt = 0; attempt < tries; ++attempt) {
       Pose pose = rig.pose(random_act(random), random);
-      if (!known.poses.empty()) {
-        const Pose& other = known.poses[std::min(std::size_t(random.unit() * float(known.poses.size())),
-                                                 known.poses.size() - 1)];
-        pose = mixed_with(mesh, tree, pose, other, random.unit());
-      }
       skin_positions(mesh, pose, posed);
       const float torn = float(count_torn(mesh, edges, posed)) / std::max(1.0f, float(edges.size()));
       // The excess over the limits of depth and tears; 1 is at a limit.
-      const float beyond = std::max(collision.depth(pose) / allowed, torn / allowed_tears(known));
+      const float beyond = std::max(collision.depth(pose) / allowed, torn / allowed_tears(torn_by_clips));
       if (attempt == 0 || beyond < best) {
         best = beyond;
         poses[i] = std::move(pose);
@@ -367,12 +406,19 @@ std::vector<Pose> poses_of_animal(const SkinnedMesh& mesh, std::span<const float
 }  // namespace
 
 std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> vertex_area, std::size_t count,
-                             std::uint64_t seed, const RigCorrections& corrections,
-                             const KnownMotion& known) {
+                             std::uint64_t seed, const RigCorrections& corrections, double torn_by_clips) {
   const std::vector<Joint> joints = joint_roles(mesh, corrections);
   return is_person(mesh, joints)
              ? poses_of_person(mesh, vertex_area, joints, count, seed, corrections)
-             : poses_of_animal(mesh, vertex_area, joints, count, seed, corrections, known);
+             : poses_of_animal(mesh, vertex_area, joints, count, seed, corrections, torn_by_clips);
+}
+
+bool differs_from_generation_4(const SkinnedMesh& mesh, const RigCorrections& corrections) {
+  const std::vector<Joint> joints = joint_roles(mesh, corrections);
+  const BodyTree tree = body_tree(mesh, joints);
+  const std::vector<char> parted = parted_palms(joints, tree);
+  return std::find(parted.begin(), parted.end(), 1) != parted.end() ||
+         PlannedRig(mesh, joints).swings_shoulders();
 }
 
 }  // namespace nook::bake

@@ -12,19 +12,15 @@
 
 namespace nook::bake {
 
-// Knowledge of a character beside its mesh.
-struct KnownMotion {
-  // Poses of clips that the model is fitted to. The poses of bodies other than people's are mixed with them,
-  // so that the clips' ranges and couplings carry over.
-  std::span<const Pose> poses;
-  // The share of edges that the body's own clips tear (torn_edges.h), whether they are fitted or not. Skin of
-  // few vertices stretches far at every elbow, and clips show how far.
-  double torn_share = 0;
-};
-
-// count poses; the same seed gives the same poses. Rest space of glTF: +y is up.
+// Returns count poses; the same seed gives the same poses. Rest space of glTF: +y is up.
+// torn_by_clips: the share of edges that the body's own clips tear (torn_edges.h), whether they are fitted or
+// not. Skin of few vertices stretches far at every elbow, and clips show how far.
 std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> vertex_area, std::size_t count,
                              std::uint64_t seed, const RigCorrections& corrections = {},
-                             const KnownMotion& known = {});
+                             double torn_by_clips = 0);
+
+// Returns whether poses of generation 5 differ from those of generation 4 for a person: where the palms are
+// parted, or clavicles carry the arms.
+bool differs_from_generation_4(const SkinnedMesh& mesh, const RigCorrections& corrections = {});
 
 }  // namespace nook::bake

@@ -38,8 +38,9 @@ struct LimbPlan {
 };
 
 struct BodyPlan {
-  LimbPlan limb[2];         // left, right
-  float bend, lean, twist;  // of the whole spine, radians
+  LimbPlan limb[2];          // left, right
+  float bend, lean, twist;   // of the whole spine, radians
+  float shoulder_share = 1;  // of the swing of an arm, of a clavicle that carries it (auto_poses.cpp)
   Vec3 neck;
   // A pose of motion capture, and the parts of the body that take it in place of the plan above.
   PriorPose motion;

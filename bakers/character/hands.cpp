@@ -23,11 +23,25 @@ struct Hand {
   std::vector<std::size_t> members;   // bones of fingers and thumb
 };
 
+// The bones of the palm that a bone is part of: the bone itself and its siblings of the same role.
+std::vector<std::size_t> palm_bones(std::span<const Joint> joints, const BodyTree& tree, std::size_t wrist) {
+  std::vector<std::size_t> bones{wrist};
+  for (std::size_t b = 0; b < joints.size(); ++b)
+    if (b != wrist && tree.parent[wrist] >= 0 && tree.parent[b] == tree.parent[wrist] &&
+        joints[b].role == JointRole::hand && joints[b].side == joints[wrist].side)
+      bones.push_back(b);
+  return bones;
+}
+
 Hand hand_of(const Rig& rig, std::size_t wrist) {
   Hand hand;
-  const Vec3 origin = rig.origin(wrist);
+  const std::vector<std::size_t> palm = palm_bones(rig.joints, rig.tree, wrist);
+  Vec3 origin;
+  for (const std::size_t b : palm) origin += (1 / float(palm.size())) * rig.origin(b);
+  // The thumb of a palm of several bones is a sibling of them.
+  const std::size_t root = palm.size() > 1 ? std::size_t(rig.tree.parent[wrist]) : wrist;
   for (std::size_t b = 0; b < rig.joints.size(); ++b) {
-    if (!is_below(rig.tree, b, wrist)) continue;
+    if (!is_below(rig.tree, b, root)) continue;
     if (rig.joints[b].role == JointRole::finger) {
       hand.members.push_back(b);
       if (rig.joints[b].segment == 0) {
@@ -84,6 +98,13 @@ Vec3 thumb_axis(const Hand& hand, Vec3 finger_axis, Vec3 across) {
 }
 
 }  // namespace
+
+std::vector<char> parted_palms(std::span<const Joint> joints, const BodyTree& tree) {
+  std::vector<char> parted(joints.size(), 0);
+  for (std::size_t b = 0; b < joints.size(); ++b)
+    parted[b] = joints[b].role == JointRole::hand && palm_bones(joints, tree, b).size() > 1;
+  return parted;
+}
 
 std::array<BodyPoint, 2> palms(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree) {
   const Rig rig{mesh, joints, tree};

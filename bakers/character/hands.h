@@ -15,6 +15,10 @@ struct BodyPoint {
   Vec3 point;
 };
 
+// True for the bones of a palm that hang side by side on one forearm, such as one for each finger. They have
+// no wrist to turn about, and would part from each other if each turned about its own joint.
+std::vector<char> parted_palms(std::span<const Joint> joints, const BodyTree& tree);
+
 // Returns for the left and the right hand the middle of the knuckles, or the wrist if the hand has no
 // knuckles.
 std::array<BodyPoint, 2> palms(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree);

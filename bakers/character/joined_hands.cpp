@@ -89,11 +89,13 @@ JoinedHands::JoinedHands(const SkinnedMesh& mesh, const RigCorrections& correcti
 
 JoinedHands::Arm JoinedHands::find_arm(Side side) const {
   Arm arm;
+  const std::vector<char> parted = parted_palms(joints_, tree_);
   for (std::size_t b = 0; b < joints_.size(); ++b)
     if (joints_[b].role == JointRole::upper_arm && joints_[b].side == side && joints_[b].continuation >= 0) {
       const std::int32_t fore = joints_[b].continuation;
       const std::int32_t hand = joints_[std::size_t(fore)].continuation;
       if (hand < 0 || joints_[std::size_t(hand)].role != JointRole::hand) continue;
+      if (parted[std::size_t(hand)]) continue;
       arm.upper = std::int32_t(b);
       arm.fore = fore;
       arm.hand = hand;

@@ -185,16 +185,25 @@ double torn_by_clips(const ImportedCharacter& character) {
 std::vector<Pose> automatic_poses(const ImportedCharacter& character, const Recipe& recipe, std::size_t count,
                                   std::uint64_t seed) {
   if (count == 0) return {};
-  std::vector<Pose> shown;
-  if (!recipe.clips.empty()) shown = clip_poses(character, recipe.clips, recipe.samples_per_clip);
   const std::vector<float> area = vertex_areas(character.mesh, character.mesh.position);
-  return auto_poses(character.mesh, area, count, seed, recipe.rig, {shown, torn_by_clips(character)});
+  return auto_poses(character.mesh, area, count, seed, recipe.rig, torn_by_clips(character));
 }
 
+namespace {
+
+// Returns whether the poses of an earlier generation are also those of this one.
+bool makes_same_poses(const ImportedCharacter& character, const Recipe& recipe) {
+  if (recipe.generation == pose_generation) return true;
+  if (recipe.generation != 3 && recipe.generation != 4) return false;
+  if (is_person(character.mesh, named_roles(character.mesh)))
+    return !differs_from_generation_4(character.mesh, recipe.rig);
+  return recipe.generation == 4 && recipe.clips.empty();
+}
+
+}  // namespace
+
 std::vector<Pose> recipe_poses(const ImportedCharacter& character, const Recipe& recipe) {
-  const bool same = recipe.generation == pose_generation ||
-                    (recipe.generation == 3 && is_person(character.mesh, named_roles(character.mesh)));
-  if (!same && recipe.auto_poses + recipe.variant_poses > 0)
+  if (!makes_same_poses(character, recipe) && recipe.auto_poses + recipe.variant_poses > 0)
     throw Failure(
         NOOK_ERROR_BAD_FILE,
         "the model's training poses cannot be made again by this version (got generation %d, need %d); "

@@ -36,8 +36,9 @@ std::size_t samples_per_clip(const PresetValues& values, std::size_t clips);
 enum class PoseMode : std::uint8_t { automatic, single_joint, clips, all, extra };
 
 // Raise it when the same recipe begins to make other automatic poses or variants.
-// Generation 4 changed bodies that are not people.
-inline constexpr int pose_generation = 4;
+// Generation 4 changed bodies that are not people. Generation 5 changed them where clips are fitted, and
+// people whose palms have several bones or whose clavicles carry the arms.
+inline constexpr int pose_generation = 5;
 
 struct Recipe {
   Preset preset = Preset::standard;
@@ -66,7 +67,8 @@ std::vector<std::size_t> clips_by_name(const ImportedCharacter& character);
 // Returns the share of edges that the character's clips tear, 0 without any (torn_edges.h).
 double torn_by_clips(const ImportedCharacter& character);
 
-// Makes automatic poses with the recipe's rig file and the ranges of its clips.
+// Makes automatic poses with the recipe's rig file. They follow from the rig alone; pose_variants.h carries
+// the ranges of clips over.
 std::vector<Pose> automatic_poses(const ImportedCharacter& character, const Recipe& recipe, std::size_t count,
                                   std::uint64_t seed);
 

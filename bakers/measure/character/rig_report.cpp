@@ -53,7 +53,7 @@ nlohmann::ordered_json torn_edge_rows(const ImportedCharacter& character, const 
   const std::vector<Joint> joints = joint_roles(mesh, corrections);
   const double of_clips = torn_by_clips(character);
   const std::vector<Pose> made =
-      auto_poses(mesh, vertex_areas(mesh, mesh.position), automatic_count, seed, corrections, {{}, of_clips});
+      auto_poses(mesh, vertex_areas(mesh, mesh.position), automatic_count, seed, corrections, of_clips);
   Row row;
   row["plan"] = is_person(mesh, joints) ? "person" : "by geometry";
   row["bones_without_role"] =

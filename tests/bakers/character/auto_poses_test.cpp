@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bakers/character/body_plan.h"
+#include "bakers/character/hands.h"
 #include "bakers/character/joined_hands.h"
 #include "bakers/character/rig_anatomy.h"
 #include "bakers/character/self_collision.h"
@@ -202,4 +203,105 @@ TEST_CASE("poses of motion capture have limbs of unit length, two equal sides, a
   CHECK(std::fabs(left.z - right.z) / count < noise);
   CHECK(std::fabs(head.y) / count < noise);
   CHECK(raised / count > 0.05f);
+}
+
+namespace {
+
+// Hands of three bones side by side on the forearm, each with a finger, and a thumb beside them, as robots
+// have. The thumb is on top: the palms face forwards, and fingers curl about the upright axis.
+SkinnedMesh figure_with_parted_palms() {
+  SkinnedMesh mesh = stick_figure();
+  for (const float side : {1.0f, -1.0f}) {
+    const std::string end = side > 0 ? "_l" : "_r";
+    const std::int32_t fore = mesh.bones[bone_named(mesh, ("hand" + end).c_str())].parent;
+    const auto add = [&](const std::string& name, std::int32_t parent, Vec3 origin) {
+      Bone b;
+      b.name = name + end;
+      b.parent = parent;
+      b.frame_rest.m[3] = side * origin.x;
+      b.frame_rest.m[7] = origin.y;
+      b.frame_rest.m[11] = origin.z;
+      mesh.bones.push_back(b);
+      return std::int32_t(mesh.bones.size() - 1);
+    };
+    const float wrist = std::fabs(origin(mesh, bone_named(mesh, ("hand" + end).c_str())).x);
+    add("middle_01", std::int32_t(bone_named(mesh, ("hand" + end).c_str())), {wrist + 0.05f, 1.4f, 0});
+    add("index_01", add("hand_upper", fore, {wrist, 1.43f, 0}), {wrist + 0.05f, 1.43f, 0});
+    add("ring_01", add("hand_lower", fore, {wrist, 1.37f, 0}), {wrist + 0.05f, 1.37f, 0});
+    add("thumb_01", fore, {wrist, 1.45f, 0.02f});
+  }
+  return mesh;
+}
+
+// The clavicles begin at a share of the way from the middle to the upper arm.
+SkinnedMesh figure_with_clavicles(float share) {
+  SkinnedMesh mesh = stick_figure();
+  for (const char* end : {"_l", "_r"}) {
+    const std::size_t arm = bone_named(mesh, (std::string("upperarm") + end).c_str());
+    mesh.bones[bone_named(mesh, (std::string("clavicle") + end).c_str())].frame_rest.m[3] =
+        share * mesh.bones[arm].frame_rest.m[3];
+  }
+  return mesh;
+}
+
+// The angle of the turn that takes one matrix to another.
+float angle_between(const Mat3x4& a, const Mat3x4& b) {
+  float trace = 0;
+  for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+    trace += dot(transform_vector(a, axis), transform_vector(b, axis));
+  return std::acos(std::clamp(0.5f * (trace - 1), -1.0f, 1.0f));
+}
+
+}  // namespace
+
+TEST_CASE("a palm of several bones stays whole, and its fingers curl towards the palm") {
+  const SkinnedMesh mesh = figure_with_parted_palms();
+  const std::vector<Joint> joints = joint_roles(mesh);
+  const BodyTree tree = body_tree(mesh, joints);
+  const std::vector<char> parted = parted_palms(joints, tree);
+  const std::vector<Vec3> axis = curl_axes(mesh, joints, tree, {0, 1, 0});
+  for (const char* name : {"hand_l", "hand_upper_l", "hand_lower_l", "hand_r"})
+    CHECK(bool(parted[bone_named(mesh, name)]));
+  for (const char* name : {"index_01_l", "middle_01_l", "ring_01_l", "index_01_r"}) {
+    const std::size_t finger = bone_named(mesh, name);
+    INFO(name);
+    // The thumb stands a fifth beside the row of the knuckles.
+    CHECK(std::fabs(axis[finger].y) > 0.95f);
+  }
+  CHECK(length(axis[bone_named(mesh, "thumb_01_l")]) > 0.9f);
+  const std::size_t fore = std::size_t(mesh.bones[bone_named(mesh, "hand_upper_l")].parent);
+  for (const Pose& pose : poses_of(mesh, 60))
+    for (const char* name : {"hand_l", "hand_upper_l", "hand_lower_l"})
+      // Rounding of a chain of five turns.
+      CHECK(angle_between(pose[bone_named(mesh, name)], pose[fore]) < 2e-3f);
+  CHECK_FALSE(JoinedHands(mesh, {}).possible());
+  CHECK(differs_from_generation_4(mesh));
+  // A hand of one bone has a wrist.
+  const SkinnedMesh whole = figure_with_fingers();
+  const std::vector<Joint> roles = joint_roles(whole);
+  const std::vector<char> none = parted_palms(roles, body_tree(whole, roles));
+  CHECK(std::count(none.begin(), none.end(), 1) == 0);
+  CHECK_FALSE(differs_from_generation_4(whole));
+}
+
+TEST_CASE("clavicles at the shoulders swing with the arms, those at the breastbone shrug") {
+  for (const float share : {0.2f, 0.9f}) {
+    const SkinnedMesh mesh = figure_with_clavicles(share);
+    const std::size_t clavicle = bone_named(mesh, "clavicle_l"), arm = bone_named(mesh, "upperarm_l"),
+                      chest = bone_named(mesh, "spine_02");
+    CHECK(differs_from_generation_4(mesh) == (share > 0.5f));
+    double turn = 0, hanging = 0;
+    const std::vector<Pose> poses = poses_of(mesh, 200);
+    for (const Pose& pose : poses) {
+      turn += double(angle_between(pose[clavicle], pose[chest])) / double(poses.size());
+      hanging +=
+          dot(transform_vector(pose[arm], {1, 0, 0}), transform_vector(pose[chest], {0, 1, 0})) < -0.8f;
+    }
+    // Shrugs have a mean of 12 degrees times 1.6. An arm swings by 60 degrees on average, its shoulder by
+    // half of that or more.
+    CHECK((turn > double(30 * degree)) == (share > 0.5f));
+    CHECK(turn > double(8 * degree));
+    // The arm points where the plan points it, whichever joint turns it.
+    CHECK(hanging > 0.1 * double(poses.size()));
+  }
 }

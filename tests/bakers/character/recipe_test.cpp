@@ -1,10 +1,14 @@
 // Recipes in files: what an earlier version wrote is read, and poses that cannot be made again are refused.
 #include "bakers/character/recipe.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 
 #include "sdk/src/core/failure.h"
 #include "tests/bakers/character/bending_tube.h"
+#include "tests/bakers/character/stick_figure.h"
+#include "tests/bakers/character/tube_rigs.h"
 #include "tests/catch.h"
 
 using namespace nook;
@@ -60,8 +64,42 @@ TEST_CASE("an early recipe is read, and its automatic poses are refused") {
     FAIL("made poses of another generation");
   } catch (const Failure& failure) {
     CHECK(failure.code() == NOOK_ERROR_BAD_FILE);
-    CHECK(std::string(failure.what()).find("(got generation 1, need 4); bake it again") != std::string::npos);
+    CHECK(std::string(failure.what()).find("(got generation 1, need 5); bake it again") != std::string::npos);
   }
   // Single joints have not changed.
   CHECK(recipe_poses(character, read_recipe(character, early_text("0", "3"))).size() == 27);
+}
+
+TEST_CASE("people keep their poses of generation 4, and animals where no clip is fitted") {
+  ImportedCharacter person, animal;
+  person.mesh = stick_figure();
+  animal.mesh = quadruped();
+  Recipe recipe;
+  recipe.auto_poses = 2;
+  recipe.generation = 4;
+  CHECK(recipe_poses(person, recipe).size() == 2);
+  CHECK(recipe_poses(animal, recipe).size() == 2);
+  recipe.generation = 3;
+  CHECK(recipe_poses(person, recipe).size() == 2);
+  CHECK_THROWS_AS(recipe_poses(animal, recipe), Failure);
+}
+
+TEST_CASE("automatic poses follow the rig alone, whichever clip is fitted") {
+  ImportedCharacter character;
+  character.mesh = quadruped();
+  character.clips.emplace_back();
+  character.clips.back().name = "T-Pose";  // which says nothing about the tears that clips have
+  Recipe without, with;
+  with.clips = {0};
+  with.samples_per_clip = 3;
+  const std::vector<Pose> a = automatic_poses(character, with, 12, 5),
+                          b = automatic_poses(character, without, 12, 5);
+  REQUIRE(a.size() == 12);
+  for (std::size_t p = 0; p < a.size(); ++p)
+    for (std::size_t bone = 0; bone < a[p].size(); ++bone)
+      CHECK(std::equal(std::begin(a[p][bone].m), std::end(a[p][bone].m), std::begin(b[p][bone].m)));
+  // The same recipe of the generation before mixed them with the clip.
+  with.auto_poses = 12;
+  with.generation = 4;
+  CHECK_THROWS_AS(recipe_poses(character, with), Failure);
 }
