@@ -357,17 +357,28 @@ JudgedPoses poses_to_judge(const ImportedCharacter& character, const Recipe& rec
 }
 
 // The poses that are most likely in use: recorded ones; some of the clips, evenly picked; or, where the bake
-// has generated poses alone, the rest pose. Empty where the host gave poses, and for comparisons with the
-// paper.
+// has generated poses alone, the rest pose. Where a file has more clips than the few that are fitted, the
+// game shows other motion too, and automatic poses join them. Empty where the host gave poses, and for
+// comparisons with the paper.
 std::vector<Pose> likely_poses(const ImportedCharacter& character, const Recipe& recipe,
                                const CalibrationPoses& calibration) {
   constexpr std::size_t most_of_clips = 240, least_of_clips = 16;
+  // From this number on, the fitted clips stand for the others. Below it, three automatic poses join each of
+  // theirs. docs/character.md measures both.
+  constexpr std::size_t enough_clips = 4, automatic_for_each = 3;
   if (!calibration.poses.empty()) return split_recording(calibration.poses).fitted;
   if (recipe.settings.fit != FitMethod::nook || recipe.auto_poses == 0 || recipe.extra_poses > 0) return {};
   if (recipe.clips.empty()) return std::vector<Pose>(rest_pose_weight, Pose(character.mesh.bones.size()));
   std::vector<Pose> poses = clip_poses(character, recipe.clips, recipe.samples_per_clip);
   if (poses.size() < least_of_clips) return {};
-  thin_out(poses, most_of_clips);
+  if (recipe.clips.size() >= enough_clips || recipe.clips.size() >= motion_clips(character).size()) {
+    thin_out(poses, most_of_clips);
+    return poses;
+  }
+  thin_out(poses, most_of_clips / (1 + automatic_for_each));
+  std::vector<Pose> others = automatic_poses(character, recipe, automatic_for_each * poses.size(),
+                                             mix_bits(recipe.settings.seed ^ 0x6c696b656c79ull));
+  poses.insert(poses.end(), std::make_move_iterator(others.begin()), std::make_move_iterator(others.end()));
   return poses;
 }
 
