@@ -21,7 +21,6 @@ constexpr std::size_t wished_poses = 60, least_of_clip = 4, most_poses = 240;
 // Rays of all poses together, for each vertex. A standard bake fits to ten times as many.
 constexpr std::size_t most_rays = 6000, least_rays = 2000;
 constexpr double visible_truth = 0.01;
-constexpr double poor_ratio = 0.25;
 // A clip is worse than a static bake only if its error is larger by at least one step of an 8-bit image.
 constexpr double least_excess = 1.0 / (255.0 * 255.0);
 constexpr double torn_limit = 5e-4;

@@ -37,6 +37,9 @@ struct JudgedErrors {
   double over_static() const { return static_bake > 0 ? model / static_bake : 0; }
 };
 
+// A model with a larger share of a static bake's error is poor.
+inline constexpr double poor_ratio = 0.25;
+
 struct VisibleErrors {
   JudgedErrors by_vertices, by_area;
   // The best static bake of these poses has the mean AO of each vertex over the poses that show it.

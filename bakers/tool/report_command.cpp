@@ -15,6 +15,7 @@
 #include "bakers/tool/common_options.h"
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/inspect/describe.h"
+#include "bakers/tool/results/report_all.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
 #include "platform/stopwatch.h"
@@ -85,6 +86,7 @@ void require_sources(const ReportSources& sources, const TakenSources& taken, co
 
 struct Options {
   CommonOptions common;
+  ReportAllOptions all;
   std::filesystem::path file, output;
   std::vector<std::filesystem::path> sources;
   std::string licence;
@@ -217,20 +219,49 @@ void run(const Options& options) {
                         "\n");
 }
 
+void run_all(const Options& options) {
+  if (!options.file.empty())
+    throw ToolError(exit_bad_arguments, "report: --all takes a folder and no file (got " +
+                                            options.file.string() + "); give one of them");
+  ReportAllOptions all = options.all;
+  all.output = options.output;
+  report_all(all, options.common);
+}
+
+void run_either(const Options& options) {
+  if (!options.all.folder.empty()) return run_all(options);
+  if (options.file.empty()) throw ToolError(exit_bad_arguments, "file or --all is required");
+  if (options.output.empty()) throw ToolError(exit_bad_arguments, "--output is required");
+  if (!options.all.before.empty()) throw ToolError(exit_bad_arguments, "--since: needs --all");
+  run(options);
+}
+
+void add_all_options(const Command& command, ReportAllOptions& all) {
+  command.add_option("--all", all.folder,
+                     "a folder: write one page about all baked files in it, worst first, with bakes that "
+                     "failed on top and what changed since the last page; default of -o: nook_report.html in "
+                     "the folder");
+  command.add_option("--since", all.before,
+                     "with --all: the page to compare with; default the page that -o replaces");
+}
+
 }  // namespace
 
 void add_report(Command tool) {
   const Command command = tool.add_subcommand(
       "report",
-      "write one HTML page about a .nook file, for artists.\nThe page shows pictures of the error beside ray "
-      "tracing, the worst clips and places, a view that you can turn, sizes, and advice.");
+      "write one HTML page about a .nook file, for artists, or about all files of a folder (--all).\nThe "
+      "page "
+      "of a file shows pictures of the error beside ray tracing, the worst clips and places, a view that you "
+      "can turn, sizes, and advice.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("file", o.file, "a .nook file").required();
+  command.add_input("file", o.file, "a .nook file");
   command.add_input(
       "sources", o.sources,
       "the files that it was baked from; docs/guide/artists.md lists them for each kind of file");
-  command.add_option("-o,--output", o.output, "the HTML page to write").required();
+  command.add_option("-o,--output", o.output, "the HTML page to write");
+  add_all_options(command, o.all);
   command.add_option("--rays", o.body.rays, "for a character: rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
@@ -245,7 +276,7 @@ void add_report(Command tool) {
   add_common_options(command, o.common);
   command.callback([options] {
     try {
-      run(*options);
+      run_either(*options);
     } catch (const Failure& failure) {
       if (failure.code() == NOOK_ERROR_CANCELLED) throw ToolError(exit_other, "stopped; nothing was written");
       throw;

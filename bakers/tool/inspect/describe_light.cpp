@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <string>
 
+#include "bakers/job/bake_identity.h"
 #include "bakers/tool/inspect/describe.h"
 #include "sdk/src/probe/probe_file.h"
 #include "sdk/src/transfer/transfer_file.h"
@@ -12,6 +14,15 @@ namespace {
 constexpr const char* basis_names[] = {"spherical Gaussians", "spherical harmonics", "ambient dice"};
 constexpr const char* domain_names[] = {"sphere", "hemisphere"};
 constexpr const char* packing_names[] = {"float", "half", "RGB9E5"};
+
+// Returns the error that the bake of a grid was asked to reach; null for files of earlier versions.
+Row asked_error(std::string_view recipe) {
+  const std::optional<bake::BakeIdentity> identity = bake::stored_identity(recipe);
+  if (!identity) return Row();
+  const Row text = Row::parse(identity->text, nullptr, false);
+  const Row settings = text.is_object() ? text.value("settings", Row()) : Row();
+  return settings.is_object() ? settings.value("error", Row()) : Row();
+}
 
 }  // namespace
 
@@ -48,6 +59,7 @@ Row describe_probes(std::span<const std::byte> bytes) {
     row["wall_bias_m"] = probes.walls.bias;
   }
   add_recipe(row, probes.recipe);
+  if (grid.size() > 1) row["asked_error"] = asked_error(probes.recipe);
   return row;
 }
 
