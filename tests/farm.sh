@@ -126,12 +126,14 @@ start_dask() {
   "$python" -m distributed.cli.dask_scheduler --host 127.0.0.1 --port 0 --no-dashboard --scheduler-file "$work/dask/scheduler" \
     > "$work/dask/scheduler.log" 2>&1 &
   dask_scheduler=$!
+  disown $!
   dask_workers=()
   local worker
   for worker in 1 2; do
     "$python" -m distributed.cli.dask_worker --scheduler-file "$work/dask/scheduler" --nthreads 1 --no-nanny --no-dashboard \
       --resources bake=1 --name "w$worker" --local-directory "$work/dask" > "$work/dask/w$worker.log" 2>&1 &
     dask_workers+=($!)
+    disown $!
   done
 }
 run_dask() {
@@ -275,10 +277,9 @@ processes_of_node() {  # NODE
   cat "$slurm/run/slurmd.$1.pid"
   for environment in /proc/[0-9]*/environ; do
     pid=${environment#/proc/}; pid=${pid%/environ}
-    if tr '\0' '\n' < "$environment" 2> /dev/null | grep -qx "SLURMD_NODENAME=$1" &&
-      tr '\0' '\n' < "$environment" 2> /dev/null | grep -qx "SLURM_CONF=$SLURM_CONF"; then
+    if [ "$(tr '\0' '\n' 2> /dev/null < "$environment" | grep -cx -e "SLURMD_NODENAME=$1" -e "SLURM_CONF=$SLURM_CONF")" = 2 ]; then
       echo "$pid"
-      pid=$(ps -o ppid= -p "$pid" | tr -d ' ')
+      pid=$(ps -o ppid= -p "$pid" | tr -d " ")
       [ "$(ps -o comm= -p "${pid:-0}" 2> /dev/null)" != slurmstepd ] || echo "$pid"
     fi
   done
