@@ -42,6 +42,21 @@ Row describe(std::span<const std::byte> bytes) {
   return describe_character(bytes);  // refuses bytes that are not a .nook file, with the reason
 }
 
+Row describe_briefly(std::span<const std::byte> bytes) {
+  const FourLetters found = bytes.size() >= 16 ? container_kind(bytes) : 0;
+  const ContainerKind* kind = nullptr;
+  if (found == character_kind.kind) kind = &character_kind;
+  if (found == clip_kind.kind) kind = &clip_kind;
+  if (!kind) return describe(bytes);
+  const Container container(bytes, *kind);
+  Row row{{"kind", kind == &clip_kind ? "clips" : "character model"},
+          {"format_version", container.version()},
+          {"bytes", bytes.size()}};
+  ByteReader recipe = container.section("RECP");
+  add_recipe(row, recipe.text(recipe.remaining()));
+  return row;
+}
+
 namespace {
 
 // Adds the key of the bake, and whether this tool would make the file in the same way.

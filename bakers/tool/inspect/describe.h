@@ -14,6 +14,9 @@ using Row = nlohmann::ordered_json;
 
 // Describes the kind that the bytes name. Throws BAD_FILE for a kind that this version does not know.
 Row describe(std::span<const std::byte> bytes);
+// The same for lists of many files. Of characters and clips it checks the checksum of the file and reads the
+// recipe alone, which takes a hundredth of the time; the row lacks their sizes.
+Row describe_briefly(std::span<const std::byte> bytes);
 Row describe_character(std::span<const std::byte> bytes);
 Row describe_clips(std::span<const std::byte> bytes);
 Row describe_network(std::span<const std::byte> bytes);

@@ -156,7 +156,7 @@ class Reader {
       const std::vector<std::byte> bytes = read_file(files_.model);
       asset_.bytes = bytes.size();
       drop_other_report();
-      judge(describe(bytes), name);
+      judge(describe_briefly(bytes), name);
     } catch (const platform::Stopped&) {
       throw;
     } catch (const std::bad_alloc&) {
