@@ -235,7 +235,7 @@ std::vector<LimitRow> asset_limits() {
           {"probe grid", "statistical error over the light", "what --error asked for"},
           {"material", "signal to error in held-out views and lights, and its verdict",
            shown(good_db) + " dB; bad below " + shown(bad_db) + " dB"},
-          {"synthesis", "seams over those of plain tiling", "1"}};
+          {"synthesis", "seams, as a share of the seams of plain tiling", "1"}};
 }
 
 }  // namespace nook::report

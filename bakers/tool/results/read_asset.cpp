@@ -142,7 +142,7 @@ class Reader {
     end_ = end_of_log({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
 
-  // A report of another size is of another bake, and its figures are not those of the model.
+  // A report with another size belongs to another bake, and does not judge this model.
   void drop_other_report() {
     if (report_.is_null() || reported_bytes(report_).value_or(asset_.bytes) == asset_.bytes) return;
     add(asset_.notes, "its report is of another bake");

@@ -34,8 +34,9 @@ std::optional<int> exit_code_in(std::string_view line) {
 }  // namespace
 
 TaskEnd end_of_log(std::string_view log) {
+  const bool is_of_task = log.starts_with("nook task: ");
   const std::string_view last = take_last_line(log);
-  TaskEnd end{exit_code_in(last), std::string(last)};
+  TaskEnd end{exit_code_in(last), std::string(last), is_of_task};
   if (end.exit_code)
     if (const std::string_view said = take_last_line(log); !said.empty()) end.words = said;
   return end;
@@ -44,9 +45,10 @@ TaskEnd end_of_log(std::string_view log) {
 std::optional<std::string> failure_of(const AssetFiles& files, const std::optional<TaskEnd>& end) {
   if (end && end->exit_code && *end->exit_code != 0)
     return "exit code " + std::to_string(*end->exit_code) + ": " + end->words;
-  if (!files.model.empty()) return std::nullopt;
-  if (end && end->exit_code) return "its log ends well, but there is no model";
-  if (end)
+  const bool has_no_end = end && !end->exit_code;
+  if (!files.model.empty() && !(has_no_end && end->is_of_task)) return std::nullopt;
+  if (end && !has_no_end) return "its log ends well, but there is no model";
+  if (has_no_end)
     return "its log has no end: the bake still runs, or was killed" +
            (end->words.empty() ? "" : "; last line: " + end->words);
   if (!files.report.empty()) return "a report without a model: the bake ended between the two";

@@ -20,13 +20,15 @@ struct AssetFiles {
 struct TaskEnd {
   std::optional<int> exit_code;  // none: the task still runs, was killed, or another program wrote the log
   std::string words;             // the last line that the task itself said
+  bool is_of_task = false;  // `nook task` wrote the log, which then has an end unless the task was killed
 };
 
 // The last line of a log says "exit code N".
 TaskEnd end_of_log(std::string_view log);
 
 // Returns why a task failed; nothing if it did not. A report, a log or a part without a model is a failure,
-// and so is a log that ends in one. end: of the log, where there is one.
+// and so is a log that ends in one, or a log of `nook task` without an end. end: of the log, where there is
+// one.
 std::optional<std::string> failure_of(const AssetFiles& files, const std::optional<TaskEnd>& end);
 
 }  // namespace nook::tool

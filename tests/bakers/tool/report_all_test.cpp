@@ -163,11 +163,16 @@ TEST_CASE("logs of a plan belong to the models that they are named after") {
   put(folder, "farm/game/out/hero", probe, 0.05);
   put(folder, "farm/game/out/fails", probe, 0.05);
   const std::string logs = "farm/game/build/nook/logs/out/";
-  write_text(folder.path(logs + "hero.nook.log"), "exit code 0\n");
+  write_text(folder.path(logs + "hero.nook.log"),
+             "nook task: attempt 1\nnook task: exit code 0 after 2.10 s\n");
+  put(folder, "farm/game/out/killed", probe, 0.05);
+  write_text(folder.path(logs + "killed.nook.log"), "nook task: attempt 1 of 2\n");
   write_text(folder.path(logs + "fails.nook.log"), "nook: no\nexit code 3\n");
   write_text(folder.path(logs + "lost.nook.log"), "nook: no\nexit code 3\n");
   const std::vector<PageRow> rows = page_of(folder);
-  REQUIRE(rows.size() == 3);
+  REQUIRE(rows.size() == 4);
+  // An earlier bake left the model.
+  CHECK(row_of(rows, "game/out/killed").state == "failed");
   CHECK(row_of(rows, "game/out/hero").state == "good");
   CHECK(row_of(rows, "game/out/hero").log == "game/build/nook/logs/out/hero.nook.log");
   CHECK(row_of(rows, "game/out/fails").state == "failed");
