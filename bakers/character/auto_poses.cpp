@@ -97,7 +97,7 @@ std::size_t count_of(std::span<const Joint> joints, JointRole role) {
 // much as by the upper arm's own joint.
 std::vector<char> shoulders_of(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,
                                const BodyFrame& frame) {
-  // Of the way from the middle of the body to the upper arm. Clavicles of people begin at 0.1 to 0.45 of it.
+  // The share is of the way from the middle to the upper arm. Clavicles of people begin at 0.1 to 0.45.
   constexpr float least_share = 0.65f;
   std::vector<char> carries(joints.size(), 0);
   for (std::size_t arm = 0; arm < joints.size(); ++arm) {
@@ -383,7 +383,7 @@ std::vector<Pose> poses_of_animal(const SkinnedMesh& mesh, std::span<const float
   tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
     PoseRandom random(mix_bits(seed ^ mix_bits(i)));
     constexpr int tries = 12;
-    // Legs of animals stand closer than those of people, and walks let them brush each other.
+    // Legs of animals stand closer than legs of people, and walks let them brush each other.
     constexpr float allowed = 1.0f;
     float best = 0;
     std::vector<Vec3> posed;

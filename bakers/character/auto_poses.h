@@ -19,8 +19,8 @@ std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> ver
                              std::uint64_t seed, const RigCorrections& corrections = {},
                              double torn_by_clips = 0);
 
-// Returns whether poses of generation 5 differ from those of generation 4 for a person: where the palms are
-// parted, or clavicles carry the arms.
+// Returns whether generations 4 and 5 give a person different poses: where the palms are parted, or clavicles
+// carry the arms.
 bool differs_from_generation_4(const SkinnedMesh& mesh, const RigCorrections& corrections = {});
 
 }  // namespace nook::bake

@@ -191,7 +191,7 @@ std::vector<Pose> automatic_poses(const ImportedCharacter& character, const Reci
 
 namespace {
 
-// Returns whether the poses of an earlier generation are also those of this one.
+// Returns whether this version makes the same poses as the recipe's generation.
 bool makes_same_poses(const ImportedCharacter& character, const Recipe& recipe) {
   if (recipe.generation == pose_generation) return true;
   if (recipe.generation != 3 && recipe.generation != 4) return false;

@@ -272,7 +272,7 @@ TEST_CASE("a palm of several bones stays whole, and its fingers curl towards the
   const std::size_t fore = std::size_t(mesh.bones[bone_named(mesh, "hand_upper_l")].parent);
   for (const Pose& pose : poses_of(mesh, 60))
     for (const char* name : {"hand_l", "hand_upper_l", "hand_lower_l"})
-      // Rounding of a chain of five turns.
+      // A chain of five turns rounds by less.
       CHECK(angle_between(pose[bone_named(mesh, name)], pose[fore]) < 2e-3f);
   CHECK_FALSE(JoinedHands(mesh, {}).possible());
   CHECK(differs_from_generation_4(mesh));

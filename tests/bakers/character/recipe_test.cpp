@@ -98,7 +98,7 @@ TEST_CASE("automatic poses follow the rig alone, whichever clip is fitted") {
   for (std::size_t p = 0; p < a.size(); ++p)
     for (std::size_t bone = 0; bone < a[p].size(); ++bone)
       CHECK(std::equal(std::begin(a[p][bone].m), std::end(a[p][bone].m), std::begin(b[p][bone].m)));
-  // The same recipe of the generation before mixed them with the clip.
+  // Generation 4 mixed them with the clip.
   with.auto_poses = 12;
   with.generation = 4;
   CHECK_THROWS_AS(recipe_poses(character, with), Failure);
