@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -100,6 +101,12 @@ void note_use(const fs::path& place) {
 }
 
 }  // namespace
+
+fs::path cache_folder(const fs::path& option) {
+  if (!option.empty()) return option;
+  const char* const from_environment = std::getenv(cache_variable);
+  return from_environment ? from_environment : "";
+}
 
 BakeCache::BakeCache(fs::path folder) : folder_(std::move(folder)) {
   std::error_code error;

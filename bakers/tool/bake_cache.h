@@ -18,6 +18,9 @@ namespace nook::tool {
 
 inline constexpr const char* cache_variable = "NOOK_CACHE";
 
+// Returns the folder that --cache names, else the one in the environment; empty without both.
+std::filesystem::path cache_folder(const std::filesystem::path& option);
+
 class BakeCache {
  public:
   // Makes the folder if it does not exist. Throws ToolError.

@@ -7,6 +7,7 @@
 #include "bakers/raytrace/instruction_set.h"
 #include "bakers/raytrace/worker_arena.h"
 #include "bakers/tool/bake_cache.h"
+#include "bakers/tool/bake_survey.h"
 #include "bakers/tool/command_end.h"
 #include "bakers/tool/command_files.h"
 #include "bakers/tool/command_line.h"
@@ -48,9 +49,8 @@ void require_instruction_set(const BakeOptions& options) {
 }
 
 std::optional<BakeCache> cache_of(const BakeOptions& options) {
-  if (!options.cache.empty()) return BakeCache(options.cache);
-  const char* const folder = std::getenv(cache_variable);
-  if (!folder || !*folder) return std::nullopt;
+  const std::filesystem::path folder = cache_folder(options.cache);
+  if (folder.empty()) return std::nullopt;
   return BakeCache(folder);
 }
 
@@ -76,6 +76,7 @@ void print_key(const BakeCommand& command, const std::function<PreparedBake()>& 
 }  // namespace
 
 void add_bake_options(Command command, BakeOptions& options) {
+  options.survey = command.survey();
   command.add_option("-o,--output", options.output, "the .nook file to write");
   command.add_flag("--print-key", options.prints_key,
                    "read the inputs, print the key of the bake and end: equal keys mean equal results "
@@ -106,6 +107,7 @@ BakeOutput one_row(bake::BakedFile file, std::initializer_list<const char*> only
 
 void run_bake(BakeCommand command, const std::function<PreparedBake()>& prepare) {
   const BakeOptions& options = command.baking;
+  if (options.survey) return options.survey->found(command, prepare);
   require_instruction_set(options);
   if (options.prints_key) return print_key(command, prepare);
   if (options.output.empty()) throw ToolError(exit_bad_arguments, "--output is required");

@@ -15,6 +15,7 @@
 namespace nook::tool {
 
 class Command;
+struct BakeSurvey;
 
 // The options of every bake.
 struct BakeOptions {
@@ -22,6 +23,7 @@ struct BakeOptions {
   std::filesystem::path depfile, cache;  // empty: none
   bool prints_key = false;
   std::string isa;  // empty: as the environment says
+  const BakeSurvey* survey = nullptr;
 };
 
 // Adds -o, --depfile, --cache, --print-key and --isa.
@@ -58,7 +60,7 @@ BakeOutput one_row(bake::BakedFile file, std::initializer_list<const char*> only
 // Prepares the bake, and performs it unless a cache holds its result. Writes the report, the depfile and the
 // file, in this order, and prints the table. It checks before the work begins that files and folders can be
 // written, and that none would replace a file that is read. A stopped bake writes nothing. With --print-key
-// it only prepares the bake and prints its key.
+// it only prepares the bake and prints its key. With a survey it calls the survey and does nothing else.
 void run_bake(BakeCommand command, const std::function<PreparedBake()>& prepare);
 
 }  // namespace nook::tool

@@ -1,5 +1,4 @@
 // nook cache prune: removes old results from the folder of --cache.
-#include <cstdlib>
 #include <memory>
 #include <optional>
 
@@ -17,9 +16,7 @@ struct Options {
 };
 
 void run(const Options& options) {
-  const char* const from_environment = std::getenv(cache_variable);
-  const std::filesystem::path folder =
-      options.cache.empty() && from_environment ? from_environment : options.cache;
+  const std::filesystem::path folder = cache_folder(options.cache);
   if (folder.empty())
     throw ToolError(exit_bad_arguments, "cache prune: no folder is given; need --cache DIR or NOOK_CACHE");
   if (!options.days && !options.megabytes)

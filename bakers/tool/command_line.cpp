@@ -1,10 +1,12 @@
 #include "bakers/tool/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <tuple>
 
+#include "bakers/tool/bake_survey.h"
 #include "bakers/tool/command_end.h"
 #include "platform/input_file.h"
 #include "sdk/src/core/failure.h"
@@ -91,7 +93,7 @@ Option Option::number_of(const std::map<std::string, int>& numbers) const {
 }
 
 Command Command::add_subcommand(const char* name, const std::string& help) const {
-  return Command(*app_->add_subcommand(name, help));
+  return Command(*app_->add_subcommand(name, help), survey_);
 }
 
 namespace {
@@ -152,7 +154,8 @@ struct Command::Inputs {
   std::vector<std::function<void(InputCopies&)>> copy;
 };
 
-Command::Command(CLI::App& app) : app_(&app), inputs_(std::make_shared<Inputs>()) {}
+Command::Command(CLI::App& app, const BakeSurvey* survey)
+    : app_(&app), survey_(survey), inputs_(std::make_shared<Inputs>()) {}
 
 template <class T>
 void Command::reads(T& value) const {
@@ -163,7 +166,8 @@ template void Command::reads(std::filesystem::path&) const;
 template void Command::reads(std::vector<std::filesystem::path>&) const;
 
 void Command::callback(const std::function<void()>& run) const {
-  app_->callback([run, inputs = inputs_] {
+  app_->callback([run, inputs = inputs_, survey = survey_] {
+    if (survey && !survey->found) return;
     InputCopies copies;
     for (const auto& copy : inputs->copy) copy(copies);
     try {
@@ -215,6 +219,19 @@ Option Command::add_flag(const char* names, bool& value, const std::string& help
 Option Command::add_flag_callback(const char* names, const std::function<void()>& set,
                                   const std::string& help) const {
   return Option(app_->add_flag_callback(names, set, help));
+}
+
+void run_words(std::vector<std::string> words, const std::function<void(Command)>& add,
+               const BakeSurvey* survey) {
+  CLI::App program;
+  program.require_subcommand(1);
+  add(Command(program, survey));
+  std::reverse(words.begin(), words.end());  // the form of CLI11
+  try {
+    program.parse(std::move(words));
+  } catch (const CLI::ParseError& fault) {
+    throw ToolError(exit_bad_arguments, fault.what());
+  }
 }
 
 }  // namespace nook::tool

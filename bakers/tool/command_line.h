@@ -65,13 +65,17 @@ class Option {
   CLI::Option* option_;
 };
 
+struct BakeSurvey;
+
 // Refers to a command; copies refer to the same. Variables and functions must outlive the parsing.
 class Command {
  public:
-  explicit Command(CLI::App& app);
+  // With a survey, bakes below this command are described and not performed (bake_survey.h).
+  explicit Command(CLI::App& app, const BakeSurvey* survey = nullptr);
 
   Command add_subcommand(const char* name, const std::string& help) const;
   void callback(const std::function<void()>& run) const;
+  const BakeSurvey* survey() const { return survey_; }
 
   // T is one of the types that command_line.cpp instantiates it for: text, paths, numbers, and vectors and
   // optionals of them.
@@ -110,7 +114,13 @@ class Command {
   struct Inputs;
 
   CLI::App* app_;
+  const BakeSurvey* survey_;
   std::shared_ptr<Inputs> inputs_;
 };
+
+// Parses words as a program parses its arguments, and runs what they name. `add` adds the commands, which get
+// the survey. Throws ToolError (bad arguments) with the fault of the words, and what the command throws.
+void run_words(std::vector<std::string> words, const std::function<void(Command)>& add,
+               const BakeSurvey* survey);
 
 }  // namespace nook::tool
