@@ -28,6 +28,16 @@ class ToolError : public std::runtime_error {
   ExitCode code_;
 };
 
+// Ends a command that has already said why with an exit code, such as the code of a program that it ran.
+class CommandEnd {
+ public:
+  explicit CommandEnd(int code) : code_(code) {}
+  int code() const { return code_; }
+
+ private:
+  int code_;
+};
+
 inline ExitCode exit_code_of(nook_result result) {
   switch (result) {
     case NOOK_OK:

@@ -120,6 +120,8 @@ int run_program(int argc, char** argv, const char* name, const char* description
     program.require_subcommand(1);
     add_commands(program);
     return parse(program, argc, argv, elsewhere);
+  } catch (const CommandEnd& end) {
+    return end.code();
   } catch (const ToolError& e) {
     return fail(e.code(), e.what());
   } catch (const Failure& e) {

@@ -28,6 +28,9 @@ void add_train_bent(Command train);
 void add_train_nnao(Command train);
 void add_train_specular(Command train);
 void add_export_casters(Command export_command);
+void add_plan(Command tool);
+void add_build(Command tool);
+void add_task(Command tool);
 void add_inspect(Command tool);
 void add_report(Command tool);
 

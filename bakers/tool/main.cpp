@@ -47,6 +47,9 @@ void add_commands(CLI::App& tool) {
   nook::tool::add_export_casters(nook::tool::Command(*write));
   CLI::App* cache = tool.add_subcommand("cache", "tidy the folder of bake --cache")->require_subcommand(1);
   nook::tool::add_cache_prune(nook::tool::Command(*cache));
+  nook::tool::add_plan(nook::tool::Command(tool));
+  nook::tool::add_build(nook::tool::Command(tool));
+  nook::tool::add_task(nook::tool::Command(tool));
   nook::tool::add_inspect(nook::tool::Command(tool));
   nook::tool::add_report(nook::tool::Command(tool));
 }

@@ -1,0 +1,50 @@
+// Which bakes are up to date, which come from the cache, and which have to run, and why.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bakers/tool/bake_cache.h"
+#include "bakers/tool/plan/jobs.h"
+#include "bakers/tool/plan/memory.h"
+
+namespace nook::tool::plan {
+
+enum class State : std::uint8_t {
+  up_to_date,  // the output's recipe has the key of the bake
+  from_cache,  // the cache had the result, and it is copied (with a dry run: would be)
+  missing,     // has to be baked
+  waits,       // reads the output of another bake that runs first, so that its key is not known yet
+  unreadable   // its inputs cannot be read; the bake will fail and say so
+};
+const char* name_of(State state);
+inline bool must_run(State state) {
+  return state == State::missing || state == State::waits || state == State::unreadable;
+}
+
+struct JobState {
+  State state = State::missing;
+  std::string reason;     // of what must run
+  std::string key;        // empty if it is not known
+  double estimate_s = 0;  // of what must run
+  std::vector<StampedFile> read;
+};
+
+struct StateOptions {
+  std::uint32_t threads = 0;  // 0: all cores
+  bool writes = true;         // false: a dry run, which copies nothing
+  std::optional<BakeCache> cache;
+};
+
+struct States {
+  std::vector<JobState> jobs;
+  Memory memory;  // for the next plan
+};
+
+// The process must be in the manifest's folder, and pinned to the instruction set of the bakes. Jobs of one
+// group run one after another, groups in parallel. Throws platform::Stopped at Ctrl-C.
+States states_of(const std::vector<Job>& jobs, const Memory& known, const StateOptions& options);
+
+}  // namespace nook::tool::plan
