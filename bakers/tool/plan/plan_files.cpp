@@ -115,7 +115,12 @@ std::string bake_command(const PlanPlaces& places, const Job& job, std::uint32_t
   return written;
 }
 
-std::string ninja_text(const PlanPlaces& places, const std::vector<Job>& jobs) {
+// Inputs are not in a depfile, whose reader ends names at quotes. A file that is gone must not be an error,
+// so that each is the output of a rule without a command.
+std::string ninja_text(const PlanPlaces& places, const std::vector<Job>& jobs,
+                       const std::vector<fs::path>& read) {
+  std::string inputs;
+  for (const fs::path& file : read) inputs += " " + ninja_path(file);
   std::string written =
       "# nook plan wrote this from " + places.manifest.string() +
       " and will replace it.\n"
@@ -124,9 +129,9 @@ std::string ninja_text(const PlanPlaces& places, const std::vector<Job>& jobs) {
       "rule bake\n  command = $run\n  description = $name\n  generator = 1\n\n"
       "rule plan\n  command = " +
       ninja_value(places.plan_command) +
-      "\n  description = nook plan\n  depfile = plan.d\n  generator = 1\n\n"
-      "build build.ninja: plan " +
-      ninja_path(places.manifest) + "\n\n";
+      "\n  description = nook plan\n  generator = 1\n\n"
+      "build build.ninja: plan |" +
+      inputs + "\n\nbuild" + inputs + ": phony\n\n";
   for (const Job& job : jobs) {
     written += "build " + ninja_path(places.root / job.output) + ": bake | " +
                ninja_path(place_of(places, "keys", job, ".key"));

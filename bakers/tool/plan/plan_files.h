@@ -1,7 +1,6 @@
 // The files that nook plan writes into its folder DIR:
 //
-//   build.ninja     every bake, for Ninja
-//   plan.d          what the plan depends on; with it, Ninja plans again when an asset changed
+//   build.ninja     every bake, for Ninja, which plans again when a file changed that the plan has read
 //   keys/NAME.key   the key of a bake; newer than the output if the bake must run, else old
 //   tasks.txt       one line for each character with bakes that must run, the longest first
 //   plan.json       what the next plan remembers (memory.h)
@@ -30,7 +29,9 @@ struct PlanPlaces {
 // can follow.
 std::string bake_command(const PlanPlaces& places, const Job& job, std::uint32_t threads);
 
-std::string ninja_text(const PlanPlaces& places, const std::vector<Job>& jobs);
+// `read` are the files and folders that the plan depends on.
+std::string ninja_text(const PlanPlaces& places, const std::vector<Job>& jobs,
+                       const std::vector<std::filesystem::path>& read);
 std::string tasks_text(const PlanPlaces& places, const std::vector<Job>& jobs,
                        const std::vector<JobState>& states);
 

@@ -98,9 +98,8 @@ void write_plan(const PlanPlaces& places, const std::vector<Job>& jobs, const St
   write_keys(places, jobs, states.jobs);
   renew(places.build / "tasks.txt", tasks_text(places, jobs, states.jobs));
   renew(places.build / "plan.json", memory_text(states.memory, this_tool()));
-  renew(places.build / "plan.d", depfile_text("build.ninja", read_by_plan(places, jobs, states, tree)));
   // The last: a plan that was stopped before is made again.
-  renew(places.build / "build.ninja", ninja_text(places, jobs));
+  renew(places.build / "build.ninja", ninja_text(places, jobs, read_by_plan(places, jobs, states, tree)));
 }
 
 // A file that changed while the plan read it makes the plan old at once.
