@@ -170,7 +170,13 @@ find("more").addEventListener("click", showMore);
 // A reload may keep what was typed.
 clear();
 performance.mark("rows");
-new IntersectionObserver((entries) => {
-  if (entries.some((entry) => entry.isIntersecting) && !find("more").hidden) showMore();
-}, { rootMargin: "600px" }).observe(find("more"));
+// Looks at the button anew after each piece: a reader may reach its new place before the next frame, which is
+// no change for the observer.
+const observer = new IntersectionObserver((entries) => {
+  if (find("more").hidden || !entries.some((entry) => entry.isIntersecting)) return;
+  showMore();
+  observer.unobserve(find("more"));
+  observer.observe(find("more"));
+}, { rootMargin: "600px" });
+observer.observe(find("more"));
 })();
