@@ -63,7 +63,8 @@ ClipTask clip_task_of(const nook_bake_clips_desc& desc) {
   require_between("desc.max_bytes", task.tables.max_bytes, 1e-4, 100);
   require_between("desc.max_modes", desc.max_modes, 4, ClipSet::max_ao_modes);
   if (desc.max_modes % 4 != 0)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.max_modes is no multiple of 4 (got %u)", desc.max_modes);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.max_modes is not a multiple of 4 (got %u)",
+                  desc.max_modes);
   if (desc.clip_count > 0) need(desc.clip_names, "desc.clip_names");
   for (std::uint32_t i = 0; i < desc.clip_count; ++i) {
     need(desc.clip_names[i], "desc.clip_names[i]");

@@ -26,7 +26,7 @@ void require_same_character(const CharacterModel& model, const SkinnedMesh& mesh
   if (!is_same)
     throw Failure(
         NOOK_ERROR_BAD_FILE,
-        "the model is that of another character (got %zu vertices and %zu bones, need %zu and %zu "
+        "the model belongs to another character (got %zu vertices and %zu bones, need %zu and %zu "
         "in the same order); bake the character first, or choose the meshes of its bake (--mesh, --without)",
         model.vertex_count(), model.bone_count(), mesh.vertex_count(), mesh.bones.size());
 }

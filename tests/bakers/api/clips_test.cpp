@@ -94,7 +94,7 @@ TEST_CASE("faults of a job of clips come before it starts, with their cause") {
     nook_bake_clips_desc desc = sound;
     desc.max_modes = 6;
     CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
-    CHECK(message_has("desc.max_modes is no multiple of 4 (got 6)"));
+    CHECK(message_has("desc.max_modes is not a multiple of 4 (got 6)"));
   }
   {
     INFO("numbers out of range");
