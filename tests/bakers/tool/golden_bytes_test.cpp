@@ -272,6 +272,9 @@ std::string reason_to_skip(const Bakes& bakes) {
     return std::string("the build is \"") + NOOK_BUILD + "\", need " + build + " without further flags";
   if (std::string(gnu_get_libc_version()) != "2.36")
     return std::string("the C library is ") + gnu_get_libc_version() + ", need 2.36";
+  // Embree starts its reciprocals from an approximation of the processor, and vendors approximate
+  // differently.
+  if (!has(read_text("/proc/cpuinfo"), "GenuineIntel")) return "the processor is not by Intel";
   const ToolRun run = bakes.folder().run({"bake", "probe", bakes.path("sky.hdr"), "-o", bakes.path("x.nook"),
                                           "--print-key", "--isa", "x86-64-v3"});
   if (has(run.error, "this processor lacks")) return "this processor lacks x86-64-v3";
