@@ -197,7 +197,7 @@ def test_switched_off():
     body.modifiers[0].vertex_group = "half"
     bpy.ops.nook.bake()
     check("does not know" not in says(armature), "a masked armature modifier is part of the bake")
-    # Half a bend squashes the end: normals that are skinned differ there from those of the squashed faces, with which the test traces.
+    # Half a bend squashes the end: skinned normals differ there from the normals of the squashed faces, with which the test traces.
     check_colours([body, cuff], "with a masked armature modifier", allowed=0.05)
 
 

@@ -79,7 +79,7 @@ void evaluate(nook_material material, const Numbers& sample) {
     require(std::isfinite(value.radiance[0] + value.radiance[1] + value.radiance[2]));
 }
 
-// Calls visit(sample) for some samples above the horizon and for those of the script.
+// Calls visit(sample) for some samples above the horizon and for the samples of the script.
 template <class Visit>
 void for_each_sample(Script& script, Visit&& visit) {
   for (const float level : {0.0f, 0.5f, 40.0f})

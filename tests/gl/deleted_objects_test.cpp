@@ -250,8 +250,8 @@ struct Scenario {
   std::function<void(const Step& before, const Step& after)> run;
 };
 
-// Kinds whose places are apart, so that objects of all of them can be bound at once. The places of the second
-// list change what those of the first one bind to.
+// Kinds whose places are apart, so that objects of all of them can be bound at once. Binding to the places
+// of the second list changes bindings of the first one.
 const std::vector<int> apart[] = {{buffers, textures, samplers, renderbuffers, programs},
                                   {framebuffers, vertex_arrays, feedbacks}};
 
