@@ -327,7 +327,8 @@ TEST_CASE("commands are named where one is missing or lives in nook-lab") {
     CHECK(run.exit_code == 2);
     return run.error;
   };
-  CHECK(has(error({}), "need one of bake, evaluate, train, export, cache, inspect, report"));
+  CHECK(
+      has(error({}), "need one of bake, evaluate, train, export, cache, plan, build, task, inspect, report"));
   CHECK(has(error({"bake"}), "need one of character, bent"));
   const std::string grid = error({"evaluate", "grid"});
   CHECK(has(grid, "there is no command grid"));
