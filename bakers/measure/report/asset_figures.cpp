@@ -191,7 +191,12 @@ constexpr Judge judges[] = {{"character", body_figures},    {"level of detail", 
 void add_notes(const Json& facts, std::string& notes) {
   if (text_of(facts, "recipe_preset") == "draft") add(notes, "a draft");
   const std::string tool = text_of(facts, "of_this_tool");
-  if (!tool.empty() && tool != "yes") add(notes, "of this tool: " + tool);
+  // Farms pin the instruction set for their bakes, and the program that writes the page need not run with it.
+  const bool is_pinned = tool.starts_with("no: isa ") && tool.find(';') == std::string::npos;
+  if (tool.starts_with("no: ") && !is_pinned)
+    add(notes, "made by another tool: " + tool.substr(4));
+  else if (!tool.empty() && tool != "yes" && !is_pinned)
+    add(notes, "of this tool: " + tool);
 }
 
 }  // namespace

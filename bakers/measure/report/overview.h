@@ -48,7 +48,7 @@ struct LimitRow {
 };
 
 struct Overview {
-  std::string folder;  // as the user named it
+  std::string folder;  // the title of the page
   std::string links;   // the encoded way from the page to the folder, with a slash; empty: without links
   std::string made;    // the time
   std::string before;  // the time of the page that it is compared with; empty: none

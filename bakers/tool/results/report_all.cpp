@@ -151,7 +151,10 @@ void report_all(const ReportAllOptions& options, const CommonOptions& common) {
   const std::optional<report::LastPage> last = last_page(options, output);
 
   report::Overview overview;
-  overview.folder = options.folder.string();
+  // "." names no folder to who reads the page later.
+  std::error_code unknown;
+  const fs::path whole = fs::absolute(options.folder, unknown).lexically_normal();
+  overview.folder = (unknown ? options.folder : whole).string();
   overview.links = links_of(options.folder, output, page.is_regular());
   overview.made = time_now();
   overview.limits = report::asset_limits();

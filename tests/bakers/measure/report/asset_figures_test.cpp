@@ -97,7 +97,11 @@ TEST_CASE("grids and clips are judged by what was asked for") {
 TEST_CASE("notes name drafts and files of other tools") {
   Json draft = with(body, "recipe_preset", "draft");
   draft["of_this_tool"] = "no: embree 3.13.4, here 3.13.5";
-  CHECK(asset_figures(draft, {}).notes == "a draft; of this tool: no: embree 3.13.4, here 3.13.5");
+  CHECK(asset_figures(draft, {}).notes == "a draft; made by another tool: embree 3.13.4, here 3.13.5");
+  draft["of_this_tool"] = "no: isa x86-64-v3, here x86-64-v4";
+  CHECK(asset_figures(draft, {}).notes == "a draft");
+  draft["of_this_tool"] = "no: isa x86-64-v3, here x86-64-v4; nook 1.0, here 1.1";
+  CHECK(asset_figures(draft, {}).notes.find("made by another tool: isa") != std::string::npos);
 }
 
 TEST_CASE("hostile figures are not figures") {
