@@ -202,7 +202,8 @@ Rim rim_of(const Seen& seen, const Composed& found, const std::vector<float>& wa
 
 TEST_CASE(
     "contact: floors and tables beside characters have the AO of the closed form, with normals from depth "
-    "too") {
+    "too",
+    "[one-driver]") {
   NOOK_NEED_CONTEXT(context);
   ContactFixture fixture(context);
   for (const Contact& contact : contacts()) {

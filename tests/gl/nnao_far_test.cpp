@@ -147,7 +147,7 @@ TEST_CASE("nnao: a minimum leaves every bit where the radius covers more pixels"
     }
 }
 
-TEST_CASE("nnao: AO at the foot of a far wall swings less with the minimum in pixels") {
+TEST_CASE("nnao: AO at the foot of a far wall swings less with the minimum in pixels", "[one-driver]") {
   NOOK_NEED_CONTEXT(context);
   FarFixture fixture(context);
   const float by_default = defaults().min_radius_px;

@@ -66,7 +66,8 @@ TEST_CASE("nnao: a radius as a share of the screen is the reference's at each de
 }
 
 TEST_CASE(
-    "nnao: a radius as a share of the screen sees no difference between a scene and a larger one far away") {
+    "nnao: a radius as a share of the screen sees no difference between a scene and a larger one far away",
+    "[one-driver]") {
   NOOK_NEED_CONTEXT(context);
   Fixture fixture(context);
   const Camera camera = plain_camera(float(width) / height);

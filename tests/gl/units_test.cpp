@@ -118,7 +118,7 @@ TEST_CASE("the tiers give in every unit the AO that the CPU gives in metres") {
     }
 }
 
-TEST_CASE("world: AO and the light's cone are the same in every unit") {
+TEST_CASE("world: AO and the light's cone are the same in every unit", "[one-driver]") {
   NOOK_NEED_CONTEXT(context);
   for (const bool normals : {true, false}) {
     // One ball within the default reach of 30 m, and one beyond it.
@@ -133,7 +133,7 @@ TEST_CASE("world: AO and the light's cone are the same in every unit") {
   }
 }
 
-TEST_CASE("nnao: AO is the same in every unit") {
+TEST_CASE("nnao: AO is the same in every unit", "[one-driver]") {
   NOOK_NEED_CONTEXT(context);
   NnaoFixture fixture(context);
   const Camera camera = plain_camera(float(width) / height);

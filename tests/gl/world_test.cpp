@@ -254,7 +254,7 @@ double mean_square(const std::vector<float>& a, const std::vector<float>& b) {
 
 }  // namespace
 
-TEST_CASE("world: levels stay within their error, with fewer casters at a pixel") {
+TEST_CASE("world: levels stay within their error, with fewer casters at a pixel", "[one-driver]") {
   NOOK_NEED_CONTEXT(context);
   CrowdFixture fixture(context);
   fixture.made();
@@ -279,7 +279,7 @@ TEST_CASE("world: levels stay within their error, with fewer casters at a pixel"
   CHECK(mean_casters() < without_levels);
 }
 
-TEST_CASE("world: a crowd that moves away pops by a few level errors at most") {
+TEST_CASE("world: a crowd that moves away pops by a few level errors at most", "[one-driver]") {
   NOOK_NEED_CONTEXT(context);
   CrowdFixture fixture(context);
   fixture.made();
@@ -326,8 +326,8 @@ TEST_CASE("world: half resolution comes close to full resolution") {
     if (!std::isfinite(fixture.picture.depth[i])) REQUIRE(half[i] == 1);
 }
 
-TEST_CASE(
-    "world: half resolution with levels stays near every caster, also where near and far bodies blend") {
+TEST_CASE("world: half resolution with levels stays near every caster, also where near and far bodies blend",
+          "[one-driver]") {
   NOOK_NEED_CONTEXT(context);
   CrowdFixture fixture(context);
   nook_world_desc desc = world_desc();
