@@ -1,11 +1,10 @@
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <glad/gl.h>
 
 #include <algorithm>
 #include <span>
 #include <stdexcept>
 
+#include "platform/image_codec.h"
 #include "platform/output_file.h"
 #include "platform/platform.h"
 
@@ -32,27 +31,26 @@ FloatImage read_float_image(const std::filesystem::path& path) {
   const auto fail = [&](const std::string& why) {
     throw std::runtime_error("read_float_image: " + path.string() + " cannot be read (" + why + ")");
   };
-  const auto input = OIIO::ImageInput::open(path.string());
-  if (!input) fail(OIIO::geterror());
-  const OIIO::ImageSpec& spec = input->spec();
-  if (!spec.format.is_floating_point()) fail("it has no floating-point values; use .hdr or .exr");
-  if (spec.nchannels < 3 || spec.depth > 1) fail("it is not a flat image of three channels");
-  FloatImage image{spec.width, spec.height, {}};
-  image.rgb.resize(3 * std::size_t(spec.width) * std::size_t(spec.height));
-  if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, image.rgb.data())) fail(input->geterror());
+  std::string why, ending = path.extension().string();
+  if (!ending.empty()) ending.erase(0, 1);
+  const auto input = image_codec().open(ending, path.string(), ImageAlpha::associated, why);
+  if (!input) fail(why);
+  const ImageHead& head = input->head();
+  if (!head.is_floating_point) fail("it has no floating-point values; use .hdr or .exr");
+  if (head.channels < 3 || head.depth > 1) fail("it is not a flat image of three channels");
+  FloatImage image{head.width, head.height, {}};
+  image.rgb.resize(3 * std::size_t(head.width) * std::size_t(head.height));
+  if (!input->read_rows(0, head.height, 3, image.rgb.data())) fail(input->why());
   return image;
 }
 
 void write_image(const std::filesystem::path& path, const Image& image) {
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const auto output = OIIO::ImageOutput::create(path.string());
-  const OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
-  if (!output || !output->set_ioproxy(&memory) || !output->open(path.string(), spec) ||
-      !output->write_image(OIIO::TypeDesc::UINT8, image.pixels.data()) || !output->close())
-    throw std::runtime_error("write_image: " + path.string() + " cannot be written (" +
-                             (output ? output->geterror() : OIIO::geterror()) + ")");
-  OutputFile(path).commit(std::as_bytes(std::span(bytes)));
+  std::string why;
+  const std::vector<std::byte> bytes =
+      image_codec().encode(path.string(), image.width, image.height, image.channels, image.pixels, why);
+  if (bytes.empty())
+    throw std::runtime_error("write_image: " + path.string() + " cannot be written (" + why + ")");
+  OutputFile(path).commit(bytes);
 }
 
 }  // namespace platform

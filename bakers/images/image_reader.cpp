@@ -5,7 +5,6 @@
 #include <cctype>
 #include <fstream>
 #include <string_view>
-#include <vector>
 
 namespace nook::bake {
 namespace {
@@ -41,20 +40,6 @@ std::string ending_of(const std::filesystem::path& path) {
   return std::find(endings.begin(), endings.end(), ending) == endings.end() ? std::string() : ending;
 }
 
-std::unique_ptr<OIIO::ImageInput> open_as(const std::string& format, const std::string& name,
-                                          const OIIO::ImageSpec& config, std::string& why) {
-  // Given the name of a format, OpenImageIO makes a reader and opens nothing.
-  auto input = OIIO::ImageInput::create(format);
-  if (!input) {
-    why = OIIO::geterror();
-    return nullptr;
-  }
-  OIIO::ImageSpec opened;
-  if (input->open(name, opened, config)) return input;
-  why = input->geterror();
-  return nullptr;
-}
-
 }  // namespace
 
 const char* image_format_of(std::span<const std::byte> head) {
@@ -66,8 +51,8 @@ const char* image_format_of(std::span<const std::byte> head) {
   return is_netpbm ? "ppm" : nullptr;
 }
 
-std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path, const OIIO::ImageSpec& config,
-                                             std::string& why) {
+std::unique_ptr<platform::ImageSource> open_image(const std::filesystem::path& path,
+                                                  platform::ImageAlpha alpha, std::string& why) {
   std::array<char, longest_magic> head{};
   std::ifstream file(path, std::ios::binary);
   file.read(head.data(), head.size());
@@ -81,30 +66,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path, 
     why = "it is neither PNG, JPEG, HDR, EXR, TIFF, BMP, PPM nor TGA";
     return nullptr;
   }
-  return open_as(format, path.string(), config, why);
-}
-
-std::unique_ptr<OIIO::ImageInput> open_image_in_memory(const char* format, const OIIO::ImageSpec& config,
-                                                       std::string& why) {
-  return open_as(format, std::string("image.") + format, config, why);
-}
-
-bool read_rows(OIIO::ImageInput& image, int top, int bottom, int channels, OIIO::TypeDesc type,
-               void* values) {
-  const OIIO::ImageSpec& spec = image.spec();
-  // The image has no single type if its channels have several.
-  if (!spec.channelformats.empty())
-    return image.read_scanlines(0, 0, top, bottom, spec.z, 0, channels, type, values);
-  const std::size_t count = std::size_t(channels) * std::size_t(spec.width) * std::size_t(bottom - top);
-  std::vector<std::byte> own(count * spec.format.size());
-  return image.read_scanlines(0, 0, top, bottom, spec.z, 0, channels, OIIO::TypeDesc::UNKNOWN, own.data()) &&
-         OIIO::convert_pixel_values(spec.format, own.data(), type, values, int(count));
-}
-
-bool read_pixels(OIIO::ImageInput& image, int channels, OIIO::TypeDesc type, void* values) {
-  const OIIO::ImageSpec& spec = image.spec();
-  if (spec.tile_width != 0) return image.read_image(0, 0, 0, channels, type, values);
-  return read_rows(image, spec.y, spec.y + spec.height, channels, type, values);
+  return platform::image_codec().open(format, path.string(), alpha, why);
 }
 
 }  // namespace nook::bake

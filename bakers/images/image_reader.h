@@ -3,13 +3,13 @@
 // some fifty times as long, and reach code that no image needs.
 #pragma once
 
-#include <OpenImageIO/imageio.h>
-
 #include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
+
+#include "platform/image_codec.h"
 
 namespace nook::bake {
 
@@ -19,19 +19,7 @@ const char* image_format_of(std::span<const std::byte> head);
 
 // Opens an image by its first bytes, whatever its name is. If they tell nothing, as in a TGA, the ending of
 // its name decides. Returns null if it cannot be opened; `why` is then the reason.
-std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path, const OIIO::ImageSpec& config,
-                                             std::string& why);
-
-// The same for an image in memory, whose format is known; `config` names its OIIO::Filesystem::IOProxy.
-std::unique_ptr<OIIO::ImageInput> open_image_in_memory(const char* format, const OIIO::ImageSpec& config,
-                                                       std::string& why);
-
-// Reads the first channels of the rows from `top` to before `bottom` of an image without tiles, as `type`.
-// Rows count as in the image's spec. Returns false if they cannot be read. OpenImageIO converts through a
-// buffer of 64 MiB, however small an image is. So we read rows in the file's own type and convert afterwards.
-bool read_rows(OIIO::ImageInput& image, int top, int bottom, int channels, OIIO::TypeDesc type, void* values);
-
-// Reads all rows, also of images with tiles.
-bool read_pixels(OIIO::ImageInput& image, int channels, OIIO::TypeDesc type, void* values);
+std::unique_ptr<platform::ImageSource> open_image(const std::filesystem::path& path,
+                                                  platform::ImageAlpha alpha, std::string& why);
 
 }  // namespace nook::bake

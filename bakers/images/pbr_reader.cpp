@@ -1,7 +1,5 @@
 #include "bakers/images/pbr_reader.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -207,30 +205,26 @@ void check_finite(const MapImage& image) {
 
 MapImage read_image(const fs::path& path, bool needs_colour) {
   check_exr_head(path.c_str(), path);
-  OIIO::ImageSpec config;
-  // Otherwise OpenImageIO would multiply colours by alpha.
-  config["oiio:UnassociatedAlpha"] = 1;
   std::string why;
-  const auto input = open_image(path, config, why);
+  const auto input = open_image(path, platform::ImageAlpha::unassociated, why);
   if (!input) fail(path, why);
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.nchannels < 1 || spec.depth > 1) fail(path, "it is not a flat image");
+  const platform::ImageHead& spec = input->head();
+  if (spec.channels < 1 || spec.depth > 1) fail(path, "it is not a flat image");
   std::error_code unknown;  // on an error, file_size returns the largest number
   check_image_size(path.c_str(), spec.width, spec.height, most_texels, fs::file_size(path, unknown));
   if (spec.width != spec.height)
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "%.250s has %d x %d texels, need as many columns as rows; crop it to one tile",
                   path.c_str(), spec.width, spec.height);
-  if (needs_colour && spec.nchannels < 3)
-    throw Failure(NOOK_ERROR_BAD_FILE, "%.250s has %d channels, need 3", path.c_str(), spec.nchannels);
+  if (needs_colour && spec.channels < 3)
+    throw Failure(NOOK_ERROR_BAD_FILE, "%.250s has %d channels, need 3", path.c_str(), spec.channels);
   MapImage image{path,
                  std::uint32_t(spec.width),
-                 spec.format.is_floating_point(),
-                 spec.nchannels >= 3 ? std::size_t{3} : std::size_t{1},
+                 spec.is_floating_point,
+                 spec.channels >= 3 ? std::size_t{3} : std::size_t{1},
                  {}};
   image.texels.resize(image.channels * image.side * image.side);
-  if (!read_pixels(*input, int(image.channels), OIIO::TypeDesc::FLOAT, image.texels.data()))
-    fail(path, input->geterror());
+  if (!input->read_rows(0, spec.height, int(image.channels), image.texels.data())) fail(path, input->why());
   check_finite(image);
   return image;
 }

@@ -1,7 +1,5 @@
 #include "bakers/images/picture.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <numbers>
 
 #include "bakers/raytrace/ray_scene.h"
+#include "platform/image_codec.h"
 #include "platform/output_file.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/probe/probe_light.h"
@@ -119,16 +118,11 @@ Picture side_by_side(std::span<const Picture> pictures) {
 }
 
 std::vector<std::byte> png_bytes(const Picture& picture) {
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const auto out = OIIO::ImageOutput::create("png");
-  const OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
-  if (!out || !out->set_ioproxy(&memory) || !out->open("picture.png", spec) ||
-      !out->write_image(OIIO::TypeDesc::UINT8, picture.rgb.data()) || !out->close())
-    throw Failure(NOOK_ERROR_INTERNAL, "a picture cannot be encoded: %s",
-                  (out ? out->geterror() : OIIO::geterror()).c_str());
-  const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
-  return {first, first + bytes.size()};
+  std::string why;
+  std::vector<std::byte> bytes =
+      platform::image_codec().encode("picture.png", picture.width, picture.height, 3, picture.rgb, why);
+  if (bytes.empty()) throw Failure(NOOK_ERROR_INTERNAL, "a picture cannot be encoded: %s", why.c_str());
+  return bytes;
 }
 
 void write_png(const std::filesystem::path& path, const Picture& picture) {

@@ -1,7 +1,5 @@
 #include "bakers/images/scene_file.h"
 
-#include <OpenImageIO/filesystem.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -33,26 +31,20 @@ Texture decode_texture(const EncodedImage& image) {
   const char* format = format_of(image.bytes);
   if (!format)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s is neither PNG nor JPEG; convert it", image.name.c_str());
-  OIIO::Filesystem::IOMemReader reader(image.bytes.data(), image.bytes.size());
-  OIIO::Filesystem::IOProxy* proxy = &reader;
-  // The configuration passes the reader. OpenImageIO 2.4 loses a reader that is passed beside a
-  // configuration.
-  OIIO::ImageSpec config;
-  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-  config["oiio:UnassociatedAlpha"] = 1;
   std::string why;
-  const auto input = open_image_in_memory(format, config, why);
+  const auto input =
+      platform::image_codec().open(format, image.bytes, platform::ImageAlpha::unassociated, why);
   if (!input)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s cannot be decoded (%s)", image.name.c_str(), why.c_str());
-  const OIIO::ImageSpec spec = input->spec();
+  const platform::ImageHead& spec = input->head();
   check_image_size(image.name.c_str(), spec.width, spec.height, most_texels, image.bytes.size());
-  if (spec.nchannels < 1) throw Failure(NOOK_ERROR_BAD_FILE, "%s has no channels", image.name.c_str());
+  if (spec.channels < 1) throw Failure(NOOK_ERROR_BAD_FILE, "%s has no channels", image.name.c_str());
   const std::size_t texels = std::size_t(spec.width) * std::size_t(spec.height);
-  const auto channels = std::size_t(std::min(spec.nchannels, 4));
+  const auto channels = std::size_t(std::min(spec.channels, 4));
   std::vector<std::uint8_t> read(channels * texels);
-  if (!read_pixels(*input, int(channels), OIIO::TypeDesc::UINT8, read.data()))
+  if (!input->read_rows(0, spec.height, int(channels), read.data()))
     throw Failure(NOOK_ERROR_BAD_FILE, "%s is a damaged image (%s)", image.name.c_str(),
-                  input->geterror().c_str());
+                  input->why().c_str());
   const bool grey = channels < 3;
   std::vector<std::uint8_t> rgba(4 * texels, 255);
   for (std::size_t i = 0; i < texels; ++i) {
@@ -70,13 +62,13 @@ namespace {
 constexpr int most_columns = 16384, fewest_columns = 4;
 constexpr double most_negative = 0.01;
 
-void check_layout(const OIIO::ImageSpec& spec, const char* format) {
-  if (spec.format != OIIO::TypeDesc::FLOAT && spec.format != OIIO::TypeDesc::HALF)
+void check_layout(const platform::ImageHead& spec, const char* format) {
+  if (spec.value_type != "float" && spec.value_type != "half")
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "a %s image of %s values holds no radiance (need floating point); give a .hdr or .exr file",
-                  format, spec.format.c_str());
-  if (spec.nchannels < 3)
-    throw Failure(NOOK_ERROR_BAD_FILE, "an image of %d channels (need red, green and blue)", spec.nchannels);
+                  format, spec.value_type.c_str());
+  if (spec.channels < 3)
+    throw Failure(NOOK_ERROR_BAD_FILE, "an image of %d channels (need red, green and blue)", spec.channels);
   if (spec.depth > 1)
     throw Failure(NOOK_ERROR_BAD_FILE, "a map has one layer (got an image of %d layers)", spec.depth);
   if (spec.width != 2 * std::int64_t{spec.height} || spec.width < fewest_columns || spec.width > most_columns)
@@ -111,16 +103,16 @@ void check_radiance(const std::vector<float>& rgb) {
 Environment read_environment(const std::filesystem::path& path) {
   check_exr_head("the map", path);
   std::string why;
-  const auto image = open_image(path, {}, why);
+  const auto image = open_image(path, platform::ImageAlpha::associated, why);
   if (!image) throw Failure(NOOK_ERROR_BAD_FILE, "cannot be read as an image (%s)", why.c_str());
-  const OIIO::ImageSpec spec = image->spec();
+  const platform::ImageHead& spec = image->head();
   check_layout(spec, image->format_name());
   std::error_code unknown;  // on an error, the size is the largest number
   check_image_size("the map", spec.width, spec.height, std::size_t{most_columns} * (most_columns / 2),
                    std::filesystem::file_size(path, unknown));
   std::vector<float> rgb(3 * std::size_t(spec.width) * std::size_t(spec.height));
-  if (!read_pixels(*image, 3, OIIO::TypeDesc::FLOAT, rgb.data()))
-    throw Failure(NOOK_ERROR_BAD_FILE, "a damaged image (%s)", image->geterror().c_str());
+  if (!image->read_rows(0, spec.height, 3, rgb.data()))
+    throw Failure(NOOK_ERROR_BAD_FILE, "a damaged image (%s)", image->why().c_str());
   check_radiance(rgb);
   for (float& value : rgb) value = std::max(value, 0.0f);
   return Environment(std::uint32_t(spec.width), std::uint32_t(spec.height), std::move(rgb));

@@ -180,16 +180,16 @@ class UboImage {
   UboImage(const fs::path& path, FloatColours colours) : path_(path) {
     check_exr_head(path.c_str(), path);
     std::string why;
-    input_ = open_image(path, {}, why);
+    input_ = open_image(path, platform::ImageAlpha::associated, why);
     if (!input_) fail(why);
-    const OIIO::ImageSpec& spec = input_->spec();
-    if (spec.nchannels < 1 || spec.depth > 1) fail("it is not a flat image");
+    const platform::ImageHead& spec = input_->head();
+    if (spec.channels < 1 || spec.depth > 1) fail("it is not a flat image");
     std::error_code unknown;  // on an error, the size is the largest number
     check_image_size(path.c_str(), spec.width, spec.height, most_image_texels, fs::file_size(path, unknown));
     find_channels(spec, colours);
   }
 
-  Size size() const { return {input_->spec().width, input_->spec().height}; }
+  Size size() const { return {input_->head().width, input_->head().height}; }
 
   // Returns the texels of a region, linear, rows top first. Keeps in memory only the rows or tiles that hold
   // the region.
@@ -215,17 +215,17 @@ class UboImage {
   }
 
   // One channel stands for three. Channels above the third are not read, unless X, Y and Z are among them.
-  void find_channels(const OIIO::ImageSpec& spec, FloatColours colours) {
-    if (spec.nchannels < 3) return;
+  void find_channels(const platform::ImageHead& spec, FloatColours colours) {
+    if (spec.channels < 3) return;
     channel_ = {0, 1, 2};
-    if (spec.format.is_floating_point()) {
+    if (spec.is_floating_point) {
       const auto place = [&](const char* name) {
-        const auto& names = spec.channelnames;
+        const auto& names = spec.channel_names;
         return std::size_t(std::find(names.begin(), names.end(), name) - names.begin());
       };
       constexpr std::size_t most_channels = 8;  // channels before X, Y and Z also take memory
       const std::array<std::size_t, 3> xyz{place("X"), place("Y"), place("Z")};
-      const bool has_xyz = std::ranges::max(xyz) < std::min(spec.channelnames.size(), most_channels);
+      const bool has_xyz = std::ranges::max(xyz) < std::min(spec.channel_names.size(), most_channels);
       if (has_xyz) channel_ = xyz;
       is_xyz_ = has_xyz || colours == FloatColours::xyz;
     }
@@ -234,7 +234,7 @@ class UboImage {
 
   // Returns the rows or tiles that hold a region.
   Region held_region(const Region& region) const {
-    const OIIO::ImageSpec& spec = input_->spec();
+    const platform::ImageHead& spec = input_->head();
     if (spec.tile_width == 0) return {0, region.top, {spec.width, region.size.height}};
     const auto from = [](int begin, int tile) { return begin / tile * tile; };
     const auto to = [](int end, int tile, int whole) {
@@ -247,19 +247,17 @@ class UboImage {
   }
 
   void read_held(const Region& held, float* raw) {
-    const OIIO::ImageSpec& spec = input_->spec();
-    const int left = spec.x + held.left, right = left + held.size.width;
-    const int top = spec.y + held.top, bottom = top + held.size.height;
-    const bool read = spec.tile_width == 0
-                          ? read_rows(*input_, top, bottom, int(channels_read_), OIIO::TypeDesc::FLOAT, raw)
-                          : input_->read_tiles(0, 0, left, right, top, bottom, spec.z, spec.z + 1, 0,
-                                               int(channels_read_), OIIO::TypeDesc::FLOAT, raw);
-    if (!read) fail(input_->geterror());
+    const int right = held.left + held.size.width, bottom = held.top + held.size.height;
+    const int channels = int(channels_read_);
+    const bool read = input_->head().tile_width == 0
+                          ? input_->read_rows(held.top, bottom, channels, raw)
+                          : input_->read_tiles(held.left, right, held.top, bottom, channels, raw);
+    if (!read) fail(input_->why());
   }
 
   Vec3 linear_rgb(const float* texel, int x, int y) const {
     Vec3 colour{texel[channel_[0]], texel[channel_[1]], texel[channel_[2]]};
-    if (!input_->spec().format.is_floating_point())
+    if (!input_->head().is_floating_point)
       colour = {linear_from_srgb(colour.x), linear_from_srgb(colour.y), linear_from_srgb(colour.z)};
     if (is_xyz_) colour = linear_rgb_from_xyz(colour);
     for (const float value : {colour.x, colour.y, colour.z})
@@ -274,7 +272,7 @@ class UboImage {
   }
 
   fs::path path_;
-  std::unique_ptr<OIIO::ImageInput> input_;
+  std::unique_ptr<platform::ImageSource> input_;
   std::array<std::size_t, 3> channel_{};  // index of red, green and blue, or X, Y and Z
   std::size_t channels_read_ = 1;
   bool is_xyz_ = false;

@@ -2,7 +2,6 @@
 // images, measured materials in one file. Nothing may crash or take more memory than the file can fill, and
 // every number is finite, whatever the bytes. OpenImageIO is not instrumented: what guides the fuzzer is the
 // code round it. Built for libFuzzer with clang; elsewhere image_fuzz_replay.cpp drives it.
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <unistd.h>
 
@@ -65,9 +64,9 @@ class Folder {
 
 // A file of a few bytes may say millions of texels before its reader finds out; 16384 for each byte are
 // believed. Such images take a tenth of a second, and are not read.
-bool takes_long(const std::unique_ptr<OIIO::ImageInput>& image, std::size_t file_bytes) {
+bool takes_long(const std::unique_ptr<platform::ImageSource>& image, std::size_t file_bytes) {
   if (!image) return false;
-  const OIIO::ImageSpec& spec = image->spec();
+  const platform::ImageHead& spec = image->head();
   const auto texels = std::uint64_t(std::max(spec.width, 0)) * std::uint64_t(std::max(spec.height, 0));
   return texels > 1 << 14 && texels >> 14 <= file_bytes;
 }
@@ -76,12 +75,9 @@ bool takes_long(std::span<const std::byte> bytes) {
   const char* format = image_format_of(bytes);
   // Textures are of these two; others are refused before they are opened.
   if (!format || (format != std::string("png") && format != std::string("jpg"))) return false;
-  OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
-  OIIO::Filesystem::IOProxy* proxy = &reader;
-  OIIO::ImageSpec config;
-  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
   std::string why;
-  return takes_long(open_image_in_memory(format, config, why), bytes.size());
+  return takes_long(platform::image_codec().open(format, bytes, platform::ImageAlpha::unassociated, why),
+                    bytes.size());
 }
 
 void read_texture(std::span<const std::byte> bytes) {
@@ -119,7 +115,7 @@ void read(const ImageKind& kind, std::span<const std::byte> bytes) {
   const fs::path file = folder.write(kind.ending, bytes);
   check_exr_head("the image", file);
   std::string why;
-  if (takes_long(open_image(file, {}, why), bytes.size())) return;
+  if (takes_long(open_image(file, platform::ImageAlpha::associated, why), bytes.size())) return;
   kind.reader == nook::test::ImageReader::environment
       ? read_map(file)
       : read_measured(material::read_ubo_folder(file.parent_path(), 0));

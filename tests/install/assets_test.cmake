@@ -5,8 +5,8 @@ include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY "${WORK}/the source")
-foreach(room api tool)
-  run(${CMAKE_COMMAND} --install ${BUILD}/bakers/${room} --prefix "${WORK}/first place")
+foreach(room bakers/api bakers/tool platform)
+  run(${CMAKE_COMMAND} --install ${BUILD}/${room} --prefix "${WORK}/first place")
 endforeach()
 file(RENAME "${WORK}/first place" "${WORK}/second place")
 set(prefix "${WORK}/second place")
@@ -15,6 +15,27 @@ file(COPY ${SOURCES}/assets/CMakeLists.txt DESTINATION ${source})
 run(${WRITE_TUBE} "${source}/hero.gltf" bend wave)
 run(${WRITE_TUBE} "${source}/the lod.gltf")
 file(WRITE "${source}/rig.json" "{\"bones\": {\"tip\": {\"role\": \"tail\"}}}")
+# expect_error(TEXT COMMAND...): runs a command, which has to fail and to say the text.
+function(expect_error text)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  # CMake breaks the lines of its messages.
+  string(REGEX REPLACE "[ \n]+" " " output "${output}")
+  string(FIND "${output}" "${text}" at)
+  if(NOT failed OR at EQUAL -1)
+    message(FATAL_ERROR "${ARGN}: has the exit code ${failed} and does not say \"${text}\":\n${output}")
+  endif()
+endfunction()
+
+# The tool finds its module for images in its new place, and says so where there is none. Eight equal texels are the map.
+string(REPEAT "~~~~" 8 texels)
+file(WRITE "${source}/map.hdr" "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n${texels}")
+set(bake_map "${prefix}/bin/nook" bake probe "${source}/map.hdr" -o "${WORK}/map.nook")
+run(${bake_map})
+file(GLOB_RECURSE module "${prefix}/*/nook_openimageio.so")
+file(RENAME "${module}" "${WORK}/kept.so")
+expect_error("the module nook_openimageio.so is not beside this program" ${bake_map})
+file(RENAME "${WORK}/kept.so" "${module}")
+
 set(configure ${CMAKE_COMMAND} -S ${source} "-DCMAKE_PREFIX_PATH=${prefix}")
 
 # expect(WHAT FOLDER NAME...): builds, and fails unless exactly these files are baked.
@@ -25,17 +46,6 @@ function(expect what folder)
   list(SORT baked)
   if(NOT "${baked}" STREQUAL "${ARGN}")
     message(FATAL_ERROR "${what}: bakes ${baked}, and not ${ARGN}:\n${run_output}")
-  endif()
-endfunction()
-
-# expect_error(TEXT COMMAND...): runs a command, which has to fail and to say the text.
-function(expect_error text)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  # CMake breaks the lines of its messages.
-  string(REGEX REPLACE "[ \n]+" " " output "${output}")
-  string(FIND "${output}" "${text}" at)
-  if(NOT failed OR at EQUAL -1)
-    message(FATAL_ERROR "${ARGN}: has the exit code ${failed} and does not say \"${text}\":\n${output}")
   endif()
 endfunction()
 
