@@ -18,7 +18,9 @@ OUTSIDE = {"README.md": "readme.md", "ARCHITECTURE.md": "architecture.md", "CONT
            "SECURITY.md": "security.md", "CHANGELOG.md": "history.md"}
 
 # The order of the pages at the side; a page that is missing here is found by the search and by links.
-TREE = [("Use it", ["readme", "start", "concepts", "install", "conventions", "poses", "performance", "troubleshooting", "messages", "limits"]),
+# Pages of docs/lab are not at the side at all: they hold protocols, trials and long tables.
+LAB = "lab/"
+TREE = [("Use it", ["readme", "start", "concepts", "glossary", "install", "conventions", "poses", "performance", "troubleshooting", "messages", "limits"]),
         ("Guide", ["guide/README", "guide/character", "guide/world", "guide/screen_space", "guide/probes", "guide/materials",
                    "guide/transfer", "guide/reports", "guide/pipeline", "guide/farms", "guide/artists", "guide/three"]),
         ("Evidence", ["evidence", "character", "world", "nnao", "nnao_protocol", "nnao_training", "probes", "materials",
@@ -93,7 +95,7 @@ def tree(pages):
             names = names + sorted(p[:-3] for p in pages.values() if p.startswith("api/") and p != "api/README.md")
         names = [TITLES.get(n, n) for n in names if n + ".md" in pages.values()]
         out += ["```{toctree}", ":hidden:", f":caption: {title}", "", *names, "```", ""]
-    rest = sorted(p[:-3] for p in pages.values() if p[:-3] not in listed and not p.startswith(("api/", "samples/")) and p != "README.md")
+    rest = sorted(p[:-3] for p in pages.values() if p[:-3] not in listed and not p.startswith(("api/", "samples/", LAB)) and p != "README.md")
     if rest:
         out += ["```{toctree}", ":hidden:", ":caption: More", "", *rest, "```", ""]
     return "\n".join(out)
@@ -111,6 +113,8 @@ def main():
         # The page of docs/ that lists all others is the first one of the site.
         if place == "README.md":
             text = text.replace("# Documentation\n", "# Nook\n", 1) + "\n" + tree(pages)
+        if place.startswith(LAB):
+            text = "---\norphan: true\n---\n\n" + text
         out = target / ("index.md" if place == "README.md" else place)
         out.parent.mkdir(parents=True, exist_ok=True)
         out.write_text(text.replace("](README.md)", "](index.md)") if "/" not in place else

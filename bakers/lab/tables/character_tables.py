@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Bakes three bodies by both splits of their clips, measures them beside the baselines, and prints the tables of
-docs/character.md and docs/evidence.md.
+docs/lab/character.md and docs/evidence.md.
 
     bakers/lab/tables/character_tables.py --out out/character_tables [--write]
 
@@ -106,7 +106,7 @@ def main():
     tables = {"errors": errors(results), "sizes": sizes(results)}
     if not options.without_baselines:
         tables["baselines"] = baselines(results)
-    show(ROOT / "docs/character.md", script, tables, options.write)
+    show(ROOT / "docs/lab/character.md", script, tables, options.write)
 
 
 if __name__ == "__main__":
