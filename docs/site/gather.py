@@ -25,10 +25,10 @@ TREE = [("Use it", ["readme", "start", "concepts", "glossary", "install", "conve
                    "guide/transfer", "guide/reports", "guide/pipeline", "guide/farms", "guide/artists", "guide/three"]),
         ("Evidence", ["evidence", "character", "world", "nnao", "nnao_protocol", "nnao_training", "probes", "materials",
                       "material_decoding", "transfer", "gpu_cost"]),
-        ("Platforms", ["platforms", "opengl_es", "web", "python", "hosts", "instruction_sets", "gl_state"]),
+        ("Platforms", ["platforms", "opengl_es", "web", "python", "hosts", "gl_state"]),
         ("Reference", ["api/README"]),
         ("Samples", []),
-        ("Project", ["architecture", "contributing", "security", "stability", "history", "patents", "fuzzing"])]
+        ("Project", ["architecture", "contributing", "security", "stability", "history", "patents", "from_rc1"])]
 
 
 # Pages whose own title is too general at the side.
