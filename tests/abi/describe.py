@@ -115,11 +115,12 @@ def main():
         print("\n".join([f"  gone: {line}" for line in known if line not in now] + [f"  new:  {line}" for line in now if line not in known]))
         print("If this is meant, run python3 tests/abi/describe.py --write and name the change in CHANGELOG.md.")
         return 1
-    # The newest section of the changelog, and the page that has each old name beside its new one.
+    # The newest section of the changelog, and the pages that have each old name beside its new one.
+    pages = ["docs/from_rc1.md", "docs/lab/from_rc1.md"]
     changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8").split("\n## ")[1]
-    missing = unnamed(read("released.txt"), now, changelog + (ROOT / "docs/from_rc1.md").read_text(encoding="utf-8"))
+    missing = unnamed(read("released.txt"), now, changelog + "".join((ROOT / page).read_text(encoding="utf-8") for page in pages))
     if missing:
-        print("Neither the newest section of CHANGELOG.md nor docs/from_rc1.md names these, which changed since the last release:\n  " + "\n  ".join(missing))
+        print("Neither the newest section of CHANGELOG.md nor docs/lab/from_rc1.md names these, which changed since the last release:\n  " + "\n  ".join(missing))
         return 1
     functions = sum(line.startswith("function") for line in now)
     print(f"{functions} functions, {sum(line.startswith('struct') for line in now)} structures, {len(now)} lines")
