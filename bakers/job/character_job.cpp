@@ -106,7 +106,7 @@ std::vector<std::size_t> chosen_clips(const nook_bake_character_desc& desc, nook
 }
 
 // An update takes as long as spheres times key points, and skinning as long as the vertices. Below about
-// 1,000 vertices both numbers follow the vertices. docs/character.md has what the error loses.
+// 1,000 vertices both numbers follow the vertices. docs/lab/character.md has what the error loses.
 void limit_capacity(const nook_bake_character_desc& desc, std::size_t vertices, BakeSettings& settings) {
   constexpr std::size_t least_key_points = 64, least_spheres = 48;
   if (!desc.key_points)
@@ -364,7 +364,7 @@ std::vector<Pose> likely_poses(const ImportedCharacter& character, const Recipe&
                                const CalibrationPoses& calibration) {
   constexpr std::size_t most_of_clips = 240, least_of_clips = 16;
   // From this number on, the fitted clips stand for the others. Below it, three automatic poses join each of
-  // theirs. docs/character.md measures both.
+  // theirs. docs/lab/character.md measures both.
   constexpr std::size_t enough_clips = 4, automatic_for_each = 3;
   if (!calibration.poses.empty()) return split_recording(calibration.poses).fitted;
   if (recipe.settings.fit != FitMethod::nook || recipe.auto_poses == 0 || recipe.extra_poses > 0) return {};

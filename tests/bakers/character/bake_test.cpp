@@ -52,7 +52,7 @@ TEST_CASE("a baked model follows poses that it has not seen") {
   const CharacterEvaluation e = evaluate_character(mesh, baked.model, unseen, 256, 5);
   INFO("mse " << e.model.mse << " static " << e.static_bake.mse << " oracle " << e.oracle.mse);
   CHECK(e.noise_floor_mse < 1e-4);               // 3.3e-5 is usual for 256 stratified rays
-  CHECK(e.model.mse < 0.2 * e.static_bake.mse);  // real bodies have 0.05 to 0.09, docs/character.md
+  CHECK(e.model.mse < 0.2 * e.static_bake.mse);  // real bodies have 0.05 to 0.09, docs/lab/character.md
   CHECK(e.model.mse < e.oracle.mse);
 
   // Quantisation raises the error only slightly.
@@ -153,7 +153,7 @@ TEST_CASE("caster weights give the traced darkening of points outside the body")
   }
   const float fitted = 1 - std::exp(-solid_depth(depth));
   CHECK(traced > 0.03f);
-  CHECK(std::abs(fitted - traced) < 0.15f * traced);  // real bodies have up to 0.24, docs/character.md
+  CHECK(std::abs(fitted - traced) < 0.15f * traced);  // real bodies have up to 0.24, docs/lab/character.md
 }
 
 TEST_CASE("a ball of fitted casters darkens as its closed form, from contact to far away") {
@@ -205,7 +205,7 @@ TEST_CASE("a ball of fitted casters darkens as its closed form, from contact to 
       truth += double(exact(point, normal));
     }
     INFO("fitted " << mean / 400 << " exact " << truth / 400);
-    CHECK(std::abs(mean / truth - 1) < 0.07);  // docs/character.md has bodies in contact
+    CHECK(std::abs(mean / truth - 1) < 0.07);  // docs/lab/character.md has bodies in contact
   }
 }
 
