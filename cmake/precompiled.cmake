@@ -116,6 +116,10 @@ function(nook_precompile_directory directory)
   endforeach()
 endfunction()
 
+# Clang writes the times of all headers into a precompiled header, so that ccache would take no object from another checkout.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  string(APPEND CMAKE_CXX_FLAGS " -Xclang -fno-pch-timestamp")
+endif()
 set(standard <algorithm> <array> <atomic> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory> <numbers> <numeric>
              <optional> <random> <span> <stdexcept> <string> <vector>)
 if(NOOK_BAKERS)
