@@ -33,8 +33,9 @@ class Context {
 
   virtual void make_current() = 0;
   virtual void clear_current() = 0;
-  // Shows the drawn picture and handles the window's events. Does nothing without a window.
-  virtual void present() {}
+  // Shows the drawn picture and handles the window's events, for which it waits at most `wait_s`. Does
+  // nothing without a window.
+  virtual void present(double wait_s = 0) { static_cast<void>(wait_s); }
   virtual bool should_close() const { return false; }
   virtual bool is_es() const { return false; }
   // Null unless the kind is "window".

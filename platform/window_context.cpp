@@ -31,9 +31,9 @@ class WindowContext final : public Context {
   }
   void make_current() override { glfwMakeContextCurrent(window_); }
   void clear_current() override { glfwMakeContextCurrent(nullptr); }
-  void present() override {
+  void present(double wait_s) override {
     glfwSwapBuffers(window_);
-    glfwPollEvents();
+    wait_s > 0 ? glfwWaitEventsTimeout(wait_s) : glfwPollEvents();
   }
   bool should_close() const override { return glfwWindowShouldClose(window_) != 0; }
   GLFWwindow* window() const override { return window_; }

@@ -19,8 +19,10 @@
 namespace crowd {
 namespace {
 
-// ImGui finds the sizes of its panels in the first few frames.
+// ImGui finds the sizes of its panels in the first few frames, and answers input in as many.
 constexpr int frames_before_picture = 4;
+// While nothing moves, few frames are enough for a cursor that blinks and for a model's file that changes.
+constexpr double still_frame_s = 0.25;
 
 struct Controls {
   bool ao = true, self = true, neighbours = true, ground = true, floor = true, playing = true;
@@ -98,6 +100,13 @@ void move_camera(Controls& c, GLFWwindow* window) {
   c.turn += 1.5f * turn - (drags ? 0.005f * io.MouseDelta.x : 0);
   c.height = std::clamp(c.height + 1.5f * rise + (drags ? 0.005f * io.MouseDelta.y : 0), 0.02f, 1.5f);
   c.distance_m = std::clamp(c.distance_m * std::pow(0.9f, nearer), 1.5f, 200.0f);
+}
+
+bool has_input(const Controls& before, const Controls& after) {
+  const ImGuiIO& io = ImGui::GetIO();
+  return before.turn != after.turn || before.height != after.height ||
+         before.distance_m != after.distance_m || io.MouseDelta.x != 0 || io.MouseDelta.y != 0 ||
+         ImGui::IsAnyItemActive();
 }
 
 // Loads the model again. If the file does not fit the character, the old model stays.
@@ -217,6 +226,7 @@ void run_window(platform::Context& context, const Hero& hero, const std::vector<
   int links = c.link_count;
   float time_s = 0;
   platform::Stopwatch watch;
+  int moving_frames = frames_before_picture;  // are left until the picture holds still
   for (int frame = 1; !context.should_close(); ++frame) {
     const auto now_written = std::filesystem::last_write_time(request.model, absent);
     if (now_written != written) c.model_text = load_again(scene, request.model);
@@ -224,10 +234,13 @@ void run_window(platform::Context& context, const Hero& hero, const std::vector<
     if (c.link_count != links) scene.link_nearest(std::uint32_t(links = c.link_count));
     const float passed_s = float(watch.lap_seconds());
     if (c.playing) time_s += passed_s;
+    const Controls before = c;
     window.draw(pose_crowd(hero, places, time_s), c, 1.2f * radius_m + 8);
+    moving_frames =
+        c.playing || has_input(before, c) ? frames_before_picture : std::max(moving_frames - 1, 0);
     if (frame == frames_before_picture && !request.picture.empty())
       return window.write_picture(request.picture);
-    context.present();
+    context.present(moving_frames > 0 ? 0 : still_frame_s);
   }
 }
 
