@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Bakes radiance transfer of the tests' shapes, measures it under the maps of the assets, and prints the tables of
-docs/transfer.md.
+docs/lab/transfer.md.
 
     bakers/lab/tables/transfer_tables.py --out out/transfer_tables [--material FIBER.nook --raw FIBER.raw] [--write]
 
@@ -218,7 +218,7 @@ def main():
               "reflections": reflections_table, "holes": holes_table, "paper": paper_table}
     names = arguments.only.split(",") if arguments.only else list(makers)
     tables = {name: makers[name](bench) for name in names}
-    show(ROOT / "docs/transfer.md", "transfer_tables.py", tables, arguments.write)
+    show(ROOT / "docs/lab/transfer.md", "transfer_tables.py", tables, arguments.write)
 
 
 if __name__ == "__main__":

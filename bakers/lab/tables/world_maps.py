@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes two maps of light for docs/world.md, street.hdr and hall.hdr: a sky with a low sun, and a hall with windows and lamps.
+"""Writes two maps of light for docs/lab/world.md, street.hdr and hall.hdr: a sky with a low sun, and a hall with windows and lamps.
 
     bakers/lab/tables/world_maps.py FOLDER
 """

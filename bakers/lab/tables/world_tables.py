@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Bakes characters, runs nook evaluate world on them, and prints the tables of docs/world.md.
+"""Bakes characters, runs nook evaluate world on them, and prints the tables of docs/world.md and docs/lab/world.md.
 
     bakers/lab/tables/world_tables.py --nook build/bakers/tool/nook [--write] [--keep DIR] [--room SCENE.glb=METRES] [--light MAP.hdr] CHARACTER.glb ...
 
@@ -20,6 +20,7 @@ from markdown_table import show, table
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 SCRIPT = pathlib.Path(__file__).name
 DOCUMENT = ROOT / "docs/world.md"
+LAB = ROOT / "docs/lab/world.md"
 BAKE = ["--split", "half", "--auto-poses", "300", "--samples-per-clip", "8", "--steps", "100", "--rays", "4"]
 EVALUATE = ["--max-poses", "44", "--points", "600"]
 LIGHTS = ["--max-poses", "12", "--points", "400", "--rays", "512"]
@@ -130,8 +131,9 @@ def main():
         else:
             found = tables({character.stem: measure(options.nook, character, folder) for character in options.characters})
         if options.room:
-            found["rooms"] = room_table(measure_rooms(options.nook, options.characters[0], folder, options.room))
-    show(DOCUMENT, SCRIPT, found, options.write)
+            rooms = room_table(measure_rooms(options.nook, options.characters[0], folder, options.room))
+            show(DOCUMENT, SCRIPT, {"rooms": rooms}, options.write)
+    show(LAB, SCRIPT, found, options.write)
 
 
 if __name__ == "__main__":
