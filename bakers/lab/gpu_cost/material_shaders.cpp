@@ -31,7 +31,7 @@ struct Size {
   bool has_relief = false;
   std::uint32_t packed_modes = 0;  // light modes in blocks, with the VOTF
 };
-// Fiber and roughhole at the paper's ranks, as in docs/material_decoding.md, and weave.
+// Fiber and roughhole at the paper's ranks, as in docs/lab/material_decoding.md, and weave.
 const Size sizes[] = {
     {"fiber, N-SVD", 16, 20, 1, 1, 96, 20, 1, 1, {}, Loop{"view vectors", 20, {}}},
     {"fiber, K-CTA, K = 3", 16, 1, 20, 3, 96, 1, 20, 3, {}, {}},

@@ -122,7 +122,7 @@ void main() {
 
 constexpr int layers = 3;
 
-// On weave in docs/materials.md, 22 channels fill the bytes of K-CTA. This rounds them up to vectors.
+// On weave in docs/lab/materials.md, 22 channels fill the bytes of K-CTA. This rounds them up to vectors.
 std::string defines() {
   constexpr int channels = 24, view_side = 7, units = 32, offset_channels = 8, offset_units = 16;
   std::string text;

@@ -3,7 +3,7 @@
 samples/material, 960 x 540 pixels each: the vase of each side by side, twice as large, and below it one of its holes, six times
 as large.
 
-The commands that make the pictures stand in docs/materials.md.
+The commands that make the pictures stand in docs/lab/materials.md.
 """
 import pathlib
 import sys

@@ -39,7 +39,7 @@ TEST_CASE("a grid of probes takes three texels, and for each lobe its shape and 
     CHECK(fetches_of("probe grid, irradiance, " + std::to_string(lobes) + " lobes") == 3 + 9 * lobes);
 }
 
-TEST_CASE("materials fetch what docs/material_decoding.md counts") {
+TEST_CASE("materials fetch what docs/lab/material_decoding.md counts") {
   CHECK(fetches_of("material, fiber, N-SVD") == 392);
   CHECK(fetches_of("material, fiber, K-CTA, K = 3") == 83);
   CHECK(fetches_of("material, roughhole, N-SVD") == 362);
