@@ -1,4 +1,4 @@
-// The rows of `nook-lab evaluate nnao`, their means over scenes, and the tables of docs/nnao.md.
+// The rows of `nook-lab evaluate nnao`, their means over scenes, and the tables of docs/lab/nnao.md.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -42,7 +42,7 @@ SequenceView measure_sequence(platform::Context& context, const MeasuredView& vi
 inline constexpr std::size_t fewest_disoccluded = 100;
 
 // Members `rows`: means over each source's views and over the sources, with the columns of
-// docs/nnao_protocol.md; `ratios`: of errors; `views`: each view and pass. views: one or more.
+// docs/lab/nnao_protocol.md; `ratios`: of errors; `views`: each view and pass. views: one or more.
 nlohmann::ordered_json sequence_report(std::span<const SequenceView> views, std::uint64_t seed);
 
 std::string sequence_markdown(const nlohmann::ordered_json& report);

@@ -181,7 +181,7 @@ void add_options(Command command, EvaluateNnaoOptions& options) {
                     "also measure this network, a file that `nook train nnao` wrote");
   command.add_option("--images", options.images,
                      "write sheets of each view, and pictures of the networks, into this folder");
-  command.add_option("--markdown", options.markdown, "write the tables of docs/nnao.md to this file");
+  command.add_option("--markdown", options.markdown, "write the tables of docs/lab/nnao.md to this file");
   add_common_options(command, options.common);
 }
 
