@@ -51,8 +51,8 @@ MeasuredMover measure_mover(platform::Context& context, const MoverView& view, m
 inline constexpr std::size_t fewest_part_pixels = 100;
 
 // Members `rows`: means over each character's views and over the characters; `ratios`: errors over the errors
-// of single frames; `views`: each view and pass. docs/lab/nnao_protocol.md explains the columns. movers: one or
-// more.
+// of single frames; `views`: each view and pass. docs/lab/nnao_protocol.md explains the columns. movers: one
+// or more.
 nlohmann::ordered_json mover_report(std::span<const MeasuredMover> movers, std::uint64_t seed);
 
 std::string mover_markdown(const nlohmann::ordered_json& report);

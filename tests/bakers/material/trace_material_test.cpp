@@ -154,7 +154,8 @@ TEST_CASE("the mean over a tile, its smallest mipmap, is near the mean of what i
       filled_error += std::abs(mean(coarse, false) / double(coarse.texels()) - truth);
       black_error += std::abs(mean(coarse, true) / double(coarse.texels()) - truth);
     }
-  // The texels round a gap are a little darker than the rest, and fill it: docs/lab/materials.md has the method.
+  // The texels round a gap are a little darker than the rest, and fill it: docs/lab/materials.md has the
+  // method.
   INFO(filled_error << " filled, " << black_error << " black");
   CHECK(filled_error < black_error / 3);
 }
