@@ -7,6 +7,7 @@
 #include "bakers/measure/character/character_report.h"
 #include "bakers/measure/character/evaluated_character.h"
 #include "bakers/measure/composite/composite.h"
+#include "bakers/measure/world/silhouette.h"
 #include "bakers/measure/world/world_pictures.h"
 #include "bakers/measure/world/world_report.h"
 #include "bakers/tool/command_end.h"
@@ -30,7 +31,7 @@ struct Options {
   measure::WorldStudy study;
   std::filesystem::path images;
   std::size_t image_count = 3;
-  bool composite = false;
+  bool composite = false, silhouettes = false;
   std::vector<std::filesystem::path> scenes;  // in addition to the built-in room
   std::vector<float> scene_metres;            // unit of each
   measure::CompositeStudy rooms;
@@ -108,6 +109,8 @@ Json evaluate(const Options& options) {
   Json report;
   report["rows"] = naming_file(options.files.model, [&] {
     if (options.composite) return composite_report(options, baked, measured.poses);
+    if (options.silhouettes)
+      return measure::silhouette_rows(baked.character.mesh, baked.model, measured.poses, study, progress);
     if (!maps.empty())
       return measure::world_light_rows(baked.character.mesh, baked.model, measured.poses, maps, study,
                                        progress);
@@ -163,12 +166,21 @@ void add_evaluate_world(Command evaluate_command) {
       command.add_flag("--composite", o.composite,
                        "instead measure characters and the screen pass together, in rooms with characters; "
                        "pixels that the characters darken are reported apart from the others");
+  const Option silhouettes =
+      command
+          .add_flag(
+              "--silhouettes", o.silhouettes,
+              "instead compare the outlines of shadows on the floor, under a light of 1 degree from 8 "
+              "directions at 45 degrees, in cells of 1 cm: iou is the area in both shadows over the area "
+              "in either")
+          .excludes(composite);
   command
       .add_input("--light", o.lights,
                  "instead measure the irradiance of floor and wall under this latitude-longitude map, each "
                  "colour channel against path tracing; you can give several maps")
       .check(existing_file())
-      .excludes(composite);
+      .excludes(composite)
+      .excludes(silhouettes);
   command.add_input("--scene", o.scenes, "also measure in this room, a glTF file with +y up")
       .check(existing_file());
   command.add_option("--scene-metres", o.scene_metres, "metres per unit of each --scene; default 1")

@@ -47,6 +47,18 @@ inline float part_coverage_at(const Capsule& c, Vec3 point, Vec3 axis, float slo
                                      axis.z, slope);
 }
 
+// Returns false if the sphere around the capsule is outside a cone around the axis, so that the capsule hides
+// nothing of a light inside.
+inline bool may_hide(const Capsule& c, Vec3 point, Vec3 axis, float half_angle_radians) {
+  const Vec3 centre = 0.5f * (c.a + c.b) - point;
+  const float radius = 0.5f * length(c.b - c.a) + std::fmax(c.radius_a, c.radius_b);
+  const float depth = dot(centre, axis);
+  const float aside = std::sqrt(std::fmax(dot(centre, centre) - depth * depth, 0.0f));
+  return half_angle_radians > 1.5f ||
+         (depth > -radius &&
+          aside * std::cos(half_angle_radians) - depth * std::sin(half_angle_radians) < radius);
+}
+
 // The product of 1 - coverage over all casters: the AO of the point.
 inline float open_share(std::span<const Capsule> capsules, Vec3 point, Vec3 normal) {
   float open = 1;

@@ -47,13 +47,16 @@ class NookCasters final : public Darkener {
   }
   float ao(Vec3 point, Vec3 normal) const override { return bake::open_share(for_ao_, point, normal); }
   float cone(Vec3 point, const LightCone& cone) const override {
-    float open = 0;
-    for (const Vec3 axis : cone.parts.axis) {
-      float clear = 1;
-      for (const Capsule& c : for_light_)
-        clear *= 1 - bake::part_coverage_at(c, point, axis, cone.parts.slope);
-      open += clear;
+    const float wide = cone.half_angle_radians + 2 * std::atan(cone.parts.slope);
+    float clear[world::cone_parts];
+    std::fill(std::begin(clear), std::end(clear), 1.0f);
+    for (const Capsule& c : for_light_) {
+      if (!bake::may_hide(c, point, cone.axis, wide)) continue;
+      for (std::size_t i = 0; i < world::cone_parts; ++i)
+        clear[i] *= 1 - bake::part_coverage_at(c, point, cone.parts.axis[i], cone.parts.slope);
     }
+    float open = 0;
+    for (const float part : clear) open += part;
     return open / float(world::cone_parts);
   }
 

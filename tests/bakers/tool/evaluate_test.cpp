@@ -294,6 +294,28 @@ TEST_CASE("evaluate world has a row for each surface and method, and pictures") 
   CHECK(baked.folder.run({"evaluate", "world", baked.glb, baked.model, "--clips", "fly"}).exit_code == 2);
 }
 
+TEST_CASE("evaluate world --silhouettes compares outlines with ray tracing") {
+  const Baked baked;
+  const ToolRun run = baked.folder.run({"evaluate", "world", baked.glb, baked.model, "--report", baked.report,
+                                        "--silhouettes", "--max-poses", "2"});
+  INFO(run.error);
+  REQUIRE(run.exit_code == 0);
+  const Json report = Json::parse(read_text(baked.report));
+  REQUIRE(report.at("rows").size() == 2);
+  for (const Json& row : report.at("rows")) {
+    INFO(row.dump());
+    CHECK(row.at("surface") == "silhouette");
+    CHECK(row.at("poses") == 2);
+    CHECK(row.at("shadows") == 16);
+    // A tube is a capsule in each of its bones.
+    if (row.at("method") == "nook") CHECK(row.at("iou").get<double>() > 0.8);
+    CHECK(row.at("iou_low").get<double>() <= row.at("iou").get<double>());
+    CHECK(row.at("iou").get<double>() <= 1);
+  }
+  CHECK(baked.folder.run({"evaluate", "world", baked.glb, baked.model, "--silhouettes", "--composite"})
+            .exit_code == 2);
+}
+
 TEST_CASE("evaluate world --composite measures both passes in a room") {
   const Baked baked;
   const ToolRun run = baked.folder.run({"evaluate", "world", baked.glb, baked.model, "--report", baked.report,
