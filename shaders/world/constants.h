@@ -71,6 +71,12 @@
 #define NOOK_VIEW_FAR_CASTERS 4
 #define NOOK_VIEW_FAR_TESTS 5
 
+// The share of a unit disc beyond a line, 0.5 + x (c1 + c3 x^2): c1 is -2 / pi, the slope at the middle.
+#define NOOK_SEGMENT_1 -0.63662
+#define NOOK_SEGMENT_3 0.13662
+// Up to this radius, in radii of a part, a capsule counts as a rectangle; from 1 more on, by its round edge.
+#define NOOK_NARROW_RADIUS 0.75
+
 // The equal parts of a cone of light.
 #define NOOK_CONE_PARTS 16
 // Uniforms of light.glsl, which describes them.

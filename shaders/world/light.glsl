@@ -73,27 +73,35 @@ bool nook_world_in_cone(vec3 centre, float radius) {
 
 float nook_share_beyond(float s) {
   float x = clamp(s, -1.0, 1.0);
-  return x * (x * x * 0.25 - 0.75) + 0.5;
+  return x * (x * x * NOOK_SEGMENT_3 + NOOK_SEGMENT_1) + 0.5;
 }
 
-// a and b: the capsule's ends relative to the point, with their radii. part: a unit axis and the slope.
-float nook_part_coverage(vec4 a, vec4 b, vec4 part) {
-  float depth_a = dot(a.xyz, part.xyz), depth_b = dot(b.xyz, part.xyz);
-  float deepest = max(depth_a, depth_b), smallest = 0.02 * deepest, range = depth_b - depth_a;
-  float at = clamp((smallest - depth_a) / (range * range < 1e-20 ? 1e-10 : range), 0.0, 1.0);
-  float ta = depth_a < smallest ? at : 0.0, tb = depth_b < smallest ? at : 1.0;
-  vec4 end_a = mix(a, b, ta), end_b = mix(a, b, tb);
-  float da = max(ta * range + depth_a, smallest), db = max(tb * range + depth_a, smallest);
-  float scale_a = 1.0 / max(da * part.w, 1e-12), scale_b = 1.0 / max(db * part.w, 1e-12);
-  vec3 pa = (end_a.xyz - da * part.xyz) * scale_a, pb = (end_b.xyz - db * part.xyz) * scale_b;
-  vec3 d = pb - pa;
-  float length2 = dot(d, d), inverse = inversesqrt(max(length2, 1e-12)), size = length2 * inverse;
-  float xa = dot(pa, d) * inverse, aside = sqrt(max(dot(pa, pa) - xa * xa, 0.0));
-  float radius = mix(end_a.w * scale_a, end_b.w * scale_b, clamp(-xa * inverse, 0.0, 1.0));
+float nook_share_between(float from, float to) {
+  float x = clamp(from, -1.0, 1.0), y = clamp(to, -1.0, 1.0);
+  return x * (x * x * NOOK_SEGMENT_3 + NOOK_SEGMENT_1) - y * (y * y * NOOK_SEGMENT_3 + NOOK_SEGMENT_1);
+}
+
+// a: the capsule's first end relative to the point, with its radius. e: the other end's minus the first's. part:
+// a unit axis and the slope.
+float nook_part_coverage(vec4 a, vec4 e, vec4 part) {
+  float depth_a = dot(a.xyz, part.xyz), range = dot(e.xyz, part.xyz), depth_b = depth_a + range;
+  float deepest = max(depth_a, depth_b), smallest = 0.02 * deepest;
+  float da = max(depth_a, smallest), db = max(depth_b, smallest);
+  float inverse_range = 1.0 / (range + 1e-20), scale = 1.0 / (da * db * part.w);
+  vec4 pa = ((da - depth_a) * inverse_range * e + a - vec4(da * part.xyz, 0.0)) * (db * scale);
+  vec4 pb = ((db - depth_b) * inverse_range + 1.0) * e + a;
+  pb = (pb - vec4(db * part.xyz, 0.0)) * (da * scale);
+  vec4 d = pb - pa;
+  float length2 = d.x * d.x + (d.y * d.y + (d.z * d.z + 1e-12)), inverse = inversesqrt(length2), size = length2 * inverse;
+  float xa = dot(pa.xyz, d.xyz) * inverse, aside2 = abs(dot(pa.xyz, pa.xyz) - xa * xa), aside = sqrt(aside2);
+  float nearest = clamp((d.w * inverse * aside - xa) * inverse, 0.0, 1.0);
+  float radius = nearest * d.w + pa.w, along_x = nearest * size + xa;
+  float edge = nook_share_beyond(sqrt(along_x * along_x + aside2) - radius);
   float cap = 0.785398163 * radius;
-  float across = nook_share_beyond(aside - radius) - nook_share_beyond(aside + radius);
-  float along = nook_share_beyond(xa - cap) - nook_share_beyond(xa + size + cap);
-  return deepest > 0.0 ? clamp(across * along, 0.0, 1.0) : 0.0;
+  float across = nook_share_between(aside - radius, aside + radius);
+  float along = nook_share_between(xa - cap, xa + size + cap);
+  float share = mix(across * along, edge, clamp(radius - NOOK_NARROW_RADIUS, 0.0, 1.0));
+  return deepest > 1e-6 ? share : 0.0;
 }
 
 // The table's bodies of light: the centre and radius of the sphere around the body; its first caster and
@@ -108,7 +116,7 @@ void nook_world_body_shade(NOOK_TEXELS table, int texel, vec3 point) {
     a.xyz -= point;
     b.xyz -= point;
     if (nook_world_in_cone(0.5 * (a.xyz + b.xyz), 0.5 * distance(a.xyz, b.xyz) + max(a.w, b.w)))
-      for (int i = 0; i < NOOK_CONE_PARTS; ++i) nook_world_parts[i] *= 1.0 - nook_part_coverage(a, b, nook_world_cone[i]);
+      for (int i = 0; i < NOOK_CONE_PARTS; ++i) nook_world_parts[i] *= 1.0 - nook_part_coverage(a, b - a, nook_world_cone[i]);
   }
 }
 

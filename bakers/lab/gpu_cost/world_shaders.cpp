@@ -66,8 +66,8 @@ constexpr char coloured_host[] =
 constexpr char cone_host[] =
     "#define NOOK_COLOURED 1\n"
     "#include \"shaders/world/casters.glsl\"\n"
-    "in vec4 end_a;\nin vec4 end_b;\nflat in int part;\nout vec4 colour;\n"
-    "void main() { colour = vec4(nook_part_coverage(end_a, end_b, nook_world_cone[part])); }\n";
+    "in vec4 end_a;\nin vec4 to_b;\nflat in int part;\nout vec4 colour;\n"
+    "void main() { colour = vec4(nook_part_coverage(end_a, to_b, nook_world_cone[part])); }\n";
 
 }  // namespace
 

@@ -104,7 +104,8 @@ void sample(const WorldKernels& kernels, const Parallel& parallel, const SampleR
   ConeParts parts;
   const bool lit = request.has_light && light, coloured = request.terms && rgb;
   if (lit) parts = cone_parts_of(request.light_axis, request.light_half_angle_radians);
-  // A capsule counts as a rectangle. Its corners reach beyond the round ends by less than a third of a part.
+  // A thin capsule counts as a rectangle. Its corners reach beyond the round ends by less than a third of a
+  // part.
   const float wide = request.light_half_angle_radians + 2 * std::atan(parts.slope);
   const auto run = [&](std::uint32_t index) noexcept {
     Block block;

@@ -77,9 +77,9 @@ class FrameCasters {
   std::uint32_t caster_count_ = 0, tile_px_ = 32, columns_ = 0, light_columns_ = 0, first_shade_ = 0;
 };
 
-// Returns the half angle, in radians, within which a cone's light counts. Each part of a cone takes a capsule
-// for a rectangle, whose corners reach beyond its round ends by less than a third of a part. slope: of the
-// parts.
+// Returns the half angle, in radians, within which a cone's light counts. Each part of a cone takes a thin
+// capsule for a rectangle, whose corners reach beyond its round ends by less than a third of a part. slope:
+// of the parts.
 float angle_round(const LightCone& cone, float slope);
 
 }  // namespace nook::gl
