@@ -418,6 +418,7 @@ BakeIdentity identify_character(const ImportedCharacter& character, const Recipe
                          {"contact_points", casters.contact_points},
                          {"neighbour_points", casters.neighbour_points},
                          {"cone_points", casters.cone_points},
+                         {"outline_points", casters.outline_points},
                          {"rays", casters.rays},
                          {"steps", casters.steps},
                          {"pull", casters.pull},

@@ -26,14 +26,11 @@ constexpr std::size_t block_rows = 128;  // points whose derivatives are multipl
 
 using Parameters = Eigen::VectorXd;
 
-float training_slope() {
-  static const float slope = std::tan(training_cone_radians);
-  return slope;
-}
-
 float covered_share(const Capsule& c, const TrainingPoint& point) {
-  return point.kind == PointKind::cone ? part_coverage_at(c, point.position, point.normal, training_slope())
-                                       : coverage_at(c, point.position, point.normal);
+  if (!point.of_light()) return coverage_at(c, point.position, point.normal);
+  // A capsule that counts as a rectangle reaches a little beyond its round ends: twice the cone is enough.
+  if (!may_hide(c, point.position, point.normal, 2 * std::atan(point.slope))) return 0;
+  return part_coverage_at(c, point.position, point.normal, point.slope);
 }
 
 Parameters parameters_of(std::span<const WorldCaster> casters) {
@@ -80,10 +77,9 @@ Slopes coverage_with_slopes(const Capsule& c, const Mat3x4& bone, const Training
   const Vec3 n = point.normal;
   const world::CapsuleLanes<Dual> lanes{lane[0], lane[1], lane[2], lane[3],
                                         lane[4], lane[5], lane[6], lane[7]};
-  const Dual f =
-      point.kind == PointKind::cone
-          ? world::part_coverage<Dual>(lanes, Dual(n.x), Dual(n.y), Dual(n.z), Dual(training_slope()))
-          : world::coverage<Dual>(lanes, Dual(n.x), Dual(n.y), Dual(n.z));
+  const Dual f = point.of_light()
+                     ? world::part_coverage<Dual>(lanes, Dual(n.x), Dual(n.y), Dual(n.z), Dual(point.slope))
+                     : world::coverage<Dual>(lanes, Dual(n.x), Dual(n.y), Dual(n.z));
   Slopes r;
   r.value = f.value;
   const float* m = bone.m;
@@ -93,7 +89,7 @@ Slopes coverage_with_slopes(const Capsule& c, const Mat3x4& bone, const Training
           m[i] * f.slope[3 * end] + m[4 + i] * f.slope[3 * end + 1] + m[8 + i] * f.slope[3 * end + 2];
   r.slope[6] = c.radius_a * f.slope[6];
   r.slope[7] = c.radius_b * f.slope[7];
-  r.slope[8] = point.kind == PointKind::cone ? 0 : r.slope[6] + r.slope[7];
+  r.slope[8] = point.of_light() ? 0 : r.slope[6] + r.slope[7];
   return r;
 }
 
@@ -147,7 +143,7 @@ class Objective {
   struct PosedSets {
     std::vector<std::vector<Capsule>> for_ao, for_light;
     const std::vector<Capsule>& of(const TrainingPoint& point) const {
-      return (point.kind == PointKind::cone ? for_light : for_ao)[point.pose];
+      return (point.of_light() ? for_light : for_ao)[point.pose];
     }
   };
 
@@ -168,37 +164,96 @@ class Objective {
     Eigen::MatrixXf rows(block_rows, columns), gram(columns, columns);
     Eigen::VectorXf residual(block_rows);
     std::vector<Slopes> covered(casters.size());
-    for (std::size_t i = begin; i < end; i += block_rows) {
-      const std::size_t count = std::min(block_rows, end - i);
-      rows.setZero();
-      residual.setZero();
-      for (std::size_t r = 0; r < count; ++r) {
-        const TrainingPoint& point = set_.point[i + r];
-        const Pose& pose = set_.poses[point.pose];
-        float open = 1;
-        for (std::size_t k = 0; k < casters.size(); ++k) {
-          const Mat3x4& bone = pose[casters[k].bone];
-          covered[k] = coverage_with_slopes(capsules.of(point)[k], bone, point);
-          open *= 1 - covered[k].value;
-        }
-        const float weight = std::sqrt(point.weight), e = open - point.ao;
-        sums.error += double(point.weight) * double(e) * double(e);
-        residual[Eigen::Index(r)] = weight * e;
-        for (std::size_t k = 0; k < casters.size(); ++k) {
-          const float others = -weight * open / std::max(1 - covered[k].value, 1e-3f);
-          for (std::size_t s = 0; s < width; ++s)
-            rows(Eigen::Index(r), Eigen::Index(k * width + s)) = others * covered[k].slope[s];
+    // Points with AO see nearly every caster. Their rows are multiplied together.
+    std::size_t count = 0;
+    const auto multiply = [&] {
+      gram.setZero();
+      gram.selfadjointView<Eigen::Lower>().rankUpdate(rows.topRows(Eigen::Index(count)).transpose());
+      sums.gram.triangularView<Eigen::Lower>() += gram.cast<double>();
+      sums.right -=
+          (rows.topRows(Eigen::Index(count)).transpose() * residual.head(Eigen::Index(count))).cast<double>();
+      count = 0;
+    };
+    for (std::size_t i = begin; i < end; ++i) {
+      const TrainingPoint& point = set_.point[i];
+      if (point.of_light()) {
+        add_light(casters, capsules.of(point), point, sums);
+        continue;
+      }
+      const Pose& pose = set_.poses[point.pose];
+      float open = 1;
+      for (std::size_t k = 0; k < casters.size(); ++k) {
+        covered[k] = coverage_with_slopes(capsules.of(point)[k], pose[casters[k].bone], point);
+        open *= 1 - covered[k].value;
+      }
+      const float weight = std::sqrt(point.weight), e = open - point.ao;
+      sums.error += double(point.weight) * double(e) * double(e);
+      residual[Eigen::Index(count)] = weight * e;
+      for (std::size_t k = 0; k < casters.size(); ++k) {
+        const float others = -weight * open / std::max(1 - covered[k].value, 1e-3f);
+        for (std::size_t s = 0; s < width; ++s)
+          rows(Eigen::Index(count), Eigen::Index(k * width + s)) = others * covered[k].slope[s];
+      }
+      if (++count == block_rows) multiply();
+    }
+    multiply();
+  }
+
+  // A light is hidden by few casters, whose rows and columns alone change.
+  void add_light(std::span<const WorldCaster> casters, const std::vector<Capsule>& capsules,
+                 const TrainingPoint& point, Sums& sums) const {
+    struct Hiding {
+      std::size_t caster;
+      Slopes share;
+    };
+    const Pose& pose = set_.poses[point.pose];
+    std::vector<Hiding> hiding;
+    float open = 1;
+    for (std::size_t k = 0; k < casters.size(); ++k) {
+      if (!may_hide(capsules[k], point.position, point.normal, 2 * std::atan(point.slope))) continue;
+      Slopes share = coverage_with_slopes(capsules[k], pose[casters[k].bone], point);
+      open *= 1 - share.value;
+      // A capsule whose ends meet has no slopes.
+      const bool finite = std::all_of(share.slope.begin(), share.slope.end(),
+                                      [](float slope) { return std::isfinite(slope); });
+      if (!finite) share.slope.fill(0);
+      hiding.push_back({k, share});
+    }
+    const float e = open - point.ao;
+    sums.error += double(point.weight) * double(e) * double(e);
+    for (Hiding& one : hiding)
+      for (float& slope : one.share.slope) slope *= -open / std::max(1 - one.share.value, 1e-3f);
+    for (const Hiding& one : hiding)
+      for (std::size_t i = 0; i < Dual::count; ++i) {
+        const auto row = Eigen::Index(one.caster * width + i);
+        const double weighted = double(point.weight) * double(one.share.slope[i]);
+        if (weighted == 0) continue;
+        sums.right[row] -= weighted * double(e);
+        for (const Hiding& other : hiding) {
+          if (other.caster > one.caster) break;
+          const std::size_t last = other.caster == one.caster ? i + 1 : Dual::count;
+          for (std::size_t j = 0; j < last; ++j)
+            sums.gram(row, Eigen::Index(other.caster * width + j)) += weighted * double(other.share.slope[j]);
         }
       }
-      gram.setZero();
-      gram.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
-      sums.gram.triangularView<Eigen::Lower>() += gram.cast<double>();
-      sums.right -= (rows.transpose() * residual).cast<double>();
-    }
   }
 
   const TrainingPoints& set_;
 };
+
+// A capsule without a length has no direction, and derivatives there are endless. The fit begins with a
+// length of a tenth of the radius.
+void lengthen(std::vector<WorldCaster>& casters) {
+  for (WorldCaster& caster : casters) {
+    Capsule& c = caster.capsule;
+    const float least = 0.1f * std::max(c.radius_a, c.radius_b);
+    const Vec3 along = c.b - c.a;
+    if (length(along) >= least) continue;
+    const Vec3 direction = length(along) > 0 ? normalised(along) : Vec3{0, 1, 0}, middle = 0.5f * (c.a + c.b);
+    c.a = middle - 0.5f * least * direction;
+    c.b = middle + 0.5f * least * direction;
+  }
+}
 
 // Overlapping capsules of full radius darken too much. So the fit starts with one scale for all radii, and
 // another for the radii in AO.
@@ -253,6 +308,7 @@ std::vector<WorldCaster> fit_world_casters(const SkinnedMesh& mesh, std::span<co
   const SkinnedMesh& begin = mesh.bones.size() == 1 ? fine : mesh;
   std::vector<WorldCaster> casters =
       initial_casters(begin, vertex_areas(begin, begin.position), settings.casters);
+  lengthen(casters);
   const std::size_t total = std::min(settings.poses, poses.size()) + settings.steps;
   const TrainingPoints set = trace_training_points(mesh, poses, settings, [&](std::size_t done, std::size_t) {
     return !progress || progress(done, total);

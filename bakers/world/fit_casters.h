@@ -17,7 +17,7 @@ struct WorldCasterSettings {
   std::size_t poses = 96;    // at most this many poses, evenly chosen
   // Points in each pose.
   std::size_t floor_points = 256, wall_points = 64, contact_points = 128, neighbour_points = 48,
-              cone_points = 96;
+              cone_points = 96, outline_points = 400;
   std::uint32_t rays = 256;  // per point; a cone takes an eighth
   std::size_t steps = 16;    // maximum number of Gauss-Newton steps; 0: the initial capsules
   // The pull towards the initial capsules is the relative error that a change by one standard deviation
@@ -30,7 +30,7 @@ struct WorldCasterSettings {
 
 struct WorldCasterReport {
   double seconds = 0;
-  // Mean squared error over the error without darkening, as a sum over the five kinds of points, before and
+  // Mean squared error over the error without darkening, as a sum over the six kinds of points, before and
   // after.
   double error_initial = 0, error_fitted = 0;
 };
@@ -39,9 +39,9 @@ struct WorldCasterReport {
 using CasterProgress = std::function<bool(std::size_t done, std::size_t total)>;
 
 // Fits casters by Levenberg's and Marquardt's method, starting from initial_casters. Minimises a weighted sum
-// over floor, wall, contact ring, neighbour, and shadows of small cones of light on the floor. Each term is
-// the mean squared error over the error without darkening. The same seed gives the same casters on any number
-// of threads. Throws Failure (CANCELLED).
+// over floor, wall, contact ring, neighbour, shadows of cones of light on the floor, and the outlines of
+// these shadows. Each term is the mean squared error over the error without darkening. The same seed gives
+// the same casters on any number of threads. Throws Failure (CANCELLED).
 std::vector<WorldCaster> fit_world_casters(const SkinnedMesh& mesh, std::span<const Pose> poses,
                                            const WorldCasterSettings& settings,
                                            WorldCasterReport* report = nullptr,

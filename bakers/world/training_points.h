@@ -23,10 +23,10 @@ struct RayCone {
 float open_cone_share(const RayScene& scene, Vec3 origin, const RayCone& cone, std::uint32_t rays,
                       float turn);
 
-enum class PointKind : std::uint8_t { floor, wall, contact, neighbour, cone };
-inline constexpr std::size_t point_kinds = 5;
-// The half angle of the cone of light at a point of this kind.
-inline constexpr float training_cone_radians = 0.07f;  // 4 degrees, the half angle
+// cone: points of the floor by area. outline: points in the body's shadow and at its edge, for every
+// direction of the light.
+enum class PointKind : std::uint8_t { floor, wall, contact, neighbour, cone, outline };
+inline constexpr std::size_t point_kinds = 6;
 
 struct TrainingPoint {
   Vec3 position;
@@ -35,6 +35,9 @@ struct TrainingPoint {
   PointKind kind = PointKind::floor;
   float ao = 1;      // traced; for a cone, its open share
   float weight = 0;  // weight of the squared error: the sum of weight * (1 - ao)^2 over a kind is its share
+  float slope = 0;   // the tangent of the half angle of a cone of light; 0: the point has AO
+
+  bool of_light() const { return slope > 0; }
 };
 
 struct TrainingPoints {
