@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "bakers/import/skinned_mesh.h"
+#include "bakers/world/body_metres.h"
 #include "bakers/world/dual.h"
 #include "bakers/world/initial_casters.h"
 #include "bakers/world/posed_casters.h"
@@ -302,6 +303,11 @@ Eigen::VectorXd pull_of(std::size_t casters, const WorldCasterSettings& s) {
 std::vector<WorldCaster> fit_world_casters(const SkinnedMesh& mesh, std::span<const Pose> poses,
                                            const WorldCasterSettings& settings, WorldCasterReport* report,
                                            const CasterProgress& progress) {
+  const float scale = scale_to_metres(mesh);
+  if (scale != 1)
+    return casters_in_metres(fit_world_casters(mesh_in_metres(mesh, scale), poses_in_metres(poses, scale),
+                                               settings, report, progress),
+                             1 / scale);
   const platform::Stopwatch watch;
   // A mesh of one bone is an object, such as a table, whose triangles may be large.
   const SkinnedMesh fine = mesh.bones.size() == 1 ? refined(mesh) : SkinnedMesh{};

@@ -11,6 +11,7 @@
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/random.h"
 #include "bakers/raytrace/ray_scene.h"
+#include "bakers/world/body_metres.h"
 #include "bakers/world/surroundings.h"
 #include "bakers/world/training_points.h"
 #include "sdk/src/core/failure.h"
@@ -21,21 +22,14 @@ namespace {
 using namespace bake;
 using Json = nlohmann::ordered_json;
 
-constexpr float light_degrees = 1, half_open = 0.5f;
+constexpr float cell_m = 0.01f, light_degrees = 1, half_open = 0.5f;
 constexpr std::size_t directions = 8;
 constexpr float up_radians = 0.25f * std::numbers::pi_v<float>;
 // Where all of the first rays agree, half of the light is not near; other cells take more rays.
 constexpr std::uint32_t first_rays = 7, rays_at_edges = 48;
 
-// The side of a cell: 1 cm, or a share of the size of a body whose file is not in metres.
-float cell_of(const SkinnedMesh& mesh) {
-  const Bounds box = bounds_of(mesh.position);
-  return std::max(0.01f, length(box.high - box.low) / 500);
-}
-
 // Cells of the floor that the body may shade.
 struct Floor {
-  float cell_m = 0;
   Vec3 corner;
   int columns = 0, rows = 0;
 
@@ -46,7 +40,7 @@ struct Floor {
   }
 };
 
-Floor shaded_floor(std::span<const Vec3> body, Vec3 axis, float cell_m) {
+Floor shaded_floor(std::span<const Vec3> body, Vec3 axis) {
   const float height = floor_height(body);
   Vec3 low{INFINITY, height, INFINITY}, high{-INFINITY, height, -INFINITY};
   for (const Vec3 p : body) {
@@ -55,9 +49,9 @@ Floor shaded_floor(std::span<const Vec3> body, Vec3 axis, float cell_m) {
     high = {std::max(high.x, q.x), height, std::max(high.z, q.z)};
   }
   // Casters may reach farther than the body.
-  const float margin_m = 10 * cell_m;
-  const auto cells = [&](float metres) { return int(std::ceil(metres / cell_m)); };
-  return {cell_m, low - Vec3{margin_m, 0, margin_m}, cells(high.x - low.x + 2 * margin_m),
+  constexpr float margin_m = 0.1f;
+  const auto cells = [](float metres) { return int(std::ceil(metres / cell_m)); };
+  return {low - Vec3{margin_m, 0, margin_m}, cells(high.x - low.x + 2 * margin_m),
           cells(high.z - low.z + 2 * margin_m)};
 }
 
@@ -88,12 +82,19 @@ Json silhouette_rows(const SkinnedMesh& mesh, const CharacterModel& model, std::
   if (casters.empty()) casters.assign(model.world_casters.begin(), model.world_casters.end());
   if (casters.empty())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the model has no world casters; bake the character again");
+  // Cells are in metres.
+  if (const float scale = scale_to_metres(mesh); scale != 1) {
+    WorldStudy in_metres = study;
+    in_metres.casters = casters_in_metres(casters, scale);
+    return silhouette_rows(mesh_in_metres(mesh, scale), model, poses_in_metres(poses, scale), in_metres,
+                           progress);
+  }
   std::vector<Method> methods;
   methods.push_back(nook_method(casters));
   methods.push_back(capsule_method(mesh));
   std::vector<std::vector<std::vector<double>>> iou;  // by method, variant and shadow
   for (const Method& method : methods) iou.emplace_back(method.variant.size());
-  const float cell_m = cell_of(mesh), offset = ray_origin_offset(mesh.position);
+  const float offset = ray_origin_offset(mesh.position);
   for (std::size_t p = 0; p < poses.size(); ++p) {
     if (progress && !progress(p, poses.size()))
       throw Failure(NOOK_ERROR_CANCELLED, "cancelled while measuring silhouettes");
@@ -110,7 +111,7 @@ Json silhouette_rows(const SkinnedMesh& mesh, const CharacterModel& model, std::
                    std::cos(up_radians) * std::cos(bearing)};
       cone.half_angle_radians = 0.5f * light_degrees * std::numbers::pi_v<float> / 180;
       cone.parts = world::cone_parts_of(cone.axis, cone.half_angle_radians);
-      const Floor floor = shaded_floor(body, cone.axis, cell_m);
+      const Floor floor = shaded_floor(body, cone.axis);
       const std::uint64_t seed = mix_bits(study.seed + directions * p + d);
       const std::vector<char> truth = shaded_cells(floor, [&](Vec3 at, std::size_t i) {
         const Vec3 origin = at + Vec3{0, offset, 0};
@@ -145,8 +146,7 @@ Json silhouette_rows(const SkinnedMesh& mesh, const CharacterModel& model, std::
                     {"iou", best},
                     {"iou_low", worst},
                     {"poses", poses.size()},
-                    {"shadows", poses.size() * directions},
-                    {"cell_m", cell_m}});
+                    {"shadows", poses.size() * directions}});
   }
   return rows;
 }

@@ -12,6 +12,7 @@
 #include "bakers/measure/world/ratio_bounds.h"
 #include "bakers/raytrace/ambient_occlusion.h"
 #include "bakers/raytrace/random.h"
+#include "bakers/world/body_metres.h"
 #include "bakers/world/surroundings.h"
 #include "bakers/world/training_points.h"
 #include "sdk/src/core/failure.h"
@@ -176,6 +177,19 @@ Json world_rows(const SkinnedMesh& mesh, const CharacterModel& model, std::span<
   if (casters.empty()) casters.assign(model.world_casters.begin(), model.world_casters.end());
   if (casters.empty())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the model has no world casters; bake the character again");
+  // Surfaces are in metres.
+  if (const float scale = scale_to_metres(mesh); scale != 1) {
+    WorldStudy in_metres = study;
+    in_metres.casters = casters_in_metres(casters, scale);
+    CharacterModel spheres;
+    for (ProxySphere sphere : model.spheres) {
+      sphere.centre = scale * sphere.centre;
+      sphere.radius *= scale;
+      spheres.spheres.push_back(sphere);
+    }
+    return world_rows(mesh_in_metres(mesh, scale), spheres, poses_in_metres(poses, scale), in_metres,
+                      progress);
+  }
   std::vector<Method> methods;
   methods.push_back(nook_method(casters));
   methods.push_back(capsule_method(mesh));

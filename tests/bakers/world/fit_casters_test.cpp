@@ -8,6 +8,7 @@
 #include "bakers/import/skinned_mesh.h"
 #include "bakers/measure/world/silhouette.h"
 #include "bakers/measure/world/world_report.h"
+#include "bakers/world/body_metres.h"
 #include "bakers/world/dual.h"
 #include "bakers/world/initial_casters.h"
 #include "bakers/world/posed_casters.h"
@@ -243,6 +244,25 @@ TEST_CASE("world casters: a table of a few large triangles darkens the floor nea
     const std::string surface = row["surface"];
     const bool aside = surface == "wall" || surface == "neighbour";
     CHECK(row["over_none"].get<double>() < (aside ? 0.2 : surface == "cone" ? 0.15 : 0.05));
+  }
+}
+
+TEST_CASE("world casters: a body in centimetres gets the casters of the body in metres") {
+  const SkinnedMesh mesh = mesh_in_metres(bending_tube(), 2);
+  const std::vector<Pose> poses = poses_in_metres(tube_poses(bending_tube(), 8), 2);
+  REQUIRE(scale_to_metres(mesh) == 1);
+  WorldCasterSettings settings = small_settings();
+  settings.steps = 3;
+  const std::vector<WorldCaster> one = fit_world_casters(mesh, poses, settings);
+  const std::vector<WorldCaster> large =
+      fit_world_casters(mesh_in_metres(mesh, 64), poses_in_metres(poses, 64), settings);
+  REQUIRE(large.size() == one.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const Capsule &c = one[i].capsule, &d = large[i].capsule;
+    // A power of two changes no digit.
+    CHECK((d.a == 64 * c.a && d.b == 64 * c.b));
+    CHECK((d.radius_a == 64 * c.radius_a && d.radius_b == 64 * c.radius_b));
+    CHECK(large[i].ao_scale == one[i].ao_scale);
   }
 }
 
