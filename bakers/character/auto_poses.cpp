@@ -27,9 +27,9 @@ class PlannedRig {
   // The mesh is kept by reference.
   PlannedRig(const SkinnedMesh& mesh, std::vector<Joint> joints);
 
-  // Lets a hand reach for a place on the body or for the other hand: what hands come near is what shadows of
-  // hands and on hands depend on, and arms that swing freely are seldom there. Of some arms the one that
-  // comes nearest is taken.
+  // Lets a hand reach for a place on the body or for the other hand. Shadows of hands and on hands depend on
+  // what the hands come near, and arms that swing freely are seldom there. Of some arms the one that comes
+  // nearest is taken.
   void reach(BodyPlan& plan, PoseRandom& random) const;
 
   Pose pose(const BodyPlan& plan, PoseRandom& random) const;
