@@ -83,9 +83,8 @@ void add_cones(TrainingPoints& set, const RayScene& scene, const SurfacePoints& 
   }
 }
 
-// Adds points of the floor where the body's shadow begins, ends or could have a hole: a point of the body
-// moved along the light down to the floor, and then aside by up to a hundredth of the body's size or up to a
-// tenth.
+// Adds points of the floor where the body's shadow begins, ends or could have a hole. Each is a point of the
+// body, moved along the light down to the floor and then a little aside.
 void add_outlines(TrainingPoints& set, const RayScene& scene, const PosedBody& body, std::size_t count,
                   std::uint32_t pose, std::uint32_t rays, float offset, Random& random, double& none) {
   const FlushDenormals flush;

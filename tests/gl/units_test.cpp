@@ -17,6 +17,10 @@ constexpr float units[] = {0.001f, 1 / 0.3048f, 100, 1000};
 
 // A tenth of a step of a byte for AO in floats; for AO in bytes half a step of rounding.
 constexpr double allowed = 5e-4;
+// The shadow of a cone rounds more: seen from a point beside a capsule, an end of it is up to hundreds of
+// radii of a part away, and the square of that leaves 3e-4 of the light. This moves one value of 8 bits in
+// fifty by a step.
+constexpr double allowed_of_light = 7e-4;
 
 double rms(const std::vector<float>& a, const std::vector<float>& b) {
   double sum = 0;
@@ -127,8 +131,8 @@ TEST_CASE("world: AO and the light's cone are the same in every unit", "[one-dri
     CHECK(rms(metres, beyond) > 20 * allowed);
     for (const float unit : units) {
       INFO("units per metre " << unit << ", normals " << normals);
-      CHECK(rms(world_light(context, unit, normals, 25), metres) <= allowed);
-      CHECK(rms(world_light(context, unit, normals, 60), beyond) <= allowed);
+      CHECK(rms(world_light(context, unit, normals, 25), metres) <= allowed_of_light);
+      CHECK(rms(world_light(context, unit, normals, 60), beyond) <= allowed_of_light);
     }
   }
 }

@@ -1,4 +1,4 @@
-// The outline of a shadow on the floor under a light of one degree, against ray tracing.
+// Compares outlines of shadows on the floor, under a light of one degree, with ray tracing.
 #pragma once
 
 #include <nlohmann/json.hpp>
