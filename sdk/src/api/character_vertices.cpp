@@ -1,4 +1,5 @@
 #include <nook/experimental/nook_lod.h>
+#include <nook/experimental/nook_match.h>
 #include <nook/nook_character.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 #include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
+#include "sdk/src/character/face_normals.h"
 #include "sdk/src/character/host_vertices.h"
 #include "sdk/src/character/vertex_match.h"
 #include "sdk/src/core/checks.h"
@@ -102,14 +104,15 @@ HostVertices host_vertices(const CharacterModel& model, const nook_vertex_match_
 }
 
 // Names the missing data that would separate vertices at one place.
-const char* missing_evidence(const nook_vertex_match_desc& match) {
+const char* missing_evidence(const nook_vertex_match_desc& match, bool has_triangles) {
   if (!match.normals) return "give desc.normals too";
   if (!match.joints) return "give desc.joints and desc.weights too";
   if (match.primitive < 0) return "match each primitive in a call of its own";
+  if (!has_triangles) return "give the triangles too, to nook_model_match_mesh";
   return "keep the order of the file's vertices, or move the vertices apart and bake again";
 }
 
-void describe_matches(const VertexMatches& matches, const nook_vertex_match_desc& match,
+void describe_matches(const VertexMatches& matches, const nook_vertex_match_desc& match, bool has_triangles,
                       nook_vertex_match_info& info) {
   info.unmatched = matches.unmatched;
   info.ambiguous = matches.ambiguous;
@@ -124,7 +127,28 @@ void describe_matches(const VertexMatches& matches, const nook_vertex_match_desc
                   "%s%u of %u vertices fit several vertices of the model with other AO, the first is vertex "
                   "%u, which can be %u or %u; %s",
                   used > 0 ? ". " : "", matches.ambiguous, match.vertex_count, matches.first_ambiguous,
-                  matches.taken, matches.other, missing_evidence(match));
+                  matches.taken, matches.other, missing_evidence(match, has_triangles));
+}
+
+void check_indices(const uint32_t* indices, size_t count, std::uint32_t vertices) {
+  need(indices, "indices");
+  check_fits("index_count", count, count % 3 == 0, "a multiple of 3");
+  for (std::size_t i = 0; i < count; ++i)
+    if (indices[i] >= vertices)
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "indices[%zu] is out of range (got %u, need less than desc.vertex_count, %u)", i,
+                    indices[i], vertices);
+}
+
+// `call` names the function in the log.
+void match(const nook_model_s& model, const nook_vertex_match_desc& match, const HostVertices& host,
+           const char* call, uint32_t* vertices, nook_vertex_match_info* info) {
+  const VertexMatches matches =
+      match_vertices(model.model, host, {vertices, host.count}, model.context->memory());
+  nook_vertex_match_info answer{};
+  describe_matches(matches, match, host.face_normal.first != nullptr, answer);
+  if (matches.ambiguous > 0) model.context->log(NOOK_LOG_WARNING, "%s: %s", call, answer.text);
+  if (info) write_info(info, answer);
 }
 
 }  // namespace
@@ -133,16 +157,24 @@ nook_result nook_model_match_vertices(nook_model model, const nook_vertex_match_
                                       uint32_t* vertices, nook_vertex_match_info* info) {
   return api::enter("nook_model_match_vertices", [&] {
     need(model, "model");
-    const nook_vertex_match_desc match = read_descriptor(desc);
+    const nook_vertex_match_desc given = read_descriptor(desc);
     need(vertices, "vertices");
-    const HostVertices host = host_vertices(model->model, match);
-    const VertexMatches matches =
-        match_vertices(model->model, host, {vertices, host.count}, model->context->memory());
-    nook_vertex_match_info answer{};
-    describe_matches(matches, match, answer);
-    if (matches.ambiguous > 0)
-      model->context->log(NOOK_LOG_WARNING, "nook_model_match_vertices: %s", answer.text);
-    if (info) write_info(info, answer);
+    match(*model, given, host_vertices(model->model, given), "nook_model_match_vertices", vertices, info);
+  });
+}
+
+nook_result nook_model_match_mesh(nook_model model, const nook_vertex_match_desc* desc,
+                                  const uint32_t* indices, size_t index_count, uint32_t* vertices,
+                                  nook_vertex_match_info* info) {
+  return api::enter("nook_model_match_mesh", [&] {
+    need(model, "model");
+    const nook_vertex_match_desc given = read_descriptor(desc);
+    need(vertices, "vertices");
+    HostVertices host = host_vertices(model->model, given);
+    check_indices(indices, index_count, host.count);
+    const Vector<Vec3> normals = face_normals_of(host, {indices, index_count}, model->context->memory());
+    host.face_normal = {normals.empty() ? nullptr : &normals[0].x, sizeof(Vec3)};
+    match(*model, given, host, "nook_model_match_mesh", vertices, info);
   });
 }
 

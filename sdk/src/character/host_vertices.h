@@ -35,7 +35,8 @@ struct HostWeights {
 struct HostVertices {
   std::uint32_t count = 0;
   StridedPoints position;
-  StridedPoints normal;  // first null: none
+  StridedPoints normal;       // first null: none
+  StridedPoints face_normal;  // of the triangles round each vertex, unit length or 0; first null: none
   HostWeights weights;
   bool in_rest_space = false;
   std::int32_t primitive = -1;  // of the file; -1: all

@@ -33,6 +33,7 @@ struct Fit {
   const Candidate* candidate = nullptr;
   float distance = 0;               // host's unit
   float facing = 1;                 // the cosine between the normals; 1 without
+  float side = 1;                   // the same with the triangles' normal, where the host gave triangles
   float weights = unknown_weights;  // the sum of absolute differences
 };
 using Fits = Vector<Fit>;
@@ -111,23 +112,28 @@ void drop(Fits& fits, Predicate predicate) {
   fits.erase(std::remove_if(fits.begin(), fits.end(), predicate), fits.end());
 }
 
-void drop_other_sides(Fits& fits, const Fit* but) {
+void drop_other_sides(Fits& fits, bool has_face, const Fit* but) {
   const Candidate* const kept = but ? but->candidate : nullptr;
   float best = -1;
-  for (const Fit& fit : fits) best = std::max(best, fit.facing);
-  drop(fits, [&](const Fit& fit) { return fit.facing < best - other_side && fit.candidate != kept; });
+  for (const Fit& fit : fits) best = std::max(best, fit.side);
+  // Then no candidate has the triangles of the vertex, and they tell nothing.
+  if (has_face && best < other_side) return;
+  drop(fits, [&](const Fit& fit) { return fit.side < best - other_side && fit.candidate != kept; });
 }
 
-// A host may have weights of fewer bits, which are then off for all candidates.
-void drop_other_weights(Fits& fits, const BoneWeights& bones) {
-  float best = INFINITY;
+// Compares the weights of all candidates that have some.
+void set_weights(Fits& fits, const BoneWeights& bones) {
   for (Fit& fit : fits)
-    if (fit.candidate->weights) {
-      fit.weights = weight_difference(bones, *fit.candidate->weights);
-      best = std::min(best, fit.weights);
-    }
-  if (best <= fitting_weights)
-    drop(fits, [&](const Fit& fit) { return fit.weights > 2 * best + weight_steps; });
+    if (fit.candidate->weights) fit.weights = weight_difference(bones, *fit.candidate->weights);
+}
+
+// Drops what has other weights, if one fits within `limit`. A host may have weights of fewer bits, which are
+// then off for all candidates.
+void drop_other_weights(Fits& fits, float limit) {
+  float best = INFINITY;
+  for (const Fit& fit : fits)
+    if (fit.weights != unknown_weights) best = std::min(best, fit.weights);
+  if (best <= limit) drop(fits, [&](const Fit& fit) { return fit.weights > 2 * best + weight_steps; });
 }
 
 // The only one that fits the normal, or null.
@@ -230,17 +236,28 @@ void Matcher::gather(std::uint32_t vertex, float reach, const Order& order) {
   const Vec3 position = host_.position[vertex];
   const Vec3 normal = host_.normal.first ? normalised(host_.normal[vertex]) : Vec3{};
   const bool has_normal = dot(normal, normal) > 0;
+  // The model's normals come from triangles too. Smooth normals may agree on both faces of a sharp fold.
+  const Vec3 face = host_.face_normal.first ? host_.face_normal[vertex] : Vec3{};
+  const bool has_face = dot(face, face) > 0;
   found_.clear();
   fits_.clear();
   tree_.find_within(position, reach, found_);
   for (const std::uint32_t index : found_) {
     const Candidate& candidate = candidates_[index];
-    fits_.push_back(
-        {&candidate, length(candidate.position - position), has_normal ? dot(candidate.normal, normal) : 1});
+    Fit fit{&candidate, length(candidate.position - position)};
+    if (has_normal) fit.facing = fit.side = dot(candidate.normal, normal);
+    if (has_face) fit.side = dot(candidate.normal, face);
+    fits_.push_back(fit);
   }
-  if (fits_.size() > 1 && has_normal)
-    drop_other_sides(fits_, order.is_kept() ? fit_of(order.successor) : nullptr);
-  if (fits_.size() > 1 && host_.weights.joint) drop_other_weights(fits_, bones_of(host_.weights, vertex));
+  const bool has_weights = fits_.size() > 1 && host_.weights.joint;
+  if (has_weights) {
+    set_weights(fits_, bones_of(host_.weights, vertex));
+    // The file's own weights tell more than a side: some files have normals that look the wrong way.
+    drop_other_weights(fits_, weight_steps);
+  }
+  if (fits_.size() > 1 && (has_normal || has_face))
+    drop_other_sides(fits_, has_face, order.is_kept() ? fit_of(order.successor) : nullptr);
+  if (has_weights && fits_.size() > 1) drop_other_weights(fits_, fitting_weights);
 }
 
 bool Matcher::is_vertex_of(const Fit& fit, std::uint32_t file_vertex) const {

@@ -2,7 +2,8 @@
 //
 // Several vertices of a model can lie at one place: where two primitives meet, on the two sides of a card, in
 // the layers of hair. The best fit wins. These criteria decide, one after another:
-//   place, side of the normal, weights, normal, order of the host's vertices.
+//   place, equal weights, side of the triangles or of the normal, near weights, normal, order of the host's
+//   vertices.
 #pragma once
 
 #include <cstdint>

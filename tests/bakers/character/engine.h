@@ -34,6 +34,7 @@ struct Engine {
   bake::ImportedCharacter imported;  // for its clips and the names of nodes
   std::vector<Skin> skins;           // all of the file
   std::vector<Vertex> vertices;      // in the order of the imported file
+  std::vector<std::uint32_t> index;  // three vertices for each triangle
 
   explicit Engine(const std::filesystem::path& path) : imported(bake::import_gltf(path)) {
     std::ifstream stream(path, std::ios::binary);
@@ -101,6 +102,12 @@ struct Engine {
                             {position.value[3 * v], position.value[3 * v + 1], position.value[3 * v + 2]},
                             {},
                             {}});
+      if (primitive.indices >= 0) {
+        for (const std::uint32_t v : bake::read_integers(model, primitive.indices, 1, "indices").value)
+          index.push_back(static_cast<std::uint32_t>(first) + v);
+      } else {
+        for (std::size_t v = first; v < vertices.size(); ++v) index.push_back(static_cast<std::uint32_t>(v));
+      }
       if (primitive.attributes.count("NORMAL")) {
         const auto normal = bake::read_floats(model, primitive.attributes.at("NORMAL"), 3, "normals");
         for (std::size_t v = 0; v < position.count; ++v)
