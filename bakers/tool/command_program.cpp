@@ -65,9 +65,19 @@ std::string missing_command(CLI::App& program) {
          " (need one of " + joined(names, ", ") + ")";
 }
 
+// Options of the command behind `nook task` look like options of the task.
+std::string missing_dashes(CLI::App& program) {
+  const std::vector<CLI::App*> commands = named_commands(program);
+  const std::vector<std::string> unknown = commands.back()->remaining();
+  if (commands.back()->get_name() != "task" || unknown.empty()) return "";
+  return unknown.front() + " is not an option of " + name_of(commands) +
+         "; put -- before the command, as in: nook task --log FILE -- bake character HERO.glb -o HERO.nook";
+}
+
 std::string fault_text(CLI::App& program, const CLI::ParseError& fault, const ElsewhereWords& words) {
   std::string text;
   if (dynamic_cast<const CLI::RequiredError*>(&fault)) text = missing_command(program);
+  if (dynamic_cast<const CLI::ExtrasError*>(&fault)) text = missing_dashes(program);
   if (text.empty()) {
     std::ostringstream out, error;
     program.exit(fault, out, error);

@@ -8,12 +8,15 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/bakers/tool/glb_tube.h"
+#include "tests/bakers/tool/rgbe_map.h"
 #include "tests/bakers/tool/tool_run.h"
 #include "tests/catch.h"
+#include "tests/transfer/shapes.h"
 
 namespace {
 
 namespace fs = std::filesystem;
+namespace shapes = nook::transfer::test;
 using Json = nlohmann::json;
 using Names = std::vector<std::string>;
 
@@ -213,6 +216,40 @@ TEST_CASE("tasks are one line for each character, the longest first, and run in 
   CHECK(count_of(project.tasks(), "\n") == 1);
 }
 
+TEST_CASE("probes, materials and transfer are baked by their rules, and again only after a change") {
+  if (!has_ninja()) return;
+  const Project project(Json::array(
+      {{{"match", "skies/*.hdr"}, {"bake", "probe"}, {"options", {{"samples", 2048}}}},
+       {{"match", "tiles/*.glb"},
+        {"bake", "material"},
+        {"input", "meso"},
+        {"output", "materials/{stem}.nook"},
+        {"options", {{"directions", 12}, {"texels", 12}, {"bounces", 0}, {"view-map", 8}, {"tile-size", 1}}}},
+       {{"match", "props/*.glb"}, {"bake", "transfer"}, {"options", {{"lobes", 42}, {"ray-side", 8}}}}}));
+  const auto glb = [](const shapes::Shape& shape) {
+    const std::vector<std::byte> bytes = shapes::glb_of(shape);
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  };
+  project.write_file("skies/noon.hdr", rgbe_map(32, 16));
+  shapes::Shape floor = shapes::plane(1, 8, 1);
+  shapes::append(floor, shapes::ball({0, 0.1f, 0}, 0.2f, 12));
+  project.write_file("tiles/floor.glb", glb(floor));
+  project.write_file("props/ball.glb", glb(shapes::ball({0, 0.25f, 0}, 0.2f, 12)));
+  const Names outputs{"baked/skies/noon.nook", "materials/floor.nook", "baked/props/ball.nook"};
+  CHECK(baked_by(project, project.build()).size() == outputs.size());
+  for (const std::string& output : outputs) {
+    INFO(output);
+    const ToolRun inspected = project.folder.run({"inspect", project.folder.path(output)});
+    CHECK(inspected.exit_code == 0);
+    CHECK(has(inspected.out, "key"));
+  }
+  CHECK(baked_by(project, project.build()).empty());
+  project.write_file("props/ball.glb", glb(shapes::ball({0, 0.25f, 0}, 0.3f, 12)));
+  CHECK(baked_by(project, project.build()) == Names{"baked/props/ball.nook"});
+  project.write_file("skies/noon.hdr", rgbe_map(64, 32));
+  CHECK(baked_by(project, project.build()) == Names{"baked/skies/noon.nook"});
+}
+
 TEST_CASE("one failure does not stop the others, and the exit code says so") {
   if (!has_ninja()) return;
   const Project project(Json::array({{{"match", "*.glb"}, {"options", small}}}));
@@ -307,6 +344,9 @@ TEST_CASE("a task repeats what may pass, keeps one log, and gives the exit code"
   CHECK(task({"inspect", folder.path("a.glb"), "--quiet"}).exit_code == 0);
   CHECK(has(read_text(log), "exit code 0"));
   CHECK(task({"task", "--", "inspect"}).exit_code == 2);
+  const ToolRun without = folder.run({"task", "bake", "character", "a.glb", "-o", "a.nook", "--rays=4"});
+  CHECK(without.exit_code == 2);
+  CHECK(has(without.error, "is not an option of nook task; put -- before the command"));
 }
 
 TEST_CASE("a task that is told to stop stops its bake, and its log can be read") {
