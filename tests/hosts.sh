@@ -8,5 +8,6 @@ build=${NOOK_BUILD_DIR:-$root/build-hosts}
 NOOK_PACKAGES="$root/samples/hosts/packages.txt" "$root/install_packages.sh"
 cmake -G Ninja -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DNOOK_HOSTS=ON \
   -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
-ninja -C "$build" nook_hosts_tests
+ninja -C "$build" nook_hosts_tests nook_ogre_loader_tests
+"$build/tests/hosts/nook_ogre_loader_tests"
 "$build/tests/hosts/nook_hosts_tests"
