@@ -1,5 +1,6 @@
 #include "bakers/tool/baking.h"
 
+#include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "bakers/tool/table.h"
 #include "platform/output_file.h"
 #include "platform/output_stream.h"
+#include "platform/printable.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::tool {
@@ -73,6 +75,20 @@ void print_key(const BakeCommand& command, const std::function<PreparedBake()>& 
   platform::print(key + "\n");
 }
 
+// Warns even with --quiet: otherwise a build bakes every time without a word.
+std::string rule_of(const BakeCommand& command) {
+  const std::filesystem::path& output = command.baking.output;
+  const std::vector<std::filesystem::path> read = files_read(command.files, command.reads_images);
+  const std::string cut = name_that_ninja_cuts(output, read);
+  if (!cut.empty())
+    std::fprintf(
+        stderr,
+        "nook: --depfile: Ninja 1.11 cuts the name %s off at a quote or sign, and would bake every time; "
+        "rename the file, or use nook plan\n",
+        platform::printable(cut).c_str());
+  return depfile_text(output, read);
+}
+
 }  // namespace
 
 void add_bake_options(Command command, BakeOptions& options) {
@@ -117,8 +133,7 @@ void run_bake(BakeCommand command, const std::function<PreparedBake()>& prepare)
   files.outputs.push_back({"--report", report});
   files.outputs.push_back({"--depfile", options.depfile});
   require_distinct_files(files);
-  const std::string rule =
-      options.depfile.empty() ? "" : depfile_text(options.output, files_read(files, command.reads_images));
+  const std::string rule = options.depfile.empty() ? "" : rule_of(command);
   const std::optional<BakeCache> cache = cache_of(options);
   const platform::FileEvents events = file_events(command.common.quiet);
   platform::OutputFile output_file(options.output, events);

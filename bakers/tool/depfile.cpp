@@ -1,5 +1,8 @@
 #include "bakers/tool/depfile.h"
 
+#include <algorithm>
+#include <string_view>
+
 #include "bakers/tool/command_end.h"
 
 namespace nook::tool {
@@ -24,7 +27,27 @@ std::string escaped(const std::filesystem::path& path) {
   return text;
 }
 
+// The characters that end no name in depfile_parser.in.cc of Ninja 1.11, as they are or escaped.
+bool is_read_by_ninja(char c) {
+  constexpr std::string_view others = "+,/_:.~()}{%=@[]!- #$\\";
+  const bool is_plain =
+      (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || (c & 0x80) != 0;
+  return is_plain || others.find(c) != std::string_view::npos;
+}
+
 }  // namespace
+
+std::string name_that_ninja_cuts(const std::filesystem::path& output,
+                                 const std::vector<std::filesystem::path>& read) {
+  std::vector<std::filesystem::path> names{output};
+  names.insert(names.end(), read.begin(), read.end());
+  const auto is_cut = [](const std::filesystem::path& path) {
+    const std::string name = path.string();
+    return !std::all_of(name.begin(), name.end(), is_read_by_ninja);
+  };
+  const auto found = std::find_if(names.begin(), names.end(), is_cut);
+  return found == names.end() ? "" : found->string();
+}
 
 std::string depfile_text(const std::filesystem::path& output,
                          const std::vector<std::filesystem::path>& read) {

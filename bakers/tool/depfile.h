@@ -17,4 +17,9 @@ std::vector<std::filesystem::path> files_read(const CommandFiles& files, bool wi
 // name that the rule cannot hold, because it has a line break.
 std::string depfile_text(const std::filesystem::path& output, const std::vector<std::filesystem::path>& read);
 
+// Returns the first name that Ninja 1.11 cuts off, at a quote for example: it misses the file then, and bakes
+// every time. No escape helps. Empty: none.
+std::string name_that_ninja_cuts(const std::filesystem::path& output,
+                                 const std::vector<std::filesystem::path>& read);
+
 }  // namespace nook::tool
