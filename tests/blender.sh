@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The Blender add-on: installs what packaging/blender/packages.txt lists, makes the add-on's .zip file, installs it into a Blender
 # without a screen, bakes a small character that Blender makes, and compares its colours with the C interface. Then it does what artists
-# do (rows_test.py), renders animations in every way (render_test.py), and presses buttons in a window (window_test.py).
+# do (rows_test.py), measures shared characters (shared_test.py), renders animations in every way (render_test.py), and presses buttons in a
+# window (window_test.py).
 #   tests/blender.sh [--addon FILE.zip] [PICTURES]     PICTURES: a folder for two rendered pictures
 # NOOK_TOOL and NOOK_LIBRARY name a built command and libnook_python; without them, both are built in build.
 set -euo pipefail
@@ -52,6 +53,17 @@ left=$(find "$folder/temporary" -mindepth 1)
 
 (cd "$folder" && run rows blender -b --factory-startup --python-exit-code 1 --python "$tests/rows_test.py" -- \
   "$quick" "$NOOK_LIBRARY" "$folder/rows")
+
+# Five shared characters in two poses each, where they are.
+characters=${NOOK_ASSETS:-$root/../shared/assets}/characters
+if [ -d "$characters" ]; then
+  blender -b --factory-startup --python-exit-code 1 --python "$tests/shared_test.py" -- "$NOOK_TOOL" "$NOOK_LIBRARY" "$folder/shared" \
+    "$characters"/{cesium_man_CC-BY,fox_CC-BY,quaternius_horse_CC0,kaykit_knight_CC0,rocketbox_Male_Adult_04_MIT}.glb > "$folder/shared.log" 2>&1 ||
+    { cat "$folder/shared.log"; echo "the shared characters failed"; exit 1; }
+  grep -E "^(character |ok|.*\.glb +)" "$folder/shared.log"
+else
+  echo "skipped: the shared characters, as there is no folder $characters; set NOOK_ASSETS"
+fi
 
 frames=$folder/frames
 mkdir "$frames"

@@ -137,19 +137,26 @@ def chosen_points(count, most, seed):
     return np.arange(count) if count <= most else np.sort(np.random.default_rng(seed).choice(count, most, replace=False))
 
 
+def directed(which, normals):
+    """Keeps indices whose normals have a direction. Triangles without an area leave vertices without one."""
+    return which[np.linalg.norm(normals[which], axis=1) > 0.5]
+
+
 def add_errors(errors, entry, still, most=MOST_POINTS, rays=RAYS):
     """Traces one still: yields between the traces."""
-    points = still.used[chosen_points(len(still.used), most, 1)]
+    points = directed(still.used, still.bake_normals)
+    points = points[chosen_points(len(points), most, 1)]
     truth = still.trace(entry, still.positions[points], still.bake_normals[points], rays)
     errors.add("bake", truth, still.colours[points])
     yield
     corners = np.unique(np.column_stack([still.vertex_of_corner, np.rint(still.normals * 1e3)]), axis=0, return_index=True)[1]
+    corners = directed(corners, still.normals)
     corners = corners[chosen_points(len(corners), most, 2)]
     at = still.vertex_of_corner[corners]
     errors.add("blender", still.trace(entry, still.positions[at], still.normals[corners], rays), still.colours[at])
     yield
     positions, normals = entry.character.skin(still.pose)
-    vertices = np.unique(entry.numbers, return_index=True)[1]
+    vertices = directed(np.unique(entry.numbers, return_index=True)[1], normals)
     vertices = vertices[chosen_points(len(vertices), most, 1)]
     truth = entry.nook.trace_ao([(positions, entry.character.triangles())], positions[vertices], normals[vertices], rays=rays,
                                 origin_offset=entry.ray_offset)
