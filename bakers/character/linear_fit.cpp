@@ -94,6 +94,10 @@ DarknessBlock darkness_of(const TrainingSet& set, const ShadowStatistics& shadow
   return block;
 }
 
+// Below this variance a vertex's darkness or a key point's shadow counts as constant. A prop holds still, and
+// the rounding of its shadows would otherwise take enormous weights to explain the noise of rays.
+constexpr double constant_variance = 1e-8;
+
 // Some of a vertex's key points, with the weights that explain it best.
 struct Choice {
   std::vector<Eigen::Index> key_point;
@@ -142,6 +146,7 @@ class KeyPointChoice {
     for (const Eigen::Index k : allowed_) {
       if (std::find(choice.key_point.begin(), choice.key_point.end(), k) != choice.key_point.end()) continue;
       if (full && !is_anchor(k)) continue;
+      if (gram_(k, k) <= constant_variance) continue;
       double left = correlation[k];
       for (std::size_t s = 0; s < choice.key_point.size(); ++s)
         left -= gram_(k, choice.key_point[s]) * choice.weight[Eigen::Index(s)];
@@ -190,7 +195,6 @@ LinearLayerFit empty_fit(std::size_t vertices, std::size_t entries) {
 void fit_vertex(std::size_t vertex, Eigen::Index column, const ShadowStatistics& shadows,
                 const DarknessBlock& darkness, const Candidates& candidates,
                 const LinearFitSettings& settings, LinearLayerFit& fit) {
-  constexpr double constant_variance = 1e-8;  // below this variance, the bias alone explains a vertex
   const std::size_t anchors =
       settings.anchor_floor > 0 ? std::min({settings.anchors, candidates.count, settings.entries}) : 0;
   const std::span allowed(&candidates.key_point[vertex * candidates.count], candidates.count);
