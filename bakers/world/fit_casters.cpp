@@ -168,6 +168,7 @@ class Objective {
     // Points with AO see nearly every caster. Their rows are multiplied together.
     std::size_t count = 0;
     const auto multiply = [&] {
+      if (count == 0) return;  // Eigen divides by the number of rows
       gram.setZero();
       gram.selfadjointView<Eigen::Lower>().rankUpdate(rows.topRows(Eigen::Index(count)).transpose());
       sums.gram.triangularView<Eigen::Lower>() += gram.cast<double>();
