@@ -69,8 +69,8 @@ TEST_CASE("train nnao stops at its time limit as at a signal") {
   const TestFolder folder;
   auto arguments = tiny_training(folder.path("a.nook"), "2");
   for (std::string& a : arguments)
-    if (a == "2" && &a != &arguments.back()) a = "100000";  // epochs, far more than a second's
-  arguments.insert(arguments.end(), {"--time-limit", "1"});
+    if (a == "2" && &a != &arguments.back()) a = "100000";  // epochs, far more than four seconds'
+  arguments.insert(arguments.end(), {"--time-limit", "4"});
   const ToolRun run = folder.run(arguments);
   CHECK(run.exit_code == 1);
   CHECK(run.error.find("a.nook.resume") != std::string::npos);
