@@ -22,7 +22,7 @@ struct NookRecord {
 NookRecord nook_read_record(uint instance) {
   uint first = uint(NOOK_RECORD_UVEC4S) * instance;
   uvec4 a = nook_stream[first], b = nook_stream[first + 1u];
-  return NookRecord(a.x, a.y, a.z & ~NOOK_RECORD_SELF, (a.z & NOOK_RECORD_SELF) != 0u, a.w, b.x, b.y, b.z, b.w);
+  return NookRecord(a.x, a.y, a.z & NOOK_RECORD_PLACE, (a.z & NOOK_RECORD_SELF) != 0u, a.w, b.x, b.y, b.z, b.w);
 }
 
 vec4 nook_streamed(uint place) { return uintBitsToFloat(nook_stream[place]); }

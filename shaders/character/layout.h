@@ -39,6 +39,14 @@
 #define NOOK_LOCATION_VERTEX_COUNT 1
 #define NOOK_LOCATION_INFLUENCE_PAIRS 2
 #define NOOK_LOCATION_VERTEX_SHADOW_STRIDE 3
+// Locations of the passes over poses from the GPU: of pose_convert.comp,
+#define NOOK_LOCATION_POSE_BONE_COUNT 0
+#define NOOK_LOCATION_POSE_LAYOUT 1
+#define NOOK_LOCATION_POSE_IS_HALF 2
+#define NOOK_LOCATION_POSE_STRIDE_WORDS 3
+#define NOOK_LOCATION_POSE_WINDOW 4
+// and of pose_place.comp.
+#define NOOK_LOCATION_PLACED_BONE_COUNT 0
 
 // Attributes of vertices.vert: a bias, then for each quad of influences its key points, alphas and blend
 // weights. OpenGL 3.3 requires a literal for each location.
@@ -56,6 +64,15 @@
 
 // This bit beside an instance's place says that its own spheres darken it.
 #define NOOK_RECORD_SELF 0x80000000u
+// This bit says that its pose is on the GPU, and that pose_place.comp writes its bones.
+#define NOOK_RECORD_POSED 0x40000000u
+#define NOOK_RECORD_PLACE 0x3fffffffu
+
+// A bone without a transform keeps its matrix.
+#define NOOK_POSE_NO_TRANSFORM 0xffffffffu
+// What a pose may hold at most: metres, and the scale of a bone (sdk/src/core/geometry.h).
+#define NOOK_POSE_MAX_METRES 1e9
+#define NOOK_POSE_MAX_SCALE 1e6
 
 // Elements of the arrays in storage buffers.
 #define NOOK_RECORD_UVEC4S 2      // of an instance
@@ -65,6 +82,8 @@
 #define NOOK_KEY_POINT_VEC4S 6    // position, normal, surface position, surface normal, bones, weights
 #define NOOK_CASTER_UVEC4S 2      // its origin minus the receiver's, first sphere; number of spheres
 #define NOOK_SPREAD_WORDS 3       // evaluated key point, scale, offset
+#define NOOK_POSE_BIND_UVEC4S 4   // of a bone: three rows from rest space to its transform; joint, transform
+#define NOOK_POSE_JOB_UVEC4S 5    // of an instance: three rows of its place; where; its origin's move
 #define NOOK_COLOUR_VEC4S 2       // colour that multiplies the shadow, and the shadow; added occlusion
 
 #endif

@@ -2,6 +2,7 @@
 // only, as a host does.
 #include <nook/experimental/nook_capture.hpp>
 #include <nook/experimental/nook_debug.hpp>
+#include <nook/experimental/nook_gl_poses.hpp>
 #include <nook/experimental/nook_recording.hpp>
 #include <nook/experimental/nook_stages.hpp>
 #include <nook/experimental/nook_synthesis.hpp>
@@ -66,6 +67,48 @@ TEST_CASE("the C++ wrapper evaluates on the GPU what it evaluates on the CPU") {
     CHECK(error.result() == NOOK_ERROR_GL);
     CHECK(std::string(error.what()).find("nook_gl_scene_update: ") == 0);
   }
+}
+
+TEST_CASE("the C++ wrapper takes poses from the GPU") {
+  NOOK_NEED_CONTEXT(context);
+  const std::vector<std::byte> bytes = nook_test_model_bytes();
+  const nook::Context host;
+  const nook::CharacterModel model(host, bytes.data(), bytes.size());
+  nook::Scene scene(host);
+  const nook_instance_id id = scene.add_instance(model);
+  nook_gl_desc desc = nook::gl_desc();
+  desc.get_proc = platform::Context::loader;
+  desc.get_proc_user = &context;
+  nook::Gl gl(host, desc);
+  const std::uint32_t bones = model.info().bone_count;
+  std::vector<float> rows;
+  for (std::uint32_t b = 0; b < bones; ++b) rows.insert(rows.end(), {1, 0, 0, 0.5f, 0, 1, 0, 0, 0, 0, 1, 0});
+  GLuint buffer = 0;
+  context.gl().GenBuffers(1, &buffer);
+  context.gl().BindBuffer(GL_ARRAY_BUFFER, buffer);
+  context.gl().BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size() * sizeof(float)), rows.data(),
+                          GL_STATIC_DRAW);
+  nook_pose_desc pose = nook::pose_desc();
+  pose.kind = NOOK_POSE_REST_TO_WORLD;
+  pose.layout = NOOK_TRANSFORM_ROWS_3X4;
+  pose.transform_count = bones;
+  nook_gl_poses poses{};
+  poses.pose = &pose;
+  poses.buffer = buffer;
+  poses.size = rows.size() * sizeof(float);
+  nook_gl_instance_pose one{};
+  one.instance = id;
+  one.bound_radius = 2;
+  one.scale = 1;
+  one.place_3x4[0] = one.place_3x4[5] = one.place_3x4[10] = 1;
+  if (nook::test::computes(gl.info().tier)) {
+    nook::set_poses(gl, scene, poses, {one});
+    gl.update(scene);
+    CHECK(nook::read_pose(gl, scene, id, bones) == rows);
+  } else {
+    CHECK_THROWS_AS(nook::set_poses(gl, scene, poses, {one}), nook::Error);
+  }
+  context.gl().DeleteBuffers(1, &buffer);
 }
 
 TEST_CASE("a wrapper that cannot be made throws") {

@@ -58,6 +58,11 @@ std::vector<ShaderCase> character_shaders() {
     const std::string path = std::string("shaders/character/") + file;
     shaders.push_back(tree_shader(stage, path, file + variant, defines, loops));
   };
+  // Even bones need no turns to the nearest rotation.
+  add(Stage::compute, "pose_convert.comp", "", "",
+      {{"bones of a thread", trips::bones_of_thread, {{"turns of an uneven bone", 0, {}}}}});
+  add(Stage::compute, "pose_place.comp", "", "",
+      {{"rows of a thread", trips::rows_of_bone * trips::bones_of_thread, {}}});
   add(Stage::compute, "spheres.comp");
   for (int form = 0; form < 3; ++form)
     for (const bool composed : {true, false}) {

@@ -6,6 +6,8 @@ namespace nook::lab::trips {
 // A crowd's character is the bench's body in the midst of others.
 inline constexpr int group_size = 64;  // threads of a group, and spheres that it stages at a time
 inline constexpr double spheres = 130;
+inline constexpr double bones_of_thread = 65.0 / group_size;
+inline constexpr double rows_of_bone = 3;
 inline constexpr double tiles = 3;  // tiles of group_size spheres, the last one partly filled
 inline constexpr double spheres_in_tile = spheres / tiles;
 inline constexpr double casters = 4;        // neighbours

@@ -2,6 +2,7 @@
 
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
+#include "sdk/src/character/gpu_pose.h"
 #include "sdk/src/character/pose_record.h"
 #include "sdk/src/core/checks.h"
 
@@ -12,6 +13,7 @@ nook_result nook_scene_record_pose(nook_scene scene, nook_instance_id instance, 
     need(scene, "scene");
     need(size, "size");
     const Instance& recorded = instance_of(scene->scene, instance);
+    need_cpu_pose(recorded);
     const std::size_t room = *size;
     *size = pose_record_size(recorded.input.bones.size());
     if (!bytes) return;

@@ -10,6 +10,7 @@
 #include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
+#include "sdk/src/api/pose_descriptor.h"
 #include "sdk/src/api/pose_log.h"
 #include "sdk/src/character/host_vertices.h"
 #include "sdk/src/character/pose_check.h"
@@ -30,7 +31,9 @@ Affine read_place(const float* matrix_3x4, const char* name) {
   return to_double(given);
 }
 
-PoseSource source_of(const CharacterModel& model, const nook_pose_desc* given) {
+}  // namespace
+
+PoseSource nook::api::source_of(const CharacterModel& model, const nook_pose_desc* given) {
   const nook_pose_desc desc = read_descriptor(given);
   constexpr std::uint32_t known = NOOK_POSE_FLAG_PARTIAL | NOOK_POSE_FLAG_STRICT | NOOK_POSE_FLAG_SURPLUS;
   if (desc.flags & ~known)
@@ -54,6 +57,8 @@ PoseSource source_of(const CharacterModel& model, const nook_pose_desc* given) {
   source.place = read_place(desc.place_3x4, "desc.place_3x4");
   return source;
 }
+
+namespace {
 
 // Returns the check vertices and their places as the caller passed them.
 nook::Vector<SkinnedVertex> skinned_vertices(const CharacterModel& model, const nook_pose_check_desc& check,
@@ -178,7 +183,7 @@ nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id instance, con
     need(scene, "scene");
     Instance& posed = instance_of(scene->scene, instance);
     const CharacterModel& model = posed.model->model;
-    const PoseNotes notes = set_pose(scene->scene, instance, source_of(model, desc));
+    const PoseNotes notes = set_pose(scene->scene, instance, api::source_of(model, desc));
     api::log_pose(*scene->context, posed, notes);
   });
 }
@@ -189,7 +194,7 @@ nook_result nook_model_convert_pose(nook_model model, const nook_pose_desc* desc
     need(model, "model");
     need(bones_3x4, "bones_3x4");
     check_bone_count(bone_count, model->model.bone_count());
-    PoseSource source = source_of(model->model, desc);
+    PoseSource source = api::source_of(model->model, desc);
     check_pose_source(model->model, source);
     const PoseNotes notes =
         convert_pose(model->model, source, {reinterpret_cast<Mat3x4*>(bones_3x4), bone_count});
@@ -211,7 +216,7 @@ nook_result nook_model_evaluate_poses(nook_model model, const nook_scene_desc* s
     if (pose_count) need(ao, "ao");
     nook_context_s& context = *model->context;
     const nook_scene_desc used = settings ? read_descriptor(settings) : default_desc<nook_scene_desc>();
-    PoseBatch batch{*model, settings_of(used, context), source_of(model->model, first)};
+    PoseBatch batch{*model, settings_of(used, context), api::source_of(model->model, first)};
     batch.stride = batch_stride(model->model, batch.first, pose_stride, pose_count);
     const float* const p = plane_xyzd;
     const Plane ground = p ? Plane{{p[0], p[1], p[2]}, p[3]} : Plane{};
@@ -283,7 +288,7 @@ nook_result nook_model_check_pose(nook_model model, const nook_pose_desc* desc,
     const nook_pose_check_desc given = read_descriptor(check);
     check_fits("check.tolerance", given.tolerance, given.tolerance > 0 && given.tolerance <= 1,
                "above 0, at most 1");
-    PoseSource source = source_of(model->model, desc);
+    PoseSource source = api::source_of(model->model, desc);
     check_pose_source(model->model, source, true);
     nook::Memory* const memory = model->context->memory();
     const auto vertices = skinned_vertices(model->model, given, memory);

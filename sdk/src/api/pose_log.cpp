@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "sdk/src/character/gpu_pose.h"
+
 namespace nook::api {
 namespace {
 
@@ -50,6 +52,24 @@ void log_pose(const Context& context, const char* subject, const CharacterModel&
   if (!topics) return;
   const std::uint32_t fresh = topics & ~reported.fetch_or(topics, std::memory_order_relaxed);
   if (fresh) log_topics(context, subject, model, notes, fresh);
+}
+
+void log_without_world_casters(const Context& context, Scene& scene) {
+  if (scene.posed_on_gpu == 0) return;
+  std::uint32_t fresh = 0;
+  nook_instance_id first = 0;
+  for (Instance& instance : scene.instances) {
+    if (!instance.input.is_posed_on_gpu || (instance.input.reported & topic_no_world_casters)) continue;
+    instance.input.reported |= topic_no_world_casters;
+    if (fresh++ == 0) first = instance.id;
+  }
+  if (fresh)
+    context.log(
+        NOOK_LOG_WARNING,
+        "nook_world_render: %u instances have poses on the GPU and do not darken the world; the first "
+        "is instance %u; pass capsules for them in nook_world_frame_desc, or set their poses with "
+        "nook_scene_set_pose",
+        fresh, first);
 }
 
 }  // namespace nook::api

@@ -14,5 +14,7 @@ void log_pose(const Context& context, Instance& instance, const PoseNotes& notes
 // subject names the object or function whose pose it is.
 void log_pose(const Context& context, const char* subject, const CharacterModel& model,
               const PoseNotes& notes, std::atomic<std::uint32_t>& reported);
+// Logs that instances whose poses are on the GPU do not darken the world, once for each instance.
+void log_without_world_casters(const Context& context, Scene& scene);
 
 }  // namespace nook::api

@@ -3,6 +3,7 @@
 
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
+#include "sdk/src/character/gpu_pose.h"
 #include "sdk/src/character/scene_readings.h"
 #include "sdk/src/core/descriptors.h"
 
@@ -41,6 +42,7 @@ nook_result nook_scene_describe_instance(nook_scene scene, nook_instance_id inst
 nook_result nook_scene_read_spheres(nook_scene scene, nook_instance_id instance, nook_scene_sphere* out,
                                     uint32_t* count) {
   return with_instance("nook_scene_read_spheres", scene, instance, [&](const Scene&, const Instance& i) {
+    need_cpu_pose(i);
     if (wants_entries(out, count, sphere_count(i))) read_spheres(i, out);
   });
 }
@@ -48,6 +50,7 @@ nook_result nook_scene_read_spheres(nook_scene scene, nook_instance_id instance,
 nook_result nook_scene_read_key_points(nook_scene scene, nook_instance_id instance, nook_scene_key_point* out,
                                        uint32_t* count) {
   return with_instance("nook_scene_read_key_points", scene, instance, [&](const Scene&, const Instance& i) {
+    need_cpu_pose(i);
     if (wants_entries(out, count, key_point_count(i))) read_key_points(i, out);
   });
 }

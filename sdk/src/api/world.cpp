@@ -7,6 +7,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
 #include "sdk/src/api/world_casting.h"
+#include "sdk/src/character/gpu_pose.h"
 #include "sdk/src/core/checks.h"
 #include "sdk/src/world/sample.h"
 
@@ -80,6 +81,7 @@ nook_result nook_world_sample(nook_scene scene, const nook_world_sample_desc* de
       if (!scene) throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.receiver is given without a scene");
       instance_of(scene->scene, given.receiver);
     }
+    if (scene) need_cpu_poses(scene->scene);
     const api::Casting casting(scene ? &scene->scene : nullptr, given.receiver, given.capsules,
                                given.capsule_count);
     const Isa isa = scene ? scene->scene.kernels->isa : choose_isa(NOOK_ISA_AUTO);

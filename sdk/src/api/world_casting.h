@@ -32,8 +32,8 @@ inline float half_angle_radians(float degrees) {
 
 class Casting {
  public:
-  // Poses the casters of the scene's instances. scene may be NULL. receiver: an instance that does not cast,
-  // or 0.
+  // Poses the casters of the scene's instances, except of those whose poses are on the GPU, which do not
+  // cast. scene may be NULL. receiver: an instance that does not cast, or 0.
   Casting(Scene* scene, nook_instance_id receiver, const nook_capsule* props, std::uint32_t prop_count);
 
   // Bodies by slot, then occluders by slot, then props; a free slot is a group without casters.
@@ -44,7 +44,9 @@ class Casting {
   static world::CasterGroup group(const void* user, std::uint32_t index, PosedCaster& room);
 
  private:
-  bool casts(const Instance& instance) const { return instance.id != 0 && instance.id != receiver_; }
+  bool casts(const Instance& instance) const {
+    return instance.id != 0 && instance.id != receiver_ && !instance.input.is_posed_on_gpu;
+  }
   bool casts(const Occluder& occluder) const {
     return occluder.id != 0 && (occluder.receiver == 0 || occluder.receiver == receiver_);
   }

@@ -121,6 +121,7 @@ struct InstanceInput {
 
   Vector<Mat3x4> bones;             // rest space to world, one for each bone of the model
   std::uint64_t pose_revision = 0;  // rises with every set_pose; never 0 for a living instance
+  bool is_posed_on_gpu = false;     // the GPU has the pose, and `bones` an earlier one (gpu_pose.h)
   UnevenBones uneven;               // of the present pose
   std::uint32_t reported = 0;       // PoseNotes topics of this instance that were already logged
   bool has_ground = false;
@@ -229,7 +230,8 @@ struct Scene {
   Vector<std::uint32_t> free_instances;  // slots
   Vector<Occluder> occluders;            // by slot
   Vector<std::uint32_t> free_occluders;
-  std::uint32_t living = 0;  // instances in use
+  std::uint32_t living = 0;        // instances in use
+  std::uint32_t posed_on_gpu = 0;  // instances whose pose is on the GPU
   // Rises when an instance or occluder is added or removed, or an instance gets its first light.
   std::uint64_t structure_revision = 0;
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sdk/src/character/bone_axes.h"
+#include "sdk/src/character/gpu_pose.h"
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
@@ -182,6 +183,7 @@ void remove_instance(Scene& scene, nook_instance_id id) {
     erase_slot(scene.instances[receiver].input.linked, slot);
   for (const std::uint32_t caster : removed.input.linked)
     erase_slot(scene.instances[caster].input.receivers, slot);
+  leave_gpu_pose(scene, removed);
   removed = Instance(scene.memory);
   removed.generation = generation;
   if (generation < id_generations) scene.free_instances.push_back(slot);
@@ -245,6 +247,7 @@ void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) 
                   "the model has another number of bones than the instance's (got %zu, need %zu); remove the "
                   "instance and add it with the new model",
                   model->model.bone_count(), instance.input.bones.size());
+  need_cpu_pose(instance);
   InstanceArrays arrays = make_instance_arrays(*model, scene.memory);
   InstanceLight light = moved_light(instance.light, arrays.points, scene.memory);
   InstanceCasters casters(scene.memory);
@@ -271,7 +274,9 @@ PoseNotes set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bo
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "bone_count is not the model's (got %zu, need %zu); see nook_model_describe", bones.size(),
                   instance.input.bones.size());
-  return set_bones(instance, bones, scene.settings.strict_poses);
+  const PoseNotes notes = set_bones(instance, bones, scene.settings.strict_poses);
+  leave_gpu_pose(scene, instance);
+  return notes;
 }
 
 PoseNotes set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
@@ -279,6 +284,8 @@ PoseNotes set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
   const CharacterModel& model = instance.model->model;
   source.is_strict = source.is_strict || scene.settings.strict_poses;
   check_pose_source(model, source);
+  // The bones that the call leaves out would take their matrices from an older pose.
+  if (source.is_partial) need_cpu_pose(instance);
   static_assert(sizeof(Mat3x4) == 12 * sizeof(float) && alignof(Mat3x4) == alignof(float));
   if (holds_bone_matrices(source)) {
     PoseNotes notes =
@@ -286,6 +293,7 @@ PoseNotes set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
                   source.is_strict);
     notes.transforms_given = source.given_count;
     notes.transforms_used = source.transform_count;
+    leave_gpu_pose(scene, instance);
     return notes;
   }
   const std::span<Mat3x4> converted(scene.converted.data(), instance.input.bones.size());
@@ -300,6 +308,7 @@ PoseNotes set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
     longest_squared = std::max(longest_squared, axes_of(converted[b]).longest_squared);
   }
   finish_pose(instance, longest_squared);
+  leave_gpu_pose(scene, instance);
   return notes;
 }
 
@@ -323,6 +332,7 @@ PoseNotes set_clip(Scene& scene, nook_instance_id id, Ref<const LoadedClips> cli
   mix_ao_weights(clips->set, mix, clip.weights.data());
   clip.clips = std::move(clips);
   take_pose(instance, posed);
+  leave_gpu_pose(scene, instance);
   std::fill(instance.input.uneven.begin(), instance.input.uneven.end(), notes.is_place_uneven);
   return notes;
 }

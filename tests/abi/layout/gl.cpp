@@ -1,4 +1,5 @@
 #include <nook/experimental/nook_debug.h>
+#include <nook/experimental/nook_gl_poses.h>
 #include <nook/nook_gl.h>
 
 #include "tests/abi/layout/layout.h"
@@ -40,6 +41,23 @@ NOOK_AT(nook_gl_view, count, 20);
 NOOK_AT(nook_gl_view, texture, 24);
 NOOK_AT(nook_gl_view, light, 28);
 NOOK_AT(nook_gl_view, glsl, 32);
+
+NOOK_SIZE(nook_gl_instance_pose, 76);
+NOOK_AT(nook_gl_instance_pose, instance, 0);
+NOOK_AT(nook_gl_instance_pose, first_transform, 4);
+NOOK_AT(nook_gl_instance_pose, bound_centre_ws, 8);
+NOOK_AT(nook_gl_instance_pose, bound_radius, 20);
+NOOK_AT(nook_gl_instance_pose, scale, 24);
+NOOK_AT(nook_gl_instance_pose, place_3x4, 28);
+
+NOOK_SIZE(nook_gl_poses, 40);
+NOOK_AT(nook_gl_poses, struct_size, 0);
+NOOK_AT(nook_gl_poses, format, 4);
+NOOK_AT(nook_gl_poses, pose, 8);
+NOOK_AT(nook_gl_poses, buffer, 16);
+NOOK_AT(nook_gl_poses, texture, 20);
+NOOK_AT(nook_gl_poses, offset, 24);
+NOOK_AT(nook_gl_poses, size, 32);
 
 NOOK_SIZE(nook_gl_memory, 32);
 NOOK_AT(nook_gl_memory, struct_size, 0);

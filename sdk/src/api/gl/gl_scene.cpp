@@ -1,5 +1,5 @@
 #include "sdk/src/api/entry.h"
-#include "sdk/src/api/gl/handle.h"
+#include "sdk/src/api/gl/scene_handle.h"
 #include "sdk/src/core/checks.h"
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/gl/character/light_texture.h"
@@ -20,17 +20,6 @@ gl::VertexValues place_of(nook_gl_s& gl, nook_scene_s& scene, nook_instance_id i
                     "channel is not on the GPU (got %d, need %d or %d); nook_scene_read has the others",
                     channel, NOOK_CHANNEL_AO, NOOK_CHANNEL_DIRECTIONAL_AO);
   }
-}
-
-// Runs body if both handles are valid and the OpenGL context is not lost.
-template <class Body>
-nook_result with_scene(const char* function, nook_gl gl, nook_scene scene, Body&& body) noexcept {
-  return api::enter(function, [&] {
-    need(gl, "gl");
-    need(scene, "scene");
-    gl->device.need_alive();
-    body();
-  });
 }
 
 void check_target(const nook_gl_ao_target& target, std::uint32_t count) {
@@ -68,10 +57,6 @@ void check_target(const nook_gl_ao_target& target, std::uint32_t count) {
                   "target.instance_stride is 0 with %u instances; give the distance between them", count);
 }
 
-gl::SceneHandle handle_of(nook_scene scene) {
-  return {Ref<const RefCounted>(Ref<nook_scene_s>::share(scene)), &scene->destroyed, &scene->scene};
-}
-
 }  // namespace
 
 nook_result nook_gl_model_memory(nook_gl gl, nook_model model, nook_gl_memory* memory) {
@@ -88,18 +73,18 @@ nook_result nook_gl_model_memory(nook_gl gl, nook_model model, nook_gl_memory* m
 }
 
 nook_result nook_gl_scene_prepare(nook_gl gl, nook_scene scene) {
-  return with_scene("nook_gl_scene_prepare", gl, scene,
-                    [&] { gl->guarded([&] { gl->characters->prepare(handle_of(scene)); }); });
+  return api::with_gl_scene("nook_gl_scene_prepare", gl, scene,
+                            [&] { gl->guarded([&] { gl->characters->prepare(api::handle_of(scene)); }); });
 }
 
 nook_result nook_gl_scene_update(nook_gl gl, nook_scene scene) {
-  return with_scene("nook_gl_scene_update", gl, scene,
-                    [&] { gl->guarded([&] { gl->characters->update(handle_of(scene)); }); });
+  return api::with_gl_scene("nook_gl_scene_update", gl, scene,
+                            [&] { gl->guarded([&] { gl->characters->update(api::handle_of(scene)); }); });
 }
 
 nook_result nook_gl_scene_view(nook_gl gl, nook_scene scene, nook_instance_id instance, nook_channel channel,
                                nook_gl_view* view) {
-  return with_scene("nook_gl_scene_view", gl, scene, [&] {
+  return api::with_gl_scene("nook_gl_scene_view", gl, scene, [&] {
     nook_gl_view known{};
     const gl::VertexValues values = place_of(*gl, *scene, instance, channel);
     known.buffer = values.buffer;
@@ -118,7 +103,7 @@ nook_result nook_gl_scene_view(nook_gl gl, nook_scene scene, nook_instance_id in
 
 nook_result nook_gl_scene_read(nook_gl gl, nook_scene scene, nook_instance_id instance, nook_channel channel,
                                float* out, uint32_t count) {
-  return with_scene("nook_gl_scene_read", gl, scene, [&] {
+  return api::with_gl_scene("nook_gl_scene_read", gl, scene, [&] {
     need(out, "out");
     const gl::VertexValues values = place_of(*gl, *scene, instance, channel);
     if (count != values.vertices)
@@ -130,7 +115,7 @@ nook_result nook_gl_scene_read(nook_gl gl, nook_scene scene, nook_instance_id in
 
 nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
                                 uint32_t count, const nook_gl_ao_target* target) {
-  return with_scene("nook_gl_scene_write", gl, scene, [&] {
+  return api::with_gl_scene("nook_gl_scene_write", gl, scene, [&] {
     need(instances, "instances");
     need(target, "target");
     check_target(*target, count);
@@ -152,5 +137,6 @@ nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const nook_instanc
 }
 
 nook_result nook_gl_scene_release(nook_gl gl, nook_scene scene) {
-  return with_scene("nook_gl_scene_release", gl, scene, [&] { gl->characters->release(scene->scene); });
+  return api::with_gl_scene("nook_gl_scene_release", gl, scene,
+                            [&] { gl->characters->release(scene->scene); });
 }

@@ -6,6 +6,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/handle.h"
 #include "sdk/src/api/gl/nnao_descriptors.h"
+#include "sdk/src/api/pose_log.h"
 #include "sdk/src/api/world_casting.h"
 #include "sdk/src/core/checks.h"
 #include "sdk/src/core/geometry.h"
@@ -142,6 +143,7 @@ nook_result nook_world_render(nook_world pass, const nook_gl_frame_desc* frame,
     gl::NnaoFrame screen = screen_of(frame, known, pass->desc);
     api::check_props("desc", known.capsules, known.capsule_count);
     check_numbers(known);
+    if (known.scene) api::log_without_world_casters(pass->gl->device.context, known.scene->scene);
     const api::Casting casting(known.scene ? &known.scene->scene : nullptr, 0, known.capsules,
                                known.capsule_count);
     const Reaching reaching{&casting, known.cutoff_error};

@@ -23,6 +23,15 @@ void CharacterGl::update(const SceneHandle& handle) {
   tier_->update(*handle.scene);
 }
 
+void CharacterGl::set_poses(const SceneHandle& handle, const PoseBatch& batch) {
+  prepare(handle);
+  tier_->set_poses(*handle.scene, batch);
+}
+
+void CharacterGl::read_pose(const Scene& scene, nook_instance_id instance, std::span<Mat3x4> bones) const {
+  tier_->read_pose(scene, instance, bones);
+}
+
 VertexValues CharacterGl::place(const Scene& scene, nook_instance_id instance) const {
   return tier_->place(scene, instance);
 }

@@ -30,6 +30,8 @@ class CharacterGl {
 
   void prepare(const SceneHandle& handle);
   void update(const SceneHandle& handle);
+  void set_poses(const SceneHandle& handle, const PoseBatch& batch);
+  void read_pose(const Scene& scene, nook_instance_id instance, std::span<Mat3x4> bones) const;
   VertexValues place(const Scene& scene, nook_instance_id instance) const;
   LightPlace light_place(const Scene& scene, nook_instance_id instance) const;
   void read(const VertexValues& values, float* out) const;

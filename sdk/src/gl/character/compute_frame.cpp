@@ -63,6 +63,16 @@ void lay_out_piece(const Device& device, ComputeChunk& chunk, std::uint64_t cast
   frame.lights = static_cast<std::uint32_t>(first_light);
 }
 
+// Throws Failure if another nook_gl has the pose of the instance, or this one had it before a release.
+void need_pose(const ComputeChunk& chunk, const Placement<ComputeChunk>& placement,
+               const Instance& instance) {
+  if (chunk.posed_of[placement.place] != pose_of(instance))
+    throw Failure(NOOK_ERROR_INVALID_HANDLE,
+                  "this nook_gl does not have the pose of instance %u, which is on the GPU; call "
+                  "nook_gl_scene_set_poses again",
+                  instance.id);
+}
+
 // Lays out the whole frame and returns its bytes.
 std::uint64_t lay_out(const Device& device, ComputeScene& placed) {
   const Scene& scene = *placed.scene;
@@ -74,6 +84,10 @@ std::uint64_t lay_out(const Device& device, ComputeScene& placed) {
     for_selected(scene, chunk, [&](std::uint32_t slot) {
       const Instance& instance = scene.instances[slot];
       ++frame.selected;
+      if (instance.input.is_posed_on_gpu) {
+        need_pose(chunk, placed.placements[slot], instance);
+        ++frame.posed;
+      }
       if (!instance.plan.due) return;
       ++frame.due;
       frame.lit += instance.light.count > 0;
@@ -141,7 +155,9 @@ void write_chunk(const ComputeScene& placed, const ComputeChunk& chunk, Word4* p
     InstanceRecord record{};
     record.first_bone = frame.bones + written * chunk.model->bones() * NOOK_BONE_ROWS;
     record.first_sphere = first_sphere(placed, slot);
-    record.place = placed.placements[slot].place | (has_self_shadow(scene, instance) ? NOOK_RECORD_SELF : 0u);
+    record.place = placed.placements[slot].place |
+                   (has_self_shadow(scene, instance) ? NOOK_RECORD_SELF : 0u) |
+                   (instance.input.is_posed_on_gpu ? NOOK_RECORD_POSED : 0u);
     if (instance.plan.due) {
       write_casters(placed, instance, piece, next_caster, record);
       if (instance.light.count > 0) {
@@ -150,7 +166,9 @@ void write_chunk(const ComputeScene& placed, const ComputeChunk& chunk, Word4* p
         next_light += light_texels(instance.light);
       }
     }
-    write_pose(instance, reinterpret_cast<Mat3x4*>(piece + record.first_bone));
+    // pose_place.comp writes the others.
+    if (!instance.input.is_posed_on_gpu)
+      write_pose(instance, reinterpret_cast<Mat3x4*>(piece + record.first_bone));
     // Mapped memory is written once, never read.
     std::memcpy(static_cast<void*>(piece + NOOK_RECORD_UVEC4S * written++), &record, sizeof record);
   });

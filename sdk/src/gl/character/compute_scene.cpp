@@ -138,7 +138,9 @@ ComputeChunk::ComputeChunk(Device& device, ComputeModel& for_model, std::uint32_
       model(&for_model),
       shadows(device, "nook: shadows", std::uint64_t{capacity} * for_model.shadows() * 2 * sizeof(float),
               nullptr, GL_DYNAMIC_COPY),
-      transformed(capacity, device.memory) {}
+      transformed(capacity, device.memory),
+      posed_of(capacity, device.memory),
+      pose_call(capacity, 0, device.memory) {}
 
 ComputeScene::ComputeScene(Device& device, const Scene& of)
     : PlacedScene(of, device.memory),

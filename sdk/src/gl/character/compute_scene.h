@@ -67,6 +67,22 @@ struct ComputeChunk : ChunkData {
   };
   Vector<Pose> transformed;
 
+  // Poses on the GPU, for each place an element and three rows of each bone, as pose_convert.comp writes
+  // them; none before the first one. And whose pose is there.
+  Buffer posed;
+  Vector<Pose> posed_of;
+  std::uint64_t posed_vec4s() const { return 1 + std::uint64_t{NOOK_BONE_ROWS} * model->bones(); }
+
+  // The inputs of the current call of set_poses. Elements of 16 bytes from the start of the chunk's piece of
+  // ComputeScene::jobs.
+  struct PoseFrame {
+    std::uint32_t count = 0, seeds = 0;   // instances; those that bring bones of the CPU
+    std::uint64_t offset = 0, bytes = 0;  // of the piece
+    std::uint32_t next_job = 0, next_seed = 0;
+  } poses;
+  // For each place, the last call of set_poses that named it.
+  Vector<std::uint64_t> pose_call;
+
   // The CPU's inputs of the current update.
   struct Frame {
     // Evaluated instances come first, level by level. The others only need their spheres.
@@ -74,6 +90,7 @@ struct ComputeChunk : ChunkData {
     std::uint32_t due = 0;
     std::uint32_t lit = 0;                // evaluated instances with a light
     std::uint32_t selected = 0;           // all selected instances
+    std::uint32_t posed = 0;              // selected instances whose pose is on the GPU
     std::uint64_t offset = 0, bytes = 0;  // of the chunk's piece of ComputeScene::stream
     // Elements of 16 bytes from the start of the piece, which begins with the records.
     std::uint32_t bones = 0, casters = 0, lights = 0;
@@ -86,13 +103,25 @@ struct ComputeScene : PlacedScene<ComputeChunk> {
   // Makes all buffers for the assigned places. Throws Failure.
   void make_buffers(Device& device);
 
-  Buffer stream;   // what one update sends, a piece for each chunk
+  Buffer stream;  // what one update sends, a piece for each chunk
+  Buffer jobs;    // what one call of set_poses sends, a piece for each chunk; none before the first one
+  std::uint64_t pose_calls = 0;
   Buffer spheres;  // of every place of every chunk
 
  private:
   void make_sphere_buffers(Device& device);
   void make_light_buffers(Device& device);
 };
+
+inline void bind_whole(const Functions& gl, GLuint binding, const Buffer& buffer) {
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
+}
+
+inline void bind_piece(const Functions& gl, GLuint binding, const Buffer& buffer, std::uint64_t offset,
+                       std::uint64_t bytes) {
+  gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, buffer.name(), static_cast<GLintptr>(offset),
+                     static_cast<GLsizeiptr>(bytes));
+}
 
 inline ComputeChunk::Pose pose_of(const Instance& instance) {
   return {instance.id, instance.input.pose_revision};

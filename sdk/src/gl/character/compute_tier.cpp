@@ -14,16 +14,6 @@ constexpr std::uint32_t groups(std::uint32_t threads, std::uint32_t group_size) 
   return (threads + group_size - 1) / group_size;
 }
 
-void bind_whole(const Functions& gl, GLuint binding, const Buffer& buffer) {
-  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
-}
-
-void bind_piece(const Functions& gl, GLuint binding, const Buffer& buffer, std::uint64_t offset,
-                std::uint64_t bytes) {
-  gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, buffer.name(), static_cast<GLintptr>(offset),
-                     static_cast<GLsizeiptr>(bytes));
-}
-
 void bind_stream(const Functions& gl, const ComputeScene& placed, const ComputeChunk& chunk) {
   bind_piece(gl, NOOK_BINDING_STREAM, placed.stream, chunk.frame.offset, chunk.frame.bytes);
 }
@@ -159,6 +149,7 @@ void ComputeTier::release(const Scene& scene) {
 // serves all.
 void ComputeTier::run(const Update& update) const {
   const Functions& gl = device_.gl;
+  place_poses(update);
   run_spheres(update);
   gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   run_shadows(update);

@@ -12,6 +12,8 @@ class ComputeTier final : public Tier {
 
   void prepare(const Scene& scene) override;
   void update(Scene& scene) override;
+  void set_poses(Scene& scene, const PoseBatch& batch) override;
+  void read_pose(const Scene& scene, nook_instance_id instance, std::span<Mat3x4> bones) const override;
   VertexValues place(const Scene& scene, nook_instance_id instance) const override;
   LightPlace light_place(const Scene& scene, nook_instance_id instance) const override;
   void read(const VertexValues& values, float* out) const override;
@@ -27,6 +29,8 @@ class ComputeTier final : public Tier {
     bool composed;  // NOOK_FORM_DEFAULT
   };
   void run(const Update& update) const;
+  // Brings poses on the GPU to where the passes read bones.
+  void place_poses(const Update& update) const;
   void run_spheres(const Update& update) const;
   void run_key_points(const Update& update, const ComputeChunk& chunk) const;
   void spread_levels(const Update& update, const ComputeChunk& chunk) const;
@@ -41,6 +45,10 @@ class ComputeTier final : public Tier {
   void run_lit_vertices(const Update& update) const;
 
   Device& device_;
+  // The passes over poses on the GPU (compute_poses.cpp).
+  void make_pose_objects(ComputeScene& placed);
+  void convert_poses(const ComputeScene& placed, const PoseBatch& batch, const PoseWindows& windows) const;
+
   Object spheres_;
   Object shadows_[kernel_form_count];  // name 0 until a model needs it
   Object spread_;                      // name 0 until a model has levels of detail
@@ -48,6 +56,7 @@ class ComputeTier final : public Tier {
   Object colours_[kernel_form_count];  // name 0 until an instance has a light
   Object colours_spread_;
   Object lit_vertices_, grey_vertices_;
+  Object convert_poses_, place_poses_;  // name 0 until a pose is on the GPU
   List<ComputeModel> models_;
   List<ComputeScene> scenes_;  // destroyed before the models that their chunks use
 };

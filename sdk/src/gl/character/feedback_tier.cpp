@@ -102,7 +102,27 @@ void FeedbackTier::prepare(const Scene& scene) {
   placed->finish();
 }
 
+namespace {
+
+[[noreturn]] void fail_without_compute() {
+  throw Failure(
+      NOOK_ERROR_UNSUPPORTED,
+      "poses on the GPU need compute shaders (OpenGL 4.3 or OpenGL ES 3.1), which this context does "
+      "not have; play baked clips (nook_scene_set_clip), or call nook_scene_set_pose");
+}
+
+}  // namespace
+
+void FeedbackTier::set_poses(Scene&, const PoseBatch&) {
+  fail_without_compute();
+}
+
+void FeedbackTier::read_pose(const Scene&, nook_instance_id, std::span<Mat3x4>) const {
+  fail_without_compute();
+}
+
 void FeedbackTier::update(Scene& scene) {
+  need_cpu_poses(scene);
   FeedbackScene& placed = *placed_scene(scenes_, scene);
   placed.notice_lights();
   nook::update(scene);

@@ -15,6 +15,8 @@ class FeedbackTier final : public Tier {
 
   void prepare(const Scene& scene) override;
   void update(Scene& scene) override;
+  void set_poses(Scene& scene, const PoseBatch& batch) override;
+  void read_pose(const Scene& scene, nook_instance_id instance, std::span<Mat3x4> bones) const override;
   VertexValues place(const Scene& scene, nook_instance_id instance) const override;
   LightPlace light_place(const Scene& scene, nook_instance_id instance) const override;
   void read(const VertexValues& values, float* out) const override;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "sdk/src/character/scene.h"
+#include "sdk/src/gl/character/pose_batch.h"
 #include "sdk/src/gl/device.h"
 
 namespace nook::gl {
@@ -45,6 +46,12 @@ class Tier {
   virtual void prepare(const Scene& scene) = 0;
   // Evaluates a prepared scene. Throws Failure; the next update makes up for this one.
   virtual void update(Scene& scene) = 0;
+
+  // Sets the poses of instances of a prepared scene from the host's buffer. Throws Failure before anything
+  // changes.
+  virtual void set_poses(Scene& scene, const PoseBatch& batch) = 0;
+  // Copies the bones of an instance, in world space, and waits for the GPU. Throws Failure.
+  virtual void read_pose(const Scene& scene, nook_instance_id instance, std::span<Mat3x4> bones) const = 0;
 
   // Throws Failure unless the instance has a place.
   virtual VertexValues place(const Scene& scene, nook_instance_id instance) const = 0;

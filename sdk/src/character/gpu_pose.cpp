@@ -1,0 +1,42 @@
+#include "sdk/src/character/gpu_pose.h"
+
+#include <algorithm>
+
+#include "sdk/src/core/failure.h"
+
+namespace nook {
+
+void take_gpu_pose(Scene& scene, Instance& instance, const GpuPose& pose) noexcept {
+  InstanceInput& input = instance.input;
+  if (!input.is_posed_on_gpu) {
+    input.is_posed_on_gpu = true;
+    ++scene.posed_on_gpu;
+    std::fill(input.uneven.begin(), input.uneven.end(), false);
+    input.clip.clips = {};
+  }
+  input.bound = pose.bound;
+  input.scale = pose.largest_scale * InstanceInput::scale_margin;
+  ++input.pose_revision;
+}
+
+void leave_gpu_pose(Scene& scene, Instance& instance) noexcept {
+  if (!instance.input.is_posed_on_gpu) return;
+  instance.input.is_posed_on_gpu = false;
+  --scene.posed_on_gpu;
+}
+
+void need_cpu_pose(const Instance& instance) {
+  if (instance.input.is_posed_on_gpu)
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the pose of instance %u is on the GPU, and this call needs it on the CPU; set all bones "
+                  "with nook_scene_set_pose, or a clip, before",
+                  instance.id);
+}
+
+void need_cpu_poses(const Scene& scene) {
+  if (scene.posed_on_gpu == 0) return;
+  for (const Instance& instance : scene.instances)
+    if (instance.id) need_cpu_pose(instance);
+}
+
+}  // namespace nook
