@@ -16,7 +16,7 @@ struct Kind {
   int generation;
 };
 // In the order of BakeKind.
-constexpr std::array kinds{Kind{"character", 4},  Kind{"calibration", 1}, Kind{"bent", 1},
+constexpr std::array kinds{Kind{"character", 5},  Kind{"calibration", 1}, Kind{"bent", 1},
                            Kind{"lod", 1},        Kind{"clips", 1},       Kind{"probe", 1},
                            Kind{"probe-grid", 1}, Kind{"material", 1},    Kind{"synthesis", 1},
                            Kind{"transfer", 1}};

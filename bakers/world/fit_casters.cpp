@@ -299,6 +299,17 @@ Eigen::VectorXd pull_of(std::size_t casters, const WorldCasterSettings& s) {
   return pull;
 }
 
+// Fewer casters have fewer parameters, so that fewer points determine them. Below a quarter, the noise of
+// their positions would show.
+WorldCasterSettings with_points_for(std::size_t casters, WorldCasterSettings settings) {
+  const double share = std::clamp(double(casters) / double(settings.casters), 0.25, 1.0);
+  for (std::size_t* const points :
+       {&settings.floor_points, &settings.wall_points, &settings.contact_points, &settings.neighbour_points,
+        &settings.cone_points, &settings.outline_points})
+    *points = std::size_t(std::ceil(share * double(*points)));
+  return settings;
+}
+
 }  // namespace
 
 std::vector<WorldCaster> fit_world_casters(const SkinnedMesh& mesh, std::span<const Pose> poses,
@@ -317,9 +328,9 @@ std::vector<WorldCaster> fit_world_casters(const SkinnedMesh& mesh, std::span<co
       initial_casters(begin, vertex_areas(begin, begin.position), settings.casters);
   lengthen(casters);
   const std::size_t total = std::min(settings.poses, poses.size()) + settings.steps;
-  const TrainingPoints set = trace_training_points(mesh, poses, settings, [&](std::size_t done, std::size_t) {
-    return !progress || progress(done, total);
-  });
+  const WorldCasterSettings points = with_points_for(casters.size(), settings);
+  const TrainingPoints set = trace_training_points(
+      mesh, poses, points, [&](std::size_t done, std::size_t) { return !progress || progress(done, total); });
   const Objective objective(set);
   scale_radii(casters, objective);
   const Parameters start = parameters_of(casters);

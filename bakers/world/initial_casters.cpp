@@ -138,6 +138,10 @@ bool by_area(const Part& a, const Part& b) {
   return a.area != b.area ? a.area < b.area : a.bone < b.bone;
 }
 
+// Low-poly bodies get fewer capsules: more would follow single triangles, and cost as much as the capsules of
+// a large body.
+constexpr std::size_t least_vertices = 12;
+
 void drop_empty(std::vector<Part>& parts) {
   std::erase_if(parts, [](const Part& part) { return part.vertex.empty(); });
 }
@@ -212,7 +216,8 @@ std::vector<WorldCaster> initial_casters(const SkinnedMesh& mesh, std::span<cons
   join_small(parts, mesh, count);
   std::vector<double> badness;
   for (const Part& part : parts) badness.push_back(misfit(part, mesh.position, vertex_area));
-  while (parts.size() < count) {
+  const std::size_t most = std::min(count, mesh.position.size() / least_vertices);
+  while (parts.size() < most) {
     const auto worst = std::size_t(std::max_element(badness.begin(), badness.end()) - badness.begin());
     if (!(badness[worst] > 0)) break;
     if (!cut(parts, worst, mesh.position, vertex_area)) {

@@ -110,6 +110,8 @@ TEST_CASE("world casters: initial capsules lie along the body and cover it") {
     }
   }
   CHECK(bone_capsules(mesh, area).size() == 2);
+  // A capsule of a low-poly body stands for 12 vertices or more.
+  CHECK(initial_casters(mesh, area, 64).size() <= mesh.position.size() / 12);
 }
 
 TEST_CASE("world casters: a fit of a tube is close to ray tracing on poses that it has not seen") {
