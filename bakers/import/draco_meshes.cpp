@@ -104,7 +104,8 @@ class Decompressed {
       if (accessor == primitive.attributes.end()) continue;
       const int id = whole_number(attributes, name.c_str(), what);
       const draco::PointAttribute* attribute = mesh->GetAttributeByUniqueId(std::uint32_t(id));
-      if (!attribute) refuse(what, name + " has identifier " + std::to_string(id) + ", which the data lacks");
+      if (!attribute)
+        refuse(what, name + " has identifier " + std::to_string(id) + ", which does not occur in the data");
       accessor->second = add_attribute(*mesh, *attribute, accessor->second, what + "." + name);
     }
   }

@@ -105,7 +105,7 @@ void add_bake_options(Command command, BakeOptions& options) {
   command
       .add_option("--isa", options.isa,
                   "the instruction set to bake with, so that different processors give the same bytes: "
-                  "x86-64-v2, x86-64-v3, or native, the best of this one (default)")
+                  "x86-64-v2, x86-64-v3, or native, which is the best that this processor has (default)")
       .check(one_of({"native", "x86-64-v2", "x86-64-v3"}));
 }
 

@@ -89,7 +89,10 @@ Option Option::excludes(Option other) const {
   return Option(option_->excludes(other.option_));
 }
 Option Option::number_of(const std::map<std::string, int>& numbers) const {
-  return Option(option_->transform(CLI::CheckedTransformer(numbers)));
+  // CLI11 would print the numbers too, which mean nothing to users.
+  std::string names;
+  for (const auto& [name, number] : numbers) names += (names.empty() ? "{" : ",") + name;
+  return Option(option_->transform(CLI::CheckedTransformer(numbers).description(names + "}")));
 }
 
 Command Command::add_subcommand(const char* name, const std::string& help) const {

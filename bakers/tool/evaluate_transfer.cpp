@@ -174,8 +174,8 @@ void add_evaluate_transfer(Command evaluate_command) {
                   "number of bounces in the path-traced picture; default as in the file")
       .check(in_range(0u, 8u));
   command.add_flag("--truth-holes", o.truth_holes,
-                   "let light fall through the material's holes in the path-traced picture, even if it does "
-                   "not in the file");
+                   "let light fall through the material's holes in the path-traced picture, even if the file "
+                   "was baked without it");
   command.add_option("--tiles", o.tiles, "tiles of the material per unit of texture coordinates")
       .check(in_range(0.01f, 1000.0f))
       .capture_default_str();
