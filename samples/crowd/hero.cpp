@@ -1,11 +1,12 @@
 #include "samples/crowd/hero.h"
 
+#include <nook/experimental/nook_bake_key.h>
+
 #include <algorithm>
 #include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <string>
-#include <string_view>
 #include <thread>
 
 #include "bakers/mannequin/mannequin.h"
@@ -65,26 +66,19 @@ std::filesystem::path built_in_glb(const std::filesystem::path& folder) {
   return folder / "mannequin.glb";
 }
 
-std::vector<unsigned char> cached_model(const Hero& hero, const std::filesystem::path& glb,
-                                        const std::filesystem::path& cache, bool quiet, float gamma) {
-  // The name has the content of the file, and the time of the program, so that a model which another build
-  // baked is never taken.
-  const std::vector<unsigned char> bytes = platform::read_file(glb);
-  const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  std::error_code unknown;
-  const auto built = std::filesystem::last_write_time("/proc/self/exe", unknown).time_since_epoch().count();
-  char name[112];
-  std::snprintf(name, sizeof name, "draft_%016llx_gamma%g_%08x_%016llx.nook",
-                static_cast<unsigned long long>(std::hash<std::string_view>{}(content)), double(gamma),
-                NOOK_VERSION, static_cast<unsigned long long>(built));
-  const std::filesystem::path path = cache / name;
-  if (std::filesystem::exists(path)) return platform::read_file(path);
-  if (!quiet) std::fprintf(stderr, "baking %s\n", path.string().c_str());
+std::vector<unsigned char> cached_model(const Hero& hero, const std::filesystem::path& cache, bool quiet,
+                                        float gamma) {
   nook_bake_character_desc desc;
   nook::bake::check(nook_bake_character_desc_init(&desc));
   desc.character = hero.character().get();
   desc.preset = NOOK_BAKE_PRESET_DRAFT;
   desc.gamma = gamma;
+  // Equal keys mean equal files.
+  char key[NOOK_BAKE_KEY_SIZE];
+  nook::bake::check(nook_bake_key(&desc, key, sizeof key));
+  const std::filesystem::path path = cache / (std::string(key) + ".nook");
+  if (std::filesystem::exists(path)) return platform::read_file(path);
+  if (!quiet) std::fprintf(stderr, "baking %s\n", path.string().c_str());
   const nook::bake::Job bake(desc);
   platform::ProgressBar bar(quiet);
   for (nook_bake_progress p = bake.progress(); p.state != NOOK_BAKE_DONE; p = bake.progress()) {

@@ -47,7 +47,7 @@ std::filesystem::path built_in_glb(const std::filesystem::path& folder);
 // Returns the bytes of the model's file for a character from the cache. If the cache has none, bakes one with
 // the draft preset and shows the progress. gamma is the exponent of the norm that adds up shadows; 0 takes
 // the preset's.
-std::vector<unsigned char> cached_model(const Hero& hero, const std::filesystem::path& glb,
-                                        const std::filesystem::path& cache, bool quiet, float gamma = 0);
+std::vector<unsigned char> cached_model(const Hero& hero, const std::filesystem::path& cache, bool quiet,
+                                        float gamma = 0);
 
 }  // namespace crowd

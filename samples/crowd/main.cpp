@@ -138,10 +138,9 @@ std::unique_ptr<platform::Context> create_context(const Options& o) {
 }
 
 void run(const Options& o) {
-  const std::filesystem::path glb = o.hero_glb.empty() ? built_in_glb(CROWD_CACHE) : o.hero_glb;
-  const Hero hero(glb);
+  const Hero hero(o.hero_glb.empty() ? built_in_glb(CROWD_CACHE) : o.hero_glb);
   const std::vector<unsigned char> model =
-      o.hero_nook.empty() ? cached_model(hero, glb, CROWD_CACHE, o.quiet) : platform::read_file(o.hero_nook);
+      o.hero_nook.empty() ? cached_model(hero, CROWD_CACHE, o.quiet) : platform::read_file(o.hero_nook);
   const std::unique_ptr<platform::Context> context = create_context(o);
   const std::vector<Placement> places = make_layout(clip_outlines(hero), o.crowd.characters, o.seed);
   CrowdScene scene(*context, hero, model, o.crowd);

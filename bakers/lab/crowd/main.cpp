@@ -55,8 +55,8 @@ void describe_world(const Stage& stage, const CrowdScene& scene, const Options& 
 }
 
 void compare_with_rays(platform::Context& context, const Stage& stage, CrowdScene& scene, const Options& o,
-                       const std::filesystem::path& glb, std::span<const unsigned char> model,
-                       nlohmann::ordered_json& report, platform::ProgressBar& bar) {
+                       std::span<const unsigned char> model, nlohmann::ordered_json& report,
+                       platform::ProgressBar& bar) {
   const std::vector<Bones> poses = pose_crowd(stage.hero, stage.places, 0);
   scene.set_poses(poses);
   ComparisonRequest request{o.crowd, o.seed, o.out, model, {}};
@@ -64,7 +64,7 @@ void compare_with_rays(platform::Context& context, const Stage& stage, CrowdScen
   bar.show("comparing", "parts", 1, 3);
   write_ao_sheet(stage, scene, poses, request);
   bar.show("comparing", "parts", 2, 3);
-  const std::vector<unsigned char> gamma_2 = cached_model(stage.hero, glb, o.cache, o.quiet, 2.0f);
+  const std::vector<unsigned char> gamma_2 = cached_model(stage.hero, o.cache, o.quiet, 2.0f);
   request.gamma_2_model = gamma_2;
   write_double_shadowing_sheet(context, stage, scene, poses, request);
   bar.show("comparing", "parts", 3, 3);
@@ -132,10 +132,9 @@ nlohmann::ordered_json draw(const Stage& stage, CrowdScene& scene, const Options
 }
 
 void run(const Options& o) {
-  const std::filesystem::path glb = o.hero_glb.empty() ? built_in_glb(o.cache) : o.hero_glb;
-  const Hero hero(glb);
+  const Hero hero(o.hero_glb.empty() ? built_in_glb(o.cache) : o.hero_glb);
   const std::vector<unsigned char> model =
-      o.hero_nook.empty() ? cached_model(hero, glb, o.cache, o.quiet) : platform::read_file(o.hero_nook);
+      o.hero_nook.empty() ? cached_model(hero, o.cache, o.quiet) : platform::read_file(o.hero_nook);
   const std::unique_ptr<platform::Context> context = create_context(o);
   const std::vector<Placement> places = make_layout(clip_outlines(hero), o.crowd.characters, o.seed);
   nook_scene_desc desc = nook::scene_desc();
@@ -150,7 +149,7 @@ void run(const Options& o) {
   const Stage stage{*context, hero, places, renderer, plain, target, passes ? &*passes : nullptr};
   platform::ProgressBar bar(o.quiet);
   nlohmann::ordered_json report = draw(stage, scene, o, bar);
-  if (o.sheets) compare_with_rays(*context, stage, scene, o, glb, model, report, bar);
+  if (o.sheets) compare_with_rays(*context, stage, scene, o, model, report, bar);
   if (!o.lights.empty()) compare_lights(stage, scene, o, report, bar);
   const std::string text = report.dump(2) + "\n";
   platform::write_file(o.report, text.data(), text.size());
