@@ -10,7 +10,7 @@ namespace {
 
 constexpr Normalisation normalisations[] = {Normalisation::division, Normalisation::product,
                                             Normalisation::wide_product};
-// Tries smaller forms first.
+// exact_packing tries the formats in this order, smallest first.
 constexpr std::uint8_t packed_bits[] = {8, 10, packed_as_halves.bits, 16, 24};
 
 constexpr bool is_normalised(ExactPacking packing) {
@@ -21,7 +21,7 @@ constexpr double largest_of(ExactPacking packing) {
   return double((1u << packing.bits) - 1);
 }
 
-// Returns 0 for anything outside [0, 1] or not a number.
+// Returns 0 for values outside [0, 1] and for NaN.
 std::uint32_t to_integer(float value, ExactPacking packing) {
   return value > 0 && value <= 1 ? std::uint32_t(std::lround(double(value) * largest_of(packing))) : 0;
 }

@@ -1,5 +1,5 @@
-// Stores floats in the smallest of a few forms that holds each of them exactly. Texels need few bits this
-// way, and every number comes back with the same bits.
+// Packs an array of floats losslessly. It picks the smallest of a few number formats in which every value is
+// exact. Texels then take few bits, and unpacking returns bit-identical floats.
 #pragma once
 
 #include <cstdint>
@@ -21,20 +21,20 @@ struct ExactPacking {
   std::uint8_t bits = 32;  // 32: floats; 8, 10, 16, 24: normalised integers; 15: half floats
   Normalisation normalisation = Normalisation::division;
 
-  // How many bytes a value takes: 4, 2 for half floats, else its bits rounded up.
+  // Returns the bytes per value: 2 for half floats, otherwise `bits` rounded up to whole bytes.
   constexpr std::size_t bytes() const { return (std::size_t(bits) + 7) / 8; }
   bool operator==(const ExactPacking&) const = default;
 };
 inline constexpr ExactPacking packed_as_floats{32}, packed_as_halves{15};
 
-// The smallest form that holds all values.
+// Returns the smallest format that holds all values exactly.
 ExactPacking exact_packing(std::span<const float> values);
 
-// Writes two bytes, the bits and the normalisation, and the values.
+// Writes one byte with `bits`, one byte with the normalisation, and then the values.
 void write_exact(ByteWriter& out, std::span<const float> values);
 
-// Reads what write_exact wrote, to the end of the section, into `values`, which gets `count` numbers. Throws
-// Failure(NOOK_ERROR_BAD_FILE) before it allocates anything if the section has another size.
+// Reads the output of write_exact up to the end of the section, and resizes `values` to `count`. If the
+// section's size does not match, it throws Failure(NOOK_ERROR_BAD_FILE) before it allocates anything.
 void read_exact(ByteReader in, std::uint32_t count, Vector<float>& values);
 
 }  // namespace nook::nnao

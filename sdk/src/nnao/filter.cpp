@@ -6,19 +6,19 @@
 namespace nook::nnao {
 namespace {
 
-// Averages the slopes of both sides, each weighted by the inverse of its square.
+// Averages the slopes of both sides. The weight of a slope is the inverse of its square.
 float axis_slope(const Neighbours& neighbours, std::size_t first) {
   const float a = neighbours.slope[first], b = neighbours.slope[first + 1];
   const float steep_a = a * a + 1e-12f, steep_b = b * b + 1e-12f;
   return (a * steep_b + b * steep_a) / (steep_a + steep_b);
 }
 
-// Each value is 0 to 3.
+// Returns the four edges as integers from 0 to 3.
 std::array<float, 4> unpacked(std::uint8_t bits) {
   return {float(bits >> 6), float(bits >> 4 & 3), float(bits >> 2 & 3), float(bits & 3)};
 }
 
-// Returns the texel next to another one; at the border of the screen, the nearest texel on it.
+// Returns the texel at an offset, clamped to the screen.
 std::size_t near_texel(std::uint32_t width, std::uint32_t height, std::uint32_t x, std::uint32_t y, int aside,
                        int up) {
   return std::size_t(std::clamp(int(y) + up, 0, int(height) - 1)) * width +

@@ -1,4 +1,4 @@
-// Converts the radius of a frame from the host's form to the stages' form.
+// Converts the radius of a frame from the host's settings to the values that the stages use.
 #pragma once
 
 #include <algorithm>

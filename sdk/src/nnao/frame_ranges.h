@@ -1,4 +1,4 @@
-// The ranges of the settings that shape AO, alike in the frame of a host and in a recording.
+// Checks the ranges of the AO settings. A host's frame and a recording have the same ranges.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,12 @@
 
 namespace nook::nnao {
 
-// Where messages begin in "desc.fade_end": at the descriptor, or at the field of a recording.
+// The offset in names such as "desc.fade_end" at which a message begins. Messages about a descriptor print
+// the whole name; messages about a recording skip "desc.".
 inline constexpr std::size_t name_in_desc = 0, name_in_recording = 5;
 
-// Fails with INVALID_ARGUMENT. A frame has the members of nook_nnao_frame_desc of these names.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if a setting is out of range. Frame is a type with the members
+// of nook_nnao_frame_desc that are checked here.
 template <class Frame>
 void check_shape(const Frame& frame, std::size_t name) {
   check_fits(&"desc.max_radius_px"[name], frame.max_radius_px,

@@ -10,7 +10,8 @@ float wrapped(float x) {
   return x - std::floor(x);
 }
 
-// Returns the change of depth to the neighbours along both axes, each on the flatter side.
+// Returns how much depth changes from one pixel to the next along both axes. On each axis, it uses the
+// neighbour on the flatter side.
 float flat_steps(const View& view, int x, int y, float depth) {
   const auto step = [&](int aside, int up) {
     return std::min(std::abs(depth_near(view, x - aside, y - up) - depth),
@@ -23,8 +24,8 @@ struct Range {
   float low = 0, high = 1;
 };
 
-// Returns the mean of the pixels that the edges connect, plus and minus twice their deviation, limited to a
-// range around the pixel's own AO.
+// Returns the range to which the mean of earlier frames is clamped. It is the mean of all connected pixels,
+// plus and minus twice their standard deviation, limited to a range around the pixel's own AO.
 Range likely_range(const PresentAo& present, int x, int y) {
   const View& view = present.view;
   const std::size_t own = view.at(std::uint32_t(x), std::uint32_t(y));
@@ -47,7 +48,7 @@ Range likely_range(const PresentAo& present, int x, int y) {
   return {std::max(mean - reach, centre - noise), std::min(mean + reach, centre + noise)};
 }
 
-// A place in the earlier image, in pixels whose centres are whole numbers.
+// A position in the earlier image, in pixels. Pixel centres have integer coordinates.
 struct Place {
   float x = 0, y = 0;
 };
@@ -63,7 +64,8 @@ Place earlier_place(const PresentAo& present, const History& history, std::uint3
           (earlier.y / extent - history.rays.y_offset) / history.rays.y_scale - 0.5f};
 }
 
-// Averages the ones of the four pixels around the place that show the surface.
+// Interpolates the history at a position. Of the four pixels around the position, only those that show the
+// same surface take part.
 MeanAo earlier_mean(const History& history, Place place, float depth, float tolerance) {
   const float base_x = std::floor(place.x), base_y = std::floor(place.y);
   MeanAo mean{0, 0};

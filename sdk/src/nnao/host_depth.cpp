@@ -9,12 +9,13 @@
 namespace nook::nnao {
 namespace {
 
-// The matrix is defined up to a factor; with this one, clip w is -z or 1.
+// Returns the factor by which to multiply the matrix so that clip w is -z (perspective) or 1 (orthographic).
+// Multiplying a projection by a factor does not change its result.
 double factor(const float (&projection)[16]) {
   return 1.0 / (is_perspective(projection) ? -double(projection[11]) : double(projection[15]));
 }
 
-// Depths from here on are not surfaces; the square of this number is still a float.
+// Depths of at least this many metres are not surfaces. The square of this number does not overflow a float.
 constexpr float no_surface = 1e15f;
 
 }  // namespace
@@ -45,9 +46,9 @@ ScreenRays projection_rays(const float (&projection)[16], std::uint32_t width, s
 
 namespace {
 
-// An oblique projection adds [2] x + [6] y to clip z. Divided by w, this is a multiple of the ray through the
-// pixel, which the decode subtracts from the stored value. The multiples at pixel (0, 0) go into the
-// constants.
+// An oblique projection adds m[2] x + m[6] y to clip z. After the division by w, this term is linear in the
+// pixel's coordinates. The decode subtracts it from the stored value: the constant part, at pixel (0, 0),
+// goes into the constants, and the rest into the slopes.
 void add_slope(DepthDecode& decode, const DepthSource& source, double stored_scale) {
   const auto& m = source.projection;
   const ScreenRays rays = projection_rays(m, source.width, source.height);
@@ -105,7 +106,7 @@ float view_depth(const DepthDecode& decode, bool perspective, float stored, Pixe
   stored += decode.slope_x * float(pixel.x) + decode.slope_y * float(pixel.y);
   if (decode.log_rate != 0) stored = std::exp2(decode.log_rate * stored);
   const float depth = (decode.x + decode.y * stored) / (decode.z + decode.w * stored);
-  // Comparisons with NaN are false.
+  // If depth is NaN, the comparisons are false and the result is `none`.
   return depth > min_surface_depth(perspective) && depth < no_surface ? depth : none;
 }
 

@@ -1,5 +1,5 @@
-// The projection and the depth of a host as numbers: what a stored depth value means, and what a matrix must
-// be. Matrices are column-major, as in OpenGL.
+// Interprets the host's projection and depth buffer: converts stored depth values to view depth, and checks
+// matrices. Matrices are column-major, as in OpenGL.
 #pragma once
 
 #include "sdk/src/nnao/network_evaluate.h"
@@ -14,8 +14,8 @@ struct DepthSource {
   const float (&projection)[16];
   DepthKind kind = DepthKind::hardware;
   ClipRange clip = ClipRange::negative_one_to_one;
-  float sky_depth = 0;  // metres; linear depths from here on are sky; 0: none
-  // For logarithmic depth, as the C interface defines it: C, n, f.
+  float sky_depth = 0;  // metres; linear depths of at least this value are sky; 0: no limit
+  // The constants C, n and f of logarithmic depth, as the C interface defines them.
   float log_scale = 1, log_near = 0, log_far = 0;
   std::uint32_t width = 1, height = 1;  // of the image; only an oblique projection reads them
 };
@@ -23,28 +23,29 @@ struct DepthSource {
 // The values match nook_nnao_sample.
 enum class SampleRule { median = 0, first = 1, nearest = 2 };
 
-// Returns which sample's depth the pixel gets. Of equal depths, the first one counts; the median of an even
-// number is the nearer of the middle two. depths are in view space, infinite if there is no surface. Tests
-// compare host_depth.glsl with it.
+// Returns the index of the sample that provides the pixel's depth. If depths are equal, the first sample is
+// chosen. The median of an even number of samples is the nearer of the middle two. `depths` are view depths,
+// infinite where there is no surface. Tests compare host_depth.glsl with this function.
 std::size_t chosen_sample(SampleRule rule, std::span<const float> depths);
 
 bool is_perspective(const float (&projection)[16]);
 
-// Does what screen_rays does, for a matrix that may be multiplied by any factor above 0.
+// Like screen_rays, but the matrix may be multiplied by any positive factor.
 ScreenRays projection_rays(const float (&projection)[16], std::uint32_t width, std::uint32_t height);
 
-// Depth = (x + y s) / (z + w s). If log_rate is not 0, s is exp2(log_rate * stored). Otherwise s is the
-// stored value plus slope_x and slope_y times the pixel's number; only an oblique projection has slopes.
+// Depth = (x + y s) / (z + w s). If log_rate is not 0, s is exp2(log_rate * stored). Otherwise s is stored +
+// slope_x * column + slope_y * row of the pixel. The slopes are 0 unless the projection is oblique.
 struct DepthDecode {
   float x = 0, y = 1, z = 1, w = 0;
   float log_rate = 0;
-  float far_stored = 1e30f;  // values from here on are not surfaces
+  float far_stored = 1e30f;  // stored values from this limit on are not surfaces
   float far_sign = 1;        // 1: stored values grow with distance; -1: they fall
   float slope_x = 0, slope_y = 0;
 };
 DepthDecode depth_decode(const DepthSource& source);
 
-// The view depth of a surface is above this; in a perspective it is positive.
+// Returns the exclusive lower limit for the view depth of a surface. In a perspective, the depth of a surface
+// is positive.
 constexpr float min_surface_depth(bool perspective) {
   return perspective ? 0 : -1e15f;
 }
@@ -57,11 +58,13 @@ struct Pixel {
 // host_depth.glsl with it.
 float view_depth(const DepthDecode& decode, bool perspective, float stored, Pixel pixel = {});
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) that names the descriptor's field.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if the matrix is not suitable. The message names the
+// descriptor's field.
 void check_normal_matrix(const float (&matrix)[9]);
 
-// Shorter texels are not normals; nothing was drawn there. A target of normalised integers that is cleared to
-// 1/2 holds 128 / 255 or 512 / 1023. Doubled, these are lengths of 0.007 and 0.002.
+// The minimum length of a normal. Where a texel is shorter, the host has drawn nothing. The limit for
+// normalised integers is higher: a target that is cleared to 1/2 holds 128 / 255 or 512 / 1023, which decodes
+// to components of 0.004 or 0.001 and a length of 0.007 or 0.002.
 inline constexpr float shortest_float_normal = 1e-3f, shortest_normalised_normal = 0.25f;
 
 // Returns the mean factor by which a matrix scales lengths: the cube root of its determinant.

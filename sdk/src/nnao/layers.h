@@ -1,5 +1,5 @@
-// Visits the numbers of a network's small layers in the order that files and training share. It is the order
-// of network.h, and within a layer the order of its members.
+// Visits the parameters of a network's small layers in the order that files and the training use. Layers come
+// in the order of network.h, and the parameters of a layer in the order of its members.
 #pragma once
 
 #include <span>
@@ -21,7 +21,7 @@ void visit_layer(Layer& layer, Visit&& visit) {
   }
 }
 
-// Calls visit(span) for every array of the network's form, except for the paper's filters.
+// Calls visit(span) for every parameter array of the network's form. The paper's filters are not visited.
 template <class AnyNetwork, class Visit>
 void visit_layers(AnyNetwork& network, Visit&& visit) {
   if (network.form == NetworkForm::paper) {

@@ -8,7 +8,7 @@
 namespace nook::nnao {
 
 SpecularNumbers specular_numbers() {
-  // Rows of eight: each input's weights, biases, outputs.
+  // Seven rows of eight units: the weights of each of the five inputs, the biases, and the output weights.
   constexpr float rows[7][8] = {
       {NOOK_SPECULAR_0, NOOK_SPECULAR_1},   {NOOK_SPECULAR_2, NOOK_SPECULAR_3},
       {NOOK_SPECULAR_4, NOOK_SPECULAR_5},   {NOOK_SPECULAR_6, NOOK_SPECULAR_7},

@@ -1,5 +1,5 @@
-// Lighting with AO and bent normals: the functions of shaders/nnao/host.glsl on the CPU, for tests and
-// measurements.
+// Lighting with AO and bent normals on the CPU, for tests and measurements. These are the same functions as
+// in shaders/nnao/host.glsl.
 #pragma once
 
 #include <array>
@@ -8,12 +8,13 @@
 
 namespace nook::nnao {
 
-// Numbers of the specular occlusion, which is a network of one hidden layer. With the half angle of the cone
+// Weights of the specular occlusion, a small network with one hidden layer. With the half angle of the cone
 // cos = sqrt(1 - AO), the bent normal b, the normal n, the direction to the viewer v, its reflection r and
 // the roughness, the inputs are x = (cos, dot(b, r), dot(n, v), dot(n, b), roughness), and
 //   hidden = out . max(weights x + bias, 0) + out_bias
 //   occlusion = clamp(lerp(1 - cos hidden, AO, roughness^4), 0, 1).
-// Roughness is perceptual: the GGX width is its square. A rough reflection is as open as the hemisphere.
+// Roughness is perceptual: the GGX width is its square. At roughness 1, the occlusion equals the AO of the
+// whole hemisphere.
 struct SpecularNumbers {
   static constexpr int inputs = 5, units = 8;
 
@@ -21,10 +22,10 @@ struct SpecularNumbers {
   std::array<float, units> bias{}, out{};
   float out_bias = 0;
 };
-// Returns the numbers that the shader uses, fitted by `nook train specular`.
+// Returns the weights that the shader uses. `nook train specular` has fitted them.
 SpecularNumbers specular_numbers();
 
-// The input of a pixel. Directions have unit length.
+// The inputs of the specular occlusion at a pixel. Directions have unit length.
 struct LitPixel {
   Vec3 bent_normal, normal, to_viewer;
   float ao = 1;
@@ -33,7 +34,8 @@ struct LitPixel {
 std::array<float, SpecularNumbers::inputs> specular_inputs(const LitPixel& pixel, float roughness);
 float specular_occlusion(const SpecularNumbers& numbers, const LitPixel& pixel, float roughness);
 
-// Returns the cosine of the half angle of the cone around the bent normal that is as open as the pixel.
+// Returns the cosine of the half angle of the visibility cone around the bent normal, which has the same
+// openness as the pixel.
 float cone_cosine(float ao);
 
 // Returns AO brightened by the light that the surroundings reflect, for one channel of the albedo.

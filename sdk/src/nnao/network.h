@@ -1,5 +1,6 @@
-// The networks of the screen-space pass as plain data. View space is OpenGL's: x right, y up, the camera
-// looks along -z. The method is by D. Holden, J. Saito, T. Komura: Neural Network Ambient Occlusion, 2016.
+// The networks of the screen-space pass as plain data. View space is the same as in OpenGL: x points right, y
+// up, and the camera looks along -z. The method is by D. Holden, J. Saito, T. Komura: Neural Network Ambient
+// Occlusion, 2016.
 #pragma once
 
 #include <array>
@@ -18,8 +19,8 @@ enum class NetworkForm : std::uint32_t {
   horizon = 1,  // one layer along each direction, then one over the directions
 };
 
-// PReLU(x) = positive_slope max(x, 0) + negative_slope min(x, 0), with one pair of slopes for each unit
-// (equation 1).
+// A layer whose activation is equation 1 of the paper, with one pair of slopes for each unit: PReLU(x) =
+// positive_slope max(x, 0) + negative_slope min(x, 0).
 template <int inputs, int units>
 struct Dense {
   std::array<float, std::size_t(inputs) * units> weights{};  // weights[input * units + unit]
@@ -30,11 +31,12 @@ struct Dense {
 
 // The paper's network. Tap (column, row) of a grid_size x grid_size grid lies at the view-space offset
 //   r (2 (column + 0.5) / grid_size - 1, 2 (row + 0.5) / grid_size - 1, 0)
-// from the pixel's position p. It is projected to the screen, where the buffers give position p_t and normal
-// n_t. Its input is
+// from the pixel's position p. The tap is projected to the screen, and the depth and normal buffers give the
+// position p_t and the normal n_t there. The input of the tap is
 //   (n_t - n, (p_t.z - p.z) / r) clamp(1 - |p_t - p| / r, 0, 1).
-// Filters and bias already contain the normalisation by mean and deviation. With a subset of n taps, the sum
-// over taps is scaled by grid_size^2 / n. taps.h has the positions of the taps.
+// The normalisation of inputs by mean and standard deviation is already part of the filters and the bias. If
+// only n taps of the grid are used, the sum over taps is multiplied by grid_size^2 / n. taps.h computes the
+// positions of the taps.
 struct PaperNetwork {
   static constexpr int grid_size = NOOK_GRID_SIZE;
   static constexpr int tap_inputs = 4;
@@ -49,8 +51,8 @@ struct PaperNetwork {
   Dense<units, 1> layer_3;
 };
 
-// y = max(x, slope x). x is a sum of products of the input, times 1 + a sum of products of the gate's values.
-// Each unit has its own gate and slope.
+// A gated layer: y = max(x, slope x), where x = (weights . input) (1 + gate_weights . gate). Each unit has
+// its own weights, gate weights and slope.
 template <int inputs, int gates, int units>
 struct GatedDense {
   std::array<float, std::size_t(inputs) * units> weights{};      // weights[input * units + unit]
@@ -58,40 +60,42 @@ struct GatedDense {
   std::array<float, units> slope{};
 };
 
-// y = a sum of products of the input, times 1 + a sum of products of the gate's values.
+// A gated layer without an activation: y = (weights . input) (1 + gate_weights . gate).
 template <int inputs, int gates, int units>
 struct GatedLinear {
   std::array<float, std::size_t(inputs) * units> weights{};      // weights[input * units + unit]
   std::array<float, std::size_t(gates) * units> gate_weights{};  // gate_weights[gate * units + unit]
 };
 
-// y = max(x - threshold, 0), where x is a sum of products.
+// y = max(x - threshold, 0), where x = weights . input.
 template <int inputs, int units>
 struct ThresholdDense {
   std::array<float, std::size_t(inputs) * units> weights{};
   std::array<float, units> threshold{};  // 0 or more
 };
 
-// Nook's network. The taps lie along `directions` half-lines on the screen, with `steps` taps on each. A tap
-// off the screen is moved to the nearest pixel on it. With v = p_t - p, the direction to the viewer o = -p /
-// |p| (orthographic: +z), the elevation s = dot(v, n) / |v|, the angle c = dot(v, o) / |v| and the nearness
-// w = max(1 - |v| / 2r, 0), where |v| is at least half a pixel, a tap's hidden units are tap(input) of
+// Nook's network. The taps lie along `directions` half-lines on the screen, with `steps` taps on each
+// half-line. A tap outside the screen is moved to the nearest pixel on the screen. With v = p_t - p, the
+// direction to the viewer o = -p / |p| (orthographic: +z), the elevation s = dot(v, n) / |v|, the angle c =
+// dot(v, o) / |v| and the nearness w = max(1 - |v| / 2r, 0), where |v| is at least half a pixel, a tap's
+// hidden units are tap(input) of
 //   input = (s, s c, s w, s c w).
-// The sky is a surface at infinity. The input of `direction` is the maximum and the mean of the units over
-// the steps of a direction. Its gate is (dot(n, t), dot(n, o)), where t is the unit vector perpendicular to o
-// in the plane of the direction. The input of `join` is the mean over directions. Its gate is dot(n, o) and
-// the distance of the pixel from the border of the screen in radii, at most 1. AO is
+// The sky is treated as a surface at infinity. The input of the layer `direction` is the maximum and the mean
+// of the tap units over the steps of a direction. The gate of `direction` is (dot(n, t), dot(n, o)), where t
+// is the unit vector perpendicular to o in the plane of the direction. The input of the layer `join` is the
+// mean of the `direction` units over all directions. The gate of `join` is dot(n, o) and the distance of the
+// pixel from the border of the screen in radii, at most 1. AO is
 //   1 - min(-dot(out, join), bound),
 // where bound is NOOK_HORIZON_BOUND times the mean over directions of the greatest max(s w, 0) of a
-// direction. Without a tap that is near and above the plane, nothing darkens, whatever lies behind a
-// silhouette. bent has the input and the gate of `direction`, and two outputs (p, q) for each direction. The
-// bent normal is the cosine-weighted mean of the open directions, and points along
+// direction. So a pixel stays open unless a tap is both near and above the pixel's plane, whatever lies
+// behind a silhouette. The layer `bent` has the same input and gate as `direction`, and two outputs (p, q)
+// for each direction. The bent normal is the cosine-weighted mean of the open directions, and points along
 //   n + mean over directions of (p t + q o).
-// Only taps have a threshold, and no other layer has a bias. If no tap lies more than a little above the
-// pixel's plane, all units are 0 and AO is 1. So a plane is open from every angle, up to the border of the
-// screen, even with rounded depth and normals.
+// The tap layer has thresholds; the other layers have no bias. If every tap lies below the pixel's plane or
+// only slightly above it, all units are 0 and AO is 1. So a plane is fully open from every viewing angle, up
+// to the border of the screen, even if depth and normals are rounded.
 struct HorizonNetwork {
-  static constexpr int revision = 8;  // raise it when the meaning of the numbers changes
+  static constexpr int revision = 8;  // raise it when the meaning of the weights changes
   static constexpr int tap_inputs = NOOK_HORIZON_TAP_INPUTS;
   static constexpr int units = NOOK_HORIZON_UNITS;
 
@@ -102,7 +106,7 @@ struct HorizonNetwork {
   GatedLinear<2 * units, 2, 2> bent;
 };
 
-// AO is the network's output clamped to [0, 1]; 1 is open.
+// AO is the output of the network, clamped to [0, 1]; 1 is fully open.
 struct Network {
   explicit Network(Memory* memory = default_memory())
       : paper{Vector<float>(memory), {}, {}, {}, {}, {}, {}}, recipe(memory) {}

@@ -64,7 +64,7 @@ std::array<float, units> through(const ThresholdDense<inputs, units>& layer,
   return out;
 }
 
-// Values of the pixel itself that both forms need.
+// Values of the centre pixel that both forms of the network need.
 struct Centre {
   Vec3 position, normal, viewer;
   PixelScale scale;
@@ -89,7 +89,7 @@ Vec3 texel_position(const View& view, TappedTexel texel) {
 
 using PaperUnits = std::array<float, PaperNetwork::units>;
 
-// Returns the units of the first layer.
+// Returns the units of the first layer of the paper's network.
 PaperUnits paper_units(const PaperNetwork& network, const View& view, Vec3 normal, const Sampling& sampling,
                        std::uint32_t x, std::uint32_t y, TapNoise noise) {
   constexpr int units = PaperNetwork::units, inputs = PaperNetwork::tap_inputs;
@@ -112,7 +112,7 @@ PaperUnits paper_units(const PaperNetwork& network, const View& view, Vec3 norma
   return sum;
 }
 
-// The input and gate of the network's join, and the outputs that do not need the join.
+// The input and gate of the layer `join`, and the outputs that do not depend on `join`.
 struct JoinInput {
   std::array<float, HorizonNetwork::units> mean{};
   std::array<float, 2> gate{};
@@ -198,8 +198,8 @@ TappedTexel clamped_texel(const View& view, std::uint32_t x, std::uint32_t y, Ta
 HorizonTapInput horizon_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal,
                                   Vec3 viewer, float radius) {
   const Vec3 v = texel_position(view, texel) - position;
-  // At the border of the screen a tap can be the pixel itself, on its own plane. Its distance then counts as
-  // half a pixel, since v may be a rounding error.
+  // At the border of the screen, a tap can be clamped to the pixel itself. Its v is then only a rounding
+  // error, so the distance is raised to half a pixel.
   const PixelScale scale = pixel_scale(view.rays, -position.z);
   const float away = std::max(length(v), 0.5f / std::max(std::abs(scale.x), std::abs(scale.y)));
   const float elevation = dot(v, normal) / away, angle = dot(v, viewer) / away;

@@ -1,5 +1,6 @@
-// Computes the raw AO of a view with a network, one pixel at a time. Tests of the OpenGL pass and the errors
-// of training refer to it. View space is OpenGL's; rows count from the bottom.
+// Evaluates a network on the CPU, one pixel at a time. The result is raw AO, before the filter. It is the
+// reference for tests of the OpenGL pass and for the errors that the training reports. View space is the same
+// as in OpenGL. Row 0 is at the bottom.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +16,15 @@ namespace nook::nnao {
 
 // The mapping from pixels to view space. At depth w = -z, a perspective has
 //   x = (x_scale px + x_offset) w, y = (y_scale py + y_offset) w,
-// and an orthographic projection has the same without the factor w. px and py are pixel coordinates; centres
-// are at + 0.5.
+// and an orthographic projection has the same equations without the factor w. px and py are pixel
+// coordinates; the centre of pixel (0, 0) is at (0.5, 0.5).
 struct ScreenRays {
   float x_scale = 1, x_offset = 0, y_scale = 1, y_offset = 0;
   bool orthographic = false;
 };
 
 // Derives the mapping from an OpenGL projection matrix (column-major), which may be off-centre, and the size
-// of the screen. The range and direction of depth have no effect.
+// of the screen. The depth range of the projection, and whether depth is reversed, do not matter.
 ScreenRays screen_rays(const float (&projection)[16], std::uint32_t width, std::uint32_t height);
 
 inline Vec3 view_position(const ScreenRays& rays, float px, float py, float depth) {
@@ -43,17 +44,18 @@ inline Vec3 to_viewer(const ScreenRays& rays, Vec3 position) {
 struct View {
   std::uint32_t width = 0, height = 0;
   ScreenRays rays;
-  std::span<const float> depth;  // -z, metres; not finite for the sky and the far plane
+  std::span<const float> depth;  // -z, metres; infinity or NaN for the sky and the far plane
   std::span<const Vec3> normal;  // unit length, facing the viewer
 
   bool has_surface(std::uint32_t x, std::uint32_t y) const { return std::isfinite(depth[at(x, y)]); }
   std::size_t at(std::uint32_t x, std::uint32_t y) const { return std::size_t(y) * width + x; }
 };
 
-// The sky is a surface far beyond any radius. The square of this depth, in metres, is still a float.
+// The depth, in metres, at which the sky is treated as a surface. It is far beyond any radius, and its square
+// does not overflow a float.
 inline constexpr float sky_depth = 1e15f;
 
-// Returns the depth of a pixel, or of the nearest pixel on the screen.
+// Returns the depth of a pixel. Coordinates outside the screen are clamped to the nearest pixel.
 inline float depth_near(const View& view, int x, int y) {
   const auto column = std::uint32_t(std::clamp(x, 0, int(view.width) - 1)),
              row = std::uint32_t(std::clamp(y, 0, int(view.height) - 1));
@@ -63,13 +65,14 @@ inline float depth_near(const View& view, int x, int y) {
 struct Sampling {
   float radius = 1;                   // metres
   float max_radius_px = 256;          // a radius that covers more pixels shrinks
-  std::uint32_t taps = default_taps;  // horizon form: a count of horizon_grid; paper form: 1 to 961
+  std::uint32_t taps = default_taps;  // horizon form: a count that horizon_grid accepts; paper form: 1 to 961
   float min_radius_px = 0;            // a radius that covers fewer pixels grows; at most max_radius_px
   DistanceFade fade = {};
 };
 
-// The radius of one pixel after the clamp, and the share of its darkness that counts. Where the radius grows,
-// darkness spreads over more pixels, and the share keeps its sum.
+// The radius of one pixel after it was clamped, and the factor by which the pixel's darkness (1 - AO) is
+// multiplied. If the minimum enlarges the radius, an occluder darkens more pixels; the factor keeps the total
+// darkness the same. The factor also contains the fade with distance.
 struct PixelRadius {
   float metres = 0, px = 0, share = 1;
 };
@@ -80,7 +83,7 @@ inline PixelRadius pixel_radius(const Sampling& sampling, PixelScale scale, floa
 }
 
 struct TappedTexel {
-  bool surface = false;  // on the screen, and not the sky
+  bool surface = false;  // the tap is on the screen and does not hit the sky
   std::uint32_t x = 0, y = 0;
 };
 TappedTexel tapped_texel(const View& view, std::uint32_t x, std::uint32_t y, TapOffset offset);
@@ -97,7 +100,7 @@ inline float border_distance(const View& view, std::uint32_t x, std::uint32_t y,
   return std::min((std::min(across, up) + 0.5f) / radius_px, 1.0f);
 }
 
-// Computes a tap's input for the paper's form. Returns false if the input is 0.
+// Computes the input of a tap in the paper's form. Returns false if all inputs are 0.
 bool paper_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal, float radius,
                      std::array<float, PaperNetwork::tap_inputs>& input);
 
@@ -107,14 +110,14 @@ inline Vec3 across_viewer(Vec3 viewer, float cosine, float sine) {
   return normalised(along - dot(along, viewer) * viewer);
 }
 
-// What the network returns for one pixel.
+// The output of the network for one pixel.
 struct Openness {
   float ao = 1;      // not clamped
   Vec3 bent_normal;  // view space, unit length; the paper's form returns the normal
 };
 
-// Returns the network's outputs for a given normal and noise of the pixel, which must have a surface. The
-// horizon form reads no other normals. Training uses this function.
+// Returns the network's outputs for a pixel with the given normal and noise. The pixel must show a surface.
+// The horizon form does not read view.normal. The training uses this function.
 Openness evaluate_openness(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
                            std::uint32_t x, std::uint32_t y, TapNoise noise);
 
@@ -122,17 +125,17 @@ Openness evaluate_openness(const Network& network, const View& view, Vec3 normal
 float evaluate_unclamped(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
                          std::uint32_t x, std::uint32_t y, TapNoise noise);
 
-// Returns three units of a pixel with a surface, for pictures: the first ones of the paper's first layer, or
-// of the means over directions in the horizon form.
+// Returns three units for debug images. In the paper's form, they are the first units of the first layer; in
+// the horizon form, the first units of the mean over directions. The pixel must show a surface.
 std::array<float, 3> first_units(const Network& network, const View& view, const Sampling& sampling,
                                  std::uint32_t x, std::uint32_t y);
 
-// Returns the AO of one pixel in [0, 1]; it is exactly 1 where there is no surface.
+// Returns the AO of one pixel in [0, 1]. Where there is no surface, it is exactly 1.
 float evaluate_pixel(const Network& network, const View& view, const Sampling& sampling, std::uint32_t x,
                      std::uint32_t y);
 
-// Evaluates all pixels of a view in the order of its depths. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if
-// sizes, radius or taps are out of range.
+// Evaluates all pixels of a view and writes AO in the same order as view.depth. Throws
+// Failure(NOOK_ERROR_INVALID_ARGUMENT) if sizes, radius or taps are out of range.
 void evaluate(const Network& network, const View& view, const Sampling& sampling, std::span<float> ao);
 
 }  // namespace nook::nnao

@@ -18,17 +18,20 @@ namespace nook::nnao {
 
 inline constexpr ContainerKind network_kind{four_letters("NNAO"), "screen-space network", 1, 1};
 
-// The maximum magnitude of a network's numbers, so that no sum of the evaluation overflows.
+// The maximum magnitude of a network's parameters. With this limit, the sums of an evaluation do not
+// overflow.
 inline constexpr float max_parameter = 1e4f;
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if a number is not finite or too large.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if a parameter is not finite or exceeds max_parameter.
 std::vector<std::byte> write_network(const Network& network);
 
-// Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
-// NOOK_ERROR_FILE_VERSION), and allocates no more than the filters and the recipe.
+// Safe for untrusted bytes, even if their checksum is correct. For an invalid file, the call throws
+// Failure(NOOK_ERROR_BAD_FILE or NOOK_ERROR_FILE_VERSION). It allocates no more memory than the filters and
+// the recipe need.
 Network read_network(std::span<const std::byte> bytes, Memory* memory = default_memory());
 
-// Returns the form of a network without reading the rest of it. Throws as read_network does.
+// Returns the form of the network in a file, without reading the rest of the file. Throws as read_network
+// does.
 NetworkForm network_form(std::span<const std::byte> bytes);
 
 // Returns the network file that is compiled into the library, nnao/default_horizon.nook.

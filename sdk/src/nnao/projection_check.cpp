@@ -9,21 +9,22 @@
 namespace nook::nnao {
 namespace {
 
-// An element counts as zero up to this share of its row's largest element. Rows differ: a wide orthographic
-// projection has small elements, a far near plane a large one.
+// An element is treated as zero if its magnitude is at most this fraction of the largest one in its row. The
+// limit is relative to the row because rows differ in scale: a wide orthographic projection has small
+// elements, and a distant near plane causes a large one.
 constexpr double equal_share = 1e-6;
 
-// The depths at both ends of the clip range may deviate from a camera's by this share, because some infinite
-// projections put the far plane slightly beyond infinity.
+// The relative tolerance of the depths at both ends of the clip range. It is needed because some infinite
+// projections place the far plane slightly beyond infinity.
 constexpr double plane_share = 1e-3;
 
-// The far plane of a camera is more than this many times as far as the near one.
+// In a camera's projection, the far plane is more than this many times as far away as the near plane.
 constexpr double usual_depth_ratio = 50;
 
-// A projection as the check reads it: m[i] as OpenGL numbers the elements.
+// A projection matrix, with the elements m[i] in OpenGL's (column-major) order.
 struct Matrix {
   double m[16];
-  double largest[4];  // absolute element of each row
+  double largest[4];  // magnitude in each row
 
   double operator[](int i) const { return m[i]; }
   bool zero(int i) const { return std::abs(m[i]) <= equal_share * largest[i % 4]; }
@@ -37,7 +38,7 @@ struct Matrix {
   bool oblique() const { return !zero(2) || !zero(6); }
 };
 
-// element(i) returns an element's value.
+// Builds a matrix from element(i), which returns the value of element i.
 template <class Element>
 Matrix matrix_of(const Element& element) {
   Matrix matrix{};
@@ -52,8 +53,8 @@ Matrix transposed(const Matrix& matrix) {
   return matrix_of([&](int i) { return matrix[4 * (i % 4) + i / 4]; });
 }
 
-// Clip x depends on x and z, clip y on y and z, and clip w on z or on nothing. Returns an element that should
-// be 0 and is not, or -1.
+// In a camera's projection, clip x depends on x and z, clip y on y and z, and clip w on z or on nothing.
+// Returns the index of an element that should be 0 but is not, or -1 if there is none.
 int stray_element(const Matrix& m) {
   const bool perspective = m.perspective();
   for (const int i : {1, 3, 4, 7, perspective ? 12 : 8, perspective ? 13 : 9, perspective ? 15 : 11})
@@ -61,7 +62,7 @@ int stray_element(const Matrix& m) {
   return -1;
 }
 
-// Accepts a camera that looks along -z, or along +z in left-handed systems.
+// Returns true for the projection of a camera that looks along -z, or along +z in a left-handed system.
 bool is_camera_of_any_hand(const Matrix& m) {
   return stray_element(m) < 0 && !m.zero(0) && !m.zero(5) && (m.perspective() || m[15] > 0) &&
          m[m.perspective() ? 14 : 10] != 0;
@@ -97,14 +98,15 @@ bool is_deep(const Matrix& m, ClipRange clip) {
   return !m.oblique() && depths.before_camera() && depths.ratio() > usual_depth_ratio;
 }
 
-// Clip w of a perspective is -z or z. A transposed matrix has this number where the near plane belongs, and
-// vice versa.
+// In a perspective, clip w is -z or z. Transposing the matrix swaps this coefficient of -1 or 1 with the
+// element that depends on the near plane.
 bool is_transposed(const Matrix& m, ClipRange clip) {
   const Matrix turned = transposed(m);
   if (!is_camera_of_any_hand(turned)) return false;
   if (!is_camera_of_any_hand(m)) return true;
   if (!m.perspective()) return false;
-  // A projection may be multiplied by any number. Its range of depth reveals it.
+  // The matrix may be multiplied by any factor, so neither element need be 1. Then the depth range shows
+  // which matrix is the projection.
   if (!is_one(m[14]) && !is_one(m[11])) return !is_deep(m, clip) && is_deep(turned, clip);
   if (!is_one(m[14])) return false;
   return !is_one(m[11]) || (m.zeros({8, 9}) && m.oblique());
@@ -121,9 +123,9 @@ double dot(const Axis& a, const Axis& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// True for a rotation with a uniform scale and a translation, such as the matrix of an object or a camera.
-// Orthographic projections of a cube of depth look the same. A wide box, or a box in front of the camera,
-// marks a projection.
+// Returns true for a rotation with a uniform scale and a translation, such as an object's or a camera's
+// matrix. The orthographic projection of a cube has the same shape. Such a matrix is taken for a projection
+// if m[10] is negative, or if its box is wider than 2 metres and lies in front of the camera.
 bool is_placement(const Matrix& m) {
   if (!m.zeros({3, 7, 11}) || !is_one(m[15])) return false;
   const Axis axes[] = {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}};
@@ -142,8 +144,8 @@ const char* clip_name(ClipRange clip) {
                                         : "NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE";
 }
 
-// Reversed depth reveals the clip range. With the wrong one, an end of it lies behind the camera, or the far
-// plane is at twice the near plane's distance.
+// Reversed depth shows which clip range the projection uses. With the wrong clip range, one end of it lies
+// behind the camera, or the far plane is only twice as far away as the near plane.
 void check_perspective_depth(const Matrix& m, ClipRange clip) {
   const bool zero_to_one = clip == ClipRange::zero_to_one;
   const ClipRange other = zero_to_one ? ClipRange::negative_one_to_one : ClipRange::zero_to_one;
@@ -169,7 +171,7 @@ void check_perspective_depth(const Matrix& m, ClipRange clip) {
                 element, m[element]);
 }
 
-// In a left-handed orthographic projection, the whole box lies behind a camera that looks along -z.
+// Rejects a left-handed orthographic projection, whose whole box lies behind a camera that looks along -z.
 void check_parallel_depth(const Matrix& m, ClipRange clip) {
   const double first = (m[14] / m[15] - (clip == ClipRange::zero_to_one ? 0 : -1)) / m[10] * m[15],
                last = (m[14] / m[15] - 1) / m[10] * m[15];
@@ -182,7 +184,7 @@ void check_hardware_depth(const Matrix& m, ClipRange clip) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.projection is singular: depth does not depend on the distance (got [%d] 0)",
                   element);
-  // The planes of an oblique projection do not lie at a single depth.
+  // The near and far planes of an oblique projection do not have a constant depth.
   if (m.oblique()) return;
   if (m.perspective())
     check_perspective_depth(m, clip);
@@ -190,7 +192,7 @@ void check_hardware_depth(const Matrix& m, ClipRange clip) {
     check_parallel_depth(m, clip);
 }
 
-// Recognises and names the matrices that hosts pass by mistake.
+// Recognises matrices that hosts often pass by mistake, and names them in the message.
 void check_kind_of_matrix(const Matrix& m, ClipRange clip) {
   if (m.all_zeros())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

@@ -1,5 +1,5 @@
-// Checks the projection of a host. It rejects a matrix that no camera has, and the message names the likely
-// mistake.
+// Checks the host's projection matrix. A matrix that cannot belong to a camera is rejected, and the message
+// names the likely mistake.
 #pragma once
 
 #include "sdk/src/nnao/host_depth.h"
@@ -7,7 +7,7 @@
 namespace nook::nnao {
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless the matrix is the projection of a camera that looks
-// along -z, without roll and shear. The clip range matters only for hardware depth.
+// along -z, without roll and shear. `clip` is used only for hardware depth.
 void check_projection(const float (&projection)[16], DepthKind kind, ClipRange clip);
 
 }  // namespace nook::nnao

@@ -66,8 +66,8 @@ View view_of(const Recording& recording, std::span<const float> depths) {
           {}};
 }
 
-// Returns the host's normal of a pixel in view space, or a zero vector if nothing was drawn. normal.glsl uses
-// the same bounds.
+// Returns the host's normal of a pixel in view space, or a zero vector if the host has drawn nothing there.
+// normal.glsl uses the same limits for the length of a normal.
 Vec3 host_normal(const Recording& recording, std::size_t pixel) {
   const RecordedFrame& frame = recording.frame;
   const float* const texel = &recording.normals[3 * pixel];

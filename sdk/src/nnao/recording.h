@@ -1,5 +1,5 @@
-// A frame of the screen-space pass as plain data: what the pass read, its settings, and the AO that it
-// produced. Members have the meanings and numbers of nook_nnao_frame_desc and nook_nnao_desc.
+// A recorded frame of the screen-space pass as plain data: the pass's inputs, its settings, and the AO that
+// it produced. Members have the same meanings and values as in nook_nnao_frame_desc and nook_nnao_desc.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,8 @@
 
 namespace nook::nnao {
 
-// A recording can have the values 0 to these of nook_gbuffer_ao and nook_nnao_view.
+// The highest values of nook_gbuffer_ao, nook_nnao_view and the other enumerations that a recording can have.
+// The lowest value is 0.
 inline constexpr std::int32_t last_recorded_layer = 4, last_recorded_view = 2, last_recorded_path = 2,
                               last_recorded_radius_kind = 1;
 inline constexpr std::uint32_t max_recorded_size_px = 16384;
@@ -65,7 +66,7 @@ struct RecordedPass {
   std::int32_t path = 0;  // 0: unknown
 };
 
-// Images are row by row from the bottom.
+// Images are stored row by row, starting at the bottom.
 struct Recording {
   explicit Recording(Memory* memory = default_memory())
       : depth(memory),
@@ -87,11 +88,11 @@ struct Recording {
   }
 
   std::uint32_t width = 0, height = 0;
-  std::uint32_t library_version = 0;  // of the library that computed ao
+  std::uint32_t library_version = 0;  // version of the library that computed `ao`
   RecordedFrame frame;
   RecordedPass pass;
-  // Texels as a shader reads them; empty if there are none.
-  Vector<float> depth;        // 1 for each pixel
+  // Texel values as a shader reads them. An array is empty if the frame did not have this image.
+  Vector<float> depth;        // 1 value per pixel
   Vector<float> normals;      // 3
   Vector<float> layer;        // 2
   Vector<float> ao;           // 1
@@ -99,22 +100,22 @@ struct Recording {
   String vendor, renderer, driver_version, note;
 };
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) that names the field. Depth, normals and layer may be any
-// numbers, as in a host's textures: a frame with NaN in its depth is worth recording.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) that names the field. Depth, normals and layer may contain any
+// values, including NaN, because a host may want to record exactly such a faulty frame.
 void check_recording(const Recording& recording);
 
-// What this library can tell about a recording's network file.
+// Information about the network file in a recording.
 struct RecordedNetwork {
-  bool readable = false;  // this library evaluates it
-  bool embedded = false;  // it is the one in this library
+  bool readable = false;  // this library can evaluate it
+  bool embedded = false;  // it is the network that is compiled into this library
 };
 RecordedNetwork recorded_network(const Recording& recording);
 
-// View depths of a recording in metres, infinite where there is no surface.
+// Returns the view depths of a recording in metres. They are infinite where there is no surface.
 std::vector<float> view_depths(const Recording& recording);
 
-// Returns the normals that the network sees at full resolution, in view space: the host's, or normals derived
-// from depth. They are {0, 0, 1} where there is no surface.
+// Returns the normals that the network uses at full resolution, in view space. They are the host's normals,
+// or derived from depth where the host has none. Where there is no surface, they are {0, 0, 1}.
 std::vector<Vec3> view_normals(const Recording& recording, std::span<const float> depths);
 
 }  // namespace nook::nnao

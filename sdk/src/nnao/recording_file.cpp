@@ -6,7 +6,7 @@
 namespace nook::nnao {
 namespace {
 
-// Calls visit(number) for every 32-bit float of the frame in the file's order.
+// Calls visit(field) for every 32-bit float of the frame's settings, in the order of the file.
 template <class Frame, class Visit>
 void visit_numbers(Frame& frame, Visit&& visit) {
   visit(frame.sky_depth);

@@ -25,12 +25,13 @@ namespace nook::nnao {
 inline constexpr ContainerKind recording_kind{four_letters("FRAM"), "recorded frame of the screen-space pass",
                                               1, 3};
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_recording does.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_recording rejects the recording.
 std::vector<std::byte> write_recording(const Recording& recording);
 
-// Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
-// NOOK_ERROR_FILE_VERSION), and allocates no more than the images, the network and the texts of the file. The
-// call does not read the network's contents, because a later library may have written them.
+// Safe for untrusted bytes, even if their checksum is correct. For an invalid file, the call throws
+// Failure(NOOK_ERROR_BAD_FILE or NOOK_ERROR_FILE_VERSION). It allocates no more memory than the images, the
+// network and the texts of the file need. The call does not read the network's contents, because a later
+// library may have written them.
 Recording read_recording(std::span<const std::byte> bytes, Memory* memory = default_memory());
 
 }  // namespace nook::nnao

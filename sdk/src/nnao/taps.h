@@ -1,6 +1,7 @@
-// Computes the positions of a pixel's taps with pure functions of the pixel and the radius, the same as in
-// the shader. Pixels count from the lower left corner, y up; pixel (x, y) has its centre at (x + 0.5, y +
-// 0.5).
+// Computes the positions of a pixel's taps. The functions depend only on the pixel and the radius, and are
+// the same as in the shader. Pixel (0, 0) is at the lower left, and y points up. Pixel (x, y) has its centre
+// at (x
+// + 0.5, y + 0.5).
 #pragma once
 
 #include <algorithm>
@@ -11,14 +12,15 @@
 
 namespace nook::nnao {
 
-// Two numbers in (0, 1). Each takes 9 evenly spaced values over a block of 3 x 3 pixels. Together they form
-// the Hammersley set in base 3. The filter weighs all values alike.
+// Two values in (0, 1) that vary the taps from pixel to pixel. Each takes 9 evenly spaced values over a block
+// of 3 x 3 pixels. Together they form the Hammersley set in base 3. The filter gives all nine values the same
+// total weight.
 struct TapNoise {
   float rotation = 0.5f, offset = 0.5f;
 };
 
-// Shifts the noise of a frame by the first two numbers of M. Roberts' sequence R2, so that a mean over frames
-// has more directions and distances.
+// Returns by how much the noise is shifted in a frame. The shifts are M. Roberts' sequence R2. They give a
+// mean over several frames more directions and distances.
 inline TapNoise frame_noise_step(std::uint32_t frame) {
   constexpr double rotation = 0.7548776662466927, offset = 0.5698402909980532;
   return {float(std::fmod(rotation * frame, 1.0)), float(std::fmod(offset * frame, 1.0))};
@@ -40,13 +42,13 @@ struct TapOffset {
   float x_px = 0, y_px = 0;
 };
 
-// Pixels per metre in view space at the pixel's depth. The signs are the directions of the screen's axes in
-// view space.
+// Pixels per metre in view space at the pixel's depth. A negative value means that the screen's axis points
+// against the axis of view space.
 struct PixelScale {
   float x = 1, y = 1;
 };
 
-// The number of taps by default, and in the best preset.
+// The default number of taps. The best preset has best_taps.
 inline constexpr std::uint32_t default_taps = 9, best_taps = 32;
 
 struct TapGrid {
@@ -78,8 +80,8 @@ inline float direction_angle(std::uint32_t direction, std::uint32_t directions, 
 }
 
 // Returns the distance of a step from the pixel, in pixels of the screen's y axis. Distances grow with the
-// power 3/2 of the step's number, because near occluders cover more of the hemisphere. No two steps share a
-// pixel.
+// step index to the power 3/2, so that more taps are near the pixel: near occluders cover more of the
+// hemisphere. No two steps fall on the same pixel.
 inline float step_distance_px(std::uint32_t step, std::uint32_t steps, TapNoise noise, float radius_px) {
   const float share = (float(step) + noise.offset) / float(steps);
   return std::max(float(step) + 1, radius_px * share * std::sqrt(share));
@@ -90,15 +92,15 @@ inline TapOffset horizon_tap(float cosine, float sine, float distance_px, PixelS
   return {cosine * scale.x * per_y, sine * scale.y * per_y};
 }
 
-// Returns the cell of tap number `tap` of a subset of `taps` of the paper's grid: every
+// Returns the grid cell of tap index `tap` if only `taps` cells of the paper's grid are used. These are every
 // (grid_size^2 / taps)-th cell in raster order.
 constexpr std::uint32_t paper_tap_cell(std::uint32_t tap, std::uint32_t taps, TapNoise noise) {
   constexpr std::uint32_t cells = PaperNetwork::grid_size * PaperNetwork::grid_size;
   return std::min(std::uint32_t((float(tap) + noise.rotation) * (float(cells) / float(taps))), cells - 1);
 }
 
-// Returns the position of a cell's tap. Taps of a subset move within half a cell; taps of the whole grid do
-// not move.
+// Returns the position of the tap in a cell. If only some cells are used, the noise moves the tap within half
+// a cell. If all cells are used, the taps do not move.
 inline TapOffset paper_tap(std::uint32_t cell, std::uint32_t taps, TapNoise noise, float radius,
                            PixelScale scale) {
   constexpr std::uint32_t size = PaperNetwork::grid_size;
