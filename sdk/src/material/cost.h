@@ -1,5 +1,5 @@
-// Estimates the cost of decoding a pixel from the sizes of the tables. A filtered fetch counts as one, and
-// multiply-adds count single numbers.
+// Estimates the cost of decoding a pixel from the sizes of the tables. A filtered texture fetch counts as one
+// fetch. Multiply-adds are counted per scalar, not per vector.
 #pragma once
 
 #include "sdk/src/material/tables.h"
@@ -11,15 +11,15 @@ struct DecodeCost {
   std::uint32_t multiply_adds = 0;
 };
 
-// Returns the fetches of spatial modes that each further place of a footprint adds. A mode in blocks takes
-// two fetches.
+// Returns how many fetches of spatial modes each additional place of a footprint costs. A mode that is stored
+// in blocks takes two fetches.
 inline std::uint32_t further_fetches(const TensorTables& t) {
   return t.terms * t.view_vec4_count * (t.light_modes + t.packed_modes);
 }
 
-// Returns the cost of a BTF's light modes or a VOTF's value. It counts the coefficients of each term, for
-// three cells if cells blend, and the spatial mode of each coefficient and light mode. Several clusters add a
-// fetch for the clusters of the terms. Without tables the cost is 0.
+// Returns the cost of decoding a BTF's light modes or a VOTF's value. It counts the coefficients of each term
+// (for three cells if cells blend), and the spatial modes for each coefficient and light mode. If there are
+// several clusters, further fetches read the cluster indices of the terms. If `t` is empty, the cost is 0.
 inline DecodeCost decode_cost(const TensorTables& t) {
   const std::uint32_t spatial = t.terms * t.view_vec4_count * t.light_modes;
   const std::uint32_t clusters = t.has_membership() ? vec4_count(t.memberships()) : 0;
@@ -28,12 +28,13 @@ inline DecodeCost decode_cost(const TensorTables& t) {
           4 * (spatial + (t.blended ? 3 * coefficients : 0))};
 }
 
-// Returns the cost of one light: three rows of the light basis.
+// Returns the cost of one light, which reads three rows of the light basis.
 inline DecodeCost light_cost(const TensorTables& btf) {
   return {3 * btf.light_modes / 4, 3 * btf.light_modes};
 }
 
-// Return the cost of a neural material's first layers, and of one light: the products of its matrices.
+// Return the cost of a neural material's first layers, and the cost of one light. The second is the number of
+// products in the matrices that depend on the light.
 inline DecodeCost neural_decode_cost(const NeuralTables& t) {
   const NeuralShape& s = t.shape;
   return {(s.channels + s.offset_channels) / 4,
@@ -44,8 +45,8 @@ inline DecodeCost neural_light_cost(const NeuralTables& t) {
   return {0, neural_light_inputs * s.units + (s.layers - 1) * s.units * s.units + 3 * s.units};
 }
 
-// Returns the maximum cost of finding a point of the relief: a height and a place for each plane of the
-// march.
+// Returns the maximum cost of finding a point of the relief. The march computes a place and fetches a height
+// for each of its planes.
 inline DecodeCost relief_cost(const ReliefTables& relief) {
   if (!relief.moves()) return {};
   return {relief.steps ? relief.steps + 1 : 0, 2 * (relief.steps + 1)};

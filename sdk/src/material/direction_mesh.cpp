@@ -6,17 +6,19 @@
 namespace nook::material {
 namespace {
 
-// Rings of measured directions lie on common circles and lines, where Delaunay triangles are not unique.
-// Moving each point by up to this distance, always in the same way, makes them unique. The distance is far
-// below the minimum distance of two directions and far above rounding.
+// Measured directions often lie in rings, so that many points are on one circle or line and their Delaunay
+// triangulation is not unique. Each point is moved by up to this distance, deterministically, which makes the
+// triangulation unique. The distance is far below the minimum distance of two directions and far above
+// rounding errors.
 constexpr double jitter = 1e-7;
 double jittered(float value, std::uint32_t number) {
   const std::uint32_t hash = (number + 1) * 2654435761u;
   return double(value) + jitter * (double(hash >> 8) / 8388608.0 - 1);
 }
 
-// The corners of a triangle around all points are this far away. So the border of the set is nearly convex;
-// the remaining gaps at the border count as outside.
+// The triangulation starts with one large triangle around all points, whose corners are this far away. With
+// such distant corners, the border of the mesh is nearly convex. The small gaps that remain at the border are
+// treated as outside.
 constexpr double far_away = 1e3;
 
 template <class Point>
@@ -37,8 +39,8 @@ DirectionMesh::DirectionMesh(std::span<const Vec3> directions, Memory* memory)
   find_border();
 }
 
-// Uses the method of Bowyer and Watson: each point removes the triangles whose circumcircle contains it, and
-// fills the hole.
+// Uses the Bowyer-Watson algorithm. Inserting a point removes all triangles whose circumcircle contains the
+// point, and fills the hole with triangles to the new point.
 void DirectionMesh::triangulate(std::size_t directions) {
   const auto count = static_cast<std::uint16_t>(directions);
   points_.push_back({-far_away, -far_away});
@@ -71,7 +73,7 @@ void DirectionMesh::find_border() {
     if (std::find(cavity_.begin(), cavity_.end(), Edge{edge[1], edge[0]}) == cavity_.end())
       border_.push_back(edge);
   if (!triangles_.empty()) return;
-  // There are one or two directions, or all directions are on a line.
+  // There are only one or two directions, or all directions lie on a line.
   const std::size_t last = points_.size() - 1;
   for (std::size_t i = 0; i < std::max<std::size_t>(last, 1); ++i)
     border_.push_back({std::uint16_t(i), std::uint16_t(std::min(i + 1, last))});
@@ -101,7 +103,7 @@ DirectionMix DirectionMesh::locate(ParabolicPoint at, std::size_t& hint) const {
   const Point p{at.x, at.y};
   std::array<double, 3> weight{};
   for (std::size_t tried = 0; tried < triangles_.size(); ++tried) {
-    // Tries the hint first; the first triangle then takes the hint's place in the order.
+    // Tries the hint first. The first triangle is then tried at the hint's position in the order.
     const std::size_t candidate =
         tried == 0 ? std::min(hint, triangles_.size() - 1) : tried - (tried <= hint);
     if (!weights_in(triangles_[candidate], p, weight)) continue;

@@ -1,6 +1,6 @@
-// Interpolation between sampled directions: the Delaunay triangulation of their points in the parabolic map.
-// The map is stereographic, so that circles stay circles and these are the Delaunay triangles of the sphere
-// too.
+// Interpolates between sampled directions with a Delaunay triangulation of their points in the parabolic map.
+// The map is a stereographic projection, which maps circles to circles. So the triangulation is also the
+// Delaunay triangulation on the sphere.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace nook::material {
 
-// The three nearest directions around a direction and their weights, which are non-negative and sum to 1.
+// The three sampled directions around a direction, and their weights. Weights are non-negative and sum to 1.
 struct DirectionMix {
   std::array<std::uint16_t, 3> index{};
   std::array<float, 3> weight{1, 0, 0};
@@ -22,12 +22,12 @@ struct DirectionMix {
 
 class DirectionMesh {
  public:
-  // Requires at least one direction, and directions that are min_distance apart.
+  // Pass at least one direction. Directions must be at least min_distance apart.
   explicit DirectionMesh(std::span<const Vec3> directions, Memory* memory = default_memory());
 
-  // Interpolates linearly inside the triangle that contains the point, and continuously everywhere. Beyond
-  // the outermost directions the nearest point between them is used. `hint` is kept between calls with points
-  // near each other.
+  // Interpolates linearly inside the triangle that contains the point. A point outside the mesh is moved to
+  // the nearest point on the mesh, so the result is continuous everywhere. Keep `hint` between calls if
+  // successive points are close to each other; this makes the search faster.
   DirectionMix locate(ParabolicPoint p, std::size_t& hint) const;
 
   std::size_t triangle_count() const { return triangles_.size(); }
@@ -47,12 +47,13 @@ class DirectionMesh {
 
   Vector<Point> points_;
   Vector<Triangle> triangles_;
-  Vector<Edge> border_;  // outermost edges; a chain where there are no triangles
-  Vector<Edge> cavity_;  // the edges of the hole of an insertion
+  Vector<Edge> border_;  // the outer border; a chain of edges if there are no triangles
+  Vector<Edge> cavity_;  // the border of the hole that an insertion leaves
 };
 
-// Returns the cosine of a light beyond the outermost sampled lights, divided by the cosine of the nearest
-// direction between them, `mix`. With it, light fades to 0 at the horizon. Between the samples it is 1.
+// Returns a factor that fades light to 0 between the lowest sampled lights and the horizon. It is the cosine
+// `z` of the light divided by the cosine of the nearest direction on the mesh, which `mix` describes. For
+// directions inside the mesh it is 1.
 inline float low_light_share(std::span<const Vec3> lights, const DirectionMix& mix, float z) {
   ParabolicPoint nearest{};
   for (int i = 0; i < 3; ++i) {
@@ -61,7 +62,7 @@ inline float low_light_share(std::span<const Vec3> lights, const DirectionMix& m
     nearest.y += mix.weight[i] * p.y;
   }
   const float cosine = from_parabolic(nearest).z;
-  // Between the samples both cosines are equal up to rounding.
+  // Inside the mesh, both cosines are equal except for rounding.
   return z < cosine - 1e-5f ? std::max(z, 0.0f) / cosine : 1.0f;
 }
 

@@ -1,4 +1,4 @@
-// Where a linear filter reads along one side of a texture.
+// Computes which two texels a linear filter reads along one axis of a texture.
 #pragma once
 
 #include <algorithm>
@@ -7,20 +7,21 @@
 
 namespace nook::material {
 
-// Two neighbouring texels along one side, and the position between their centres.
+// The indices of two neighbouring texels, and the position between their centres from 0 to 1.
 struct Between {
   std::uint32_t low, high;
   float t;
 };
 
-// For a side that repeats, with coordinates 0 to 1.
+// For an axis that repeats (GL_REPEAT). `at` is a texture coordinate, where 0 to 1 covers the texture once.
 inline Between repeated(float at, std::uint32_t size) {
   const float place = (at - std::floor(at)) * float(size) - 0.5f, low = std::floor(place);
   const auto first = static_cast<std::uint32_t>(low + float(size)) % size;
   return {first, (first + 1) % size, place - low};
 }
 
-// For a side that ends: beyond the centre of the outermost texel, the value is that texel's.
+// For an axis that is clamped to the edge: beyond the centre of the outermost texel, that texel's value is
+// used.
 inline Between edge_clamped(float at, std::uint32_t size) {
   const float place = std::clamp(at * float(size) - 0.5f, 0.0f, float(size - 1)), low = std::floor(place);
   const auto first = static_cast<std::uint32_t>(low);

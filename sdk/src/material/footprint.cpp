@@ -6,13 +6,13 @@
 namespace nook::material {
 namespace {
 
-// An ellipse describes a footprint in texels by the squared lengths of its axes, and the direction of the
-// longer one at any length.
+// The footprint of a pixel as an ellipse, in texels. It has the squared lengths of both axes and the
+// direction of the longer axis, which is not normalised.
 struct Ellipse {
   float longer2, shorter2, x, y;
 };
 
-// Computes the eigenvalues and the first eigenvector of J J^T, where J has the sides as its columns.
+// Computes the eigenvalues and the first eigenvector of J J^T. The columns of J are the pixel's derivatives.
 Ellipse ellipse_of(float dx_x, float dx_y, float dy_x, float dy_y) {
   const float xx = dx_x * dx_x + dy_x * dy_x, yy = dx_y * dx_y + dy_y * dy_y, xy = dx_x * dx_y + dy_x * dy_y;
   const float mean = 0.5f * (xx + yy), half = 0.5f * (xx - yy), from_mean = std::sqrt(half * half + xy * xy);

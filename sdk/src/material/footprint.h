@@ -1,5 +1,5 @@
-// Finds the places of the tile that a pixel reads when it filters along the longer side of its footprint.
-// shaders/material/footprint.glsl has the same functions.
+// Anisotropic filtering: finds the places of the tile that a pixel reads along the longer axis of its
+// footprint. shaders/material/footprint.glsl has the same functions.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace nook::material {
 
 inline constexpr std::uint32_t max_fetches = 8;
 
-// A pixel reads the mean over the first `count` places; they share one level.
+// The pixel's value is the mean over the first `count` places. All places have the same mipmap level.
 struct Fetches {
   std::uint32_t count = 1;  // 1 to max_fetches
   std::array<ImagePlace, max_fetches> place{};
@@ -24,22 +24,23 @@ inline Fetches one_fetch(const ImagePlace& place) {
   return at;
 }
 
-// The texture coordinates of a pixel's centre, and their changes to the neighbours on the right and above, as
-// dFdx and dFdy return them.
+// The texture coordinates of a pixel's centre, and their derivatives along x and y as dFdx and dFdy return
+// them.
 struct PixelSides {
   TexturePlace middle, dx, dy;
 };
 
-// Returns places at equal steps along the longer axis of the ellipse with the pixel's second moments. Each
-// stands for a square of the texture. Its side is the ellipse's shorter axis, or larger if `count` squares
-// would leave gaps on the longer axis. The outermost squares end where the longer axis ends. So a round
-// footprint is read only at its centre, and one longer than `count` squares is blurred across but has no
-// gaps. Sides beyond 1e9 texels or NaN return the coarsest level at the centre.
+// Approximates the pixel's footprint by an ellipse with the same second moments, and covers the ellipse with
+// up to `count` squares. Returns the centres of the squares, at equal steps along the longer axis. The side
+// of a square is the shorter axis, or more if `count` such squares would leave gaps on the longer axis. The
+// outermost squares end where the longer axis ends. So a round footprint is read only once, at its centre. A
+// footprint that is too long for `count` squares is blurred across the longer axis, but has no gaps. If a
+// derivative is NaN or above 1e9 texels, the result is one place, at the centre, in the coarsest level.
 Fetches fetches_along(const PixelSides& pixel, std::uint32_t width, std::uint32_t height,
                       std::uint32_t count);
 
-// Returns the mean of read(place) over the places; its numbers add and scale one by one. If all places are
-// the same, the result is exactly one place's.
+// Returns the mean of read(place) over all places. If all places are the same, the result is exactly the
+// value of one place.
 template <class Read>
 Four mean_over(const Fetches& at, const Read& read) {
   Four mean = read(at.place[0]);

@@ -1,5 +1,5 @@
-// Images have four numbers in each texel, in layers and mipmap levels: one level after another, layers x
-// height x width x 4. They are read as a texture of a tile that repeats.
+// Samples texture arrays on the CPU. A texel has four values. Mipmap levels are stored one after another,
+// each as layers x height x width x 4 values. Reads repeat the image, as GL_REPEAT does.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,8 @@ inline Four mix(const Four& a, const Four& b, float t) {
 struct ImageSize {
   std::uint32_t width = 0, height = 0, layers = 0, levels = 0;  // width and height of level 0
 
-  // Returns where a level begins. For the level after the last, this is the total number of values.
+  // Returns the index of the first value of a level. For the level after the last, this is the total number
+  // of values.
   std::size_t level_offset(std::uint32_t level) const {
     std::size_t offset = 0;
     for (std::uint32_t l = 0; l < level; ++l)
@@ -44,12 +45,12 @@ struct ImageSize {
   }
 };
 
-// The place of the layer to read, in tiles, and its level.
+// Where to read a layer: texture coordinates, in tiles, and the mipmap level.
 struct ImagePlace {
   float u = 0, v = 0, level = 0;
 };
 
-// Filters texel(column, row) in an image of a level.
+// Filters bilinearly within one level. texel(column, row) returns a texel of the level.
 template <class Texel>
 Four bilinear(std::uint32_t width, std::uint32_t height, const ImagePlace& place, Texel&& texel) {
   const Between x = repeated(place.u, width), y = repeated(place.v, height);
@@ -57,7 +58,7 @@ Four bilinear(std::uint32_t width, std::uint32_t height, const ImagePlace& place
              mix(texel(x.low, y.high), texel(x.high, y.high), x.t), y.t);
 }
 
-// Mixes at_level(level), the bilinear value of a level.
+// Interpolates between two levels. at_level(level) returns the bilinear value of a level.
 template <class AtLevel>
 Four between_levels(std::uint32_t levels, float wanted, AtLevel&& at_level) {
   const float level = std::clamp(wanted, 0.0f, float(levels - 1));
@@ -78,9 +79,10 @@ Four trilinear(const ImageSize& size, const Number* numbers, std::uint32_t layer
   });
 }
 
-// Images in blocks with four numbers in each texel: two layers of two channels each, in the layout of
-// textures. One level follows another, as layers x block rows x block columns x channels x a block of
-// signed_blocks.h. Blocks at the edge of a level repeat its last texels.
+// The size of images that are stored in blocks. Four values of a texel take two layers with two channels
+// each, in the layout of textures. Levels are stored one after another, each as layers x block rows x block
+// columns x channels x a block of signed_blocks.h. Blocks that extend beyond the edge of a level repeat the
+// last texels.
 struct BlockSize {
   std::uint32_t width = 0, height = 0, layers = 0, levels = 0;  // layers of two channels
 
@@ -95,7 +97,7 @@ struct BlockSize {
   }
 };
 
-// layer is the first of the two layers.
+// `layer` is the first of the two layers that hold the four values.
 inline Four trilinear(const BlockSize& size, BlockForm form, const std::uint8_t* blocks, std::uint32_t layer,
                       const ImagePlace& place) {
   return between_levels(size.levels, place.level, [&](std::uint32_t level) {

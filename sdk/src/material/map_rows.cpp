@@ -34,7 +34,7 @@ std::uint32_t best_k(std::span<const std::int32_t> multiples) {
   for (std::uint32_t k = 0; k < max_quotient; ++k) {
     std::size_t bits = 0;
     for (const std::int32_t multiple : multiples) bits += code_bits(folded(multiple), k);
-    // The sum has a single minimum.
+    // As a function of k, the sum has a single minimum, so the search can stop here.
     if (bits >= fewest) break;
     fewest = bits;
     best = k;
@@ -69,7 +69,7 @@ namespace {
 
 enum class Members : std::uint32_t { own = 0, of_row = 1, of_column = 2 };
 
-// A map's clusters and multiples while it is written or read.
+// The clusters and multiples of the cells of a map that is being written or read.
 class Cells {
  public:
   Cells(const TensorShape& shape, std::uint32_t side, Memory* memory)
@@ -102,7 +102,7 @@ class Cells {
   std::size_t source(std::size_t cell, Members members_of) const {
     return members_of == Members::of_row ? cell - 1 : cell - side_;
   }
-  // Predicts number i of a cell. The clusters of the cell and the numbers before it must be known.
+  // Predicts value i of a cell. The clusters of the cell and all values before it must already be known.
   std::int32_t predicted(std::size_t cell, Members members_of, std::size_t i) {
     if (members_of == Members::own) return 0;
     if (members_of == Members::of_column || !has_column(cell) || !same(cell, cell - side_) ||

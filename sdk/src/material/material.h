@@ -1,6 +1,6 @@
 // A compressed material as plain data: a bidirectional texture function (BTF) and optionally a view-dependent
-// occlusion texture function (VOTF). N-SVD, CTA and K-CTA share one form; neural.h has another form of the
-// BTF. The method is by Y.-T. Tsai, Z.-C. Shih: K-Clustered Tensor Approximation, 2012.
+// occlusion texture function (VOTF). N-SVD, CTA and K-CTA use the same data structure; a neural BTF uses the
+// one in neural.h. The method is by Y.-T. Tsai, Z.-C. Shih: K-Clustered Tensor Approximation, 2012.
 //
 // Directions are unit vectors in tangent space that point away from the surface: x along u, y along v, z >= 0
 // along the normal. Texel (x, y) has its centre at u = (x + 0.5) / I_x, v = (y + 0.5) / I_y; the tile
@@ -25,7 +25,7 @@
 
 namespace nook::material {
 
-// The non-zero entries of rows of the sparse view bases U_{v,c}.
+// Rows of the sparse view bases U_{v,c}. Only non-zero entries are stored.
 struct ViewRows {
   explicit ViewRows(Memory* memory = default_memory()) : membership(memory), coefficients(memory) {}
 
@@ -34,7 +34,7 @@ struct ViewRows {
 };
 
 // The view mode resampled over the hemisphere (section 6.3.2 of the paper) in the parabolic map. Cell
-// (column, row) has row number row * side + column, which belongs to the direction d with
+// (column, row) is stored in row index row * side + column of `rows`. It belongs to the direction d with
 //   d.xy / (1 + d.z) = 2 (cell + 0.5) / side - 1,
 // or to the nearest direction of the horizon if d lies outside the unit disc.
 struct ViewMap {
@@ -50,8 +50,8 @@ struct ClusteredTensor {
 
   TensorShape shape;
   Vector<float> cores;  // C x R_l x R_v x R_x x R_y: Z_c, the last index varies fastest
-  // C x I_x x R_x and C x I_y x R_y: X_c and Y_c. At full rank, R_x = I_x or R_y = I_y, they are empty and
-  // stand for the identity, because a square basis is multiplied into the core.
+  // C x I_x x R_x and C x I_y x R_y: X_c and Y_c. At full rank (R_x = I_x or R_y = I_y) an array is empty and
+  // represents the identity, because a square basis can be multiplied into the core.
   Vector<float> x_bases;
   Vector<float> y_bases;
   ViewRows rows;  // one for each view of the material
@@ -61,31 +61,32 @@ struct ClusteredTensor {
 enum class VisibilityForm : std::uint32_t {
   none = 0,    // there is no VOTF; the surface is visible everywhere
   binary = 1,  // 1 where the view meets the meso-structure, 0 where it passes through
-  // Distance to the boundary of the binary mask, positive where the view meets the structure, scaled to [-1,
-  // 1].
+  // Signed distance to the boundary of the binary mask, scaled to [-1, 1]. It is positive where the view
+  // meets the structure.
   distance = 2,
 };
 
-// The visibility mapping (26): 1 where the value is at least `threshold`, weight * value between 0 and
-// threshold, else 0.
+// The visibility mapping, equation (26). It is 1 if the value is at least `threshold`, weight * value if the
+// value is between 0 and `threshold`, and 0 if the value is negative.
 struct VisibilityMapping {
   float threshold = 0;
   float weight = 0;
 };
-// Returns the paper's parameters.
+// Returns the parameters that the paper uses.
 constexpr VisibilityMapping paper_mapping(VisibilityForm form) {
   return form == VisibilityForm::binary ? VisibilityMapping{0.5f, 1} : VisibilityMapping{0.05f, 12};
 }
 
-// The relief on which the texels of the BTF lie: texel (x, y) of a view is what it sees at the relief's point
-// above that texel. So relief does not move between views, and mixing views does not blur it. relief_place of
-// relief_tables.h finds the point that a view sees through the plane z = 0. The VOTF stays on that plane.
+// The relief on which the texels of the BTF lie. Texel (x, y) of a view stores the appearance of the relief's
+// point above that texel. So a feature of the surface is at the same texel in all views, and mixing views
+// does not blur it. relief_place of relief_tables.h finds the point that a view sees through the plane z = 0.
+// The VOTF has no relief; its texels lie on that plane.
 struct Relief {
   explicit Relief(Memory* memory = default_memory()) : levels(memory) {}
 
-  float low = 0, high = 0;      // heights over z = 0 of the levels 0 and 255, tiles; both 0: no relief
-  float max_slope = 0;          // the tangent of a view's tilt beyond which texels move no further
-  std::uint32_t steps = 0;      // of the march; 0 for a plane, which is at low = high
+  float low = 0, high = 0;      // heights of the levels 0 and 255 above z = 0, in tiles; both 0: no relief
+  float max_slope = 0;          // views with a larger tangent of their tilt are clamped to this tangent
+  std::uint32_t steps = 0;      // of the march; 0 if the relief is a plane at low = high
   Vector<std::uint8_t> levels;  // I_y x I_x of the BTF, row by row; empty for a plane
 
   bool moves() const { return low != 0 || high != 0; }
@@ -102,34 +103,35 @@ struct Material {
         relief(memory),
         recipe(memory) {}
 
-  Vector<Vec3> lights;  // I_l different directions to the light
-  Vector<Vec3> views;   // I_v different directions to the viewer, for BTF and VOTF
+  Vector<Vec3> lights;  // I_l distinct directions to the light
+  Vector<Vec3> views;   // I_v distinct directions to the viewer, for BTF and VOTF
 
-  // 3 I_l x R_l: the mode-light basis that all clusters share; its row is 3 l + channel.
+  // The mode-light basis, 3 I_l x R_l, which all clusters share. Row 3 l + channel belongs to light l.
   Vector<float> light_basis;
-  // The radiance towards the view, linear RGB, for a directional light whose irradiance on a plane that faces
-  // it is 1. It includes the cosine of the light: a white Lambertian plane under a perpendicular light gives
-  // 1 / pi.
+  // Decodes to the radiance towards the view, in linear RGB, for a directional light that causes an
+  // irradiance of 1 on a plane facing the light. The radiance includes the cosine of the light's angle: a
+  // white Lambertian plane under a perpendicular light has the radiance 1 / pi.
   ClusteredTensor btf;
   Neural neural;  // replaces light_basis and btf, which are then empty
 
   VisibilityForm visibility = VisibilityForm::none;
-  VisibilityMapping mapping;  // not read if visibility is none
+  VisibilityMapping mapping;  // ignored if `visibility` is none
   ClusteredTensor votf;       // empty if visibility is none
 
   Relief relief;
 
-  // How numbers are stored in the file and in the decoder's tables: 16 for half floats, 8 for small integers.
-  // The file's integers have steps; the tables' integers have 8 bits and scales.
+  // The number format in the file and in the decoder's tables: 16 for half floats, 8 for small integers.
+  // Integers in the file are multiples of a step. Integers in the tables have 8 bits and a scale.
   std::uint32_t bits = 16;
-  // The squared error that rounding cores to integers causes in the file, relative to their squared norm.
+  // The squared error that rounding the cores to integers may cause in the file, relative to the squared norm
+  // of the cores.
   float core_rounding = 0x1p-14f;
 
   String recipe;  // settings of the bake, JSON; the runtime does not read it
 };
 
-// Returns the bytes of all compressed numbers as Table I of the paper counts them, without resampled view
-// maps and directions. Integers count without their scales.
+// Returns the size of the compressed data in bytes, counted as in Table I of the paper. Resampled view maps,
+// directions and the scales of integers are not included.
 inline std::size_t compressed_bytes(const Material& material) {
   const std::uint32_t bits = material.bits;
   const std::size_t btf = material.neural.is_used()

@@ -37,7 +37,7 @@ void check_directions(const Vector<Vec3>& directions, const Check& check) {
   check.range("the number of directions", directions.size(), 1, max_directions);
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const Vec3 d = directions[i];
-    // The tolerance of 1e-3 is far above rounding and far below any intended difference.
+    // The tolerance of 1e-3 is far above rounding errors, and far below any intended difference in length.
     if (!(std::abs(length(d) - 1) <= 1e-3f) || !(d.z >= 0))
       throw Failure(check.code,
                     "direction %zu of the %s is not a unit vector of the upper hemisphere (got %g %g %g)", i,
@@ -157,7 +157,7 @@ void check_neural_shape(const NeuralShape& s, nook_result code) {
 }
 
 void check_block_bytes(const BlockSize& size) {
-  // Has 64 bits even if size_t has 32.
+  // Uses 64 bits because size_t may have only 32.
   std::uint64_t bytes = 0;
   for (std::uint32_t level = 0; level < size.levels; ++level)
     bytes += std::uint64_t(size.layer_bytes(level)) * size.layers;
@@ -190,7 +190,7 @@ void check_shape(const TensorShape& shape, std::size_t lights, std::size_t views
   check.range("the number of clusters", shape.clusters, 1, shape.views);
   check.range("the number of mixture clusters", shape.mixture, 1, std::min(shape.clusters, max_mixture));
   check.range("mixture clusters times view rank", std::uint64_t(shape.mixture) * shape.rank_view, 1, max_row);
-  // Decoding rounds both ranks up to multiples of 4; for a VOTF only the view rank.
+  // Decoding rounds both ranks of a BTF up to multiples of 4. For a VOTF, it rounds only the view rank.
   const std::uint64_t light_modes = lights ? (shape.rank_light + 3) / 4 * 4 : 1;
   const std::uint64_t view_modes = (shape.rank_view + 3) / 4 * 4;
   check.range("the expanded size", shape.clusters * light_modes * view_modes * shape.width * shape.height, 1,

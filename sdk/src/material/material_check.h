@@ -9,48 +9,50 @@
 namespace nook::material {
 
 inline constexpr std::uint32_t max_directions = 1024;                 // of lights, and of views
-inline constexpr std::uint32_t max_light_modes = 3 * max_directions;  // R_l, of three colours of lights
+inline constexpr std::uint32_t max_light_modes = 3 * max_directions;  // R_l, three colours for each light
 inline constexpr std::uint32_t max_texels = 1024;                     // along u, and along v
 inline constexpr std::uint32_t max_mixture = 8;                       // K
 inline constexpr std::uint32_t max_row = 512;                         // K R_v, the coefficients of one view
 inline constexpr std::uint32_t max_map_side = 512;                    // cells of a resampled view map
-// The maximum of C R_l R_v I_x I_y: the count of one tensor's expanded spatial modes, with ranks rounded up
-// to multiples of 4. It takes 1 GiB as half floats.
+// One tensor's expanded spatial modes have at most this many values, C R_l R_v I_x I_y. Ranks are rounded up
+// to multiples of 4. As half floats, this many values take 1 GiB.
 inline constexpr std::uint64_t max_expanded = std::uint64_t{1} << 29;
-// The maximum size of one tensor's blocks, also 1 GiB. A block of two numbers takes 16 bytes even for a
-// single texel.
+// The maximum size of one tensor's blocks, also 1 GiB. It needs its own limit, because a block of two
+// channels takes 16 bytes even if it holds a single texel.
 inline constexpr std::uint64_t max_block_bytes = 2 * max_expanded;
-// The maximum magnitude of core entries, and of all other numbers. They keep the decoder's sums finite. Both
-// are powers of two, so that rounding cannot carry a number at the limit beyond it.
+// Core entries have at most the magnitude max_core, and all other values max_number. These limits keep the
+// decoder's sums finite. Both are powers of two, so that a value within the limit cannot be rounded to one
+// beyond it.
 inline constexpr float max_core = 0x1p26f;
 inline constexpr float max_number = 0x1p14f;
-// The maximum height of a relief above or below the plane z = 0, in tiles; then of the slope of its views, 89
-// degrees, and of the steps of its march.
+// Limits of a relief: its height above or below the plane z = 0 in tiles, the slope of its views (89
+// degrees), and the number of steps of its march.
 inline constexpr float max_relief_height = 1;
 inline constexpr float max_relief_slope = 57.3f;
 inline constexpr std::uint32_t max_relief_steps = 64;
-// Channels and units of a neural material are multiples of 4, for the features and for the offset. Within
-// these sizes, its sums of half floats stay finite in all layers.
+// Channels and units of a neural material are multiples of 4, for the features and for the offset. Up to
+// these sizes, sums of half floats stay finite in all layers.
 inline constexpr std::uint32_t max_neural_channels = 64;
 inline constexpr std::uint32_t max_neural_units = 64;
 inline constexpr std::uint32_t max_neural_layers = 4;
-// The minimum distance of two directions of a set.
+// The minimum distance between two unit directions of a set.
 inline constexpr float min_distance = 1e-3f;
 
-// These throw Failure with `code` and the first fault; the message names the part of the material.
-// check_shape checks the sizes that determine how many numbers there are, and runs before any number is read.
+// These functions throw Failure with `code` for the first fault that they find. The message names the part of
+// the material. check_shape checks the sizes that determine the lengths of arrays. Readers call it before
+// they read any array.
 void check_shape(const TensorShape& shape, std::size_t lights, std::size_t views, const char* name,
                  nook_result code);
-// Does the same for a neural material.
+// Like check_shape, for a neural material.
 void check_neural_shape(const NeuralShape& shape, nook_result code);
 void check_material(const Material& material, nook_result code);
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for blocks of more than max_block_bytes, which only shapes with
-// few texels along a side reach.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if the blocks take more than max_block_bytes. Within the other
+// limits, this happens only if a side has very few texels.
 void check_block_bytes(const BlockSize& size);
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for a neural material. `what` needs radiance as a sum of light
-// modes, which a neural material does not have.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for a neural material. `what` is the name of a feature that
+// needs light modes, which a neural material does not have.
 void refuse_neural(bool is_neural, const char* what);
 
 }  // namespace nook::material

@@ -13,11 +13,12 @@
 //         u16 width, height; u8 channels, units, layers, offset channels, offset units;
 //         the blocks of its features and its weights, as in neural.h
 //   RECP  recipe
-// A file has the lowest version that can hold it: 4 for a neural material, 3 with a relief, else 2. Packed
-// numbers of form 16 are an i8 exponent e, then each number as a half float h with the value h 2^e. In form 8
-// they are multiples of a step (packed_numbers.h); a slab is the cores' last two modes, a cluster's basis, or
-// everything. Rows are memberships in u8, or u16 above 256 clusters, and packed coefficients. With a single
-// cluster there are no memberships. In form 8, map_rows.h describes the rows of maps.
+// The writer chooses the lowest version that can represent the material: 4 for a neural material, 3 with a
+// relief, otherwise 2. Packed arrays of form 16 start with an i8 exponent e; each value is then a half float
+// h, which means h 2^e. Packed arrays of form 8 are multiples of a step (packed_numbers.h). Their slabs are
+// the last two modes of a core, one cluster's basis, or the whole array. Rows consist of memberships and
+// packed coefficients. A membership is a u8, or a u16 if there are more than 256 clusters. With a single
+// cluster there are no memberships. In form 8, the rows of maps are stored as described in map_rows.h.
 #pragma once
 
 #include <cstddef>
@@ -32,14 +33,15 @@ namespace nook::material {
 
 inline constexpr ContainerKind material_kind{four_letters("MATL"), "material", 1, 4};
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_material finds a fault.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_material rejects the material.
 std::vector<std::byte> write_material(const Material& material);
 
-// Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
-// NOOK_ERROR_FILE_VERSION), and allocates in proportion to the file's size.
+// Safe for untrusted bytes, even if their checksum is correct. For an invalid file, the call throws
+// Failure(NOOK_ERROR_BAD_FILE or NOOK_ERROR_FILE_VERSION). It allocates memory in proportion to the file's
+// size.
 Material read_material(std::span<const std::byte> bytes, Memory* memory = default_memory());
 
-// Returns the material after a write and a read, with its numbers rounded as in the file.
+// Returns the material as it is after writing and reading a file, with all values rounded.
 Material quantise(const Material& material);
 
 }  // namespace nook::material

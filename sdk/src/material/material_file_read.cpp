@@ -41,8 +41,8 @@ void read_directions(ByteReader& in, std::uint32_t count, Vector<Vec3>& directio
   }
 }
 
-// Reads count numbers of a form. For integers, slab is their slab size, and the step is returned. Throws
-// before it allocates if the section cannot hold the numbers.
+// Reads `count` values. For integers, `slab` is the number of values in a slab, and the function returns the
+// step. If the section is too short for the values, it throws before it allocates.
 float read_numbers(ByteReader& in, std::uint32_t bits, std::size_t count, std::size_t slab, const char* what,
                    Vector<float>& values) {
   if (bits == 16 ? count > in.remaining() / 2 : min_multiples_bytes(count) > in.remaining())
@@ -69,7 +69,7 @@ void read_rows(ByteReader& in, std::uint32_t bits, const TensorShape& shape, std
   read_numbers(in, bits, numbers, numbers, "coefficients", rows.coefficients);
 }
 
-// Returns the step of integer cores.
+// Reads a tensor. For integers, returns the step of the cores.
 float read_tensor(ByteReader in, const Material& material, std::size_t lights, const char* name,
                   ClusteredTensor& tensor) {
   TensorShape& s = tensor.shape;
@@ -134,7 +134,7 @@ void read_neural(ByteReader in, Neural& neural) {
 // Reads the light basis and the BTF.
 void read_btf(const Container& file, const Head& head, Material& material) {
   const float step = read_tensor(file.section("BTF_"), material, head.lights, "BTF", material.btf);
-  // Adds a hundredth, so that writing the material again uses the same step.
+  // Adds 1 %, so that writing the material again chooses the same step.
   if (const float error = error_of_step(material.btf.cores, step); error > 0 && error < 0.9f)
     material.core_rounding = 1.01f * error;
   ByteReader light = file.section("LGHT");

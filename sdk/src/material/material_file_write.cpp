@@ -12,7 +12,8 @@ void write_numbers(ByteWriter& out, std::uint32_t bits, std::span<const float> v
              : write_multiples(out, values, slab, step_of_largest(values, steps_of_largest));
 }
 
-// The rounding of the VOTF's cores. They are small, so this is far below the error of their compression.
+// The relative squared error of rounding the VOTF's cores. Since these cores are small arrays, it can be far
+// below the error of the compression.
 constexpr float votf_rounding = 0x1p-16f;
 
 void write_rows(ByteWriter& out, std::uint32_t bits, const ViewRows& rows, const TensorShape& shape) {
@@ -77,8 +78,9 @@ ByteWriter write_light(const Material& material) {
   return out;
 }
 
-// Picks the lowest version, because libraries of version 2 can draw what has no relief, and libraries of
-// version 3 every tensor.
+// Picks the lowest possible version, so that older libraries can read the file. Libraries that know only
+// version 2 can draw materials without a relief. Libraries of version 3 can draw all materials except neural
+// ones.
 ContainerKind kind_of(const Material& material) {
   ContainerKind kind = material_kind;
   kind.newest_version = material.neural.is_used() ? 4 : material.relief.moves() ? 3 : 2;

@@ -1,14 +1,15 @@
-// A material as a small network over features of its texels, in the place of a clustered BTF, after A.
-// Kuznetsov, K. Mullia, Z. Xu, M. Hasan, R. Ramamoorthi: NeuMIP, 2021 (the neural offset) and C. Weinreich,
-// L. de Oliveira, A. Houdard, G. Nader: Real-Time Neural Materials using Block-Compressed Features, 2023.
+// A material as a small network over features of its texels. It replaces the clustered BTF. The method
+// follows A. Kuznetsov, K. Mullia, Z. Xu, M. Hasan, R. Ramamoorthi: NeuMIP, 2021 (the neural offset) and C.
+// Weinreich, L. de Oliveira, A. Houdard, G. Nader: Real-Time Neural Materials using Block-Compressed
+// Features, 2023.
 //
-// With all layers as matrices, r(x) = max(x, x / 100) and features read linearly at a point of the tile:
+// All layers are matrices, features are filtered linearly at a point of the tile, and r(x) = max(x, x / 100):
 //   height   = offset_out r(offset_in (offset features at uv, view, 1)) + offset_level
 //   decoded  = position (features at uv + view.xy / view.z height, view, 1)
 //   units    = r(decoded + light_weights (light, half vector)), and for each further layer
 //   units    = r(hidden (units, 1))
 //   radiance = max(out (units, 1), 0)
-// So what does not depend on the light is computed once for each pixel.
+// `height` and `decoded` do not depend on the light, so they are computed once per pixel.
 #pragma once
 
 #include <algorithm>
@@ -36,8 +37,8 @@ struct NeuralShape {
 
 inline constexpr std::uint32_t neural_view_inputs = 3, neural_light_inputs = 6;
 
-// Where the numbers of each layer stand in the weights. A matrix is outputs x inputs, with inputs varying
-// slowly. Its bias follows it, as the weight of a constant input 1.
+// The offset of each layer in the array of weights. A matrix is outputs x inputs, and the output index varies
+// fastest. The bias follows the matrix, as the weights of a constant input 1.
 struct NeuralLayout {
   explicit NeuralLayout(const NeuralShape& shape);
   std::size_t offset_in, offset_bias, offset_out, offset_level;  // features and view -> units -> height
@@ -48,19 +49,20 @@ struct NeuralLayout {
   std::size_t count;
 };
 
-// Returns where the numbers of a hidden layer begin. The first layer is 0 and has no numbers there.
+// Returns the offset of a hidden layer's weights. Do not call it for layer 0: that layer's weights are
+// `position` and `light`.
 constexpr std::size_t neural_hidden_layer(const NeuralShape& s, const NeuralLayout& at, std::size_t layer) {
   return at.hidden + (layer - 1) * s.units * (s.units + 1);
 }
 
-// The slope of a unit below 0.
+// The slope of a unit's activation for negative values.
 inline constexpr float neural_leak = 0.01f;
 
-// Features lie in [-1, 1] as multiples of 1 / 127, as in textures of signed bytes. A block of 4 x 4 texels of
-// a channel takes eight bytes, in the RGTC form of signed_blocks.h.
+// Features are multiples of 1 / 127 in [-1, 1], as in textures of signed bytes. A block of 4 x 4 texels of
+// one channel takes eight bytes, in the RGTC format of signed_blocks.h.
 inline constexpr int neural_feature_steps = signed_block_steps;
 inline constexpr std::size_t neural_block_bytes = signed_block_bytes;
-// Returns the number that a code stands for, rounded to the nearest. upper must not be below lower.
+// Decodes a code of a block to the nearest integer level. `upper` must not be below `lower`.
 constexpr int neural_level(int upper, int lower, std::uint32_t code) {
   const int down = sevenths_of(code);
   const int sum = upper * (7 - down) + lower * down;
@@ -71,14 +73,14 @@ struct Neural {
   explicit Neural(Memory* memory = default_memory()) : blocks(memory), weights(memory) {}
 
   NeuralShape shape;
-  // Channel x block row x block column; the features' channels come before the offset's.
+  // Channel x block row x block column. The channels of the features come before the channels of the offset.
   Vector<std::uint8_t> blocks;
   Vector<std::uint16_t> weights;  // half floats; empty: the material is a clustered tensor
 
   bool is_used() const { return !weights.empty(); }
 };
 
-// Returns the bytes of the blocks and of the weights.
+// These functions return the bytes of the blocks and the bytes of the weights.
 inline std::size_t neural_block_bytes_of(const NeuralShape& s) {
   return neural_block_bytes * s.blocks() * (s.channels + s.offset_channels);
 }
@@ -86,11 +88,11 @@ inline std::size_t neural_bytes(const NeuralShape& s) {
   return neural_block_bytes_of(s) + 2 * NeuralLayout(s).count;
 }
 
-// Functions of the training and of the decoder.
+// Functions that the training and the decoder share.
 
-// A view shifts the place where features are read, by x / z and y / z of the view times the height. These
-// limit z and the height. Otherwise, grazing views would read features at any distance, and a faulty network
-// could return heights of a tile or more.
+// The place where features are read is shifted by view.xy / view.z times the height. These constants limit
+// view.z and the height. Without the limits, grazing views would read features arbitrarily far away, and a
+// faulty network could return heights of a tile or more.
 inline constexpr float neural_least_view_z = 0.01f;
 inline float neural_slope(Vec3 view) {
   return 1 / std::max(view.z, neural_least_view_z);

@@ -27,7 +27,7 @@ NeuralLayout::NeuralLayout(const NeuralShape& s) {
 
 namespace {
 
-// Decodes level 0 of a channel, as 127 times its features.
+// Decodes level 0 of a channel. Values are 127 times the features.
 void decode_channel(const Neural& neural, std::uint32_t channel, std::span<float> image) {
   const NeuralShape& s = neural.shape;
   const std::uint32_t columns = (s.width + 3) / 4;
@@ -68,7 +68,8 @@ Vec3 raised(Vec3 d, float lowest) {
   return {d.x * scale, d.y * scale, lowest};
 }
 
-// Adds the products of inputs with their rows of weights. Returns the weights that follow.
+// Adds the product of each input with its row of weights to `sums`. Returns a pointer to the weights after
+// these rows.
 const float* add_products(const float* weights, std::span<const float> inputs, std::span<float> sums) {
   for (const float input : inputs) {
     for (std::size_t u = 0; u < sums.size(); ++u) sums[u] += weights[u] * input;
@@ -81,7 +82,7 @@ void rectify(std::span<float> units) {
   for (float& unit : units) unit = std::max(unit, neural_leak * unit);
 }
 
-// Adds up a first layer: channels of the images from one layer on, the view and the bias.
+// Adds the terms of a first layer: the channels of the images, beginning at `layer`, the view, and the bias.
 void add_first_layer(const NeuralTables& tables, std::size_t weights, std::uint32_t layer,
                      std::uint32_t channels, const Fetches& places, Vec3 view, std::span<float> sums) {
   const float* at = &tables.weights[weights];
@@ -106,11 +107,11 @@ float height_at(const NeuralTables& tables, const NeuralLayout& at, const ImageP
   return height;
 }
 
-// Returns where a view through a place reads the features.
+// Returns the shifted place at which a view reads the features.
 ImagePlace seen_place(const NeuralTables& tables, const NeuralLayout& at, const ImagePlace& place,
                       Vec3 view) {
   const float wished = neural_shift(height_at(tables, at, place, view), view);
-  // A view that is not a unit vector may be so long that the shifted place is not finite.
+  // If the caller's view is not a unit vector, it may be so long that the shifted place is not finite.
   const bool is_finite = std::isfinite(view.x * wished) && std::isfinite(view.y * wished);
   const float shift = is_finite ? wished : 0;
   return {place.u + view.x * shift, place.v + view.y * shift, place.level};

@@ -11,7 +11,8 @@
 namespace nook::material {
 namespace {
 
-// The largest magnitude is scaled to [2^14, 2^15). Even rounded up, it stays below a half's 65504.
+// The largest magnitude is scaled to [2^14, 2^15). Even if it is rounded up, it stays below 65504, the
+// maximum of a half float.
 constexpr int top_exponent = 14;
 constexpr int max_exponent = 100;
 

@@ -1,5 +1,5 @@
-// Maps the hemisphere to a square: W. Heidrich, H.-P. Seidel, Realistic, Hardware-accelerated Shading and
-// Lighting, 1999. shaders/material/parabolic.glsl has the same functions.
+// The parabolic map from the hemisphere to a square, by W. Heidrich, H.-P. Seidel: Realistic,
+// Hardware-accelerated Shading and Lighting, 1999. shaders/material/parabolic.glsl has the same functions.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace nook::material {
 
-// The hemisphere fills the disc x^2 + y^2 <= 1.
+// A point of the map. The hemisphere covers the disc x^2 + y^2 <= 1.
 struct ParabolicPoint {
   float x = 0, y = 0;
 };

@@ -17,7 +17,7 @@ float dot(const Four& a, const Four& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-// Returns the modes 4 f to 4 f + 3 of a cluster and a light mode.
+// Returns the view modes 4 f to 4 f + 3 of a cluster and a light mode.
 Four mode_at(const TensorTables& tables, std::uint32_t cluster, std::uint32_t a, std::uint32_t f,
              const Fetches& at) {
   const std::uint32_t whole = tables.whole_modes();
@@ -70,7 +70,7 @@ Four blended(const TensorTables& tables, std::size_t layer, const CellBlend& ble
   return sum;
 }
 
-// Returns the points of the relief that a view sees through places.
+// Moves places from the plane to the points of the relief that the view sees there.
 Fetches on_relief(const MaterialTables& tables, Fetches at, Vec3 view) {
   for (std::uint32_t i = 0; i < at.count; ++i) {
     ImagePlace& place = at.place[i];
@@ -81,8 +81,8 @@ Fetches on_relief(const MaterialTables& tables, Fetches at, Vec3 view) {
   return at;
 }
 
-// Decodes the mean light modes of places for a view. Each of the light_modes numbers is a sum over terms and
-// view modes.
+// Decodes the mean light modes of several places for a view. Each light mode is a sum over terms and view
+// modes.
 void decode(const TensorTables& tables, const Fetches& at, Vec3 view, float* modes) {
   const CellBlend blend = blend_of(tables, view);
   std::fill_n(modes, tables.light_modes, 0.0f);
@@ -192,8 +192,9 @@ float visibility_of(VisibilityForm form, const VisibilityMapping& mapping, float
 
 namespace {
 
-// Calls body(direction) for directions in strata of the unit disc, projected up to the hemisphere. Their
-// plain mean is weighted by the cosine (Malley's method).
+// Calls body(direction) for stratified points of the unit disc, projected up to the hemisphere. The
+// directions have a cosine-weighted distribution (Malley's method), so an unweighted mean over them is a
+// cosine-weighted mean.
 template <class Body>
 std::uint32_t over_disc(std::uint32_t across, Body&& body) {
   std::uint32_t count = 0;
@@ -215,15 +216,16 @@ Vec3 mean_reflectance(const MaterialTables& tables) {
   using Numbers = std::array<double, 3 * max_directions + 3>;
   const std::uint32_t modes = tables.btf.light_modes;
   std::array<float, 3 * max_directions + 3> values;
-  // The light basis includes the cosine: its integral is pi times the mean of basis over cosine.
+  // The light basis already includes the cosine, and the directions are cosine-weighted. So its integral is
+  // pi times the mean of basis / cosine.
   Numbers lit{};
   const std::uint32_t lights = over_disc(64, [&](Vec3 light) {
     light_basis_at(tables, light, std::span(values).first(3 * modes));
     for (std::uint32_t i = 0; i < 3 * modes; ++i) lit[i] += double(values[i] / light.z);
   });
   Numbers seen{};
-  // Levels beyond the last are clamped to the last, which has one texel along the shorter side and few along
-  // the other.
+  // The level is clamped to the last level, which has one texel along the shorter side and few along the
+  // other.
   const std::uint32_t across = 4;
   const std::uint32_t views = over_disc(16, [&](Vec3 view) {
     for (std::uint32_t i = 0; i < across * across; ++i) {
@@ -236,7 +238,8 @@ Vec3 mean_reflectance(const MaterialTables& tables) {
       for (std::uint32_t a = 0; a < modes; ++a) seen[a] += double(values[a]);
     }
   });
-  // Radiosity is pi times the mean radiance over cosine-weighted views, for an irradiance of pi.
+  // The radiosity is pi times the mean radiance over cosine-weighted views, and the irradiance is pi. So the
+  // factors cancel.
   float share[3];
   for (std::uint32_t c = 0; c < 3; ++c) {
     double sum = 0;

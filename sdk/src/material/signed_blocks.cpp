@@ -20,7 +20,7 @@ std::uint64_t rgtc_codes(const std::uint8_t* bytes) {
   return codes;
 }
 
-// The eight levels lowest + k step of an RGTC block, in units of 1 / 127.
+// The eight levels of an RGTC block are lowest + k step, in units of 1 / 127.
 struct Levels {
   int lowest = 0, step = 1;
 };
@@ -40,8 +40,9 @@ float error_of(const float (&numbers)[16], const Levels& levels) {
   return sum;
 }
 
-// Tries steps from the full range of the numbers down to three quarters of it, with the lowest level a
-// quarter of a step apart. Then it tries the neighbours of the best.
+// Tries steps that span from the full range of the values down to three quarters of it. For each step, it
+// tries lowest levels that are a quarter of a step apart. Finally, it tries the neighbours of the best
+// combination.
 Levels best_levels(const float (&numbers)[16]) {
   const auto [low, high] = std::minmax_element(std::begin(numbers), std::end(numbers));
   const int most = 2 * signed_block_steps / 7;
@@ -81,8 +82,8 @@ void encode_rgtc(const float (&given)[16], std::uint8_t* bytes) {
   write_rgtc(block, bytes);
 }
 
-// The modifiers of EAC, table C.12 of OpenGL ES 3.0. In units of 1 / 1023, a number is 8 base + 8 multiplier
-// modifier, or 8 base + modifier if the multiplier is 0.
+// The modifiers of EAC, from table C.12 of OpenGL ES 3.0. In units of 1 / 1023, a value is 8 base + 8
+// multiplier modifier, or 8 base + modifier if the multiplier is 0.
 constexpr std::int8_t modifiers[16][8] = {
     {-3, -6, -9, -15, 2, 5, 8, 14}, {-3, -7, -10, -13, 2, 6, 9, 12}, {-2, -5, -8, -13, 1, 4, 7, 12},
     {-2, -4, -6, -13, 1, 3, 5, 12}, {-3, -6, -8, -12, 2, 5, 7, 11},  {-3, -7, -9, -11, 2, 6, 8, 10},
@@ -114,8 +115,9 @@ float error_of(const float (&numbers)[16], const EacHead& head) {
   return sum;
 }
 
-// Tries all tables with two multipliers: the one that spans the numbers' range, and the one below. It tries
-// bases around the one that aligns the table's centre with the numbers' centre.
+// Tries all modifier tables, each with two multipliers: the one that spans the range of the values, and the
+// next smaller one. For each, it tries bases around the one that aligns the centre of the table with the
+// centre of the values.
 EacHead best_head(const float (&numbers)[16]) {
   const auto [low, high] = std::minmax_element(std::begin(numbers), std::end(numbers));
   EacHead best;
@@ -139,7 +141,7 @@ EacHead best_head(const float (&numbers)[16]) {
   return best;
 }
 
-// Codes are stored column by column, the first in the highest bits.
+// EAC stores codes column by column, with the first code in the highest bits.
 constexpr std::uint32_t eac_shift(std::uint32_t texel) {
   return 3 * (15 - (texel % 4 * 4 + texel / 4));
 }

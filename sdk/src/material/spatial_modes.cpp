@@ -15,7 +15,7 @@ Vector<float> transposed(std::span<const float> matrix, std::size_t rows, std::s
   return out;
 }
 
-// Returns the largest norm of a column; 1 for the identity.
+// Returns the largest norm of a column. If `rows` is empty, it represents the identity, and the result is 1.
 double largest_norm(const Vector<float>& rows, std::size_t columns) {
   double largest = rows.empty() ? 1 : 0;
   for (std::size_t c = 0; c < columns && !rows.empty(); ++c) {
@@ -26,7 +26,7 @@ double largest_norm(const Vector<float>& rows, std::size_t columns) {
   return std::sqrt(largest);
 }
 
-// Returns the share of a smaller texel's area that a texel covers along one side.
+// Returns the fraction of a smaller-level texel that a texel of the larger level covers along one axis.
 double share(std::uint32_t texel, std::uint32_t smaller_texel, std::uint32_t size,
              std::uint32_t smaller_size) {
   const double step = double(size) / smaller_size, begin = smaller_texel * step;
@@ -110,7 +110,7 @@ void halve(std::span<const float> image, std::uint32_t width, std::uint32_t heig
   const std::uint32_t w = level_size(width, 1), h = level_size(height, 1);
   for (std::uint32_t y = 0; y < h; ++y)
     for (std::uint32_t x = 0; x < w; ++x) {
-      // The area covers at most three texels along a side, starting here.
+      // The area of the new texel covers at most three texels along each axis, starting at u0.
       const auto u0 = std::uint32_t(std::uint64_t(x) * width / w);
       const auto v0 = std::uint32_t(std::uint64_t(y) * height / h);
       const float* const corner = &image[std::size_t(v0) * width + u0];

@@ -1,7 +1,7 @@
 // The expanded spatial modes of the core tensors. With a < R_l and b < R_v,
 //   S_c[a, b](x, y) = sum_{p, q} Z_c[a, b, p, q] X_c[x, p] Y_c[y, q]
-// are images that texture units filter. Decoding is linear in them, so the mean over the texels of a
-// footprint decodes to the mean of the decoded texels.
+// are images that texture units can filter. Decoding is linear in these images, so decoding the filtered
+// texels gives the mean of the decoded texels.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,11 @@ class ModeExpansion {
 
   // Returns the number of floats that expand needs as scratch memory.
   std::size_t scratch_size() const;
-  // Writes S_c[a, b] to image, width x height, row by row. Any number of threads may call it at the same
+  // Writes S_c[a, b] to `image`, width x height values, row by row. Several threads may call it at the same
   // time.
   void expand(std::uint32_t a, std::uint32_t b, std::span<float> scratch, std::span<float> image) const;
-  // Returns an upper bound of all texels of all modes of the cluster: |S| <= |X_x| |Z_ab| |Y_y|.
+  // Returns an upper bound of the magnitude of all texels in all modes of the cluster: |S| <= |X_x| |Z_ab|
+  // |Y_y|.
   float bound() const;
 
  private:
@@ -34,11 +35,12 @@ class ModeExpansion {
   Vector<float> x_rows_, y_rows_;  // transposed bases, R_x x I_x and R_y x I_y; empty at full rank
 };
 
-// Each mipmap level has half the size of the one before, rounded down, until 1 x 1, as in OpenGL.
+// Returns the size of a mipmap level along one axis. As in OpenGL, each level has half the size of the
+// previous one, rounded down, but at least 1.
 std::uint32_t level_size(std::uint32_t size, std::uint32_t level);
 std::uint32_t level_count(std::uint32_t width, std::uint32_t height);
-// Computes the next smaller level. Every texel is the mean over its area, with fractions of texels, so that
-// the mean of the image stays the same.
+// Computes the next smaller level. Every texel is the mean over its area, including fractions of larger
+// texels, so that the mean of the whole image does not change.
 void halve(std::span<const float> image, std::uint32_t width, std::uint32_t height, std::span<float> smaller);
 
 }  // namespace nook::material

@@ -18,8 +18,9 @@ std::uint16_t finite_half(float value) {
   return to_half(std::clamp(value, -65504.0f, 65504.0f));
 }
 
-// Calls body(place, cluster, a, b, image, other, scratch) for all modes, `batch` at a time. image holds the
-// expanded mode, and other has room for another. Bodies of different places run in parallel.
+// Calls body(place, cluster, a, b, image, other, scratch) for all modes, `batch` modes at a time. `image`
+// holds the expanded mode, and `other` is a buffer of the same size. Calls with different `place` run in
+// parallel.
 constexpr std::uint32_t batch = 16;
 
 template <class Body>
@@ -45,7 +46,7 @@ void for_each_mode(const ClusteredTensor& tensor, const Parallel& parallel, Memo
   }
 }
 
-// Calls body(level, width, height, image) for all levels of a mode, whose finest one is in image.
+// Calls body(level, width, height, image) for all levels of a mode. Pass the finest level in `image`.
 template <class Body>
 void for_each_level(const TensorTables& tables, std::span<float> image, std::span<float> other, Body&& body) {
   for (std::uint32_t level = 0;; ++level) {
@@ -57,7 +58,7 @@ void for_each_level(const TensorTables& tables, std::span<float> image, std::spa
   }
 }
 
-// Calls write(texel, value) for all texels of all levels of a mode; texel is an index of `spatial`.
+// Calls write(texel, value) for all texels of all levels of a mode. `texel` is an index into `spatial`.
 template <class Write>
 void for_each_texel(const TensorTables& tables, std::uint32_t cluster, std::uint32_t a, std::uint32_t b,
                     std::span<float> image, std::span<float> other, Write&& write) {
@@ -72,7 +73,7 @@ void for_each_texel(const TensorTables& tables, std::uint32_t cluster, std::uint
                  });
 }
 
-// Encodes an image into every other block from `to` on.
+// Encodes an image into every other block, beginning at `to`.
 template <class Scaled>
 void encode_image(BlockForm form, std::uint32_t width, std::uint32_t height, std::span<const float> image,
                   Scaled&& scaled, std::uint8_t* to) {
@@ -86,7 +87,7 @@ void encode_image(BlockForm form, std::uint32_t width, std::uint32_t height, std
     }
 }
 
-// Encodes all levels of a mode into blocks; `a` counts the light modes in blocks.
+// Encodes all levels of a mode into blocks. `a` is the index among the light modes in blocks.
 template <class Scaled>
 void encode_mode(TensorTables& tables, std::uint32_t cluster, std::uint32_t a, std::uint32_t b,
                  std::span<float> image, std::span<float> other, Scaled&& scaled) {
@@ -101,31 +102,32 @@ void encode_mode(TensorTables& tables, std::uint32_t cluster, std::uint32_t a, s
                  });
 }
 
-// Returns the exponent that scales the largest bound of a spatial mode to [2^14, 2^15). This is within a
-// half's range and far from its smallest numbers.
+// Returns the exponent that scales the largest bound of a spatial mode to [2^14, 2^15). This range is below
+// the maximum of a half float and far above its smallest values.
 int spatial_exponent(const ClusteredTensor& tensor, Memory* memory) {
   float bound = 0;
   for (std::uint32_t c = 0; c < tensor.shape.clusters; ++c)
     bound = std::max(bound, ModeExpansion(tensor, c, memory).bound());
-  // The exponent is limited to where the power of two and its inverse are floats.
+  // The limit ensures that a float can represent both the power of two and its inverse.
   return bound > 0 ? std::clamp(14 - std::ilogb(bound), -100, 100) : 0;
 }
 
-// p_c[b] multiplies the coefficients of the clusters' view modes, and r[a] the columns of the light map.
+// The scale of a mode is p_c[b] r[a]. The coefficients of the view modes are multiplied by p_c[b], and the
+// columns of the light map by r[a].
 struct ModeScales {
   explicit ModeScales(Memory* memory) : p(memory), r(memory) {}
   Vector<float> p;  // clusters x R_v
   Vector<float> r;  // R_l
 };
 
-// Smaller magnitudes count as 0, so that no quotient overflows.
+// Smaller magnitudes are treated as 0, so that no quotient overflows.
 constexpr float smallest_scale = 1e-30f;
 
 float quotient(float value, float scale) {
   return scale > smallest_scale ? value / scale : 0;
 }
 
-// Sets p to the smallest values for which no |mode| is above p r.
+// Sets p to the smallest values for which every |mode| is at most p r.
 void tighten(std::span<const float> largest, const TensorShape& s, ModeScales& scales) {
   std::fill(scales.p.begin(), scales.p.end(), 0.0f);
   for (std::uint32_t c = 0; c < s.clusters; ++c)
@@ -137,11 +139,12 @@ void tighten(std::span<const float> largest, const TensorShape& s, ModeScales& s
       }
 }
 
-// Returns scales such that p_c[b] r[a] is close to the largest magnitude of each mode S_c[a, b], and not
-// below it. r starts with the means of these magnitudes. `light` holds the largest magnitudes of the light
-// basis' columns. r then moves half of the way, in logarithms, to where the columns times r are equal,
-// because rounding the light map matters as much as rounding the modes. It uses only sums, products and
-// square roots, which all machines round alike.
+// Returns scales for which p_c[b] r[a] is close to the largest magnitude of each mode S_c[a, b], and not
+// below it. r starts as the mean of these magnitudes. `light` holds the largest magnitude of each column of
+// the light basis. If all columns times r had the same magnitude, rounding the light map would cost the
+// least. Since this rounding matters as much as the rounding of the modes, r is then moved half of the way
+// there, on a logarithmic scale. The function uses only sums, products and square roots, which all machines
+// round in the same way.
 ModeScales mode_scales(const TensorShape& s, std::span<const float> largest, std::span<const float> light,
                        Memory* memory) {
   ModeScales scales(memory);
@@ -181,7 +184,7 @@ Vector<float> largest_of_columns(std::span<const float> matrix, std::size_t colu
   return largest;
 }
 
-// scale(cluster, b) multiplies the coefficients.
+// The coefficients are multiplied by scale(cluster, b).
 template <class Scale>
 void pack_cells(const ViewCells& cells, std::uint32_t rank, Scale&& scale, TensorTables& tables) {
   const std::size_t count = std::size_t(cells.side) * cells.side;
@@ -211,13 +214,13 @@ void pack_cells(const ViewCells& cells, std::uint32_t rank, Scale&& scale, Tenso
   }
 }
 
-// True for forms with scales: integers, and blocks.
+// Returns true if modes have scales, which is the case for integers and blocks.
 bool has_scales(const Material& material, const ModeForm& form) {
   return material.bits == 8 || form.blocks != BlockForm::none;
 }
 
-// Modes from light mode `whole` on go into blocks, if there is a block form. Throws Failure if they would
-// take too many bytes, before it allocates.
+// If there is a block format, light modes from `whole` on are stored in blocks. If the blocks would take too
+// many bytes, throws Failure before it allocates.
 void set_sizes(const TensorShape& s, std::uint32_t light_modes, BlockForm form, std::uint32_t whole,
                TensorTables& tables) {
   tables.width = s.width;
@@ -232,7 +235,7 @@ void set_sizes(const TensorShape& s, std::uint32_t light_modes, BlockForm form, 
   check_block_bytes(tables.block_size());
 }
 
-// Modes beyond the ranks are zeros.
+// Modes that only pad the ranks to multiples of 4 are zero.
 void make_blocks(TensorTables& tables) {
   if (tables.block_form == BlockForm::none) return;
   tables.blocks.resize(tables.block_size().level_offset(tables.levels));
@@ -258,7 +261,7 @@ std::int8_t as_integer(float value) {
   return std::int8_t(std::nearbyint(std::clamp(value, -1.0f, 1.0f) * 127));
 }
 
-// Makes integers and blocks.
+// Makes the integers and blocks of modes that have scales.
 void make_scaled_spatial(const ClusteredTensor& tensor, const ModeScales& scales, const Parallel& parallel,
                          TensorTables& tables, Memory* memory) {
   tables.bits = 8;
@@ -279,7 +282,7 @@ void make_scaled_spatial(const ClusteredTensor& tensor, const ModeScales& scales
                 });
 }
 
-// scale(a) multiplies the columns of the light basis.
+// Column a of the light basis is multiplied by scale(a).
 template <class Scale>
 void make_light_map(const Material& material, Scale&& scale, MaterialTables& tables, Memory* memory) {
   const std::uint32_t side = tables.light_side, rank = material.btf.shape.rank_light;
@@ -312,7 +315,7 @@ void add_floats(Hash64& hash, std::span<const float> values) {
   }
 }
 
-// Includes the scales of the light map, which belong to everything baked with it.
+// The hash includes the scales of the light map, because data that were baked with the map depend on them.
 std::uint64_t hash_of_light(const Material& material, std::span<const float> columns, float scale) {
   Hash64 hash;
   add_floats(hash, {&scale, 1});
@@ -346,7 +349,7 @@ float largest_of(std::span<const float> values) {
   return largest;
 }
 
-// Replaces the light map by integers, with 127 for `unit`.
+// Replaces the light map by integers, where 127 represents the value `unit`.
 void round_light_map(MaterialTables& tables, float unit, Memory* memory) {
   tables.light_8.resize(tables.light.size());
   for (std::size_t i = 0; i < tables.light.size(); ++i)
@@ -354,8 +357,8 @@ void round_light_map(MaterialTables& tables, float unit, Memory* memory) {
   tables.light = Vector<float>(memory);
 }
 
-// Moves the texels around each light until linear filtering returns the light's row of the basis there.
-// Texels share the change by their filter weights (S. Kaczmarz, 1937).
+// Adjusts the texels around each light until linear filtering at the light returns its row of the basis. A
+// correction is distributed over the four texels in proportion to their filter weights (S. Kaczmarz, 1937).
 template <class Scale>
 void fit_light_map(const Material& material, Scale&& scale, MaterialTables& tables) {
   constexpr int sweeps = 8;
@@ -380,14 +383,14 @@ void fit_light_map(const Material& material, Scale&& scale, MaterialTables& tabl
   }
 }
 
-// Returns the side in cells of a small light map. It has eight cells or more for each of up to 512 lights,
-// and four for each of 1,024, so that few lights share texels.
+// Returns the size, in cells along a side, of a small light map. The map has at least eight cells per light
+// for up to 512 lights, and four per light for 1,024, so that few lights share texels.
 std::uint32_t small_light_side(std::size_t lights) {
   return lights <= 128 ? 32 : 64;
 }
 
-// Makes the light map of integers, and returns the number that 127 stands for. That number comes from the map
-// of default size, because baked data depend on it. Larger fitted texels are clamped.
+// Makes the light map of integers, and returns the value that 127 represents. This value is computed from the
+// map of default size, because baked data depend on it. Fitted texels with larger values are clamped.
 template <class Scale>
 float make_light_map_8(const Material& material, Scale&& scale, bool is_small, MaterialTables& tables,
                        Memory* memory) {
@@ -437,8 +440,8 @@ void make_votf(const Material& material, std::uint32_t map_side, const ModeForm&
   const ViewCells cells = view_cells(votf, material.views, map_side, memory);
   tables.votf_hash = hash_of_votf(material);
   if (!has_scales(material, form)) {
-    // The coefficients are multiplied by the inverse power of two, so it is used only where a half would
-    // overflow.
+    // The coefficients are multiplied by the inverse of this power of two, so it is used only if a half float
+    // would overflow.
     const int exponent = std::min(spatial_exponent(votf, memory), 0);
     make_spatial(votf, std::ldexp(1.0f, exponent), parallel, tables.votf, memory);
     pack_cells(

@@ -13,22 +13,24 @@
 
 namespace nook::material {
 
-// Returns the number of groups of four. The four numbers of a texel hold four neighbours of a mode: of the
-// view mode in spatial modes and coefficients, and of the light mode in the light map.
+// Returns the number of texels for `rank` values, four in each. In spatial modes and coefficients, a texel
+// holds four consecutive indices of the view mode; in the light map, four consecutive indices of the light
+// mode.
 constexpr std::uint32_t vec4_count(std::uint32_t rank) {
   return (rank + 3) / 4;
 }
 
-// Chooses blocks for the spatial modes. Then integers replace half floats, and the light map has fewer cells,
-// whose values are fitted to the lights.
+// Chooses a block format for the spatial modes. With blocks, modes that are not in blocks are integers
+// instead of half floats. The light map then has fewer cells, and their values are fitted to the lights.
 struct ModeForm {
   BlockForm blocks = BlockForm::none;
-  // The first light modes of a BTF stay integers, because blocks would lose most there. Rounded up to a
-  // multiple of 4.
+  // This many light modes of a BTF, the first ones, are not stored in blocks, because blocks would lose the
+  // most precision there. The number is rounded up to a multiple of 4.
   std::uint32_t whole_light_modes = 4;
 };
 
-// All numbers are half floats, except for the membership, and for spatial modes with 8 bits or in blocks.
+// All values are half floats, except for the membership and for spatial modes that have 8 bits or are in
+// blocks.
 struct TensorTables {
   explicit TensorTables(Memory* memory = default_memory())
       : spatial(memory), spatial_8(memory), blocks(memory), coefficients(memory), membership(memory) {}
@@ -39,25 +41,27 @@ struct TensorTables {
   std::uint32_t view_vec4_count = 0;  // R_v / 4, rounded up
   std::uint32_t clusters = 0;
   std::uint32_t side = 0;   // cells of the view map
-  std::uint32_t terms = 0;  // of a cell; see ViewCells
+  std::uint32_t terms = 0;  // terms of each cell; see ViewCells
   bool blended = false;     // cells blend with their neighbours; see ViewCells
   std::uint32_t bits = 16;  // of spatial modes that are not in blocks
   BlockForm block_form = BlockForm::none;
-  std::uint32_t packed_modes = 0;  // the number of light modes in blocks, which are the last ones
+  std::uint32_t packed_modes = 0;  // the number of light modes in blocks; these are the last ones
 
-  // One level after another: layers x height x width x 4. Number b % 4 of layer (c whole_modes() + a)
-  // view_vec4_count + b / 4 is the mode S_c[a, b] of spatial_modes.h, times a power of two for the whole
-  // tensor. With 8 bits, it is divided by the mode's scale p_c[b] r[a] instead, and stored as 127 times that,
-  // an integer from -127 to 127. The coefficients and the light map contain the factors of the scale.
+  // Mipmap levels are stored one after another, each with layers x height x width x 4 values. Mode S_c[a, b]
+  // of spatial_modes.h is component b % 4 of layer (c whole_modes() + a) view_vec4_count + b / 4. Half floats
+  // are multiplied by a power of two, which is the same for the whole tensor. With 8 bits, a mode is divided
+  // by its scale p_c[b] r[a] instead, and stored times 127 as an integer from -127 to 127. The coefficients
+  // are multiplied by p_c[b], and the light map by r[a].
   Vector<std::uint16_t> spatial;
   Vector<std::int8_t> spatial_8;
-  // Modes in blocks, also with a scale. Light mode whole_modes() + a begins at layer 2 ((c packed_modes + a)
-  // view_vec4_count + b / 4).
+  // Modes in blocks, which are also divided by their scales. Light mode whole_modes() + a begins at layer 2
+  // ((c packed_modes + a) view_vec4_count + b / 4).
   Vector<std::uint8_t> blocks;
-  // terms x view_vec4_count layers of side x side x 4.
+  // terms x view_vec4_count layers, each with side x side x 4 values.
   Vector<std::uint16_t> coefficients;
-  // Layers of side x side x 4, with four terms each. If cells blend, the last term holds the neighbours of
-  // ViewCells. Empty for a single cluster without blending. Numbers take member_bytes().
+  // Each layer has side x side x 4 values and stores four terms. If cells blend, ViewCells::neighbours is
+  // stored as one more term. Empty if there is a single cluster and cells do not blend. A value takes
+  // member_bytes() bytes.
   Vector<std::uint8_t> membership;
 
   std::uint32_t memberships() const { return terms + (blended ? 1 : 0); }
@@ -75,35 +79,37 @@ struct MaterialTables {
   explicit MaterialTables(Memory* memory = default_memory())
       : btf(memory), neural(memory), votf(memory), relief(memory), light(memory), light_8(memory) {}
 
-  TensorTables btf;     // for a neural material, only the sizes of its texels
-  NeuralTables neural;  // replaces btf and light
-  TensorTables votf;    // empty if visibility is none
+  TensorTables btf;     // for a neural material, only its width and height in texels are set
+  NeuralTables neural;  // replaces `btf` and `light`
+  TensorTables votf;    // empty if `visibility` is none
   VisibilityForm visibility = VisibilityForm::none;
   VisibilityMapping mapping;
   ReliefTables relief;  // of the BTF
 
   std::uint32_t light_side = 64;
-  // The light basis over the hemisphere, interpolated linearly between the lights. Beyond the outermost
-  // lights, their basis is scaled by the ratio of cosines, down to 0 at the horizon. The table has layers x
-  // side x side x 4 floats, with layer channel light_modes / 4 + a / 4. It is divided by the power of two of
-  // the BTF's spatial modes. With modes in blocks it is smaller. Its texels around each light are then moved
-  // so that the light gets its row of the basis, except for rounding and for numbers above the default map's
-  // largest.
+  // The light basis over the hemisphere, interpolated linearly between the lights. Between the lowest lights
+  // and the horizon, the basis is scaled by the ratio of cosines, down to 0 at the horizon. The table has
+  // layers x side x side x 4 floats; light mode a of a channel is in layer channel light_modes / 4 + a / 4.
+  // Values are divided by the power of two of the BTF's spatial modes. If modes are in blocks, the table has
+  // fewer texels. The texels around each light are then adjusted so that filtering at a light returns exactly
+  // its row of the basis. Exceptions are rounding, and values above the maximum of the default table, which
+  // are clamped.
   Vector<float> light;
-  // With 8 bits, this replaces `light`. The light map's columns are multiplied by r[a], divided by their
-  // largest number, and stored as integers from -127 to 127. The coefficients are multiplied by that number.
+  // With 8 bits, light_8 replaces `light`. The light map's columns are multiplied by r[a] and divided by the
+  // largest value, and stored as integers from -127 to 127. The coefficients are multiplied by the largest
+  // value.
   Vector<std::int8_t> light_8;
 
-  // XXH64 of the numbers from which the light basis and the VOTF were made, for data baked with them.
-  // votf_hash is 0 without a VOTF.
+  // XXH64 of the data from which the light basis and the VOTF were made. Baked data store these hashes, to
+  // detect that they belong to another material. votf_hash is 0 if there is no VOTF.
   std::uint64_t light_hash = 0, votf_hash = 0;
 };
 
 inline constexpr std::uint32_t default_map_side = 256;
 
-// Makes the tables of a material that passed check_material. map_side is the side in cells of the view maps
-// that the tables get if the material has none; see view_cells.h. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT)
-// for blocks of too many bytes; see check_block_bytes.
+// Makes the tables of a material that passed check_material. map_side is the size, in cells, of the view maps
+// that are made if the material has none; see view_cells.h. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if
+// the blocks take too many bytes; see check_block_bytes.
 MaterialTables make_tables(const Material& material, const Parallel& parallel, Memory* memory,
                            std::uint32_t map_side = default_map_side, const ModeForm& form = {});
 

@@ -7,7 +7,7 @@
 
 namespace nook::material {
 
-// N-SVD has clusters = mixture = 1, CTA has mixture = 1, and K-CTA has any values.
+// In N-SVD, `clusters` and `mixture` are 1. In CTA, `mixture` is 1. In K-CTA, both can have any value.
 struct TensorShape {
   std::uint32_t views = 0;       // I_v
   std::uint32_t width = 0;       // I_x, texels along u
@@ -30,15 +30,15 @@ constexpr std::size_t core_size(const TensorShape& s) {
 constexpr std::size_t core_slab(const TensorShape& s) {
   return std::size_t(s.rank_x) * s.rank_y;
 }
-// Returns the number of entries of one cluster's basis of a spatial mode; 0 at full rank, where the basis is
-// the identity.
+// Returns the number of entries of one cluster's basis of a spatial mode. At full rank it is 0, because the
+// basis is the identity.
 constexpr std::size_t x_basis_size(const TensorShape& s) {
   return s.rank_x < s.width ? std::size_t(s.width) * s.rank_x : 0;
 }
 constexpr std::size_t y_basis_size(const TensorShape& s) {
   return s.rank_y < s.height ? std::size_t(s.height) * s.rank_y : 0;
 }
-// Returns the number of non-zero mixing coefficients of `rows` rows of the view bases, K R_v each.
+// Returns the number of non-zero mixing coefficients in `rows` rows of the view bases. Each row has K R_v.
 constexpr std::size_t coefficient_count(const TensorShape& s, std::size_t rows) {
   return rows * s.mixture * s.rank_view;
 }
@@ -50,14 +50,15 @@ constexpr std::size_t view_rows_bytes(const TensorShape& s, std::size_t rows, st
   return bits / 8 * coefficient_count(s, rows) + index_bytes * rows * s.mixture;
 }
 
-// Returns the bytes of core tensors, spatial bases and the views' rows, as Table I of the paper counts them
-// for half floats (there in MiB). A resampled view map takes view_rows_bytes(shape, side * side, bits) in
-// addition.
+// Returns the bytes of core tensors, spatial bases and the rows of the views. For half floats, this is the
+// size in Table I of the paper (there in MiB). A resampled view map takes another view_rows_bytes(shape, side
+// * side, bits).
 constexpr std::size_t compressed_bytes(const TensorShape& s, std::uint32_t bits = 16) {
   return bits / 8 * s.clusters * (core_size(s) + x_basis_size(s) + y_basis_size(s)) +
          view_rows_bytes(s, s.views, bits);
 }
-// Returns the bytes of the light basis of all clusters; red, green and blue are rows of it.
+// Returns the bytes of the light basis, which all clusters share. Each light has three rows: red, green and
+// blue.
 constexpr std::size_t light_basis_bytes(std::size_t lights, const TensorShape& s, std::uint32_t bits = 16) {
   return bits / 8 * 3 * lights * s.rank_light;
 }

@@ -18,7 +18,8 @@ Cell cell_at(ViewCells& cells, std::size_t number, std::uint32_t rank) {
           &cells.rows.coefficients[number * cells.terms * rank]};
 }
 
-// Adds `weight` times each term of a view to the term of the same cluster, or to the next unused term.
+// Adds the terms of a view, times `weight`, to a cell. A term is added to the cell's term with the same
+// cluster, or to the next unused term.
 void add_terms(const ClusteredTensor& tensor, std::size_t view, float weight, Cell cell,
                std::uint32_t& used) {
   const std::uint32_t rank = tensor.shape.rank_view, mixture = tensor.shape.mixture;
@@ -47,8 +48,8 @@ void mix_three(const ClusteredTensor& tensor, std::span<const Vec3> views, ViewC
     }
 }
 
-// Returns the step + 1 along one axis for the half of a cell on the side `towards`. at is the cell's index
-// along the axis; distance is the distance to the next cell in the arrays.
+// Returns step + 1 for the half of a cell on the side `towards` of an axis. `at` is the cell's index along
+// the axis. `distance` is the offset in the arrays from a cell to the next one along the axis.
 std::uint32_t step_code(const ViewCells& cells, std::size_t number, std::int64_t at, std::int64_t distance,
                         int towards) {
   const std::uint16_t* const own = &cells.rows.membership[number * cells.terms];

@@ -21,8 +21,8 @@ struct Neighbours {
   std::array<float, 4> connected{};
 };
 
-// There is an edge if the pixel's depth differs by more than about `tolerance` metres from two depths: the
-// neighbour's depth, and the straight line through the neighbours on both sides.
+// There is an edge if two differences exceed about `tolerance` metres: from the pixel's depth to the
+// neighbour's depth, and to the straight line through the neighbours on both sides.
 Neighbours neighbours_of(const View& view, std::uint32_t x, std::uint32_t y, float tolerance);
 
 // Returns the normal that the slopes imply. On each axis, the flatter of the two slopes has more weight,
