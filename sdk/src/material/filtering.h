@@ -7,7 +7,7 @@
 
 namespace nook::material {
 
-// The indices of two neighbouring texels, and the position between their centres from 0 to 1.
+// The indices of two neighbouring texels. t is the position between their centres, from 0 to 1.
 struct Between {
   std::uint32_t low, high;
   float t;

@@ -6,7 +6,7 @@
 namespace nook::probe {
 namespace {
 
-// Heights run from 1 down to `lowest`, at the centres of equal areas.
+// Returns a point of the spiral. Heights run from 1 down to `lowest`, at the centres of zones of equal area.
 Vec3 on_spiral(std::size_t index, std::size_t count, double lowest) {
   constexpr double golden_angle = std::numbers::pi * (3 - 2.23606797749978969641);
   const double z = 1 - (1 - lowest) * (double(index) + 0.5) / double(count);
@@ -17,7 +17,7 @@ Vec3 on_spiral(std::size_t index, std::size_t count, double lowest) {
 }  // namespace
 
 Frame frame_round(Vec3 z) {
-  // Starts from an axis that is far from z.
+  // Starts from a coordinate axis that is not close to z.
   const Vec3 away = std::abs(z.x) < 0.6f ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   const Vec3 y = normalised(cross(z, away));
   return {cross(y, z), y, z};

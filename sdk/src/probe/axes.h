@@ -1,4 +1,5 @@
-// Directions for the functions of bases: evenly spread for lobes, the vertices of an icosahedron for dice.
+// Directions of basis functions. Lobes are distributed evenly; ambient dice use the vertices of an
+// icosahedron.
 #pragma once
 
 #include <array>
@@ -10,20 +11,21 @@
 
 namespace nook::probe {
 
-// H. Vogel's spiral: azimuths differ by the golden angle, and heights are at the centres of equal areas. The
-// spiral covers the whole sphere around +z, or the hemisphere around `up`.
+// Fill `axes` with H. Vogel's spiral. Successive azimuths differ by the golden angle, and heights are at the
+// centres of zones of equal area. The spiral covers the whole sphere around +z, or the hemisphere around
+// `up`.
 void vogel_sphere(std::span<Vec3> axes);
 void vogel_hemisphere(Vec3 up, std::span<Vec3> axes);
 
-// Two unit vectors perpendicular to a unit vector, right-handed with it as the third axis.
+// Two unit vectors x and y that form a right-handed frame with a given unit vector z.
 struct Frame {
   Vec3 x, y, z;
 };
 Frame frame_round(Vec3 z);
 
-// Ambient dice (M. Iwanicki & P.-P. Sloan 2017) have one value at each vertex of an icosahedron.
+// Ambient dice (M. Iwanicki & P.-P. Sloan 2017) have one basis function for each vertex of an icosahedron.
 
-// (0, +-1, +-golden ratio) and its cyclic permutations, at unit length.
+// The components of the vertices, which are (0, +-1, +-golden ratio) and its cyclic permutations, normalised.
 inline constexpr float dice_short = 0.525731112f, dice_long = 0.850650808f;
 inline constexpr std::array<Vec3, 12> dice_axes{{{0, dice_short, dice_long},
                                                  {0, -dice_short, dice_long},
@@ -44,8 +46,9 @@ constexpr T dice_radiance(T c) {
   return c * c * (T(0.35) + T(0.25) * c * c);
 }
 
-// Returns the irradiance of that function on a normal whose cosine to the vertex is c, in [-1, 1]. It is
-// exact: only bands 0, 1, 2 and 4 of the clamped cosine contribute.
+// Returns the irradiance that the function causes on a surface. c, in [-1, 1], is the cosine between the
+// surface's normal and the vertex. The result is exact, because only bands 0, 1, 2 and 4 of the clamped
+// cosine contribute.
 template <std::floating_point T>
 constexpr T dice_irradiance(T c) {
   return std::numbers::pi_v<T> *

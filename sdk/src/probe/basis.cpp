@@ -13,7 +13,8 @@
 namespace nook::probe {
 namespace {
 
-// From this correlation on, two functions count as one: only rounding would decide their difference in a fit.
+// Two functions with at least this correlation are treated as equal. In a fit, rounding errors would
+// determine their coefficients.
 constexpr double same_function = 1 - 1e-6;
 
 const char* lobe_name(const Basis& basis, std::uint32_t i) {

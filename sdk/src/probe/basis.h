@@ -1,5 +1,5 @@
-// The basis functions of a probe have one interface for all kinds: values at a direction, integrals, and the
-// Gram matrix, over the sphere or a hemisphere. Fits use nothing else.
+// The basis functions of a probe. All kinds of bases have the same interface: values at a direction,
+// integrals, and the Gram matrix, over the sphere or a hemisphere. Fits use only this interface.
 #pragma once
 
 #include <nook/nook_probe.h>
@@ -22,11 +22,11 @@ inline constexpr std::uint32_t dice_vertices = 12;
 enum class BasisKind : std::uint8_t { gaussians = 0, harmonics = 1, dice = 2 };
 enum class Domain : std::uint8_t { sphere = 0, hemisphere = 1 };
 
-// Plain data. Two fits can be merged if their bases compare equal.
+// A basis as plain data. Fits can be merged only if their bases compare equal.
 struct Basis {
   BasisKind kind = BasisKind::gaussians;
   Domain domain = Domain::sphere;
-  bool ambient = false;                          // Gaussians: the last function is a lobe of sharpness 0
+  bool ambient = false;                          // Gaussians: the last function is constant (sharpness 0)
   std::uint32_t order = 0;                       // harmonics: the highest band
   std::uint32_t count = 0;                       // functions
   Vec3 up{0, 0, 1};                              // the hemisphere's axis
@@ -36,32 +36,32 @@ struct Basis {
   bool operator==(const Basis&) const = default;
 };
 
-// Returns lobes with these axes, followed by one of sharpness 0 if ambient. Throws INVALID_ARGUMENT for what
-// check_basis rejects.
+// Returns a basis of lobes with these axes. If `ambient` is true, a constant lobe (sharpness 0) follows them.
+// Throws INVALID_ARGUMENT if check_basis rejects the basis.
 Basis gaussian_basis(std::span<const Vec3> axes, std::span<const float> sharpnesses, bool ambient,
                      Domain domain = Domain::sphere, Vec3 up = {0, 0, 1});
-// Returns the default set: a Vogel spiral of `lobes`, all with even_sharpness.
+// Returns the default basis: `lobes` lobes on a Vogel spiral, all with the sharpness even_sharpness.
 Basis vogel_basis(std::uint32_t lobes, bool ambient = false, Domain domain = Domain::sphere,
                   Vec3 up = {0, 0, 1});
 Basis harmonic_basis(std::uint32_t order, Domain domain = Domain::sphere, Vec3 up = {0, 0, 1});
 Basis dice_basis(Domain domain = Domain::sphere, Vec3 up = {0, 0, 1});
 
-// Returns half the number of lobes on the sphere, 6 for 12, with which neighbours overlap alike at every
-// count.
+// Returns half the number of lobes that the whole sphere would have, for example 6 for 12 lobes on the
+// sphere. With this sharpness, neighbouring lobes overlap by the same amount for every number of lobes.
 float even_sharpness(std::uint32_t lobes, Domain domain);
 
-// Throws Failure(code) if a count, axis or sharpness is out of range, or if no fit can separate two lobes;
-// the message names both.
+// Throws Failure(code) if a count, axis or sharpness is out of range, or if two lobes are so similar that no
+// fit can separate them. The message then names both lobes.
 void check_basis(const Basis& basis, nook_result code);
 
-// values[i] = B_i(direction), for all `count` functions. direction must be unit.
+// Sets values[i] = B_i(direction) for all `count` functions. The direction must be a unit vector.
 void evaluate_basis(const Basis& basis, Vec3 direction, float* values);
 void evaluate_basis(const Basis& basis, const double direction[3], double* values);
 
 double domain_area(Domain domain);
 
-// Fills integral[i] with the integral of B_i and gram[i * count + k] with the integral of B_i B_k, over the
-// domain.
+// basis_integrals returns the integral of each B_i over the domain. basis_gram returns the Gram matrix; its
+// element i * count + k is the integral of B_i B_k over the domain.
 Vector<double> basis_integrals(const Basis& basis, Memory* memory = default_memory());
 Vector<double> basis_gram(const Basis& basis, Memory* memory = default_memory());
 

@@ -1,5 +1,6 @@
 // Computes integrals of a basis over its domain, in closed form where one exists. Lobes that the horizon cuts
-// need one-dimensional quadrature, and the smooth functions of the other kinds a product rule.
+// are integrated by one-dimensional quadrature. The other kinds of basis functions are integrated by a
+// product rule.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,18 +17,20 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 constexpr GaussLegendre<64> rule;
-// Exact for products of two harmonics, which are polynomials of degree 2 max_order.
+// This rule is exact for products of two harmonics, which are polynomials of degree 2 max_order.
 constexpr GaussLegendre<16> harmonics_rule;
 static_assert(2 * max_order < 2 * std::tuple_size_v<decltype(harmonics_rule.node)>);
 
-// Integral of e^(sharpness (t - 1)) over t in [1 - depth, 1], times 2 pi: a lobe over a cap round its axis.
+// Returns the integral of a lobe over a cap around its axis: 2 pi times the integral of e^(sharpness (t - 1))
+// over t in [1 - depth, 1].
 double cap_integral(double sharpness, double depth) {
   return 2 * pi * (sharpness < 1e-15 ? depth : -std::expm1(-sharpness * depth) / sharpness);
 }
 
-// Integral of a lobe over the hemisphere whose axis is at `cosine` from the lobe's axis. The circle at angle
-// a around the lobe's axis is complete up to a = |90 degrees - tilt|, then the horizon cuts it, then it is
-// empty. For a lobe below the horizon the order is reversed.
+// Returns the integral of a lobe over a hemisphere. `cosine` is the cosine between the lobe's axis and the
+// axis of the hemisphere. The function integrates over circles around the lobe's axis. Circles with angles up
+// to |90 degrees - tilt| lie completely in the hemisphere; then the horizon cuts them; the remaining ones lie
+// outside. For a lobe below the horizon, the order is reversed.
 double hemisphere_integral(double sharpness, double cosine) {
   const double tilt = std::acos(std::clamp(cosine, -1.0, 1.0));
   const double first = std::abs(pi / 2 - tilt), last = pi - first;
@@ -39,8 +42,8 @@ double hemisphere_integral(double sharpness, double cosine) {
   const double end = std::min(last, std::acos(1 - depth));
   if (!(end > first)) return whole;
   const double cotangent = cosine / std::max(std::sqrt(1 - cosine * cosine), 1e-300);
-  // angle = first + (end - first) (1 - cos u) / 2: the arc begins and ends like a square root, which this
-  // makes smooth.
+  // Substitutes angle = first + (end - first) (1 - cos u) / 2. The length of the arc above the horizon begins
+  // and ends like a square root, and the substitution makes the integrand smooth there.
   const double cut = rule(0, pi, [&](double u) {
     const double angle = first + (end - first) * (1 - std::cos(u)) / 2;
     const double half_arc = std::acos(std::clamp(-cotangent / std::tan(angle), -1.0, 1.0));
@@ -59,8 +62,8 @@ double gaussian_inner(const Basis& basis, std::uint32_t i, std::uint32_t k) {
          hemisphere_integral(shape.sharpness, shape.sharpness > 0 ? along / shape.sharpness : 1);
 }
 
-// Calls visit(values, weight) at the points of a product rule over the domain. It has N circles of 2 N points
-// and is exact for polynomials of degree 2 N - 1.
+// Calls visit(values, weight) at the points of a product rule over the domain. The rule has N circles of 2 N
+// points and is exact for polynomials of degree 2 N - 1.
 template <int N, class Visit>
 void over_circles(const GaussLegendre<N>& heights, const Basis& basis, Visit&& visit) {
   constexpr std::size_t azimuths = 2 * N;
@@ -86,7 +89,7 @@ void over_circles(const GaussLegendre<N>& heights, const Basis& basis, Visit&& v
   }
 }
 
-// Integrates over the directions of the basis' domain. The functions of dice have edges, so they need many
+// Integrates over the domain of the basis. The functions of ambient dice are not smooth, so they need many
 // points.
 template <class Visit>
 void over_domain(const Basis& basis, Visit&& visit) {

@@ -8,8 +8,8 @@
 
 namespace nook::probe {
 
-// Works column by column. The rows below a column subtract it independently, so their sums do not wait for
-// each other.
+// Works column by column. The rows below a column subtract the column independently of each other, so the
+// processor can overlap their sums.
 std::uint32_t cholesky(double* a, std::uint32_t n, double relative) {
   std::array<double, max_functions> diagonal, column;
   for (std::size_t i = 0; i < n; ++i) diagonal[i] = a[i * n + i];
@@ -48,8 +48,8 @@ void cholesky_solve(const double* l, std::uint32_t n, double* x, std::uint32_t s
 
 namespace {
 
-// Solves only for the variables of `set`; the others are 0. It removes a variable that depends on the ones
-// before it, and returns the set's new size.
+// Solves only for the variables in `set`; all others are 0. Removes variables that depend linearly on earlier
+// ones from the set, and returns its new size.
 std::uint32_t solve_subset(const double* g, const double* b, std::uint32_t n, std::uint32_t* set,
                            std::uint32_t size, double* answer, double* scratch) {
   for (;;) {
@@ -79,7 +79,8 @@ void non_negative_solve(const double* g, const double* b, std::uint32_t n, doubl
     x[i] = 0;
     largest = std::fmax(largest, std::abs(b[i]));
   }
-  // Each round lowers the error, so no set comes twice. The bound guards only against rounding.
+  // Each round lowers the error, so no set of variables can occur twice. The limit on rounds is needed only
+  // because of rounding errors.
   for (std::uint32_t round = 0; round < 8 * n; ++round) {
     std::uint32_t best = n;
     for (std::uint32_t i = 0; i < n; ++i) {
@@ -91,9 +92,9 @@ void non_negative_solve(const double* g, const double* b, std::uint32_t n, doubl
     set[size++] = best;
     used[best] = true;
     for (;;) {
-      // A variable that is a mixture of the ones in use stays at 0 and is not tried again.
+      // A variable that depends linearly on the variables in use stays at 0 and is not tried again.
       size = solve_subset(g, b, n, set.data(), size, answer, scratch);
-      // Steps towards the answer as far as all variables stay non-negative.
+      // Moves towards the solution of the subset, but only so far that all variables stay non-negative.
       double step = 1;
       std::uint32_t blocking = size;
       for (std::uint32_t i = 0; i < size; ++i) {

@@ -23,10 +23,10 @@ const FitKernels* fit_kernels(Isa isa) {
 namespace {
 
 constexpr float padding_sharpness = 1e4f;
-// If a pivot of the Gram matrix is below this share of its diagonal, the coefficients would only be rounding
-// errors.
+// If a pivot of the Gram matrix is below this fraction of its diagonal element, the fit is rejected: its
+// coefficients would be nothing but rounding errors.
 constexpr double smallest_pivot = 1e-9;
-// Below this share, float sums need orthonormal functions.
+// If a pivot is below this fraction, float sums are too inexact, and the fit uses orthonormal functions.
 constexpr double least_plain_pivot = 0.01;
 
 void check_settings(const Basis& basis, const FitSettings& settings) {
@@ -41,7 +41,7 @@ void check_settings(const Basis& basis, const FitSettings& settings) {
                   int(settings.method));
 }
 
-// Rows of floats in the order of the fit, to which lobes_ and running_ point. The whitening matrix is stored
+// The rows of `floats_`, in order. lobes_ and running_ point to these rows. The whitening matrix is stored
 // after them.
 enum Row : std::uint32_t { axis_x, axis_y, axis_z, sharpness, true_square, inverse_mean, rows };
 
@@ -70,7 +70,8 @@ Fit::Fit(const Basis& basis, const FitSettings& settings, Memory* memory)
   whitening_ = row(rows);
   state_ = AlignedArray<double>(state_size(), memory);
   spare_ = AlignedArray<double>(state_size(), memory);
-  // Whitening works on four rows at a time, and the plain step on padded rows.
+  // Whitening processes four rows at a time, and the plain step processes padded rows, so there are more rows
+  // than functions.
   values_ = AlignedArray<float>(std::size_t(padded_) * sample_chunk, memory);
   recent_ = AlignedArray<RecentSamples>(1, memory);
   samples_ = AlignedArray<SampleColumns>(1, memory);
@@ -109,7 +110,7 @@ void Fit::prepare_gram(Memory* memory) {
   prepare_whitening(constants + std::size_t(rows) * padded_);
 }
 
-// sqrt(a) L^-1, column by column.
+// Computes the whitening matrix sqrt(a) L^-1, column by column.
 void Fit::prepare_whitening(float* whitening) const {
   const std::uint32_t n = basis_.count;
   std::array<double, max_functions> column;

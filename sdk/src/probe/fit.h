@@ -1,18 +1,20 @@
-// Least-squares fits of a basis to samples of radiance while they arrive. nook_probe.h describes the methods.
-// All of them add samples, give coefficients at any time, and merge.
+// Incremental least-squares fits of a basis to samples of radiance. nook_probe.h describes the methods. With
+// every method, you can add samples, read coefficients at any time, and merge fits.
 //
-// The fast step of running averages is recursive least squares by blocks of samples. Of the samples before a
-// block it knows the coefficients b and the weight W. It assumes that their Gram matrix is the true one, G,
-// divided by the domain's area a. The block itself has the sums S, of products of functions, and m, of
-// functions times radiance:
+// The fast step of running averages is recursive least squares, applied to blocks of samples. From the
+// samples before a block, it keeps only the coefficients b and the total weight W. It assumes that the
+// normalised Gram matrix of these samples is G / a, where G is the Gram matrix over the domain and a is the
+// domain's area. For the block itself, it has the sums S (products of functions) and m (functions times
+// radiance):
 //   (W G / a + S) (b' - b) = m - S b.
-// Each block solves one system, and no sample can make it overshoot. Its errors tend to the errors of batch
-// least squares; docs/probes.md has measurements. The plain step, as published, divides only by each
-// function's own square. If functions overlap, its slowest direction forgets the start with a power of n
-// below 1/2.
+// Each block solves one linear system, and no sample can make the result overshoot. The errors converge to
+// the errors of batch least squares; docs/probes.md has measurements. The plain step, as published, divides
+// only by the mean square of each function. If functions overlap, the initial value is forgotten slowly:
+// along the slowest direction, its share decreases only as n^-p with p below 1/2.
 //
-// Sums of a chunk are floats, whose rounding a nearly singular Gram matrix would magnify. If functions are
-// that similar, sums are over orthonormal functions u = sqrt(a) L^-1 B with G = L L^T instead.
+// The sums over a chunk of samples are floats, and a nearly singular Gram matrix would magnify their rounding
+// errors. If functions are that similar, the sums use the orthonormal functions u = sqrt(a) L^-1 B instead,
+// where G = L L^T.
 #pragma once
 
 #include <nook/nook_probe.h>
@@ -46,11 +48,11 @@ enum class Constraint : std::uint8_t { bands = 0, none = 1 };
 
 struct FitSettings {
   FitMethod method = FitMethod::least_squares;
-  Step step = Step::fast;  // for running averages other than the original form
+  Step step = Step::fast;  // for all running averages except the original form
   Constraint constraint = Constraint::bands;
   Denominator denominator = Denominator::lockstep;  // of the plain step
-  float growing_samples = 0;                        // sample k is weighted 1 - exp(-k / this) more; 0: as it
-                                                    // is
+  // If not 0, the weight of sample k is multiplied by 1 - exp(-k / growing_samples).
+  float growing_samples = 0;
   nook_isa isa = NOOK_ISA_AUTO;
 };
 
@@ -59,9 +61,9 @@ constexpr bool is_running(FitMethod method) {
          method == FitMethod::running_average_non_negative;
 }
 
-// Weights are 1 on average. For this many samples, the weight so far counts as at least their number.
-// Samplers by luminance draw samples of tiny weight and huge radiance. If the first sample were one, a
-// running average would need thousands of samples to forget it.
+// Weights should be 1 on average. The total weight is raised to the number of samples, but at most to this
+// limit, if it is lower. The reason: importance sampling by luminance can yield a sample with a tiny weight
+// and a huge radiance. If it came first, a running average would need thousands of samples to forget it.
 inline constexpr double first_weight = 256;
 
 // Returns true if coefficients are constrained to the light's bands 0 to 2 (fit_bands.h). This applies to
@@ -71,7 +73,7 @@ constexpr bool meets_bands(const Basis& basis, const FitSettings& settings) {
          settings.method != FitMethod::naive && settings.method != FitMethod::running_average_original;
 }
 
-// Returns true if the samples also estimate the functions' own bands.
+// Returns true if bands 0 to 2 of the basis functions are also estimated from the samples.
 constexpr bool has_sampled_bands(const Basis& basis, const FitSettings& settings) {
   return meets_bands(basis, settings) && basis.domain == Domain::sphere &&
          (settings.method == FitMethod::least_squares ||
@@ -80,7 +82,7 @@ constexpr bool has_sampled_bands(const Basis& basis, const FitSettings& settings
 
 struct SampleCounts {
   std::uint64_t used = 0;
-  double expected_weight = 0;  // of the first samples, if each weight were 1 before it grows
+  double expected_weight = 0;  // sum of growth factors of the first samples
   std::uint64_t bad_direction = 0;
   std::uint64_t bad_radiance = 0;
   std::uint64_t bad_weight = 0;
@@ -92,24 +94,26 @@ struct SampleCounts {
 
 class Fit {
  public:
-  // Throws what check_basis throws, also if several functions are linearly dependent. Throws UNSUPPORTED for
-  // an instruction set that the processor lacks.
+  // Throws what check_basis throws, and the same failure if several functions are linearly dependent. Throws
+  // UNSUPPORTED if the processor does not have the chosen instruction set.
   Fit(const Basis& basis, const FitSettings& settings, Memory* memory = default_memory());
 
-  // directions and radiance have three floats for each entry; if weights is null, all weights are 1.
-  // Allocates nothing. The result has the same bits however the samples are split over calls. A call with few
-  // samples only copies them. They are checked and counted when a group is full, or when they are needed.
+  // `directions` and `radiance` have three floats per sample. If `weights` is null, all weights are 1.
+  // Allocates nothing. The result is bit-identical regardless of how the samples are split into calls. A call
+  // with few samples only copies them. They are checked and counted later, when a group is full or when a
+  // result is needed.
   void add_samples(const float* directions, const float* radiance, const float* weights, std::size_t count);
-  // Starts a running average that has no samples from short_run, which counts as much as its samples. Both
-  // functions throw INVALID_ARGUMENT for a fit of another basis; merge also does for other settings.
+  // Initialises a running average with the result of `short_run`, weighted by its total weight. The running
+  // average must not have samples yet. seed and merge throw INVALID_ARGUMENT if the other fit has a different
+  // basis. merge also throws if the settings differ.
   void seed(Fit& short_run);
   void merge(Fit& other);
   void reset();
 
-  // Reads one coefficient for each function; 0 before the first sample. Allocates nothing.
+  // Reads one coefficient per function. They are 0 before the first sample. Allocates nothing.
   void read(std::span<Vec3> coefficients);
-  // Reads the amplitudes for glossy reflection of the same samples, see gloss.h; 0 before the first sample.
-  // Only for Gaussians. Allocates nothing.
+  // Reads the amplitudes for glossy reflection, fitted to the same samples; see gloss.h. They are 0 before
+  // the first sample. Only for Gaussians. Allocates nothing.
   void read_gloss(std::span<Vec3> amplitudes);
 
   const Basis& basis() const { return basis_; }
@@ -117,12 +121,14 @@ class Fit {
   SampleCounts counts();
 
  private:
-  // What the samples add up to. If whitens_ is set, sums over functions use the orthonormal ones.
+  // The state that the samples accumulate. If whitens_ is set, sums over functions refer to the orthonormal
+  // functions.
   struct State {
     double* sums;          // 3 x padded moments; count x padded Gram of the samples
     double* coefficients;  // 3 x padded, of a running average
     double* square;        // padded; of its plain step in lockstep
-    // 3 x band_stride moments of the harmonics, then 9 x padded of function and harmonic; or NULL.
+    // 3 x band_stride moments of the harmonics, then 9 x padded sums of products of harmonic and function.
+    // NULL if bands are not needed.
     double* bands;
   };
   struct Gathered {
@@ -130,14 +136,15 @@ class Fit {
     SampleCounts counts;
   };
 
-  // Memory for `present`. It may belong to another fit of the same basis and settings.
+  // Memory for `present` to write to. It may belong to another fit with the same basis and settings.
   struct Room {
     double* state;
     double* solver;
     float* values;
   };
 
-  // The latest samples as the caller passed them, less than a group. read_group reads one float more.
+  // The latest samples, fewer than a group, as the caller passed them. The arrays are one float longer,
+  // because read_group reads one float beyond its input.
   struct RecentSamples {
     std::uint32_t count = 0;
     float directions[3 * sample_group + 1], radiance[3 * sample_group + 1], weights[sample_group];
@@ -150,11 +157,11 @@ class Fit {
   bool is_block() const;  // a running average by the fast step
   void append_recent(const float* directions, const float* radiance, const float* weights,
                      std::uint32_t count);
-  void take_recent();  // moves them to the other waiting samples
+  void take_recent();  // moves the latest samples to samples_
   void take_group(const float* directions, const float* radiance, const float* weights, std::uint32_t count);
   void keep(const SampleFaults& faults, std::uint32_t count);
-  void flush();                              // makes waiting samples part of the state
-  Gathered present(const Room& room) const;  // the state including them, with closed blocks
+  void flush();                              // adds the waiting samples to the state
+  Gathered present(const Room& room) const;  // the state including waiting samples, with blocks closed
   SampleCounts counts_with_waiting() const;
   void advance(SampleCounts& counts, std::uint32_t count) const;
   void absorb(std::uint32_t count, float* values, State into) const;
@@ -165,7 +172,7 @@ class Fit {
                    float* values, State into) const;
   void step_plainly(std::uint32_t count, float* values, State into) const;
   void total_weights(std::uint32_t count, float* total) const;
-  void unwhiten(State state) const;  // converts sums to the functions themselves
+  void unwhiten(State state) const;  // converts sums from orthonormal to basis functions
   void close_block(State state, const SampleCounts& counts, double* scratch) const;
   void join(State mine, State theirs, double share) const;
   void seed_bands(const Vec3* start);
@@ -179,12 +186,12 @@ class Fit {
 
   Basis basis_;
   FitSettings settings_;
-  SampleCounts counts_;  // without the weights of waiting samples
+  SampleCounts counts_;  // its weights do not include waiting samples
   const FitKernels* kernels_;
   std::uint32_t padded_;
   bool whitens_ = false;
-  double prior_weight_ = 0;    // of a seed
-  std::uint32_t waiting_ = 0;  // samples until a chunk is whole
+  double prior_weight_ = 0;    // weight of a seed
+  std::uint32_t waiting_ = 0;  // samples that wait until a chunk is full
   std::uint32_t open_ = 0;     // samples in the current block so far
   double closed_weight_ = 0;   // of the samples before the block
   LobeSoa lobes_;
@@ -202,13 +209,13 @@ class Fit {
   AlignedArray<double> scratch_;  // for solving
 };
 
-// A fit's solution as one matrix. If the Gram matrix is exact, coefficients depend linearly on what a fit
-// gathers, so a matrix product solves it.
+// Expresses the solution of a fit as one matrix. If the Gram matrix is exact, the coefficients depend
+// linearly on the sums of a fit, so a matrix product computes them.
 
-// Returns basis.count rows of basis.count + band_functions columns. Row i gives coefficient i of the method
-// `moments`. Its columns apply to the integrals over the sphere of the light times each function, then times
-// each harmonic of bands 0 to 2. Without the constraint, the last columns are 0. Only for Gaussians over the
-// sphere.
+// Returns a matrix of basis.count rows and basis.count + band_functions columns. Row i computes coefficient i
+// of the method `moments`. Multiply it by the integrals over the sphere of the light times each function,
+// followed by the integrals of the light times each harmonic of bands 0 to 2. Without the constraint, the
+// columns of the harmonics are 0. Only for Gaussians over the sphere.
 Vector<double> solution_map(const Basis& basis, Constraint constraint, Memory* memory = default_memory());
 
 }  // namespace nook::probe

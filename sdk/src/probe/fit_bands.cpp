@@ -14,7 +14,7 @@ static_assert(band_functions == harmonic_count(highest_band));
 
 constexpr double total_light = 1000;
 
-// For each harmonic: the square of its share of irradiance, relative to band 0.
+// Returns, for each harmonic, the square of its factor in irradiance, relative to band 0.
 constexpr std::array<double, band_functions> harmonic_weights() {
   std::array<double, band_functions> weights{};
   for (std::uint32_t l = 0, i = 0; l <= highest_band; ++l)
@@ -40,8 +40,8 @@ void project_functions(const Basis& basis, double* function) {
   }
 }
 
-// The minimum is b + K y with K = G^-1 C^T and (C K + 1 / weights) y = s - C b. These are nine equations,
-// well conditioned for any weight.
+// The minimum is b + K y, where K = G^-1 C^T and (C K + 1 / weights) y = s - C b. This is a system of nine
+// equations, which is well conditioned for any weight.
 void meet_bands(const LightBands& bands, const double* factor, std::uint32_t count, double weight,
                 double* b) {
   constexpr std::size_t rows = band_functions;
@@ -62,7 +62,7 @@ void meet_bands(const LightBands& bands, const double* factor, std::uint32_t cou
       system[j * rows + other] = sum;
     }
   }
-  if (cholesky(system.data(), rows, 0) < rows) return;  // functions that nearly vanish leave no valid digits
+  if (cholesky(system.data(), rows, 0) < rows) return;  // functions nearly vanish: no valid digits
   for (std::size_t channel = 0; channel < 3; ++channel)
     cholesky_solve(system.data(), rows, y.data() + channel, 3);
   for (std::size_t j = 0; j < rows; ++j)

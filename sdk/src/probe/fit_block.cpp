@@ -8,14 +8,15 @@
 namespace nook::probe {
 namespace {
 
-// What is known before a block counts at least as one sample of weight 1, and as this share of all. It is 0
-// at the start, or coefficients from a few samples. This keeps the first solutions small.
+// The coefficients before a block have at least the weight of one sample, and at least this fraction of the
+// total weight. At the start, they are 0 or come from only a few samples. The minimum weight keeps the first
+// solutions small.
 constexpr double least_before = 1;
 constexpr double least_share_before = 1.0 / 512;
 
 }  // namespace
 
-// The functions are B = L u / sqrt(a).
+// Uses that the basis functions are B = L u / sqrt(a).
 void Fit::unwhiten(State state) const {
   if (!whitens_) return;
   const std::uint32_t n = basis_.count;

@@ -1,6 +1,6 @@
-// The work that fits do for each sample, as a table of plain functions for each instruction set. All arrays
-// belong to the caller. Rows are padded to `padded` numbers, a multiple of simd_width; numbers after `count`
-// have no effect. None allocates, locks or throws.
+// The per-sample work of fits. Each instruction set has a table of plain functions. All arrays belong to the
+// caller. Rows are padded to `padded` values, a multiple of simd_width. Values at `count` and beyond have no
+// effect. The functions do not allocate, lock or throw.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace nook::probe {
 
-// How many samples go through the kernels at once, and how many are read at once, as whole vectors.
+// The number of samples that kernels process at once, and the number of samples that are read at once. Both
+// are whole SIMD vectors.
 inline constexpr std::uint32_t sample_chunk = 256;
 inline constexpr std::uint32_t sample_group = 64;
 inline constexpr std::uint32_t sample_vector = 16;
@@ -28,10 +29,10 @@ struct SampleColumns {
   float x[capacity], y[capacity], z[capacity];  // unit directions
   float red[capacity], green[capacity], blue[capacity];
   float weight[capacity];
-  float growth[capacity];  // what a weight of 1 has grown to
+  float growth[capacity];  // factor that growing_samples applies to the weight
 };
 
-// One bit for each sample of a group, the first lowest.
+// One bit for each sample of a group. The first sample is the lowest bit.
 struct SampleFaults {
   std::uint64_t direction = 0;  // not unit, or below the horizon
   std::uint64_t radiance = 0;   // not finite, or beyond the bound
@@ -39,7 +40,8 @@ struct SampleFaults {
   std::uint64_t empty = 0;      // the weight is 0
 };
 
-// Lobes in structure-of-arrays form. Padding has axis 0 and a sharpness that makes it vanish.
+// Lobes in structure-of-arrays form. Lobes that are padding have the axis 0 and a sharpness for which their
+// value vanishes.
 struct LobeSoa {
   const float* x = nullptr;
   const float* y = nullptr;
@@ -48,21 +50,22 @@ struct LobeSoa {
   std::uint32_t padded = 0;
 };
 
-// A running average in the form that the plain and the original step read. Adding small changes to large
-// float sums would lose them, so `change` collects the changes of a chunk, and the owner adds them in double.
+// A running average as the plain and the original step read it. A float sum would lose small changes, so
+// `change` collects the changes during a chunk, and the owner adds them to its coefficients in double
+// precision.
 struct RunningView {
   std::uint32_t count = 0;
   std::uint32_t padded = 0;
   float* value[3] = {nullptr, nullptr, nullptr};   // the coefficients, one row per channel
-  float* change[3] = {nullptr, nullptr, nullptr};  // since the chunk began
+  float* change[3] = {nullptr, nullptr, nullptr};  // changes since the chunk began
   float* square = nullptr;                         // the mean of B_i^2 over the samples
-  const float* true_square = nullptr;              // and over the domain
+  const float* true_square = nullptr;              // the mean of B_i^2 over the domain
   const float* inverse_mean = nullptr;             // 1 / mean of B_i over the domain
 };
 
-// Functions u = W B that are orthonormal over the domain, except for the factor of its area. W is lower
-// triangular. It is stored four rows at a time up to their last column, column by column, with 0 where a row
-// has no entry.
+// Whitening computes the functions u = W B, which are orthonormal over the domain except for a factor, the
+// domain's area. W is lower triangular. It is stored in groups of four rows. A group is stored column by
+// column, up to the last column of its rows, with 0 where a row has no entry.
 constexpr std::uint32_t whitening_size(std::uint32_t functions) {
   const std::uint32_t blocks = (functions + 3) / 4;
   return 8 * blocks * (blocks + 1);
@@ -72,56 +75,61 @@ struct FitKernels {
   Isa isa = Isa::scalar;
   const char* name = nullptr;
 
-  // Converts `count` entries, at most a group, to columns from `first` on. directions and radiance have three
-  // floats for each; weights may be NULL. Directions become unit. Reads whole vectors and one float more. up:
-  // the hemisphere's axis; NULL for the sphere. Faulty samples become columns too.
+  // Converts `count` samples, at most a group, to columns, beginning at column `first`. `directions` and
+  // `radiance` have three floats per sample; `weights` may be NULL. Directions are normalised. The function
+  // reads whole vectors and one float more. `up` is the axis of the hemisphere, or NULL for the sphere.
+  // Faulty samples are also written to columns; the result marks them.
   SampleFaults (*read_group)(const float* directions, const float* radiance, const float* weights,
                              const float* up, std::uint32_t count, SampleColumns& samples,
                              std::uint32_t first);
 
-  // sums[0] += w, sums[1 + c] += w v_c, each by a float.
+  // Adds to four sums: sums[0] += w and sums[1 + c] += w v_c. The sum over the samples of one call is a
+  // float.
   void (*sum_light)(const SampleColumns& samples, std::uint32_t count, double* sums);
 
-  // Writes the square root of each weight, and the radiance times it as three rows.
+  // Writes the square root of each weight to `scale`, and the radiance times this square root to `light`, as
+  // three rows.
   void (*light_rows)(const SampleColumns& samples, std::uint32_t count, float* scale, float* light);
-  // Write values as rows of samples, values[i * sample_chunk + sample], each times the sample's `scale`, for
-  // `count` samples and the rest of their pair of vectors. The first is for `functions` lobes, within 2e-6 of
-  // the exponential, relative (1e-7 times the sharpness of lobes from 16 to 80 above). The second is for the
-  // nine harmonics of bands 0 to 2.
+  // These functions evaluate basis functions. They write one row per function, values[i * sample_chunk +
+  // sample], and multiply each value by the sample's `scale`. They write `count` samples, rounded up to pairs
+  // of vectors. gaussian_rows evaluates `functions` lobes. Its relative error is at most 2e-6 (1e-7 times the
+  // sharpness of lobes from 16 to 80 above). harmonic_rows evaluates the nine harmonics of bands 0 to 2.
   void (*gaussian_rows)(const LobeSoa& lobes, std::uint32_t functions, const SampleColumns& samples,
                         const float* scale, std::uint32_t count, float* values);
   void (*harmonic_rows)(const SampleColumns& samples, const float* scale, std::uint32_t count, float* values);
-  // Writes the lobes sample by sample and without a scale: values[sample * padded + i], padding included.
+  // Like gaussian_rows, but without a scale, and with one row per sample: values[sample * padded + i].
+  // Padding is written too.
   void (*gaussian_values)(const LobeSoa& lobes, const SampleColumns& samples, std::uint32_t count,
                           float* values);
-  // Turns rows of values into rows of the orthonormal functions.
+  // Converts rows of basis functions to rows of orthonormal functions, in place.
   void (*whiten_rows)(const float* whitening, std::uint32_t functions, std::uint32_t count, float* values);
 
-  // sums[k * stride + i] += the product of row i of `left` and row k of `right`, over the samples. With
-  // `triangle`, at least the sums for i <= k are computed. Each sum of a chunk is a float, accurate to 1e-7
-  // of the absolute sum.
+  // Adds the dot product of row i of `left` and row k of `right`, over the samples, to sums[k * stride + i].
+  // If `triangle` is set, sums with i > k need not be computed. The sum over a chunk is a float, accurate to
+  // 1e-7 of the sum of absolute values.
   void (*sum_products)(const float* left, std::uint32_t left_rows, const float* right,
                        std::uint32_t right_rows, std::uint32_t count, bool triangle, double* sums,
                        std::uint32_t stride);
 
-  // These take one step of a running average for each sample in turn. R is the fit before the step, w the
-  // sample's weight, and W `total`: the sum of weights including w, at first at least their number. plain:
-  // b_i += w / W (B_i (v - R + b_i B_i) / D_i - b_i). D_i is true_square, in lockstep at least `square`.
+  // These functions take one step of a running average for each sample in turn. R is the value of the fit
+  // before the step, and w is the sample's weight. W is `total`: the sum of all weights including w, for the
+  // first samples at least their number. The plain step is b_i += w / W (B_i (v - R + b_i B_i) / D_i - b_i).
+  // D_i is true_square, or in lockstep the larger of true_square and `square`.
   void (*step_plain)(const RunningView& fit, const SampleColumns& samples, const float* total,
                      std::uint32_t count, const float* values, bool lockstep, bool non_negative);
-  // original: b_i += w / W B_i (v - R) inverse_mean_i.
+  // The original step is b_i += w / W B_i (v - R) inverse_mean_i.
   void (*step_original)(const RunningView& fit, const SampleColumns& samples, const float* total,
                         std::uint32_t count, const float* values);
 };
 
-// Returns the table of one instruction set, or NULL if the processor or the build lacks it. choose_isa
-// returns an available one.
+// Returns the table of one instruction set, or NULL if the processor or the build does not support it.
+// choose_isa returns an instruction set that is available.
 const FitKernels* fit_kernels(Isa isa);
 
 }  // namespace nook::probe
 
-// The table of each instruction set's translation unit. Use a table only on a processor that has the
-// instruction set.
+// Declares the table that each instruction set's translation unit defines. Use a table only if the processor
+// has the instruction set.
 #define NOOK_ISA_ENTRY(name, value, built, runs) \
   namespace nook::isa_##name {                   \
     const probe::FitKernels& fit_kernels();      \

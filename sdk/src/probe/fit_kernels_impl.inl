@@ -24,7 +24,7 @@ struct Colour {
   Float r, g, b;
 };
 
-// The difference between the sample's radiance and the fit.
+// The sample's radiance minus the value of the fit.
 struct Residual {
   float r, g, b;
 };
@@ -41,7 +41,7 @@ Residual residual_of(const RunningView& fit, const SampleColumns& samples, std::
   return {samples.red[k] - sum(sums.r), samples.green[k] - sum(sums.g), samples.blue[k] - sum(sums.b)};
 }
 
-// Adds `gain` to channel c of function i and remembers it.
+// Adds `gain` to channel c of function i, and to its collected change.
 void gain_at(const RunningView& fit, std::uint32_t c, std::uint32_t i, Float gain) {
   store(fit.value[c] + i, load(fit.value[c] + i) + gain);
   store(fit.change[c] + i, load(fit.change[c] + i) + gain);

@@ -1,10 +1,11 @@
 // Converts callers' samples to columns and sums them. A part of fit_kernels_impl.inl.
 
-// The smallest numbers above the bounds; the bounds themselves are allowed. NaN is not below them.
-constexpr float above_max_sample = 1.00000006e18f;    // of radiance and weight: sums of squares stay finite
+// The smallest floats above the limits; the limits themselves are allowed. A comparison "below" is false for
+// NaN, so NaN is rejected too.
+constexpr float above_max_sample = 1.00000006e18f;    // radiance and weight: sums of squares stay finite
 constexpr float above_length_error = 2.00000033e-3f;  // of the squared length of a direction
 
-// Splits records of three floats into three columns. Reads one float beyond the last record.
+// Converts records of three floats to three columns. Reads one float beyond the last record.
 void split_records(const float* records, std::uint32_t count, float* x, float* y, float* z) {
   for (std::uint32_t k = 0; k < count; k += 4, records += 12) {
     Four a = load_four(records), b = load_four(records + 3), c = load_four(records + 6),
@@ -20,14 +21,14 @@ Float magnitude(Float a) {
   return max(a, broadcast(0.0f) - a);
 }
 
-// Returns bits of the lanes where a is not below b, or where one of them is NaN.
+// Returns a bit mask of the lanes in which a >= b, or a or b is NaN.
 std::uint32_t not_below(Float a, Float b) {
   constexpr std::uint32_t all = (std::uint32_t(1) << width) - 1;
   return ~std::uint32_t(bits(less(a, b))) & all;
 }
 
-// Makes directions unit by two Newton steps from 1, and returns the bits of directions that are not nearly
-// unit.
+// Normalises directions by two Newton steps that start at 1. Returns a bit mask of the directions whose length
+// was not close to 1.
 std::uint32_t make_unit(const float* up, float* px, float* py, float* pz) {
   const Float x = load(px), y = load(py), z = load(pz);
   const Float length2 = fma(x, x, fma(y, y, z * z));
@@ -45,7 +46,8 @@ std::uint32_t make_unit(const float* up, float* px, float* py, float* pz) {
   return bad;
 }
 
-// Splits all records before it checks any: loading what several smaller stores have just written would stall.
+// Converts all records before it checks any, because loading a vector that several smaller stores have just
+// written would stall the processor.
 SampleFaults read_group(const float* directions, const float* radiance, const float* weights, const float* up,
                         std::uint32_t count, SampleColumns& samples, std::uint32_t first) {
   float *const x = samples.x + first, *const y = samples.y + first, *const z = samples.z + first;

@@ -1,13 +1,13 @@
 // Sums of products over the samples of a chunk. A part of fit_kernels_impl.inl.
 
-// Returns the four vectors' sums over their lanes.
+// Returns four sums, each over the lanes of one vector.
 NOOK_INLINE Four sums_of(Float first, Float second, Float third, Float fourth) {
   Four a = folded(first), b = folded(second), c = folded(third), d = folded(fourth);
   transpose(a, b, c, d);
   return (a + b) + (c + d);
 }
 
-// Adds the lanes' sums of Left vectors to `sums`.
+// Adds the sum over the lanes of each of Left vectors to `sums`.
 template <std::uint32_t Left>
 NOOK_INLINE void add_sums(const Float (&total)[Left], double* sums) {
   float sum_of[Left];
@@ -18,7 +18,7 @@ NOOK_INLINE void add_sums(const Float (&total)[Left], double* sums) {
   for (std::uint32_t i = 0; i < Left; ++i) sums[i] += double(sum_of[i]);
 }
 
-// Keeps Left by Right sums in registers, over at least one vector.
+// Computes a tile of Left x Right sums in registers. There must be at least one vector of samples.
 template <std::uint32_t Left, std::uint32_t Right>
 void block_products(const float* left, const float* right, std::uint32_t end, double* sums,
                     std::uint32_t stride) {

@@ -1,7 +1,8 @@
 // Values of the functions at the samples' directions. A part of fit_kernels_impl.inl.
 
-// Up to this sharpness, the exponent is sharpness (dot(d, axis) - 1); its error is the rounding of 1 times
-// the sharpness. Above, the exponent uses half of the squared distance, whose error is relative.
+// Up to this sharpness, the exponent is computed as sharpness (dot(d, axis) - 1). Its absolute error is the
+// rounding error of 1, times the sharpness. For sharper lobes, the exponent uses half of the squared distance
+// between d and axis instead, which has only a relative error.
 constexpr float widest_of_distance = 16;
 
 constexpr float log2_of_e = 1.44269504f;
@@ -83,8 +84,8 @@ void gaussian_values(const LobeSoa& lobes, const SampleColumns& samples, std::ui
   }
 }
 
-// Turns the functions of two vectors of samples into orthonormal ones in place. It goes from the last to the
-// first, because each needs only earlier ones.
+// Converts the functions of two vectors of samples to orthonormal functions in place. It goes from the last
+// function to the first, because each result needs only its own and earlier functions.
 void whiten(const float* whitening, std::uint32_t functions, float* values) {
   for (std::uint32_t block = (functions + 3) / 4; block-- > 0;) {
     const float* factor = whitening + 8 * block * (block + 1);

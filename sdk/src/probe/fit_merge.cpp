@@ -1,4 +1,4 @@
-// Fits that start from others, join them, or start anew.
+// Initialises fits from other fits, merges them, and resets them.
 #include <algorithm>
 #include <array>
 
@@ -39,13 +39,13 @@ void Fit::seed(Fit& short_run) {
   if (state.bands) seed_bands(start.data());
 }
 
-// Adds the bands that samples of the start itself would have left.
+// Sets the sums of bands to the values that samples of the initial light itself would have left.
 void Fit::seed_bands(const Vec3* start) {
   std::array<double, band_functions * max_functions> function;
   project_functions(basis_, function.data());
   const double scale = prior_weight_ / domain_area(basis_.domain);
   double* const bands = state_at(state_.data()).bands;
-  std::fill_n(bands, 3 * std::size_t(band_stride), 0.0);  // removes an earlier start's
+  std::fill_n(bands, 3 * std::size_t(band_stride), 0.0);  // removes the sums of an earlier seed
   for (std::size_t j = 0; j < band_functions; ++j)
     for (std::uint32_t i = 0; i < basis_.count; ++i) {
       const double rgb[3] = {double(start[i].x), double(start[i].y), double(start[i].z)};
@@ -82,7 +82,7 @@ void Fit::merge(Fit& other) {
   }
 }
 
-// `share` is the weight of `theirs` in a mean.
+// Merges `theirs` into `mine`. Where the result is a mean, `share` is the weight of `theirs`.
 void Fit::join(State mine, State theirs, double share) const {
   if (is_running(settings_.method)) {
     for (std::size_t i = 0; i < 3 * std::size_t(padded_); ++i)

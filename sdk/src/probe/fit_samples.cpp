@@ -1,5 +1,5 @@
-// Takes samples into a fit. They wait until a chunk is full, so that neither the calls nor faulty samples
-// move the places where chunks begin.
+// Adds samples to a fit. Samples wait until a chunk is full. So the boundaries of chunks depend neither on
+// how the caller splits the samples into calls, nor on skipped faulty samples.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -21,18 +21,19 @@ void move_samples(SampleColumns& samples, std::uint32_t from, std::uint32_t coun
   for (const Column column : columns) std::copy_n(samples.*column + from, count, samples.*column + to);
 }
 
-// Faulty samples may be infinite.
+// Overwrites unused samples, because faulty samples may have left infinite values there.
 void clear_samples(SampleColumns& samples, std::uint32_t from, std::uint32_t to) {
   for (const Column column : columns)
     std::fill(samples.*column + from, samples.*column + to, column == &SampleColumns::growth ? 1.0f : 0.0f);
 }
 
-// A running average takes this many samples at once, so that solving a system costs little for each.
+// A running average processes this many samples at once, so that the cost of solving a system per sample is
+// small.
 constexpr std::uint32_t block_samples = 4 * sample_chunk;
 
 }  // namespace
 
-// A path tracer passes one sample a call, so this checks the short path first.
+// A path tracer passes one sample per call, so the path for few samples is checked first.
 void Fit::add_samples(const float* directions, const float* radiance, const float* weights,
                       std::size_t count) {
   RecentSamples& recent = recent_[0];
@@ -50,7 +51,7 @@ void Fit::add_samples(const float* directions, const float* radiance, const floa
     take_recent();
     advance_by(missing);
   }
-  // The last group is copied, because read_group reads a float beyond it.
+  // The last group is copied, because read_group reads one float beyond its input.
   while (count > sample_group) {
     take_group(directions, radiance, weights, sample_group);
     advance_by(sample_group);
@@ -86,7 +87,7 @@ void Fit::take_group(const float* directions, const float* radiance, const float
   keep(kernels_->read_group(directions, radiance, weights, up, count, samples_[0], waiting_), count);
 }
 
-// Closes the gaps that faulty samples leave in the last group.
+// Removes faulty samples from the last group by moving later samples forward.
 void Fit::keep(const SampleFaults& faults, std::uint32_t count) {
   if (count == 0) return;
   const std::uint64_t group = ~std::uint64_t(0) >> (sample_group - count);
@@ -179,7 +180,7 @@ void Fit::total_weights(std::uint32_t count, float* total) const {
   std::fill(total + count, total + sample_chunk, 1.0f);
 }
 
-// Lets the waiting samples change the state; the caller updates their counts.
+// Adds the waiting samples to a state. The caller updates the counts.
 void Fit::absorb(std::uint32_t count, float* values, State into) const {
   if (count == 0) return;
   const SampleColumns& samples = samples_[0];
@@ -209,8 +210,8 @@ void Fit::values_of(std::uint32_t count, std::uint32_t sample_stride, std::uint3
   }
 }
 
-// If it has a Gram matrix of its samples, least squares also sums the products of every function with every
-// harmonic. A light that lobes can represent exactly then leaves no noise in the bands.
+// If least squares uses the Gram matrix of its samples, it also sums the products of each function with each
+// harmonic. Then the bands have no noise for a light that the lobes can represent exactly.
 void Fit::sum_samples(std::uint32_t count, const float* scale, const float* light, const float* harmonics,
                       float* values, State into) const {
   const std::uint32_t n = basis_.count;

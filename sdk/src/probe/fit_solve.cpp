@@ -1,4 +1,4 @@
-// Computes coefficients from what a fit has gathered.
+// Computes coefficients from the sums of a fit.
 
 #include <algorithm>
 #include <array>
@@ -13,19 +13,23 @@
 namespace nook::probe {
 namespace {
 
-// This share of the true Gram matrix is added to the samples' matrix. Its effect is invisible.
+// This fraction of the true Gram matrix is added to the Gram matrix of the samples, as regularisation. Its
+// effect is invisible.
 constexpr double regularisation = 1e-8;
-// Samples determine the coefficients if each pivot of their Gram matrix is at least this share of the true
-// one's. The rounding of float sums, 1e-6 of the diagonal, lies below it.
+// The samples determine the coefficients if each pivot of their Gram matrix is at least this fraction of the
+// corresponding pivot of the true Gram matrix. Rounding errors of float sums, 1e-6 of the diagonal, are below
+// this limit.
 constexpr double least_share = 1e-4;
 
-// Huge samples of lobes that are nearly mixtures of each other have sums beyond floats; the result is then 0.
+// Returns 0 if the value exceeds the range of floats. This happens if radiance is huge and some lobes are
+// nearly linear combinations of others.
 float in_range(double value) {
   if (std::isnan(value)) return 0;
   return float(std::clamp(value, -double(max_coefficient), double(max_coefficient)));
 }
 
-// True if each pivot of a Cholesky factor is at least `share` of the other's.
+// Returns true if each pivot of a Cholesky factor is at least `share` times the corresponding pivot of
+// `other`.
 bool has_pivots(const double* factor, const double* other, std::uint32_t n, double share) {
   for (std::size_t i = 0; i < n; ++i) {
     const double pivot = factor[i * n + i], need = other[i * n + i];
@@ -76,8 +80,8 @@ void Fit::solve_moments(const Gathered& gathered, double* b) {
 }
 
 // Computes the Gram matrix of the samples and its Cholesky factor. With fewer samples than functions, or with
-// few directions, it is singular except for rounding. Then it adds more of the true matrix, which leads close
-// to the smallest of all exact answers.
+// few different directions, this matrix is singular except for rounding. Then a larger fraction of the true
+// matrix is added. The solution is then close to the smallest of all exact solutions.
 void Fit::factor_samples(const Gathered& gathered, double scale, double* gram, double* factor) const {
   const std::uint32_t n = basis_.count;
   const auto factor_with = [&](double prior) {
@@ -89,7 +93,7 @@ void Fit::factor_samples(const Gathered& gathered, double scale, double* gram, d
     return cholesky(factor, n, 0) == n;
   };
   if (factor_with(regularisation) && has_pivots(factor, factor_.data(), n, least_share * scale)) return;
-  // Without rounding, the samples would only increase the pivots.
+  // Without rounding errors, adding the samples' matrix could only increase the pivots.
   for (double prior = least_share; prior < 1; prior *= 10)
     if (factor_with(prior) && has_pivots(factor, factor_.data(), n, 0.9 * prior * scale)) return;
   factor_with(1);
@@ -121,9 +125,10 @@ void Fit::solve_samples(const Gathered& gathered, double* b) {
   }
 }
 
-// Finds the non-negative coefficients that are nearest to b in the mean square over the domain, and to the
-// light's bands. As b tends to least squares, they tend to non-negative least squares. With the plain step
-// and no bands they are b itself, because no sample leaves a negative coefficient.
+// Replaces b by non-negative coefficients. They minimise the mean squared difference from b over the domain,
+// plus the difference from the light's bands. If b converges to least squares, the result converges to
+// non-negative least squares. With the plain step and without bands, b does not change, because the plain
+// step never leaves a negative coefficient.
 void Fit::make_non_negative(const Gathered& gathered, double* b) {
   const std::uint32_t n = basis_.count;
   bool negative = false;
@@ -147,9 +152,9 @@ void Fit::make_non_negative(const Gathered& gathered, double* b) {
   }
 }
 
-// Fills moments, function by function, RGB, and returns the Gram matrix that belongs to them: the samples'
-// own where the method has it. A running average knows only coefficients, so that its own light gives the
-// moments.
+// Computes the moments, function by function as RGB, and returns the Gram matrix that belongs to them. If the
+// method sums a Gram matrix of its samples, it is this matrix. A running average keeps only coefficients, so
+// its moments are computed from the light that the coefficients represent.
 const double* Fit::gloss_moments(const Gathered& gathered, double* moments) {
   const std::size_t n = basis_.count;
   const double scale = domain_area(basis_.domain) / gathered.counts.weight;
@@ -198,8 +203,8 @@ double Fit::band_weight() const {
   return non_negative || basis_.domain == Domain::hemisphere ? soft_bands : exact_bands;
 }
 
-// Returns integrals of the light under each harmonic, and of the functions under it over the same directions.
-// Below a hemisphere's horizon, the light counts as dark.
+// Returns the integrals of the light times each harmonic, and of each function times each harmonic over the
+// same directions. Below the horizon of a hemisphere, the light is treated as black.
 LightBands Fit::light_bands(const Gathered& gathered) const {
   LightBands bands;
   const std::uint32_t n = basis_.count;
@@ -228,7 +233,8 @@ Vector<double> solution_map(const Basis& basis, Constraint constraint, Memory* m
   LightBands bands;
   project_functions(basis, bands.function.data());
   Vector<double> map(std::size_t(n) * columns, 0.0, memory);
-  // The channels of a fit are independent, so each can carry the unit vector of one column.
+  // The three channels of a fit are independent. So one solve computes three columns of the matrix: each
+  // channel contains the unit vector of one column.
   std::array<double, 3 * max_functions> b;
   for (std::uint32_t first = 0; first < columns; first += 3) {
     const std::uint32_t end = std::min(first + 3, columns);

@@ -9,7 +9,7 @@
 namespace nook::probe {
 namespace {
 
-// Sums k u^i v^j over i + j <= degree, j fastest.
+// Evaluates a polynomial: the sum of k u^i v^j over i + j <= degree, where j varies fastest.
 template <int degree>
 float polynomial(const double (&k)[(degree + 1) * (degree + 2) / 2], float u, float v) {
   int at = (degree + 1) * (degree + 2) / 2;
@@ -39,15 +39,16 @@ constexpr double pair_across_k[] = {NOOK_GGX_PAIR_ACROSS};
 constexpr double pair_along_k[] = {NOOK_GGX_PAIR_ALONG};
 constexpr double pair_sharpness_k[] = {NOOK_GGX_PAIR_SHARPNESS};
 
-// Returns the root of the isotropic width that stands for both.
+// Returns the square root of the isotropic width that replaces both widths.
 float mean_roughness(const Surface& surface) {
   return std::sqrt(std::sqrt(surface.alpha_x * surface.alpha_y));
 }
 
-// Returns a visible normal's stretched slopes as a unit vector. The view's stretched vector is `flat` along
-// the plane of incidence and `openness` up.
+// Returns a visible normal in the stretched space, where the distribution of slopes is isotropic, as a unit
+// vector. In this space, the view has the component `flat` along the plane of incidence and `openness`
+// upwards.
 Vec3 among_round_slopes(const SurfaceView& view, float across, float along) {
-  // The rim of the disc reflects along the horizon.
+  // Stays inside the rim of the disc, because normals at the rim reflect along the horizon.
   const float shrink = std::min(1.0f, 0.99f / std::max(std::hypot(across, along), 1e-6f));
   const float a = shrink * across, lifted = 0.5f + 0.5f * view.openness;
   const float b = (1 - lifted) * std::sqrt(1 - a * a) + lifted * shrink * along;
@@ -76,14 +77,15 @@ SurfaceView view_of(const Surface& surface) {
   view.stretched_x = surface.alpha_x * x / std::sqrt(view.alpha2_in_plane);
   view.stretched_y = surface.alpha_y * y / std::sqrt(view.alpha2_in_plane);
   view.openness = view.facing / std::sqrt(view.facing * view.facing + sine2 * view.alpha2_in_plane);
-  // Wide slopes across the plane leave fewer normals that lean far within it.
+  // If slopes across the plane are wide, fewer normals lean far within the plane.
   const float alpha2 = view.alpha2_in_plane * std::pow(view.alpha2_in_plane / view.alpha2_across, 0.1f);
   view.roughness_in_plane = std::sqrt(std::sqrt(std::min(alpha2, 1.0f)));
   return view;
 }
 
 float directional_albedo(const SurfaceView& view, const Surface& surface) {
-  // A surface that reflects everything, at the isotropic width that loses as much light between its slopes.
+  // The albedo of a surface that reflects all light. The isotropic width is the one that loses as much light
+  // to masking between the slopes.
   const float mean2 = 0.5f * (view.alpha2_in_plane + view.alpha2_across);
   const float away = 1 - view.facing;
   const float alpha2 = mean2 - 0.5f * away * away * away * (view.alpha2_in_plane - mean2);
@@ -117,7 +119,7 @@ void reflect(const SurfaceView& view, const Surface& surface, std::span<const Vi
              std::span<SphericalGaussian> lobes) {
   const float ax = surface.alpha_x, ay = surface.alpha_y;
   const Vec3 eye{view.view_x, view.view_y, view.facing};
-  const float masked = view.facing / view.openness;  // root of facing^2 + (slopes towards the eye)^2
+  const float masked = view.facing / view.openness;  // square root of facing^2 + (slopes towards the eye)^2
   float all = 0;
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const Vec3 slopes = among_round_slopes(view, normals[i].across, normals[i].along);

@@ -1,8 +1,9 @@
-// The reflection of a GGX surface as numbers that depend only on the view: its directional albedo, and a few
-// visible normals that stand for all.
+// The parts of a GGX surface's reflection that depend only on the view: the directional albedo, and a few
+// visible normals that represent all visible normals.
 //
-// tests/probe/ggx_fit.cpp fits the polynomials to quadrature over visible normals, for alpha 0.004 to 1 and
-// facing 0.02 to 1, and prints their coefficients. shaders/probe/ggx_reflection.glsl has the same functions.
+// tests/probe/ggx_fit.cpp fits the polynomials to a quadrature over visible normals, for alpha from 0.004 to
+// 1 and facing from 0.02 to 1, and prints their coefficients. shaders/probe/ggx_reflection.glsl has the same
+// functions.
 #pragma once
 
 #include <array>
@@ -22,42 +23,44 @@ struct Surface {
   float reflectance = 0.04f;  // at normal incidence
 };
 
-// A surface seen from a direction. The plane of incidence contains normal and view. If the view is along the
-// normal, any plane is right, and the tangent's is used.
+// A surface seen from a direction. The plane of incidence contains the normal and the view. If the view is
+// along the normal, every plane through the normal is correct, and the plane that contains the tangent is
+// used.
 struct SurfaceView {
   Vec3 tangent, bitangent;
   float view_x, view_y;  // dot(view, tangent), dot(view, bitangent)
   float facing;          // dot(normal, view), 1e-3 or more
-  float stretched_x;     // the same plane among round slopes: a unit vector along tangent and bitangent
+  float stretched_x;     // plane of incidence in stretched space, a unit vector along tangent and bitangent
   float stretched_y;
   float alpha2_in_plane;     // squared width of slopes within the plane
-  float alpha2_across;       // and at right angles to it
+  float alpha2_across;       // squared width of slopes across the plane
   float openness;            // facing / sqrt(facing^2 + (slopes towards the eye)^2): 0 where masked, 1 open
-  float roughness_in_plane;  // root of the isotropic alpha with the same tilt
+  float roughness_in_plane;  // square root of the isotropic alpha with the same tilt
 };
 SurfaceView view_of(const Surface& surface);
 
-// Returns the share of uniform light that leaves towards the eye, single scattering. It uses Smith masking
-// with correlated heights (E. Heitz, Understanding the Masking-Shadowing Function, 2014, equation 99) and
-// Schlick Fresnel. The isotropic form is within 5 % from reflectance 0.02 on; nook_probe.h has the rest.
+// Returns the fraction of uniform light that the surface reflects towards the eye, with single scattering. It
+// uses Smith masking with correlated heights (E. Heitz, Understanding the Masking-Shadowing Function, 2014,
+// equation 99) and Schlick Fresnel. For a reflectance of at least 0.02, the error of the isotropic form is at
+// most 5 %; nook_probe.h documents the other errors.
 float directional_albedo(const SurfaceView& view, const Surface& surface);
 
-// A normal that the eye sees, as a point of the unit disc in which all visible normals are evenly distributed
-// (E. Heitz, Sampling the GGX Distribution of Visible Normals, 2018). The mapping contains both widths and
-// the view. The normal stands for the normals around it.
+// A normal that the eye sees. It is given as a point of a unit disc, in which all visible normals are evenly
+// distributed (E. Heitz, Sampling the GGX Distribution of Visible Normals, 2018). The mapping depends on both
+// widths and on the view. The normal represents all normals near it.
 struct VisibleNormal {
   float across, along;  // at right angles to the plane of incidence, among round slopes, and within it
   float share;          // of the disc, relative to the others'
   float sharpness;      // of the lobe that the normals around it reflect, divided by the density of
                         // directions there
 };
-// middle_normal is for one lobe. The other is for four: two within the plane of incidence, and a pair beside
-// it.
+// middle_normal returns the normal for a single lobe. visible_normals returns four normals for four lobes:
+// two in the plane of incidence, and one on each side of it.
 VisibleNormal middle_normal(const SurfaceView& view, const Surface& surface);
 std::array<VisibleNormal, 4> visible_normals(const SurfaceView& view, const Surface& surface);
 
-// Replaces `lobes` by as many lobes that the normals reflect to the eye, with integral 1 together. Each is
-// weighted by its share and by the masking of the light.
+// Writes the lobes that the normals reflect towards the eye, one lobe for each normal, to `lobes`. Their
+// integrals sum to 1. Each lobe is weighted by the share of its normal and by the masking of the light.
 void reflect(const SurfaceView& view, const Surface& surface, std::span<const VisibleNormal> normals,
              std::span<SphericalGaussian> lobes);
 

@@ -15,10 +15,10 @@ void fit_gloss(const double* gram, const double* moment, std::uint32_t n, std::s
   for (std::size_t i = 0; i < n; ++i) {
     double row = 0;
     for (std::size_t k = 0; k < n; ++k) row += gram[i * n + k];
-    // Noise of few samples may leave a moment below 0.
+    // With few samples, noise may make a moment negative.
     least[i] = row > 0 ? std::max(least_gloss * moment[i * stride] / row, 0.0) : 0.0;
   }
-  // With the bounds taken off, the rest must only be non-negative.
+  // After subtracting the lower limits, the remaining amplitudes only have to be non-negative.
   for (std::size_t i = 0; i < n; ++i) {
     rest_moment[i] = moment[i * stride];
     for (std::size_t k = 0; k < n; ++k) rest_moment[i] -= gram[i * n + k] * least[k];

@@ -16,15 +16,15 @@ float luminance(Vec3 rgb) {
          float(NOOK_LUMINANCE_BLUE) * rgb.z;
 }
 
-// Returns where the light comes from: the direction of band 1's luminance, whose harmonics are y, z, x; +z if
-// there is none.
+// Returns the main direction of the light, which is the direction of the luminance of band 1. The order of
+// band 1's harmonics is y, z, x. Returns +z if band 1 is 0.
 Vec3 axis_of(std::span<const Vec3> c) {
   const Vec3 axis{luminance(c[3]), luminance(c[1]), luminance(c[2])};
   const float size = length(axis);
   return size > 0 ? axis * (1 / size) : Vec3{0, 0, 1};
 }
 
-// factor: one for each band.
+// `factor` has one value for each band.
 Vec3 sum(std::span<const Vec3> c, Vec3 direction, const float factor[3]) {
   std::array<float, 4> linear;
   evaluate_harmonics(1, direction.x, direction.y, direction.z, linear.data());
@@ -42,7 +42,7 @@ std::array<Vec3, zonal_count> to_zonal(std::span<const Vec3> harmonics) {
   const Vec3 axis = axis_of(harmonics);
   std::array<float, harmonic_count(2)> values;
   evaluate_harmonics(2, axis.x, axis.y, axis.z, values.data());
-  // By the addition theorem, the harmonic that is zonal around the axis has the coefficients sqrt(4 pi / 5)
+  // By the addition theorem, the zonal harmonic around the axis has the coefficients sqrt(4 pi / 5)
   // Y_2m(axis).
   const float scale = std::sqrt(4 * pi / 5);
   for (std::size_t i = 4; i < harmonic_count(2); ++i) zonal[4] += harmonics[i] * (scale * values[i]);

@@ -17,7 +17,7 @@ constexpr std::uint32_t harmonic_count(std::uint32_t order) {
   return (order + 1) * (order + 1);
 }
 
-// values: (order + 1)^2; (x, y, z) unit.
+// Writes (order + 1)^2 values. (x, y, z) must be a unit vector.
 template <std::floating_point T>
 constexpr void evaluate_harmonics(std::uint32_t order, T x, T y, T z, T* values) {
   values[0] = T(NOOK_HARMONICS_0);
@@ -63,14 +63,15 @@ inline constexpr double cosine_band[5] = {3.141592653589793, 2.0943951023931953,
 
 inline constexpr std::size_t zonal_count = 5;  // coefficients: bands 0 and 1, then the zonal one
 
-// harmonics: nine coefficients of bands 0 to 2. Band 2 is projected, so that no other zonal coefficient has
-// less square error.
+// harmonics: nine coefficients of bands 0 to 2. The zonal coefficient of band 2 is a projection, which has
+// the smallest squared error.
 std::array<Vec3, zonal_count> to_zonal(std::span<const Vec3> harmonics);
 
 Vec3 zonal_radiance(std::span<const Vec3> zonal, Vec3 direction);
 Vec3 zonal_irradiance(std::span<const Vec3> zonal, Vec3 normal);
 
-// Projects onto the harmonics of bands 0 to order <= 4, (order + 1)^2 coefficients, exactly.
+// Projects lobes exactly onto the harmonics of bands 0 to `order`, which must be at most 4. Writes (order +
+// 1)^2 coefficients.
 void to_harmonics(std::span<const SphericalGaussian> lobes, std::uint32_t order,
                   std::span<Vec3> coefficients);
 

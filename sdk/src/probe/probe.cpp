@@ -36,7 +36,7 @@ void check_grid(const Grid& grid, nook_result code) {
 
 namespace {
 
-// The two probes on either side of a coordinate along one axis, and the weight of the second.
+// The two probes on either side of a coordinate along one axis, and the weight of the second probe.
 struct Between {
   std::uint32_t first, second;
   float weight;
@@ -54,7 +54,8 @@ float between(float value, float least) {
   return value > least ? std::min(value, 1 - least) : least;  // the bound also for NaN
 }
 
-// Files and textures hold planes as half floats; this is far below the largest one.
+// The maximum magnitude of a plane's components. Files and textures store planes as half floats, whose
+// maximum is far larger.
 constexpr float max_plane = 1024;
 
 void check_walls(const Probes& probes, nook_result code) {
@@ -141,7 +142,7 @@ void check_probes(const Probes& probes, nook_result code) {
 
 namespace {
 
-// Interpolates rows of `out.size()` values, one row for each probe.
+// Interpolates between rows of `out.size()` values. There is one row for each probe.
 void interpolate_rows(const Grid& grid, std::span<const Vec3> rows, Vec3 position_ws, std::span<Vec3> out) {
   const Between x = between(position_ws.x, grid.origin_ws.x, grid.spacing_ws.x, grid.counts[0]);
   const Between y = between(position_ws.y, grid.origin_ws.y, grid.spacing_ws.y, grid.counts[1]);

@@ -1,4 +1,5 @@
-// Probes as plain data: one, or a grid that shares its functions, with walls between its rooms.
+// Stores probes as plain data: a single probe, or a grid of probes with the same basis. A grid can have walls
+// between rooms.
 #pragma once
 
 #include <array>
@@ -16,28 +17,30 @@
 
 namespace nook::probe {
 
-// Walls inside the cells of a grid decide which of a cell's eight probes count at a place, so that light of
-// one room does not reach the next. A cell lies between eight probes; the outermost cells extend without end.
+// A cell of the grid lies between eight probes; the outermost cells extend to infinity. Walls inside a cell
+// determine which of its eight probes are used at a place, so that the light of one room does not leak into
+// the next.
 
 inline constexpr std::size_t wall_planes = NOOK_GRID_PLANES, wall_sides = NOOK_GRID_SIDES;
 
-// A plane uses the coordinates of its cell, in spacings from the cell's first probe. A place is behind it if
-// dot(normal, place) + offset < 0. Nothing is behind the default plane.
+// A plane in the coordinates of its cell. The cell's first probe is at 0, and the unit is the grid's spacing.
+// A place is behind the plane if dot(normal, place) + offset < 0. No place is behind the default plane.
 struct WallPlane {
   Vec3 normal;
   float offset = 1;
   bool operator==(const WallPlane&) const = default;
 };
 
-// Planes cut a cell into sides. Bit k of a side's number is 1 behind plane k. Bit c of its mask is 1 if the
-// probe at corner c counts there; x is bit 0 of c, y bit 1 and z bit 2.
+// The planes cut a cell into sides. Bit k of a side's index is 1 if the side is behind plane k. Each side has
+// a mask in `counts`: bit c is 1 if the probe at corner c is used on that side. In the index c, x is bit 0, y
+// is bit 1 and z is bit 2.
 struct CellWalls {
   std::array<WallPlane, wall_planes> plane;
   std::array<std::uint8_t, wall_sides> counts{all_corners, all_corners, all_corners, all_corners,
                                               all_corners, all_corners, all_corners, all_corners};
 
   static constexpr std::uint8_t all_corners = 255;
-  // True if it has no effect on interpolation.
+  // Returns true if the walls of this cell do not change the interpolation.
   bool open() const {
     for (const std::uint8_t mask : counts)
       if (mask != all_corners) return false;
@@ -54,13 +57,13 @@ WallPlane stored(const WallPlane& plane);
 struct GridWalls {
   explicit GridWalls(Memory* memory = default_memory()) : cell(memory) {}
   Vector<CellWalls> cell;  // x fastest, then y, z; empty: interpolation ignores walls
-  float bias = 0;          // metres along the surface's normal by which a place moves before lookup
+  float bias = 0;          // metres; moves places along the surface's normal before the lookup
 
   bool any() const { return !cell.empty(); }
 };
 
 inline constexpr std::uint32_t max_probes = 1u << 20;
-// The maximum coefficient, so that no sum of an evaluation overflows.
+// The maximum magnitude of a coefficient. With this limit, the sums of an evaluation do not overflow.
 inline constexpr float max_coefficient = 1e22f;
 
 struct Grid {
@@ -69,13 +72,14 @@ struct Grid {
   Vec3 spacing_ws{1, 1, 1};                      // metres between neighbours
 
   std::size_t size() const { return std::size_t(counts[0]) * counts[1] * counts[2]; }
-  // Position of a probe; x fastest, then y, z.
+  // Returns the position of a probe. In the index, x varies fastest, then y, then z.
   Vec3 position_ws(std::size_t index) const {
     const auto x = float(index % counts[0]), y = float(index / counts[0] % counts[1]),
                z = float(index / counts[0] / counts[1]);
     return origin_ws + Vec3{x * spacing_ws.x, y * spacing_ws.y, z * spacing_ws.z};
   }
-  // Cells lie between probes; an axis with one probe has one cell.
+  // Returns the number of cells along each axis. Cells lie between probes, but an axis with a single probe
+  // has one cell.
   std::array<std::uint32_t, 3> cell_counts() const {
     return {counts[0] > 1 ? counts[0] - 1 : 1, counts[1] > 1 ? counts[1] - 1 : 1,
             counts[2] > 1 ? counts[2] - 1 : 1};
@@ -87,15 +91,16 @@ struct Grid {
   bool operator==(const Grid&) const = default;
 };
 
-// A place, and the cell that contains it.
+// A place in the grid: the cell that contains it, and the position in the cell.
 struct GridPlace {
   std::size_t cell = 0;               // its index
   std::array<std::size_t, 8> corner;  // the probes at its corners; x is bit 0, y bit 1, z bit 2
-  Vec3 in_cell;                       // in spacings from corner 0; outside the grid's probes beyond 0 to 1
+  Vec3 in_cell;                       // in spacings from corner 0; below 0 or above 1 outside the grid
 };
 GridPlace place_in(const Grid& grid, Vec3 position_ws);
 
-// Returns the trilinear weights of the eight corners. Shares along an axis are clamped to [least, 1 - least].
+// Returns the trilinear weights of the eight corners. The interpolation factor of each axis is clamped to
+// [least, 1 - least].
 std::array<float, 8> corner_weights(Vec3 in_cell, float least);
 
 struct Probes {
@@ -107,8 +112,8 @@ struct Probes {
   Vector<Vec3> coefficients;  // probe by probe (x fastest, then y, z), basis.count of RGB each
   Vector<Vec3> gloss;         // Gaussians: amplitudes for glossy reflection, none negative, see gloss.h, in
                               // the order of coefficients; empty: glossy reflection reads coefficients
-  String recipe;              // how they were baked, JSON; may be empty
-  GridWalls walls;            // of the grid's cells
+  String recipe;              // settings of the bake, JSON; may be empty
+  GridWalls walls;            // walls in the cells of the grid
 
   std::span<const Vec3> of(std::size_t index) const {
     return std::span(coefficients).subspan(index * basis.count, basis.count);
@@ -116,19 +121,21 @@ struct Probes {
   bool has_gloss() const { return !gloss.empty(); }
 };
 
-// Both throw Failure(code) if a grid, a basis or a coefficient is out of range.
+// Both functions throw Failure(code) if a value of the grid, the basis or the coefficients is out of range.
 void check_grid(const Grid& grid, nook_result code);
 void check_probes(const Probes& probes, nook_result code);
 
-// Interpolates the coefficients at a point: trilinear between the grid's probes, clamped at its ends.
+// Interpolates the coefficients at a point, trilinearly between the probes. Points outside the grid are
+// clamped to it.
 void interpolate(const Probes& probes, Vec3 position_ws, std::span<Vec3> coefficients);
-// Interpolates the amplitudes of gloss, which the probes must have, in the same way.
+// Interpolates the amplitudes for glossy reflection in the same way. The probes must have them.
 void interpolate_gloss(const Probes& probes, Vec3 position_ws, std::span<Vec3> amplitudes);
-// The same as `interpolate` for a surface with this normal, using only probes that count on its side of the
-// grid's walls.
+// Interpolates the coefficients for a point of a surface with this normal. It uses only the probes that the
+// walls allow on the surface's side.
 void interpolate(const Probes& probes, Vec3 position_ws, Vec3 normal, std::span<Vec3> coefficients);
 
-// Gaussians only: writes function i as a lobe with coefficient i.
+// Only for Gaussians: writes lobe i with the axis and sharpness of function i and coefficient i as its
+// amplitude.
 void to_lobes(const Basis& basis, std::span<const Vec3> coefficients, std::span<SphericalGaussian> lobes);
 
 }  // namespace nook::probe

@@ -25,7 +25,7 @@ std::uint32_t to_rgb9e5(Vec3 rgb) {
   int exponent = -exponent_bias;
   if (largest > 0) std::frexp(largest, &exponent);  // largest = f 2^exponent, f in [1/2, 1)
   exponent = std::max(exponent, -exponent_bias);
-  // Rounding may carry the largest mantissa to 512.
+  // Rounding may increase the largest mantissa to 512, which needs a larger exponent.
   if (std::ldexp(largest, mantissa_bits - exponent) >= 511.5f) ++exponent;
   std::uint32_t bits = std::uint32_t(exponent + exponent_bias) << 27;
   for (int c = 0; c < 3; ++c) {
@@ -110,7 +110,7 @@ Vec3 read_coefficient(ByteReader& in, Packing packing) {
   return {};
 }
 
-// One byte that names one of `count` things.
+// Reads a byte that selects one of `count` choices.
 std::uint32_t read_choice(ByteReader& in, const char* what, std::uint32_t count) {
   const std::uint32_t value = in.u8();
   if (value >= count)
@@ -154,7 +154,8 @@ void read_lobes(ByteReader in, Basis& basis) {
   in.check_end();
 }
 
-// The description of a basis without lobes in a file must be equal to the library's basis of that order.
+// Fills in the functions of a basis without lobes. The file's description must match the library's basis of
+// that order.
 void complete(Basis& basis) {
   check_basis(basis, NOOK_ERROR_BAD_FILE);
   Basis made = basis.kind == BasisKind::dice ? dice_basis(basis.domain, basis.up)

@@ -1,4 +1,4 @@
-// Probes as .nook files, and their coefficients in fewer bits.
+// Reads and writes probes as .nook files, and packs coefficients into fewer bits.
 #pragma once
 
 #include <cstddef>
@@ -22,9 +22,9 @@ constexpr std::size_t packed_bytes(Packing packing) {
 inline constexpr float max_half = 65504.0f;
 inline constexpr float max_rgb9e5 = 65408.0f;  // 511 / 512 * 2^16
 
-// Three mantissas of 9 bits, red lowest, with one exponent of 5 bits above them: GL_RGB9_E5. Channels are
-// clamped to [0, max_rgb9e5], NaN to 0. The error of each channel is at most 2^-9 of the largest channel, or
-// of 2^-15 if that is greater.
+// Packs a colour in the format GL_RGB9_E5: three mantissas of 9 bits, with red in the lowest bits, and a
+// shared exponent of 5 bits. Channels are clamped to [0, max_rgb9e5], and NaN becomes 0. The error of each
+// channel is at most 2^-9 times the larger of the largest channel and 2^-15.
 std::uint32_t to_rgb9e5(Vec3 rgb);
 Vec3 from_rgb9e5(std::uint32_t bits);
 
@@ -42,12 +42,13 @@ Vec3 from_rgb9e5(std::uint32_t bits);
 
 inline constexpr ContainerKind probe_kind{four_letters("PROB"), "light probe", 1, 2};
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_probes does, or if the packing cannot hold a
-// coefficient.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_probes rejects the probes, or if the packing cannot
+// represent a coefficient.
 std::vector<std::byte> write_probes(const Probes& probes, Packing packing);
 
-// Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
-// NOOK_ERROR_FILE_VERSION), and allocates no more than the coefficients and the recipe.
+// Safe for untrusted bytes, even if their checksum is correct. For an invalid file, the call throws
+// Failure(NOOK_ERROR_BAD_FILE or NOOK_ERROR_FILE_VERSION). It allocates no more memory than the coefficients
+// and the recipe need.
 Probes read_probes(std::span<const std::byte> bytes, Memory* memory = default_memory());
 Packing packing_of(std::span<const std::byte> bytes);
 

@@ -1,4 +1,4 @@
-// Light of a probe: radiance from a direction, irradiance on a surface, glossy reflection.
+// Evaluates the light of a probe: radiance from a direction, irradiance on a surface, and glossy reflection.
 #pragma once
 
 #include <nook/nook_probe.h>
@@ -21,24 +21,26 @@ float irradiance(Vec3 axis, float sharpness, IrradianceForm form, Vec3 normal);
 Vec3 radiance(std::span<const SphericalGaussian> lobes, Vec3 direction);
 Vec3 irradiance(std::span<const SphericalGaussian> lobes, IrradianceForm form, Vec3 normal);
 
-// The same for every kind of basis; form matters only for lobes.
+// These functions accept every kind of basis. `form` is used only for lobes.
 Vec3 radiance(const Basis& basis, std::span<const Vec3> coefficients, Vec3 direction);
 Vec3 irradiance(const Basis& basis, std::span<const Vec3> coefficients, IrradianceForm form, Vec3 normal);
 
-// Glossy reflection of lobes. The directions that a GGX surface reflects to the eye become lobes with
-// integral 1 together, times the surface's directional albedo. Product integrals with each light lobe have a
-// closed form.
+// Glossy reflection of lobes. The directions from which a GGX surface reflects light to the eye are
+// approximated by lobes. Their integrals sum to 1, and they are multiplied by the surface's directional
+// albedo. The integral of the product with a light's lobe has a closed form.
 
 enum class SpecularForm : std::uint8_t {
-  isotropic = 0,   // one spherical Gaussian, after J. Wang et al., All-Frequency Rendering, 2009
+  isotropic = 0,   // one lobe, after J. Wang et al., All-Frequency Rendering, 2009
   anisotropic = 1  // four
 };
 
-// Returns the lobe that a surface of the mean width reflects to the eye. In the paper, it is the distribution
-// of normals, warped around the mirror direction. Here it is around the centre of what the eye sees, because
-// near the horizon a rough surface reflects from far above the mirror direction.
+// Returns the lobe of directions that a surface with the mean of both widths reflects to the eye. In the
+// paper, the lobe is the distribution of normals, warped around the mirror direction. Here, the lobe's axis
+// is the centre of the directions that the eye sees instead. The two differ near the horizon, where a rough
+// surface reflects light from far above the mirror direction.
 SphericalGaussian reflected_lobe(const Surface& surface);
-// Returns four lobes, which stretch towards the horizon and if the widths differ.
+// Returns four lobes. Together they can represent reflections that are stretched, near the horizon or because
+// the two widths differ.
 std::array<SphericalGaussian, 4> reflected_lobes(const Surface& surface);
 
 // Returns the radiance that leaves towards the eye.

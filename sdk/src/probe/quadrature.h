@@ -1,4 +1,4 @@
-// Integrates numerically in double precision, with rules that are compile-time constants.
+// Numerical integration in double precision. The points and weights are compile-time constants.
 #pragma once
 
 #include <array>
@@ -7,8 +7,8 @@
 
 namespace nook::probe {
 
-// Returns the cosine of an angle in [0, pi], within 1e-9. It starts an iteration, because std::cos is not
-// constexpr.
+// Returns the cosine of an angle in [0, pi], with an error below 1e-9. It provides the initial value of an
+// iteration. std::cos cannot be used because it is not constexpr.
 constexpr double starting_cosine(double angle) {
   double term = 1, sum = 1;
   for (int n = 1; n <= 14; ++n) {
@@ -18,7 +18,7 @@ constexpr double starting_cosine(double angle) {
   return sum;
 }
 
-// Gauss-Legendre on [-1, 1], exact for polynomials of degree 2 N - 1.
+// The Gauss-Legendre rule on [-1, 1], which is exact for polynomials of degree 2 N - 1.
 template <int N>
 struct GaussLegendre {
   std::array<double, N> node{}, weight{};
