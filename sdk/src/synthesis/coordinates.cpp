@@ -9,8 +9,8 @@
 namespace nook::synthesis {
 namespace {
 
-// Splits a position in texels into a texel of a row that repeats after `size` texels, and a fraction. Beyond
-// the precision of floats it returns an arbitrary texel of the row.
+// Splits a position, in texels, into a texel index and a fraction. The row of texels repeats after `size`
+// texels. If the position exceeds the precision of floats, the result is an arbitrary texel of the row.
 struct Place {
   std::uint32_t texel;
   float fraction;

@@ -1,9 +1,11 @@
 // The coordinate texture S of section 6.3.3 of Y.-T. Tsai, Z.-C. Shih: K-Clustered Tensor Approximation,
-// 2012, as plain data. It says for each texel of a periodic plane which texel of a material is shown there.
+// 2012, as plain data. For each texel of a periodic plane, it stores which texel of a material is shown
+// there.
 //
-// Points of the plane have coordinates in tiles of the material, so that texels keep their size. Within a
-// texel of the plane, the point moves through the material too. The picture is continuous wherever neighbours
-// in the plane are neighbours in the material.
+// Points of the plane have coordinates in units of the material's tile, so that a texel has the same size on
+// the plane as in the material. Inside a texel of the plane, the position in the material moves continuously.
+// The picture is continuous wherever neighbouring texels of the plane show neighbouring texels of the
+// material.
 #pragma once
 
 #include <nook/nook.h>
@@ -30,21 +32,22 @@ struct Cell {
 struct Coordinates {
   explicit Coordinates(Memory* memory = default_memory()) : cells(memory), recipe(memory) {}
 
-  std::uint32_t side = 0;               // texels along a side of the plane, which repeats after them
+  std::uint32_t side = 0;               // texels along a side; the plane repeats after them
   std::uint32_t width = 0, height = 0;  // texels of the material
   Vector<Cell> cells;                   // side x side, row by row from v = 0 on
   String recipe;                        // settings of the bake, JSON; the runtime does not read it
 };
 
-// Throws Failure(code) if a size is out of range, or a cell lies outside the material.
+// check_sizes throws Failure(code) if a size is out of range. check_coordinates also throws if a cell lies
+// outside the material.
 void check_sizes(const Coordinates& coordinates, nook_result code);
 void check_coordinates(const Coordinates& coordinates, nook_result code);
 
 struct Point {
   float u = 0, v = 0;
 };
-// Returns the material's texture coordinates at a point of the plane, both in tiles of the material. u and v
-// of the plane must be finite.
+// Returns the material's texture coordinates at a point of the plane. Both points are in units of the
+// material's tile. The coordinates of `plane` must be finite.
 Point material_point(const Coordinates& coordinates, Point plane);
 
 // Coordinate textures as .nook files. Version 1 of the kind "SYNT" has the sections
@@ -54,11 +57,12 @@ Point material_point(const Coordinates& coordinates, Point plane);
 
 inline constexpr ContainerKind synthesis_kind{four_letters("SYNT"), "synthesis", 1, 1};
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_coordinates finds a fault.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_coordinates rejects the coordinates.
 std::vector<std::byte> write_coordinates(const Coordinates& coordinates);
 
-// Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
-// NOOK_ERROR_FILE_VERSION), and allocates in proportion to the file's size.
+// Safe for untrusted bytes, even if their checksum is correct. For an invalid file, the call throws
+// Failure(NOOK_ERROR_BAD_FILE or NOOK_ERROR_FILE_VERSION). It allocates memory in proportion to the file's
+// size.
 Coordinates read_coordinates(std::span<const std::byte> bytes, Memory* memory = default_memory());
 
 }  // namespace nook::synthesis

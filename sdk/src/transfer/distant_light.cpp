@@ -26,7 +26,8 @@ std::array<Vec3, band_count> bands_of_lobes(std::span<const Vec3> axes, float sh
     const std::array<float, band_count> at = bands_at(axes[j]);
     for (std::uint32_t k = 0; k < band_count; ++k) sums[k] += amplitude * at[k];
   }
-  // A lobe is a zonal filter: it scales each band of a point light along its axis.
+  // A lobe is zonal around its axis. Its harmonics are the harmonics of a point light along the axis, times
+  // one factor for each band.
   const std::array<float, 5> band = gaussian_bands(sharpness);
   const float whole = gaussian_integral(sharpness);
   for (std::uint32_t k = 0; k < band_count; ++k)

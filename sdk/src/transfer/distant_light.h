@@ -1,5 +1,5 @@
-// Distant light in the forms that transfer uses: lobes, bands, and the cells of a cube, from which lobes are
-// fitted.
+// Radiance transfer represents distant light by lobes, by spherical-harmonic bands, and by the cells of a
+// cube. Lobes are fitted to the cells.
 #pragma once
 
 #include <array>
@@ -13,22 +13,23 @@
 namespace nook::transfer {
 
 inline constexpr std::uint32_t min_lobes = 12;
-// The largest number in the paper's Table II; its factored Gram matrix takes 25 MiB.
+// The largest number of lobes in the paper's Table II. The factored Gram matrix for it takes 25 MiB.
 inline constexpr std::uint32_t max_lobes = 2562;
 
-// The factor may be between 0.2 and 0.5: wider lobes represent suns better and broad light worse. 0.35 is the
-// best compromise over maps of a sun, of windows and of clouds (docs/transfer.md).
+// Returns the sharpness of the lobes. Useful factors are 0.2 to 0.5: wider lobes represent suns better, but
+// broad light worse. 0.35 is the best compromise over maps of a sun, of windows and of clouds
+// (docs/transfer.md).
 constexpr float sharpness_of(std::uint32_t lobes) {
   return 0.35f * float(lobes);
 }
 
-// H. Vogel's spiral: azimuths differ by the golden angle, and heights z run from 1 to -1 at the centres of
-// equal areas.
+// Fills `axes` with H. Vogel's spiral. Successive azimuths differ by the golden angle. Heights z run from 1
+// to -1, at the centres of zones of equal area.
 void lobe_axes(std::span<Vec3> axes);
 
-// Distant light by its bands 0 to 2: nine real spherical harmonics, orthonormal over the sphere (P.-P. Sloan,
-// Stupid Spherical Harmonics Tricks, 2008). Inter-reflections of a shape are smooth, so these bands are
-// enough for them.
+// Distant light as spherical-harmonic bands 0 to 2: nine real harmonics, orthonormal over the sphere (P.-P.
+// Sloan, Stupid Spherical Harmonics Tricks, 2008). These bands are sufficient for inter-reflections of a
+// shape, because inter-reflections are smooth.
 
 inline constexpr std::uint32_t band_count = 9;
 
@@ -44,15 +45,16 @@ constexpr std::array<float, band_count> bands_at(Vec3 d) {
           0.5462742f * (d.x * d.x - d.y * d.y)};
 }
 
-// Returns bands 0 to 2 of the light of lobes with one sharpness; amplitudes has axes x RGB.
+// Returns bands 0 to 2 of the light of lobes that all have the same sharpness. `amplitudes` has an RGB value
+// for each axis.
 std::array<Vec3, band_count> bands_of_lobes(std::span<const Vec3> axes, float sharpness,
                                             std::span<const float> amplitudes);
 
-// Distant light as the mean radiance of the cells of a cube around the origin, from which lobes are fitted in
-// any rotation.
+// Distant light as the mean radiance of the cells of a cube around the origin. Lobes can be fitted to the
+// cells in any rotation.
 
-// A cube has side x side cells a face, and the faces +x, -x, +y, -y, +z, -z. Cells are squares of a face;
-// their solid angles differ by up to a factor of 5.
+// A cube has the faces +x, -x, +y, -y, +z, -z, and side x side cells on each face. Cells are squares on a
+// face, and their solid angles differ by up to a factor of 5.
 struct CubeCells {
   explicit CubeCells(std::uint32_t side, Memory* memory = default_memory());
 
@@ -63,8 +65,8 @@ struct CubeCells {
   std::size_t size() const { return direction.size(); }
 };
 
-// Returns the mean radiance of each cell, over the texels in it. If a map has fewer texels than there are
-// cells, the nearest texel counts.
+// Returns the mean radiance of each cell over the texels of the map that lie in the cell. If no texel lies in
+// a cell, because the map has too few texels, the nearest texel is used.
 Vector<Vec3> cell_means(const MapView& map, const CubeCells& cells, Memory* memory);
 
 }  // namespace nook::transfer

@@ -1,6 +1,6 @@
-// The paper's form in a shape that a shader can mix. Under a light, every vertex is a sum of a few vectors
-// times its own numbers. The vectors belong to the vertex's cluster and to reflected light; the numbers do
-// not depend on the light.
+// The paper's form, arranged so that a shader can evaluate it. Under a given light, the vector of a vertex is
+// a weighted sum of a few row vectors. The rows depend on the light: some belong to the vertex's cluster,
+// others to reflected light. The weights belong to the vertex and do not depend on the light.
 #pragma once
 
 #include <array>
@@ -15,20 +15,21 @@
 
 namespace nook::transfer {
 
-// The vectors: vertex_rank for each cluster, then one for each reflection and band.
+// Returns the number of row vectors: vertex_rank for each cluster, then one for each reflection and band.
 std::size_t lit_row_count(const Transfer& transfer);
-// Writes lit_row_count vectors of 3 light_modes numbers. amplitudes has lobes x RGB.
+// Writes lit_row_count row vectors with 3 light_modes values each. `amplitudes` has an RGB value for each
+// lobe.
 void write_lit_rows(const Response& response, std::span<const float> amplitudes, const Transfer& transfer,
                     const Parallel& parallel, Memory* memory, std::span<float> rows);
 
-// The numbers of a vertex: its cluster, vertex_rank weights, one weight for each reflection and band, and
-// zeros up to a multiple of four.
+// Returns how many values a vertex has: its cluster, vertex_rank weights, one weight for each reflection and
+// band, and zeros that pad to a multiple of four.
 std::size_t vertex_number_count(const Transfer& transfer);
 void write_vertex_numbers(const Transfer& transfer, std::size_t vertex, float* numbers);
 
-// The light that a baked shape reflects onto itself, as transfer.h has it.
+// The light that a baked shape reflects onto itself; see transfer.h.
 
-// For each reflection b and band k, the radiance a^b L_k / pi. Entries beyond `bounces` are 0.
+// The radiance a^b L_k / pi for each reflection b and band k. Entries beyond `bounces` are 0.
 using ReflectedBands = std::array<Vec3, max_bounces * band_count>;
 
 // amplitudes has lobes x RGB.

@@ -9,7 +9,7 @@
 namespace nook::transfer {
 namespace {
 
-// Lobes count until they fall to exp(-reach) of their height, 4e-7.
+// A lobe is ignored where it falls below exp(-reach) of its maximum, about 3e-7.
 constexpr float reach = 15;
 
 double dot_of(const double* a, const double* b, std::size_t count) {
@@ -25,7 +25,7 @@ std::size_t row_start(std::size_t row) {
   return row * (row + 1) / 2;
 }
 
-// A. L. Cholesky's factorisation, row by row and in place.
+// Cholesky factorisation, row by row and in place.
 void factor(Vector<double>& a, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     double* const row = &a[row_start(i)];
@@ -37,8 +37,8 @@ void factor(Vector<double>& a, std::size_t n) {
   }
 }
 
-// Calls body(lobe, value) for the lobes that reach a direction. Axes lie on a spiral with evenly falling
-// heights, so the lobes within reach are neighbours.
+// Calls body(lobe, value) for the lobes that reach a direction. Axes lie on a spiral with steadily decreasing
+// heights, so only lobes in a contiguous range of indices can reach it.
 template <class Body>
 void lobes_at(std::span<const Vec3> axes, float sharpness, Vec3 direction, Body&& body) {
   const float cap = std::max(1 - reach / sharpness, -1.0f);
@@ -177,7 +177,7 @@ const LobeFit& FitCache::of(std::uint32_t lobes) {
   }
   made->next = first;
   while (!first_.compare_exchange_weak(made->next, made, std::memory_order_acq_rel)) {
-    // Other threads have added entries in front of the ones that were searched.
+    // Other threads may have added entries in front of the ones that were already searched.
     if (const LobeFit* const known = find(made->next, first, lobes)) {
       drop(made);
       return *known;

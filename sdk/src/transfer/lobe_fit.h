@@ -1,5 +1,5 @@
-// Distant light as lobes: the least-squares fit over the sphere. The Gram matrix of the lobes is factored
-// once; a fit in a new rotation sums moments and solves two triangular systems.
+// Fits lobes to distant light by least squares over the sphere. The Gram matrix of the lobes is factored
+// once. A fit in a new rotation only sums moments and solves two triangular systems.
 #pragma once
 
 #include <atomic>
@@ -21,10 +21,12 @@ class LobeFit {
   float sharpness() const { return sharpness_; }
   std::uint64_t bytes() const { return factor_.size() * sizeof(double); }
 
-  // amplitudes has lobes x RGB. light_from_shape rotates directions from the shape's space to the light's.
+  // Fits the light of the cells. `amplitudes` gets an RGB value for each lobe. light_from_shape rotates
+  // directions from the shape's space to the light's space.
   void fit(const CubeCells& cells, std::span<const Vec3> radiance, const Mat3x4& light_from_shape,
            std::span<float> amplitudes) const;
-  // Fits a light from one direction in the shape's space, with this irradiance on a plane that faces it.
+  // Fits a directional light. `direction` is in the shape's space, and `irradiance` is the irradiance on a
+  // plane that faces the light.
   void fit_direction(Vec3 direction, Vec3 irradiance, std::span<float> amplitudes) const;
 
  private:
@@ -32,23 +34,24 @@ class LobeFit {
 
   float sharpness_;
   Vector<Vec3> axes_;
-  Vector<double> factor_;  // rows of L with G = L L^T, row i has i + 1 numbers
+  Vector<double> factor_;  // rows of L, where G = L L^T; row i has i + 1 values
 };
 
 struct FitQuality {
-  double relative_error = 0;  // root of the integral of (R - L)^2 divided by the integral of L^2
+  double relative_error = 0;  // square root of the integral of (R - L)^2 divided by the integral of L^2
   double negative_share = 0;  // integral of max(-R, 0) divided by the integral of |R|, mean over channels by
                               // luminance
 };
 FitQuality fit_quality(const LobeFit& fit, std::span<const float> amplitudes, const CubeCells& cells,
                        std::span<const Vec3> radiance, const Mat3x4& light_from_shape);
 
-// The factored Gram matrices of a context, one for each number of lobes to which it has projected light.
+// The factored Gram matrices of a context. There is one for each number of lobes with which the context has
+// projected light.
 
 class LobeFit;
 
-// Any thread may call it at any time. Nothing is made until the first call, and nothing is freed before the
-// cache.
+// All threads may call the cache at any time. A matrix is made on the first call that needs it, and lives as
+// long as the cache.
 class FitCache {
  public:
   explicit FitCache(Memory* memory) noexcept : memory_(memory) {}
@@ -56,8 +59,9 @@ class FitCache {
   FitCache(const FitCache&) = delete;
   FitCache& operator=(const FitCache&) = delete;
 
-  // Makes the fit on the first call for a number of lobes. If two threads are first, both make it and one
-  // result is dropped: a lock would need threads, which some builds do not have.
+  // Returns the fit for a number of lobes, and makes it on the first call. If two threads need it at the same
+  // time, both make it, and one result is discarded. There is no lock, because some builds have no thread
+  // library.
   const LobeFit& of(std::uint32_t lobes);
 
  private:

@@ -8,16 +8,16 @@
 namespace nook::transfer {
 namespace {
 
-// Sums run in this many parts, so that compilers can vectorise them.
+// Sums are split into this many partial sums, so that compilers can vectorise them.
 constexpr std::size_t parts = 8;
 
-// A row of halves converted to floats, padded with zeros to whole parts.
+// A row of half floats that is converted to floats and padded with zeros to a multiple of `parts`.
 struct alignas(32) FloatRow {
   std::array<float, max_lobe_rank> at{};
 };
 static_assert(max_lobe_rank % parts == 0);
 
-// The value of a finite half, without branches.
+// Converts a finite half float without branches.
 inline float from_finite_half(std::uint16_t half) {
   const std::uint32_t magnitude = half & 0x7fffu;
   const float normal = bit_cast<float>((magnitude << 13) + (112u << 23));
@@ -46,7 +46,7 @@ Vector<float> paper_light(const PaperTransfer& paper, std::span<const float> amp
   const std::size_t entries = 3 * modes * paper.vertex_rank;
   Vector<float> lit(paper.clusters * entries, 0.0f, memory);
   const auto body = [&](std::uint32_t cluster) noexcept {
-    // The light in the cluster's lobe basis.
+    // The light, projected onto the cluster's lobe basis.
     std::array<FloatRow, 3> light;
     FloatRow row;
     const std::uint16_t* basis = &paper.lobe_basis[cluster * lobes * rank];

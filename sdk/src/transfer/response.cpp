@@ -8,9 +8,10 @@
 namespace nook::transfer {
 namespace {
 
-// Points of a finer grid between two nodes.
+// The finer grid has this many steps between two nodes.
 constexpr std::uint32_t parts = 4;
-// Nodes along a side. More lobes are narrower and need more nodes, but light bases need at least this many.
+// The minimum number of nodes along a side. The more lobes there are, the narrower they are and the more
+// nodes they need, but light bases need at least this many.
 constexpr std::uint32_t min_side = 28;
 std::uint32_t side_of(std::uint32_t lobes) {
   return std::clamp(std::uint32_t(std::lround(1.35 * std::sqrt(double(lobes)))), min_side, max_side);
@@ -18,13 +19,13 @@ std::uint32_t side_of(std::uint32_t lobes) {
 std::uint32_t fine_side_of(std::uint32_t side) {
   return (side - 1) * parts + 1;
 }
-// Lobes count down to exp(-reach) of their height.
+// A lobe is ignored where it falls below exp(-reach) of its maximum.
 constexpr float reach = 12;
-// A lobe below the horizon has no effect if all of its light above the horizon is below this share of its
-// height.
+// A lobe below the horizon has no effect if, above the horizon, its value is everywhere below this fraction
+// of its maximum.
 constexpr double lowest_share = 1e-4;
 
-// Inverts the map; points beyond the disc of radius sqrt(2) return the direction down.
+// Inverts the equal-area map. Points outside the disc of radius sqrt(2) return the downward direction.
 Vec3 direction_at(float x, float y) {
   const float square = x * x + y * y;
   if (square >= 2) return {0, 0, -1};
@@ -37,7 +38,7 @@ double lowest_axis(double sharpness) {
   return cosine <= 0 ? -0.999 : -std::sqrt(1 - cosine * cosine);
 }
 
-// values has fine_side x fine_side rows of `count` numbers.
+// `values` has fine_side x fine_side rows with `count` values each.
 void sum_response(float sharpness, const HemisphereCells& cells, const LightModes& modes, float radius,
                   std::uint32_t fine_side, Vector<float>& values) {
   const std::size_t count = std::size_t(3) * modes.light_modes;
@@ -57,8 +58,9 @@ void sum_response(float sharpness, const HemisphereCells& cells, const LightMode
     }
 }
 
-// Solves the normal equations of bilinear mixing along one side, for all numbers of a row of `count` at once.
-// The matrix is tridiagonal and solved by elimination. Its entries are sums over the parts between two nodes.
+// Solves the normal equations of linear interpolation along one axis, for all `count` values of a row at
+// once. The matrix is tridiagonal and is solved by elimination. Its entries are sums over the fine steps
+// between two nodes.
 void to_nodes(std::uint32_t side, const float* fine, std::size_t fine_step, std::size_t count, float* nodes,
               std::size_t node_step) {
   float beside = 0, square = 0;
@@ -90,7 +92,7 @@ void to_nodes(std::uint32_t side, const float* fine, std::size_t fine_step, std:
   }
 }
 
-// Finds the nodes that mixing within the map's disc can touch.
+// Finds the nodes that interpolation inside the map's disc can touch.
 void find_rows(float radius, Response& response) {
   const std::uint32_t side = response.side;
   const float step = 2 * radius / float(side - 1), limit = radius + 1.5f * step;
@@ -106,7 +108,8 @@ void find_rows(float radius, Response& response) {
 }  // namespace
 
 HemisphereCells::HemisphereCells(float sharpness, Memory* memory) : direction(memory) {
-  // Cells are a third of a lobe's width, and at most the 3 degrees that light bases need.
+  // The width of a cell is a third of a lobe's width, but at most 3 degrees, because light bases need this
+  // resolution.
   const auto across = std::uint32_t(std::clamp(std::ceil(4 * std::sqrt(double(sharpness))), 48.0, 256.0));
   for (std::uint32_t row = 0; row < across; ++row)
     for (std::uint32_t column = 0; column < across; ++column) {
@@ -114,7 +117,7 @@ HemisphereCells::HemisphereCells(float sharpness, Memory* memory) : direction(me
       const float y = 2 * (float(row) + 0.5f) / float(across) - 1;
       if (x * x + y * y < 1) direction.push_back(direction_at(x, y));
     }
-  // The map preserves areas up to a factor of 2.
+  // The map scales all areas by the same factor, 2.
   solid_angle = 2 * (2 / float(across)) * (2 / float(across));
 }
 

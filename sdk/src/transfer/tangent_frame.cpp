@@ -14,7 +14,7 @@ float sign_of(float a) {
   return a < 0 ? -1.0f : 1.0f;
 }
 
-// The two axes across a unit normal.
+// The two axes that are perpendicular to a unit normal.
 struct Across {
   Vec3 x, y;
 };
@@ -59,7 +59,8 @@ PackedFrame pack(const Frame& frame) {
     x = folded;
   }
   PackedFrame packed{step_of(x), step_of(y), 0};
-  // The angle starts from the axis of the rounded normal, which is all that a reader has.
+  // The angle is measured from the axis that belongs to the rounded normal, because the decoder knows only
+  // the rounded normal.
   const Across axes = across(normal_of(packed.u, packed.v));
   const float angle = std::atan2(dot(frame.tangent, axes.y), dot(frame.tangent, axes.x));
   const auto step = std::lround((angle < 0 ? angle + two_pi : angle) / two_pi * angle_steps);

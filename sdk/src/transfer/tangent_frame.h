@@ -1,5 +1,6 @@
-// Tangent frames of vertices: x points along growing u, z along the normal, and y = handedness * cross(z, x)
-// points along growing v. Handedness is -1 where the texture coordinates are mirrored.
+// Tangent frames of vertices. x points in the direction of increasing u, and z along the normal. y =
+// handedness * cross(z, x) points in the direction of increasing v. Handedness is -1 where the texture
+// coordinates are mirrored.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +17,15 @@ struct Frame {
   Vec3 bitangent() const { return cross(normal, tangent) * handedness; }
 };
 
-// Returns a frame whose tangent is of unit length and perpendicular to the normal. If a tangent is along the
-// normal or has no length, it is replaced by the x axis of T. Duff et al.: Building an Orthonormal Basis,
-// Revisited, 2017.
+// Returns a frame whose tangent has unit length and is perpendicular to the normal. If the given tangent is
+// zero or parallel to the normal, it is replaced by the x axis of T. Duff et al.: Building an Orthonormal
+// Basis, Revisited, 2017.
 Frame orthonormal_frame(Vec3 normal, Vec3 tangent, float handedness);
 
-// A frame in six bytes. The normal is on an octahedron, 16 bits a coordinate (Z. Cigolle et al.: A Survey of
-// Efficient Representations for Independent Unit Vectors, 2014). The angle of the tangent to the x axis of
-// Duff et al. has 15 bits, and the handedness one bit. The error is at most 1e-4 radians.
+// A frame in six bytes. The normal is encoded on an octahedron, with 16 bits for each of two coordinates (Z.
+// Cigolle et al.: A Survey of Efficient Representations for Independent Unit Vectors, 2014). The angle
+// between the tangent and the x axis of Duff et al. takes 15 bits, and the handedness one bit. The error is
+// at most 1e-4 radians.
 struct PackedFrame {
   std::uint16_t u = 0, v = 0, angle = 0;
   bool operator==(const PackedFrame&) const = default;

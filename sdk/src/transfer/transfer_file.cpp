@@ -82,7 +82,7 @@ void add_paper(const PaperTransfer& paper, std::vector<ContainerSection>& sectio
   sections.push_back({four_letters("COEF"), bytes_of(paper.coefficients)});
 }
 
-// Reads exactly `count` half floats. Checks the section's size before it allocates.
+// Reads exactly `count` half floats. The size of the section is checked before memory is allocated.
 void read_halves(ByteReader in, std::uint64_t count, Vector<std::uint16_t>& halves) {
   if (count != in.remaining() / 2 || in.remaining() % 2)
     throw Failure(NOOK_ERROR_BAD_FILE,

@@ -25,11 +25,11 @@ namespace nook::transfer {
 
 inline constexpr ContainerKind transfer_kind{four_letters("TRAN"), "radiance transfer", 1, 1};
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_transfer finds a fault.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_transfer rejects the transfer.
 std::vector<std::byte> write_transfer(const Transfer& transfer);
 
-// Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
-// NOOK_ERROR_FILE_VERSION), and allocates up to five times the file's size.
+// Safe for untrusted bytes, even if their checksum is correct. For an invalid file, the call throws
+// Failure(NOOK_ERROR_BAD_FILE or NOOK_ERROR_FILE_VERSION). It allocates at most five times the file's size.
 Transfer read_transfer(std::span<const std::byte> bytes, Memory* memory = default_memory());
 
 }  // namespace nook::transfer

@@ -1,5 +1,5 @@
-// Computes vectors at vertices, with a plain function for each instruction set. All arrays belong to the
-// caller; nothing allocates, locks or throws.
+// Computes vectors at vertices. There is a plain function for each instruction set. All arrays belong to the
+// caller. The functions do not allocate, lock or throw.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,8 @@
 
 namespace nook::transfer {
 
-// A light over a response. amplitudes has `padded` lobes of red, green, blue and 0, divided by 255.
+// A light, and the response of a material to it. `amplitudes` has `padded` lobes with red, green, blue and 0
+// each, divided by 255.
 struct LightView {
   const float* axis_x = nullptr;
   const float* axis_y = nullptr;
@@ -24,46 +25,49 @@ struct LightView {
   std::uint32_t light_modes = 0, lanes = 0;
 };
 
-// The largest number of nodes along a side of a response.
+// The maximum number of nodes along a side of a response.
 inline constexpr std::uint32_t max_side = 48;
 
-// The floats of the scratch of a block, 80 KiB: a thread of a host has room for them on its stack.
+// The number of scratch floats for a block. They take 80 KiB, which fits on the stack of a host's thread.
 inline constexpr std::uint32_t scratch_floats = 20 * 1024;
 inline constexpr std::uint32_t max_block_vertices = 4;
 static_assert(max_side * max_side * 4 * 2 <= scratch_floats);
 
-// Returns how many vertices of a response's side fit into the scratch: 4 with 642 lobes, 2 with 700 and more.
+// Returns how many vertices fit into the scratch memory for a response with this side: 4 with 642 lobes, 2
+// with 700 lobes or more.
 constexpr std::uint32_t block_vertices(std::uint32_t side) {
   const std::uint32_t fitting = scratch_floats / (side * side * 4);
   return fitting < max_block_vertices ? 2 : max_block_vertices;
 }
 
-// Up to block_vertices(side) vertices.
+// A block of up to block_vertices(side) vertices.
 struct VertexBlock {
-  const std::uint8_t* shares = nullptr;  // of each vertex, `lobes` bytes; null: all 255
-  const float* frames = nullptr;         // the axes x, y and z of each vertex, 9 floats
+  const std::uint8_t* shares = nullptr;  // `lobes` bytes for each vertex; null: all are 255
+  const float* frames = nullptr;         // 9 floats for each vertex: the axes x, y and z
   std::uint32_t count = 0;
-  float* vectors = nullptr;  // 3 x light_modes floats of each vertex
-  std::uint64_t stride = 0;  // floats between the vectors of two vertices
-  float* scratch = nullptr;  // scratch_floats, on a 64-byte boundary
+  float* vectors = nullptr;  // 3 x light_modes floats for each vertex
+  std::uint64_t stride = 0;  // floats from one vertex's vector to the next
+  float* scratch = nullptr;  // scratch_floats floats, aligned to 64 bytes
 };
 
 struct VectorKernels {
   Isa isa = Isa::scalar;
   const char* name = nullptr;
-  // Every lobe adds its light, times its share, to the four nodes around its place in the response's grid.
-  // The sums then weight the table. So a vertex costs `lobes` mixes of four nodes and one product with the
-  // table. Looking up every lobe would cost a product with four rows of the table for each.
+  // Computes the vectors of a block. Each lobe adds its light, times its share, to the four nodes around its
+  // position in the response's grid. The sums are then the weights of the table's rows. So a vertex costs
+  // `lobes` updates of four nodes and a single product with the table. Looking up every lobe in the table
+  // would cost a product with four rows per lobe.
   void (*vectors)(const LightView& light, const VertexBlock& block);
 };
 
-// Returns the table of one instruction set, or NULL if the processor or the build lacks it.
+// Returns the function table of one instruction set, or NULL if the processor or the build does not support
+// it.
 const VectorKernels* vector_kernels(Isa isa);
 
 }  // namespace nook::transfer
 
-// The table of each instruction set's translation unit. Use a table only on a processor that has the
-// instruction set.
+// Declares the function table that each instruction set's translation unit defines. Use a table only if the
+// processor has the instruction set.
 #define NOOK_ISA_ENTRY(name, value, built, runs)     \
   namespace nook::isa_##name {                       \
     const transfer::VectorKernels& vector_kernels(); \

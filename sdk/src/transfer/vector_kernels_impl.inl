@@ -7,16 +7,17 @@ namespace {
 using transfer::LightView;
 using transfer::VertexBlock;
 
-// The places of some lobes in the grid. They are few enough to stay in the first-level cache beside the grid,
-// and to have one bit each in a word.
+// The positions of some lobes in the grid. The number of lobes is small, so that positions and grid stay in
+// the first-level cache, and one word has a bit for each lobe.
 inline constexpr std::uint32_t chunk = 64;
 struct alignas(64) Places {
-  float node[chunk];                 // the number of the upper left one of four nodes
-  float right[chunk];                // of that node, in [0, 1]
-  float upper[chunk], lower[chunk];  // the lobe's share in the row of that node and in the next one
+  float node[chunk];                 // index of the upper left one of the four nodes
+  float right[chunk];                // distance to the right of that node, in [0, 1]
+  float upper[chunk], lower[chunk];  // the lobe's share in that node's row and in the next row
 };
 
-// Returns the nearest whole number of places in the grid: additions round to whole numbers at this magnitude.
+// Rounds positions in the grid to the nearest integer. At the magnitude below, floats are integers, so adding
+// and subtracting it rounds.
 Float to_whole(Float place) {
   const Float magnitude = broadcast(12582912.0f);  // 1.5 x 2^23
   return (place + magnitude) - magnitude;
@@ -30,12 +31,13 @@ void read_shares(const std::uint8_t* shares, std::uint32_t count, float* out) {
   for (std::uint32_t i = 0; i < chunk; ++i) out[i] = i >= count ? 0.0f : shares ? float(shares[i]) : 255.0f;
 }
 
-// Returns a bit for each lobe that is not dark. The places of dark lobes are meaningless, and may be NaN.
+// Computes the positions of lobes. Returns a bit mask of the lobes that are not dark. The positions of dark
+// lobes are undefined and may be NaN.
 std::uint64_t place_lobes(const LightView& light, const float* frame, const std::uint8_t* shares,
                           std::uint32_t first, std::uint32_t count, Places& places) {
   alignas(64) float share[chunk];
   read_shares(shares, count, share);
-  float across[6];  // the axes x and y in steps of the grid
+  float across[6];  // the axes x and y in units of grid steps
   for (std::uint32_t i = 0; i < 6; ++i) across[i] = frame[i] * light.scale;
   const Float zero = broadcast(0.0f), half = broadcast(0.5f), last = broadcast(float(light.side - 2));
   const Float centre = broadcast(light.centre), lowest = broadcast(light.lowest_z);
@@ -62,8 +64,8 @@ std::uint64_t place_lobes(const LightView& light, const float* frame, const std:
   return bright;
 }
 
-// Adds the light of lobes to the nodes of one vertex; a node has red, green, blue and 0. It adds to two nodes
-// of a row at once.
+// Adds the light of lobes to the nodes of one vertex. A node has red, green, blue and 0. Two neighbouring
+// nodes of a row are updated at once.
 void add_lobes(const LightView& light, const Places& places, std::uint64_t bright, std::uint32_t first,
                float* nodes) {
   alignas(32) constexpr float slopes[8] = {-1, -1, -1, -1, 1, 1, 1, 1}, starts[8] = {1, 1, 1, 1, 0, 0, 0, 0};
@@ -89,13 +91,13 @@ void spread(const LightView& light, const std::uint8_t* shares, const float* fra
   }
 }
 
-// This many vectors of the table are weighted at once.
+// The number of SIMD vectors of the table that are processed at once.
 inline constexpr std::uint32_t group = width >= 16 ? 1 : 2;
 
-// A product needs its row of the table and a node's number from memory, and processors load at most two
-// values for two products. If four vertices share the rows, a channel takes two rows and four numbers for
-// eight products. Wide vectors, and blocks of fewer vertices, take all channels at once, so that enough sums
-// are in flight to hide the latency of each.
+// The number of channels that are processed at once. A product loads a row of the table and a node's weight
+// from memory, and processors can load at most two values for two products. If four vertices share the rows,
+// one channel loads two rows and four weights for eight products. Wide vectors, and blocks of fewer vertices,
+// process all channels at once, so that enough independent sums are in flight to hide latency.
 template <std::uint32_t Vertices>
 inline constexpr std::uint32_t channels_at_once = width >= 16 || Vertices < 4 ? 3 : 1;
 
@@ -104,7 +106,7 @@ struct Sums {
   Float of[Vertices][channels_at_once<Vertices>][group];
 };
 
-// The nodes of a row that have any light at some of the vertices: [begin, end).
+// The range [begin, end) of nodes in a row that have light at any of the vertices.
 struct Columns {
   std::uint32_t begin = 0, end = 0;
 };
@@ -131,8 +133,8 @@ Columns lit_columns(const LightView& light, const float* nodes, std::size_t node
   return lit;
 }
 
-// Adds one row of the table, weighted by the nodes of the vertices, for channels from `channel` and lanes
-// from `first` on.
+// Adds one row of the table, weighted by the nodes of the vertices. It processes the channels from `channel`
+// on and the lanes from `first` on.
 template <std::uint32_t Vertices>
 void weigh_row(const LightView& light, const float* nodes, std::size_t node_floats, std::uint32_t row,
                Columns columns, std::uint32_t channel, std::uint32_t first, Sums<Vertices>& out) {
@@ -178,7 +180,8 @@ void write(const LightView& light, const Sums<Vertices>& sums, std::uint32_t cha
     }
 }
 
-// Goes row by row over all channels, so that a row of nodes is read from the second-level cache once.
+// Processes all channels of a row before the next row, so that a row of nodes is read from the second-level
+// cache only once.
 template <std::uint32_t Vertices>
 void weigh(const LightView& light, const VertexBlock& block, std::size_t node_floats,
            std::uint32_t first_vertex) {

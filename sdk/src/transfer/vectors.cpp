@@ -20,7 +20,7 @@ const VectorKernels* vector_kernels(Isa isa) {
 
 namespace {
 
-// A thread takes this many vertices at a time, whole blocks.
+// A thread takes this many vertices at a time, which is a whole number of blocks.
 constexpr std::uint32_t piece = 256;
 
 AlignedArray<float> padded_amplitudes(const Response& response, std::span<const float> amplitudes,
@@ -58,7 +58,7 @@ void write_axes(const Frame& frame, float* axes) {
   std::copy_n(values, 9, axes);
 }
 
-// The light that a baked shape reflects onto itself, for one light and one material.
+// Computes the light that a baked shape reflects onto itself, for one light and one material.
 class ReflectedLight {
  public:
   ReflectedLight(const Response& response, std::span<const float> amplitudes, const Transfer& transfer,
@@ -85,8 +85,8 @@ class ReflectedLight {
   const ReflectedBands light_;
 };
 
-// frame_at(i) returns the frame of vertex i, and shares_at(i) its bytes or null; after(i, vector) may change
-// a vector.
+// frame_at(i) returns the frame of vertex i. shares_at(i) returns its shares, or null if it is open. after(i,
+// vector) is called for each finished vector and may change it.
 template <class FrameAt, class SharesAt, class After>
 void run(const Response& response, Isa isa, std::span<const float> amplitudes, std::uint32_t count,
          const VectorOutput& output, const Parallel& parallel, Memory* memory, FrameAt&& frame_at,

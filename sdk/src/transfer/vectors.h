@@ -12,19 +12,20 @@
 namespace nook::transfer {
 
 struct VectorOutput {
-  float* vectors = nullptr;  // 3 x light_modes floats of each vertex: red, then green, then blue modes
-  std::uint64_t stride = 0;  // floats between the vectors of two vertices
+  float* vectors = nullptr;  // 3 x light_modes floats for each vertex: red, then green, then blue modes
+  std::uint64_t stride = 0;  // floats from one vertex's vector to the next
 };
 
-// Computes the vertices first to first + count of baked transfer, which must have the response's lobes; in
-// the paper's form, also its light modes. amplitudes has lobes x RGB. The result does not depend on
-// `parallel`. From `memory` it allocates only the padded amplitudes and, in the paper's form, the clusters'
-// matrices under the light.
+// Computes the vectors of `count` vertices of baked transfer, beginning at vertex `first`. The transfer must
+// have the same lobes as the response; in the paper's form, also the same light modes. `amplitudes` has an
+// RGB value for each lobe. The result does not depend on `parallel`. From `memory`, the function allocates
+// only the padded amplitudes and, in the paper's form, the result of paper_light.
 void baked_vectors(const Response& response, Isa isa, std::span<const float> amplitudes,
                    const Transfer& transfer, std::uint32_t first, std::uint32_t count,
                    const VectorOutput& output, const Parallel& parallel, Memory* memory);
 
-// Computes vertices without visibility: all light above their horizon reaches them.
+// Computes the vectors of vertices without baked visibility: all light above the horizon of a vertex reaches
+// it.
 void open_vectors(const Response& response, Isa isa, std::span<const float> amplitudes,
                   std::span<const Frame> frames, const VectorOutput& output, const Parallel& parallel,
                   Memory* memory);
