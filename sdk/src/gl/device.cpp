@@ -26,7 +26,7 @@ void Device::read_limits() {
   GLint value = 0;
   if (gl.can.texture_buffers) {
     gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &value);
-    // A table of 2 GiB is as much as 32 bits can count.
+    // At the upper limit, a table has 2 GiB, the largest size that 32-bit offsets can address.
     max_texels = static_cast<std::uint32_t>(std::clamp(value, 65536, 1 << 27));
   } else {
     gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &value);
@@ -40,7 +40,7 @@ void Device::read_limits() {
 }
 
 void Device::report_host_errors() const {
-  // A context that is lost or not current may return errors forever.
+  // The loop is limited because a context that is lost or not current may return errors forever.
   for (int i = 0; i < 16; ++i) {
     const GLenum error = gl.GetError();
     if (error == GL_NO_ERROR) return;
@@ -66,14 +66,15 @@ void Device::need_alive() const {
 
 namespace {
 
-// The mark is stored in this attribute of a vertex array. Nook never draws with this attribute.
+// The mark that identifies the context is stored in this attribute of a vertex array. Nook never draws with
+// this attribute.
 constexpr GLuint marked_attribute = 3;
 
 }  // namespace
 
 GLuint Device::mark() const {
-  // Two objects that are alive at the same time have different addresses. The number must fit what integer
-  // queries return.
+  // The mark is derived from the address of this object, because two objects that live at the same time have
+  // different addresses. The mark must fit into the range of integer queries.
   return static_cast<GLuint>((reinterpret_cast<std::uintptr_t>(this) >> 3) & 0x3fffffff) + 1;
 }
 

@@ -1,4 +1,4 @@
-// The common part of all OpenGL objects of one nook_gl: functions, limits, and the amount of memory in use.
+// The state that all OpenGL objects of one nook_gl share: functions, limits, and the amount of memory in use.
 #pragma once
 
 #include <nook/nook_gl.h>
@@ -31,22 +31,23 @@ struct Device {
   Device& operator=(const Device&) = delete;
   ~Device();
 
-  // Moves errors that the host left to the log, so that later errors are Nook's.
+  // Logs and clears OpenGL errors that the host has left, so that later errors are known to be Nook's.
   void report_host_errors() const;
-  // Throws Failure if OpenGL has reported an error; `what` is the action for the message.
+  // Throws Failure if OpenGL has reported an error. The message names the action `what`.
   void check(const char* what) const;
-  // Throws Failure if the OpenGL context was lost, or if need_current does.
+  // Throws Failure if the OpenGL context was lost, or if need_current throws.
   void need_alive() const;
-  // With nook_gl_desc.debug, throws Failure unless the OpenGL context of nook_gl_create is current.
+  // If nook_gl_desc.debug is set, throws Failure unless the OpenGL context that was current in nook_gl_create
+  // is current.
   void need_current() const;
-  // Returns whether objects may be deleted. Objects that must not be deleted in another context leak, and the
-  // log says so once.
+  // Returns whether objects may be deleted in the current context. If another context is current, deleting
+  // them would be wrong, so they leak, and the log says so once.
   bool may_delete() const;
-  // Every name that is made goes through adopt, and every name that is deleted through remove. While a call
-  // holds a StateGuard, remove puts the deletion off until the host's state is back: OpenGL then unbinds the
-  // object wherever the host has it bound. A dead name could not be bound again.
-  // Throws std::bad_alloc after deleting the name. It makes the room that remove needs, so that no update
-  // allocates for it.
+  // Call adopt for every OpenGL name that Nook creates, and remove for every name that it deletes. While a
+  // call holds a StateGuard, remove defers the deletion until the host's state is restored. Then OpenGL
+  // unbinds the object wherever the host has it bound. If the object were deleted earlier, the guard could
+  // not bind it again. adopt reserves the memory that remove needs, so that removing never allocates. If this
+  // fails, adopt deletes the name and throws std::bad_alloc.
   void adopt(ObjectKind kind, GLuint name);
   void remove(ObjectKind kind, GLuint name) noexcept;
   void begin_call() { ++calls_; }
@@ -67,12 +68,12 @@ struct Device {
   // The maximum size of a buffer that is bound as one piece: the limit of the context, but at most 128 MiB.
   std::uint64_t max_piece_bytes = std::uint64_t{128} << 20;
   std::uint64_t storage_alignment = 256;  // bytes
-  std::uint32_t max_texels = 65536;       // of a table of texels
+  std::uint32_t max_texels = 65536;       // in a table of texels
 
  private:
   void read_limits();
   void mark_context();
-  // Returns what is wrong with the current context, or null.
+  // Returns a text that says what is wrong with the current context, or null.
   const char* context_fault() const;
   GLuint mark() const;
   void delete_now(ObjectKind kind, GLuint name) const;
@@ -83,7 +84,7 @@ struct Device {
   };
   Vector<Removed> removed_;  // with room for all objects
   std::size_t object_count_ = 0;
-  int calls_ = 0;  // that hold a StateGuard
+  int calls_ = 0;  // number of calls that hold a StateGuard
 
   // A vertex array that stores a unique number. Contexts do not share vertex arrays, so it identifies this
   // context.

@@ -1,5 +1,5 @@
-// The text of every shader file, compiled into the library. embed_shaders.cmake makes it from shaders/ at
-// build time.
+// The texts of all shader files, compiled into the library. embed_shaders.cmake generates them from shaders/
+// at build time.
 #pragma once
 
 namespace nook::gl {

@@ -8,10 +8,10 @@
 namespace nook::gl {
 namespace {
 
-// The constants of EXT_disjoint_timer_query and its functions are the same as in OpenGL 3.3.
+// The constants and functions of EXT_disjoint_timer_query are the same as in OpenGL 3.3.
 constexpr const char* es_timer_extension = "GL_EXT_disjoint_timer_query";
 constexpr GLenum num_extensions = 0x821D;
-// More than any context lists: OpenGL ES with all of its extensions has about a hundred.
+// A limit that no context reaches: OpenGL ES with all of its extensions lists about a hundred formats.
 constexpr std::size_t most_compressed_formats = 256;
 
 class Loader {
@@ -22,7 +22,8 @@ class Loader {
   void optional(F& function, const char* name) const {
     function = reinterpret_cast<F>(get_proc_(user_, name));
   }
-  // `version` names what has the function, such as "OpenGL 3.3".
+  // `version` is for the message. It names the version or extension that has the function, such as "OpenGL
+  // 3.3".
   template <class F>
   void required(F& function, const char* name, const char* version) const {
     optional(function, name);
@@ -39,8 +40,8 @@ class Loader {
   void* user_;
 };
 
-// OpenGL ES says its name in GL_VERSION, and so does a WebGL context in a browser's build. No other query
-// tells them apart from OpenGL.
+// GL_VERSION contains "OpenGL ES" in OpenGL ES, and also in a WebGL context that a browser's build uses. No
+// other query distinguishes them from desktop OpenGL.
 Profile profile_of(const Functions& gl) {
   const auto* version = reinterpret_cast<const char*>(gl.GetString(GL_VERSION));
   if (!version || !std::strstr(version, "OpenGL ES")) return Profile::desktop;
@@ -60,11 +61,11 @@ void check_version(const Functions& gl) {
                   major, minor, gl.version == 0 ? "; is a context current on this thread?" : "");
 }
 
-// GL_MAJOR_VERSION came with OpenGL 3.0 and OpenGL ES 3.0; older OpenGL leaves the numbers at 0.
+// GL_MAJOR_VERSION exists since OpenGL 3.0 and OpenGL ES 3.0. Older versions leave the results at 0.
 void read_version(Functions& gl) {
   gl.profile = profile_of(gl);
   if (gl.profile == Profile::es) {
-    // OpenGL ES 2.0 answers the query with an error, which the host would then find.
+    // In OpenGL ES 2.0, the query would cause an error, which the host would find later.
     const char* const number = std::strstr(reinterpret_cast<const char*>(gl.GetString(GL_VERSION)), "ES 2.");
     if (number) gl.version = 20 + (number[5] - '0');
     if (number) return;
@@ -88,8 +89,8 @@ bool has_extension(const Functions& gl, const Loader& loader, const char* name) 
   return false;
 }
 
-// Only WebGL lists formats of extensions that the page has enabled. Its list of extensions has the ones that
-// a page may enable, so this checks the list of formats.
+// Needed for WebGL, where the list of extensions contains all extensions that a page could enable. The list
+// of compressed formats contains only formats of extensions that the page has enabled.
 bool lists_compressed_format(const Functions& gl, GLenum format) {
   GLint count = 0;
   gl.GetIntegerv(GL_NUM_COMPRESSED_TEXTURE_FORMATS, &count);
@@ -150,8 +151,8 @@ void load_feedback_objects(Functions& gl, const Loader& loader) {
   loader.optional(gl.GenTransformFeedbacks, "glGenTransformFeedbacks");
 }
 
-// A loader may return a stub for a function that the context lacks, so the version is tested before the
-// pointer.
+// A loader may return a stub for a function that the context does not have. So the version is checked before
+// the pointer.
 void load_desktop_options(Functions& gl, const Loader& loader) {
   gl.can.texture_buffers = gl.can.maps = gl.can.buffer_reads = true;
   gl.can.indexed_feedback = gl.can.norm16_targets = gl.can.desktop_raster = true;

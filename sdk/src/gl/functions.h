@@ -1,6 +1,6 @@
-// The OpenGL functions that Nook calls: one list for each tier, and one table for each context, which the
-// host's loader fills. glad supplies only types and constants. Its loader is not linked, so that Nook has
-// none of its symbols and memory.
+// The OpenGL functions that Nook calls. There is one list for each tier, and one table of pointers for each
+// context, which is filled by the host's loader. glad provides only types and constants. Its loader is not
+// linked, so Nook contains none of its symbols and global memory.
 #pragma once
 
 #include <glad/gl.h>
@@ -103,7 +103,7 @@ namespace nook::gl {
   X(VertexAttribPointer)                 \
   X(Viewport)
 
-// The functions that OpenGL 3.3 has in addition. OpenGL ES 3.2 has some of them, which are used there.
+// Additional functions of OpenGL 3.3. Some of them are also in OpenGL ES 3.2 and are used there.
 #define NOOK_GL_FUNCTIONS_33(X) \
   X(ColorMaski)                 \
   X(Disablei)                   \
@@ -117,20 +117,20 @@ namespace nook::gl {
   X(QueryCounter)               \
   X(TexBuffer)
 
-// The functions that OpenGL ES 3.0 has in addition.
+// Additional functions of OpenGL ES 3.0.
 #define NOOK_GL_FUNCTIONS_ES30(X) X(TexStorage2D)
 
-// The functions that a tier with compute shaders needs in addition: OpenGL 4.3, OpenGL ES 3.1.
+// Additional functions that the tiers with compute shaders need, in OpenGL 4.3 and OpenGL ES 3.1.
 #define NOOK_GL_FUNCTIONS_COMPUTE(X) \
   X(DispatchCompute)                 \
   X(MemoryBarrier)
 
-// The functions of mapped buffers, which only WebGL lacks.
+// Functions that map buffers. All APIs except WebGL have them.
 #define NOOK_GL_FUNCTIONS_MAPS(X) \
   X(MapBufferRange)               \
   X(UnmapBuffer)
 
-// Functions that are used only if they exist.
+// Optional functions, which are used only if they exist.
 #define NOOK_GL_FUNCTIONS_OPTIONAL(X) \
   X(BindImageTexture)                 \
   X(BindTransformFeedback)            \
@@ -146,7 +146,7 @@ namespace nook::gl {
   X(ObjectLabel)                      \
   X(ViewportIndexedf)
 
-// The functions that nook_gl_desc.debug needs; every context has them.
+// Functions that nook_gl_desc.debug needs. Every context has them.
 #define NOOK_GL_FUNCTIONS_DEBUG(X) \
   X(BeginQuery)                    \
   X(EndQuery)                      \
@@ -164,27 +164,27 @@ namespace nook::gl {
   NOOK_GL_FUNCTIONS_DEBUG(X)     \
   NOOK_GL_FUNCTIONS_OPTIONAL(X)
 
-// The three dialects of OpenGL. They differ in what a context promises, and in the version line of shaders.
+// The three APIs. They differ in the features that a context guarantees, and in the #version line of shaders.
 enum class Profile { desktop, es, webgl };
 
-// Abilities of a context beyond the minimum that Nook needs. load_functions derives them once from the
-// profile, the version, the loader and the host's limit. All other code reads them and never compares
+// Features of a context beyond the minimum that Nook needs. load_functions sets them once, from the profile,
+// the version, the loader and the host's limit. All other code must read these flags and never compare
 // versions.
 struct Abilities {
   bool compute = false;           // compute shaders and shader storage
   bool compute_images = false;    // compute shaders can also write images
-  bool texture_buffers = false;   // otherwise tables of texels are 2D textures
-  bool maps = false;              // buffers can be mapped; otherwise writes are copies
-  bool buffer_reads = false;      // glGetBufferSubData; otherwise reads map
+  bool texture_buffers = false;   // if false, tables of texels are 2D textures
+  bool maps = false;              // buffers can be mapped; if false, writes copy
+  bool buffer_reads = false;      // glGetBufferSubData; if false, reads map the buffer
   bool indexed_feedback = false;  // draws with indices during transform feedback, which ES forbids before 3.2
   bool norm16_targets = false;    // GL_RG16 can be drawn into
   bool r8_images = false;         // compute shaders write GL_R8
   bool texture_sizes = false;     // glGetTexLevelParameteriv
   bool sample_textures = false;   // GL_TEXTURE_2D_MULTISAMPLE
   bool sample_arrays = false;     // GL_TEXTURE_2D_MULTISAMPLE_ARRAY
-  bool timestamps = false;        // glQueryCounter, and fences that tell when its results are there
-  bool indexed_draw_buffers = false;  // blending and colour mask exist once for each draw buffer
-  bool indexed_viewports = false;     // viewport and scissor test exist once for each index
+  bool timestamps = false;        // glQueryCounter, and fences that tell when its results are available
+  bool indexed_draw_buffers = false;  // each draw buffer has its own blending and colour mask
+  bool indexed_viewports = false;     // each viewport has its own rectangle and scissor test
   bool desktop_raster =
       false;  // polygon mode, primitive restart by index, sRGB switch, logic op, clip distances
   bool query_buffers = false;     // GL_QUERY_BUFFER
@@ -200,16 +200,16 @@ struct Functions {
   Profile profile = Profile::desktop;
   int version = 0;  // of the context, 10 * major + minor
   Abilities can;
-  bool limited_by_host = false;  // could use compute, but max_tier forbids it
+  bool limited_by_host = false;  // the context has compute shaders, but max_tier excludes them
 };
 
 // The values of nook_gl_info.tier.
 int tier_of(const Functions& gl);
-// "OpenGL" or "OpenGL ES" of the context, for messages.
+// Returns "OpenGL" or "OpenGL ES", for messages.
 const char* api_name(const Functions& gl);
 
-// Throws Failure. UNSUPPORTED names the function that get_proc did not return, or the version that is too
-// low. debug: also load the functions of nook_gl_desc.debug.
+// Throws Failure. The message of UNSUPPORTED names the function that get_proc did not return, or the version
+// that is too low. If `debug` is true, the functions for nook_gl_desc.debug are loaded too.
 Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier, bool debug);
 
 // Reads and sets single pieces of OpenGL state for the guard.

@@ -9,7 +9,7 @@ namespace nook::gl {
 
 Buffer::Buffer(Device& device, const char* label, std::uint64_t bytes, const void* data, GLenum usage,
                BufferUse use) {
-  Buffer made;  // deletes the name if allocation fails
+  Buffer made;  // its destructor deletes the name if allocation fails
   made.gl_usage_ = usage;
   made.use_ = use;
   device.gl.GenBuffers(1, &made.name_);
@@ -32,14 +32,14 @@ Buffer::~Buffer() {
   device_->remove(ObjectKind::buffer, name_);
 }
 
-// Gives the buffer a new store of at least this many bytes.
+// Allocates a new store of at least this many bytes for the buffer.
 void Buffer::renew(std::uint64_t bytes) {
   const Functions& gl = device_->gl;
   gl.BindBuffer(GL_ARRAY_BUFFER, name_);
-  // When it grows, it takes 50 % more, so that a growing scene rarely reallocates.
+  // If the buffer has to grow, it allocates 50 % more, so that a growing scene rarely reallocates.
   const std::uint64_t kept = bytes > bytes_ ? bytes + bytes / 2 : bytes_;
-  // Needs a new store: with GL_MAP_INVALIDATE_BUFFER_BIT alone, Mesa's softpipe keeps cached texels of a
-  // mapped buffer.
+  // A new store is necessary: with GL_MAP_INVALIDATE_BUFFER_BIT alone, Mesa's softpipe would keep using
+  // cached texels of the old contents.
   gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(kept), nullptr, gl_usage_);
   device_->buffer_bytes += kept - bytes_;
   bytes_ = kept;
@@ -71,7 +71,7 @@ bool Buffer::end_write() {
   const Functions& gl = device_->gl;
   if (gl.can.maps) return gl.UnmapBuffer(GL_ARRAY_BUFFER) == GL_TRUE;
   gl.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(staging_->size()), staging_->data());
-  staging_.reset();  // these writes are rare, and AO is large
+  staging_.reset();  // frees the memory: these writes are rare, and AO is large
   return true;
 }
 
@@ -144,7 +144,7 @@ Object Object::make(Device& device, Kind kind) {
       break;
     case Kind::buffer:
     case Kind::shader:
-      break;  // Buffer makes the first; the second needs a stage, and shader_program.cpp makes it
+      break;  // class Buffer creates buffers; shader_program.cpp creates shaders, which need a stage
   }
   return Object(device, kind, name);
 }

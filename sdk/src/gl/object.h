@@ -1,5 +1,5 @@
-// OpenGL names that are deleted with their owner, or forgotten if the OpenGL context is lost; buffers; and
-// the objects of transform feedback.
+// Owners of OpenGL objects: buffers, other objects, and the objects for transform feedback. The destructor of
+// an owner deletes its OpenGL name, or only forgets the name if the OpenGL context was lost.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ enum class BufferUse { working, ao };
 class Buffer {
  public:
   Buffer() = default;
-  // Binds GL_ARRAY_BUFFER, like every function here that writes. If data is NULL, the bytes are undefined.
-  // Throws Failure.
+  // Binds GL_ARRAY_BUFFER, as all writing functions of this class do. If `data` is NULL, the contents are
+  // undefined. Throws Failure.
   Buffer(Device& device, const char* label, std::uint64_t bytes, const void* data, GLenum usage,
          BufferUse use = BufferUse::working);
   Buffer(Buffer&& other) noexcept { swap(other); }
@@ -30,10 +30,11 @@ class Buffer {
 
   GLuint name() const { return name_; }
   std::uint64_t bytes() const { return bytes_; }
-  // Replaces the contents: fill(memory) writes `bytes` bytes. The GPU may still read the old contents, which
-  // stay intact. Nothing waits, with one exception: if a texture reads the buffer, NVIDIA's driver waits for
-  // the GPU when it is mapped. OpenGL may lose what was written, as when the display changes; then fill is
-  // called again. Throws Failure if OpenGL has no memory or keeps losing the contents.
+  // Replaces the contents: fill(memory) must write `bytes` bytes. The GPU may still be reading the old
+  // contents, which are preserved for it. The call does not wait, with one exception: if a texture reads the
+  // buffer, NVIDIA's driver waits for the GPU in the map call. OpenGL may lose the written contents, for
+  // example when the display mode changes. In this case, fill is called again. Throws Failure if OpenGL is
+  // out of memory or loses the contents repeatedly.
   template <class Fill>
   void write(std::uint64_t bytes, Fill&& fill) {
     for (int attempt = 0; attempt < max_write_attempts; ++attempt) {
@@ -42,8 +43,9 @@ class Buffer {
     }
     fail_write(bytes);
   }
-  // Does the same from the caller's memory, for buffers that a texture reads: NVIDIA's driver does not wait
-  // here. It reports no failure, because an update does not read OpenGL's errors; the host finds them.
+  // Replaces the contents by the caller's memory. Use it for buffers that a texture reads, because NVIDIA's
+  // driver does not wait here. Failures are not reported, because an update does not query OpenGL errors; the
+  // host will find them.
   void send(std::uint64_t bytes, const void* data);
 
  private:
@@ -59,21 +61,22 @@ class Buffer {
   GLenum gl_usage_ = GL_STATIC_DRAW;
   BufferUse use_ = BufferUse::working;
   std::uint64_t bytes_ = 0;
-  std::optional<Vector<std::byte>> staging_;  // for writes if buffers cannot be mapped
+  std::optional<Vector<std::byte>> staging_;  // memory for writes if buffers cannot be mapped
 };
 
-// Copies bytes of a buffer to `out` and waits for the GPU. Binds GL_ARRAY_BUFFER. Throws Failure if the
-// buffer cannot be mapped and OpenGL has no other way.
+// Copies bytes of a buffer to `out`. Waits for the GPU. Binds GL_ARRAY_BUFFER. Throws Failure if OpenGL has
+// no function to read buffers and mapping the buffer fails.
 void read_buffer_bytes(const Device& device, GLuint buffer, std::uint64_t offset, std::uint64_t bytes,
                        void* out);
 
-// Any other kind of object. One owner type is enough, since kinds differ only in the call that deletes them.
+// Owns any other kind of object. One class is enough, because kinds differ only in the function that deletes
+// them.
 class Object {
  public:
   using Kind = ObjectKind;
 
   Object() = default;
-  // Takes over a name. Throws std::bad_alloc, and the name is deleted then.
+  // Takes ownership of a name. If it throws std::bad_alloc, it has deleted the name.
   Object(Device& device, Kind kind, GLuint name) : kind_(kind), name_(name) {
     device.adopt(kind, name);
     device_ = &device;
@@ -101,21 +104,22 @@ class Object {
   GLuint name_ = 0;
 };
 
-// A draw needs a complete framebuffer even if nothing is rasterised, and a surfaceless context has none.
+// A framebuffer and a transform-feedback object for draws that rasterise nothing. OpenGL requires a complete
+// framebuffer even then, and a surfaceless context does not have one.
 class FeedbackTarget {
  public:
   FeedbackTarget() = default;
   // Binds GL_DRAW_FRAMEBUFFER and GL_RENDERBUFFER. Throws Failure.
   explicit FeedbackTarget(Device& device);
 
-  // begin binds the framebuffer and the transform-feedback object, and turns rasterization and primitive
-  // restart off. end turns rasterization on, and unbinds the written buffer.
+  // begin binds the framebuffer and the transform-feedback object, and disables rasterization and primitive
+  // restart. end enables rasterization, and unbinds the buffer that was written.
   void begin(const Device& device) const;
   static void end(const Device& device);
 
  private:
   Object framebuffer_, renderbuffer_;
-  Object feedback_;  // name 0 before OpenGL 4.0
+  Object feedback_;  // its name is 0 before OpenGL 4.0
 };
 
 }  // namespace nook::gl

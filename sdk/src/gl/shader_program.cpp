@@ -35,8 +35,8 @@ const char* version_line(const Functions& gl, GLenum stage, ShaderNeeds needs) {
   return compute || needs.sample_textures || needs.gathers ? "#version 310 es\n" : "#version 300 es\n";
 }
 
-// Like desktop OpenGL, every stage computes in full precision, unless it was measured to need less. Sums over
-// taps and spheres, and depths, need full precision.
+// Every stage uses high precision on OpenGL ES too, unless measurements have shown that medium precision is
+// enough. Depths, and sums over taps and spheres, need high precision.
 const char* float_precision(const Functions& gl, ShaderNeeds needs) {
   if (gl.profile == Profile::desktop) return "";
   return needs.medium_precision ? "precision mediump float;\n" : "precision highp float;\n";
@@ -103,7 +103,7 @@ Object compute_program(Device& device, const char* path, const char* defines, Sh
 Object feedback_program(Device& device, const char* path, const char* defines, const char* varying) {
   const Object vertex = compile(device, GL_VERTEX_SHADER, path, defines);
   if (device.gl.profile == Profile::desktop) return link(device, {vertex.name()}, path, varying);
-  // OpenGL ES does not link a program without a fragment shader.
+  // OpenGL ES cannot link a program without a fragment shader.
   const Object fragment = compile(device, GL_FRAGMENT_SHADER, "core/nothing.frag", "");
   return link(device, {vertex.name(), fragment.name()}, path, varying);
 }

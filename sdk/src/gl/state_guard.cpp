@@ -33,7 +33,8 @@ void query_program(const Functions& gl, SavedState& s) {
   s.program = integer(gl, GL_CURRENT_PROGRAM);
 }
 void restore_program(const Functions& gl, const SavedState& s) {
-  // If the host deleted the program while it was current, OpenGL freed it when Nook bound its own.
+  // If the host had deleted the program while it was current, OpenGL freed it when Nook made its own program
+  // current. So it cannot be restored.
   const bool gone = s.program != 0 && !gl.IsProgram(s.program);
   gl.UseProgram(gone ? 0 : s.program);
 }
@@ -59,7 +60,8 @@ void restore_active_texture(const Functions& gl, const SavedState& s) {
   gl.ActiveTexture(s.active_texture);
 }
 
-// The next two items belong to unit 0, whichever unit is active. The item above restores the active unit.
+// The next two items are about unit 0, regardless of the active unit. The item above restores the active
+// unit.
 void query_texture_unit_0(const Functions& gl, SavedState& s) {
   gl.ActiveTexture(GL_TEXTURE0);
   s.texture_unit_0 = integer(gl, gl.can.texture_buffers ? GL_TEXTURE_BINDING_BUFFER : GL_TEXTURE_BINDING_2D);
@@ -221,8 +223,8 @@ void restore_transform_feedback(const Functions& gl, const SavedState& s) {
   if (has_feedback_objects(gl)) gl.BindTransformFeedback(GL_TRANSFORM_FEEDBACK, s.transform_feedback);
 }
 
-// With transform-feedback objects, the indexed binding belongs to Nook's own object, and only the generic one
-// is shared.
+// If there are transform-feedback objects, the indexed binding is part of Nook's own object. Only the generic
+// binding is shared with the host.
 void query_feedback_buffer(const Functions& gl, SavedState& s) {
   s.feedback_buffer.generic = integer(gl, GL_TRANSFORM_FEEDBACK_BUFFER_BINDING);
   if (!has_feedback_objects(gl))
@@ -238,7 +240,8 @@ void restore_feedback_buffer(const Functions& gl, const SavedState& s) {
 void query_storage_buffer(const Functions& gl, SavedState& s) {
   s.storage_buffer = integer(gl, GL_SHADER_STORAGE_BUFFER_BINDING);
 }
-// Binding the ranges also changes the generic binding, so that the ranges come first.
+// Does nothing, because binding a range also changes the generic binding. restore_storage_ranges binds the
+// ranges first and then restores the generic binding.
 void restore_storage_buffer(const Functions&, const SavedState&) {}
 
 void query_storage_ranges(const Functions& gl, SavedState& s) {
@@ -280,7 +283,7 @@ StateGuard::~StateGuard() {
   if (device_.state_mode != NOOK_GL_STATE_HOST) {
     restore_all(gl, users_, saved_);
   } else if (users_ & tier_33) {
-    // With these two, the host's next draw would be invisible or broken.
+    // If these two stayed enabled, the host's next draw would be invisible or broken.
     gl.Disable(GL_RASTERIZER_DISCARD);
     set_primitive_restart(gl, false);
   }

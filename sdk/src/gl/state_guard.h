@@ -1,5 +1,5 @@
-// Implements nook_gl_state_mode around a call: saves and restores the state, resets it to defaults, or leaves
-// it.
+// Implements nook_gl_state_mode for a call. Depending on the mode, the guard saves and restores the OpenGL
+// state, resets it to defaults, or does nothing.
 #pragma once
 
 #include <nook/nook_gl.h>
@@ -20,7 +20,8 @@ struct BufferRange {
   GLint64 size = 0;    // bytes; 0: the whole buffer
 };
 
-// The capabilities of the item fragment_tests. OpenGL ES has the first ones, and GL_SAMPLE_MASK from 3.1 on.
+// The capabilities that the item fragment_tests saves. OpenGL ES has only the first five, and from
+// version 3.1 on also GL_SAMPLE_MASK.
 inline constexpr GLenum fragment_tests[] = {
     GL_DEPTH_TEST,     GL_STENCIL_TEST,   GL_CULL_FACE,      GL_SAMPLE_COVERAGE, GL_SAMPLE_ALPHA_TO_COVERAGE,
     GL_SAMPLE_MASK,    GL_COLOR_LOGIC_OP, GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1,  GL_CLIP_DISTANCE2,
@@ -31,14 +32,14 @@ inline std::span<const GLenum> fragment_tests_of(const Functions& gl) {
   return std::span(fragment_tests).first(gl.profile == Profile::desktop ? fragment_test_count : es);
 }
 
-// The initial value of every member is OpenGL's default.
+// The initial values of the members are OpenGL's defaults.
 struct BlendState {
   GLboolean enabled = GL_FALSE;
   GLint source_rgb = GL_ONE, destination_rgb = GL_ZERO, source_alpha = GL_ONE, destination_alpha = GL_ZERO;
   GLint equation_rgb = GL_FUNC_ADD, equation_alpha = GL_FUNC_ADD;
 };
 
-// The last two are not of OpenGL ES.
+// OpenGL ES does not have the last two.
 inline constexpr GLenum pixel_store_names[] = {
     GL_UNPACK_ALIGNMENT,   GL_UNPACK_ROW_LENGTH,  GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_ROWS,
     GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_IMAGES, GL_UNPACK_SWAP_BYTES,   GL_UNPACK_LSB_FIRST};
@@ -54,7 +55,7 @@ struct PixelPack {
 };
 
 struct ImageUnit {
-  // format 0: the default of the profile, GL_R8 or GL_R32UI.
+  // If `format` is 0, it means the default of the API: GL_R8, or GL_R32UI on OpenGL ES.
   GLint texture = 0, level = 0, layered = GL_FALSE, layer = 0, access = GL_READ_ONLY, format = 0;
 };
 
@@ -89,7 +90,7 @@ struct SavedState {
   PixelStore pixel_store;
   PixelPack pixel_pack;
   struct {
-    bool known = false;  // false: there is no default
+    bool known = false;  // false: not saved, and there is no default
     GLfloat box[4] = {};
   } viewport;
   BlendState blend;
@@ -102,22 +103,22 @@ struct SavedState {
   GLint query_buffer = 0;
 };
 
-// Sets draw buffer 0 and viewport 0 only, where OpenGL can set them alone.
+// These functions change only draw buffer 0 and viewport 0 if OpenGL has separate state for them.
 void set_blend(const Functions& gl, const BlendState& blend);
 void set_viewport(const Functions& gl, const GLfloat (&box)[4]);
 void set_pixel_store(const Functions& gl, const PixelStore& store);
 void set_pixel_pack(const Functions& gl, const PixelPack& pack);
 void set_scissor_test(const Functions& gl, bool enabled);
-// Does nothing on OpenGL ES, where the restart index depends on the index type alone.
+// Does nothing on OpenGL ES, where the restart index is fixed by the index type.
 void set_primitive_restart(const Functions& gl, bool enabled);
-// Sets blend, masks, tests and capabilities so that one triangle fills its viewport without side effects.
+// Sets blending, masks, tests and capabilities so that a triangle fills the viewport without side effects.
 void set_plain_drawing(const Functions& gl);
 
-// During its lifetime the passes may leave any of the touched state changed, and objects that they delete
-// stay until the state is restored. Transform feedback must end before its lifetime does.
+// While a guard exists, passes may change any of the touched state. Objects that they delete are kept until
+// the state has been restored. Transform feedback must end before the guard is destroyed.
 class StateGuard {
  public:
-  // users selects the items of the list.
+  // `users` selects the items of NOOK_GL_TOUCHED_STATE.
   StateGuard(Device& device, unsigned users);
   ~StateGuard();
   StateGuard(const StateGuard&) = delete;
@@ -129,22 +130,24 @@ class StateGuard {
   SavedState saved_;
 };
 
-// Returns the users of the items that the evaluation of characters touches.
+// Returns the users whose state the evaluation of characters changes.
 inline unsigned character_users(const Functions& gl) {
   return unsigned{gl.can.compute ? tier_43 : tier_33} |
          (gl.can.texture_buffers ? 0u : unsigned{texel_uploads});
 }
-// The users of the items that the upload of probes touches.
+// Returns the users whose state the upload of probes changes.
 inline unsigned probe_users(const Functions& gl) {
   return probes | (gl.can.texture_buffers ? 0u : unsigned{texel_uploads});
 }
 
-// The users of the items that the creation of a screen-space pass touches: it uploads filters.
+// Returns the users whose state the creation of a screen-space pass changes. The creation also uploads
+// filters.
 inline unsigned screen_creation_users(const Functions& gl) {
   return screen | (gl.can.texture_buffers ? 0u : unsigned{texel_uploads});
 }
 
-// There is one query and one restore for each item of the list; the restore of a new SavedState is the reset.
+// Declares a query function and a restore function for each item of the list. Restoring a new SavedState
+// resets the item to its default.
 #define NOOK_X(name, users, what, note)                  \
   void query_##name(const Functions& gl, SavedState& s); \
   void restore_##name(const Functions& gl, const SavedState& s);

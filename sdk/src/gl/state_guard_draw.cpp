@@ -1,4 +1,4 @@
-// Saves and restores the state of the screen-space pass's draws.
+// Saves and restores the state that the draws of the screen-space pass change.
 #include "sdk/src/gl/state_guard.h"
 
 #include "sdk/src/gl/functions.h"
@@ -6,7 +6,7 @@
 namespace nook::gl {
 namespace {
 
-// Changes only the value of draw buffer 0 or viewport 0, where OpenGL has one for each.
+// Changes only the value of draw buffer 0 or viewport 0 if OpenGL has separate values.
 void set_enabled_0(const Functions& gl, GLenum capability, bool enabled) {
   if (!gl.can.indexed_draw_buffers)
     set_enabled(gl, capability, enabled);
@@ -143,7 +143,7 @@ void restore_samplers(const Functions& gl, const SavedState& s) {
 }
 
 void query_filter_texture(const Functions& gl, SavedState& s) {
-  if (!gl.can.texture_buffers) return;  // it is one of the 2D textures
+  if (!gl.can.texture_buffers) return;  // without texture buffers, it is one of the 2D textures
   gl.ActiveTexture(GL_TEXTURE0 + filter_unit);
   s.filter_texture = integer(gl, GL_TEXTURE_BINDING_BUFFER);
   gl.ActiveTexture(s.active_texture);
@@ -198,7 +198,7 @@ void restore_color_mask(const Functions& gl, const SavedState& s) {
 
 void query_polygon_mode(const Functions& gl, SavedState& s) {
   if (!gl.can.desktop_raster) return;
-  // Some drivers return two values, front and back, which are equal in core profiles.
+  // Some drivers return two values, for front and back faces. In core profiles they are equal.
   GLint modes[2] = {GL_FILL, GL_FILL};
   gl.GetIntegerv(GL_POLYGON_MODE, modes);
   s.polygon_mode = modes[0];

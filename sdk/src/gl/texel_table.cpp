@@ -43,7 +43,7 @@ void TexelTable::replace(Device& device, GLenum format, std::uint64_t texels, co
 }
 
 void TexelTable::make_texture_buffer(Device& device, std::uint64_t texels, const float* data, GLenum usage) {
-  // The texture keeps its name, which a host may have bound, but reads another buffer.
+  // The texture reads the new buffer but keeps its name, because the host may have bound this name.
   Buffer buffer(device, label_, texels * bytes_of_texel(), data, usage);
   if (!made()) texture_ = Object::make(device, Object::Kind::texture);
   bind(device);
@@ -63,7 +63,7 @@ void TexelTable::make_texture_2d(Device& device, std::uint64_t texels) {
   for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
     gl.TexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-  // With a buffer bound, the null pointer would be an offset into the host's buffer.
+  // If a buffer were bound, OpenGL would read the null pointer as an offset into the host's buffer.
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   gl.TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format_), static_cast<GLsizei>(width),
                 static_cast<GLsizei>(rows), 0, components(format_), GL_FLOAT, nullptr);

@@ -1,5 +1,6 @@
-// A long row of float texels that shaders fetch by number. It is a texture buffer on OpenGL; on OpenGL ES and
-// WebGL it is a 2D texture whose rows follow one another. shaders/core/texels.glsl reads both.
+// A one-dimensional table of float texels that shaders fetch by index. On OpenGL it is a texture buffer. On
+// OpenGL ES and WebGL it is a 2D texture that stores the table row by row. shaders/core/texels.glsl reads
+// both.
 #pragma once
 
 #include <algorithm>
@@ -12,25 +13,26 @@ namespace nook::gl {
 
 class TexelTable {
  public:
-  // Creates an empty table, from which shaders must not fetch. The functions bind it to a texture unit and
-  // leave that unit active.
+  // Creates an empty table. Shaders must not fetch from an empty table. All functions bind the table to the
+  // texture unit `unit` and leave this unit active.
   explicit TexelTable(Memory* memory, GLuint unit = 0) : unit_(unit), staging_(memory) {}
   TexelTable(TexelTable&&) noexcept = default;
   TexelTable& operator=(TexelTable&&) noexcept = default;
 
-  // Makes room for at least `texels` texels; if the table grows, its contents are lost. format is GL_RG32F or
-  // GL_RGBA32F, the same at every call. label must outlive the table. Throws Failure.
+  // Reserves memory for at least `texels` texels. If the table grows, its contents are lost. `format` is
+  // GL_RG32F or GL_RGBA32F and must be the same in every call. `label` must outlive the table. Throws
+  // Failure.
   void reserve(Device& device, GLenum format, std::uint64_t texels, const char* label);
   bool made() const { return texture_.name() != 0; }
   std::uint64_t capacity() const { return capacity_; }
   std::uint64_t bytes() const { return capacity_ * bytes_of_texel(); }
   GLuint texture() const { return texture_.name(); }
 
-  // Replaces the first `texels` texels, at most device.max_texels. fill(memory) writes them, two or four
-  // floats each. The table grows if necessary. Nothing waits for the GPU. Throws Failure.
+  // Replaces the first `texels` texels, at most device.max_texels. fill(memory) must write them, with two or
+  // four floats each. The table grows if necessary. The call does not wait for the GPU. Throws Failure.
   template <class Fill>
   void write(Device& device, std::uint64_t texels, Fill&& fill) {
-    // Takes 50 % more, so that a growing scene rarely reallocates.
+    // Reserves 50 % more, so that a growing scene rarely reallocates.
     if (texels > capacity_)
       reserve(device, format_, std::min(texels + texels / 2, std::uint64_t{device.max_texels}), label_);
     staging_.resize(std::max(staging_.size(), std::size_t(texels * bytes_of_texel())));
@@ -41,12 +43,13 @@ class TexelTable {
       upload(device, texels);
   }
 
-  // Replaces the table by exactly these texels, which are not meant to change. Throws Failure; a texture
-  // buffer then keeps its old contents.
+  // Replaces the table by exactly these texels. Use it for contents that rarely change. Throws Failure; a
+  // texture buffer then keeps its old contents.
   void replace(Device& device, GLenum format, std::uint64_t texels, const float* data, const char* label);
 
-  // Copies texels from a GPU buffer, which must not be bound for transform feedback. Nothing waits. The
-  // texels must lie within the capacity. Binds GL_PIXEL_UNPACK_BUFFER, and GL_ARRAY_BUFFER or the table.
+  // Copies texels from a GPU buffer, which must not be bound for transform feedback. The texels must lie
+  // within the capacity. The call does not wait for the GPU. Changes the binding of GL_PIXEL_UNPACK_BUFFER,
+  // and of GL_ARRAY_BUFFER or the table's texture.
   void copy(const Device& device, GLuint buffer, std::uint64_t offset_bytes, std::uint64_t first_texel,
             std::uint64_t texels) const;
 
@@ -70,8 +73,8 @@ class TexelTable {
   GLenum format_ = 0;
   const char* label_ = "";
   std::uint64_t capacity_ = 0;  // texels
-  Buffer buffer_;               // for a texture buffer
-  Vector<std::byte> staging_;   // for what is written
+  Buffer buffer_;               // used if the table is a texture buffer
+  Vector<std::byte> staging_;   // memory that fill writes if the table is a 2D texture
   Object texture_;
 };
 

@@ -1,5 +1,5 @@
-// Lists the OpenGL state that Nook touches. The guard, docs/gl_state.md and the test of poisoned state expand
-// this list.
+// Lists the OpenGL state that Nook changes. The state guard, docs/gl_state.md and the test of poisoned state
+// are generated from this list.
 #pragma once
 
 #include "shaders/character/layout.h"
@@ -8,11 +8,12 @@
 
 namespace nook::gl {
 
-// The users of an item of state. Characters have one for each tier, and uploads one for each kind: probes and
-// materials, grids, clips, captures of probes, and the binding of uploads. The screen-space pass has several:
-// the pass itself, reading its timers, a network in a compute shader, and nook_nnao_desc.views, depth_samples
-// and both together. Two more are the writing of AO to the host's buffers and textures, and the recording of
-// frames. On OpenGL ES, tables of texels are 2D textures; their upload is another user.
+// The users of an item of state, which are the parts of Nook that change it. Characters have one user for
+// each tier. Uploads have one user for each kind: probes and materials, grids, clips, captures of probes, and
+// the binding of uploads. The screen-space pass has several users: the pass itself, reading its timers, a
+// network in a compute shader, nook_nnao_desc.views, nook_nnao_desc.depth_samples, and both of these
+// together. Two more users write AO to the host's buffers and textures, and record frames. The last one
+// uploads tables of texels, which are 2D textures on OpenGL ES.
 enum : unsigned {
   tier_33 = 1,
   tier_43 = 2,
@@ -38,7 +39,8 @@ enum : unsigned {
 };
 
 // X(name, users, the state as OpenGL names it, its purpose and default). Each item needs a member of
-// SavedState, and a query, a restore and a reset of that name in state_guard.cpp or state_guard_draw.cpp.
+// SavedState with this name, and functions query_name and restore_name in state_guard.cpp or
+// state_guard_draw.cpp.
 #define NOOK_GL_TOUCHED_STATE(X)                                                                            \
   X(program, everyone | outputs | captures, "GL_CURRENT_PROGRAM", "runs the passes; default 0")             \
   X(array_buffer, everyone | probes | outputs | captures, "GL_ARRAY_BUFFER_BINDING",                        \
@@ -121,10 +123,10 @@ enum : unsigned {
     "GL_SHADER_STORAGE_BUFFER_BINDING and its range, index 0 to 3", "passes; default 0")
 
 inline constexpr int storage_binding_count = NOOK_BINDING_COUNT;
-inline constexpr int texture_unit_count = NOOK_UNIT_COUNT;  // of the screen-space pass
+inline constexpr int texture_unit_count = NOOK_UNIT_COUNT;  // units of the screen-space pass
 inline constexpr int cube_map_unit = NOOK_CAPTURE_UNIT_CUBE;
 inline constexpr int host_depth_unit = NOOK_UNIT_HOST_DEPTH;
-// The units to which the pass with layers binds arrays.
+// The units to which a screen-space pass with layers binds texture arrays.
 inline constexpr int layer_units[] = {NOOK_UNIT_HOST_DEPTH, NOOK_UNIT_LAYER, NOOK_UNIT_MOTION};
 inline constexpr int filter_unit = NOOK_UNIT_FILTERS;
 inline constexpr int image_unit_index = NOOK_IMAGE_UNIT;

@@ -17,7 +17,7 @@ namespace {
 using material::NeuralLayout;
 using material::NeuralShape;
 
-// Appends up to 199 characters in printf's format.
+// Appends formatted text, as printf does. The result may have at most 199 characters.
 void add(String& out, const char* format, ...) NOOK_PRINTF(2, 3);
 void add(String& out, const char* format, ...) {
   char line[200];
@@ -28,15 +28,15 @@ void add(String& out, const char* format, ...) {
   out += line;
 }
 
-// A matrix has blocks with `inputs` columns and `outputs` rows; a vector has a single column. The digits keep
-// each half float exact.
+// A matrix is written in blocks with `inputs` columns and `outputs` rows. The blocks of a vector have a
+// single column. Enough digits are written to represent each half float exactly.
 struct Block {
   const char* type;
   std::uint32_t inputs, outputs;
 };
 
-// Writes the blocks of a matrix in which all outputs of an input are adjacent: the blocks of the first
-// inputs, then the blocks of the next ones.
+// Writes the blocks of a matrix: first the blocks of the first inputs, then the blocks of the next inputs,
+// and so on. In `matrix`, all outputs of an input are adjacent.
 void add_blocks(const char* name, const Block& block, std::span<const float> matrix, std::uint32_t outputs,
                 String& out) {
   const std::size_t size = std::size_t(block.inputs) * block.outputs, count = matrix.size() / size;
@@ -54,7 +54,8 @@ void add_blocks(const char* name, const Block& block, std::span<const float> mat
   out += ");\n";
 }
 
-// Returns the numbers of all hidden layers after the first; each layer's biases follow its matrix.
+// Returns either the biases or the matrices of all hidden layers after the first. In the tables, each layer's
+// biases follow its matrix.
 Vector<float> hidden_numbers(const material::NeuralTables& tables, bool biases) {
   const NeuralShape& s = tables.shape;
   const NeuralLayout at(s);
@@ -68,8 +69,8 @@ Vector<float> hidden_numbers(const material::NeuralTables& tables, bool biases) 
   return numbers;
 }
 
-// Writes the declarations of a neural material: sizes, weights as constants, and the sampler of its features.
-// They precede shaders/material/neural/host.glsl.
+// Writes the declarations of a neural material, which must precede shaders/material/neural/host.glsl: sizes,
+// weights as constants, and the sampler of the features.
 void add_neural_declarations(const material::NeuralTables& tables, String& out) {
   const NeuralShape& s = tables.shape;
   const NeuralLayout at(s);
@@ -103,7 +104,8 @@ void add_neural_declarations(const material::NeuralTables& tables, String& out) 
       float_literal(bias[1]).text, float_literal(bias[2]).text);
 }
 
-// Writes the fetch of a layer that may be in any of several arrays of `most` layers each.
+// Writes the code that fetches from a layer. The layers may be split into several texture arrays with `most`
+// layers each.
 template <class Fetch>
 void add_choice(String& out, std::uint32_t arrays, std::uint32_t most, Fetch&& fetch) {
   for (std::uint32_t i = 0; i < arrays; ++i) {
@@ -112,8 +114,9 @@ void add_choice(String& out, std::uint32_t arrays, std::uint32_t most, Fetch&& f
   }
 }
 
-// Writes the samplers of spatial modes, and the function that fetches four modes. `mode` counts the modes of
-// a cluster, modes that are not in blocks first.
+// Writes the samplers of the spatial modes, and the function that fetches four modes. The function's
+// parameter `mode` is an index among the modes of a cluster, in which modes that are not in blocks come
+// first.
 void add_modes(String& out, const material::TensorTables& t, const char* name, std::uint32_t max_layers) {
   const std::uint32_t whole = t.whole_modes() * t.view_vec4_count,
                       packed = t.packed_modes * t.view_vec4_count;
@@ -150,21 +153,21 @@ const char* host_text(std::string_view path) {
   return "";
 }
 
-// Writes tensor/host.glsl with the names of one tensor.
+// Writes tensor/host.glsl, with its placeholders replaced by the names of one tensor.
 void add_terms(String& out, std::string_view name, std::string_view capital_name) {
   std::string_view text = host_text("material/tensor/host.glsl");
   while (!text.empty()) {
     const std::size_t at = std::min(text.find("nook_tensor_"), text.find("NOOK_TENSOR_"));
     out += text.substr(0, at);
     if (at == text.npos) return;
-    constexpr std::size_t head = 5, length = 11;  // of "nook_", and of "nook_tensor"
+    constexpr std::size_t head = 5, length = 11;  // lengths of "nook_" and "nook_tensor"
     out += text.substr(at, head);
     out += text[at] == 'n' ? name : capital_name;
     text.remove_prefix(at + length);
   }
 }
 
-// name and prefix are "btf" and "NOOK_BTF", or the VOTF's.
+// `name` and `prefix` are "btf" and "NOOK_BTF", or the corresponding names for the VOTF.
 void add_tensor(String& out, const material::TensorTables& t, const char* name, const char* prefix,
                 std::uint32_t max_layers) {
   add(out, "#define %s_TERMS %u\n#define %s_VIEW_VEC4_COUNT %u\n", prefix, t.terms, prefix,
@@ -203,7 +206,7 @@ String material_source(const material::MaterialTables& tables, std::uint32_t max
   if (!is_neural) add_relief(out, tables.relief);
   add(out, "#define NOOK_MATERIAL_MAX_FETCHES %u\n", material::max_fetches);
   if (tables.votf.terms != 0)
-    // OpenGL ES has no initial values for uniforms.
+    // OpenGL ES does not allow initial values for uniforms, so there it is a constant.
     add(out, "#ifdef GL_ES\nconst\n#else\nuniform\n#endif\nvec2 nook_visibility_mapping = vec2(%s, %s);\n",
         float_literal(tables.mapping.threshold).text, float_literal(tables.mapping.weight).text);
   out += host_text("material/base/host.glsl");

@@ -1,5 +1,5 @@
-// The GLSL of a material: constants and samplers for its sizes, then shaders/material/host.glsl, or
-// neural/host.glsl for neural materials.
+// Generates the GLSL of a material: constants and samplers that depend on its sizes, followed by
+// shaders/material/host.glsl, or by neural/host.glsl for a neural material.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace nook::gl {
 
-// max_layers is the maximum for one texture array. Both layers of a mode in blocks are in one array.
+// Returns the number of texture arrays that the spatial modes need. max_layers is the maximum number of
+// layers in one array. The two layers of a mode in blocks must be in the same array.
 inline std::uint32_t array_count(const material::TensorTables& tables, std::uint32_t max_layers) {
   return (tables.layers() + max_layers - 1) / max_layers;
 }

@@ -34,7 +34,7 @@ void check_blocks(const Functions& gl, const TensorTables& t) {
                   gl.can.rgtc_textures  ? "NOOK_MATERIAL_BLOCKS_RGTC or PLAIN"
                   : gl.can.eac_textures ? "NOOK_MATERIAL_BLOCKS_EAC or PLAIN"
                                         : "NOOK_MATERIAL_BLOCKS_NONE");
-  // WebGL's extension has this rule, for the finest level.
+  // The extension for WebGL requires multiples of 4 for the finest level.
   if (is_rgtc && gl.profile == Profile::webgl && (t.width % 4 != 0 || t.height % 4 != 0))
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "WebGL has no RGTC textures of the material's size (got %u x %u texels, need multiples of "
@@ -42,7 +42,7 @@ void check_blocks(const Functions& gl, const TensorTables& t) {
                   t.width, t.height);
 }
 
-// Checks the sizes and layers of the textures against the limits of this OpenGL.
+// Checks that the sizes and layers of the textures are within the limits of this OpenGL context.
 void check_limits(const Functions& gl, const MaterialTables& tables, std::uint32_t max_layers) {
   const auto side = std::uint32_t(integer(gl, GL_MAX_TEXTURE_SIZE));
   const auto layers = std::uint32_t(integer(gl, GL_MAX_ARRAY_TEXTURE_LAYERS));

@@ -1,4 +1,5 @@
-// A material in texture arrays, the coordinates that spread it over a plane, and the GLSL that reads both.
+// Uploads a material to texture arrays, and the coordinate texture that spreads it over a plane. Also returns
+// the GLSL that reads them.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +23,9 @@ class MaterialTextures {
     char uniform[40] = "";
   };
 
-  // max_layers is the maximum for one array, or 0 for this OpenGL's limit. Changes the state of the user
-  // `materials` in touched_state.h; the caller must hold a StateGuard. Throws Failure.
+  // max_layers is the maximum number of layers in one array; 0 means the limit of this OpenGL context.
+  // Changes the state of the user `materials` in touched_state.h, so the caller must hold a StateGuard.
+  // Throws Failure.
   MaterialTextures(Device& device, const material::MaterialTables& tables, std::uint32_t max_layers);
 
   const Vector<Texture>& textures() const { return textures_; }
@@ -32,7 +34,7 @@ class MaterialTextures {
 
  private:
   void add_features(Device& device, const material::NeuralTables& tables);
-  // The light map, the relief and the tensor.
+  // Uploads the light map, the relief and the tensor.
   void add_btf(Device& device, const material::MaterialTables& tables, std::uint32_t max_layers);
   void add_tensor(Device& device, const material::TensorTables& tables, const char* name,
                   std::uint32_t max_layers);
@@ -44,8 +46,8 @@ class MaterialTextures {
 
 class CoordinateTexture {
  public:
-  // Changes the state of the user `materials` in touched_state.h; the caller must hold a StateGuard. Throws
-  // Failure.
+  // Changes the state of the user `materials` in touched_state.h, so the caller must hold a StateGuard.
+  // Throws Failure.
   CoordinateTexture(Device& device, const synthesis::Coordinates& coordinates);
 
   GLuint name() const { return texture_.name(); }

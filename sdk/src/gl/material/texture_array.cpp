@@ -16,7 +16,7 @@ struct Layout {
   GLint min_filter, mag_filter, wrap;
 };
 
-// OpenGL ES cannot filter textures of 32-bit floats.
+// OpenGL ES cannot filter textures of 32-bit floats, so half floats are used there.
 Layout layout_of(const Functions& gl, ArrayUse use) {
   switch (use) {
     case ArrayUse::spatial:

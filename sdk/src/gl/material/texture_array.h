@@ -1,4 +1,4 @@
-// Holds a texture array of a material or of its coordinates.
+// Creates the texture arrays of a material and of its coordinates.
 #pragma once
 
 #include "sdk/src/gl/object.h"
@@ -14,7 +14,7 @@ enum class ArrayUse {
   spatial_8,     // signed 8-bit integers for -1 to 1; otherwise like spatial
   light_8,       // signed 8-bit integers for -1 to 1; otherwise like light
   rgtc,          // blocks of two numbers from -1 to 1; otherwise like spatial
-  eac,           // the same in another form
+  eac,           // like rgtc, in the EAC format
   coordinates,   // pairs of 16-bit integers, nearest
   heights        // one half float; otherwise like spatial
 };
@@ -23,16 +23,16 @@ struct ArrayPlan {
   ArrayUse use = ArrayUse::spatial;
   GLsizei width = 0, height = 0;
   GLsizei first_layer = 0, layers = 0;
-  GLsizei all_layers = 0;  // in the data; this array has some of them
+  GLsizei all_layers = 0;  // number of layers in `data`, including layers of other arrays
   GLsizei levels = 1;
 };
 
-// Creates a GL_TEXTURE_2D_ARRAY with four numbers in each texel, two for coordinates and blocks, or one
-// height. `data` has all layers of level 0, then all layers of level 1, and so on. Binds the array of unit 0,
-// and expects plain pixel unpacking. Throws Failure.
+// Creates a GL_TEXTURE_2D_ARRAY. A texel has four channels; coordinates and blocks have two channels, and
+// heights have one. `data` contains all layers of level 0, then all layers of level 1, and so on. Changes
+// GL_TEXTURE_2D_ARRAY of unit 0. Call set_plain_unpacking before. Throws Failure.
 Object make_texture_array(Device& device, const ArrayPlan& plan, const void* data, const char* label);
 
-// Sets pixel unpacking from host memory without gaps.
+// Sets the pixel-unpack state for tightly packed data in host memory.
 void set_plain_unpacking(const Functions& gl);
 
 }  // namespace nook::gl

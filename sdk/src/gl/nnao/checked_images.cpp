@@ -30,7 +30,8 @@ void CheckedImages::add(const HostImages& images, const ImageFacts& facts) {
     bring_forward(place);
     return;
   }
-  // Known names now have other properties: the host has recreated its textures.
+  // If a known set now has other properties, the host has recreated its textures. Then all sets may be
+  // outdated.
   if (known) clear();
   count_ = std::min(count_ + 1, most_sets);
   bring_forward(count_ - 1);

@@ -1,5 +1,5 @@
-// Remembers the sets of host images that a pass has checked, so that it need not query OpenGL about them
-// again.
+// Remembers the sets of host images that a pass has checked, so that the pass does not query OpenGL again in
+// every frame.
 #pragma once
 
 #include <cstddef>
@@ -8,18 +8,18 @@
 
 namespace nook::gl {
 
-// The last four different sets, since names rotate in a swap chain. A host may delete a texture and get its
-// name again for another format while other sets are in use. So a set that returns for the first time is
-// checked once more before it counts as known.
+// Keeps the last four different sets, because hosts use a rotating set of textures in a swap chain. While
+// other sets are in use, a host may delete a texture and get the same name for a texture of another format.
+// So when a set returns for the first time, it is checked once more before it is treated as known.
 class CheckedImages {
  public:
   static constexpr std::size_t most_sets = 4;
 
-  // Returns what is known about the set, and makes it the newest one. If it returns null, check the images,
-  // then call add.
+  // Returns the facts about a known set, and makes this set the newest one. If the result is null, check the
+  // images and then call add.
   const ImageFacts* find(const HostImages& images);
   void add(const HostImages& images, const ImageFacts& facts);
-  // Forgets all sets, as after a failed check.
+  // Forgets all sets. Call this after a failed check.
   void clear() { *this = {}; }
 
  private:

@@ -90,7 +90,7 @@ void check_normals(const NnaoFrame& frame) {
   nnao::check_normal_matrix(frame.normal_matrix);
 }
 
-// Checks the numbers of a pass over several frames.
+// Checks the fields that are used to average AO over several frames.
 void check_motion(const NnaoFrame& frame) {
   check_view(frame.view);
   for (const float scale : frame.motion_vector_scale)
@@ -121,7 +121,7 @@ void check_view(const float (&m)[16]) {
   for (const float element : m) finite = finite && std::isfinite(element);
   const Vec3 x{m[0], m[1], m[2]}, y{m[4], m[5], m[6]}, z{m[8], m[9], m[10]};
   const auto near = [](float value, float need) { return std::abs(value - need) <= 0.01f; };
-  // The tolerance is 1 %, as for the matrices of poses.
+  // The tolerance of 1 % is the same as for the matrices of poses.
   if (!finite || !near(dot(x, x), 1) || !near(dot(y, y), 1) || !near(dot(z, z), 1) || !near(dot(x, y), 0) ||
       !near(dot(y, z), 0) || !near(dot(z, x), 0) || !near(m[3], 0) || !near(m[7], 0) || !near(m[11], 0) ||
       !near(m[15], 1))

@@ -11,7 +11,8 @@
 namespace nook::gl {
 namespace {
 
-// Texel i of the half-size surface is pixel 2 i: its centre i + 0.5 is at 2 i + 0.5.
+// Converts rays to the half-size surface. Its texel i is pixel 2 i, so the texel's centre i + 0.5 maps to 2 i
+// + 0.5.
 nnao::ScreenRays half_rays(nnao::ScreenRays rays) {
   rays.x_offset -= 0.5f * rays.x_scale;
   rays.y_offset -= 0.5f * rays.y_scale;
@@ -20,8 +21,8 @@ nnao::ScreenRays half_rays(nnao::ScreenRays rays) {
   return rays;
 }
 
-// Returns the minimum length of a normal in the host's texels; 0: there are no normals. A matrix that scales
-// also scales this bound.
+// Returns the minimum length of a normal in the host's texels, or 0 if the host has no normals. If
+// normal_matrix contains a scale, the minimum is scaled too.
 float shortest_normal(const NnaoFrame& frame) {
   if (frame.normal_texture == 0) return 0;
   if (!frame.normalised_normals) return nnao::shortest_float_normal;
@@ -49,8 +50,8 @@ NnaoFrame layer_frame(const NnaoFrame& frame, int layer) {
 
 namespace {
 
-// The own weight of a texel that the filter leaves as it is: the other weights, 2 at most, change it by far
-// less than a step of 8 bits. A 16-bit float holds it.
+// The weight of the centre texel with which the filter has no effect. The other weights sum to at most 2, so
+// they change the result by far less than a step of 8 bits. The value fits into a 16-bit float.
 constexpr float unfiltered_weight = 32768;
 
 }  // namespace
@@ -62,7 +63,7 @@ FrameConstants frame_constants(const NnaoFrame& frame, const nook_nnao_desc& pas
     const std::array values{x, y, z, w};
     std::copy(values.begin(), values.end(), &constants.values[std::size_t(4 * row)]);
   };
-  // Sets the mapping from a pixel's number to the ray through its centre.
+  // Sets the mapping from the integer coordinates of a pixel to the ray through the pixel's centre.
   const auto set_rays = [&](int row, const nnao::ScreenRays& rays) {
     set(row, rays.x_scale, rays.x_offset + 0.5f * rays.x_scale, rays.y_scale,
         rays.y_offset + 0.5f * rays.y_scale);
@@ -81,8 +82,8 @@ FrameConstants frame_constants(const NnaoFrame& frame, const nook_nnao_desc& pas
       nnao::frame_radius({nnao::RadiusKind(frame.radius_kind), frame.radius, frame.scene_size,
                           frame.max_radius_px, frame.min_radius_px},
                          float(viewport.height));
-  // A radius of max_px pixels covers this many metres at the depth 1, and in proportion at other depths of a
-  // perspective.
+  // The length in metres that max_px pixels cover at the depth 1. In a perspective, it is proportional to the
+  // depth.
   const float radius_extent = radius.max_px * std::abs(screen.y_scale);
   const int surface_width = surface_length(viewport.width, half),
             surface_height = surface_length(viewport.height, half);
@@ -127,12 +128,12 @@ bool is_cut(const NnaoFrame& frame, const FrameConstants& constants, const Earli
          row(earlier.constants, NOOK_FRAME_SPREAD)[0] != row(constants, NOOK_FRAME_SPREAD)[0];
 }
 
-// The inverse of a view matrix: rows of three numbers, then the translation.
+// The inverse of a view matrix: three rows of the rotation, then the translation.
 struct Inverse {
   double rotation[9], translation[3];
 };
 
-// Doubles keep the product within float rounding of a product that the host forms itself.
+// Computes in double precision, so that the product is as exact as one that the host would compute itself.
 Inverse inverse_of(const float (&m)[16]) {
   const auto at = [&](int row, int column) { return double(m[4 * column + row]); };
   const auto minor = [&](int row, int column) {
@@ -172,7 +173,7 @@ Mat3x4 earlier_from_view(const float (&earlier)[16], const float (&view)[16]) {
 HistoryConstants history_constants(const NnaoFrame& frame, const nook_nnao_desc& pass,
                                    const FrameConstants& constants, const EarlierFrame& earlier) {
   HistoryConstants values{};
-  // After a cut, no history is read.
+  // After a cut, the history is not read, so the matrix does not matter.
   const Mat3x4 motion = earlier.drawn ? earlier_from_view(earlier.view, frame.view) : Mat3x4{};
   std::copy_n(motion.m, 12, values.begin());
   const auto set = [&](int index, std::array<float, 4> four) {

@@ -45,7 +45,7 @@ Vector<float> TexelReader::read(GLuint texture, const Viewport& viewport, int ch
     set_viewport(gl, {0, 0, float(viewport.width), float(rows)});
     gl.Uniform2i(first, viewport.x, viewport.y + y);
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
-    // OpenGL ES reads integers only in this form.
+    // This is the only format in which OpenGL ES reads back integers.
     gl.ReadPixels(0, 0, viewport.width, rows, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bits_.data());
     device_.check("reading texels back");
     const std::size_t texels = std::size_t(viewport.width) * std::size_t(rows);
@@ -58,7 +58,7 @@ Vector<float> TexelReader::read(GLuint texture, const Viewport& viewport, int ch
 
 namespace {
 
-// Copies a driver's text in the form that a recording may hold.
+// Copies one of the driver's strings, changed so that it is valid in a recording.
 void copy_driver_text(const Functions& gl, GLenum name, String& text) {
   const auto* given = reinterpret_cast<const char*>(gl.GetString(name));
   if (!given) return;
@@ -76,7 +76,8 @@ void copy_note(const char* note, String& text) {
   text.assign(note, static_cast<const char*>(end));
 }
 
-// Returns a frame to draw in place of the host's, so that none of the host's targets is written.
+// Returns a copy of the frame that draws to the pass's own texture, so that the host's targets are not
+// changed.
 NnaoFrame own_target(NnaoFrame frame) {
   frame.target = NOOK_TARGET_OWN;
   frame.target_name = 0;
@@ -105,8 +106,8 @@ void copy_settings(const NnaoFrame& from, nnao::RecordedFrame& to) {
   to.fade_end = from.fade_end;
 }
 
-// Replaces settings by simpler ones with the same result: linear depth for logarithmic depth, metres for a
-// share of the scene.
+// Replaces settings by simpler ones with the same result. Logarithmic depth becomes linear depth, and a
+// radius relative to the scene becomes metres.
 void simplify(nnao::Recording& recording, const NnaoFrame& frame) {
   if (frame.radius_kind == NOOK_NNAO_RADIUS_SCENE) {
     recording.frame.radius = frame.radius * frame.scene_size;
@@ -121,8 +122,9 @@ void simplify(nnao::Recording& recording, const NnaoFrame& frame) {
   recording.frame.sky_depth = 0;
 }
 
-// If texels of normalised integers are too short for a normal, they become the texel of a zero vector, which
-// no format takes for a normal. A recording does not keep the host's format.
+// Texels of normalised integers that are too short for a normal are replaced by the texel of a zero vector.
+// This is needed because a recording does not store the host's format, and a zero vector is too short in
+// every format.
 void zero_short_normals(const NnaoFrame& frame, Vector<float>& texels) {
   const double shortest = double(nnao::shortest_normalised_normal) * nnao::mean_scale(frame.normal_matrix);
   const float* const m = frame.normal_matrix;
@@ -138,7 +140,7 @@ void zero_short_normals(const NnaoFrame& frame, Vector<float>& texels) {
   }
 }
 
-// AO is in red, or in alpha beside bent normals.
+// Reads the AO of the pass. It is in the red channel, or in alpha if the pass has bent normals.
 Vector<float> ao_of(TexelReader& reader, const NnaoPass& pass, const nook_nnao_desc& made_with,
                     const Viewport& viewport) {
   if (!made_with.bent_normals) return reader.read(pass.ao_texture(), viewport, 1);
@@ -166,7 +168,7 @@ nnao::Recording record_frame(Device& device, NnaoPass& pass, const nook_nnao_des
   if (frame.gbuffer_ao != NOOK_GBUFFER_AO_NONE)
     recording.layer = reader.read(frame.gbuffer_ao_texture, viewport, 2);
   recording.ao = ao_of(reader, pass, made_with, viewport);
-  // AO has 8 bits, and some drivers divide by 255 inexactly.
+  // Rounds to exact 255ths: AO has 8 bits, but some drivers divide by 255 inexactly.
   for (float& ao : recording.ao) ao = std::round(255 * std::clamp(ao, 0.0f, 1.0f)) / 255;
   recording.width = std::uint32_t(viewport.width);
   recording.height = std::uint32_t(viewport.height);

@@ -1,5 +1,5 @@
-// Records a frame of a host as plain data that can be replayed elsewhere. Textures are read back as the
-// floats that a shader gets, with the same bits on every OpenGL.
+// Records a host's frame as plain data that can be replayed on another machine. Textures are read back as the
+// floats that a shader reads, with identical bits on every OpenGL.
 #pragma once
 
 #include <nook/nook_nnao.h>
@@ -14,16 +14,17 @@
 
 namespace nook::gl {
 
-// The texels go through a strip of this many rows, so that large images take little OpenGL memory.
+// Texels are copied through a strip with this many rows, so that even large images need little OpenGL memory.
 inline constexpr int texel_strip_rows = 64;
 
-// Its functions touch the state of the users screen and screen_reads, and throw Failure.
+// Reads back textures. All functions change the state of the users `screen` and `screen_reads`, and may throw
+// Failure.
 class TexelReader {
  public:
   TexelReader(Device& device, int width);
 
-  // Returns the first channels of each texel of level 0 in the viewport, row by row from the bottom. The
-  // viewport may be at most as wide as the reader. Waits for the GPU.
+  // Returns the first `channels` channels of the texels in the viewport, from level 0, row by row from the
+  // bottom. The viewport must not be wider than the reader. Waits for the GPU.
   Vector<float> read(GLuint texture, const Viewport& viewport, int channels);
 
  private:
@@ -34,8 +35,8 @@ class TexelReader {
 };
 
 // Draws a frame that passed check_frame into the pass's own texture, and reads back the result and the
-// frame's inputs. made_with: the pass's settings. network: its file. note may be null. Touches the state of a
-// frame's users and of screen_reads. Throws Failure.
+// frame's inputs. `made_with` has the settings of the pass, and `network` is the file of its network. `note`
+// may be null. Changes the state of the frame's users and of `screen_reads`. Throws Failure.
 nnao::Recording record_frame(Device& device, NnaoPass& pass, const nook_nnao_desc& made_with,
                              std::span<const std::byte> network, const NnaoFrame& frame, const char* note);
 

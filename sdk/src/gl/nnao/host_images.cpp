@@ -7,7 +7,7 @@
 namespace nook::gl {
 namespace {
 
-// Clears the error of a bind that OpenGL refused. An earlier error of the host goes to the log.
+// Clears the error that OpenGL reports if it rejects a bind. Errors that the host left before are logged.
 void clear_refusal(const Device& device) {
   for (int i = 0; i < 16; ++i) {
     const GLenum error = device.gl.GetError();
@@ -20,7 +20,7 @@ void clear_refusal(const Device& device) {
 // A kind of texture that a pass reads.
 struct TextureKind {
   GLenum target = GL_TEXTURE_2D, binding = GL_TEXTURE_BINDING_2D;
-  GLuint unit = 0;  // the unit where it is bound for queries
+  GLuint unit = 0;  // the texture unit where it is bound for queries
   const char* name = "2D texture without layers or samples";
 };
 constexpr TextureKind texture_array{GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BINDING_2D_ARRAY, host_depth_unit,
@@ -45,7 +45,7 @@ bool has_samples(const TextureKind& kind) {
   return kind.target == GL_TEXTURE_2D_MULTISAMPLE || kind.target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
 }
 
-// A texture that is bound. What it answers goes into the sum of answers.
+// A texture that is bound for queries. Each answer is added to ImageFacts::answers.
 struct BoundTexture {
   const Device& device;
   GLenum target;
@@ -64,8 +64,9 @@ struct BoundTexture {
   }
 };
 
-// OpenGL ES 3.0 and WebGL tell nothing of a texture, but something of what is attached to a framebuffer,
-// which need not be complete. Binds the texture's framebuffer. Returns 0 where the driver does not attach it.
+// Queries a texture as an attachment of a framebuffer. OpenGL ES 3.0 and WebGL have no queries for textures,
+// but some for attachments, and the framebuffer need not be complete. Binds `texture.framebuffer`. Returns 0
+// if the driver refuses to attach the texture.
 GLint ask_attached(const BoundTexture& texture, GLenum attachment, GLenum what) {
   const Functions& gl = texture.device.gl;
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, texture.framebuffer);
@@ -89,7 +90,8 @@ int depth_bits_of(const BoundTexture& texture) {
              : ask_attached(texture, GL_DEPTH_ATTACHMENT, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
 }
 
-// channel: 0 for red, 1 for green, 2 for blue. Without such a channel, there are 0 bits of the type GL_NONE.
+// `channel` is 0 for red, 1 for green, 2 for blue. If the format does not have the channel, bits_of returns 0
+// and type_of returns GL_NONE.
 GLint bits_of(const BoundTexture& texture, GLenum channel) {
   return texture.device.gl.can.texture_sizes
              ? texture.level(GL_TEXTURE_RED_SIZE + channel)
@@ -102,7 +104,7 @@ GLint type_of(const BoundTexture& texture, GLenum channel) {
   return ask_attached(texture, GL_COLOR_ATTACHMENT0, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE);
 }
 
-// Leaves the texture bound.
+// Binds and checks a texture. It stays bound.
 BoundTexture bind_checked(const Device& device, const HostImages& images, ImageFacts& facts,
                           const TextureKind& kind, std::uint32_t name, GLuint framebuffer,
                           const char* field) {
@@ -154,13 +156,13 @@ bool is_float_or_normalised(GLint type) {
                 static_cast<unsigned>(texture.level(GL_TEXTURE_INTERNAL_FORMAT)), need);
 }
 
-// Refuses a texture whose first channels are not floats or normalised integers.
+// Throws Failure unless the first `count` channels of the texture are floats or normalised integers.
 void check_channels(const BoundTexture& texture, GLenum count, const char* field, const char* need) {
   for (GLenum channel = 0; channel < count; ++channel)
     if (!is_float_or_normalised(type_of(texture, channel))) refuse_format(texture, field, need);
 }
 
-// Refuses the stencil of a texture with depth and stencil.
+// Throws Failure if a texture with depth and stencil is set to return stencil.
 void check_shows_depth(const BoundTexture& texture) {
   const Functions& gl = texture.device.gl;
   if (!gl.can.stencil_textures) return;
@@ -173,7 +175,7 @@ void check_shows_depth(const BoundTexture& texture) {
                   static_cast<unsigned>(mode));
 }
 
-// Returns the bits of the channel with depth.
+// Checks the depth texture. Returns the number of bits of its depth channel.
 int check_depth(const BoundTexture& texture, nook_depth_kind kind) {
   const int depth_bits = depth_bits_of(texture);
   const bool red_float = depth_bits == 0 && type_of(texture, 0) == GL_FLOAT;
@@ -191,7 +193,7 @@ int check_depth(const BoundTexture& texture, nook_depth_kind kind) {
   return depth_bits;
 }
 
-// Returns whether the format has normalised integers.
+// Checks the normal texture. Returns true if its format has normalised integers.
 bool check_normal(const BoundTexture& texture) {
   bool normalised = false;
   for (GLenum channel = 0; channel < 3; ++channel) {
@@ -220,7 +222,7 @@ void check_complete(const Functions& gl, const HostImages& images) {
         images.target_name, status);
 }
 
-// Throws if an input is the target or a part of it.
+// Throws Failure if one of the input textures is (part of) the target.
 void check_apart(const HostImages& images, std::uint32_t target, const char* target_field) {
   const struct {
     std::uint32_t name;
@@ -263,8 +265,8 @@ void check_framebuffer(const Device& device, const HostImages& images) {
         "frame.target_name draws into nothing (its first draw buffer is GL_NONE); call glDrawBuffer");
   if (images.target_name == 0) return;
   check_apart(images, attached_texture(gl, static_cast<GLenum>(buffer)), "attached to frame.target_name");
-  // If its depth were attached, the depth texture would be read while it is drawn into, which OpenGL leaves
-  // undefined.
+  // The depth attachment of the target must not be the depth texture: reading a texture while it is attached
+  // is undefined in OpenGL.
   check_apart(images, attached_texture(gl, GL_DEPTH_ATTACHMENT), "attached to frame.target_name");
 }
 

@@ -1,4 +1,4 @@
-// The host's textures and target of a frame, which are checked before anything is drawn.
+// Checks the host's textures and target of a frame before anything is drawn.
 #pragma once
 
 #include <nook/nook_nnao.h>
@@ -8,11 +8,12 @@
 
 namespace nook::gl {
 
-// The names, kinds and sizes of a frame. OpenGL is queried about the images only when one of them changes.
+// The names, kinds and sizes of a frame's images. OpenGL is queried about the images only when one of these
+// fields changes.
 struct HostImages {
   int width = 0, height = 0;
-  int layers = 0;   // of texture arrays; 0: 2D textures
-  int samples = 0;  // of depth; 0: it is not a multisample texture
+  int layers = 0;   // layers of texture arrays; 0: 2D textures
+  int samples = 0;  // samples of the depth texture; 0: it is not a multisample texture
   int normal_samples = 0;
   nook_depth_kind depth_kind = 0;
   nook_gbuffer_ao layer = 0;
@@ -21,25 +22,26 @@ struct HostImages {
 
   bool operator==(const HostImages&) const = default;
 };
-// pass: what the host gave for the pass that reads them.
+// `pass` is the host's descriptor of the pass that will read the images.
 HostImages images_of(const NnaoFrame& frame, const nook_nnao_desc& pass);
 
-// Throws Failure(NOOK_ERROR_UNSUPPORTED) unless this OpenGL has the kinds of images of a pass.
+// Throws Failure(NOOK_ERROR_UNSUPPORTED) if this OpenGL context does not support the kinds of images that the
+// pass uses.
 void check_images_of(const Functions& gl, const nook_nnao_desc& pass);
 
-// OpenGL's answers about the images of a frame.
+// What OpenGL has reported about the images of a frame.
 struct ImageFacts {
-  std::uint32_t answers = 0;  // a sum that differs where sizes or formats do
-  int depth_bits = 0;         // of the channel with depth; 0: unknown
+  std::uint32_t answers = 0;  // checksum of sizes and formats
+  int depth_bits = 0;         // of the depth channel; 0: unknown
   bool normalised_normals = false;
 
   bool operator==(const ImageFacts&) const = default;
 };
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless every image exists and has a suitable size and format,
-// and no input is the target. own_texture is the pass's own texture. target_framebuffer is a framebuffer
-// without attachments, to try textures in. Binds 2D textures to unit 0, arrays and multisample textures to
-// unit 1, and the draw framebuffer; leaves no OpenGL error.
+// and no input is the target. `own_texture` is the pass's own texture. `target_framebuffer` is a framebuffer
+// without attachments, to which textures are attached for tests. Changes the 2D texture of unit 0, arrays and
+// multisample textures of unit 1, and the draw framebuffer. Leaves no OpenGL error behind.
 ImageFacts check_images(const Device& device, const HostImages& images, std::uint32_t own_texture,
                         std::uint32_t target_framebuffer);
 

@@ -38,7 +38,8 @@ void add(Floats& out, const std::array<float, count>& values) {
   out.insert(out.end(), values.begin(), values.end());
 }
 
-// Layers of one unit end with their three numbers and a zero, so that each layer starts at a vec4.
+// A layer with one unit ends with its bias, both slopes and a zero, so that each layer starts at a multiple
+// of four.
 template <int inputs, int units>
 void add(Floats& out, const nnao::Dense<inputs, units>& layer) {
   add(out, layer.weights);
@@ -61,8 +62,10 @@ void add(Floats& out, const nnao::GatedDense<inputs, gates, units>& layer) {
   add(out, layer.slope);
 }
 
-// Each vec4 has four weights of one output: for maxima, for both outputs, then for sums, then both gates. The
-// shader also sums over the directions instead of averaging.
+// Each vec4 contains four weights of one output. The order is: the weights of the maxima for both outputs,
+// the weights of the sums for both outputs, and the gates of both outputs. The shader sums instead of
+// averaging, so the weights of the maxima are divided by the number of directions, and the weights of the
+// sums by the number of taps.
 template <int inputs>
 void add_bent(Floats& out, const nnao::GatedLinear<inputs, 2, 2>& layer, nnao::TapGrid grid) {
   for (int first = 0; first < inputs; first += 4)

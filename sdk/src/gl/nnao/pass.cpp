@@ -36,8 +36,8 @@ void NnaoPass::run_network(const FrameConstants& constants, const Viewport& surf
     return;
   }
   set_frame(occlusion_stage_, constants);
-  // occlusion.comp declares the image in this format. OpenGL 4.3 has GL_RG8 images, OpenGL ES 3.1 only
-  // GL_RGBA8, which bent normals need as well.
+  // This must be the image format that occlusion.comp declares. OpenGL 4.3 supports GL_RG8 images. OpenGL ES
+  // 3.1 supports only GL_RGBA8, which is also the format for bent normals.
   dispatch(ao_[0], device_.gl.can.r8_images && !desc_.bent_normals ? GL_RG8 : GL_RGBA8, surface.width,
            surface.height, NOOK_OCCLUSION_GROUP_SIZE);
 }
@@ -67,7 +67,8 @@ void NnaoPass::render(NnaoFrame& frame) {
     return;
   }
   for (int layer = 0; layer < desc_.views; ++layer) {
-    if (layer > 0) set_plain_drawing(device_.gl);  // the output of the layer before may have left blending on
+    if (layer > 0)
+      set_plain_drawing(device_.gl);  // the previous layer's output may have left blending enabled
     render_layer(layer_frame(frame, layer), layer);
   }
 }
@@ -82,7 +83,7 @@ void NnaoPass::render_layer(const NnaoFrame& frame, int layer) {
   const bool layered = frame.gbuffer_ao != NOOK_GBUFFER_AO_NONE;
   if (timer_) timer_->begin_frame();
 
-  // No texture that a stage draws into stays bound.
+  // Unbinds all inputs, so that a texture that a later stage draws into is not bound.
   for (const GLuint unit : {NOOK_UNIT_DEPTH, NOOK_UNIT_AO, NOOK_UNIT_LAYER, NOOK_UNIT_MOTION})
     bind_texture(unit, 0);
   if (desc_.views > 0)
@@ -102,8 +103,8 @@ void NnaoPass::render_layer(const NnaoFrame& frame, int layer) {
 
   if (frame.show == NOOK_NNAO_VIEW_NORMALS) {
     bind_normals(frame.normal_texture);
-    // The timer expects four stages in every frame. This view has neither occlusion nor blur, so both end at
-    // once.
+    // The timer expects four stages in every frame. This view has no occlusion and blur stages, so both end
+    // immediately.
     end_stage();
     end_stage();
     set_frame(show_normals_stage_, constants);
@@ -122,7 +123,7 @@ void NnaoPass::render_layer(const NnaoFrame& frame, int layer) {
     bind_texture(NOOK_UNIT_AO, ao_[(pass + 1) % 2].texture());
   }
   end_stage();
-  // The views for debugging have no layer.
+  // The debug views ignore the host's layer.
   const bool combined = layered && frame.show == NOOK_NNAO_VIEW_AO;
   set_frame(combined ? layered_stage_ : resolve_stage_, constants);
   draw_output(frame, layer);

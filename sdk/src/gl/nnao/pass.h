@@ -1,12 +1,13 @@
 // The screen-space pass on the GPU: linear depth, the network, the filter, and the output.
 //
-// The network's stage, AO, is a draw or a dispatch; the other stages are draws.
+// The network runs in the AO stage, which is a draw or a dispatch. All other stages are draws.
 //   full resolution  host depth -> depth -> AO and edges -> [mean ->] [filter along x and y ->]
 //                    filter along x -> filter along y and resolve
 //   half resolution  host depth -> depth of every fourth pixel -> AO and edges -> [mean ->]
 //                    [filter along x and y ->] filter along x and y -> upsample and resolve
-// Passes with max_history_frames have the mean over frames. Passes with views draw them one after the other.
-// The paper's form has a stage between depth and AO that writes normals, because it reads them at its taps.
+// Only passes with max_history_frames have the mean over frames. Passes with several views draw the views one
+// after another. The paper's form reads normals at its taps, so it has another stage between depth and AO,
+// which writes normals.
 #pragma once
 
 #include <nook/nook_nnao.h>
@@ -22,25 +23,25 @@
 
 namespace nook::gl {
 
-// Returns the GLSL functions with which a host's shader lights from the result.
+// Returns the GLSL functions for host shaders that light with the result.
 const char* screen_ao_glsl();
 
 std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form);
 
-// Returns how many draws filter, along x and y in turn: at full resolution, the last filter along y is part
-// of resolve.
+// Returns the number of filter draws, which alternate between x and y. At full resolution, the last filter
+// along y is not counted, because it is part of the resolve stage.
 constexpr int filter_draws(const nook_nnao_desc& desc) {
   return desc.half_resolution || desc.blur == 0 ? 2 * desc.blur : 2 * desc.blur - 1;
 }
 
-// Every call may change any of the touched state; the caller must hold a StateGuard.
+// Every call may change any of the touched state, so the caller must hold a StateGuard.
 class NnaoPass : public ScreenPass {
  public:
   // Throws Failure.
   NnaoPass(Device& device, const NnaoSettings& desc, const nnao::Network& network);
 
-  // Draws a frame that passed check_frame, and stores what it learns about the images. Throws Failure before
-  // anything is drawn.
+  // Draws a frame that passed check_frame, and stores facts about the host's images in `frame`. If it throws
+  // Failure, nothing has been drawn.
   void render(NnaoFrame& frame);
 
   nook_nnao_path path() const { return path_; }
@@ -54,27 +55,28 @@ class NnaoPass : public ScreenPass {
 
   bool temporal() const { return desc_.max_history_frames != 0; }
   bool half() const { return desc_.half_resolution != 0; }
-  // Binds a texture of the host, or nothing for 0. samples: it is multisampled.
+  // Binds a texture of the host, or unbinds the unit if `texture` is 0. Pass true for `samples` if the
+  // texture is multisampled.
   void bind_host(GLuint unit, GLuint texture, bool samples = false) const;
   void bind_depth(GLuint texture) const;
   void bind_normals(GLuint texture) const;
-  // Draws a stage into a texture of the pass. The texture's old contents are discarded.
+  // Draws a stage into one of the pass's textures. The old contents of the texture are discarded.
   void draw_stage(const ScreenStage& stage, const FrameConstants& constants, const RenderTexture& target,
                   const Viewport& viewport) const;
   void run_network(const FrameConstants& constants, const Viewport& surface) const;
-  // With max_history_frames, each layer has its own textures; otherwise all layers share one set.
+  // If max_history_frames is set, each layer has its own textures. Otherwise all layers share one set.
   struct LayerTextures {
-    RenderTexture depth[2];    // of the surface; two for means over frames, which use them in turns
-    RenderTexture history[2];  // means over frames, in turns
+    RenderTexture depth[2];    // of the surface; means over frames use two, alternating
+    RenderTexture history[2];  // means over frames, alternating
     EarlierFrame earlier;
   };
   LayerTextures& textures_of(int layer) { return layers_[temporal() ? std::size_t(layer) : 0]; }
-  // Returns which of two textures the current frame writes.
+  // Returns which of two alternating textures the current frame writes.
   std::size_t turn(const LayerTextures& layer) const { return temporal() ? layer.earlier.count % 2 : 0; }
 
-  // Draws one layer of a frame that has its matrices.
+  // Draws one layer. `frame` must have the matrices of this layer.
   void render_layer(const NnaoFrame& frame, int layer);
-  // Blends the frame with the frames before it, and returns the texture of the mean.
+  // Averages AO with the previous frames, and returns the texture of the mean.
   GLuint accumulate(const NnaoFrame& frame, const FrameConstants& constants, const Viewport& surface,
                     LayerTextures& kept);
   void end_stage() {
@@ -82,19 +84,19 @@ class NnaoPass : public ScreenPass {
   }
 
   nook_nnao_path path_;
-  // Only the paper's form has a stage of normals. The filters are those along x and y.
+  // Only the paper's form uses normals_stage_. The filter stages filter along x and along y.
   ScreenStage depth_stage_, apart_depth_stage_, normals_stage_, occlusion_stage_, accumulate_stage_,
       filter_stages_[2], resolve_stage_, layered_stage_, show_normals_stage_;
   GLint earlier_location_ = -1;  // of accumulate_stage_
   std::array<LayerTextures, max_layers> layers_;
   RenderTexture normals_;  // of the surface
-  RenderTexture ao_[2];    // of the surface; the second for the filter
+  RenderTexture ao_[2];    // of the surface; the filter writes the second one
   TexelTable filters_;     // of the paper's form
   std::optional<StageTimer> timer_;
 };
 
-// Returns NOOK_NNAO_PATH_FRAGMENT or NOOK_NNAO_PATH_COMPUTE for the path of a descriptor. Throws
-// Failure(NOOK_ERROR_UNSUPPORTED) if the path is compute and compute is not available.
+// Resolves the path of a descriptor to NOOK_NNAO_PATH_FRAGMENT or NOOK_NNAO_PATH_COMPUTE. Throws
+// Failure(NOOK_ERROR_UNSUPPORTED) if the host asks for compute but the context does not support it.
 nook_nnao_path chosen_path(const Functions& gl, nook_nnao_path asked);
 
 }  // namespace nook::gl

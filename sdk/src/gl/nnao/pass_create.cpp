@@ -37,7 +37,7 @@ nook_nnao_path chosen_path(const Functions& gl, nook_nnao_path asked) {
   const bool can_compute = gl.can.compute_images;
   if (asked == NOOK_NNAO_PATH_COMPUTE && !can_compute) refuse_compute(gl);
   if (asked != NOOK_NNAO_PATH_AUTOMATIC) return asked;
-  // If a compute shader must write four bytes of AO in place of one, drawing is better.
+  // Without R8 images, a compute shader must write four bytes of AO instead of one. Then drawing is faster.
   return can_compute && gl.can.r8_images ? NOOK_NNAO_PATH_COMPUTE : NOOK_NNAO_PATH_FRAGMENT;
 }
 
@@ -49,14 +49,15 @@ struct TexturePlan {
   const char* label;
 };
 
-// The textures of a pass. A texture without a width is not made.
+// The textures of a pass. A texture whose width is 0 is not created.
 struct PassPlan {
-  // `own` has one texture for each layer. depth and history also do, if means over frames keep them.
+  // `own` has one texture per layer. If AO is averaged over frames, `depth` and `history` also have one
+  // texture per layer.
   TexturePlan depth[2], normals, ao[2], history[2], own;
   int own_layers = 1, kept_layers = 1;
 };
 
-// The formats in which a context can draw depth, normals and AO.
+// The formats for depth, normals and AO that the context can draw into.
 struct PassFormats {
   TextureFormat depth = TextureFormat::depth;
   TextureFormat normal = TextureFormat::normal, ao = TextureFormat::ao_edges, own = TextureFormat::ao;
@@ -122,7 +123,8 @@ NnaoPass::NnaoPass(Device& device, const NnaoSettings& desc, const nnao::Network
   make_programs(network);
   make_textures(network.form);
   if (network.form == nnao::NetworkForm::paper) upload_filters(network);
-  // Shows AO in red, or the direction to the viewer with AO in alpha.
+  // The initial colour means fully open. AO is 1, in red or in alpha. With bent normals, the normal is the
+  // direction to the viewer.
   const GLfloat aside = desc.bent_normals ? 0.5f : 1;
   make_objects({aside, aside, 1, 1});
   if (desc.timers && !device.gl.can.timestamps)
@@ -175,7 +177,7 @@ void NnaoPass::make_programs(const nnao::Network& network) {
     accumulate_stage_ = drawn("nnao/accumulate.frag", defines);
     earlier_location_ = uniform_location(device_, accumulate_stage_.program, "nook_earlier");
   }
-  // In medium precision, the filter of AO at half resolution changes the error by 0.1 % at most
+  // Medium precision in the filter of AO at half resolution changes the error by at most 0.1 %
   // (docs/opengl_es.md).
   for (int axis = 0; axis < std::min(filter_draws(desc_), 2); ++axis)
     filter_stages_[axis] =
@@ -184,7 +186,7 @@ void NnaoPass::make_programs(const nnao::Network& network) {
   layered_stage_ = drawn("nnao/resolve.frag", layered);
   show_normals_stage_ = drawn("nnao/show_normals.frag", defines);
   if (device_.debug) make_watch(drawn("nnao/surface.frag", defines));
-  // Both forms have the same number of groups for the same number of taps.
+  // Both forms of the network have the same number of groups for the same number of taps.
   device_.gl.UseProgram(occlusion_stage_.program.name());
   device_.gl.Uniform1i(uniform_location(device_, occlusion_stage_.program, "nook_tap_groups"),
                        static_cast<GLint>(grid.directions));

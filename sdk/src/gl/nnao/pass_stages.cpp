@@ -21,7 +21,7 @@ static_assert(NOOK_NNAO_STAGE_CONSTANTS == 4 * (NOOK_FRAME_VEC4S + NOOK_EARLIER_
 
 constexpr unsigned first_image_binding = 2;
 
-// The samplers of the shaders and the images they read, unless a stage overrides them.
+// The samplers of the shaders, and the image that each one reads unless a stage overrides it.
 struct ShaderImage {
   std::string_view sampler;
   nook_nnao_image image;
@@ -42,7 +42,7 @@ constexpr std::string_view network_block =
     "  vec4 nook_network[NOOK_HORIZON_VEC4S];\n"
     "  ivec4 nook_groups;\n"
     "};\n";
-// Vulkan has descriptor sets, and another name for the vertex index.
+// The start of the text for Vulkan, which has descriptor sets and a different name for the vertex index.
 constexpr std::string_view head =
     "#version 450\n"
     "#ifdef VULKAN\n#define NOOK_SET set = 0,\n#define NOOK_VERTEX gl_VertexIndex\n"
@@ -52,14 +52,14 @@ bool begins_with(std::string_view line, std::string_view start) {
   return line.substr(0, start.size()) == start;
 }
 
-// Returns the name in a declaration `uniform type name;`.
+// Returns `name` from a declaration `uniform type name;`.
 std::string_view declared_name(std::string_view line) {
   const std::string_view before = line.substr(0, line.find(';'));
   return before.substr(before.rfind(' ') + 1);
 }
 
-// Appends a sampler with its binding. Samplers of other forms of the pass have no binding; the definitions
-// leave their parts out.
+// Appends the declaration of a sampler with its binding. Samplers that other forms of the pass use get no
+// binding: the #define lines exclude the code that declares them.
 void append_sampler(String& out, std::string_view line, std::span<const std::string_view> samplers) {
   const auto found = std::find(samplers.begin(), samplers.end(), declared_name(line));
   char layout[48] = "";
@@ -69,7 +69,8 @@ void append_sampler(String& out, std::string_view line, std::span<const std::str
   out.append(layout).append(line).append("\n");
 }
 
-// Converts one line of the pass's shaders to the hosts' form. Default uniforms become members of blocks.
+// Converts one line of the pass's shaders to the form for hosts. Uniforms outside blocks become members of
+// uniform blocks.
 void append_line(String& out, std::string_view line, std::span<const std::string_view> samplers) {
   if (begins_with(line, "uniform highp vec4 nook_frame["))
     out.append(blocks);
@@ -112,7 +113,7 @@ class StageList {
   StageList(const NnaoSettings& desc, const nnao::TapGrid& grid, PassStages& out, Memory* memory)
       : defines_(pass_defines(desc, true, grid)), out_(out), memory_(memory) {}
 
-  // ao: the image that nook_ao reads.
+  // `ao` is the image that the sampler nook_ao reads.
   void add(const char* name, const char* path, nook_nnao_image output,
            std::initializer_list<std::string_view> samplers, nook_nnao_image ao = NOOK_NNAO_IMAGE_AO,
            const char* more_defines = "") {

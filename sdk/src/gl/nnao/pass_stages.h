@@ -1,4 +1,4 @@
-// The stages of the screen-space pass as shader text and images, for hosts without OpenGL.
+// Describes the stages of the screen-space pass by shader texts and images, for hosts that do not use OpenGL.
 #pragma once
 
 #include <nook/experimental/nook_stages.h>
@@ -33,11 +33,11 @@ PassStages pass_stages(const NnaoSettings& desc, const nnao::Network& network, M
 
 nook_nnao_image_info stage_image(const nook_nnao_desc& desc, nook_nnao_image image);
 
-// Returns the stages that a frame with this G-buffer AO draws, as bits. count is the number of the pass's
-// stages.
+// Returns a bit mask of the stages to draw in a frame with this G-buffer AO. `count` is the number of stages
+// of the pass.
 std::uint32_t drawn_stages(std::size_t count, nook_gbuffer_ao layer);
 
-// frame must have passed check_frame; earlier may be null. drawn_stages stays 0.
+// `frame` must have passed check_frame; `earlier` may be null. The result's drawn_stages is 0.
 nook_nnao_frame_values frame_values(const nook_nnao_desc& desc, const NnaoFrame& frame,
                                     const NnaoFrame* earlier, std::uint32_t number, int layer);
 

@@ -40,7 +40,7 @@ std::uint64_t bytes_per_texel(TextureFormat format) {
   return layout_of(format).bytes;
 }
 
-// Binds the texture.
+// Creates the texture and binds it.
 void RenderTexture::begin(Device& device, TextureFormat format, GLenum target, GLuint unit) {
   texture_ = Object::make(device, Object::Kind::texture);
   framebuffer_ = Object::make(device, Object::Kind::framebuffer);
@@ -49,7 +49,7 @@ void RenderTexture::begin(Device& device, TextureFormat format, GLenum target, G
       format == TextureFormat::ao || format == TextureFormat::bent_ao ? GL_LINEAR : GL_NEAREST;
   gl.ActiveTexture(GL_TEXTURE0 + unit);
   gl.BindTexture(target, texture_.name());
-  // With a buffer bound, the null pointer would be an offset into the host's buffer.
+  // If a buffer were bound, OpenGL would read the null pointer as an offset into the host's buffer.
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   gl.TexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
   gl.TexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
@@ -58,7 +58,7 @@ void RenderTexture::begin(Device& device, TextureFormat format, GLenum target, G
   gl.TexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-// Checks the texture and the bound framebuffer.
+// Checks that the texture was created and that the bound framebuffer is complete.
 void RenderTexture::end(Device& device, const char* label) {
   const GLenum status = device.gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
@@ -70,7 +70,7 @@ RenderTexture::RenderTexture(Device& device, TextureFormat format, int width, in
   const Functions& gl = device.gl;
   const Layout layout = layout_of(format);
   begin(device, format, GL_TEXTURE_2D, 0);
-  // OpenGL ES can only bind immutable textures as images.
+  // OpenGL ES can bind only immutable textures as images.
   if (gl.TexStorage2D)
     gl.TexStorage2D(GL_TEXTURE_2D, 1, static_cast<GLenum>(layout.internal_format), width, height);
   else

@@ -10,8 +10,8 @@ enum class TextureFormat {
   bent_ao,        // GL_RGBA8, filtered linearly as ao is
   ao_edges,       // GL_RG8
   ao_image,       // GL_RGBA8, for bent normals, and for compute shaders that cannot write GL_RG8
-  depth,          // GL_R32UI, a float's bits
-  sampled_depth,  // GL_RG32UI, the same plus the number of a sample
+  depth,          // GL_R32UI, the bits of a float
+  sampled_depth,  // GL_RG32UI, the bits of a float and a sample index
   normal,         // GL_RG16
   normal_bits,    // GL_RG16UI, for contexts that cannot draw into GL_RG16
   texel_bits,     // GL_RGBA32UI, the bits of four floats
@@ -25,7 +25,7 @@ class RenderTexture {
   // Binds unit 0, the draw framebuffer and the pixel unpack buffer. The contents are undefined. Throws
   // Failure.
   RenderTexture(Device& device, TextureFormat format, int width, int height, const char* label);
-  // A texture array; the framebuffer has its last layer. Binds unit 1 in place of unit 0.
+  // Creates a texture array. Its last layer is attached to the framebuffer. Binds unit 1 instead of unit 0.
   RenderTexture(Device& device, TextureFormat format, int width, int height, int layers, const char* label);
 
   GLuint texture() const { return texture_.name(); }
@@ -38,8 +38,8 @@ class RenderTexture {
   Object texture_, framebuffer_;
 };
 
-// Tells OpenGL that the colours of the bound draw framebuffer are not needed, so that a GPU with tiles does
-// not load them. Does nothing if OpenGL lacks the function.
+// Tells OpenGL that the current colours of the bound draw framebuffer are not needed, so that a tile-based
+// GPU does not load them. Does nothing if OpenGL does not have the function.
 void discard_colours(const Functions& gl);
 
 // Attaches a layer to the bound draw framebuffer.

@@ -10,7 +10,7 @@
 namespace nook::gl {
 namespace {
 
-// Multiplies the target by AO; alpha stays.
+// Multiplies the colours of the target by AO. Alpha is not changed.
 constexpr BlendState multiplying{GL_TRUE, GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE, GL_FUNC_ADD, GL_FUNC_ADD};
 
 static_assert(NOOK_LAYER_MIN == NOOK_GBUFFER_AO_MIN && NOOK_LAYER_REPLACE == NOOK_GBUFFER_AO_REPLACE);
@@ -59,7 +59,7 @@ void ScreenPass::make_stage(ScreenStage& stage, Object program, std::span<const 
   stage.program = std::move(program);
   stage.frame = uniform_location(device_, stage.program, "nook_frame");
   device_.gl.UseProgram(stage.program.name());
-  // If a stage lacks the sampler, the location is -1, which OpenGL ignores.
+  // If a stage does not have the sampler, the location is -1, which OpenGL ignores.
   for (const SamplerUnit& sampler : samplers)
     device_.gl.Uniform1i(uniform_location(device_, stage.program, sampler.name), sampler.unit);
 }
@@ -122,10 +122,10 @@ void ScreenPass::dispatch(const RenderTexture& target, GLenum format, int width,
   const Functions& gl = device_.gl;
   const auto groups = [&](int length) { return GLuint((length + group_size - 1) / group_size); };
   gl.BindImageTexture(image_unit_index, target.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY, format);
-  // Waits for pending reads and draws, including the host's, before the texture is written.
+  // Before the texture is written, the GPU must have finished pending reads and draws, including the host's.
   gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   gl.DispatchCompute(groups(width), groups(height), 1);
-  // The next stage reads the texture.
+  // Makes the writes visible to the next stage, which reads the texture.
   gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
@@ -135,7 +135,7 @@ void ScreenPass::draw_output(const NnaoFrame& frame, int layer) const {
   GLuint framebuffer = own_.framebuffer();
   if (frame.target != NOOK_TARGET_OWN) {
     framebuffer = to_texture ? target_framebuffer_.name() : frame.target_name;
-    if (gl.can.desktop_raster) gl.Enable(GL_FRAMEBUFFER_SRGB);  // OpenGL ES has no switch: it is on
+    if (gl.can.desktop_raster) gl.Enable(GL_FRAMEBUFFER_SRGB);  // always on in OpenGL ES
     if (frame.blend == NOOK_BLEND_MULTIPLY) set_blend(gl, multiplying);
   }
   if (desc_.views > 0) {
@@ -146,7 +146,7 @@ void ScreenPass::draw_output(const NnaoFrame& frame, int layer) const {
     gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, frame.target_name, 0);
   }
   draw(framebuffer, viewport_of(frame), replaces_target(frame, desc_));
-  // If it stayed attached, a texture that the host deletes would live on.
+  // Detaches the host's texture. Otherwise its memory would not be freed when the host deletes it.
   if (to_texture) gl.FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
 }
 

@@ -1,5 +1,5 @@
-// What the screen-space pass and the world pass share. Both draw triangles over a host's images, and write AO
-// to the host's target or to their own texture.
+// The base class of the screen-space pass and the world pass. Both read a host's images, draw full-screen
+// triangles, and write AO to the host's target or to their own texture.
 #pragma once
 
 #include <nook/nook_nnao.h>
@@ -15,11 +15,11 @@
 
 namespace nook::gl {
 
-// Returns true if the frame writes every texel of a target that is not a framebuffer of the host. The old
-// contents are not needed then.
+// Returns true if the frame overwrites every texel of a target that is not a framebuffer of the host. Then
+// the old contents of the target are not needed.
 bool replaces_target(const NnaoFrame& frame, const nook_nnao_desc& pass);
 
-// A program that reads the constants of a frame.
+// A program with the location of the frame's constants.
 struct ScreenStage {
   Object program;
   GLint frame = -1;
@@ -30,31 +30,32 @@ struct SamplerUnit {
   GLint unit;
 };
 
-// Every call may change any of the state that the users of screen_creation_users touch; the caller must hold
-// a StateGuard.
+// Every call may change any state of the users that screen_creation_users returns, so the caller must hold a
+// StateGuard.
 class ScreenPass {
  public:
   GLuint ao_texture() const { return own_.texture(); }
 
  protected:
-  // desc: the screen-space pass's, or the values that another pass uses for the frame's constants. Its
-  // network and next are not kept. Makes no OpenGL call.
+  // `desc` is the descriptor of the screen-space pass. Other passes pass the values that they use for the
+  // frame's constants. The pointers `network` and `next` of `desc` are not kept. Makes no OpenGL calls.
   ScreenPass(Device& device, const NnaoSettings& desc);
 
-  // Throws Failure if the pass is larger than this OpenGL's textures.
+  // Throws Failure if the pass is larger than the maximum texture size of this OpenGL context.
   void check_size() const;
-  // Makes the objects of all draws. own_ must exist already; it starts with this colour.
+  // Creates the objects that all draws need, and clears own_, which must already exist, to the colour `open`.
   void make_objects(const GLfloat (&open)[4]);
-  // Finds the frame's constants in a program and sets its samplers; the program may lack some of them.
+  // Finds the frame's constants in a program, and assigns units to its samplers. The program need not have
+  // all of these samplers.
   void make_stage(ScreenStage& stage, Object program, std::span<const SamplerUnit> samplers) const;
 
-  // Returns what is known about the images of a frame. Throws Failure before anything is drawn unless they
-  // are sound.
+  // Checks the images of a frame, and returns facts about them. If an image is not suitable, throws Failure
+  // before anything is drawn.
   ImageFacts check(const HostImages& images, bool changed);
-  // Makes the stage that draws a pixel for each surface; only with nook_gl_desc.debug.
+  // Sets the stage that draws only pixels with a surface. Used only if nook_gl_desc.debug is set.
   void make_watch(ScreenStage stage);
-  // If that stage exists, counts the surfaces of the frame. bind_depth(frame) binds the depth of a layer.
-  // Draws into the pass's own texture, which the frame overwrites.
+  // If that stage exists, checks whether the frame shows any surface. bind_depth(frame) must bind the depth
+  // of a layer. Draws into the pass's own texture, which the frame overwrites later.
   template <class BindDepth>
   void watch_surfaces(const NnaoFrame& frame, const BindDepth& bind_depth) {
     if (!watch_ || !watch_->begin(device_, frame)) return;
@@ -66,18 +67,19 @@ class ScreenPass {
     }
     watch_->end(device_);
   }
-  // Sets the state that all draws of a frame share.
+  // Sets the OpenGL state that is common to all draws of a frame.
   void begin_frame() const;
   void bind_texture(GLuint unit, GLuint texture) const;
-  // Makes the program current.
+  // Makes the program of a stage current, and sets its frame constants.
   void set_frame(const ScreenStage& stage, const FrameConstants& constants) const;
-  // Draws the current program. discards: nothing outside the viewport is needed afterwards.
+  // Draws with the current program. Pass true for `discards` if the old contents of the framebuffer are not
+  // needed, also outside the viewport.
   void draw(GLuint framebuffer, const Viewport& viewport, bool discards) const;
-  // Runs the current compute shader, which writes texels of the target as an image of `format`, in groups of
-  // group_size x group_size.
+  // Dispatches the current compute shader, with groups of group_size x group_size threads. The shader writes
+  // the target as an image of the format `format`.
   void dispatch(const RenderTexture& target, GLenum format, int width, int height, int group_size) const;
-  // Draws the current program into the frame's target. layer: of the target's texture array, for passes with
-  // views.
+  // Draws with the current program into the frame's target. `layer` is the layer of the target's texture
+  // array, used only for passes with views.
   void draw_output(const NnaoFrame& frame, int layer) const;
 
   Device& device_;

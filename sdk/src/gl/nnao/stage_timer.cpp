@@ -33,9 +33,9 @@ void StageTimer::end_stage() {
   fence = device_.gl.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
 
-// Uses a fence, because with GL_QUERY_RESULT_AVAILABLE Mesa's zink records commands, and the result never
-// becomes available to a host that reads times in each frame. Waits for a nanosecond, because with zero zink
-// does not check whether the work has ended.
+// Uses a fence instead of GL_QUERY_RESULT_AVAILABLE. In Mesa's zink, that query records commands, so the
+// result would never become available to a host that reads times in every frame. The timeout is a nanosecond,
+// because with a timeout of zero, zink does not check whether the work has finished.
 bool StageTimer::finished(std::uint64_t frame) const {
   const GLenum status = device_.gl.ClientWaitSync(fences_[frame % kept_frames], 0, 1);
   return status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED;
@@ -43,7 +43,7 @@ bool StageTimer::finished(std::uint64_t frame) const {
 
 std::optional<StageTimer::Milliseconds> StageTimer::newest() const {
   const Functions& gl = device_.gl;
-  // Otherwise the results would go into the host's buffer.
+  // If the host's query buffer stayed bound, the results would be written into it.
   if (gl.can.query_buffers) gl.BindBuffer(GL_QUERY_BUFFER, 0);
   const std::uint64_t oldest = frames_ > kept_frames ? frames_ - kept_frames : 0;
   for (std::uint64_t frame = frames_; frame > oldest; --frame) {

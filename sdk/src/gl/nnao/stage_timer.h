@@ -1,5 +1,5 @@
-// Measures the GPU time of the stages of a frame. The times are read several frames later, and no call waits
-// for them.
+// Measures the GPU time of the stages of a frame. Times become available a few frames later. No call waits
+// for the GPU.
 #pragma once
 
 #include <array>
@@ -19,10 +19,12 @@ class StageTimer {
   StageTimer(const StageTimer&) = delete;
   StageTimer& operator=(const StageTimer&) = delete;
 
-  // Begins a frame, which passes through its stages and ends with the last.
+  // Call begin_frame once, then call end_stage after each of the stage_count stages. The last end_stage ends
+  // the frame.
   void begin_frame();
   void end_stage();
-  // Returns the times of the newest finished frame, or nothing before the first. Binds the query buffer.
+  // Returns the times of the newest finished frame, or nothing if no frame has finished. Changes the
+  // query-buffer binding.
   std::optional<Milliseconds> newest() const;
 
  private:
@@ -32,7 +34,7 @@ class StageTimer {
 
   Device& device_;
   std::array<std::array<Object, stage_count + 1>, kept_frames> marks_;
-  // After the last mark of each kept frame; null before it.
+  // Fences after the last mark of each kept frame; null until that mark is set.
   std::array<GLsync, kept_frames> fences_{};
   std::uint64_t frames_ = 0;  // number of frames that began
   int stage_ = 0;

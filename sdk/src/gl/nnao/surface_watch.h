@@ -1,4 +1,5 @@
-// With nook_gl_desc.debug, logs a frame whose depth shows no surface, as soon as its result is there.
+// If nook_gl_desc.debug is set, logs a message when the depth of a frame shows no surface. The message comes
+// when the result of a query is available, which may be some frames later.
 #pragma once
 
 #include "sdk/src/gl/nnao/nnao_frame.h"
@@ -10,7 +11,8 @@ class SurfaceWatch {
  public:
   explicit SurfaceWatch(Device& device) : query_(Object::make(device, Object::Kind::query)) {}
 
-  // Checks the result of an earlier frame. If it returns true, draw this frame's surfaces and then call end.
+  // Checks the result of an earlier frame. If it returns true, draw the pixels with a surface of this frame
+  // and then call end.
   bool begin(const Device& device, const NnaoFrame& frame);
   void end(const Device& device);
 
@@ -19,7 +21,7 @@ class SurfaceWatch {
 
   Object query_;
   bool pending_ = false, told_ = false;
-  nook_depth_kind depth_kind_ = 0;  // of the frame that the query is about
+  nook_depth_kind depth_kind_ = 0;  // depth kind of the frame that the query belongs to
   nook_clip_space clip_space_ = 0;
   std::uint32_t depth_texture_ = 0;
 };

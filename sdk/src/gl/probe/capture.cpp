@@ -43,8 +43,10 @@ namespace {
 
 constexpr std::uint64_t texel_bytes = 4 * sizeof(float);
 constexpr float sphere = 4 * std::numbers::pi_v<float>;
-// The number of rounds that find the luminance where suns begin. Each removes the light above the limit so
-// far. The light of a sun that covers 1e-4 of the sphere adds a hundredth of the last limit to the next one.
+// The number of iterations that find the luminance limit above which light belongs to suns. Each iteration
+// averages only the light below the limit of the previous iteration. In each iteration, a sun that covers
+// 1e-4 of the sphere contributes only a hundredth of the previous limit to the next one, so few iterations
+// are enough.
 constexpr int limit_rounds = 4;
 
 CapturePlan plan_of(const CaptureTargets& targets, const CaptureSettings& settings) {
@@ -184,7 +186,7 @@ void ProbeCapture::use(const Object& program) const {
   table_.bind(device_);
 }
 
-// Unbinds the buffer, because the next step copies from it.
+// Draws with transform feedback. Unbinds the written buffer afterwards, because the next step copies from it.
 void ProbeCapture::draw(const Draw& draw) const {
   const Functions& gl = device_.gl;
   gl.BindBuffer(GL_ARRAY_BUFFER, 0);
@@ -197,7 +199,7 @@ void ProbeCapture::draw(const Draw& draw) const {
   gl.BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
 }
 
-// As in map_suns.cpp, the limit is sun_ratio times the mean luminance of everything below it.
+// As in map_suns.cpp, the limit is sun_ratio times the mean luminance of all light below the limit.
 void ProbeCapture::find_limit() const {
   const Functions& gl = device_.gl;
   for (int round = 0; round < limit_rounds; ++round) {

@@ -17,21 +17,22 @@ namespace nook::gl {
 
 struct CubeMap {
   GLuint name = 0;
-  std::uint32_t face_size_px = 0;  // at the level
+  std::uint32_t face_size_px = 0;  // of the level that is read
   std::uint32_t level = 0;
 };
 
-// Binds the cube map to the active unit. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if it is not a cube map
-// or has another size, if its levels lack this one, or if its colours are neither floats nor normalised.
-// OpenGL ES 3.0 and WebGL report neither sizes nor formats.
+// Binds the cube map to the active unit. Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if the texture is not a
+// cube map, has another size, does not have this level, or has colours that are neither floats nor normalised
+// integers. Sizes and formats are not checked on OpenGL ES 3.0 and WebGL, which have no queries for them.
 void bind_checked(const Device& device, const CubeMap& cube);
 
-// The shaders of captures work in a table of texels: constants, sums over the rows of a cube map, and the
-// average of each probe's sums. The shaders in shaders/probe/capture read it.
+// The shaders in shaders/probe/capture read and write a table of texels. It contains constants, sums over the
+// rows of a cube map, and the average of each probe's sums.
 
-// The table has texels of four floats. First comes the luminance where suns begin, then axis and sharpness of
-// the lobes in whole groups. Then come the rows of the solution map, with columns in the order of the sums.
-// The sums of one group over all rows follow, then each probe's sums, groups of lobes and one of harmonics.
+// The layout of the table, in texels of four floats. The first texel contains the luminance limit for suns.
+// Axis and sharpness of the lobes follow, padded to whole groups. Then come the rows of the solution matrix,
+// with columns in the order of the sums. Then come the sums of one group over all rows of a cube map.
+// Finally, each probe has its averaged sums: the groups of lobes, then one group of harmonics.
 struct CapturePlan {
   std::uint32_t lobes = 0;  // 0: harmonics alone
   std::uint32_t face_size_px = 0;
@@ -40,7 +41,7 @@ struct CapturePlan {
   std::uint32_t lobe_groups() const { return (lobes + NOOK_CAPTURE_GROUP - 1) / NOOK_CAPTURE_GROUP; }
   std::uint32_t groups() const { return lobe_groups() + 1; }
   std::uint32_t rows() const { return 6 * face_size_px; }
-  std::uint32_t sums() const { return groups() * NOOK_CAPTURE_GROUP; }  // of one probe
+  std::uint32_t sums() const { return groups() * NOOK_CAPTURE_GROUP; }  // sums of one probe
   std::uint32_t map_row() const { return sums() / 4; }                  // texels
 
   static constexpr std::uint64_t first_lobe = 1;
@@ -52,20 +53,21 @@ struct CapturePlan {
   std::uint64_t texels() const { return first_sum(probes); }
 };
 
-// Returns the table before the first map: constants, and no light. If the plan has lobes, they are the
-// basis's.
+// Returns the initial table, with constants and without light. If the plan has lobes, pass the basis that
+// contains them.
 Vector<float> capture_texels(const CapturePlan& plan, const probe::Basis& basis, probe::Constraint constraint,
                              Memory* memory);
 
-// Turns cube maps that a host renders into probes on the GPU. Transform feedback sums over texels, because
-// every OpenGL and OpenGL ES has it in 32 bits. A matrix then solves the fit, and copies go to the textures
-// that shaders read. Nothing is read back.
+// Converts cube maps that a host renders to probes, entirely on the GPU. Vertex shaders sum over texels and
+// write the sums by transform feedback, which supports 32-bit floats on every OpenGL and OpenGL ES. A matrix
+// product then solves the fit, and the result is copied to the textures that the host's shaders read. Nothing
+// is read back.
 //
-// A map is summed in three kinds of draws. rows.vert draws a point for each row of a face and group of
-// functions. mean.vert draws a point for each sum, and also takes the running average over maps. solve.vert
-// draws a point for each texel of the result.
+// A map is processed by three kinds of draws. rows.vert processes one point for each row of a face and each
+// group of functions. mean.vert processes one point for each sum, and also updates the running average over
+// maps. solve.vert processes one point for each texel of the result.
 
-// The textures that a capture writes. One of both may be null; both must outlive the capture.
+// The textures that a capture writes. At most one of them may be null. They must outlive the capture.
 struct CaptureTargets {
   const ProbeTexture* lobes = nullptr;
   const GridVolume* grid = nullptr;
@@ -77,11 +79,11 @@ struct CaptureSettings {
   std::uint32_t face_size_px = 64;
   std::uint32_t level = 0;
   std::uint32_t history = 1;  // maps
-  bool sky = false;           // leaves suns out
+  bool sky = false;           // excludes suns
   probe::Constraint constraint = probe::Constraint::bands;
 };
 
-// The light of a probe, averaged over its maps.
+// The light of a probe, averaged over the maps that were added.
 struct CaptureResult {
   std::uint32_t maps = 0;
   std::array<Vec3, probe::band_functions> harmonics{};
@@ -92,13 +94,14 @@ struct CaptureResult {
 
 class ProbeCapture {
  public:
-  // The functions change the state of the user `captures` in touched_state.h. All throw Failure.
+  // All functions change the state of the user `captures` in touched_state.h, and may throw Failure.
   ProbeCapture(Device& device, const CaptureTargets& targets, const CaptureSettings& settings);
 
-  // Replaces what the targets hold of an existing probe by its average over maps, including this one. With
-  // restart, this map begins a new average.
+  // Adds a cube map to a probe's average, and writes the new average to the probe in the targets. The probe
+  // must exist. If `restart` is true, the average starts again with this map.
   void add(std::size_t probe, GLuint cube_map, bool restart);
-  // Both wait for the GPU. Without lobes, the probes have harmonics. Probes without a map are 0.
+  // Both functions wait for the GPU. If the plan has no lobes, the probes have harmonics. A probe to which no
+  // map was added is 0.
   CaptureResult read(std::size_t probe) const;
   probe::Probes read_all() const;
 
@@ -129,7 +132,7 @@ class ProbeCapture {
   Device& device_;
   const CaptureTargets targets_;
   const CaptureSettings settings_;
-  const probe::Basis basis_;  // with lobes, else harmonics of order 2
+  const probe::Basis basis_;  // lobes, or harmonics of order 2 if there are no lobes
   const probe::Grid grid_;
   const CapturePlan plan_;
   FeedbackTarget feedback_;
@@ -140,7 +143,7 @@ class ProbeCapture {
   GLint mean_rows_ = -1, mean_scale_share_ = -1;
   TexelTable table_;
   Buffer rows_, sums_, numbers_;
-  Vector<std::uint32_t> maps_;  // for each probe
+  Vector<std::uint32_t> maps_;  // maps in the average of each probe
 };
 
 }  // namespace nook::gl

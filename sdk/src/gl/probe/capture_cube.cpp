@@ -6,7 +6,7 @@
 namespace nook::gl {
 namespace {
 
-// Clears the error of a bind that OpenGL refused.
+// Clears the error that OpenGL reports if it rejects a bind.
 void clear_refusal(const Functions& gl) {
   for (int i = 0; i < 16; ++i)
     if (gl.GetError() == GL_NO_ERROR) return;

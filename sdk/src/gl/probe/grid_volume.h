@@ -1,5 +1,5 @@
-// Stores grids of diffuse light as the half floats that shaders/probe/volume/host.glsl reads, and in a 3D
-// texture.
+// Stores a grid of diffuse light in a 3D texture of half floats, in the layout that
+// shaders/probe/volume/host.glsl reads.
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@ namespace nook::gl {
 enum class GridForm : std::uint8_t { harmonics = 0, zonal = 1 };
 std::uint32_t texels_of(GridForm form);
 
-// The texture has layers as large as the grid, one behind the other along z. First come the layers of a
-// probe's numbers, four to a texel. If there are walls, the layers of a cell's planes and of its sides' masks
-// follow.
+// The layout of the 3D texture. Layers, each as large as the grid, are stacked along z. The first layers
+// contain the coefficients of the probes, four per texel. If there are walls, they are followed by layers
+// with the planes of each cell, and layers with the masks of the cell's sides.
 struct GridTexelPlan {
   GridForm form = GridForm::harmonics;
   std::uint32_t layers = 0;
@@ -27,20 +27,22 @@ struct GridTexelPlan {
 };
 GridTexelPlan plan_grid(const probe::Probes& probes, GridForm form);
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for dice, or for a coefficient that does not fit into a half
-// float.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if the basis is ambient dice, or if a coefficient does not fit
+// into a half float.
 Vector<std::uint16_t> grid_texels(const probe::Probes& probes, const GridTexelPlan& plan, Memory* memory);
 
 std::array<float, 16> grid_frame(const probe::Probes& probes, const GridTexelPlan& plan);
 
 class GridVolume {
  public:
-  // Binds GL_TEXTURE_3D of unit 0. Both functions throw Failure, and the texture then keeps its old texels.
+  // Changes GL_TEXTURE_3D of unit 0. The constructor and update may throw Failure; the texture then keeps its
+  // old texels.
   GridVolume(Device& device, const probe::Probes& probes, GridForm form);
   void update(const probe::Probes& probes);
 
-  // Replaces the numbers of one probe by a buffer's, with as many texels of four floats as the form has.
-  // Nothing waits. Binds GL_TEXTURE_3D of unit 0, GL_ARRAY_BUFFER and GL_PIXEL_UNPACK_BUFFER.
+  // Replaces the coefficients of one probe by data from a GPU buffer. The buffer contains as many texels of
+  // four floats as the form has. The call does not wait for the GPU. Changes GL_TEXTURE_3D of unit 0,
+  // GL_ARRAY_BUFFER and GL_PIXEL_UNPACK_BUFFER.
   void copy_probe(std::size_t index, GLuint buffer, std::uint64_t offset_bytes) const;
 
   GridForm form() const { return form_; }

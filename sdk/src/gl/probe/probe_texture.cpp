@@ -22,7 +22,7 @@ Vector<float> probe_texels(const probe::Probes& probes, bool gloss, Memory* memo
   const auto add = [&](Vec3 v, float w) { texels.insert(texels.end(), {v.x, v.y, v.z, w}); };
   const probe::Basis& basis = probes.basis;
   const probe::Grid& grid = probes.grid;
-  // Whole numbers up to 2^24 are exact.
+  // Counts are stored as floats, which represent integers up to 2^24 exactly.
   add({float(grid.counts[0]), float(grid.counts[1]), float(grid.counts[2])}, float(basis.count));
   add(grid.origin_ws, gloss ? 1 : 0);
   add({1 / grid.spacing_ws.x, 1 / grid.spacing_ws.y, 1 / grid.spacing_ws.z}, 0);
@@ -66,7 +66,7 @@ void ProbeTexture::update(const probe::Probes& probes) {
 
 void ProbeTexture::copy_probe(std::size_t index, GLuint buffer, std::uint64_t offset_bytes) const {
   table_.copy(device_, buffer, offset_bytes, first_amplitude_texel(basis_.count, index), basis_.count);
-  // What replaces the light has no amplitudes of its own for gloss.
+  // The new light has no separate amplitudes for gloss, so they are copied from the same source.
   if (has_gloss_)
     table_.copy(device_, buffer, offset_bytes, first_amplitude_texel(basis_.count, grid_.size() + index),
                 basis_.count);

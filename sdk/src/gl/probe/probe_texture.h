@@ -1,4 +1,4 @@
-// Stores probes as the texels that shaders/probe/grid.glsl reads, in a table for a probe or a grid.
+// Stores a probe or a grid of probes in a table of texels, in the layout that shaders/probe/grid.glsl reads.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,24 @@
 
 namespace nook::gl {
 
-// Returns the number of texels, which hold four floats each. They are counts and number of lobes; origin; 1 /
-// spacing; axis and sharpness of each lobe; then the amplitudes of each probe. x varies fastest, then y, then
-// z. If the probes have amplitudes for gloss, these follow in the same order, and the texel of the origin
-// says so. They are left out where the table has no room for both.
+// Returns the number of texels, with four floats each. The table contains, in this order: one texel with the
+// grid's counts and the number of lobes, the origin, 1 / spacing, axis and sharpness of each lobe, and the
+// amplitudes of each probe. Probes are ordered with x varying fastest, then y, then z. If the probes have
+// amplitudes for gloss, these follow in the same order, and a flag in the texel of the origin is set. They
+// are omitted if the table is too small for both.
 std::uint64_t probe_texel_count(const probe::Probes& probes, bool gloss);
 std::uint64_t first_amplitude_texel(std::uint32_t lobes, std::size_t probe);
 Vector<float> probe_texels(const probe::Probes& probes, bool gloss, Memory* memory);
 
 class ProbeTexture {
  public:
-  // Binds GL_ARRAY_BUFFER, and the table's target of unit 0. Both functions throw Failure, and a texture
-  // buffer then keeps its old texels.
+  // Changes GL_ARRAY_BUFFER and the table's texture target of unit 0. The constructor and update may throw
+  // Failure; a texture buffer then keeps its old texels.
   ProbeTexture(Device& device, const probe::Probes& probes);
   void update(const probe::Probes& probes);
 
-  // Replaces the amplitudes of one probe, also those for gloss, by texels of a GPU buffer, as
-  // TexelTable::copy does.
+  // Replaces the amplitudes of one probe, including its amplitudes for gloss, by texels of a GPU buffer; see
+  // TexelTable::copy.
   void copy_probe(std::size_t index, GLuint buffer, std::uint64_t offset_bytes) const;
 
   const probe::Basis& basis() const { return basis_; }
@@ -42,7 +43,7 @@ class ProbeTexture {
   bool has_gloss_ = false;
 };
 
-// Returns the text for the host's shaders: shaders/probe/host.glsl and everything it includes.
+// Returns the GLSL text for the host's shaders: shaders/probe/host.glsl with everything that it includes.
 const char* probe_glsl();
 
 }  // namespace nook::gl

@@ -11,10 +11,10 @@ namespace nook::gl {
 
 class TransferTexture {
  public:
-  // light_modes is a multiple of 4. Binds GL_ARRAY_BUFFER, and the table's target of unit 0. Both functions
-  // throw Failure.
+  // light_modes must be a multiple of 4. The constructor and update change GL_ARRAY_BUFFER and the table's
+  // texture target of unit 0, and may throw Failure.
   TransferTexture(Device& device, std::uint32_t light_modes, std::uint32_t vertices);
-  // Takes vertices x 3 x light_modes floats.
+  // Replaces all vectors. Pass vertices x 3 x light_modes floats.
   void update(std::span<const float> vectors);
 
   std::uint64_t float_count() const { return 4 * texels_; }
@@ -34,9 +34,10 @@ class TransferTexture {
 
 class PaperTexture {
  public:
-  // Binds GL_ARRAY_BUFFER, and the tables' target of unit 0. Both functions throw Failure.
+  // The constructor and update change GL_ARRAY_BUFFER and the tables' texture target of unit 0, and may throw
+  // Failure.
   PaperTexture(Device& device, const transfer::Transfer& transfer);
-  // fill(rows) writes the same as transfer::write_lit_rows.
+  // Replaces the light. fill(rows) must write the same data as transfer::write_lit_rows.
   template <class Fill>
   void update(Fill&& fill) {
     light_.write(device_, light_texels_, [&](void* memory) {

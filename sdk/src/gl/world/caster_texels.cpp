@@ -19,7 +19,7 @@ constexpr std::array<std::uint8_t, world::max_part_casters> every_caster = [] {
 // A prop or an occluder is a single part.
 constexpr world::CasterParts one_caster{1, {0, 1}, {}};
 
-// A sphere around the casters that `order` picks, and the AO they take far away, as in caster_strength.
+// A bounding sphere of the casters that `order` selects, and their total strength; see caster_strength.
 struct Bound {
   Vec3 centre;
   float radius = 0, strength = 0;
@@ -40,12 +40,13 @@ Bound bound_of(std::span<const PosedCaster> casters, std::span<const std::uint8_
   return bound;
 }
 
-// Packs strength and radius for casters.glsl, both rounded up.
+// Packs the strength and the radius of a group into one float for casters.glsl. Both are rounded up.
 float packed_bound(const ReachingGroup& group) {
   const float strength = group.strength_over_cutoff;
   if (!(strength < NOOK_LARGEST_STRENGTH && group.radius < 0.99f * NOOK_LARGEST_RADIUS))
     return NOOK_ENDLESS_BOUND;
-  // 32,768 steps leave eight bits for the fraction; the added 0.005 covers their rounding.
+  // The integer part has up to 32,768 steps, which leaves eight bits of the float for the fraction. Adding
+  // 0.005 ensures that rounding the fraction never makes it too small.
   return std::ceil(strength * NOOK_STRENGTH_STEPS) + 0.005f + group.radius / NOOK_LARGEST_RADIUS;
 }
 

@@ -1,4 +1,4 @@
-// Writes the table of casters that shaders/world/casters.glsl reads.
+// Writes the table of occluders (casters) that shaders/world/casters.glsl reads.
 #pragma once
 
 #include <cstdint>
@@ -7,27 +7,28 @@
 
 namespace nook::gl {
 
-// Transforms from world to view space by a rotation and a translation, column-major.
+// Transforms a point from world to view space. `view` is a column-major matrix with a rotation and a
+// translation.
 Vec3 viewed(const float* view, Vec3 p);
 
-// Transforms a direction.
+// Transforms a direction from world to view space.
 Vec3 turned(const float* view, Vec3 direction);
 
 std::uint64_t texels_of(const ReachingGroup& group);
 
-// Returns the number of texels of a group that casts the shadow of a cone.
+// Returns the number of texels that a group takes if it casts a shadow from a light cone.
 std::uint64_t shade_texels_of(const ReachingGroup& group);
 
 class CasterTexels {
  public:
-  // table: four floats for each texel of all bodies.
+  // `table` has four floats for each texel of all bodies.
   CasterTexels(float* table, const float* view, std::uint32_t bodies);
 
-  // Call it for bodies in the order of their numbers.
+  // Call put for all bodies in ascending order of `body`.
   void put(std::uint32_t body, const ReachingGroup& group, float level_error);
 
-  // Begins the bodies that cast the shadow of a cone, at a texel after all others. Pass them in the order of
-  // their numbers.
+  // Begins the section of bodies that cast shadows from a light cone. It starts at the texel `first`, after
+  // all other bodies. Then put these bodies in ascending order.
   void begin_shades(std::uint64_t first, std::uint32_t bodies);
   void put_shade(std::uint32_t body, const ReachingGroup& group);
 
@@ -39,7 +40,7 @@ class CasterTexels {
 
   float* table_;
   const float* view_;
-  std::uint64_t next_;  // texel of the next body's parts, or of its casters
+  std::uint64_t next_;  // texel at which the next body's parts or casters begin
   std::uint64_t shades_ = 0;
 };
 

@@ -36,7 +36,7 @@ world::TileGrid grid_of(const WorldFrame& frame, std::uint32_t tile_px) {
   return grid;
 }
 
-// Visits the groups that have casters.
+// Calls visit for each group that has casters.
 template <class Visit>
 void each_group(const ReachingGroups& groups, Visit&& visit) {
   for (std::uint32_t g = 0; g < groups.count; ++g) {
@@ -123,7 +123,8 @@ void FrameCasters::fit_tiles(const Device& device, world::TileGrid& grid, std::u
       sum += world::most_list_texels(grid, lists->ranges);
     return sum;
   };
-  // Larger tiles have shorter lists, down to one list of all bodies.
+  // The larger the tiles, the shorter the lists are in total. In the extreme, there is a single list of all
+  // bodies.
   while (most_texels() > device.max_texels && grid.columns() * grid.rows() > 1) {
     grid.tile_px *= 2;
     for (TileLists* const lists : {&reaching_, &near_, &shades_})

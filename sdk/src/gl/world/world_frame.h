@@ -1,4 +1,4 @@
-// The input of a frame of the world pass: the host's images, groups of casters, light.
+// The input of a frame of the world pass: the host's images, groups of occluders (casters), and light.
 #pragma once
 
 #include <nook/nook_world.h>
@@ -13,33 +13,34 @@
 
 namespace nook::gl {
 
-// Casters that stand together, in world space.
+// Casters that are close together, for example of one body, in world space.
 struct ReachingGroup {
   std::span<const PosedCaster> casters;
   Vec3 centre;
-  float radius = 0;    // of a sphere around them
+  float radius = 0;    // radius of a sphere around the casters
   float reach = 0;     // metres from the centre; points beyond it are not darkened
   float strength = 0;  // square metres; see caster_strength
-  // In square metres. At the distance d, the casters take at most cutoff_error times this / d^2 of AO.
+  // In square metres. At the distance d, the casters reduce AO by at most cutoff_error * strength_over_cutoff
+  // / d^2.
   float strength_over_cutoff = 0;
   const world::CasterParts* parts = nullptr;  // NULL: one caster
 
-  // Returns the distance in metres from the centre at which one capsule begins to stand for the casters.
+  // Returns the distance from the centre, in metres, beyond which one merged capsule replaces the casters.
   float merging_distance(float level_error) const {
     // A single caster cannot be merged any further.
     return world::merging_distance(strength, radius, parts ? level_error : 0);
   }
 };
 
-// The groups of a frame. group(index) is called at most twice for each, and its result lives until the next
-// call.
+// The groups of a frame. group(index) is called at most twice for each group. Its result must stay valid
+// until the next call.
 struct ReachingGroups {
   std::uint32_t count = 0;
   const void* user = nullptr;
   ReachingGroup (*group)(const void* user, std::uint32_t index, PosedCaster& room) = nullptr;
 };
 
-// Every point is within this reach; its square is still a float.
+// A reach, in metres, that includes every point. Its square does not overflow a float.
 inline constexpr float endless_reach = 1e15f;
 
 // A cone of light, in world space.
@@ -49,9 +50,9 @@ struct LightCone {
   float reach = 0;  // metres
 };
 
-// A frame that passed its checks.
+// A frame of the world pass that has passed all checks.
 struct WorldFrame {
-  NnaoFrame& screen;  // the pass stores what it learns about its images
+  NnaoFrame& screen;  // the pass stores facts about the images here
   const float* view;  // column-major
   std::uint32_t ao_texture = 0;
   nook_world_combine composition = NOOK_WORLD_COMBINE_MULTIPLY;

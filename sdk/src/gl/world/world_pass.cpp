@@ -15,8 +15,9 @@
 namespace nook::gl {
 namespace {
 
-// Textures that only this pass has. Textures that no stage reads together share a unit. The upsample reads
-// the depth of every fourth pixel beside a layer; the stages of AO read it beside normals.
+// Texture units for textures that only this pass has. Two textures may share a unit if no stage reads both of
+// them. The depth of every fourth pixel has two units: the upsample stage also reads a layer, and the AO
+// stages also read normals.
 constexpr GLuint caster_unit = filter_unit, half_ao_unit = filter_unit;
 constexpr GLuint upsample_depth_unit = NOOK_UNIT_NORMAL, darkening_depth_unit = NOOK_UNIT_LAYER;
 constexpr GLuint other_ao_unit = NOOK_UNIT_MOTION, far_unit = NOOK_UNIT_MOTION;
@@ -36,13 +37,14 @@ TextureFormat result_format(bool coloured) {
   return coloured ? TextureFormat::bent_ao : TextureFormat::ao;
 }
 
-// A texel of the far bodies' AO has this many pixels along a side. It covers so little of the picture that a
-// body's merging distance spans several texels, even where the floor is seen at a grazing angle.
+// Returns the size, in pixels along a side, of a texel of the AO of far bodies. A texel must be so small that
+// a body's merging distance covers several texels, even where the floor is seen at a grazing angle.
 constexpr int far_step(int max_height) {
   return max_height >= 1000 ? NOOK_FAR_STEP : max_height >= 500 ? 4 : 2;
 }
 
-// Pixels along a side of a tile of lists; each group of threads lies in one tile.
+// Returns the minimum size, in pixels along a side, of a tile of the lists. It is chosen so that each group
+// of threads lies in a single tile.
 constexpr std::uint32_t tile_px(bool computes, int far_step) {
   return computes ? std::max(32u, std::uint32_t(NOOK_WORLD_GROUP_SIZE * far_step)) : 32u;
 }
@@ -139,7 +141,7 @@ WorldPass::Stage WorldPass::make_stage(Object program) const {
 }
 
 TextureFormat WorldPass::half_format() const {
-  // OpenGL ES 3.1 cannot write GL_R8 from a compute shader.
+  // Compute shaders in OpenGL ES 3.1 cannot write GL_R8 images.
   const bool red = computes_ && !device_.gl.can.r8_images && !coloured_;
   return red ? TextureFormat::ao_image : result_format(coloured_);
 }
@@ -199,7 +201,8 @@ void WorldPass::set_light(const Stage& stage, const WorldFrame& frame) const {
   gl.Uniform1i(stage.first_light_tile, static_cast<GLint>(casters_.first_light_tile()));
   gl.Uniform1i(stage.first_shade, static_cast<GLint>(casters_.first_shade()));
   if (!frame.cone) return;
-  // The parts are the same as in nook_world_sample, whatever the view.
+  // The cone is divided in world space, so its parts are the same as in nook_world_sample and do not depend
+  // on the view.
   const world::ConeParts parts = world::cone_parts_of(frame.cone->axis, frame.cone->half_angle_radians);
   std::array<float, 4 * NOOK_CONE_VEC4S> cone{};
   const auto put = [&](std::size_t i, Vec3 v, float w) {

@@ -1,9 +1,9 @@
-// Draws how casters darken what a depth buffer shows.
+// Draws how occluders (casters) darken the surfaces in a depth buffer.
 //   full resolution  host depth -> AO and result
 //   half resolution  host depth -> depth of every fourth pixel; AO by far bodies of fewer still; AO of every
 //                    fourth by near bodies, times that -> upsample and result
-// If compute shaders can write images, both stages of AO at half resolution are dispatches. Their groups skip
-// bodies that reach none of their surfaces.
+// If compute shaders can write images, both AO stages at half resolution are dispatches. Each group of
+// threads skips the bodies that reach none of the group's surfaces.
 #pragma once
 
 #include <nook/nook_world.h>
@@ -17,14 +17,14 @@
 
 namespace nook::gl {
 
-// Every call may change any of the touched state of the user `screen`, and of uploads; the caller must hold a
+// Every call may change any state of the user `screen` and of the uploads, so the caller must hold a
 // StateGuard.
 class WorldPass : public ScreenPass {
  public:
   // Throws Failure.
   WorldPass(Device& device, const nook_world_desc& desc);
 
-  // Draws a frame. Throws Failure before anything is drawn.
+  // Draws a frame. If it throws Failure, nothing has been drawn.
   void render(const WorldFrame& frame, const ReachingGroups& groups);
 
   bool computes() const { return computes_; }
@@ -34,7 +34,7 @@ class WorldPass : public ScreenPass {
  private:
   struct Stage : ScreenStage {
     GLint groups = -1, columns = -1, first_tile = -1, tile_size = -1, composition = -1, counts = -1;
-    // Only coloured passes have these.
+    // Locations that only coloured passes have.
     GLint far = -1, first_far_tile = -1;  // of half resolution
     GLint light_terms = -1, cone = -1, light_columns = -1, first_light_tile = -1, first_shade = -1;
   };
@@ -42,22 +42,22 @@ class WorldPass : public ScreenPass {
   Stage make_draw(const char* fragment, const char* defines, bool gathers = false) const;
   Stage make_upsample(const char* defines) const;
   Stage make_darkening(const char* defines) const;
-  // All defines of a stage.
+  // Returns all #define lines of a stage.
   std::array<char, 160> defines_of(const char* own) const;
   TextureFormat half_format() const;
   void make_half(const nook_world_desc& desc);
   void set_light(const Stage& stage, const WorldFrame& frame) const;
   void set_frame(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants) const;
   void draw_depth(const WorldFrame& frame, const FrameConstants& constants) const;
-  // Runs the current program, a stage of AO at half resolution.
+  // Draws or dispatches the current program, which must be an AO stage at half resolution.
   void darken(const RenderTexture& target, int width, int height) const;
   void darken_half(const WorldFrame& frame, const FrameConstants& constants) const;
   const Stage& output_of(const WorldFrame& frame) const;
 
   bool half_, coloured_, computes_;
   int far_step_;                                             // pixels
-  Stage output_, layered_output_, counts_;                   // at half resolution, these upsample
-  Stage half_depth_, masked_half_depth_, half_ao_, far_ao_;  // masked: without replaced pixels
+  Stage output_, layered_output_, counts_;                   // at half resolution, these stages upsample
+  Stage half_depth_, masked_half_depth_, half_ao_, far_ao_;  // the masked stage skips replaced pixels
   RenderTexture far_texture_;
   RenderTexture depth_, ao_;  // depth and AO of every fourth pixel
   FrameCasters casters_;
