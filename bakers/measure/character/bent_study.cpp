@@ -37,7 +37,7 @@ Vec3 skinned(const bake::SkinWeights& weights, const bake::Pose& pose, Vec3 v) {
 constexpr std::size_t units = nook::nnao::SpecularNumbers::units,
                       inputs = nook::nnao::SpecularNumbers::inputs;
 
-// Each row has two lines of four numbers.
+// Writes a row as two lines of four numbers.
 void append_row(std::string& text, int& line, std::span<const float, units> row) {
   char part[160];
   for (std::size_t first = 0; first < units; first += 4) {
@@ -48,13 +48,13 @@ void append_row(std::string& text, int& line, std::span<const float, units> row)
 }
 
 constexpr std::array<float, 5> roughness{0.1f, 0.3f, 0.5f, 0.7f, 0.9f};
-// Angles count where the reference's AO is below this: elsewhere the normal serves as well.
+// Angles count only where the reference's AO is below this. Elsewhere, the plain normal is good enough.
 constexpr float dark_below = 0.7f;
 
 enum Method { plain_normal, nook_bent, reference, method_count };
 constexpr const char* method_names[] = {"normal", "nook", "reference"};
 
-// A vertex in a pose, and what each method says of it.
+// A vertex in a pose, and the result of each method for it.
 struct Point {
   std::size_t vertex = 0;
   Vec3 to_viewer;
@@ -68,11 +68,11 @@ struct Point {
   std::array<bake::GlossyLight, 2> light[roughness.size()];
 };
 
-// A direction above the surface from which the vertex is seen, uniform over the hemisphere; zero if some
-// tries find none.
+// Returns a random direction, uniform over the hemisphere, from which the vertex is visible. Returns zero if
+// no try finds one.
 Vec3 find_viewer(const bake::RayScene& scene, Vec3 origin, Vec3 normal, bake::Random& random) {
   constexpr int tries = 16;
-  constexpr float lowest = 0.05f;  // cosine: more oblique faces cover hardly a pixel
+  constexpr float lowest = 0.05f;  // cosine; faces at a more oblique angle hardly cover a pixel
   const bake::Frame frame = bake::turned_frame(normal, 1, 0);
   for (int t = 0; t < tries; ++t) {
     const float up = random.between(lowest, 1), angle = random.between(0, 6.2831853f),

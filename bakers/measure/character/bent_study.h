@@ -1,5 +1,5 @@
-// Measures bent normals and specular occlusion of a character against ray tracing, beside the plain normal
-// and S. Lagarde's formula with the same AO.
+// Compares a character's bent normals and specular occlusion with ray tracing. The baselines are the plain
+// normal and S. Lagarde's formula with the same AO.
 #pragma once
 
 #include <cstdint>
@@ -25,41 +25,44 @@ struct BentBody {
   std::vector<float> ao;
 };
 
-// An occluded direction turns with its vertex, as the vertex shader of a host skins it. Throws Failure:
-// UNSUPPORTED (the model was baked without bent normals).
+// Skins the occluded direction of each vertex like a host's vertex shader does. Throws Failure: UNSUPPORTED
+// (the model was baked without bent normals).
 BentBody bent_body(const bake::SkinnedMesh& mesh, const CharacterModel& model, const bake::Pose& pose);
 
-// The numbers of nook_scene_specular_occlusion on the CPU.
+// Returns the weights of the shader function nook_scene_specular_occlusion, for use on the CPU.
 nook::nnao::SpecularNumbers character_specular_numbers();
 
-// Returns the text of shaders/character/specular_numbers.h, which holds the numbers.
+// Returns the text of shaders/character/specular_numbers.h, which holds these weights.
 std::string character_specular_header(const nook::nnao::SpecularNumbers& numbers);
 
-// A map that the character is glossy under.
+// An environment map that lights a glossy character.
 struct GlossyMap {
   std::string name;
   bake::Environment light;
 };
 
 struct BentStudy {
-  std::size_t points = 600;  // welded vertices of each pose, each with a viewer that nothing hides
-  std::uint32_t rays = 512;  // for AO and the bent normal of a point; a reflection takes an eighth, twice
+  std::size_t points = 600;  // welded vertices per pose; each gets a viewer with a free line of sight
+  std::uint32_t rays = 512;  // per point, for AO and bent normal; each of the two references of a reflection
+                             // takes an eighth of it
   std::uint64_t seed = 1;
 };
 
-// Rows of the methods "normal" (in place of the bent normal), "nook", and "reference", which has the traced
-// AO and bent normal: method, map ("visibility", under uniform light, or a map's name), poses, points;
-// angle_median, angle_mean and angle_p90 (degrees, where the traced AO is below 0.7); specular_mse,
-// lagarde_mse and specular_ratio, and both errors for each roughness of 0.1 to 0.9. Under a map, the errors
-// compare radiance, in units of the map's mean radiance. Each error is the product of the errors against two
-// references with their own rays, so it has no noise floor. Throws Failure: UNSUPPORTED (the model was baked
-// without bent normals), CANCELLED.
+// Returns a row for each method: "normal" uses the plain normal in place of the bent normal, "nook" uses the
+// model, and "reference" uses the traced AO and bent normal. The keys are method, map ("visibility" under
+// uniform light, otherwise a map's name), poses, points; angle_median, angle_mean and angle_p90 (degrees,
+// where the traced AO is below 0.7); specular_mse, lagarde_mse and specular_ratio, and specular_mse and
+// lagarde_mse for each roughness from 0.1 to 0.9. Under a map, the errors compare radiance, in units of the
+// map's mean radiance. Each squared error is the product of the errors against two references that are traced
+// with different rays, so it has no noise floor. Throws Failure: UNSUPPORTED (the model was baked without
+// bent normals), CANCELLED.
 nlohmann::ordered_json bent_rows(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                  std::span<const bake::Pose> poses, std::span<const GlossyMap> maps,
                                  const BentStudy& study, const bake::Progress& progress = {});
 
-// The points of the rows without maps, to which `nook train bent` fits the numbers of the shader. The
-// network's pixels have the model's AO and bent normal. Throws as bent_rows does.
+// Returns the points that bent_rows measures without maps. `nook train bent` fits the weights of the shader
+// to these points. The inputs of the network are the model's AO and bent normal. Throws the same failures as
+// bent_rows.
 std::vector<bake::nnao::SpecularSample> bent_samples(const bake::SkinnedMesh& mesh,
                                                      const CharacterModel& model,
                                                      std::span<const bake::Pose> poses,
@@ -69,7 +72,8 @@ std::vector<bake::nnao::SpecularSample> bent_samples(const bake::SkinnedMesh& me
 // Returns the mean over all directions and channels.
 double mean_radiance(const bake::Environment& map);
 
-// A map of a few texels without its suns: each texel is the mean of the texels that it covers.
+// Returns a map of a few texels, without the suns. Each texel is the mean of the texels of `with_suns` that
+// it covers.
 bake::Environment coarse_map(const bake::Environment& with_suns, std::uint32_t width);
 
 }  // namespace nook::measure

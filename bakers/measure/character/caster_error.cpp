@@ -16,7 +16,7 @@ namespace {
 
 using namespace bake;
 
-// The pose turned about the vertical axis through the body's centre, then moved along the ground.
+// Turns the pose about the vertical axis through the body's centre, then moves it along the ground.
 Pose placed(const Pose& pose, Vec3 centre, float yaw_radians, Vec3 move) {
   Mat3x4 place = rotation_about(centre, {0, yaw_radians, 0});
   place.m[3] += move.x;
@@ -79,8 +79,8 @@ class LinkedPair {
   nook_instance_id receiver_ = 0, caster_ = 0;
 };
 
-// Returns true for each vertex of the receiver that lies outside the caster. Both hemispheres of one inside a
-// closed body are covered; hair and cuffs leave a few rays.
+// Returns true for each vertex of the receiver that lies outside the caster. For a vertex inside a closed
+// body, nearly all rays of both hemispheres hit that body; a few escape through openings at hair and cuffs.
 std::vector<bool> outside_caster(const SkinnedMesh& mesh, const BodyPair& pair, std::uint64_t seed) {
   constexpr float covered = 0.1f;
   constexpr std::uint32_t rays = 64;
@@ -106,7 +106,7 @@ struct Sums {
   double area = 0, dark = 0, traced = 0, squared = 0, none = 0;
   double darkened_area = 0, darkened_squared = 0;
 
-  // traced: the darkening by either half of the rays, whose product has no noise of its own.
+  // traced_1 and traced_2 are the darkening from each half of the rays. Their product has no noise floor.
   void add(double weight, double darkening, double traced_1, double traced_2) {
     area += weight;
     dark += weight * darkening;

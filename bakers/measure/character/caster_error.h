@@ -1,5 +1,5 @@
-// Measures how a character darkens a neighbour: a lone caster at several distances, by each form and by ray
-// tracing.
+// Measures how a character darkens a neighbour. One caster stands at several distances. Each form of the
+// model is compared with ray tracing.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,21 @@
 
 namespace nook::measure {
 
-// Means are by area, over the receiver's vertices outside the neighbour, bearings and poses. Darkening is the
-// AO of the body alone minus its AO beside the neighbour.
+// Means are weighted by area. They cover all bearings, all poses, and the receiver's vertices outside the
+// neighbour. Darkening is the AO of the body alone minus its AO beside the neighbour.
 struct CasterRow {
   float distance_m = 0;      // between the two bodies' centres, along the ground
   float distance_radii = 0;  // the same in bounding radii of the body
   const char* form = "";     // "composed" or "paper"
   double darkening = 0;
   double darkening_traced = 0;
-  double mse_over_none = 0;  // mean squared error of the darkening, as a share of the error without
-                             // darkening, without the noise of the rays
+  double mse_over_none = 0;  // mean squared error of the darkening, divided by the error without any
+                             // darkening; both without the noise of the rays
   double rms_darkened = 0;   // root mean squared error where the traced darkening is above darkened_from
-  double share_inside = 0;   // of the area, left out: inside the neighbour, where no camera sees it
-  // Root mean square over vertices, by area, of what a scene's default far_error changes, by the neighbour
-  // and by the body's own far spheres.
+  double share_inside = 0;   // share of the area that is left out, because it is inside the neighbour, where
+                             // no camera sees it
+  // How much a scene's default far_error changes the AO: the root mean square over vertices, weighted by
+  // area. It includes the neighbour's spheres and the body's own far spheres.
   double change_of_groups = 0;
 
   static constexpr float darkened_from = 0.02f;
@@ -35,11 +36,12 @@ struct CasterStudy {
   std::vector<float> distances{0.3f, 0.5f, 0.75f, 1, 2, 3, 5, 10};
   bool in_radii = false;  // distances are in bounding radii of the body instead of metres
   std::size_t bearings = 6;
-  std::uint32_t rays = 256;  // per vertex, in two halves; the same rays with and without the neighbour
+  std::uint32_t rays = 256;  // per vertex, in two halves; the same rays are used with and without the
+                             // neighbour
   std::uint64_t seed = 1;
 };
 
-// A distance of the study in metres.
+// Converts a distance of the study to metres.
 float distance_in_metres(const CasterStudy& study, const CharacterModel& model, float distance);
 
 // Two bodies in world space.
@@ -67,14 +69,14 @@ TracedPair trace_pair(const bake::SkinnedMesh& mesh, const BodyPair& pair, std::
 // Returns the AO that the runtime computes for a receiver with one linked caster. Nothing is culled.
 std::vector<float> linked_ao(const CharacterModel& model, const BodyPair& pair);
 
-// poses: of the receiver, each also of the caster in turn; placed on +y-up ground. Returns two rows per
-// distance.
+// Each pose is used for the receiver, and the next one for the caster. Both stand on the ground, with +y up.
+// Returns two rows per distance.
 std::vector<CasterRow> measure_casters(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                        std::span<const bake::Pose> poses, const CasterStudy& study,
                                        const bake::Progress& progress = {});
 
-// Measures one pair: the means over the vertices of both bodies, each darkened by the other. Returns two
-// rows; their distance is measured along the ground.
+// Measures one pair. The means are over the vertices of both bodies, and each body is darkened by the other
+// one. Returns two rows, whose distance is measured along the ground.
 std::vector<CasterRow> measure_pair(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                     const BodyPair& pair, const CasterStudy& study);
 

@@ -25,7 +25,7 @@ float linear_ao(const CharacterModel& model, std::size_t vertex, const float* sh
   return std::clamp(1 - dark, 0.0f, 1.0f);
 }
 
-// Sums of squared errors of one pose, kept apart so that they can be added in order.
+// Sums of squared errors of one pose. Each pose has its own, so that they can be added in order.
 struct ErrorSums {
   double all = 0, visible = 0, visible_area = 0, area = 0, body = 0, hands = 0;
 
@@ -221,7 +221,8 @@ UpdateErrors measure_update(const CharacterModel& model, std::span<const Pose> p
 
 RegressionError measure_regression(const PoseRegression& regression, std::span<const Pose> poses,
                                    const AoTargets& targets, std::span<const float> vertex_area) {
-  // One partial sum a pose, added up in order: the same bits on any number of threads.
+  // Each pose has one partial sum. They are added in order, so that the result has the same bits with any
+  // number of threads.
   std::vector<RegressionError> partial(poses.size());
   std::vector<std::size_t> visible(poses.size(), 0);
   tbb::parallel_for(std::size_t(0), poses.size(), [&](std::size_t t) {

@@ -1,4 +1,5 @@
-// The error of a model against ray tracing on given poses, beside what a team would use instead.
+// Measures the error of a model against ray tracing on given poses, and the errors of the methods that a team
+// would use instead.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +14,17 @@
 namespace nook::measure {
 
 // A vertex in a pose counts as black if its ray-traced AO is below this. Such vertices are inside the body or
-// in a fist: no camera sees them, and a model that says 0 is always right. Two rays of 128 reach this value.
+// in a fist: no camera sees them, and a model that predicts 0 is always right there. Two open rays out of 128
+// reach this value.
 inline constexpr double visible_truth = 0.01;
 
 struct ErrorColumns {
-  double mse = 0;  // over all welded vertices and poses, as the paper has it
-  double mse_visible =
-      0;  // over those vertex-poses whose truth is at least visible_truth; 0 where there are none
-  double mse_visible_area = 0;  // as mse_visible, weighted by rest Voronoi area: what the eye sees
+  double mse = 0;          // over all welded vertices and poses, as in the paper
+  double mse_visible = 0;  // over vertex-poses whose traced AO is at least visible_truth; 0 if there are none
+  double mse_visible_area = 0;  // like mse_visible, but weighted by rest Voronoi area, as the eye sees it
   double mse_area = 0;          // weighted by rest Voronoi area
-  double mse_body = 0;          // vertices that no hand bone or anything below it moves
-  double mse_hands = 0;         // the others; 0 where there are none
+  double mse_body = 0;          // vertices outside the hands (see hand_vertices)
+  double mse_hands = 0;         // vertices of the hands; 0 if there are none
 };
 
 // Squared errors of one pose, summed over its visible vertices.
@@ -36,29 +37,32 @@ struct CharacterEvaluation {
   std::uint32_t rays = 0;
   double noise_floor_mse = 0;  // expected squared error of the ray-traced targets themselves
   double visible_share = 0;    // of all vertex-poses
-  // The oracle is the best static bake of each column: the mean truth of a vertex over all poses, in
-  // mse_visible over those in which the vertex is visible.
+  // The oracle is the best possible static bake for each column. It is the mean traced AO of a vertex over
+  // all poses. For mse_visible, the mean is over the poses in which the vertex is visible.
   ErrorColumns model, static_bake, oracle;
-  std::vector<PoseErrorSums> pose_visible;  // a value a pose
-  bake::AoTargets truth;                    // what was measured against, for other methods on the same
-  std::vector<float>
-      vertex_rms;  // of the model, one value per welded vertex: what a picture of the error shows
+  std::vector<PoseErrorSums> pose_visible;  // one entry per pose
+  bake::AoTargets truth;                    // the traced targets, so that other methods can be measured on
+                                            // them
+  std::vector<float> vertex_rms;            // error of the model per welded vertex, as pictures show it
 };
 
-// Returns a model's clamped prediction for one pose, by the scalar reference: one value per welded vertex.
+// Returns a model's clamped prediction for one pose, one value per welded vertex. The scalar reference
+// computes it.
 std::vector<float> predict_ao(const CharacterModel& model, std::span<const Mat3x4> bones);
 
-// Measures the error against the given targets, one row per pose. rays and noise_floor_mse stay 0.
+// Measures the error against the given targets, which have one row per pose. The fields `rays` and
+// noise_floor_mse of the result stay 0.
 CharacterEvaluation score_character(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                     std::span<const bake::Pose> poses, bake::AoTargets targets);
 
-// Targets are traced with rays for each vertex under another seed than the fit's.
+// Traces targets with `rays` rays per vertex. The caller gives another seed than the fit used.
 CharacterEvaluation evaluate_character(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                        std::span<const bake::Pose> poses, std::uint32_t rays,
                                        std::uint64_t seed, const bake::Progress& progress = {});
 
-// The error of the runtime's own update of a lone instance, which groups far spheres as far_error allows (0:
-// none, which differs from the scalar reference by rounding alone).
+// The error of the runtime's update of a single instance. The update groups far spheres as far as far_error
+// allows. If far_error is 0, nothing is grouped, and the result differs from the scalar reference only by
+// rounding.
 struct UpdateErrors {
   double mse = 0;          // over all welded vertices and poses
   double mse_visible = 0;  // over those vertex-poses whose truth is at least visible_truth
@@ -66,17 +70,17 @@ struct UpdateErrors {
 UpdateErrors measure_update(const CharacterModel& model, std::span<const bake::Pose> poses,
                             const bake::AoTargets& truth, float far_error);
 
-// Splits vertices for mse_body and mse_hands: true where a hand bone (by role) or a bone below it holds most
-// of the weight.
+// Splits vertices for mse_body and mse_hands. Returns true for a vertex if the bone with most of its weight
+// has a hand's role or is below such a bone.
 std::vector<char> hand_vertices(const bake::SkinnedMesh& mesh);
 
-// A fitted pose -> AO regression that can be evaluated in any pose: another method than the model.
+// Another method than the model: a fitted regression from pose to AO, which can be evaluated in any pose.
 class PoseRegression {
  public:
   virtual ~PoseRegression() = default;
-  // A value a welded vertex, clamped to [0, 1].
+  // Returns one value per welded vertex, clamped to [0, 1].
   virtual std::vector<float> predict(const bake::Pose& pose) const = 0;
-  virtual std::size_t model_bytes() const = 0;  // with half floats
+  virtual std::size_t model_bytes() const = 0;  // when stored as half floats
   virtual std::string description() const = 0;  // what cross-validation chose, for reports
 };
 
@@ -86,7 +90,7 @@ struct RegressionError {
   double mse_area = 0;     // weighted by vertex_area
 };
 
-// Clamped predictions against targets of the same poses.
+// Compares clamped predictions with targets of the same poses.
 RegressionError measure_regression(const PoseRegression& regression, std::span<const bake::Pose> poses,
                                    const bake::AoTargets& targets, std::span<const float> vertex_area);
 

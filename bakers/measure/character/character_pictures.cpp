@@ -23,7 +23,7 @@ namespace {
 using namespace bake;
 
 constexpr int width_px = 420, height_px = 760, pair_width_px = 560;
-constexpr float error_gain = 4;  // 0.25 of AO is the far end of the colour ramp
+constexpr float error_gain = 4;  // an AO error of 0.25 is the upper end of the colour ramp
 
 Picture draw_pose(const SkinnedMesh& mesh, const Pose& pose, std::span<const float> traced,
                   std::span<const float> predicted) {
@@ -77,7 +77,7 @@ DrawnPair drawn_pair(const SkinnedMesh& mesh, const CharacterModel& model, const
   return drawn;
 }
 
-// Holds both bodies from any side.
+// Returns a camera whose picture contains both bodies from any side.
 BodyCamera pair_camera(std::span<const Vec3> position, Vec3 towards) {
   Vec3 low = position[0], high = position[0];
   for (const Vec3 p : position) {
@@ -106,7 +106,7 @@ Picture draw_pair(const DrawnPair& pair) {
 constexpr Vec3 to_viewer{0, 0, 1};
 constexpr int samples = 2;  // along the side of a pixel
 constexpr float margin = 1.04f, middle_grey = 0.3f, background = 0.05f;
-// Normals of vertices can face away where their triangle faces the viewer.
+// A vertex normal can face away from the viewer although its triangle faces the viewer.
 constexpr float least_facing = 0.02f;
 
 enum Panel { open, lagarde, bent, traced, panel_count };

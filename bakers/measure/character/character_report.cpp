@@ -23,7 +23,7 @@ double ratio(double error, double baseline) {
   return baseline > 0 ? error / baseline : 0;
 }
 
-// Finds the clip whose error is the largest in relation to the static bake's error over the clip's own poses.
+// Finds the clip with the largest error relative to the static bake's error over the same poses.
 void add_worst_clip(Json& row, const EvaluatedPoses& measured, const CharacterEvaluation& e) {
   if (measured.clip.size() != e.pose_visible.size()) return;
   std::vector<PoseErrorSums> clips(measured.clips.size());
@@ -81,8 +81,8 @@ Json model_row(const BakedCharacter& baked, const EvaluatedPoses& measured, cons
   return row;
 }
 
-// Errors near the noise of the rays are measured once more without it: each is the product of the errors
-// against this tracing and another one.
+// Measures errors that are near the noise of the rays a second time, without the noise. Each squared error is
+// the product of the errors against two independent tracings.
 void add_errors_without_noise(Json& row, const BakedCharacter& baked, std::span<const Pose> poses,
                               const CharacterReportSettings& settings, const CharacterEvaluation& e,
                               const StageProgress& progress) {
@@ -126,7 +126,7 @@ void add_peers(Json& row, const ImportedCharacter& character, const Recipe* reci
   }
 }
 
-// The runtime's update with the far_error that scenes have by default, and with exact sums.
+// Adds the errors of the runtime's update, with the default far_error of scenes and with exact sums.
 void add_update_errors(Json& row, const CharacterModel& model, std::span<const Pose> poses,
                        const AoTargets& truth) {
   const UpdateErrors by_default = measure_update(model, poses, truth, SceneSettings().far_error),
@@ -167,7 +167,7 @@ std::vector<Pose> caster_poses(const ImportedCharacter& character, std::size_t c
   const std::vector<std::size_t> clips = motion_clips(character);
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < clips.size(); ++i) {
-    // Of `count` poses, evenly over the clips, those that fall to this one.
+    // `count` poses are spread evenly over the clips. Computes which of them belong to this clip.
     const std::size_t first = (i * count + clips.size() - 1) / clips.size(),
                       end = ((i + 1) * count + clips.size() - 1) / clips.size();
     const std::vector<Pose> own = clip_poses(character, {&clips[i], 1}, end - first);

@@ -16,11 +16,12 @@
 
 namespace nook::measure {
 
-// The recipe in the model's file; none where the model holds none. Throws Failure (BAD_FILE).
+// Returns the recipe that is stored in the model's file, or nothing if the file has none. Throws Failure
+// (BAD_FILE).
 std::optional<bake::Recipe> stored_recipe(const BakedCharacter& baked);
 
-// Another method to measure beside the model: it is fitted to the model's own training poses. Its name ends
-// its keys in the row: mse_NAME, mse_NAME_visible, mse_area_NAME, bytes_NAME and tuned_NAME.
+// Another method that is measured beside the model. It is fitted to the model's training poses. The keys of
+// the row contain the method's name: mse_NAME, mse_NAME_visible, mse_area_NAME, bytes_NAME and tuned_NAME.
 struct CharacterPeer {
   const char* name;
   std::unique_ptr<PoseRegression> (*fit)(const bake::SkinnedMesh& mesh, std::span<const bake::Pose> training,
@@ -34,7 +35,8 @@ struct CharacterReportSettings {
   std::span<const CharacterPeer> peers;
 };
 
-// Shows a stage. The function that it returns is called at every step; false stops with Failure (CANCELLED).
+// Called at the start of each stage. The function that it returns is called at every step of the stage. If
+// that function returns false, the measurement stops with Failure (CANCELLED).
 using StageProgress = std::function<bake::Progress(const char* stage)>;
 
 struct CharacterReport {
@@ -42,19 +44,20 @@ struct CharacterReport {
   CharacterEvaluation evaluation;
 };
 
-// Throws Failure (INVALID_ARGUMENT) if other methods need the model's training poses and these cannot be made
-// again.
+// Throws Failure (INVALID_ARGUMENT) if `peers` need the model's training poses and the recipe cannot
+// reproduce them.
 CharacterReport measure_character(const BakedCharacter& baked, const bake::Recipe* recipe,
                                   const EvaluatedPoses& measured, const CharacterReportSettings& settings,
                                   const StageProgress& progress);
 
-// The seed of the evaluation's rays, which differs from the fit's.
+// Returns the seed for the rays of the evaluation. It differs from the seed of the fit.
 std::uint64_t evaluation_ray_seed(std::uint64_t seed);
 
-// Poses spread over the motion clips; the rest pose where there are none.
+// Returns poses spread over the motion clips, or the rest pose if there are no clips.
 std::vector<bake::Pose> caster_poses(const bake::ImportedCharacter& character, std::size_t count);
-// Puts two bodies in the middles of two clips, and moves the caster from the receiver's middle by `offset`
-// metres and turns it about the vertical axis. Throws Failure (INVALID_ARGUMENT) for an unknown clip.
+// Takes two bodies in the poses in the middle of two clips. Moves the caster from the receiver's centre by
+// `offset` (metres) and turns it about the vertical axis. Throws Failure (INVALID_ARGUMENT) for an unknown
+// clip.
 BodyPair contact_pair(const BakedCharacter& baked, const std::string& receiver_clip,
                       const std::string& caster_clip, Vec3 offset, float turn_degrees);
 nlohmann::ordered_json caster_rows(const std::vector<CasterRow>& rows);

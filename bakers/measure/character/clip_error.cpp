@@ -17,13 +17,13 @@ namespace {
 
 using namespace bake;
 
-// A time of a clip of the set, and the pose that the file has there.
+// A time in a clip of the set, and the file's pose at that time.
 struct TimedPose {
   FrameMix mix;
   Pose pose;
 };
 
-// Frames with offset 0, the middles between frames with 0.5.
+// Returns the frames for offset 0, and the times halfway between frames for offset 0.5.
 std::vector<TimedPose> timed_poses(const ImportedCharacter& character, const ClipSet& set, double offset,
                                    std::size_t most) {
   struct Place {
@@ -76,7 +76,7 @@ double mean(std::span<const float> values) {
   return sum / double(values.size());
 }
 
-// Two bodies in the runtime itself: posed by clips or by their bones.
+// Two bodies in the runtime, posed by clips or by their bones.
 class Pair {
  public:
   Pair(const CharacterModel& model, const ClipSet& set)
@@ -103,7 +103,7 @@ class Pair {
     for (const Mat3x4& bone : caster.pose) placed.push_back(caster_place * bone);
     set_pose(scene_, caster_, placed);
   }
-  // The AO of the receiver by welded vertex.
+  // Returns the AO of the receiver per welded vertex.
   std::vector<float> ao(std::uint32_t terms) {
     scene_.terms = terms;
     update(scene_);
@@ -182,7 +182,7 @@ ClipErrorRow measure_neighbour(const SkinnedMesh& mesh, const CharacterModel& mo
     if (progress && !progress(p, timed.size()))
       throw Failure(NOOK_ERROR_CANCELLED, "cancelled while measuring neighbours");
     const TimedPose& receiver = timed[p];
-    // A caster of another clip, at bearings and turns that are spread by the golden angle.
+    // The caster is in another clip. The golden angle spreads its bearings and turns.
     const TimedPose& caster = timed[(p + timed.size() / 2 + 1) % timed.size()];
     const float turn = std::numbers::pi_v<float> * (3 - std::sqrt(5.0f)) * float(p);
     const Mat3x4 place = place_of(model, receiver.pose, caster.pose, distance_m, turn, 1.7f * turn);

@@ -1,4 +1,4 @@
-// Measures baked clips against ray tracing, beside the live model in the same poses.
+// Measures baked clips, and the live model in the same poses, against ray tracing.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ namespace nook::measure {
 struct ClipStudy {
   std::uint32_t rays = 128;
   std::uint64_t seed = 1;
-  std::size_t max_poses = 200;  // of each row, evenly picked
+  std::size_t max_poses = 200;  // for each row, evenly picked
   std::vector<float> distances_m{0.75f, 1.5f};
-  std::size_t max_pairs = 24;  // of each distance, evenly picked
+  std::size_t max_pairs = 24;  // for each distance, evenly picked
 };
 
 struct ClipErrors {
@@ -30,8 +30,8 @@ struct ClipErrorRow {
   float distance_m = 0;  // of a neighbour
   std::size_t poses = 0;
   double visible_share = 0, noise_floor_mse = 0;
-  ClipErrors clips, live, unlinked;  // unlinked: clips without what the neighbour takes
-  // The mean over vertices of what the neighbour takes.
+  ClipErrors clips, live, unlinked;  // unlinked: clips without the neighbour's darkening
+  // The darkening by the neighbour, averaged over the vertices.
   double darkening = 0, darkening_live = 0, darkening_traced = 0;
 };
 

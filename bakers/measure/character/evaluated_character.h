@@ -1,4 +1,5 @@
-// An evaluation of a character measures a file and the model that was baked from it, in chosen poses.
+// What an evaluation of a character measures: the character's file, the model that was baked from it, and the
+// poses.
 #pragma once
 
 #include <cstddef>
@@ -25,10 +26,10 @@ BakedCharacter read_baked_character(bake::ImportedCharacter character, std::vect
 
 // Which poses to measure.
 struct PoseChoice {
-  bool training = false;           // the poses that the model was fitted to, made again from its recipe
-  std::vector<std::string> clips;  // only these, all of the file; empty: see below
+  bool training = false;           // the poses that the model was fitted to, reproduced from its recipe
+  std::vector<std::string> clips;  // only these clips of the file; if empty, choose_poses chooses the clips
   std::size_t samples_per_clip = 20;
-  std::size_t most = 0;  // 0: all; otherwise about this many, picked evenly
+  std::size_t most = 0;  // number of poses, about, evenly picked; 0: all
 };
 
 struct EvaluatedPoses {
@@ -38,9 +39,9 @@ struct EvaluatedPoses {
   std::vector<std::size_t> clip;   // of each pose, an index into clips; empty for training poses
 };
 
-// Without names: the motion clips that the recipe did not fit, or all of them if it fitted all. recipe may be
-// null when none could be read; then all motion clips are measured. An object of one bone without clips is
-// turned about the vertical axis instead. Throws Failure (INVALID_ARGUMENT).
+// If no clips are named, measures the motion clips that the recipe did not use, or all motion clips if the
+// recipe used all. `recipe` may be null if none could be read. Then all motion clips are measured. An object
+// with one bone and no clips is turned about the vertical axis instead. Throws Failure (INVALID_ARGUMENT).
 EvaluatedPoses choose_poses(const bake::ImportedCharacter& character, const bake::Recipe* recipe,
                             const PoseChoice& choice);
 

@@ -19,7 +19,7 @@ std::vector<std::uint32_t> simplified_indices(const SkinnedMesh& mesh, double sh
   std::vector<std::uint32_t> indices;
   for (const auto& t : mesh.triangle) indices.insert(indices.end(), t.begin(), t.end());
   const auto target = std::size_t(share * double(mesh.triangle.size())) * 3;
-  // The share alone ends the simplification: an error of 1 is as large as the mesh.
+  // Only the share ends the simplification, because an error of 1 is as large as the mesh.
   constexpr float any_error = 1;
   std::vector<std::uint32_t> kept(indices.size());
   kept.resize(meshopt_simplify(kept.data(), indices.data(), indices.size(), &mesh.position[0].x,
@@ -27,7 +27,7 @@ std::vector<std::uint32_t> simplified_indices(const SkinnedMesh& mesh, double sh
   return kept;
 }
 
-// Returns a model with only some of another model's welded vertices.
+// Returns a copy of the model with only the given welded vertices.
 CharacterModel picked(const CharacterModel& model, std::span<const std::uint32_t> welded) {
   CharacterModel out = model;
   out.influence.clear();

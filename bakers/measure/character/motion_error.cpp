@@ -17,7 +17,7 @@ using namespace bake;
 
 constexpr std::size_t least_frames = 8;
 
-// Frames at 60 Hz round the middle of a clip; fewer where it is shorter.
+// Returns `count` frames at 60 Hz around the middle of a clip, or fewer if the clip is shorter.
 std::vector<Pose> frames_of(const ImportedCharacter& character, std::size_t clip, std::size_t count) {
   const double duration_s = double(character.clips[clip].duration_s);
   const auto whole = std::size_t(duration_s * motion_frames_per_second) + 1;
@@ -40,7 +40,8 @@ Rows rows_of(const SkinnedMesh& mesh, const CharacterModel& model, std::span<con
   std::mutex reporting;
   std::size_t done = 0;
   tbb::parallel_for(std::size_t(0), frames.size(), [&](std::size_t f) {
-    // Alone in its call, each frame has the random numbers of the first pose.
+    // Each frame is traced by its own call, so that all frames get the same random numbers, namely those of
+    // pose 0.
     const AoTargets traced = trace_character_ao(mesh, frames.subspan(f, 1), rays, seed);
     const std::vector<float> ao = predict_ao(model, frames[f]);
     std::copy(ao.begin(), ao.end(), &rows.model[f * vertices]);

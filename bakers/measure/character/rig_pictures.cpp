@@ -13,7 +13,7 @@ using namespace bake;
 constexpr int width_px = 560, height_px = 560;
 constexpr std::size_t side_count = 2;
 
-// Distinct hues; roles of one limb are neighbours.
+// Roles of one limb have similar hues.
 constexpr std::array<Colour, joint_role_count> colours{{
     {0.60f, 0.60f, 0.60f},  // other
     {0.30f, 0.30f, 0.85f},  // pelvis
@@ -41,7 +41,7 @@ constexpr std::array<Colour, joint_role_count> colours{{
     {0.20f, 0.20f, 0.20f},  // control
 }};
 
-// A value of the picture is role * 2 + side, over the number of such pairs.
+// A value of the picture is (role * side_count + side) / pairs.
 constexpr float pairs = float(joint_role_count * side_count);
 
 Colour colour_of_value(float value) {
@@ -52,7 +52,7 @@ Colour colour_of_value(float value) {
   return colour;
 }
 
-// Faces do not share corners, so that colours end at edges.
+// Faces do not share corners, so that colours change sharply at edges.
 struct ColouredFaces {
   std::vector<std::array<std::uint32_t, 3>> triangle;
   std::vector<Vec3> position;

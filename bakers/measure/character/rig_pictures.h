@@ -1,4 +1,4 @@
-// A picture of what was understood of a rig: the skin coloured by the roles of its bones.
+// Draws the roles that were recognised in a rig: the skin is coloured by the roles of its bones.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,8 @@ namespace nook::measure {
 // right ones.
 bake::Colour colour_of(bake::JointRole role);
 
-// rig.png: the resting body obliquely from the front and from the back. A face has the colour of the bone
-// that moves most of its first corner. The directory is created.
+// Writes rig.png, which shows the body in its rest pose obliquely from the front and from the back. Each face
+// has the colour of the bone with the largest weight at the face's first corner. Creates the directory.
 void write_rig_picture(const std::filesystem::path& directory, const bake::SkinnedMesh& mesh,
                        std::span<const bake::Joint> joints);
 

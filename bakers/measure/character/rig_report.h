@@ -1,4 +1,4 @@
-// Tables of what a bake understands of a rig.
+// Tables of what a bake recognises in a rig.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,13 @@
 
 namespace nook::measure {
 
-// A row for each bone: its name, role, side, limb, partner and parent in the body. moved is true if this
-// parent differs from the rig's. vertices counts the vertices that the bone moves most.
+// Returns a row for each bone: its name, role, side, limb, partner, and parent in the body. `moved` is true
+// if this parent differs from the bone's parent in the rig. `vertices` counts the vertices for which this
+// bone has the largest weight.
 nlohmann::ordered_json bone_rows(const bake::SkinnedMesh& mesh, const bake::RigCorrections& corrections);
 
-// One row: by which plan automatic poses move the body, and the share of the mesh's edges that 60 of them
-// tear (torn_edges.h), beside the share that the file's own clips tear.
+// Returns one row: the body plan that automatic poses use, the share of the mesh's edges that 60 automatic
+// poses tear (torn_edges.h), and the share that the file's own clips tear.
 nlohmann::ordered_json torn_edge_rows(const bake::ImportedCharacter& character,
                                       const bake::RigCorrections& corrections, std::uint64_t seed);
 

@@ -21,12 +21,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr float changed_by = 0.01f;
 
-// The numbers that a rule combines at a pixel.
+// The AO values that a rule combines at a pixel.
 struct Parts {
   float screen = 1;                     // the screen pass with the characters in its depth
-  float room = 1;                       // the same without them: their pixels hide nothing
+  float room = 1;                       // the screen pass without the characters: their pixels hide nothing
   float world = 1;                      // the characters' casters
-  float shipped = 1, shipped_half = 1;  // the passes together, the world pass at full and at half resolution
+  float shipped = 1, shipped_half = 1;  // both passes together, with the world pass at full and at half
+                                        // resolution
 };
 
 float overlapping(float a, float b, float power) {
@@ -78,7 +79,7 @@ std::vector<float> caster_ao(const RoomPixels& pixels, std::span<const Capsule> 
   return ao;
 }
 
-// Returns the depth for a pass that does not see the figures.
+// Returns a view for a pass that does not see the figures.
 bake::nnao::TracedView without_figures(const RoomView& view) {
   bake::nnao::TracedView masked = view.view;
   for (std::size_t i = 0; i < masked.depth.size(); ++i)
@@ -113,7 +114,7 @@ struct Passes {
   ShippedPass full, half;
 };
 
-// Ray tracing, Nook, the screen pass alone.
+// Draws ray tracing, Nook, and the screen pass alone.
 void write_picture(const std::filesystem::path& file, const RoomView& view, Passes& passes) {
   const RoomPixels& p = view.pixels;
   std::vector<float> traced(view.view.depth.size(), 1.0f);

@@ -1,5 +1,5 @@
-// nook evaluate world --composite: the darkening by characters and the screen pass together, against ray
-// tracing of a room with characters in it.
+// For `nook evaluate world --composite`: combines the darkening by characters with the screen pass, and
+// compares the result with ray tracing of a room with characters in it.
 #pragma once
 
 #include <cstdint>
@@ -33,9 +33,10 @@ struct MeasuredRoom {
 
 using CompositeProgress = std::function<bool(std::size_t done, std::size_t total)>;
 
-// Returns two rows for each room and each way to combine both passes, and for all rooms together. One row has
-// the pixels of the room whose truth changes by more than 0.01 with the characters, the other has the rest.
-// Throws Failure (INVALID_ARGUMENT: a model without casters, a room without a place to stand in; CANCELLED).
+// Returns two rows for each room and each way to combine both passes, and for all rooms together. One row is
+// for the pixels of the room whose traced AO changes by more than 0.01 when the characters are added. The
+// other row is for all other pixels of the room. Throws Failure (INVALID_ARGUMENT: a model without casters, a
+// room without a place to stand in; CANCELLED).
 nlohmann::ordered_json composite_rows(platform::Context& context, std::span<const MeasuredRoom> rooms,
                                       const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                       std::span<const std::byte> model_bytes,
@@ -52,11 +53,11 @@ struct LitRoomSettings {
 
 // Draws four panels from left to right:
 //   1. ray tracing;
-//   2. Nook's share by channel with the sun as a cone;
+//   2. Nook's open share per channel, with the sun as a cone;
 //   3. AO times the probe, with the same cone;
-//   4. one capsule for each bone, its AO times the probe and its cone, with the best scale of radii.
-// The room does not hide the map, so that only the figures take light away. Throws Failure (INVALID_ARGUMENT:
-// a model without casters, a room without a place to stand in) and std::runtime_error.
+//   4. one capsule for each bone, lit in the same way as panel 3, with the best scale of radii.
+// The room does not hide the map. Only the figures take light away. Throws Failure (INVALID_ARGUMENT: a model
+// without casters, a room without a place to stand in) and std::runtime_error.
 void write_lit_room(const std::filesystem::path& file, const MeasuredRoom& measured,
                     const bake::SkinnedMesh& mesh, const CharacterModel& model,
                     std::span<const bake::Pose> poses, const SplitLight& light,

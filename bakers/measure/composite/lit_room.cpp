@@ -20,7 +20,7 @@ namespace {
 using namespace bake;
 
 constexpr float origin_offset_m = 3e-4f;
-constexpr std::size_t compared_every = 23;  // the scales of capsules are chosen by every n-th pixel
+constexpr std::size_t compared_every = 23;  // every n-th pixel is used to choose the scale of the capsules
 
 struct Scene {
   std::vector<Figure> figures;
@@ -40,7 +40,7 @@ Scene seen(const MeasuredRoom& measured, const SkinnedMesh& mesh, std::span<cons
                   "%s has no place to stand in or to look from (got %zu characters in it); need level ground "
                   "with 2 m above it, in metres and +y up",
                   measured.name.c_str(), scene.figures.size());
-  // Only the surfaces of the view are used, not its rays.
+  // Uses only the surfaces of the view, not the traced AO.
   scene.view = trace_room_view(room, RayScene(room.soup), cameras.front(), {1, 0.01f, 1, settings.seed});
   const RoomPixels& p = scene.view.pixels;
   for (std::size_t i = 0; i < p.pixel.size(); ++i)

@@ -20,7 +20,8 @@ using namespace bake;
 constexpr int attempts = 4000;
 constexpr float turn = 2 * std::numbers::pi_v<float>;
 
-// Returns the lowest surface on a vertical line that faces up and has 2 m of air above it.
+// Among the surfaces on a vertical line, returns the lowest one that faces up and has 2 m of free space above
+// it.
 std::optional<float> floor_at(const RayScene& room, const Bounds& bounds, float x, float z) {
   const float top = bounds.high.y + 1;
   std::optional<float> found;
@@ -46,7 +47,7 @@ bool is_level(const RayScene& room, Vec3 foot) {
   return true;
 }
 
-// True if no surface is between the body's axis and its vertices.
+// Returns true if no surface is between the body's vertical axis and the body's vertices.
 bool is_clear(const RayScene& room, std::span<const Vec3> body, Vec3 foot) {
   for (std::size_t v = 0; v < body.size(); v += 7) {
     const Vec3 axis{foot.x, std::max(body[v].y, foot.y + 0.02f), foot.z};

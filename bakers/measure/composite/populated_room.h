@@ -16,8 +16,8 @@ namespace nook::measure {
 // Makes a room with walls, steps, a table, chairs and a shelf. World space, metres, the floor at y = 0.
 bake::TriangleSoup own_room();
 
-// Reads the triangles of a glTF file with +y up, whose unit is this many metres. Adds the warnings of the
-// import. Throws Failure (BAD_FILE).
+// Reads the triangles of a glTF file with +y up. `metres_per_unit` is the length of the file's unit. Appends
+// the warnings of the import. Throws Failure (BAD_FILE).
 bake::TriangleSoup room_of(const std::filesystem::path& file, float metres_per_unit,
                            std::vector<std::string>& warnings);
 

@@ -44,7 +44,7 @@ void add_ray(Open& open, const PopulatedRoom& room, const RayScene& all, Vec3 or
              float radius) {
   bool met_figure = false;
   float beyond = 0;
-  // Behind a figure, only the room counts.
+  // After a hit on a figure, only the room counts.
   for (;;) {
     const RayHit hit = all.nearest(origin, direction, beyond);
     const bool figure = std::isfinite(hit.distance) && hit.triangle >= room.first_figure;
@@ -102,7 +102,7 @@ namespace {
 
 using Rgb = std::array<float, 3>;
 
-// The mean of two by two pixels.
+// Returns the mean of 2 x 2 pixels.
 Rgb shown(const RoomView& view, const std::vector<float>& ao, std::size_t x, std::size_t y) {
   constexpr Rgb blue{0.30f, 0.36f, 0.46f};
   Rgb sum{};

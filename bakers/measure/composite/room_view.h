@@ -1,4 +1,4 @@
-// A view of a room with figures. It has the G-buffer, the truth at some pixels, and a picture.
+// A view of a room with figures: its G-buffer, the traced AO at some pixels, and a picture.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ struct RoomTruth {
   std::uint64_t seed = 1;
 };
 
-// The traced pixels of the room. The room hides a direction by a hit within the radius. A figure hides it by
-// a hit at any distance, unless the room is in front of it.
+// The traced pixels of the room. The room hides a direction if a ray hits it within the radius. A figure
+// hides a direction if a ray hits it at any distance, unless the room is in front of the figure.
 struct RoomPixels {
   std::vector<std::uint32_t> pixel;
   std::vector<Vec3> position, normal;       // world space
@@ -34,8 +34,8 @@ struct RoomView {
 RoomView trace_room_view(const PopulatedRoom& room, const bake::RayScene& all,
                          const bake::nnao::Camera& camera, const RoomTruth& truth);
 
-// Draws ray tracing, Nook and the screen pass alone, side by side, at half the view's size. panels: one image
-// each with the AO of every pixel; characters are blue. Throws std::runtime_error.
+// Draws ray tracing, Nook and the screen pass alone, side by side, at half the view's size. `panels` has one
+// image per panel, with the AO of every pixel. Characters are drawn in blue. Throws std::runtime_error.
 void write_room_picture(const std::filesystem::path& file, const RoomView& view,
                         std::span<const std::vector<float>> panels);
 

@@ -1,5 +1,5 @@
-// The screen pass without the characters, and the world pass that composes with it, through the public
-// interface that hosts use.
+// Runs the screen pass without the characters, and the world pass that composes with it. Both use the public
+// interface, like hosts do.
 #pragma once
 
 #include <nook/nook_world.h>
@@ -23,7 +23,7 @@ class ShippedPass {
 
   // Replaces the characters of the scene.
   void pose(std::span<const Figure> figures);
-  // Returns the AO of each pixel; 1 on figures.
+  // Returns the AO of each pixel. Pixels of figures have 1.
   std::vector<float> ao(const RoomView& view);
 
  private:

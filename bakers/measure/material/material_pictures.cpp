@@ -25,7 +25,7 @@ float display(float radiance) {
   return std::pow(std::clamp(std::numbers::pi_v<float> * radiance, 0.0f, 1.0f), 1 / 2.2f);
 }
 
-// A cell of the sheet: `tiles` copies each way, y up.
+// Draws a cell of the sheet: `tiles` copies along each axis, y up.
 Picture cell(std::uint32_t width, std::uint32_t height, std::uint32_t tiles,
              const std::function<Colour(std::size_t x, std::size_t y)>& colour) {
   Picture p{int(width * tiles) + gap_px, int(height * tiles) + gap_px, {}};
@@ -62,7 +62,7 @@ Colour shown(Colour radiance, bool visible) {
   return radiance;
 }
 
-// Returns the absolute difference of two radiances under a light of irradiance pi, `times` as large.
+// Returns the absolute difference of two radiances under a light of irradiance pi, multiplied by `times`.
 Colour difference(Colour a, Colour b, float times) {
   Colour c;
   for (std::size_t i = 0; i < 3; ++i) c[i] = times * std::numbers::pi_v<float> * std::abs(a[i] - b[i]);
@@ -82,7 +82,7 @@ class ViewDrawing {
   Picture traced() const {
     return draw([&](std::size_t texel) { return shown(traced_at(texel), true); });
   }
-  // The decoded material, and three times the absolute difference.
+  // Returns the decoded material, and the absolute difference times three.
   std::array<Picture, 2> decoded(const nook::material::Material& material) const {
     const auto values = bake::material::decode_btf_view(material, view_);
     const auto at = [&](std::size_t texel) {
@@ -93,7 +93,7 @@ class ViewDrawing {
     return {draw([&](std::size_t texel) { return shown(at(texel), true); }),
             draw([&](std::size_t texel) { return difference(traced_at(texel), at(texel), 3); })};
   }
-  // The decoded mask; red where it differs from the traced one.
+  // Returns the decoded mask. It is red where it differs from the traced mask.
   Picture mask(const nook::material::Material& material) const {
     const std::vector<float> value = bake::material::decode_votf_view(material.votf, view_);
     const float threshold = material.visibility == VisibilityForm::binary ? 0.5f : 0;
@@ -115,7 +115,7 @@ class ViewDrawing {
   std::size_t light_, view_;
 };
 
-// The rows of one view's comparison.
+// Draws the rows that compare one view.
 Picture compare_view(const RawMaterial& raw, const nook::material::Material& material, std::size_t light,
                      std::size_t view) {
   const ViewDrawing drawing(raw, light, view);

@@ -1,4 +1,4 @@
-// Draws a material, and what compression did to it.
+// Draws a material, and the errors of its compression.
 #pragma once
 
 #include <filesystem>
@@ -11,22 +11,23 @@
 
 namespace nook::measure {
 
-// Draws views of growing tilt side by side, under three lights below each other, with the visibility as the
-// last row. The tile appears twice each way, so that a seam would show. The ground is grey.
+// Draws a grid: one column per view, with growing tilt; one row for each of three lights; and the visibility
+// as the last row. The tile is repeated twice along each axis, so that a seam would show. The ground is grey.
 bake::Picture raw_sheet(const bake::material::RawMaterial& raw);
 
-// For a view near the normal and a tilted one: draws raw, decoded, and the absolute difference three times
-// (the seed's Figure 3). Below, it draws the visibility of both and where it differs.
+// Draws two views, one near the normal and one tilted. For each, it shows raw, decoded, and the absolute
+// difference times three (the seed's Figure 3). Below are the visibility of both, and where the two differ.
 bake::Picture difference_sheet(const bake::material::RawMaterial& raw,
                                const nook::material::Material& material);
 
-// Draws materials that were compressed from one raw material, in columns beside it. The view is tilted by 55
-// degrees, the light by 45. Below is the absolute difference three times (the seed's Figure 3).
+// Draws materials that were compressed from one raw material, in columns beside the raw one. The view is
+// tilted by 55 degrees, the light by 45. Below is the absolute difference times three (the seed's Figure 3).
 bake::Picture methods_sheet(const bake::material::RawMaterial& raw,
                             std::span<const nook::material::Material> materials);
 
-// Draws a step of the view of view_errors.h: the material before and after it, and the absolute difference
-// ten times. The light is tilted by 45 degrees, and there are two tiles each way.
+// Draws the largest step that measure_view_jumps found: the material before and after the step, and the
+// absolute difference times ten. The light is tilted by 45 degrees. The tile is repeated twice along each
+// axis.
 bake::Picture jump_strip(const nook::material::Material& material, const bake::material::ViewJumps& jumps);
 
 bake::Picture below_each_other(std::span<const bake::Picture> pictures);

@@ -90,7 +90,7 @@ MethodRow material_file_row(const RawMaterial& raw, const MaterialFile& file, co
   own.file_bytes = file.bytes.size();
   const nook::material::MaterialTables tables = nook::material::make_tables(
       file.material, {}, default_memory(), nook::material::default_map_side, measures.form);
-  // A network is measured as drawn.
+  // For a network, the measured error is already the error as drawn.
   own.se_db_drawn = tables.neural.is_used() ? own.se_db : measure_tables(raw, tables).se_db();
   own.gpu_bytes_texel = table_bytes_texel(tables);
   if (measures.mipmaps) own.levels = measure_levels(raw, tables);

@@ -16,12 +16,13 @@
 
 namespace nook::bake::material {
 
-// One row of the paper's Table I, with further measures.
+// One row of the paper's Table I, with additional measures.
 struct MethodRow : BakedFigures {
   MethodRow() = default;
   explicit MethodRow(BakedFigures figures) : BakedFigures(std::move(figures)) {}
 
-  // The error when drawn from textures (table_error.h), and their bytes per texel.
+  // The error of the material when it is drawn from textures (table_error.h), and the bytes of these textures
+  // per texel.
   std::optional<double> se_db_drawn, se_db_drawn_unseen, gpu_bytes_texel;
   std::vector<LevelError> levels;     // for pixels that cover many texels
   std::vector<GrazingError> grazing;  // for pixels of tilted views
@@ -33,7 +34,7 @@ struct MethodRow : BakedFigures {
   int iterations = 0;  // for the BTF
 };
 
-// Returns the row of baked_figures.h with the further measures.
+// Returns the row of baked_figures.h with the additional measures.
 nlohmann::ordered_json report_row(const std::string& material, const MethodRow& row);
 
 }  // namespace nook::bake::material
@@ -43,8 +44,8 @@ namespace nook::measure {
 // Returns the progress callback of the named method.
 using MethodProgress = std::function<bake::material::StageProgress(const std::string& method)>;
 
-// Returns the settings that follow from the sizes of a material's tensors, with its view map if K-CTA made
-// it.
+// Returns the settings that can be derived from the sizes of a material's tensors. They include the view map
+// if K-CTA made it.
 bake::material::CompressionSettings settings_of(const nook::material::Material& material, std::uint64_t seed);
 
 // A material and the bytes of the file that it was read from.
@@ -53,17 +54,17 @@ struct MaterialFile {
   const nook::material::Material& material;
 };
 
-// Further measures of a file, beside its errors in the fitted views.
+// What to measure of a file in addition to its errors in the fitted views.
 struct FileMeasures {
   const bake::material::RawMaterial* unseen = nullptr;  // measures errors in these views; null: none
   bool jumps = false, mipmaps = false, grazing = false;
-  nook::material::ModeForm form;  // form of the modes that are drawn
+  nook::material::ModeForm form;  // number format of the modes that are drawn
 };
 bake::material::MethodRow material_file_row(const bake::material::RawMaterial& raw, const MaterialFile& file,
                                             const FileMeasures& measures = {});
 
-// Adds a material's error in unseen views and its jumps as the view moves. Files and other methods use it
-// alike.
+// Adds a material's error in unseen views and its jumps as the view moves. Used for files and for other
+// methods.
 void add_unseen(const bake::material::RawMaterial* unseen, const nook::material::Material& material,
                 bake::material::MethodRow& row);
 void add_jumps(const nook::material::Material& material, bake::material::MethodRow& row);

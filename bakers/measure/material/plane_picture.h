@@ -1,4 +1,4 @@
-// Draws a plane that wears a material, tiled and by a coordinate texture.
+// Draws a plane with a material, once tiled and once by a coordinate texture.
 #pragma once
 
 #include "bakers/images/picture.h"
@@ -13,8 +13,8 @@ struct TilePart {
 };
 
 // Draws three panels side by side, one pixel for each texel of the plane. They show the tiled part, the plane
-// by its coordinates, and the coordinates as red and green. In the last, a piece of the material shows as one
-// ramp. The view is tilted by 20 degrees, the light by 45. The ground is grey.
+// drawn by its coordinates, and the coordinates as red and green. In the third panel, each piece of the
+// material appears as one ramp. The view is tilted by 20 degrees, the light by 45. The ground is grey.
 bake::Picture plane_sheet(const nook::material::MaterialTables& tables,
                           const nook::synthesis::Coordinates& coordinates, const TilePart& part);
 

@@ -17,12 +17,12 @@ namespace nook::measure {
 // levels. Each level halves the one before.
 class RawReflectance {
  public:
-  // Takes over the BTF, and needs another 4/3 of its memory for a moment.
+  // Takes ownership of the BTF. During the call, it needs another 4/3 of the BTF's memory.
   explicit RawReflectance(bake::material::RawMaterial raw);
 
   std::size_t number_count() const { return numbers_; }
-  // Writes the radiance of the sample's point for its view under each sampled light, lights x RGB. Ignores
-  // the sample's light.
+  // Writes the radiance at the sample's point, for the sample's view, under each sampled light (lights x
+  // RGB). Ignores the sample's light.
   void decode(const nook::material::Sample& sample, std::span<float> numbers) const;
   // Returns the radiance for an irradiance of 1 on a plane that faces the light; black if the light is below
   // the horizon.

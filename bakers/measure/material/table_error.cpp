@@ -28,7 +28,7 @@ Matrix decoded_modes(const RawMaterial& raw, const MaterialTables& tables, Vec3 
   return modes.transpose();
 }
 
-// Returns the radiances of a sample's point for its view under all lights, three numbers each.
+// Returns the radiances at a sample's point for its view under all lights, three numbers per light.
 Matrix radiances(const RawMaterial& raw, const MaterialTables& tables, const Matrix& lights,
                  const nook::material::Sample& sample) {
   return decoded_radiances(
@@ -39,7 +39,7 @@ Matrix radiances(const RawMaterial& raw, const MaterialTables& tables, const Mat
       });
 }
 
-// Returns the means of the raw radiances over a square of texels for a view under all lights.
+// Returns the mean of the raw radiances over a square of texels, for one view and under each light.
 Matrix mean_radiances(const RawMaterial& raw, std::size_t view, std::uint32_t x, std::uint32_t y,
                       std::uint32_t side) {
   Matrix mean = Matrix::Zero(Index(raw.light_rows()), 1);

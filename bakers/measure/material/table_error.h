@@ -1,6 +1,6 @@
-// Measures a material as drawn: decoded from the tables in textures, at the middles of texels, for the views
-// and lights of the raw material. The error includes the rounding of the tables, the view map and the light
-// map.
+// Measures a material as it is drawn: decoded from the tables in textures, at the texel centres, for the
+// views and lights of the raw material. The error includes the rounding of the tables, the view map and the
+// light map.
 #pragma once
 
 #include <vector>
@@ -19,16 +19,17 @@ tensor::Matrix light_rows(const RawMaterial& raw, const nook::material::Material
 // Throws Failure(INVALID_ARGUMENT) if the sizes differ from the raw material's.
 BtfError measure_tables(const RawMaterial& raw, const nook::material::MaterialTables& tables);
 
-// The error from afar, where a pixel covers a square of texels. The truth is the mean of the raw radiances
-// over the square. The middle of the square is compared with it, at its mipmap level and at the finest one.
+// The error when seen from far away, where a pixel covers a square of texels. The truth is the mean of the
+// raw radiances over the square. It is compared with the material at the centre of the square, once at the
+// square's mipmap level and once at the finest level.
 struct LevelError {
   std::uint32_t side = 0;  // texels
   double se_db = 0, se_db_finest = 0;
 };
-// Measures squares whose sides are 2, 4, 8 and so on and divide the sides of the tile.
+// Measures squares with sides of 2, 4, 8, ... texels, as long as the side divides both sides of the tile.
 std::vector<LevelError> measure_levels(const RawMaterial& raw, const nook::material::MaterialTables& tables);
 
-// Returns the bytes of all textures over the texels of the BTF.
+// Returns the bytes of all textures divided by the number of texels of the BTF.
 double table_bytes_texel(const nook::material::MaterialTables& tables);
 
 // Returns the radiances under all lights, three numbers each. For a tensor, decode_modes(span) writes the

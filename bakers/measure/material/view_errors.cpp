@@ -25,7 +25,7 @@ namespace {
 using nook::material::Material;
 using nook::material::VisibilityForm;
 
-// Compares directions as floats, because the files' directions come from the same spiral.
+// Compares directions exactly as floats, because all files take their directions from the same spiral.
 bool same_directions(const std::vector<Vec3>& a, const Vector<Vec3>& b) {
   return std::ranges::equal(a, b, [](Vec3 p, Vec3 q) { return length(p - q) < 1e-5f; });
 }
@@ -42,7 +42,7 @@ constexpr std::uint32_t texel_samples = 8;  // per side of a texel
 // Cosines of the measured views, which are 60 to 85 degrees from the normal.
 constexpr float highest_z = 0.5f, lowest_z = 0.0871f;
 
-// Returns the radiances of a pixel under all lights, three numbers each.
+// Returns the radiances of a pixel under all lights, three numbers per light.
 Matrix radiances(const RawMaterial& raw, const MaterialTables& tables, const Matrix& lights,
                  const Pixel& pixel) {
   return decoded_radiances(
@@ -54,7 +54,7 @@ Matrix radiances(const RawMaterial& raw, const MaterialTables& tables, const Mat
       });
 }
 
-// Calls visit(place) at even places over a pixel, and returns their number.
+// Calls visit(place) at evenly spaced places over a pixel. Returns the number of places.
 template <class Visit>
 std::size_t for_each_sample(const nook::material::PixelSides& sides, float length_texels,
                             const Visit& visit) {
@@ -68,7 +68,7 @@ std::size_t for_each_sample(const nook::material::PixelSides& sides, float lengt
   return std::size_t(along) * texel_samples;
 }
 
-// The means over a pixel of the file's finest level and of the raw images.
+// Means over a pixel: of the file's finest level, and of the raw images.
 struct Means {
   Matrix file, raw;
 };
@@ -140,7 +140,8 @@ std::vector<Vec3> arc_of(std::uint64_t seed) {
   }
 }
 
-// Sets the light modes of a sample. A neural material has none, so sets the radiances of all lights.
+// Writes the light modes of a sample. A neural material has no modes, so the radiances of all lights are
+// written instead.
 void set_modes(const Material& material, const MaterialTables& tables, const nook::material::Sample& sample,
                std::span<float> modes) {
   if (!tables.neural.is_used()) return decode_modes(tables, sample, modes);
@@ -164,7 +165,7 @@ Rows modes_of(const Material& material, const MaterialTables& tables, Vec3 view)
   Rows out(Eigen::Index(width) * height, mode_count(material, tables));
   for (std::uint32_t y = 0; y < height; ++y)
     for (std::uint32_t x = 0; x < width; ++x) {
-      // Middles of texels, which no filter blurs.
+      // Texel centres, where filtering does not blur.
       const auto middle = [](std::uint32_t i, std::uint32_t count, std::uint32_t size) {
         return (float(i * size / count) + 0.5f) / float(size);
       };
@@ -176,8 +177,8 @@ Rows modes_of(const Material& material, const MaterialTables& tables, Vec3 view)
   return out;
 }
 
-// Returns G = U^T U of the light basis of the tables. m^T G m is the sum of squares of all radiances of the
-// modes m.
+// Returns G = U^T U of the light basis of the tables. For modes m, m^T G m is the sum of squares of all
+// radiances.
 Rows gram_of(const Material& material, const MaterialTables& tables) {
   const Eigen::Index modes = mode_count(material, tables);
   if (tables.neural.is_used()) return Rows::Identity(modes, modes);

@@ -36,7 +36,7 @@ bool is_wanted(const MethodFilter& methods, const std::string& name, int taps) {
   return named("all") || named(name) || named(name + ":" + std::to_string(taps));
 }
 
-// The recorded AO is the pass's own, without intensity, power and layer.
+// Returns true if the recorded AO is the direct output of the pass, without intensity, power and layer.
 bool is_plain(const Recording& recording) {
   const auto& frame = recording.frame;
   return frame.view == NOOK_NNAO_VIEW_BLURRED ||
@@ -47,7 +47,7 @@ bool is_plain(const Recording& recording) {
 struct Job {
   FrameRow row;
   std::function<std::vector<float>()> draw;
-  std::function<std::vector<float>()> draw_plain;  // null: use draw
+  std::function<std::vector<float>()> draw_plain;  // null: use `draw`
 };
 
 void set_errors(FrameRow& row, const std::vector<float>& plain, const std::vector<float>& oracle,
@@ -65,7 +65,7 @@ void set_errors(FrameRow& row, const std::vector<float>& plain, const std::vecto
 
 AoDifference difference_of(std::span<const float> a, std::span<const float> b) {
   AoDifference difference;
-  // Drivers give the 8 bits of AO as floats that differ in their last bit.
+  // Different drivers convert the 8 bits of AO to floats that differ in the last bit.
   const auto steps = [](float ao) { return std::lround(255 * double(ao)); };
   for (std::size_t i = 0; i < a.size(); ++i) {
     const long d = std::abs(steps(a[i]) - steps(b[i]));
@@ -84,13 +84,13 @@ std::vector<std::string> frame_method_names() {
 
 namespace {
 
-// The recorded settings, also with another network, and the presets.
+// Returns jobs for the recorded settings, for these settings with another network, and for the presets.
 std::vector<Job> library_jobs(FrameReplay& replay, const Recording& recording, const MethodFilter& methods,
                               std::span<const std::byte> other_network) {
   const nook::nnao::RecordedNetwork network = nook::nnao::recorded_network(recording);
   const auto shown = nook_nnao_view(recording.frame.view);
   std::vector<Job> jobs;
-  // file: a network; empty: the embedded one.
+  // `file` is a network; empty for the embedded one.
   const auto add = [&](const std::string& name, const RecordedPass& settings, std::span<const std::byte> file,
                        const char* named) {
     if (!methods.empty() && !is_wanted(methods, name, settings.taps)) return;
@@ -127,7 +127,7 @@ std::vector<Oracle> wanted_oracles(const MethodFilter& methods) {
   return wanted;
 }
 
-// truth: from the first oracle; empty: none.
+// `truth` is from the first oracle; empty if there is no oracle.
 FrameRow recorded_row(const FrameReplay& replay, const Recording& recording,
                       const std::vector<float>& truth) {
   FrameRow row;
@@ -164,7 +164,7 @@ std::vector<FrameRow> compare_frame(FrameReplay& replay, const Recording& record
     oracles.back().ao = replay.draw(oracle);
     count();
   }
-  // Errors are against the first oracle.
+  // Errors are relative to the first oracle.
   const std::vector<float> truth = oracles.empty() ? std::vector<float>() : oracles.front().ao;
   std::vector<FrameRow> rows;
   if (!recording.ao.empty()) rows.push_back(recorded_row(replay, recording, truth));

@@ -1,5 +1,5 @@
-// Draws a recorded frame again: by the library's pass with the recorded or other settings, and by the oracle
-// on the same depth.
+// Draws a recorded frame again, with the library's pass (with the recorded or other settings) and with the
+// oracle. All use the same depth.
 #pragma once
 
 #include <memory>
@@ -20,17 +20,18 @@ class FrameReplay {
   // The recording must outlive this object.
   FrameReplay(const GladGLContext& gl, const NookGl& nook, const nook::nnao::Recording& recording);
 
-  // The oracle needs a perspective and a radius in metres.
+  // The oracle needs a perspective projection and a radius in metres.
   bool has_oracle() const { return !view_.camera.rays.orthographic && recording_.frame.radius_kind == 0; }
   const bake::nnao::TracedView& view() const { return view_; }
 
-  // Returns the AO of the library's pass at the pixels of the recording. network empty: the embedded one.
+  // Returns the AO of the library's pass at the pixels of the recording. If `network` is empty, uses the
+  // embedded network.
   std::vector<float> draw(const nook::nnao::RecordedPass& settings, std::span<const std::byte> network,
                           nook_nnao_view shown) const;
   std::vector<float> draw(Oracle oracle);
 
-  // Lets other methods draw a frame that has an oracle: its depth, its normals and the recorded request. read
-  // returns the AO of a texture with the frame's size.
+  // For other methods that draw a frame with an oracle: the frame's depth and normals, and the recorded
+  // request. `read` returns the AO of a texture with the frame's size.
   const GpuView& gpu_view() const { return gpu_view_; }
   AoRequest request() const;
   std::vector<float> read(GLuint texture) const { return read_red(gl_, texture, width(), height()); }

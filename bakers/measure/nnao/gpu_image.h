@@ -13,7 +13,7 @@ namespace nook::measure {
 
 class GpuImage {
  public:
-  // data may be null; rows from the bottom.
+  // `data` may be null. Rows start at the bottom.
   GpuImage(const GladGLContext& gl, GLint internal_format, GLenum format, int width, int height,
            const float* data);
   ~GpuImage();
@@ -28,10 +28,10 @@ class GpuImage {
   GLuint texture_ = 0, framebuffer_ = 0;
 };
 
-// The red channel of level 0.
+// Returns the red channel of level 0.
 std::vector<float> read_red(const GladGLContext& gl, GLuint texture, int width, int height);
 
-// All four channels of level 0.
+// Returns all four channels of level 0.
 std::vector<float> read_rgba(const GladGLContext& gl, GLuint texture, int width, int height);
 
 // A shader of a folder, with its includes expanded at build time.
@@ -50,8 +50,8 @@ inline ShaderTable embedded_shaders() {
 
 class GpuProgram {
  public:
-  // path: a fragment shader of the table. defines: lines before its text. Throws std::runtime_error with the
-  // compiler's message.
+  // `path` names a fragment shader of the table. `defines` are lines that are inserted before the shader's
+  // text. Throws std::runtime_error with the compiler's message.
   GpuProgram(const GladGLContext& gl, ShaderTable shaders, const std::string& path,
              const std::string& defines = "");
   ~GpuProgram();
@@ -66,7 +66,7 @@ class GpuProgram {
   GLuint name_ = 0;
 };
 
-// A traced G-buffer in textures: depth in metres (R32F), view-space normals (RGB32F).
+// A traced G-buffer in textures: depth in metres (R32F) and view-space normals (RGB32F).
 struct GpuView {
   GpuView(const GladGLContext& gl, const bake::nnao::TracedView& view);
 

@@ -88,7 +88,8 @@ double ImageError::ssim() const {
 
 double ImageError::correlation() const {
   const double va = count_ * aa_ - a_ * a_, vb = count_ * bb_ - b_ * b_;
-  // The bound is far below the variance if one pixel in a million differs by two grey levels.
+  // The bound is far below the variance of an image in which one pixel in a million differs by two grey
+  // levels.
   if (!(va > 1e-9 * count_) || !(vb > 1e-9 * count_)) return 0;
   return (count_ * ab_ - a_ * b_) / std::sqrt(va * vb);
 }

@@ -31,8 +31,9 @@ class ImageError {
   void add(const ImageError& other);
 
   double mse() const;
-  // Structural similarity (Wang et al. 2004) of values in [0, 1]: Gaussian windows of 11 x 11 pixels with
-  // standard deviation 1.5, and the mean over the windows around pixels that count.
+  // Returns the structural similarity (Wang et al. 2004) for values in [0, 1]. Windows are Gaussian with 11 x
+  // 11 pixels and a standard deviation of 1.5. The result is the mean over the windows around pixels that
+  // count.
   double ssim() const;
   // Returns Pearson's correlation, or 0 if either image is constant.
   double correlation() const;

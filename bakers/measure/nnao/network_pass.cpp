@@ -7,8 +7,8 @@
 namespace nook::measure {
 namespace {
 
-// The numbers of glFrustum for the rays of the pixels. Depth is linear, so the third row only has to be
-// regular.
+// Sets the glFrustum matrix that has the rays of the pixels. The pass reads linear depth, so the third row
+// only has to make the matrix invertible.
 void set_projection(const GpuView& view, float (&projection)[16]) {
   std::fill_n(projection, 16, 0.0f);
   projection[0] = 2 / (view.rays.x_scale * float(view.width));
@@ -120,10 +120,11 @@ GLuint NetworkPass::draw(const GpuView& view, const AoRequest& request, bool blu
 }
 
 int NetworkPass::fetches(bool blurred) const {
-  // Counts fetches: the host's depth; depth and its four neighbours, the host's normal, the taps; AO in each
-  // filter, five times along each axis. The stage of normals of the paper's form also reads these five and
-  // the normal. At half resolution, a quarter of the texels have these fetches. The upsample then reads the
-  // host's depth, four depths and four values of AO.
+  // Counts fetches. The first stage reads the host's depth. The main stage reads depth and its four
+  // neighbours, the host's normal, and the taps. Each filter reads AO five times along each axis. In the
+  // paper's form, the stage for normals also reads depth, its four neighbours and the normal. At half
+  // resolution, a quarter of the texels have these fetches. The upsample then reads the host's depth, four
+  // depths and four AO values.
   const int before = horizon_form() ? 1 + 5 + 1 + info_.taps : 1 + 2 * 6 + 6 * info_.taps;
   const int filters = blurred ? 10 * form_.blur : 0;
   if (form_.half_resolution) return (before + filters) / 4 + 9;

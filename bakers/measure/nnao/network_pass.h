@@ -16,19 +16,19 @@ namespace nook::measure {
 // The request that every method receives.
 struct AoRequest {
   float radius = 0.5f;        // metres
-  float max_radius_px = 90;   // a radius that covers more pixels shrinks
+  float max_radius_px = 90;   // a radius that covers more pixels is reduced
   float blur_sharpness = 16;  // like nook_nnao_desc
   float intensity = 1;        // after the filter of the library's pass, like nook_nnao_frame_desc
-  float min_radius_px = 0;    // for the library's pass; other methods and rays have none
+  float min_radius_px = 0;    // only for the library's pass; other methods and rays ignore it
 };
 
-// Throws Failure with the text of nook_last_message.
+// Throws Failure with the text of nook_last_message if `result` is an error.
 void succeed(nook_result result);
 
 // Sets the view matrix of a camera, column by column: the inverse of a rotation and a translation.
 void set_view(const Mat3x4& world_from_view, float (&view)[16]);
 
-// Owns what belongs to one OpenGL context.
+// Owns Nook's objects for one OpenGL context.
 class NookGl {
  public:
   explicit NookGl(platform::Context& context);
@@ -57,26 +57,27 @@ struct NetworkForm {
   int blur = 1;       // number of filter runs
   bool bent = false;  // with bent normals
   int temporal_frames = 0;
-  nook_nnao_path path = NOOK_NNAO_PATH_FRAGMENT;  // same path as other methods, so that times compare
+  nook_nnao_path path = NOOK_NNAO_PATH_FRAGMENT;  // the same path as other methods, so that times are
+                                                  // comparable
 };
 
 class NetworkPass {
  public:
-  // network empty: the embedded one.
+  // If `network` is empty, uses the embedded network.
   NetworkPass(const NookGl& gl, int width, int height, const NetworkForm& form,
               std::span<const std::byte> network, float blur_sharpness);
   ~NetworkPass();
   NetworkPass(const NetworkPass&) = delete;
   NetworkPass& operator=(const NetworkPass&) = delete;
 
-  // Returns the pass's texture: R8, or RGBA8 with bent normals. world_from_view: the camera; none: it does
-  // not matter. cut: do not use earlier frames. motion: a texture of motion vectors in pixels; 0: none. These
-  // three matter only with temporal_frames.
+  // Returns the pass's texture: R8, or RGBA8 with bent normals. world_from_view is the camera. If `cut` is
+  // true, earlier frames are not used. `motion` is a texture of motion vectors in pixels, or 0 for none.
+  // These three parameters matter only with temporal_frames.
   GLuint draw(const GpuView& view, const AoRequest& request, bool blurred,
               const std::optional<Mat3x4>& world_from_view = {}, bool cut = true, GLuint motion = 0);
   bool horizon_form() const { return info_.horizon_form != 0; }
 
-  // Texture fetches per pixel, over all stages.
+  // Returns the texture fetches per pixel, summed over all stages.
   int fetches(bool blurred) const;
 
  private:

@@ -1,5 +1,5 @@
-// The error of a probe against its map in closed form: integrals over the map and the Gram matrix of the
-// basis, without samples.
+// Computes the error of a probe against its map without sampling, from integrals over the map and the Gram
+// matrix of the basis.
 #pragma once
 
 #include <span>
@@ -13,7 +13,8 @@ namespace nook::bake::probe {
 
 using nook::probe::IrradianceForm;
 
-// An exact least-squares fit of a basis to a map, and errors of other coefficients against it.
+// The exact least-squares fit R_LS of a basis to a map f, and the errors of other coefficients R relative to
+// this fit.
 class ExactFit {
  public:
   ExactFit(const Environment& map, const Basis& basis);
@@ -22,13 +23,13 @@ class ExactFit {
   std::vector<Vec3> coefficients() const;
   // Returns the integral of (R - f)^2 over the region for any coefficients, summed over RGB.
   double square_error(std::span<const Vec3> coefficients) const;
-  // Returns the excess of this error over the minimum, as a share of the minimum.
+  // Returns by how much square_error exceeds its minimum, divided by the minimum.
   double excess(std::span<const Vec3> coefficients) const;
-  // Returns the squared norm of R - R_LS, over the squared norm of R_LS.
+  // Returns the squared norm of R - R_LS, divided by the squared norm of R_LS.
   double distance(std::span<const Vec3> coefficients) const;
   // Returns the root mean square error over the region and the channels.
   double rms(std::span<const Vec3> coefficients) const;
-  // Returns the integral of R over the integral of f, by luminance.
+  // Returns the ratio of the integral of R to the integral of f, in luminance.
   double mean_ratio(std::span<const Vec3> coefficients) const;
 
  private:
@@ -42,14 +43,15 @@ class ExactFit {
   double size_ = 0;   // |R_LS|^2
 };
 
-// Compares the irradiance of coefficients with the map's own, over evenly spread normals of the region.
+// Compares the irradiance from coefficients with the irradiance from the map, for evenly spread normals of
+// the region.
 class IrradianceTruth {
  public:
   IrradianceTruth(const Environment& map, const Region& region, std::uint32_t normals = 1024);
 
   struct Error {
     double rms = 0;      // over normals and channels
-    double minimum = 0;  // lowest irradiance of any normal and channel, over the map's mean irradiance
+    double minimum = 0;  // lowest irradiance of any normal and channel, divided by the map's mean irradiance
   };
   // Returns the luminance of the map's irradiance, as a mean over the normals.
   double mean() const { return mean_; }

@@ -17,7 +17,8 @@ namespace nook::measure {
 namespace {
 
 constexpr std::size_t roughnesses = std::size(gloss_roughness);
-// Steps of visible normals along each axis. Sums of reflections by twice as many differ by less than 1 %.
+// Steps of visible normals along each axis. With twice as many steps, the sums of reflections change by less
+// than 1 %.
 constexpr int steps = 32;
 
 probe::Surface metal(Vec3 direction, float roughness) {
@@ -29,7 +30,7 @@ probe::Surface metal(Vec3 direction, float roughness) {
   return surface;
 }
 
-// What an error is made of, as sums over directions.
+// Sums over directions from which the errors are computed.
 struct Sums {
   std::size_t lit = 0, dark = 0, negative = 0, all = 0;
   double lowest = 0, square = 0, lobes = 0, truth = 0;

@@ -1,4 +1,5 @@
-// Glossy reflection of a map's lobes against the map without its suns: where a metal ball would show black.
+// Compares glossy reflections of a map's lobes with reflections of the map without its suns. Shows where a
+// metal ball would look black.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +13,20 @@ namespace nook::measure {
 
 // The roughnesses that are measured.
 inline constexpr float gloss_roughness[] = {0.2f, 0.4f, 0.6f, 0.8f};
-// A direction is dark if the lobes reflect less than this share of the truth. It counts where the truth is
-// above `gloss_lit` of the mean light.
+// A direction is dark if the lobes reflect less than the share gloss_dark of the truth. A direction counts
+// only if the truth is above gloss_lit times the mean light.
 inline constexpr double gloss_dark = 0.25, gloss_lit = 0.1;
 
 struct GlossError {
   double dark = 0;      // share of the directions that count
-  double negative = 0;  // share of all directions where a channel is below 0 before any clamp
-  double lowest = 0;    // of any channel, over the mean light
-  double rms = 0;       // of the luminance, over the mean light
-  double mean = 0;      // of the lobes' reflections over the mean of the true ones
+  double negative = 0;  // share of all directions in which a channel is below 0, before any clamp
+  double lowest = 0;    // lowest value of any channel, divided by the mean light
+  double rms = 0;       // error of the luminance, divided by the mean light
+  double mean = 0;      // mean of the lobes' reflections, divided by the mean of the true reflections
 };
 
-// What metal, which reflects everything, shows of a map without suns. The eye looks straight at the surface.
+// The reflection of a map without suns in metal with a reflectance of 1. The view direction is the surface
+// normal.
 class GlossTruth {
  public:
   // Takes evenly spread directions. The map is reduced to 256 columns after its suns are taken out.

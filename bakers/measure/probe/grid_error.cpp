@@ -23,7 +23,7 @@ struct Box {
   }
 };
 
-// Cells reach half a spacing around their probes.
+// Each cell extends half a spacing around its probe.
 Box box_of(const Grid& grid) {
   const Vec3 low = grid.origin_ws - 0.5f * grid.spacing_ws;
   const Vec3 size{grid.spacing_ws.x * float(grid.counts[0]), grid.spacing_ws.y * float(grid.counts[1]),
@@ -49,7 +49,7 @@ Vec3 uniform_direction(Random& random) {
   return {radius * std::cos(angle), y, radius * std::sin(angle)};
 }
 
-// Limits how often a place is drawn until it is valid.
+// The maximum number of tries to draw a valid place.
 constexpr std::size_t most_draws = 1000;
 
 [[noreturn]] void no_place(const char* where) {
@@ -65,7 +65,7 @@ Places places_on_surfaces(const LitScene& scene, const TriangleSoup& soup, const
                           std::uint64_t seed) {
   const FlushDenormals flush;
   const Box box = box_of(grid);
-  std::vector<double> area;  // added up
+  std::vector<double> area;  // running sum
   double total = 0;
   for (const auto& t : soup.triangle) {
     const Vec3 a = soup.position[t[0]];

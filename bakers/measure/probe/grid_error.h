@@ -16,9 +16,10 @@ struct Places {
   float lookup_offset = 0;  // offset of the lookup along the normal, in the grid's spacings
 };
 
-// Returns random points, uniform over the surfaces inside the box that the grid's cells fill, on the side
-// outside solids. Both sides of a sheet are outside, so takes the side from which the nearest probe outside
-// solids is seen. origin_offset: metres from a surface to its sides.
+// Returns random points, uniform over the surfaces inside the box that the grid's cells fill. Each point is
+// on the side of the surface that is outside solids. For a sheet, both sides are outside, so the function
+// takes the side that sees the nearest probe outside solids. origin_offset is the distance of the points from
+// the surface, in metres.
 Places places_on_surfaces(const LitScene& scene, const TriangleSoup& soup, const nook::probe::Grid& grid,
                           const std::vector<bool>& inside, float origin_offset, std::size_t count,
                           std::uint64_t seed);
@@ -35,18 +36,20 @@ struct GridError {
   double noise = 0;  // rms error of the path-traced irradiance itself
 };
 
-// Path-traced irradiance at places. It is traced twice with half of the paths; the difference is the noise.
+// Path-traced irradiance at places. Each half of the paths gives its own result. The difference of both
+// results gives the noise.
 struct TracedPlaces {
   std::vector<Vec3> first, second;
   Vec3 mean(std::size_t i) const { return 0.5f * (first[i] + second[i]); }
 };
 TracedPlaces trace_places(const LitScene& scene, const Places& places, std::uint32_t paths,
                           std::uint64_t seed, const PathSettings& path, const Progress& progress = {});
-// Returns the error of results at some of the places.
+// Returns the error of the irradiance `found` at some of the places.
 GridError error_of(const TracedPlaces& truth, const std::vector<Vec3>& found,
                    const std::vector<std::size_t>& which);
 
-// paths: per place, 2 or more, in two halves whose difference is the noise.
+// `paths` is the number of paths per place, 2 or more. They are split into two halves, and the difference of
+// the halves gives the noise.
 GridError grid_error(const LitScene& scene, const nook::probe::Probes& probes, const Places& places,
                      std::uint32_t paths, std::uint64_t seed, const PathSettings& path,
                      const Progress& progress = {});

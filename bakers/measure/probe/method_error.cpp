@@ -22,13 +22,13 @@ using nook::probe::FitMethod;
 using nook::probe::FitSettings;
 
 constexpr std::size_t few_samples = 1024, many_samples = 20000;
-constexpr std::size_t seeding_share = 64;  // one sample in this many goes to the short run of a seeded fit
+constexpr std::size_t seeding_share = 64;  // the short run of a seeded fit uses 1/64 of the samples
 
 struct SeedSamples {
   Samples uniform, luminance;
 };
 
-// The fit of the first `count` samples.
+// Fits the first `count` samples.
 std::vector<Vec3> fit_samples(const ProbeMethod& method, const Samples& samples, std::size_t count) {
   FitSettings settings = method.fit;
   if (settings.growing_samples > 0) settings.growing_samples = float(count);

@@ -14,8 +14,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace bake::probe;
 
-// A ratio to nothing, such as an error relative to a black map, is not a number. It is null in reports and
-// "-" in tables.
+// A ratio to zero, such as an error relative to a black map, is not finite. It is null in reports and "-" in
+// tables.
 Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
@@ -79,7 +79,8 @@ std::vector<SphericalGaussian> lobes_of(const Basis& basis, std::span<const Vec3
   return lobes;
 }
 
-// Adds what a metal ball shows of the amplitudes that glossy reflection reads. Only lobes over the sphere do.
+// Adds the errors of reflections in a metal ball, for the amplitudes that glossy reflection reads. Only lobes
+// over the sphere have them.
 void add_gloss(const bake::Environment& map, const nook::probe::Probes& probes, Json& row) {
   const Basis& basis = probes.basis;
   if (basis.kind != nook::probe::BasisKind::gaussians || basis.domain != Domain::sphere) return;

@@ -1,4 +1,4 @@
-// Rows of the reports on probes, as `nook bake probe` and `nook evaluate probe` print them.
+// Makes the rows of the reports on probes that `nook bake probe` and `nook evaluate probe` print.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace nook::measure {
 class OverMaps {
  public:
   void add(const std::string& domain, const bake::probe::MethodError& error);
-  // Returns a row for each method with two maps or more: the geometric mean and the largest of
+  // Returns a row for each method with two maps or more: the geometric mean and the maximum of
   // irradiance_relative, and the lowest irradiance.
   nlohmann::ordered_json rows() const;
 
@@ -33,8 +33,9 @@ class OverMaps {
   std::vector<Method> methods_;
 };
 
-// Returns a row for each way to fit a probe to the map, over the sphere or the hemisphere above the horizon,
-// "least_squares" among them. Adds the rows to over_maps if it is given. Ratios to a black map are null.
+// Returns a row for each way to fit a probe to the map, including "least_squares". The region is the sphere
+// or the hemisphere above the horizon. Adds the rows to over_maps if that is not null. Ratios to a black map
+// are null.
 nlohmann::ordered_json probe_method_rows(const bake::Environment& map, const std::string& map_name,
                                          const std::vector<bake::probe::ProbeMethod>& methods,
                                          const bake::probe::Region& region,
@@ -45,16 +46,17 @@ nlohmann::ordered_json probe_method_rows(const bake::Environment& map, const std
 // excess_mse, mean_ratio and irradiance_minimum.
 nlohmann::ordered_json probe_errors(const bake::Environment& map, const probe::Probes& probes);
 
-// Returns rows on what a metal ball shows of the lobes that `nook bake probe` makes of the map over the
-// sphere. Three sets of amplitudes have rows: the light's, the light's without suns, and the ones for gloss.
-// Each set has a row for every roughness and one for all. GlossError explains the keys gloss_dark,
-// gloss_negative, gloss_lowest, gloss_rms and gloss_mean. Truth is the map without its suns.
+// Returns rows about reflections in a metal ball. The ball reflects the lobes that `nook bake probe` fits to
+// the map over the sphere. There are rows for three sets of amplitudes: for the light, for the light without
+// suns, and for glossy reflection. Each set has a row for every roughness and one for all. GlossError
+// explains the keys gloss_dark, gloss_negative, gloss_lowest, gloss_rms and gloss_mean. The truth is the map
+// without its suns.
 nlohmann::ordered_json gloss_rows(const bake::Environment& map, const std::string& map_name,
                                   std::uint32_t lobes, std::uint64_t seed);
 
-// Compares a baked file with its map. Lobes over the sphere also have gloss_dark and gloss_negative over all
-// roughnesses, of the amplitudes that glossy reflection reads. Throws Failure (BAD_FILE) for a grid, because
-// a map alone cannot measure it.
+// Compares a baked file with its map. For lobes over the sphere, also returns gloss_dark and gloss_negative
+// over all roughnesses, for the amplitudes that glossy reflection reads. Throws Failure (BAD_FILE) for a
+// grid, because a map alone cannot measure it.
 nlohmann::ordered_json probe_file_row(const bake::Environment& map, const std::string& map_name,
                                       const std::string& file_name, const probe::Probes& probes);
 
@@ -63,19 +65,19 @@ nlohmann::ordered_json probe_file_row(const bake::Environment& map, const std::s
 nlohmann::ordered_json sun_rows(const bake::Environment& map);
 
 struct GridReportSettings {
-  std::uint32_t points = 1024;  // per kind
+  std::uint32_t points = 1024;  // per kind of place
   std::uint32_t paths = 2048;   // per point
   std::uint32_t max_bounces = ~0u;
   float origin_offset = 0;  // metres along the normal
   std::uint64_t seed = 1;
-  std::string direct;  // the part of the map's direct light on both sides; empty: as in the grid's recipe
+  std::string direct;  // which direct light of the map both sides include; empty: as in the grid's recipe
 };
 
-// Returns the progress of the points of one kind of place.
+// Returns the progress callback for the points of one kind of place.
 using PlacesProgress = std::function<bake::Progress(const char* places)>;
 
-// Returns three rows without names of files: points on surfaces, the same with lookups half a cell off along
-// the normal, and points in the open.
+// Returns three rows, without file names. The first is for points on surfaces, the second for the same points
+// with lookups offset by half a cell along the normal, and the third for points in the open.
 nlohmann::ordered_json grid_rows(const bake::LitScene& scene, const bake::TriangleSoup& soup,
                                  const probe::Probes& probes, const GridReportSettings& settings,
                                  const PlacesProgress& progress);

@@ -1,8 +1,7 @@
-// Integrates over what a GGX surface reflects to the eye, by an even grid of visible normals (E. Heitz,
-// Sampling the GGX Distribution of Visible Normals, 2018). The remaining weights are Fresnel and the masking
-// of the light, whose heights correlate with the view's heights (E. Heitz, Understanding the
-// Masking-Shadowing Function, 2014, equation 99). Both are smooth, so that grazing views are as exact as
-// others.
+// Integrates over the light that a GGX surface reflects to the eye, with a regular grid of visible normals
+// (E. Heitz, Sampling the GGX Distribution of Visible Normals, 2018). The remaining weights are Fresnel and
+// the height-correlated masking of the light (E. Heitz, Understanding the Masking-Shadowing Function, 2014,
+// equation 99). Both are smooth, so grazing views are as exact as other views.
 #pragma once
 
 #include <cmath>
@@ -19,13 +18,13 @@ struct ReflectedDirection {
   double schlick;  // (1 - dot(view, micro normal))^5
 };
 
-// Returns steps^2 visible normals for a view with these components, without normals that reflect below the
-// horizon.
+// Returns up to steps^2 visible normals for a view with these components. Leaves out normals that reflect
+// below the horizon.
 inline std::vector<ReflectedDirection> visible_reflections(double alpha_x, double alpha_y, double x, double y,
                                                            double z, int steps) {
   std::vector<ReflectedDirection> all;
   const double size = std::hypot(alpha_x * x, alpha_y * y, z);
-  const double vx = alpha_x * x / size, vy = alpha_y * y / size, vz = z / size;  // with round slopes
+  const double vx = alpha_x * x / size, vy = alpha_y * y / size, vz = z / size;  // with isotropic slopes
   const double flat = std::hypot(vx, vy);
   const double ux = flat > 1e-7 ? -vy / flat : 1, uy = flat > 1e-7 ? vx / flat : 0;
   for (int i = 0; i < steps; ++i)

@@ -1,4 +1,4 @@
-// Advice that follows from measured numbers, by rules whose thresholds are in one table (advice_rules.inl).
+// Derives advice from measured numbers. The rules and their thresholds are in one table (advice_rules.inl).
 #pragma once
 
 #include <map>
@@ -19,10 +19,10 @@ struct Rule {
   Bound bound;
   double threshold;
   const char* meaning;  // what the measure means to the reader
-  const char* advice;   // {name} is an entry of Measures::name, {percent} and {value} show the measure
+  const char* advice;   // {name} stands for an entry of Measures::name, {percent} and {value} for the measure
 };
 
-// Measured numbers. A rule without its measure says nothing.
+// Measured numbers. A rule gives no advice if its measure is missing.
 struct Measures {
   std::map<std::string, double, std::less<>> value;
   std::map<std::string, std::string, std::less<>> name;

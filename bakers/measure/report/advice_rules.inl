@@ -1,5 +1,5 @@
-// subject, measure, bound, threshold, meaning, advice. Thresholds are where a change of the bake is worth an
-// artist's time. The page prints them beside what was measured.
+// subject, measure, bound, threshold, meaning, advice. Beyond its threshold, a change of the bake is worth an
+// artist's time. The page prints the threshold beside the measured value.
 
 // Shares are shares of the visible error. Hands have about 5 % of a body's surface, feet 5 %, a head 10 %.
 RULE(body, "source_changed", at_least, 1, "the character file has another hash than at the bake",

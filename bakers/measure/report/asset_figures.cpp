@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* no_report = "its error is in the report of its bake alone, which is missing (--report)";
 
-// Reads entries of JSON that may lack them or have other types: files come from anywhere.
+// Reads an entry of JSON. The entry may be missing or have another type, because files come from anywhere.
 const Json& entry(const Json& object, const char* name) {
   static const Json none;
   if (!object.is_object()) return none;
@@ -61,7 +61,7 @@ AssetFigures measured(double over_limit, const std::string& figure) {
   return {state, over_limit, figure, {}};
 }
 
-// The first of a list of a report that has the worst first.
+// Returns the first name in a list of a report. These lists start with the worst.
 std::string first_name(const Json& judged, const char* list) {
   const Json& found = entry(judged, list);
   return found.is_array() && !found.empty() ? text_of(found[0], "name") : std::string();
@@ -79,7 +79,8 @@ std::string body_words(const Json& judged, double over_static) {
   return part.empty() ? words : words + "; most of it: " + part;
 }
 
-// The judgement in a report, or the figures that the model stores: the second has no parts and names.
+// Returns the judgement from a report, or else the figures that the model stores. The stored figures have no
+// parts and names.
 Json judgement_of(const Json& facts, const Json& report) {
   if (entry(report, "judged").is_object()) return report["judged"];
   Json judged = Json::object();
@@ -93,7 +94,7 @@ AssetFigures body_figures(const Json& facts, const Json& report) {
   const auto over_static = value_of(judged, "over_static");
   if (!over_static) return unmeasured("its bake stored no error: it is of an earlier version");
   AssetFigures figures = measured(*over_static / bake::poor_ratio, body_words(judged, *over_static));
-  // A clip may be worse than a static bake while all clips together are not.
+  // A single clip may be worse than a static bake even if all clips together are not.
   if (is(judged, "poor", true) && figures.state == AssetState::good) figures.state = AssetState::poor;
   return figures;
 }
@@ -111,7 +112,7 @@ AssetFigures clip_figures(const Json& facts, const Json& report) {
   return measured(*error / *limit, "AO off by " + shown(*error) + ", asked for " + shown(*limit));
 }
 
-// Returns the threshold of the advice that is given on the wrong side of it.
+// Returns the threshold beyond which the page gives this advice.
 double advice_limit(const char* measure, Bound bound) {
   double limit = 0;
   for (const Rule& rule : advice_rules())
@@ -162,7 +163,7 @@ AssetFigures material_figures(const Json& facts, const Json&) {
   const std::string words = text_of(facts, "recipe_verdict_words");
   if (!db)
     return unmeasured(words.empty() ? "its bake stored no verdict: it is of an earlier version" : words);
-  // As a ratio of errors: 6 dB less are twice the error.
+  // Converts dB to a ratio of errors: 6 dB less mean twice the error.
   AssetFigures figures = measured(std::pow(10.0, (bake::material::good_db - *db) / 20), words);
   figures.state = state_of_verdict(text_of(facts, "recipe_verdict"), figures.state);
   return figures;
@@ -191,7 +192,7 @@ constexpr Judge judges[] = {{"character", body_figures},    {"level of detail", 
 void add_notes(const Json& facts, std::string& notes) {
   if (text_of(facts, "recipe_preset") == "draft") add(notes, "a draft");
   const std::string tool = text_of(facts, "of_this_tool");
-  // Farms pin the instruction set for their bakes, and the program that writes the page need not run with it.
+  // Bake farms pin the instruction set, and the program that writes the page may run with another one.
   const bool is_pinned = tool.starts_with("no: isa ") && tool.find(';') == std::string::npos;
   if (tool.starts_with("no: ") && !is_pinned)
     add(notes, "made by another tool: " + tool.substr(4));

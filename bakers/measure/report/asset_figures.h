@@ -1,4 +1,4 @@
-// How good a baked file is, by the errors and verdicts that its bake stored.
+// Judges a baked file by the errors and verdicts that its bake stored.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,17 +15,18 @@ struct AssetFigures {
   std::string figure, notes;  // as in Asset
 };
 
-// Returns the kind for the reader, such as "character". facts: the file's row of `nook inspect`.
+// Returns the kind of the file as the page shows it, such as "character". `facts` is the file's row from
+// `nook inspect`.
 std::string asset_kind(const nlohmann::ordered_json& facts);
 
-// report: the row of the report of the file's bake; null: there is none, and what only reports hold is not
-// measured.
+// `report` is the row from the report of the file's bake. If it is null, the values that only reports contain
+// count as not measured.
 AssetFigures asset_figures(const nlohmann::ordered_json& facts, const nlohmann::ordered_json& report);
 
 // Returns the duration of the bake from its report.
 std::optional<double> baking_seconds(const nlohmann::ordered_json& report);
 
-// The rows of the page's table about limits.
+// Returns the rows of the page's table of limits.
 std::vector<LimitRow> asset_limits();
 
 }  // namespace nook::report

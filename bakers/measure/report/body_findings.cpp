@@ -109,7 +109,7 @@ float size_of(std::span<const Vec3> points) {
   return length(high - low);
 }
 
-// Cells of a grid over the rest pose, so that no search for neighbours is needed.
+// Places are cells of a grid over the rest pose, so no neighbour search is needed.
 using Cell = std::tuple<long, long, long>;
 
 bool are_near(const Cell& a, const Cell& b) {

@@ -55,14 +55,14 @@ struct ClipError {
 struct Place {
   std::vector<std::uint32_t> vertices;
   std::string joint;           // the joint that moves most of it
-  std::size_t worst_pose = 0;  // the pose with its largest error
+  std::size_t worst_pose = 0;  // the pose in which the place has the largest error
   double rms = 0;              // in that pose
-  double share = 0;            // of the whole body's error
+  double share = 0;            // share of the whole body's error
 };
 
 struct BodyFindings {
   SeenError all;
-  double bias = 0;                // mean of model less ray traced, over visible vertices
+  double bias = 0;                // mean of (model - ray traced) over visible vertices
   std::vector<float> vertex_rms;  // over the poses in which the vertex is visible
   std::vector<ClipError> clips;   // worst first
   std::vector<NamedError> parts;  // largest share first
@@ -72,7 +72,7 @@ struct BodyFindings {
 
 BodyFindings find_errors(const bake::SkinnedMesh& mesh, const MeasuredBody& body, std::size_t max_places);
 
-// Returns the names of parts, as advice measures them: hands, feet, head, arms, legs, trunk, other.
+// Returns the names of the body parts that advice uses: hands, feet, head, arms, legs, trunk, other.
 std::vector<std::string> part_names();
 
 }  // namespace nook::report

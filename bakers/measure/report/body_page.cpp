@@ -62,7 +62,7 @@ Poses choose(const BakedCharacter& baked, const Recipe* recipe, const BodySettin
     thin_out(chosen.poses, budget);
     return chosen;
   }
-  // With more clips than poses, takes clips spread over all.
+  // If there are more clips than poses, takes clips that are evenly spread over all clips.
   if (clips.size() > budget) {
     const std::size_t count = clips.size();
     for (std::size_t i = 0; i < budget; ++i) clips[i] = clips[(2 * i + 1) * count / (2 * budget)];

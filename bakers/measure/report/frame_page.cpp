@@ -15,7 +15,7 @@ using nook::nnao::Recording;
 
 constexpr int max_width_px = 900;
 
-// Takes every n-th pixel of pictures that are wider than the page.
+// Reduces pictures that are wider than the page to every n-th pixel.
 Picture page_picture(const platform::Image& image) {
   const int step = (image.width + max_width_px - 1) / max_width_px;
   Picture picture{(image.width + step - 1) / step, (image.height + step - 1) / step, {}};
@@ -26,7 +26,7 @@ Picture page_picture(const platform::Image& image) {
   return picture;
 }
 
-// Returns the radius on the screen at a depth, in pixels, before the limits.
+// Returns the radius on the screen at a depth, in pixels, before the limits on pixels apply.
 double radius_px(const Recording& recording, double depth) {
   const double height = double(recording.height);
   if (recording.frame.radius_kind != 0) return double(recording.frame.radius) * height;

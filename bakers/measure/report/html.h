@@ -1,4 +1,4 @@
-// Pieces of a page. Text from files and arguments becomes Html only through text(), which escapes it, so that
+// Pieces of a page. Text from files and arguments can become Html only through text(), which escapes it. So
 // no name can add markup or code to a page.
 #pragma once
 
@@ -13,7 +13,8 @@
 
 namespace nook::report {
 
-// Markup of this program. It is a constant at compile time, so that text from elsewhere cannot become markup.
+// Markup that is written in this program's source. It must be a compile-time constant, so that text from
+// elsewhere cannot become markup.
 class Markup {
  public:
   consteval Markup(const char* literal) : text_(literal) {}
@@ -48,7 +49,8 @@ class Html {
 // direction of writing, and bytes that are not UTF-8 become visible escapes.
 Html text(std::string_view plain);
 
-// Shows three digits, in plain notation from 0.001 on; a dash if the value is not finite.
+// Shows three significant digits. Values of at least 0.001 are in plain notation. Shows a dash if the value
+// is not finite.
 Html number(double value);
 Html percent(double share);
 Html byte_count(double bytes);
@@ -61,10 +63,10 @@ Html element(Markup tag, const Html& inside);
 // JSON as the text of a script element. Nothing in it can end the element.
 Html script_data(const nlohmann::ordered_json& data);
 
-// The first row names the columns.
+// The first row holds the names of the columns.
 Html table(const std::vector<std::vector<Html>>& rows);
 
-// A picture within the page. alternative describes what the picture shows.
+// Embeds a picture in the page. `alternative` is a text that describes what the picture shows.
 Html figure(const bake::Picture& picture, const std::string& alternative, const Html& caption);
 
 // The files of templates/, embedded at build time.
@@ -75,7 +77,7 @@ struct Template {
 const Template* templates_begin();
 const Template* templates_end();
 
-// Replaces each {{name}} of a template by its value. Braces in a value stay as they are. Throws
+// Replaces each {{name}} of a template by its value. Braces inside a value are not replaced. Throws
 // Failure(INTERNAL) for an unknown template or name.
 Html fill(std::string_view template_name, const std::vector<std::pair<std::string_view, Html>>& values);
 

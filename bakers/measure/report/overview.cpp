@@ -9,10 +9,11 @@
 namespace nook::report {
 namespace {
 
-// Figures that differ by less look the same.
+// Figures that differ by less than this count as equal.
 constexpr double least_change = 0.01;
 
-// How bad a state is for a comparison. Failed and broken are the same: there is no model to load.
+// Returns how bad a state is, for comparisons. Failed and broken rank equal, because in both cases there is
+// no model to load.
 int rank_of(AssetState state) {
   switch (state) {
     case AssetState::failed:
@@ -90,7 +91,7 @@ void mark_changes(std::vector<Asset>& assets, const LastPage& last) {
       asset.change = AssetChange::fresh;
       continue;
     }
-    // A bake that failed left nothing that could tell its kind.
+    // A failed bake leaves no file, so its kind is unknown.
     if (asset.kind.empty()) asset.kind = found->second->kind;
     asset.change = change_of(asset, *found->second);
     if (asset.change != AssetChange::none) asset.before = words_before(asset, *found->second);

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A row is an array, because names of columns would be a third of the page.
+// A row is an array, because the names of columns in each row would take a third of the page.
 enum Column {
   name,
   kind,
@@ -30,7 +30,7 @@ enum Column {
 };
 enum Flag : unsigned { has_page = 1, is_linkable = 2, can_have_page = 4 };
 
-// Names that differ in invisible characters look different on the page.
+// Makes invisible characters visible, so that names that differ only in them look different on the page.
 Json shown(const std::string& text) {
   return platform::printable(text);
 }
@@ -66,7 +66,7 @@ bool is_row(const Json& row) {
   return row[state].is_number_unsigned() && row[state].get<std::uint64_t>() < asset_state_count;
 }
 
-// Only what a comparison needs.
+// Reads only the columns that a comparison needs.
 Asset asset_of(const Json& row) {
   Asset asset;
   asset.name = row[name].get<std::string>();

@@ -20,7 +20,7 @@ struct PageSource {
   std::string title;             // the name of the .nook file
   nlohmann::ordered_json facts;  // one row of `nook inspect`
   std::vector<ShownFile> shown;
-  std::string licence;  // what the user says about all of them; may be empty
+  std::string licence;  // the user's licence text for all files; may be empty
 };
 
 // The part of a page that depends on the kind of its file.
@@ -33,7 +33,7 @@ struct PageParts {
 
 std::string page_of(const PageSource& source, const PageParts& parts);
 
-// Returns the colours of errors from 0 to `end`. The unit of the ticks is AO, or what unit says.
+// Returns the colour scale for errors from 0 to `end`. `unit` is the unit of the ticks.
 Html error_scale(double end, Markup unit);
 // Shows a share of a whole as a bar with its number.
 Html share_bar(double share);

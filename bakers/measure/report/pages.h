@@ -1,4 +1,4 @@
-// The page of each kind of file. page.h puts its parts together.
+// Makes the parts of the page for each kind of file. page.h puts the parts together.
 #pragma once
 
 #include <cstddef>
@@ -25,22 +25,22 @@ struct BodySettings {
   std::uint64_t max_rays = 400'000'000;  // over all poses; takes a minute and a half on two cores
 };
 
-// Shows poses of the clips that were not part of the bake, or of all clips if there are none. Without clips
-// it shows the poses of the bake. Throws Failure(CANCELLED).
+// Shows poses from the clips that were not part of the bake, or from all clips if the bake used all. If the
+// file has no clips, shows the poses of the bake. Throws Failure(CANCELLED).
 PageParts body_parts(const measure::BakedCharacter& baked, const BodySettings& settings,
                      const measure::StageProgress& progress);
 
 // The page of a recorded frame of the screen-space pass.
 PageParts frame_parts(const nook::nnao::Recording& recording);
 
-// bytes: the file. raw: its source; null: no comparison.
+// `bytes` is the file. `raw` is the file's source; null for no comparison.
 PageParts material_parts(std::span<const std::byte> bytes, const nook::material::Material& material,
                          const bake::material::RawMaterial* raw);
 
-// map: the source of a single probe; null: no comparison. A grid takes none.
+// `map` is the source of a single probe; null for no comparison. Pass null for a grid.
 PageParts probe_parts(const probe::Probes& probes, const bake::Environment* map);
 
-// mesh: its source. Throws Failure(BAD_FILE) for another mesh.
+// `mesh` is the source of the transfer. Throws Failure(BAD_FILE) for another mesh.
 PageParts transfer_parts(std::size_t bytes, const transfer::Transfer& transfer,
                          const bake::SurfaceMesh& mesh);
 

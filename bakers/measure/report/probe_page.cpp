@@ -29,7 +29,7 @@ Vec3 irradiance_of(const Probes& probes, std::size_t index, Vec3 normal) {
   return nook::probe::irradiance(probes.basis, probes.of(index), nook::probe::IrradianceForm::bands, normal);
 }
 
-// Compares the irradiance in fourteen directions: the faces and corners of a cube.
+// Compares the irradiance in fourteen directions: towards the faces and the corners of a cube.
 struct BallLight {
   float mean = 0;      // luminance
   int below_zero = 0;  // directions with a luminance below 0
@@ -75,7 +75,7 @@ void draw_ball(Picture& picture, int left, int top, int side, const Probes& prob
 // Draws one layer of constant y: x to the right, z down.
 Picture layer_picture(const Probes& probes, std::uint32_t layer, float exposure) {
   const auto columns = int(probes.grid.counts[0]), rows = int(probes.grid.counts[2]);
-  // Skips probes of grids that are wider than the picture.
+  // Shows only every n-th probe if the grid is wider than the picture.
   const int step = (std::max(columns, rows) * 8 + max_side_px - 1) / max_side_px;
   const int shown_columns = (columns + step - 1) / step, shown_rows = (rows + step - 1) / step;
   const int side = std::clamp(max_side_px / std::max(shown_columns, shown_rows), 8, 160);

@@ -50,7 +50,7 @@ BodyCamera camera_at(Vec3 towards, std::span<const Vec3> points, int width, int 
     high = std::max(high, std::fabs(dot(p - box.centre(), up)));
   }
   return {box.centre(), towards,
-          // Gives a single point a scale.
+          // The lower bound gives a single point a scale.
           margin * std::max({2 * wide / float(width), 2 * high / float(height), 1e-6f})};
 }
 
@@ -68,7 +68,8 @@ std::vector<std::uint32_t> all_vertices(std::size_t count) {
 
 using Json = nlohmann::ordered_json;
 
-// WebGL reads the page's arrays in the byte order of the reader's machine, which is this one everywhere.
+// WebGL reads the page's arrays in the byte order of the reader's machine. All relevant machines are
+// little-endian.
 static_assert(std::endian::native == std::endian::little);
 
 template <class Number>
@@ -91,7 +92,7 @@ Json pose_data(const SkinnedMesh& mesh, const MeasuredBody& body, const NamedPos
       high[c] = std::max(high[c], at[c]);
     }
   }
-  // Gives a flat body a size.
+  // The lower bound gives a flat body a size.
   for (std::size_t c = 0; c < 3; ++c) size[c] = std::max(high[c] - low[c], 1e-6f);
   std::vector<std::uint16_t> positions;
   std::vector<std::uint8_t> traced, model;
@@ -161,7 +162,7 @@ std::vector<Picture> eight_sides(const SkinnedMesh& mesh, std::span<const float>
   constexpr int width = 300, sides = 8;
   std::vector<float> scaled(vertex_rms.begin(), vertex_rms.end());
   for (float& value : scaled) value /= error_end;
-  // All sides have one scale, which is set by the widest side. Pictures are as high as the body.
+  // All sides have the same scale, which the widest side determines. Pictures are as high as the body.
   float metres_per_pixel = 0;
   std::vector<BodyCamera> cameras;
   for (int side = 0; side < sides; ++side) {
@@ -200,7 +201,8 @@ Picture compare_pose(const SkinnedMesh& mesh, const MeasuredBody& body, std::siz
   const Vec3 towards = view_of_error(mesh, body.poses[pose], looked_at, error);
   BodyCamera camera = camera_at(towards, points_of(posed, looked_at), width, height);
   if (!is_whole) {
-    // Surroundings help to recognise a place, and give a place of one vertex a size.
+    // The picture also shows the surroundings, which help to recognise the place. They also give a place of
+    // one vertex a size.
     Box body_box;
     for (const Vec3 p : posed) body_box.add(p);
     camera.metres_per_pixel =
@@ -214,7 +216,7 @@ Picture compare_pose(const SkinnedMesh& mesh, const MeasuredBody& body, std::siz
 
 Turnable turnable_body(const SkinnedMesh& mesh, const MeasuredBody& body, std::span<const NamedPose> poses,
                        std::size_t max_bytes) {
-  // Base64 takes four letters for three bytes.
+  // Base64 takes four characters for three bytes.
   const std::size_t triangle_bytes = 4 * (mesh.triangle.size() * 12) / 3,
                     pose_bytes = 4 * (mesh.vertex_count() * 8) / 3;
   if (triangle_bytes + pose_bytes > max_bytes || poses.empty())

@@ -11,28 +11,28 @@
 
 namespace nook::report {
 
-// Converts 0 to 1 by the sRGB curve. Above is white, below is black.
+// Converts values from 0 to 1 with the sRGB curve. Values above 1 become white, values below 0 black.
 bake::Colour display(Vec3 linear);
 
 bake::Picture plain_picture(int width, int height, bake::Colour colour);
 void set_pixel(bake::Picture& picture, int x, int y, bake::Colour colour);
 
-// AO error at the far end of the colours.
+// AO error at the upper end of the colour scale.
 inline constexpr float error_end = 0.25f;
 
-// Returns the direction to a viewer who sees most of the error of the given vertices. It is one of 24 that
-// are spread over the sphere without its poles. Hidden faces do not count.
+// Returns the direction to a viewer who sees most of the error of the given vertices. The direction is one of
+// 24 that are spread over the sphere, except near the poles. Faces that the viewer cannot see do not count.
 Vec3 view_of_error(const bake::SkinnedMesh& mesh, const bake::Pose& pose,
                    std::span<const std::uint32_t> vertices, std::span<const float> error);
 
 // Returns eight pictures of the rest pose, 45 degrees apart, from the front towards the body's left.
 std::vector<bake::Picture> eight_sides(const bake::SkinnedMesh& mesh, std::span<const float> vertex_rms);
 
-// Puts ray traced, model and error side by side. vertices empty: the whole body.
+// Shows ray traced, model and error side by side. If `vertices` is empty, shows the whole body.
 bake::Picture compare_pose(const bake::SkinnedMesh& mesh, const MeasuredBody& body, std::size_t pose,
                            std::span<const std::uint32_t> vertices);
 
-// A body in several poses as data for the page's WebGL 2 view.
+// A body in several poses, as data for the page's WebGL 2 view.
 struct Turnable {
   Html section;  // the view's elements, or a sentence if the body is too large
   Html scripts;
@@ -43,7 +43,7 @@ struct NamedPose {
   std::string name;
 };
 
-// Takes as many poses, from the first on, as fit into max_bytes of the page.
+// Takes poses from the first one on, as many as fit into max_bytes of the page.
 Turnable turnable_body(const bake::SkinnedMesh& mesh, const MeasuredBody& body,
                        std::span<const NamedPose> poses, std::size_t max_bytes);
 

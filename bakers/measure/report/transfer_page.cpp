@@ -23,7 +23,7 @@ using nook::transfer::Transfer;
 constexpr int width_px = 360, height_px = 360, sides = 4;
 constexpr std::uint32_t truth_rays = 128;
 
-// Returns the cosine-weighted mean of each vertex's shares, which is its AO in the file.
+// Returns the cosine-weighted mean of each vertex's shares. This mean is the vertex's AO in the file.
 std::vector<float> mean_shares(const Transfer& baked, const SurfaceMesh& mesh) {
   std::vector<Vec3> axes(baked.lobes);
   nook::transfer::lobe_axes(axes);

@@ -73,7 +73,7 @@ class Renderer {
         rays_({source.mesh.position, source.mesh.triangle}),
         offset_(bake::ray_origin_offset(source.mesh.position)),
         sampler_(source.map) {
-    // A sample of the light has no width, so the holes come from the finest level.
+    // A light sample has no width, so holes are looked up at the finest level.
     if (settings.truth.holes) holes_.emplace(source.mesh, *settings.truth.holes, settings.truth.tiles, 0.0f);
   }
 
@@ -86,8 +86,9 @@ class Renderer {
     return surface_at(found, camera_.eye, direction, true);
   }
 
-  // Returns one estimate of the light, from one sample of the map and one of the hemisphere (the balance
-  // heuristic, E. Veach 1997). The second sample continues where it meets a surface, up to `bounces` times.
+  // Returns one estimate of the light from two samples, one of the map and one of the hemisphere, combined
+  // with the balance heuristic (E. Veach 1997). If the hemisphere sample hits a surface, the path continues
+  // there, up to `bounces` times.
   Vec3 sample(const PixelHit& hit, std::uint32_t bounces, bake::Random& random) const {
     const double choice = random.unit_double();
     const float alias = random.unit(), u = random.unit(), v = random.unit();
@@ -122,7 +123,8 @@ class Renderer {
   }
 
  private:
-  // Returns the surface of a hit as a ray sees it. Pixels see a footprint, other rays the finest level.
+  // Returns the surface of a hit as a ray sees it. Pixels use the mipmap level of their footprint, other rays
+  // use the finest level.
   PixelHit surface_at(const bake::RayHit& found, Vec3 from, Vec3 direction, bool is_pixel) const {
     PixelHit hit;
     const bake::SurfaceMesh& mesh = source_.mesh;
@@ -161,7 +163,8 @@ class Renderer {
     return {dot(frame.tangent, d), dot(frame.bitangent(), d), dot(frame.normal, d)};
   }
 
-  // Returns log2 of the texels that a pixel covers along a side, from the triangle's ratio of areas.
+  // Returns log2 of the number of texels that a pixel covers along a side. It is derived from the ratio of
+  // the triangle's area in texels to its area on the surface.
   float level(const PixelHit& hit, Vec3 direction, float distance) const {
     const bake::SurfaceMesh& mesh = source_.mesh;
     const Vec3 p = mesh.position[hit.vertex[0]];
@@ -182,7 +185,7 @@ class Renderer {
     return holes_ ? holes_->share_through(rays_, origin, direction) : 0.0f;
   }
 
-  // Finds the surface that stops a ray. Holes let it pass by chance.
+  // Finds the surface that stops a ray. At holes, a random choice decides whether the ray passes.
   bool next_surface(Vec3 origin, Vec3 direction, bake::Random& random, bake::RayHit& found) const {
     for (float beyond = 0;; beyond = found.distance) {
       found = rays_.nearest(origin, direction, beyond);
@@ -191,7 +194,7 @@ class Renderer {
     }
   }
 
-  // Returns the light of a direction that was sampled by `light_density` and by its cosine.
+  // Returns the light from a direction that is sampled both with `light_density` and with the cosine.
   Vec3 reflected(const PixelHit& hit, Vec3 direction, Vec3 radiance, float light_density) const {
     const Vec3 at = local(hit.frame, direction);
     if (!(at.z > 0) || (radiance.x == 0 && radiance.y == 0 && radiance.z == 0)) return {};

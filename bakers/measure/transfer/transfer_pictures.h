@@ -1,4 +1,4 @@
-// Draws a shape in a material under a map: path traced, and from the vectors of each form.
+// Draws a shape with a material under a map, once path traced and once from the vectors of each form.
 #pragma once
 
 #include <array>
@@ -23,23 +23,24 @@ struct PictureSource {
   const VectorMeasure& vectors;
   std::size_t light = 0;  // index of the light of the vectors
   const bake::Environment& map;
-  // The surface of the truth; null: the decoded material.
+  // The material of the truth. If null, the truth uses the decoded material.
   const RawReflectance* raw = nullptr;
 };
 
 struct PictureError {
-  // Means of the squared error of linear radiance over the shape's pixels and RGB, less the noise of the
-  // truth. They are divided by the squared mean luminance of the truth over these pixels.
+  // Mean squared error of linear radiance over the shape's pixels and RGB, minus the noise of the truth.
+  // Divided by the squared mean luminance of the truth over these pixels.
   std::array<double, 3> mse{};
   double noise_floor_mse = 0;  // noise of the truth, same unit
   bake::Picture sheet;         // truth, then the forms
 };
 
-// The camera looks at the middle of the bounding box from 35 degrees above its horizon. A pixel has one ray
-// through its middle. The truth is the light of the map on the material as decoded at the pixel, with
-// `bounces` reflections on surfaces along the way. Half of the samples are by luminance and half
-// cosine-weighted, with multiple importance sampling. Rays to the light pass through the holes of the VOTF if
-// the settings have them, but camera rays do not. Throws Failure(CANCELLED) if progress returns false.
+// The camera looks at the centre of the bounding box from 35 degrees above the horizon. Each pixel has one
+// ray through its centre. The truth is the light of the map on the material as decoded at the pixel, with
+// `bounces` reflections on surfaces along the way. Half of the samples are distributed by luminance and half
+// by the cosine, combined by multiple importance sampling. Rays to the light pass through the holes of the
+// VOTF if the settings have them, but camera rays do not. Throws Failure(CANCELLED) if progress returns
+// false.
 PictureError measure_pictures(const PictureSource& source, const PictureSettings& settings,
                               const VectorProgress& progress);
 

@@ -57,7 +57,7 @@ LobeValues lobe_values(const CubeCells& cells, std::uint32_t lobes) {
   return out;
 }
 
-// out += light * basis, channel by channel.
+// For each channel, out += light * basis.
 void add_light(Vec3 light, std::span<const float> basis, std::span<float> out) {
   const std::size_t modes = basis.size() / 3;
   const float channel[3] = {light.x, light.y, light.z};
@@ -119,12 +119,12 @@ VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const Transfer& tra
   std::vector<std::vector<float>> direct_vectors(lights.size());
 
   const nook::transfer::Response response = response_of(tables, transfer.lobes);
-  // The tables report numbers for AVX2 if the processor has it.
+  // Times in the tables are for AVX2 if the processor has it.
   const Isa isa = isa_available(Isa::avx2) ? Isa::avx2 : choose_isa(NOOK_ISA_AUTO);
   for (std::size_t l = 0; l < lights.size(); ++l) {
     LightVectors& vectors = measure.lights[l];
     for (std::vector<float>& form : vectors.form) form.resize(count * size);
-    // Processor time, because other work on the machine lengthens it less than the clock's.
+    // Measures processor time, because other work on the machine lengthens it less than wall-clock time.
     const std::clock_t begin = std::clock();
     baked_vectors(response, isa, lights[l].amplitudes, transfer, 0, transfer.vertex_count(),
                   {vectors.form[0].data(), size}, {}, default_memory());

@@ -1,4 +1,4 @@
-// Measures vectors at vertices against sums over 6,144 directions, for baked transfer and simpler forms.
+// Compares the vectors at vertices with sums over 6,144 directions, for baked transfer and for simpler forms.
 #pragma once
 
 #include <array>
@@ -21,9 +21,9 @@ namespace nook::measure {
 
 // Forms of the per-vertex vectors, best first.
 enum class TransferForm {
-  baked = 0,  // baked transfer, separated or in the paper's form, as the runtime computes it
-  ao = 1,     // the vectors of the open vertex times its ambient occlusion
-  none = 2,   // the vectors of the open vertex
+  baked = 0,  // baked transfer as the runtime computes it, in the separated form or in the paper's form
+  ao = 1,     // the vectors of an unoccluded vertex, times the vertex's ambient occlusion
+  none = 2,   // the vectors of an unoccluded vertex
 };
 inline constexpr std::array<const char*, 3> transfer_form_names{"separated", "ao", "none"};
 inline constexpr const char* paper_form_name = "paper";
@@ -32,12 +32,12 @@ inline constexpr const char* paper_form_name = "paper";
 struct MeasuredLight {
   std::string name;
   bake::Environment map;    // sampled by the truth of pictures
-  std::vector<Vec3> cells;  // the map's means over the 6,144 cells of the truth
+  std::vector<Vec3> cells;  // the mean of the map over each of the 6,144 cells of the truth
   std::vector<float> amplitudes;
   nook::transfer::FitQuality quality;
   double fit_ms = 0;
 };
-// without_suns: first removes the suns of the map (bakers/raytrace/environment.h).
+// If without_suns is true, first removes the suns of the map (bakers/raytrace/environment.h).
 MeasuredLight measured_light(std::string name, bake::Environment map, const nook::transfer::LobeFit& fit,
                              bool without_suns = false);
 
@@ -48,13 +48,14 @@ bool is_baked_mesh(const bake::SurfaceMesh& mesh, const nook::transfer::Transfer
 struct LightVectors {
   std::array<std::vector<float>, 3> form;  // indexed by TransferForm
   double vectors_ms = 0;                   // for the separated form on one thread
-  // Signal to error, dB.
+  // Signal-to-error ratio, dB.
   std::array<double, 3> se_db{};
-  // For the separated form with integrals by direct sums instead of the response; not for the paper's form.
+  // The same ratio for the separated form, if direct sums replace the integrals of the response. Not set for
+  // the paper's form.
   double se_exact_db = 0;
 };
 
-// Return false to stop. Worker threads call it, one call at a time.
+// Called from worker threads, one call at a time. Return false to stop.
 using VectorProgress = std::function<bool(std::size_t done, std::size_t total)>;
 
 // The part of light transport that the truth follows.
@@ -69,8 +70,8 @@ struct VectorMeasure {
   std::vector<float> ao;  // per vertex, cosine-weighted visibility
   std::uint32_t light_modes = 0;
 };
-// Traces the visibility of each vertex again. The fits use the lobes of the transfer. The vectors of the
-// separated form include reflected light as in the file, but the decibels are for its direct part only.
+// Traces the visibility of each vertex again. Lights are fitted to the lobes of the transfer. The vectors of
+// the separated form include reflected light, as in the file. Their dB values are only for the direct part.
 // Throws Failure(CANCELLED) if progress returns false.
 VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const nook::transfer::Transfer& transfer,
                               const nook::material::MaterialTables& tables,

@@ -24,7 +24,7 @@ void add(std::string& text, const char* format, Values... values) {
   text.append(line, std::size_t(std::clamp(length, 0, int(sizeof line) - 1)));
 }
 
-// Puts a name in quotes, and removes what would end them.
+// Puts a name in quotes, and removes characters that would end the quotes.
 std::string quoted(const String& name) {
   std::string text = "\"";
   for (const char c : name)
@@ -45,8 +45,8 @@ float ao_factor(const WorldCaster& caster, CasterRadii radii) {
   return radii == CasterRadii::ao ? caster.ao_scale : 1;
 }
 
-// Moves a capsule from rest space to the space of the bone's joint. Its radii stay in metres, because a
-// joint's scale is only a unit.
+// Moves a capsule from rest space to the space of the bone's joint. The radii stay in metres, because a
+// joint's scale only expresses a unit.
 Capsule in_joint(const CharacterModel& model, const WorldCaster& caster, const Capsule& capsule) {
   const Mat3x4& m = model.bind.bones[caster.bone].node_from_rest;
   const float scale = scale_of(m);
@@ -54,7 +54,7 @@ Capsule in_joint(const CharacterModel& model, const WorldCaster& caster, const C
           scale * capsule.radius_b};
 }
 
-// Casters by bone, in the order of the bones.
+// Groups the indices of casters by bone.
 std::vector<std::vector<std::size_t>> by_bone(const CharacterModel& model) {
   std::vector<std::vector<std::size_t>> casters(model.bone_count());
   for (std::size_t i = 0; i < model.world_casters.size(); ++i)
@@ -119,13 +119,13 @@ std::string source2_text(const CharacterModel& model, std::span<const Capsule> c
   return text;
 }
 
-// Returns a JSON string that keeps the name, so that it finds its node.
+// Returns the name as a JSON string. The name is not changed, so that an engine finds the node.
 std::string json_string(const String& name) {
   using Json = nlohmann::json;
   return Json(std::string(name.data(), name.size())).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-// A glTF file only needs its asset.
+// The only member that glTF requires is "asset".
 std::string gltf_text(const CharacterModel& model) {
   std::string text =
       "{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"nook export casters\"},\n"
@@ -165,8 +165,8 @@ std::vector<Capsule> engine_capsules(const CharacterModel& model, CasterFormat f
     c.radius_a *= factor;
     c.radius_b *= factor;
     if (format != CasterFormat::gltf) {
-      // A quarter of the surface (Cauchy). A cone's mantle has the same area as a cylinder with the mean
-      // radius.
+      // The mean projected area is a quarter of the surface area (Cauchy). The side of a cone frustum has
+      // about the same area as the side of a cylinder with the mean radius.
       const float half = 0.5f * length(c.b - c.a);
       const float area = half * 0.5f * (c.radius_a + c.radius_b) +
                          0.5f * (c.radius_a * c.radius_a + c.radius_b * c.radius_b);

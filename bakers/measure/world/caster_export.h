@@ -20,19 +20,19 @@ enum class CasterFormat {
 enum class CasterRadii { ao, light };
 
 // Returns the capsules of such a file, in rest space. In Unreal's and Source 2's formats, a capsule has one
-// radius. It gives the capsule the same mean projected area as Nook's.
+// radius. This radius gives the capsule the same mean projected area as Nook's capsule.
 std::vector<Capsule> engine_capsules(const CharacterModel& model, CasterFormat format, CasterRadii radii);
 
-// Compares AO on the floor below the rest pose by the written capsules with the model's own casters, both by
-// the exact form. This error remains if an engine evaluates capsules well.
+// Compares the AO on the floor below the rest pose from the written capsules with the AO from the model's own
+// casters. Both use the exact form. This error remains even if an engine evaluates capsules exactly.
 struct ExportError {
   double rms = 0, largest = 0;  // AO
-  double over_none = 0;         // mean squared error over the error without darkening
+  double over_none = 0;         // mean squared error divided by the mean squared error without darkening
 };
 ExportError export_error(const CharacterModel& model, CasterFormat format, CasterRadii radii);
 
-// Capsules are in the space of their joint. The model has its name from the file. Throws Failure
-// (INVALID_ARGUMENT) for a model without casters or without its rest pose.
+// Returns the text. Each capsule is in the space of its joint. Throws Failure (INVALID_ARGUMENT) for a model
+// without casters or without its rest pose.
 std::string export_casters(const CharacterModel& model, CasterFormat format, CasterRadii radii);
 
 }  // namespace nook::measure

@@ -86,7 +86,7 @@ class NearestSpheres final : public Darkener {
   float cone(Vec3 point, const LightCone& cone) const override {
     float open = 1;
     for (const Capsule& c : capsules_) {
-      // The point of the segment that is nearest to the line of the axis.
+      // Finds the point of the segment that is nearest to the line of the cone's axis.
       const Vec3 e = c.b - c.a, a = c.a - point, l = cone.axis;
       const Vec3 across = e - dot(e, l) * l;
       const float t = std::clamp(-dot(a, across) / std::max(dot(across, across), 1e-12f), 0.0f, 1.0f);
@@ -167,7 +167,8 @@ class Ellipsoids final : public Darkener {
       Vec3 d;
       float height = 0;
       float* const along[3] = {&d.x, &d.y, &d.z};
-      // A plane keeps its side under the scaling if its normal scales the other way.
+      // Under the scaling of positions, the normal scales with the inverse, so that it stays perpendicular to
+      // its plane.
       Vec3 n;
       float* const facing[3] = {&n.x, &n.y, &n.z};
       for (int i = 0; i < 3; ++i) {

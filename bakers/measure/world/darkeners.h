@@ -22,16 +22,16 @@ struct LightCone {
 class Darkener {
  public:
   virtual ~Darkener() = default;
-  // world space, metres, +y up.
+  // Sets the pose. World space, metres, +y up.
   virtual void pose(const bake::Pose& pose) = 0;
-  // AO, 1 is open.
+  // Returns the AO at a point; 1 is open.
   virtual float ao(Vec3 point, Vec3 normal) const = 0;
-  // The share of the cone that is open.
+  // Returns the open share of the cone.
   virtual float cone(Vec3 point, const LightCone& cone) const = 0;
 };
 
-// A method is a family of variants. For each surface, the variant with the smallest error counts: its one
-// free scale is picked on the scored poses, in its favour.
+// A method is a family of variants, which differ in one free scale. For each surface, the variant with the
+// smallest error counts. It is chosen on the same poses that are scored, which favours the baselines.
 struct Method {
   std::string name;
   std::vector<std::unique_ptr<Darkener>> variant;
@@ -39,15 +39,16 @@ struct Method {
 
 // "nook": the casters as the runtime evaluates them.
 Method nook_method(std::vector<WorldCaster> casters);
-// "capsules" has one capsule for each bone by principal axes. Each counts as the sphere on its segment that
-// is nearest to the point, or to the axis of a cone. The open shares are multiplied, and one scale sets the
-// radii.
+// "capsules" has one capsule for each bone, fitted by principal axes. Each capsule is evaluated as a sphere
+// on its segment, namely the one nearest to the point or to the axis of the cone. The open shares of the
+// capsules are multiplied together. One scale applies to all radii.
 Method capsule_method(const bake::SkinnedMesh& mesh);
-// "ellipsoids": the same with an ellipsoid for each bone, evaluated as the unit sphere in its own space.
+// "ellipsoids" works like "capsules", with an ellipsoid for each bone. Each ellipsoid is evaluated as the
+// unit sphere in its own space.
 Method ellipsoid_method(const bake::SkinnedMesh& mesh);
-// "blobs": a round blob on the floor below the body, with a picked radius and strength.
+// "blobs" is a round blob on the floor below the body. The best radius and strength are chosen.
 Method blob_method(const bake::SkinnedMesh& mesh);
-// "proxy spheres": the spheres that darken linked instances, exp(-sum of weight * form factor).
+// "proxy spheres" uses the spheres that darken linked instances: exp(-sum of weight * form factor).
 Method proxy_method(const CharacterModel& model);
 
 }  // namespace nook::measure

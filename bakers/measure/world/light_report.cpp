@@ -26,9 +26,8 @@ constexpr std::uint32_t visible_rays = 128;
 // Ways to light a point.
 constexpr std::array<const char*, 3> methods{"none", "ao_x_probe", "per_lobe"};
 
-// Sums of squared errors over the points of a surface in a pose, with the three channels together. They are
-// for all light, for the soft part alone, and for all light with the map's own irradiance in place of the
-// lobes.
+// Sums of squared errors over the points of a surface in a pose, over all three channels. There are sums for
+// all light, for the soft part alone, and for all light with the map's own irradiance in place of the lobes.
 struct Sums {
   double weight = 0;
   std::array<double, methods.size()> all{}, soft{}, exact{};
@@ -87,7 +86,7 @@ double product_of_errors(Vec3 value, Vec3 first, Vec3 second) {
   return double(a.x) * double(b.x) + double(a.y) * double(b.y) + double(a.z) * double(b.z);
 }
 
-// The points have one normal.
+// All points have the same normal.
 Sums sums_of(const SurfacePoints& points, const TracedLight& traced, const SampledLight& sampled,
              const SplitLight& light) {
   Sums sums;

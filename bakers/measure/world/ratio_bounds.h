@@ -1,4 +1,4 @@
-// Bounds of the ratio of two methods' errors, because it depends on the measured poses.
+// Computes bounds for the ratio of two methods' errors, because the ratio depends on the measured poses.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@ struct RatioBounds {
   double low = 0, high = 0;
 };
 
-// Returns the range of 95 % of the ratios of two sums over poses drawn with replacement. over and under: one
-// number per pose.
+// Returns the 95 % bootstrap interval of the ratio of two sums: poses are drawn with replacement. `over` and
+// `under` have one number per pose.
 inline RatioBounds ratio_bounds(const std::vector<double>& over, const std::vector<double>& under,
                                 std::size_t draws, std::uint64_t seed) {
   std::vector<double> ratio;

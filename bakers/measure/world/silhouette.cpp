@@ -25,7 +25,8 @@ using Json = nlohmann::ordered_json;
 constexpr float cell_m = 0.01f, light_degrees = 1, half_open = 0.5f;
 constexpr std::size_t directions = 8;
 constexpr float up_radians = 0.25f * std::numbers::pi_v<float>;
-// Where all of the first rays agree, half of the light is not near; other cells take more rays.
+// Cells where the first rays disagree may be near the outline, where half of the light is hidden. They take
+// more rays.
 constexpr std::uint32_t first_rays = 7, rays_at_edges = 48;
 
 // Cells of the floor that the body may shade.

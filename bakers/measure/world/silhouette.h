@@ -1,4 +1,4 @@
-// Compares outlines of shadows on the floor, under a light of one degree, with ray tracing.
+// Compares the outlines of shadows on the floor with ray tracing, under a light with an angle of one degree.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,9 +8,10 @@
 
 namespace nook::measure {
 
-// Returns one row for each method that has a shape of its own: nook and capsules. iou is the area that both
-// shadows cover over the area that one of them covers, as a mean over all shadows of the best variant;
-// iou_low is the worst shadow. Throws Failure (INVALID_ARGUMENT: the model has no world casters; CANCELLED).
+// Returns one row for each method that has a shape of its own: nook and capsules. `iou` is the intersection
+// over union of the shadow and the traced shadow: the mean over all shadows of the best variant. `iou_low` is
+// the value of the worst shadow. Throws Failure (INVALID_ARGUMENT: the model has no world casters;
+// CANCELLED).
 nlohmann::ordered_json silhouette_rows(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                        std::span<const bake::Pose> poses, const WorldStudy& study,
                                        const WorldProgress& progress);

@@ -30,7 +30,7 @@ Environment difference(const Environment& all, const Environment& part) {
 }  // namespace
 
 float SplitLight::sun_half_angle_radians() const {
-  // Uses the sine of the half angle, because the cosine of a small disc rounds to 1.
+  // Uses the sine of half the angle, because the cosine of a small angle rounds to 1.
   return 2 * std::asin(std::sqrt(std::min(sun->disc_solid_angle / (4 * std::numbers::pi_v<float>), 1.0f)));
 }
 

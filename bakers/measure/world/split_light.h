@@ -1,5 +1,5 @@
-// A map as a host draws it: its brightest sun as a cone of light, the rest as lobes. Also what casters take
-// from both.
+// Splits a map as a host draws it: the brightest sun becomes a cone of light, the rest becomes lobes. Also
+// computes how much of both the casters block.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,7 @@ struct SplitLight {
   std::optional<bake::Sun> sun;
   std::vector<SphericalGaussian> lobes;  // 32
   world::LightTerms terms;
-  double unit = 0;  // irradiance of the map's mean radiance
+  double unit = 0;  // irradiance from uniform light with the map's mean radiance
 
   float sun_half_angle_radians() const;
   Vec3 sun_irradiance(Vec3 normal) const;   // without a body
@@ -36,7 +36,7 @@ struct SplitLight {
 
 SplitLight split(const NamedMap& named);
 
-// rgb has three floats per point, the others one.
+// `rgb` has three floats per point, the other arrays have one.
 struct SampledLight {
   std::vector<float> ao, cone, rgb;
 };

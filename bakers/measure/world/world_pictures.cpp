@@ -25,9 +25,10 @@ constexpr float light_half_angle = 10 * std::numbers::pi_v<float> / 180;
 
 // What each pixel shows: body, floor or wall.
 struct View {
-  std::vector<Vec3> position, normal;  // for pixels of floor and wall
-  std::vector<std::uint32_t> pixel;    // theirs
-  std::vector<float> body;             // brightness of the body, below 0 elsewhere
+  std::vector<Vec3> position, normal;  // of the pixels that show floor or wall
+  std::vector<std::uint32_t> pixel;    // the index of each of these pixels
+  std::vector<float> body;             // brightness of the body; negative where a pixel does not show the
+                                       // body
 };
 
 // Places a camera beside the body, a floor below it and a wall behind it.

@@ -1,4 +1,4 @@
-// Draws the darkening by a body, by ray tracing and by the methods.
+// Draws the darkening by a body, computed by ray tracing and by each method.
 #pragma once
 
 #include <filesystem>

@@ -39,8 +39,8 @@ struct Surface {
   std::vector<Sums> pose = {};
 };
 
-// Points with their truth, traced twice with half of the rays each. The noise of both is independent. So the
-// mean of (value - first) (value - second) is the squared error without the noise of the rays.
+// Points with their traced truth, computed twice with half of the rays each. The two have independent noise,
+// so the mean of (value - first) (value - second) is the squared error without the noise of the rays.
 struct TracedPoints {
   SurfacePoints points;
   std::vector<float> first, second;
@@ -60,7 +60,7 @@ TracedPoints visible_points(const RayScene& scene, SurfacePoints points, AoSetti
   return traced;
 }
 
-// Returns the open share of a cone by rays that are spread evenly over its solid angle.
+// Traces rays that are spread evenly over the cone's solid angle. Returns the open share.
 std::vector<float> trace_cone(const RayScene& scene, const SurfacePoints& points, const LightCone& cone,
                               std::uint32_t rays, float offset, std::uint64_t seed) {
   std::vector<float> open(points.size());

@@ -1,8 +1,8 @@
 #version 330 core
-// The oracle: 1,024 taps, without a tuned number. Each tap is a line of length `thickness` that starts at the
-// surface and goes away from the viewer. The part of the line within the radius blocks the directions in
-// which it lies. The open directions are weighted with the cosine. Off the screen, the depth of the border
-// continues. The radius never shrinks.
+// The oracle uses 1,024 taps and no tuned parameters. Each tap is a line of length `thickness` that starts at
+// the surface and leads away from the viewer. The part of the line within the radius blocks the directions in
+// which it lies. The open directions are weighted with the cosine. Outside the screen, the oracle uses the
+// depth at the border. The radius is never reduced.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 
 uniform float thickness;  // in radii; 0: everything behind a surface within the radius is solid
@@ -15,15 +15,15 @@ const int steps = 32;
 
 out float result;
 
-const float sectors = 128.0;  // with equal cosine-weighted shares
+const float sectors = 128.0;  // of equal cosine-weighted size
 
-// Returns two numbers in (0, 1) that differ between the pixels of 4 x 4.
+// Returns two numbers in (0, 1) that differ between the pixels of a 4 x 4 block.
 vec2 pixel_noise(ivec2 pixel) {
   ivec2 at = pixel & 3;
   return (vec2(at.x * 4 + at.y, ((at.y * 4 + at.x) * 7) & 15) + 0.5) / 16.0;
 }
 
-// Returns the depth; off the screen, the depth of the border.
+// Returns the depth of a pixel. Outside the screen, returns the depth at the border.
 float clamped_depth(ivec2 pixel) {
   return depth_at(clamp(pixel, ivec2(0), size_px - 1));
 }
@@ -59,8 +59,9 @@ struct Frame {
   vec3 across, viewer, normal;
 };
 
-// Returns the angle of an offset in the slice. A pixel lies up to half a pixel beside the slice. Moving it
-// into the slice keeps its height over the tangent plane, so that a plane blocks nothing.
+// Returns the angle of an offset in the slice. A tap's pixel lies up to half a pixel beside the slice. The
+// tap is moved into the slice at the same height above the tangent plane, so that a flat surface blocks
+// nothing.
 float angle_in(Frame frame, vec3 offset) {
   float u = dot(offset, frame.across), v = dot(offset, frame.viewer);
   float slope = dot(frame.normal, frame.viewer);
@@ -70,7 +71,8 @@ float angle_in(Frame frame, vec3 offset) {
 
 uvec4 closed_by(Frame frame, ivec2 at, float depth, vec3 position, float radius) {
   vec3 tap = position_at(at, depth), front = tap - position, behind = normalize(tap);
-  // Only surfaces within the radius make a horizon. Otherwise, anything in front of a wall would darken it.
+  // Only surfaces within the radius form a horizon. Otherwise, every object in front of a wall would darken
+  // the wall.
   if (thickness <= 0.0 && dot(front, front) > radius * radius) return uvec4(0u);
   // Finds the part of the line front + s behind that is within the sphere of the radius.
   float along = dot(front, behind), inside = along * along - dot(front, front) + radius * radius;

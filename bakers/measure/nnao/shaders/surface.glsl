@@ -27,7 +27,8 @@ float pixels_per_metre(float depth) {
   return 1.0 / abs(screen_rays.z * depth);
 }
 
-// Returns the radius of a pixel in metres and pixels. It shrinks where it would cover too many pixels.
+// Returns the radius at a pixel, in metres and in pixels. The radius is reduced where it would cover too many
+// pixels.
 vec2 pixel_radius(float depth) {
   float per_metre = pixels_per_metre(depth);
   float pixels = min(radius_m * per_metre, max_radius_px);
