@@ -11,23 +11,23 @@
 
 namespace nook::bake {
 
-// Where a leg's end goes, and how its foot lies there.
+// The target of a leg's end, and the orientation of its foot there.
 struct AnimalRig::FootPlan {
   Vec3 place;          // metres, rest space
-  bool hangs = false;  // the place is in the space of the hip's parent, so that it moves with the body
-  float planted = 1;   // 1: the foot keeps its direction in the world, 0: it goes with the leg
-  float curl = 0;      // of the foot to the back, radians
-  // How much more than the leg's other joints each joint behind the hip bends, 1 where it is empty.
+  bool hangs = false;  // true if `place` is in the space of the hip's parent, so that it moves with the body
+  float planted = 1;   // 1: the foot keeps its direction in the world; 0: the foot turns with the leg
+  float curl = 0;      // bend of the foot to the back, radians
+  // Factor for the bend of each joint after the hip. If empty, all factors are 1.
   std::vector<float> bend_share = {};
 };
 
 struct AnimalRig::Plan {
   AnimalAct act = AnimalAct::rest;
-  float amount = 1;            // of all turns: small at rest
-  Mat3x4 body;                 // of the whole body over its feet
+  float amount = 1;            // factor of all turns; small at rest
+  Mat3x4 body;                 // motion of the whole body relative to its feet
   std::vector<FootPlan> foot;  // of each leg
   float phase = 0;             // of the gait, 0 to 1
-  float gallop = 0;            // bends of the spine with the gait, radians
+  float gallop = 0;            // bend of the spine that follows the gait, radians
 };
 
 namespace {
@@ -44,7 +44,7 @@ float height_of(const SkinnedMesh& mesh) {
   return std::isfinite(high) ? high - ground_of(mesh) : 0;
 }
 
-// The middle of the lowest fifth of a bone's skin; the joint without any.
+// Returns the centre of the lowest fifth of a bone's skin, or the joint's origin if the bone has no skin.
 Vec3 lowest_skin(const SkinnedMesh& mesh, std::size_t bone) {
   float low = INFINITY, high = -INFINITY;
   const auto is_own = [&](std::size_t i) { return mesh.weights[i].bone[0] == bone; };
@@ -63,8 +63,8 @@ Vec3 lowest_skin(const SkinnedMesh& mesh, std::size_t bone) {
   return count > 0 ? (1 / count) * sum : joint_origin(mesh.bones[bone]);
 }
 
-// Chains of bones of one role, each from its first bone along the body's tree. Where a chain forks, the
-// longest way stays one chain and the others begin anew.
+// Returns the chains of bones with one role. Each chain starts at its first bone and follows the body's tree.
+// At a fork, the longest branch continues the chain, and each other branch starts a new chain.
 std::vector<std::vector<std::size_t>> chains_of(const BodyTree& tree, std::span<const Joint> joints,
                                                 std::initializer_list<JointRole> roles) {
   const auto is_in = [&](std::size_t b) {
@@ -123,7 +123,7 @@ void AnimalRig::find_legs() {
     size_m_ += leg.length_m;
     legs_.push_back(std::move(leg));
   }
-  // Rows of a side, from the front: gaits go by them.
+  // Numbers the legs of each side from the front. Gaits use these rows.
   for (LegChain& leg : legs_)
     for (const LegChain& other : legs_)
       leg.row += other.left == leg.left && dot(other.end - leg.end, frame_.forward) > 0;
@@ -147,17 +147,18 @@ void AnimalRig::find_chains() {
 
 namespace {
 
-// The phase of each leg in a gait with planted feet. Four legs walk or trot; two alternate; more move by
-// tripods or their like: neighbours never at once.
+// The phase of each leg in a gait with planted feet. Four legs walk or trot. Two legs alternate. More legs
+// move in tripods or similar groups, so that neighbouring legs never move at the same time.
 float leg_phase(const LegChain& leg, std::size_t legs, bool trots) {
   const float side = leg.left ? 0.0f : 0.5f;
   if (legs != 4) return std::fmod(side + 0.5f * float(leg.row % 2), 1.0f);
   const bool hind = leg.row > 0;
-  // Walk: left hind, left fore, right hind, right fore. Trot: diagonals.
+  // A walk has the order left hind, left fore, right hind, right fore. In a trot, diagonal legs move
+  // together.
   return std::fmod(side + (trots ? (hind ? 0.5f : 0.0f) : (hind ? 0.0f : 0.25f)), 1.0f);
 }
 
-// The place of a foot along its stride, -1 behind to 1 ahead, and its lift, 0 to 1.
+// `along` is the position of a foot along its stride, from -1 (behind) to 1 (ahead). `lift` is 0 to 1.
 struct Step {
   float along = 0, lift = 0;
 };
@@ -167,7 +168,7 @@ Step step_at(float phase, float stance) {
   return {-std::cos(std::numbers::pi_v<float> * swing), std::sin(std::numbers::pi_v<float> * swing)};
 }
 
-// Turns of a joint that are small most of the time and sometimes large, radians.
+// Draws a turn of a joint, radians. It is small most of the time and sometimes large.
 float heavy_turn(PoseRandom& random, float usual, float most) {
   const float turn = usual * random.normal();
   return std::clamp(turn * std::exp(0.4f * random.normal()), -most, most);
@@ -197,7 +198,7 @@ AnimalRig::Plan AnimalRig::draw(AnimalAct act, PoseRandom& random) const {
   plan.body = rotation_about(middle, turn);
   plan.body.m[7] -= drop * size_m_;
   place_feet(plan, random);
-  // Legs of a row bend alike.
+  // Legs of the same row bend in the same way.
   std::map<int, std::vector<float>> bends;
   for (std::size_t l = 0; l < legs_.size(); ++l) {
     std::vector<float>& share = bends[legs_[l].row];
@@ -237,7 +238,7 @@ void AnimalRig::step(Plan& plan, PoseRandom& random) const {
   const bool runs = trots || random.chance(0.4f);
   const float stride = runs ? random.between(0.2f, 0.75f) : random.between(0.12f, 0.45f);
   const float rise = runs ? random.between(0.1f, 0.5f) : random.between(0.06f, 0.3f);
-  // A foot that leaves the ground is turned back: paws and fetlocks by much more than heels.
+  // A foot that leaves the ground turns backwards. Paws and fetlocks turn much farther than heels.
   const float curl = random.between(15, 130) * degree;
   const float stance = runs ? random.between(0.3f, 0.5f) : random.between(0.55f, 0.75f);
   for (const LegChain& leg : legs_) {
@@ -248,8 +249,8 @@ void AnimalRig::step(Plan& plan, PoseRandom& random) const {
   }
 }
 
-// The end of a leg that swings from its hip by angles to the front and away from the body, radians; stretch
-// is its length over the length at rest.
+// Returns the position of a leg's end if the leg swings from its hip. `forward` and `aside` are the angles to
+// the front and away from the body, in radians. `stretch` is the leg's length divided by its length at rest.
 Vec3 AnimalRig::swung(const LegChain& leg, float forward, float aside, float stretch) const {
   const Vec3 hip = origin(leg.bones.front());
   const float mirror = leg.left ? 1.0f : -1.0f;
@@ -258,9 +259,10 @@ Vec3 AnimalRig::swung(const LegChain& leg, float forward, float aside, float str
   return hip + stretch * transform_vector(turn, leg.end - hip);
 }
 
-// Gallops, bounds, runs and jumps: legs swing from the hips while all feet may be in the air. In a gallop,
-// hind and fore legs swing against each other, and the spine bends with them. Whether it bends up or down
-// while they gather differs from animal to animal. A swing to the front is bent, one to the back is long.
+// Makes gallops, bounds, runs and jumps. Legs swing from the hips, and all feet may be in the air. In a
+// gallop, hind and fore legs swing in opposite directions, and the spine bends with them. When the legs come
+// together, some animals bend the spine up and others down. A leg that swings to the front is bent. A leg
+// that swings to the back is stretched.
 void AnimalRig::leap(Plan& plan, PoseRandom& random) const {
   const float amplitude = random.between(20, 65) * degree;
   const float bent = random.between(0.05f, 0.45f);
@@ -273,7 +275,7 @@ void AnimalRig::leap(Plan& plan, PoseRandom& random) const {
     const float side = gallops ? (leg.left ? 0 : lead) : (leg.left ? 0 : 0.5f);
     const float angle = 2 * std::numbers::pi_v<float> * (plan.phase + row + side + 0.03f * random.normal());
     const float forward = amplitude * std::cos(angle) + 8 * degree * random.normal();
-    const float air = std::max(0.0f, -std::sin(angle));  // while it swings to the front
+    const float air = std::max(0.0f, -std::sin(angle));  // greater than 0 while the leg swings to the front
     const float stretch = 1.1f - bent * air - 0.1f * random.unit();
     plan.foot.push_back({swung(leg, forward, 4 * degree * random.normal(), stretch), true, 0.0f,
                          (0.25f + 0.75f * air) * curl});
@@ -283,7 +285,7 @@ void AnimalRig::leap(Plan& plan, PoseRandom& random) const {
         random.between(-0.3f, 0.5f) * amplitude * std::cos(2 * std::numbers::pi_v<float> * plan.phase);
 }
 
-// Kicks, crouches and steps to any place that legs reach from a standing body.
+// Makes kicks, crouches, and steps to any place that the legs can reach from a standing body.
 void AnimalRig::move_feet(Plan& plan, PoseRandom& random) const {
   const bool tucked = random.chance(0.25f);  // jumps and falls
   const float curl = random.between(15, 90) * degree;
@@ -299,7 +301,7 @@ void AnimalRig::move_feet(Plan& plan, PoseRandom& random) const {
   }
 }
 
-// Each leg by itself, anywhere that it reaches from its hip.
+// Moves each leg independently to any place that it can reach from its hip.
 void AnimalRig::swing_legs(Plan& plan, PoseRandom& random) const {
   for (const LegChain& leg : legs_) {
     const float forward = heavy_turn(random, 35 * degree, 80 * degree);
@@ -312,11 +314,12 @@ void AnimalRig::swing_legs(Plan& plan, PoseRandom& random) const {
 namespace {
 
 struct Bends {
-  std::vector<Vec3> axis;    // of each joint behind the hip: a turn about it bends the leg further
+  std::vector<Vec3> axis;    // of each joint after the hip; a turn about it bends the leg further
   std::vector<float> angle;  // of the bend at rest, radians
 };
 
-// A joint bends the way it is bent at rest; a straight one swings its end to the back, as knees do.
+// A joint bends in the direction of its bend at rest. A straight joint bends like a knee: the lower part
+// swings to the back.
 Bends bends_of(std::span<const Vec3> points, Vec3 left) {
   constexpr float least_bend = 0.05f;  // radians
   Bends bends;
@@ -330,8 +333,9 @@ Bends bends_of(std::span<const Vec3> points, Vec3 left) {
   return bends;
 }
 
-// The turns of all joints behind the hip for one amount of flexion, radians; negative stretches. What is left
-// of each rest bend keeps a stretched leg from bending the wrong way.
+// Returns the turns of all joints after the hip for one amount of flexion, radians. A negative flexion
+// stretches the leg. Each joint keeps a part of its rest bend, so that a stretched leg does not bend the
+// wrong way.
 std::vector<Mat3x4> flexed(std::span<const Vec3> points, const Bends& bends, float flexion,
                            std::span<const float> share) {
   std::vector<Mat3x4> turns;
@@ -353,12 +357,13 @@ Vec3 end_of(std::span<const Vec3> points, std::span<const Mat3x4> turns) {
 
 std::vector<Mat3x4> AnimalRig::reach(const LegChain& leg, Vec3 place,
                                      std::span<const float> bend_share) const {
-  constexpr float most_flexion = 1.6f, most_stretch = -1.6f;  // radians a joint
+  constexpr float most_flexion = 1.6f, most_stretch = -1.6f;  // radians per joint
   constexpr int halvings = 24;
   std::vector<Vec3> points;
   for (const std::size_t b : leg.bones) points.push_back(origin(b));
   points.push_back(leg.end);
-  // A shoulder blade, short and above a leg of several bones, follows by a share.
+  // A shoulder blade is a short bone at the top of a leg with several bones. It makes a share of the leg's
+  // swing.
   constexpr float girdle_share = 0.25f;
   const bool girdle = leg.bones.size() >= 3 && length(points[1] - points[0]) < 0.3f * leg.length_m;
   Mat3x4 first;
@@ -370,7 +375,7 @@ std::vector<Mat3x4> AnimalRig::reach(const LegChain& leg, Vec3 place,
   const std::span<const Vec3> own = std::span(points).subspan(girdle ? 1 : 0);
   const Bends bends = bends_of(own, frame_.left);
   const float wanted = length(place - own[0]);
-  float low = most_stretch, high = most_flexion;  // the longest and the shortest leg
+  float low = most_stretch, high = most_flexion;  // the flexions with the longest and the shortest leg
   for (int i = 0; i < halvings; ++i) {
     const float middle = 0.5f * (low + high);
     (length(end_of(own, flexed(own, bends, middle, bend_share)) - own[0]) > wanted ? low : high) = middle;
@@ -384,27 +389,28 @@ std::vector<Mat3x4> AnimalRig::reach(const LegChain& leg, Vec3 place,
   return all;
 }
 
-// A chain bends as a whole, and a little more or less from joint to joint.
+// Each chain bends as a whole, with small random differences between its joints.
 void AnimalRig::bend_chains(const Plan& plan, std::vector<Mat3x4>& local, PoseRandom& random) const {
   const auto bend = [&](const std::vector<std::size_t>& chain, Vec3 whole, Vec3 curl, float jitter) {
     const float share = 1 / float(chain.size());
     for (std::size_t i = 0; i < chain.size(); ++i) {
-      // curl: more towards the end than at the root, so that chains form an S together with whole.
+      // `curl` has opposite signs at the root and at the end. Together with `whole`, it can give a chain the
+      // shape of an S.
       const float at = chain.size() > 1 ? float(i) * 2 / float(chain.size() - 1) - 1 : 0;
       const Vec3 turn = share * whole + share * at * curl + jitter * std::sqrt(share) * normal3(random);
       if (posable_[chain[i]]) local[chain[i]] = rotation_about(origin(chain[i]), turn);
     }
   };
   const float a = plan.amount;
-  const float snake = legs_.empty() ? 3.0f : 1.0f;  // bodies without legs live by their spine
+  const float snake = legs_.empty() ? 3.0f : 1.0f;  // bodies without legs bend their spine much more
   for (const auto& spine : spines_)
     bend(spine,
          in_body({(a * snake * 10 * random.normal()) * degree + plan.gallop,
                   a * snake * 10 * degree * random.normal(), a * 5 * degree * random.normal()}),
          in_body({a * snake * 5 * degree * random.normal(), a * snake * 12 * degree * random.normal(), 0}),
          a * 3 * degree);
-  // Heads look about, graze and are raised, and keep level while the neck moves. A standing body often moves
-  // nothing but its head.
+  // Heads look around, graze and are raised. They stay level while the neck moves. A standing body often
+  // moves only its head.
   const float h = plan.act == AnimalAct::rest && random.chance(0.5f) ? 1 : a;
   const float kind = random.unit();
   const float pitch = kind < 0.55f   ? h * 22 * degree * random.normal()
@@ -437,7 +443,7 @@ void AnimalRig::turn_others(const Plan& plan, std::vector<Mat3x4>& local, PoseRa
     const float mirror = joint.side == Side::right ? -1.0f : 1.0f;
     Vec3 turn;
     switch (joint.role) {
-      case JointRole::jaw:  // opens downwards
+      case JointRole::jaw:  // a jaw opens downwards
         turn = mouth * frame_.left;
         break;
       case JointRole::wing:
@@ -447,7 +453,7 @@ void AnimalRig::turn_others(const Plan& plan, std::vector<Mat3x4>& local, PoseRa
       case JointRole::arm:
         turn = a * (joint.segment == 0 ? 20 : 14) * degree * normal3(random);
         break;
-      case JointRole::ear:  // both are laid back together
+      case JointRole::ear:  // both ears are laid back together
         turn = joint.segment == 0 ? -laid_back * frame_.left + a * 10 * degree * normal3(random)
                                   : a * 8 * degree * normal3(random);
         break;
@@ -485,7 +491,7 @@ Pose AnimalRig::pose(AnimalAct act, PoseRandom& random) const {
       for (std::size_t i = 0; i < turns.size(); ++i) local[leg.bones[i]] = turns[i];
     }
     if (foot_of[b] >= 0) {
-      // A planted foot stays level, one in the air hangs back.
+      // A planted foot stays level. A foot in the air hangs backwards.
       const FootPlan& foot = plan.foot[std::size_t(foot_of[b])];
       const Vec3 up = normalised(transform_vector(inverse_rigid(above), frame_.up));
       const Vec3 turn = 0.9f * foot.planted * shortest_arc(frame_.up, up) + foot.curl * frame_.left;

@@ -1,5 +1,6 @@
-// Poses of a body that is not a person's: gaits of any number of legs with planted feet, spines, necks and
-// tails as chains, jaws and wings as hinges. Ranges follow from the lengths of limbs and their bends at rest.
+// Makes poses for bodies that are not human. Any number of legs walk with planted feet. Spines, necks and
+// tails bend as chains. Jaws and wings turn like hinges. The ranges are derived from the lengths of the limbs
+// and from their bends in the rest pose.
 #pragma once
 
 #include <span>
@@ -10,34 +11,34 @@
 
 namespace nook::bake {
 
-// What a body does in one pose. It rests, or it walks or trots with planted feet. In a leap, as in a gallop
-// or a jump, the legs swing from the hips. Free bodies move each part by itself. Games show characters that
-// stand or walk most of the time.
+// What a body does in one pose. It rests, or it walks or trots with planted feet. In a leap, such as a gallop
+// or a jump, the legs swing from the hips. In a free pose, each part moves independently. The shares are high
+// for rest and gait, because game characters stand or walk most of the time.
 enum class AnimalAct : std::uint8_t { rest, gait, leap, free };
 constexpr float rest_share = 0.3f, gait_share = 0.25f, leap_share = 0.25f;
 AnimalAct random_act(PoseRandom& random);
 
-// One leg: joints from the hip to its end, which stands on the ground at rest.
+// One leg: the joints from the hip to the end of the leg, which stands on the ground in the rest pose.
 struct LegChain {
   std::vector<std::size_t> bones;  // from the hip; without the foot
   std::vector<std::size_t> foot;
-  Vec3 end;  // of the last bone: the foot's joint, or the lowest skin; metres, rest space
+  Vec3 end;  // end of the last bone: the foot's joint, or the lowest skin; metres, rest space
   float length_m = 0;
-  int row = 0;  // pairs of legs from the front
+  int row = 0;  // index of the pair of legs, counted from the front
   bool left = false;
 };
 
 class AnimalRig {
  public:
-  // Both are kept by reference.
+  // Keeps references to both arguments.
   AnimalRig(const SkinnedMesh& mesh, std::span<const Joint> joints);
 
   Pose pose(AnimalAct act, PoseRandom& random) const;
   std::span<const LegChain> legs() const { return legs_; }
 
-  // The turns of a leg's bones, of which the first is its hip, that bring its end to a place. In the space of
-  // the hip's parent at rest. A place out of reach is approached as far as the leg stretches.
-  // bend_share: how much more each joint behind the hip bends than the others, 1 where the span has none.
+  // Returns the turns of a leg's bones, from the hip on, that bring the end of the leg to `place`. `place` is
+  // in the space of the hip's parent at rest. If it is out of reach, the leg stretches towards it. bend_share
+  // has a factor for the bend of each joint after the hip. Joints without a factor have 1.
   std::vector<Mat3x4> reach(const LegChain& leg, Vec3 place, std::span<const float> bend_share = {}) const;
 
  private:
@@ -65,8 +66,8 @@ class AnimalRig {
   std::vector<char> posable_;
   std::vector<LegChain> legs_;
   std::vector<std::vector<std::size_t>> spines_, necks_, tails_;
-  float neck_reach_ = 0;  // the pitch that brings the head to the ground, radians
-  float size_m_ = 0;      // of the body: the mean length of legs, or half its height
+  float neck_reach_ = 0;  // the pitch of the neck that brings the head to the ground, radians
+  float size_m_ = 0;      // size of the body: the mean length of its legs, or half its height if it has none
 };
 
 }  // namespace nook::bake

@@ -20,21 +20,21 @@
 namespace nook::bake {
 namespace {
 
-// Turns of a rig's joints by a plan, in rest-space axes round each joint's origin, parents first.
+// Turns the joints of a rig by a plan. Turns are in rest-space axes about each joint's origin, parents first.
 
 class PlannedRig {
  public:
-  // The mesh is kept by reference.
+  // Keeps a reference to the mesh.
   PlannedRig(const SkinnedMesh& mesh, std::vector<Joint> joints);
 
-  // Lets a hand reach for a place on the body or for the other hand. Shadows of hands and on hands depend on
-  // what the hands come near, and arms that swing freely are seldom there. Of some arms the one that comes
-  // nearest is taken.
+  // Lets a hand reach for a place on the body or for the other hand. Shadows by hands and on hands depend on
+  // what is near the hands, and freely swinging arms rarely bring hands near the body. Tries several arm
+  // poses and takes the one that comes nearest.
   void reach(BodyPlan& plan, PoseRandom& random) const;
 
   Pose pose(const BodyPlan& plan, PoseRandom& random) const;
 
-  // True where a clavicle takes a share of the swing of its arm.
+  // Returns true if a clavicle makes a share of its arm's swing.
   bool swings_shoulders() const {
     return std::find(carries_arm_.begin(), carries_arm_.end(), 1) != carries_arm_.end();
   }
@@ -67,7 +67,8 @@ Vec3 place_in(const Pose& pose, const BodyPoint& place) {
   return transform_point(pose[std::size_t(place.bone)], place.point);
 }
 
-// The direction in which motion capture holds a limb's joint, in its part's axes; zero where it has none.
+// Returns the direction of a limb's joint in the motion-capture pose, in the axes of PriorLimbs. Returns zero
+// if there is none.
 Vec3 wished(const BodyPlan& plan, const Joint& joint) {
   const PriorLimbs& limbs = plan.motion.limbs[joint.side == Side::right ? 1 : 0];
   switch (joint.role) {
@@ -93,11 +94,12 @@ std::size_t count_of(std::span<const Joint> joints, JointRole role) {
       std::count_if(joints.begin(), joints.end(), [&](const Joint& joint) { return joint.role == role; }));
 }
 
-// True for clavicles that begin near the shoulder instead of near the breastbone: the arm swings by them as
-// much as by the upper arm's own joint.
+// Returns true for clavicles that start near the shoulder instead of near the breastbone. Such a clavicle
+// swings the arm as much as the upper arm's own joint does.
 std::vector<char> shoulders_of(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,
                                const BodyFrame& frame) {
-  // The share is of the way from the middle to the upper arm. Clavicles of people begin at 0.1 to 0.45.
+  // Share of the distance from the middle of the body to the upper arm. Clavicles of people start at 0.1 to
+  // 0.45.
   constexpr float least_share = 0.65f;
   std::vector<char> carries(joints.size(), 0);
   for (std::size_t arm = 0; arm < joints.size(); ++arm) {
@@ -143,7 +145,7 @@ void PlannedRig::reach(BodyPlan& plan, PoseRandom& random) const {
   if (joints_[std::size_t(target.bone)].side == (side ? Side::right : Side::left) &&
       is_arm(joints_[std::size_t(target.bone)].role))
     return;
-  const PoseRandom noise = random;  // what a pose draws must not differ between the tries
+  const PoseRandom noise = random;  // all tries must continue with the same random numbers
   float nearest = INFINITY;
   LimbPlan best = plan.limb[side];
   for (int t = 0; t < tries; ++t) {
@@ -209,7 +211,7 @@ Vec3 PlannedRig::joint_turn(std::size_t b, const BodyPlan& plan, PoseRandom& ran
       return laden_[b] ? Vec3{} : turn;
     }
     case JointRole::thigh:
-      // Flexion swings the knee forwards: a turn about -left.
+      // Flexion swings the knee forwards, which is a turn about -left.
       return -limb.hip_flexion * left + mirror * limb.hip_abduction * forward + mirror * limb.hip_twist * up;
     case JointRole::calf:
       return limb.knee * left;
@@ -240,7 +242,8 @@ Vec3 PlannedRig::joint_turn(std::size_t b, const BodyPlan& plan, PoseRandom& ran
   return {};
 }
 
-// Limbs go where motion capture points, seen from the trunk, whatever pose they rest in.
+// Points limbs in the directions of the motion-capture pose, relative to the trunk. The result does not
+// depend on the rest pose.
 void PlannedRig::place_limbs_of_motion(const BodyPlan& plan, std::vector<Mat3x4>& local) const {
   if (!plan.arms_of_motion && !plan.legs_of_motion) return;
   for (const std::uint32_t b : tree_.order) {
@@ -250,7 +253,7 @@ void PlannedRig::place_limbs_of_motion(const BodyPlan& plan, std::vector<Mat3x4>
     if (joints_[b].role == JointRole::hand && palm_[joints_[b].side == Side::right].bone == std::int32_t(b))
       rest = normalised(palm_[joints_[b].side == Side::right].point - joint_origin(mesh_.bones[b]));
     if (dot(rest, rest) == 0) continue;
-    // The turn of the joints between the trunk and this one.
+    // The combined turn of the joints between the trunk and this joint.
     Mat3x4 above;
     for (std::int32_t p = tree_.parent[b]; p >= 0; p = tree_.parent[std::size_t(p)]) {
       const JointRole role = joints_[std::size_t(p)].role;
@@ -262,7 +265,7 @@ void PlannedRig::place_limbs_of_motion(const BodyPlan& plan, std::vector<Mat3x4>
   }
 }
 
-// Where the plan points an upper arm, seen from the trunk, in rest space.
+// Returns the direction that the plan gives to an upper arm, relative to the trunk, in rest space.
 Vec3 PlannedRig::arm_direction(const BodyPlan& plan, std::size_t arm) const {
   const Joint& joint = joints_[arm];
   if (plan.arms_of_motion) return in_body(wished(plan, joint));
@@ -271,7 +274,7 @@ Vec3 PlannedRig::arm_direction(const BodyPlan& plan, std::size_t arm) const {
   return normalised(in_body({mirror * direction.x, direction.y, direction.z}));
 }
 
-// A clavicle that carries the arm takes a share of the arm's swing.
+// A clavicle that carries the arm makes a share of the arm's swing.
 void PlannedRig::swing_shoulders(const BodyPlan& plan, std::vector<Mat3x4>& local) const {
   for (std::size_t arm = 0; arm < joints_.size(); ++arm) {
     const std::int32_t shoulder = tree_.parent[arm];
@@ -285,7 +288,7 @@ void PlannedRig::swing_shoulders(const BodyPlan& plan, std::vector<Mat3x4>& loca
   }
 }
 
-// Upper arms and forearms go where the plan points, whatever pose they rest in.
+// Points upper arms and forearms in the directions of the plan. The result does not depend on the rest pose.
 void PlannedRig::place_arms(const BodyPlan& plan, std::vector<Mat3x4>& local) const {
   const auto& [left, up, forward] = frame_;
   for (std::size_t b = 0; b < joints_.size(); ++b) {
@@ -303,13 +306,13 @@ void PlannedRig::place_arms(const BodyPlan& plan, std::vector<Mat3x4>& local) co
     local[b] = rotation_about(origin, limb.arm_twist * own) * rotation_about(origin, shortest_arc(rest, own));
     const std::int32_t elbow = joints_[b].continuation;
     if (elbow < 0) continue;
-    // The forearm bends forwards, a little up and inwards, seen from the posed upper arm, then back into
-    // rest axes.
+    // Relative to the posed upper arm, the forearm bends forwards, a little up and inwards. The direction is
+    // then turned back into rest axes.
     const Vec3 lean = forward + 0.5f * up - 0.5f * mirror * left + limb.elbow_lean;
     const Vec3 inward = normalised(lean - dot(lean, wish) * wish);
     const Vec3 axis_posed = normalised(cross(wish, inward));
     const Vec3 axis = transform_vector(inverse_rigid(carried ? above * local[b] : local[b]), axis_posed);
-    // The rest pose may hold a slight bend already: first straighten, then bend.
+    // The rest pose may already have a slight bend. So first straighten the elbow, then bend it.
     const Vec3 fore = limb_direction(mesh_, joints_, std::size_t(elbow));
     const Vec3 joint = joint_origin(mesh_.bones[std::size_t(elbow)]);
     const Mat3x4 straighten =
@@ -328,13 +331,14 @@ std::vector<Pose> poses_of_person(const SkinnedMesh& mesh, std::span<const float
   std::vector<Pose> poses(count);
   tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
     PoseRandom random(mix_bits(seed ^ mix_bits(i)));
-    // A few tries give the first that keeps out of itself, or the best: limbs may touch, and must not
-    // intersect.
+    // Tries several poses. Takes the first pose without self-intersection, or else the best one. Limbs may
+    // touch but must not intersect.
     constexpr int tries = 12;
     constexpr float allowed = 0.6f, reaching = 0.7f;
-    // Half of the poses follow motion capture; of these, a share has other arms, and a share other legs.
+    // of_motion is the share of poses that follow motion capture. Of these, a share of other_part has arms
+    // from the plan instead, and the same share has legs from the plan.
     constexpr float of_motion = 0.5f, other_part = 0.2f;
-    // Of all poses; hands that hold each other may run into each other.
+    // Share of all poses in which the hands are joined. Such hands may intersect each other.
     constexpr float joined_share = 0.15f;
     float best = 0;
     for (int attempt = 0; attempt < tries; ++attempt) {
@@ -368,7 +372,8 @@ std::vector<Pose> poses_of_person(const SkinnedMesh& mesh, std::span<const float
   return poses;
 }
 
-// The share of edges that a pose may tear. The widest poses of clips tear about twice the clips' mean.
+// Returns the share of edges that a pose may tear. The most extreme poses of clips tear about twice the
+// clips' mean.
 float allowed_tears(double torn_by_clips) {
   return std::max(0.0005f, 2 * float(torn_by_clips));
 }
@@ -391,7 +396,7 @@ std::vector<Pose> poses_of_animal(const SkinnedMesh& mesh, std::span<const float
       Pose pose = rig.pose(random_act(random), random);
       skin_positions(mesh, pose, posed);
       const float torn = float(count_torn(mesh, edges, posed)) / std::max(1.0f, float(edges.size()));
-      // The excess over the limits of depth and tears; 1 is at a limit.
+      // Depth and tears relative to their limits; 1 is at a limit.
       const float beyond = std::max(collision.depth(pose) / allowed, torn / allowed_tears(torn_by_clips));
       if (attempt == 0 || beyond < best) {
         best = beyond;

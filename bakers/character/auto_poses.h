@@ -1,6 +1,6 @@
-// Plausible whole-body poses: ranges and couplings of the human body for people, gaits and chains
-// (animal_poses.h) for all other bodies. Poses in which the body runs through itself or tears its skin are
-// drawn again.
+// Makes plausible whole-body poses. People follow the ranges and couplings of the human body. All other
+// bodies use gaits and chains (animal_poses.h). If a body intersects itself or tears its skin in a pose, the
+// pose is drawn again.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 
 namespace nook::bake {
 
-// Returns count poses; the same seed gives the same poses. Rest space of glTF: +y is up.
-// torn_by_clips: the share of edges that the body's own clips tear (torn_edges.h), whether they are fitted or
-// not. Skin of few vertices stretches far at every elbow, and clips show how far.
+// Returns `count` poses. The same seed gives the same poses. Rest space is glTF's, with +y up. torn_by_clips
+// is the share of edges that all clips of the body tear (torn_edges.h), whether the clips are fitted or not.
+// Skin with few vertices stretches far at every elbow, and the clips show how far.
 std::vector<Pose> auto_poses(const SkinnedMesh& mesh, std::span<const float> vertex_area, std::size_t count,
                              std::uint64_t seed, const RigCorrections& corrections = {},
                              double torn_by_clips = 0);
 
-// Returns whether generations 4 and 5 give a person different poses: where the palms are parted, or clavicles
-// carry the arms.
+// Returns true if generations 4 and 5 (see pose_generation) give this person different poses. That is so if
+// palms have several bones, or if clavicles carry the arms.
 bool differs_from_generation_4(const SkinnedMesh& mesh, const RigCorrections& corrections = {});
 
 }  // namespace nook::bake

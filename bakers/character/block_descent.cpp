@@ -13,8 +13,8 @@ namespace {
 // change the bits.
 constexpr std::size_t block_poses = 32;
 
-// Returns the quadratic form of a block's shadows (count x padded) without its constant. Replaces the shadows
-// by the gradient of the form with respect to them.
+// Returns the quadratic form of a block's shadows (count x padded) without its constant. Overwrites `shadow`
+// with the gradient of the form with respect to the shadows.
 double quadratic_form(const CachedObjective& cache, std::size_t first, std::size_t count, float* shadow) {
   const auto rows = Eigen::Index(count);
   Eigen::Map<CachedObjective::RowMatrix> x(shadow, rows, cache.a.rows());
@@ -72,7 +72,7 @@ double evaluate_cached(const FitState& state, const TrainingSet& set, const Cach
     partial[b].assign(state.parameters.size(), 0.0f);
     std::vector<float> again(padded);
     for (std::size_t t = 0; t < count; ++t) {
-      // The workspace holds one pose. A second forward pass costs less than memory for all of them.
+      // The workspace holds one pose. A second forward pass is cheaper than keeping workspaces for all poses.
       layer.forward(set.poses[first + t], state.parameters, workspace, again.data());
       layer.backward(set.poses[first + t], state.parameters, workspace, &shadow[t * padded], 1, partial[b]);
     }
@@ -119,7 +119,7 @@ double descend_non_linear(FitState& state, const TrainingSet& set, const LbfgsSe
   try {
     solver.minimize(objective, x, reached);
   } catch (const std::runtime_error&) {
-    // A line search that finds no better point ends the block. The best point so far is kept.
+    // If a line search finds no better point, the block ends and keeps the best point so far.
   } catch (const std::logic_error&) {
   }
   state.parameters = best;

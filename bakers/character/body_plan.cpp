@@ -28,7 +28,7 @@ PriorLimbs limbs_at(const float* value) {
           normalised(vector_at(value + 12)), normalised(vector_at(value + 15))};
 }
 
-// A reflection turns the sense of turns about.
+// A reflection reverses the direction of turns.
 Vec3 mirrored_turn(Vec3 turn) {
   return {turn.x, -turn.y, -turn.z};
 }
@@ -69,7 +69,7 @@ Vec3 normal3(PoseRandom& random) {
 }
 
 void plan_arm(LimbPlan& plan, PoseRandom& random) {
-  // Elevation is measured from the downward axis, azimuth from the front.
+  // The elevation is measured from the downward axis, the azimuth from the front.
   const float kind = random.unit();
   float elevation, azimuth;
   if (kind < 0.45f) {
@@ -98,7 +98,7 @@ namespace {
 LimbPlan plan_limbs(PoseRandom& random) {
   LimbPlan plan;
   plan_arm(plan, random);
-  // Legs: standing, striding, crouching or sitting, kicked back.
+  // Legs stand, stride, crouch or sit, or kick back.
   const float stance = random.unit();
   if (stance < 0.35f) {
     plan.hip_flexion = 10 * degree * random.normal();
@@ -119,7 +119,7 @@ LimbPlan plan_limbs(PoseRandom& random) {
   plan.hip_twist = 12 * degree * random.normal();
   plan.ankle = 15 * degree * random.normal();
   plan.toe = random.chance(0.3f) ? random.between(0, 40) * degree : 0;
-  // Fingers: open, relaxed or a fist.
+  // Fingers are open, relaxed or a fist.
   const float grip = random.unit();
   plan.curl = grip < 0.25f   ? 0.08f * random.normal()
               : grip < 0.65f ? 0.35f + 0.15f * random.normal()
@@ -136,7 +136,7 @@ BodyPlan plan_body(PoseRandom& random) {
   BodyPlan plan;
   plan.limb[0] = plan_limbs(random);
   plan.limb[1] = plan_limbs(random);
-  // People often do the same with both sides; then the sides differ a little.
+  // People often move both sides in the same way. Then the sides differ only a little.
   if (random.chance(0.4f)) {
     LimbPlan& l = plan.limb[1];
     l = plan.limb[0];
@@ -149,7 +149,7 @@ BodyPlan plan_body(PoseRandom& random) {
     plan.limb[1].hip_flexion = plan.limb[0].hip_flexion + 10 * degree * random.normal();
     plan.limb[1].knee = std::fabs(plan.limb[0].knee + 10 * degree * random.normal());
   }
-  // Both hands before the body, as for holding, aiming, praying or resting in the lap.
+  // Both hands are in front of the body, as for holding, aiming, praying or resting in the lap.
   if (random.chance(0.15f)) {
     LimbPlan& l = plan.limb[0];
     const float elevation = random.between(5, 115) * degree;
@@ -170,7 +170,7 @@ BodyPlan plan_body(PoseRandom& random) {
   plan.lean = 12 * degree * random.normal();
   plan.twist = 20 * degree * random.normal();
   plan.neck = {28 * degree * random.normal(), 32 * degree * random.normal(), 14 * degree * random.normal()};
-  // A head over a bent trunk is raised to look ahead.
+  // If the trunk is bent, the head is raised to look ahead.
   plan.neck.x -= 0.7f * std::max(0.0f, plan.bend) * random.unit();
   return plan;
 }

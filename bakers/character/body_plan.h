@@ -1,4 +1,5 @@
-// One pose of a body apart from any rig: random turns within the ranges and couplings of the human body.
+// Describes one pose of a human body independent of any rig: random turns within the ranges and couplings of
+// the human body.
 #pragma once
 
 #include <numbers>
@@ -11,13 +12,13 @@ namespace nook::bake {
 
 // Whole-body poses of people, drawn from statistics of motion capture (pose_prior.py), independent of a rig.
 
-// Axes are left, up and forward: of the chest for arms, of the pelvis for legs.
+// Axes are left, up and forward. Arms use the axes of the chest, legs use the axes of the pelvis.
 struct PriorLimbs {
   Vec3 upper_arm, forearm, hand, thigh, calf, foot;  // directions, unit length
 };
 struct PriorPose {
-  Vec3 chest;           // turn of the chest against the pelvis: axis times angle, radians
-  Vec3 head;            // the same of the head against the chest
+  Vec3 chest;           // turn of the chest relative to the pelvis: axis times angle, radians
+  Vec3 head;            // turn of the head relative to the chest, in the same form
   PriorLimbs limbs[2];  // left, right
 };
 
@@ -27,11 +28,12 @@ constexpr float degree = std::numbers::pi_v<float> / 180;
 
 using PoseRandom = RandomFrom<std::mt19937_64>;
 
-Vec3 normal3(PoseRandom& random);  // each coordinate N(0, 1)
+Vec3 normal3(PoseRandom& random);  // each coordinate is drawn from N(0, 1)
 
 // The motion of the limbs of one side in one pose; angles in radians.
 struct LimbPlan {
-  Vec3 arm_direction;  // of the upper arm, body frame axes (left, up, forward), mirrored for the right side
+  Vec3 arm_direction;  // of the upper arm, in the axes of the body frame (left, up, forward); mirrored for
+                       // the right side
   float arm_twist, elbow, hip_flexion, hip_abduction, hip_twist, knee, ankle, toe, curl, thumb;
   Vec3 elbow_lean;  // random part of the direction to which the elbow bends
   Vec3 clavicle, hand;
@@ -40,17 +42,18 @@ struct LimbPlan {
 struct BodyPlan {
   LimbPlan limb[2];          // left, right
   float bend, lean, twist;   // of the whole spine, radians
-  float shoulder_share = 1;  // of the swing of an arm, of a clavicle that carries it (auto_poses.cpp)
+  float shoulder_share = 1;  // share of an arm's swing that the clavicle makes, if the clavicle carries the
+                             // arm (auto_poses.cpp)
   Vec3 neck;
-  // A pose of motion capture, and the parts of the body that take it in place of the plan above.
+  // A pose from motion capture, and the parts of the body that use it instead of the plan above.
   PriorPose motion;
   bool trunk_of_motion = false, arms_of_motion = false, legs_of_motion = false;
 };
 
-// Draws what an arm does anew: hanging, reaching forwards, raised to the side or overhead.
+// Draws a new action for an arm: hanging, reaching forwards, raised to the side or overhead.
 void plan_arm(LimbPlan& plan, PoseRandom& random);
 
-// Nothing of it follows motion capture.
+// In the returned plan, no part uses motion capture.
 BodyPlan plan_body(PoseRandom& random);
 
 }  // namespace nook::bake

@@ -21,7 +21,7 @@ float scale_to_person(const SkinnedMesh& mesh) {
   }
   const float extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   if (!(extent > 0)) return 1;
-  constexpr float most = 40;  // far beyond any unit of length; keeps every number a float
+  constexpr float most = 40;  // far beyond any unit of length; prevents overflow of floats
   return std::exp2(std::clamp(std::round(std::log2(person_m / extent)), -most, most));
 }
 

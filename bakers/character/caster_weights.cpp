@@ -30,19 +30,19 @@ std::vector<Point> points_round(Vec3 centre, float radius, std::size_t count, st
   std::vector<Point> points(count);
   Random random(seed);
   for (Point& p : points) {
-    // The distances are uniform in the logarithm, so that every scale counts alike.
+    // The logarithm of the distance is uniform, so that every scale has the same weight.
     const float distance = radius * 0.3f * std::pow(8 / 0.3f, random.unit());
     const float u = random.unit(), v = random.unit();
     p.position = centre + distance * sphere_direction(u, v);
     const float s = random.unit(), t = random.unit();
     p.normal = sphere_direction(s, t);
-    // Half of the normals look at the body, where occlusion is.
+    // Half of the normals face the body, because only those points have much occlusion.
     if (dot(p.normal, centre - p.position) < 0) p.normal = -p.normal;
   }
   return points;
 }
 
-// Returns points in front of random vertices, 0.03 to 0.5 body radii away, turned towards the surface.
+// Returns points in front of random vertices, 0.03 to 0.5 body radii away. Their normals face the surface.
 std::vector<Point> points_near(std::span<const Vec3> position, std::span<const Vec3> normal, float radius,
                                std::size_t count, std::uint64_t seed) {
   std::vector<Point> points(count);
@@ -66,7 +66,7 @@ std::vector<Point> fit_points(std::span<const Vec3> position, std::span<const Ve
   return points;
 }
 
-// Returns the sum over spheres whose solid_depth is `depth`.
+// Inverts solid_depth: returns the sum over spheres for which solid_depth is `depth`.
 double sum_of_solid_depth(double depth) {
   constexpr double c = NOOK_SOLID_DEPTH;
   return (std::sqrt(1 + 4 * c * depth) - 1) / (2 * c);
@@ -110,12 +110,12 @@ void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::spa
             (transform_point(pose[sphere.bone], sphere.centre) - points[i].position) * inverse_radius;
         row[Eigen::Index(h)] = double(form_factor_fast(dot(d, points[i].normal), dot(d, d)));
       }
-      // Points inside the body are fully occluded and say nothing about the body from outside.
+      // Points inside the body are fully occluded. They carry no information about the occlusion outside.
       const double occlusion = 1 - double(ao[i]);
       if (occlusion > 0.97) continue;
       const double depth = sum_of_solid_depth(-std::log1p(-occlusion));
-      // The weight depends on the expected depth and not on the noisy traced one, or lucky rays would count
-      // more.
+      // The weight depends on the expected depth. If it depended on the noisy traced depth, the noise would
+      // bias the fit.
       const double expected = std::max(row.sum() * 0.5, 1e-4);
       const double weight = 1 / ((expected + 0.003) * (expected + 0.003));
       gram += weight * row * row.transpose();
@@ -124,8 +124,8 @@ void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::spa
     }
   }
   if (equations == 0) return;
-  // The ridge pulls the weights a little towards one common factor, so that spheres that always act together
-  // share evenly.
+  // The ridge pulls the weights slightly towards one common value, so that spheres with nearly the same
+  // effect get equal weights.
   const double common = std::max(0.0, right.sum() / std::max(gram.sum(), 1e-30));
   const double pull = 1e-3 * gram.trace() / double(spheres);
   gram.diagonal().array() += pull;

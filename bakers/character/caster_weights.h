@@ -1,4 +1,4 @@
-// Fits the weights of proxy spheres for darkening other things, against ray tracing.
+// Fits the weights with which proxy spheres darken other objects, against ray tracing.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@ namespace nook::bake {
 
 struct CasterFitSettings {
   std::size_t poses = 48;  // at most this many poses, evenly chosen
-  // Random points and normals. Most are 0.3 to 8 body radii away from the body's middle. A tenth is near its
-  // surface, for neighbours that touch it.
+  // Random points and normals per pose. Most are 0.3 to 8 body radii from the body's centre. A tenth is near
+  // the body's surface, for neighbours that touch the body.
   std::size_t points_per_pose = 600;
   std::uint32_t rays = 256;  // per point
   std::uint64_t seed = 1;
 };
 
-// Sets caster_weight of every sphere, >= 0: the non-negative least-squares solution of
+// Sets caster_weight (>= 0) of every sphere to the non-negative least-squares solution of
 //   solid_depth(sum over spheres of caster_weight * form factor) = -log(1 - traced occlusion)
-// at points outside the body, relative errors weighed alike near and far. Overlapping spheres share what they
-// cover, so that one character does not darken twice; what several casters add is a sum of the same optical
-// depth.
+// at points outside the body. Relative errors have the same weight near and far. Overlapping spheres share
+// the occlusion of the space that they cover, so that one character does not darken twice. The optical depths
+// of several casters are added.
 void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::span<const Pose> poses,
                         const CasterFitSettings& settings,
                         const std::function<bool(std::size_t, std::size_t)>& progress = {});

@@ -51,14 +51,14 @@ void check(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSetti
   }
 }
 
-// Returns what reports the progress of one stage.
+// Returns the progress callback of one stage.
 Progress stage_progress(const BakeProgress& progress, BakeStage stage) {
   return [&progress, stage](std::size_t done, std::size_t total) {
     return !progress || progress(stage, done, total);
   };
 }
 
-// Every 16th pose is held out and goes to the end.
+// Holds out every 16th pose and moves it to the end.
 std::size_t hold_out(std::vector<Pose>& poses) {
   constexpr std::size_t every = 16;
   std::vector<Pose> fitted, held;
@@ -73,8 +73,8 @@ std::size_t hold_out(std::vector<Pose>& poses) {
 // With this many rays, the noise is far below the error of any fit.
 constexpr std::uint32_t precise_rays = 512;
 
-// A spread of the fitted poses, traced anew: at most 24, and at most a quarter of the rays that the fit
-// itself takes.
+// Takes evenly spread fitted poses and traces them again with many rays. Takes at most 24 poses, and at most
+// a quarter of the rays that the fit itself uses.
 TrainingSet precise_share(const SkinnedMesh& mesh, const TrainingSet& set, const BakeSettings& settings,
                           const Progress& progress) {
   const std::size_t affordable = set.fitted() * settings.rays / (4 * precise_rays);
@@ -85,8 +85,8 @@ TrainingSet precise_share(const SkinnedMesh& mesh, const TrainingSet& set, const
   return share;
 }
 
-// Half of the weight by vertex, as the reported mse has it, half by area, as the eye does. The paper sums
-// over vertices alike (slide 25).
+// Half of the weight is equal for all vertices, like in the reported mse. The other half is proportional to
+// area, like in what the eye sees. The paper weights all vertices equally (slide 25).
 std::vector<float> vertex_weights(std::span<const float> area, FitMethod fit) {
   if (fit == FitMethod::paper) return std::vector<float>(area.size(), 1.0f);
   double mean = 0;
@@ -97,8 +97,8 @@ std::vector<float> vertex_weights(std::span<const float> area, FitMethod fit) {
   return weight;
 }
 
-// Non-negative least squares over all candidates of a vertex: near key points have no weights for added
-// casters, and an entry stays even if it gains little.
+// Settings for non-negative least squares over all candidates of a vertex. There are no anchors for other
+// casters, and an entry is kept even if it gains little.
 LinearFitSettings plain_linear_fit(std::size_t entries) {
   LinearFitSettings plain;
   plain.entries = entries;
@@ -108,7 +108,8 @@ LinearFitSettings plain_linear_fit(std::size_t entries) {
   return plain;
 }
 
-// One fit in progress: the state, what it is measured by, and the best state so far by held-out error.
+// One fit in progress: its state, the data that measures it, and the state with the lowest held-out error so
+// far.
 class Fit {
  public:
   Fit(const TrainingSet& set, const std::vector<float>& area, const BakeSettings& settings,
@@ -132,8 +133,8 @@ class Fit {
     return measure_fit(state, set_, first, set_.poses.size(), area_).mse;
   }
 
-  // Adds a point to the curve and keeps the state if it is the best yet. Returns whether it improved by a
-  // share.
+  // Adds a point to the curve, and keeps the state if it is the best so far. Returns true if the error fell
+  // by at least the share least_gain.
   bool measure(double least_gain = 0) {
     const std::size_t fitted = set_.fitted();
     const double train = measure_fit(state_, set_, 0, fitted, area_).mse;
@@ -163,14 +164,14 @@ class Fit {
   throw Failure(NOOK_ERROR_CANCELLED, "cancelled while fitting");
 }
 
-// Mini-batches in rounds; between rounds each vertex chooses its key points anew.
+// Runs mini-batches in rounds. Between rounds, the key points of each vertex are chosen again.
 void fit_by_mini_batches(Fit& fit, const TrainingSet& set, const BakeSettings& settings, BakeReport& report,
                          const BakeProgress& progress) {
   constexpr std::size_t rounds = 3;
   std::size_t done = 0;
   for (std::size_t r = 0; r < rounds; ++r) {
     MiniBatchSettings batch;
-    // The last round is the longest: the key points are chosen, and this round only refines them.
+    // The last round is the longest. It only refines the model, because the key points are chosen before it.
     batch.steps = r + 1 < rounds ? settings.steps / 4 : settings.steps - done;
     batch.seed = settings.seed + r;
     batch.final_rate = r + 1 < rounds ? 0.3f : 0.01f;
@@ -210,7 +211,7 @@ void fit_both_layers(Fit& fit, const TrainingSet& set, const BakeSettings& setti
 }
 
 // Returns the exponent whose short fit has the lowest error on held-out poses. Both layers adapt to the
-// exponent, so that the error is flat near its minimum and a coarse grid suffices.
+// exponent. So the error is flat near its minimum, and a coarse grid is sufficient.
 float learned_gamma(const TrainingSet& set, const std::vector<float>& area, const BakeSettings& settings,
                     const Candidates& candidates, const FitState& initial, const BakeProgress& progress) {
   BakeSettings brief = settings;
@@ -240,7 +241,7 @@ struct TracedPoses {
   AoTargets rest;       // of the rest pose
 };
 
-// Measures the noise of the targets and the seconds into the report.
+// Traces the targets. Writes their noise and the duration to the report.
 TracedPoses trace_poses(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& settings,
                         const BakeProgress& progress, BakeReport& report) {
   const platform::Stopwatch watch;
@@ -278,14 +279,15 @@ Surface rest_surface(const SkinnedMesh& mesh) {
   return surface;
 }
 
-// Where a fit begins.
+// The initial state of a fit.
 struct Start {
   FitState state;
   Candidates candidates;
 };
 
-// Makes clusters, key points and spheres. weight has a value for each vertex and is for spheres, which also
-// cast and so have to cover the body. key_point_weight is the same for key points.
+// Makes clusters, key points and spheres. `weight` has one value per vertex and is used for spheres. Spheres
+// also darken other objects, so they must cover the whole body. key_point_weight has one value per vertex and
+// is used for key points.
 Start initialise(const SkinnedMesh& mesh, const Surface& surface, std::span<const float> weight,
                  std::span<const float> key_point_weight, const BakeSettings& settings,
                  const std::function<void(std::size_t)>& step) {
@@ -301,8 +303,8 @@ Start initialise(const SkinnedMesh& mesh, const Surface& surface, std::span<cons
   for (KeyPoint& point : key_points) point.saturation = settings.used_saturation();
   const std::vector<InitialSphere> spheres = initial_spheres(mesh, weight, settings.spheres);
   Start start;
-  // A vertex of the paper has some local key points (slide 23): those nearest to it. Among more of them the
-  // greedy choice finds better ones.
+  // In the paper, a vertex uses the few key points that are nearest to it (slide 23). With more candidates,
+  // the greedy choice finds better ones.
   const std::size_t nearest = settings.fit == FitMethod::paper ? settings.entries : 40;
   start.candidates.count = std::min(nearest, key_points.size());
   NearKeyPoints near = nearest_key_points(mesh, feature_normal, key_points, start.candidates.count);

@@ -47,7 +47,7 @@ Eigen::MatrixXf orthonormal(const Eigen::MatrixXf& columns) {
 }  // namespace
 
 LowRank factorise(const Eigen::MatrixXf& values, std::size_t count, std::uint64_t seed) {
-  // Extra vectors beyond the modes that are kept, and the number of rounds, make the last modes converge.
+  // Extra vectors beyond the kept modes, and enough rounds, let the last modes converge.
   constexpr Eigen::Index spare = 16;
   constexpr int rounds = 3;
   const Eigen::Index smaller = std::min(values.rows(), values.cols());
@@ -75,7 +75,7 @@ LowRank factorise(const Eigen::MatrixXf& values, std::size_t count, std::uint64_
 Eigen::MatrixXf fitted_weights(const Eigen::MatrixXf& values, const Eigen::MatrixXf& modes) {
   const Eigen::MatrixXd wide = modes.cast<double>();
   Eigen::MatrixXd gram = wide.transpose() * wide;
-  // Where the matrix has a lower rank, modes are zero and keep zero weights.
+  // If the matrix has a lower rank, the remaining modes and their weights are zero.
   gram.diagonal().array() += 1e-9 * gram.trace() / double(gram.rows()) + 1e-30;
   const Eigen::MatrixXd right = transposed_product(values, modes).cast<double>();
   return gram.ldlt().solve(right.transpose()).transpose().cast<float>();
@@ -100,7 +100,7 @@ float time_of(const Clip& clip, std::uint32_t frames, double frame) {
   return frames > 1 ? float(double(clip.duration_s) * frame / double(frames - 1)) : 0.0f;
 }
 
-// Rounds a factorisation to the numbers of a table. The weights are fitted to the rounded modes.
+// Rounds a factorisation to the number type of a table. The weights are fitted again to the rounded modes.
 template <class Number>
 FrameTable<Number> rounded(const Eigen::MatrixXf& values, const Eigen::MatrixXf& modes) {
   FrameTable<Number> table;
@@ -130,7 +130,7 @@ FrameTable<Number> rounded(const Eigen::MatrixXf& values, const Eigen::MatrixXf&
   return table;
 }
 
-// The values of a table, rows x frames.
+// Returns the values of a table, rows x frames.
 template <class Number>
 Eigen::MatrixXf value_of(const FrameTable<Number>& table, std::size_t frames) {
   Eigen::MatrixXf modes(Eigen::Index(table.rows), Eigen::Index(table.modes)),
@@ -145,11 +145,11 @@ Eigen::MatrixXf value_of(const FrameTable<Number>& table, std::size_t frames) {
   return outer_product(modes, weights);
 }
 
-// Returns for each bone the mean of what it carries, and a radius. At this distance from the mean, an error
-// of the rotation moves a point as far as the carried points on average. The radius is the rms distance over
-// sqrt(3).
+// For each bone, returns the mean position of the points that it carries, and a radius. An error of the
+// rotation moves a point at this distance from the mean as far as it moves the carried points on average. The
+// radius is the rms distance divided by sqrt(3).
 std::vector<BoneSpan> bone_spans(const SkinnedMesh& mesh) {
-  // Metres; for bones without vertices, and for bones whose vertices are all at one place.
+  // Metres. Used for bones without vertices, and if all vertices of a bone are at one position.
   constexpr float least_radius = 0.02f;
   const std::size_t bones = mesh.bones.size();
   std::vector<double> weight(bones, 0), square(bones, 0);
@@ -204,8 +204,8 @@ Eigen::MatrixXf ao_values(const AoTargets& targets) {
   return values;
 }
 
-// Replaces a target that is black or fully open by the product where the product goes beyond it, because the
-// result is clamped.
+// Where a target is black or fully open and the product exceeds that limit, replaces the target by the
+// product. The runtime clamps the result, so the excess is not an error.
 void relax(const Eigen::MatrixXf& values, const Eigen::MatrixXf& product, Eigen::MatrixXf& relaxed) {
   tbb::parallel_for(Eigen::Index(0), values.cols(), [&](Eigen::Index f) {
     for (Eigen::Index i = 0; i < values.rows(); ++i) {
@@ -223,15 +223,15 @@ double clamped_mse(const Eigen::MatrixXf& values, const Eigen::MatrixXf& product
   return sum / double(values.size());
 }
 
-// Returns the mse of the product against the truth behind noisy values. A fit of `count` modes takes over as
-// much of the noise as it has free numbers.
+// Returns the mse of the product against the truth behind noisy values. A fit of `count` modes also fits a
+// part of the noise, in proportion to its number of free parameters.
 double true_mse(double residual_mse, double noise_mse, std::size_t count, double rows, double columns) {
   const double k = double(count), taken = std::min(k * (rows + columns - k) / (rows * columns), 1.0);
   return std::max(residual_mse - noise_mse * (1 - 2 * taken), 0.0);
 }
 
 // Returns the smallest number of modes, a multiple of `step`, whose error is within the bound. If there is
-// none, returns the number with the smallest error: further modes only hold noise.
+// none, returns the number with the smallest error, because more modes would only fit noise.
 std::size_t modes_for(const LowRank& low, double size, double max_mse, double noise_mse, std::size_t step,
                       double rows, double columns, std::vector<double>* curve) {
   double left = low.total;
@@ -251,8 +251,7 @@ std::size_t modes_for(const LowRank& low, double size, double max_mse, double no
   return found ? found : best;
 }
 
-// Returns the modes that a byte budget pays for: a mode has a scale, a weight for each frame and a number for
-// each row.
+// Returns how many modes fit into a byte budget. A mode has a scale, a weight per frame and a number per row.
 std::size_t affordable(double bytes, double frames, double rows, double number_bytes) {
   const double each = 4 + 2 * frames + number_bytes * rows;
   return std::size_t(std::max(bytes / each, 0.0));
@@ -323,8 +322,8 @@ ClipSet make_clip_set(const SkinnedMesh& mesh, const CharacterModel& model, cons
   const std::size_t modes =
       std::min(most, modes_for(low, vertices * count, settings.max_error * settings.max_error, noise_mse, 4,
                                vertices, count, &report.error_of_modes));
-  // Each round lets black vertices be darker than black, which leaves more of the modes to visible
-  // differences.
+  // In each round, black vertices may become darker than black, so that the modes represent visible
+  // differences instead.
   constexpr int relaxations = 3;
   Eigen::MatrixXf relaxed = values;
   for (int round = 0; round < relaxations; ++round) {

@@ -77,8 +77,8 @@ float body_size(std::span<const Vec3> positions) {
   return std::max(length(high - low), 1e-6f);
 }
 
-// Returns pairs of vertices nearer than reach with near weights: parts of one body that share no edge
-// (appendix B).
+// Returns pairs of vertices that are nearer than `reach` and have similar weights. They connect parts of a
+// body that share no edge (appendix B).
 std::vector<std::pair<std::uint32_t, std::uint32_t>> near_pairs(const SkinnedMesh& mesh,
                                                                 const std::vector<Cluster>& clusters,
                                                                 float reach) {
@@ -110,10 +110,11 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> near_pairs(const SkinnedMes
   return pairs;
 }
 
-// A graph of clusters. Neighbours collapse into one, the cheapest pair first.
+// A graph of clusters. Neighbouring clusters are merged, the cheapest pair first.
 class ClusterGraph {
  public:
-  // Each vertex is a cluster of its own, and vertices that share an edge or are near are neighbours.
+  // At the start, each vertex is a cluster of its own. Vertices that share an edge or are near to each other
+  // are neighbours.
   ClusterGraph(const SkinnedMesh& mesh, std::span<const float> vertex_weight, std::span<const Vec3> normal,
                const ClusterSettings& settings)
       : alive_(mesh.vertex_count()) {
@@ -141,7 +142,7 @@ class ClusterGraph {
         if (a < b) offer(a, b);
   }
 
-  // Stops with more clusters than count only if no neighbours are left.
+  // Ends with more than `count` clusters only if no neighbours are left.
   void collapse_to(std::size_t count) {
     while (alive_ > count && !queue_.empty()) {
       const Collapse top = queue_.top();
@@ -153,7 +154,7 @@ class ClusterGraph {
     }
   }
 
-  // Returns the number of each vertex's cluster; clusters are numbered by their first vertices.
+  // Returns the index of each vertex's cluster. Clusters are numbered in the order of their first vertices.
   std::vector<std::uint32_t> labels() const {
     std::vector<std::uint32_t> label(parent_.size()), number(parent_.size(), UINT32_MAX);
     std::uint32_t count = 0;
@@ -180,7 +181,7 @@ class ClusterGraph {
     clusters_[b].neighbours.insert(a);
   }
 
-  // The growth of the summed squared distance to the means when two clusters become one (Ward 1963).
+  // Returns by how much merging two clusters raises the sum of squared distances to the means (Ward 1963).
   float cost(const Cluster& a, const Cluster& b) const {
     const Vec3 dp = a.position - b.position, dn = a.normal - b.normal;
     const float d2 = position_scale2_ * dot(dp, dp) + normal_scale2_ * dot(dn, dn) +

@@ -10,12 +10,12 @@
 namespace nook::bake {
 namespace {
 
-// The smallest weight that a vertex keeps, so that added casters reach vertices that no self-shadow does: its
-// own darkening by it stays below the step of an 8-bit image.
+// The smallest weight that a vertex keeps. It lets other casters darken vertices that have no self-shadow.
+// The self-shadow with this weight is below one step of an 8-bit image.
 constexpr float least_alpha = 1e-3f;
 
-// Entries below this, unless they are anchors, are dropped: each costs two bytes and moves AO by less than
-// 1e-3.
+// Entries below this are dropped, unless they are anchors. Each entry takes two bytes, and dropping it
+// changes AO by less than 1e-3.
 constexpr float dropped_alpha = 4e-3f;
 
 KeyPoint key_point_of(const FitState& state, std::size_t k) {
@@ -34,7 +34,7 @@ KeyPoint key_point_of(const FitState& state, std::size_t k) {
   return p;
 }
 
-// Returns the vertex's entry whose surface frame is nearest in place and direction.
+// Among the vertex's entries, returns the one with the nearest surface frame in position and direction.
 std::size_t nearest_key_point(const CharacterModel& model, std::size_t vertex, Vec3 position, Vec3 normal) {
   constexpr float metres_of_a_normal = 0.1f;
   std::size_t nearest = 0;
@@ -52,15 +52,16 @@ std::size_t nearest_key_point(const CharacterModel& model, std::size_t vertex, V
   return nearest;
 }
 
-// The place where added casters act on a key point: the mean of the nearest vertices among the vertices that
-// use it, by k-means. A mean of all of them would be a place inside the body and a blurred direction.
+// Sets the position and normal at which other casters darken a key point. It is the mean of the nearest
+// vertices among those that use the key point, found by k-means. The mean of all these vertices would be a
+// position inside the body with a blurred normal.
 void set_surface_frames(CharacterModel& model, const SkinnedMesh& mesh, std::span<const float> vertex_area,
                         std::span<const Vec3> vertex_normal) {
   for (KeyPoint& p : model.key_points) {
     p.surface_position = p.position;
     p.surface_normal = p.normal;
   }
-  constexpr int rounds = 6;  // the error against ray tracing stands still after 4
+  constexpr int rounds = 6;  // the error against ray tracing does not change after 4
   for (int r = 0; r < rounds; ++r) {
     std::vector<float> total(model.key_points.size(), 0.0f);
     std::vector<Vec3> position(total.size()), normal(total.size());
@@ -120,8 +121,8 @@ CharacterModel export_model(const FitState& state, const SkinnedMesh& mesh,
   model.bounding_centre = 0.5f * (low + high);
   for (Vec3 p : mesh.position)
     model.bounding_radius = std::max(model.bounding_radius, length(p - model.bounding_centre));
-  // The bone that follows the body as a whole: the strongest one at the vertex nearest to the middle of the
-  // bounding box.
+  // Finds the bone that follows the body as a whole: the bone with the largest weight at the vertex nearest
+  // to the centre of the bounding box.
   float nearest = INFINITY;
   for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
     const float d = length(mesh.position[i] - model.bounding_centre);
@@ -202,17 +203,18 @@ using Cell = std::array<std::int64_t, 3>;
 
 struct CellVertices {
   std::uint32_t first = 0;
-  // Not all vertices of the cell have the place, the weights of the first.
+  // True if some vertex of the cell has another position, or other weights, than the first vertex.
   bool has_other_places = false, has_other_weights = false;
 };
 
-// Tells whether the vertices round a vertex differ from it.
+// Whether the vertices around a vertex differ from it.
 struct Neighbourhood {
   Cell cell{};
   bool has_other_places = false, has_other_weights = false;
 };
 
-// Looks at the cells of a grid round each vertex; a cell is `share` of the diagonal of the mesh's box wide.
+// Looks at the grid cells around each vertex. The width of a cell is `share` times the diagonal of the mesh's
+// bounding box.
 std::vector<Neighbourhood> neighbourhoods(const SkinnedMesh& mesh, double share) {
   Vec3 low = mesh.position[0], high = low;
   for (const Vec3 p : mesh.position) {
@@ -245,8 +247,8 @@ std::vector<Neighbourhood> neighbourhoods(const SkinnedMesh& mesh, double share)
   return out;
 }
 
-// Vertices that lie within the tolerance of nook_model_match_vertices and have different weights. The match
-// may take one for the other, and both move apart in a pose.
+// Marks vertices that are within the tolerance of nook_model_match_vertices of each other but have different
+// weights. The match may confuse them, and they move apart in a pose.
 std::vector<bool> ambiguous_vertices(const SkinnedMesh& mesh) {
   std::vector<bool> out;
   for (const Neighbourhood& n : neighbourhoods(mesh, 1e-4)) out.push_back(n.has_other_weights);
@@ -262,7 +264,7 @@ BoneWeights weights_of(const SkinWeights& weights) {
   return out;
 }
 
-// The first vertex of the file of each welded vertex.
+// For each welded vertex, returns its first vertex in the file.
 std::vector<std::uint32_t> first_file_vertices(const SkinnedMesh& mesh) {
   std::vector<std::uint32_t> first(mesh.vertex_count());
   for (std::uint32_t v = static_cast<std::uint32_t>(mesh.file_to_welded.size()); v-- > 0;)
@@ -270,8 +272,9 @@ std::vector<std::uint32_t> first_file_vertices(const SkinnedMesh& mesh) {
   return first;
 }
 
-// The vertices that others lie next to, in the order of their cells. Two cells are above two steps of a rest
-// position, so that places separate farther vertices.
+// Adds the vertices that have other vertices close to them, in the order of their cells. Two cells are wider
+// than two steps of a stored rest position, so positions alone can distinguish vertices that are farther
+// apart.
 void add_close_vertices(const ImportedCharacter& character, BindData& out) {
   const SkinnedMesh& mesh = character.mesh;
   const std::vector<Neighbourhood> around = neighbourhoods(mesh, 2.0 / 65535);
@@ -292,7 +295,8 @@ void add_close_vertices(const ImportedCharacter& character, BindData& out) {
   }
 }
 
-// The vertices that each bone moves more than any other bone does, without the ambiguous ones unless all are.
+// For each bone, returns the vertices that it moves more than any other bone does. Leaves out ambiguous
+// vertices, unless all are ambiguous.
 std::vector<std::vector<std::uint32_t>> vertices_of_bones(const SkinnedMesh& mesh) {
   std::vector<bool> left_out = ambiguous_vertices(mesh);
   if (std::ranges::find(left_out, false) == left_out.end()) left_out.assign(left_out.size(), false);
@@ -302,7 +306,7 @@ std::vector<std::vector<std::uint32_t>> vertices_of_bones(const SkinnedMesh& mes
   return out;
 }
 
-// Returns the vertex that determines its bone best: it has a large weight and is far from the known point.
+// Returns the vertex that determines its bone best. It has a large weight and is far from `known`.
 std::uint32_t clearest(const SkinnedMesh& mesh, const std::vector<std::uint32_t>& vertices, Vec3 known) {
   const auto clarity = [&](std::uint32_t v) {
     const float weight = mesh.weights[v].weight[0];
@@ -311,8 +315,8 @@ std::uint32_t clearest(const SkinnedMesh& mesh, const std::vector<std::uint32_t>
   return *std::ranges::max_element(vertices, {}, clarity);
 }
 
-// Takes the clearest vertex of each bone first, in order of the bones' vertex counts, and then a second one
-// of each.
+// First takes the best vertex of each bone, in the order of the bones' vertex counts. Then takes a second
+// vertex of each bone.
 std::vector<std::uint32_t> spread_vertices(const SkinnedMesh& mesh) {
   const auto vertices = vertices_of_bones(mesh);
   std::vector<std::uint32_t> bones(mesh.bones.size());

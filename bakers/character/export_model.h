@@ -1,4 +1,4 @@
-// From a finished fit to the plain data that ships.
+// Converts a finished fit to the plain data of a CharacterModel.
 #pragma once
 
 #include <span>
@@ -12,22 +12,24 @@
 namespace nook::bake {
 
 // vertex_area and vertex_normal are from the rest pose. static_ao is the rest pose's ray-traced AO, one value
-// per welded vertex. caster_weight of every sphere is left at 1, blend weights are left to fit_blend_weights.
+// per welded vertex. Sets caster_weight of every sphere to 1. Does not set blend weights; call
+// fit_blend_weights for them.
 CharacterModel export_model(const FitState& state, const SkinnedMesh& mesh,
                             std::span<const float> vertex_area, std::span<const Vec3> vertex_normal,
                             std::span<const float> static_ao);
 
-// The way back, so that a model can be fitted further or measured by the bakers' own code.
+// Converts a model back to a FitState, so that the bakers' code can fit it further or measure it.
 FitState state_of_model(const CharacterModel& model);
 
-// The part of its source's rest pose that a model keeps, so that hosts can hand over their own matrices and
+// The part of the source's rest pose that a model stores. With it, hosts can pass their own matrices and
 // meshes.
 
-// Bind matrices, skins, rest vertices that are spread over the bones, and vertices that are close to others.
-// Bones of a character from arrays have the inverses of their rest frames, and no skins.
+// Returns bind matrices, skins, rest vertices that are spread over the bones, and vertices that are close to
+// others. For a character from arrays, the bind matrices are the inverses of the bones' rest frames, and
+// there are no skins.
 BindData bind_data_of(const ImportedCharacter& character);
 
-// Positions and normals of the welded vertices in the rest pose.
+// Returns the positions and normals of the welded vertices in the rest pose.
 RestSurface rest_surface_of(const SkinnedMesh& mesh);
 
 }  // namespace nook::bake

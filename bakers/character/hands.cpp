@@ -18,12 +18,12 @@ struct Rig {
 
 struct Hand {
   Vec3 along;                         // from the wrist to the knuckles, of unit length
-  Vec3 thumb;                         // sum of the ways from the wrist to the thumb's joints
+  Vec3 thumb;                         // sum of the vectors from the wrist to the thumb's joints
   std::vector<std::size_t> knuckles;  // bones
   std::vector<std::size_t> members;   // bones of fingers and thumb
 };
 
-// The bones of the palm that a bone is part of: the bone itself and its siblings of the same role.
+// Returns the bones of the palm that `wrist` belongs to: the bone itself and its siblings with the same role.
 std::vector<std::size_t> palm_bones(std::span<const Joint> joints, const BodyTree& tree, std::size_t wrist) {
   std::vector<std::size_t> bones{wrist};
   for (std::size_t b = 0; b < joints.size(); ++b)
@@ -38,7 +38,7 @@ Hand hand_of(const Rig& rig, std::size_t wrist) {
   const std::vector<std::size_t> palm = palm_bones(rig.joints, rig.tree, wrist);
   Vec3 origin;
   for (const std::size_t b : palm) origin += (1 / float(palm.size())) * rig.origin(b);
-  // The thumb of a palm of several bones is a sibling of them.
+  // If a palm has several bones, the thumb is their sibling.
   const std::size_t root = palm.size() > 1 ? std::size_t(rig.tree.parent[wrist]) : wrist;
   for (std::size_t b = 0; b < rig.joints.size(); ++b) {
     if (!is_below(rig.tree, b, root)) continue;
@@ -57,8 +57,8 @@ Hand hand_of(const Rig& rig, std::size_t wrist) {
   return hand;
 }
 
-// Across the knuckles towards the index finger, which is the knuckle farthest from the others on the thumb's
-// side.
+// Returns the direction across the knuckles towards the index finger. The index finger's knuckle is the
+// farthest one on the thumb's side.
 Vec3 across_knuckles(const Rig& rig, const Hand& hand, Vec3 up) {
   Vec3 across;
   for (const std::size_t a : hand.knuckles)
@@ -71,8 +71,9 @@ Vec3 across_knuckles(const Rig& rig, const Hand& hand, Vec3 up) {
   return normalised(across - dot(across, hand.along) * hand.along);
 }
 
-// Returns the axis across the knuckles, turned so that fingers curl towards the palm. Rest curl, where there
-// is any, is the surest sign; else the palm is where the thumb hangs.
+// Returns the axis across the knuckles, turned so that fingers curl towards the palm. If the fingers are
+// curled at rest, their curl shows the palm's side most reliably. Otherwise, the palm is on the side of the
+// thumb.
 Vec3 finger_axis(const Rig& rig, const Hand& hand, Vec3 across) {
   constexpr float least_curl = 0.05f;  // sine of the turn from joint to joint, mean over fingers
   Vec3 bend;
@@ -89,8 +90,8 @@ Vec3 finger_axis(const Rig& rig, const Hand& hand, Vec3 across) {
   return sign < 0 ? -across : across;
 }
 
-// Returns the axis of the thumb, which folds over the palm. The axis is at right angles to the thumb,
-// half-way between the palm's normal and the axis across the knuckles.
+// Returns the axis about which the thumb folds over the palm. The axis is perpendicular to the thumb, halfway
+// between the palm's normal and the axis across the knuckles.
 Vec3 thumb_axis(const Hand& hand, Vec3 finger_axis, Vec3 across) {
   const Vec3 palm = cross(finger_axis, hand.along);
   const Vec3 fold = cross(normalised(hand.thumb), normalised(palm - across));
@@ -147,9 +148,10 @@ Vec3 finger_turn(const Joint& joint, Vec3 curl_axis, float curl) {
 
 std::vector<char> laden_fingers(const SkinnedMesh& mesh, std::span<const Joint> joints,
                                 const BodyTree& tree) {
-  // A finger is 4 % of the diagonal of a person with stretched arms, and 8 % of one with a cartoon's hands.
+  // Share of the body's diagonal. A finger of a person with stretched arms has 4 %, and a finger of a cartoon
+  // hand has 8 %.
   constexpr float longest_finger = 0.15f;
-  std::vector<float> reach(mesh.bones.size(), 0);  // of the skin of each bone, from its joint
+  std::vector<float> reach(mesh.bones.size(), 0);  // distance from each bone's joint to its farthest skin
   Vec3 low, high;
   for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
     const Vec3 p = mesh.position[i];
@@ -164,7 +166,7 @@ std::vector<char> laden_fingers(const SkinnedMesh& mesh, std::span<const Joint> 
     const std::uint32_t b = tree.order[i];
     if (joints[b].role != JointRole::finger && joints[b].role != JointRole::thumb) continue;
     if (reach[b] > longest_finger * length(high - low)) laden[b] = 1;
-    // A knuckle holds the load of its finger's end.
+    // A parent joint of a finger also carries the load of the joints below it.
     const std::int32_t p = tree.parent[b];
     if (laden[b] && p >= 0) laden[std::size_t(p)] = joints[std::size_t(p)].role == joints[b].role;
   }

@@ -9,39 +9,40 @@
 
 namespace nook::bake {
 
-// A point of the body, rest space; bone -1: there is none.
+// A point of the body in rest space. If `bone` is -1, there is no such point.
 struct BodyPoint {
   std::int32_t bone = -1;
   Vec3 point;
 };
 
-// True for the bones of a palm that hang side by side on one forearm, such as one for each finger. They have
-// no wrist to turn about, and would part from each other if each turned about its own joint.
+// Returns true for palm bones if several of them hang side by side on one forearm, such as one for each
+// finger. They have no common wrist to turn about. They would separate if each turned about its own joint.
 std::vector<char> parted_palms(std::span<const Joint> joints, const BodyTree& tree);
 
-// Returns for the left and the right hand the middle of the knuckles, or the wrist if the hand has no
+// For the left and the right hand, returns the centre of the knuckles, or the wrist if the hand has no
 // knuckles.
 std::array<BodyPoint, 2> palms(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree);
 
-// A hand in its rest pose. Directions have unit length and are zero where the rig has no fingers.
+// A hand in its rest pose. Directions have unit length. They are zero if the rig has no fingers.
 struct HandFrame {
-  Vec3 knuckles;  // their middle, or the wrist where there are none
+  Vec3 knuckles;  // centre of the knuckles, or the wrist if there are none
   Vec3 along;     // from the wrist to the knuckles
   Vec3 across;    // towards the thumb's side, perpendicular to along
-  Vec3 palm;      // to where the palm faces
+  Vec3 palm;      // the direction in which the palm faces
 };
 HandFrame hand_frame(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,
                      std::size_t wrist, Vec3 up);
 
-// The turn of a finger's joint whose curl is 0 stretched and 1 in a fist.
+// Returns the turn of a finger's joint. `curl` is 0 for a stretched finger and 1 for a fist.
 Vec3 finger_turn(const Joint& joint, Vec3 curl_axis, float curl);
 
-// True for fingers and thumbs that hold a thing: a club that a rig weights to a finger reaches much farther
-// than a finger does, and would swing with it. Such fingers stay still.
+// Returns true for fingers and thumbs that hold an object. For example, a rig may weight a club to a finger.
+// The club reaches much farther than a finger, and would swing with the finger. Automatic poses do not move
+// such fingers.
 std::vector<char> laden_fingers(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree);
 
-// Of each finger and thumb, of unit length in rest space; zero for other joints. Fingers curl towards the
-// palm: about the axis across them, on the side that the thumb is on.
+// Returns the curl axis of each joint of fingers and thumbs, with unit length in rest space; zero for other
+// joints. Fingers curl about the axis across them, towards the palm, which is the side that the thumb is on.
 std::vector<Vec3> curl_axes(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,
                             Vec3 up);
 

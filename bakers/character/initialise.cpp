@@ -11,9 +11,9 @@
 namespace nook::bake {
 namespace {
 
-// A flat bone's spheres represent patches of a surface. If the vertices lie on a line, the spheres represent
-// stretches of the line. Spheres as small as the thickness would cast no shadow at all. So a radius is at
-// least these shares of breadth and length, which are thinner than any limb, ear or finger.
+// The spheres of a flat bone represent patches of a surface. If the vertices lie on a line, the spheres
+// represent pieces of the line. Spheres as small as the thickness would cast no shadow at all. So a radius is
+// at least these shares of the breadth and length. They are below the thickness of any limb, ear or finger.
 float least_radius(const float (&spread)[3]) {
   return std::max({0.05f * spread[1], 0.02f * spread[2], 1e-4f});
 }
@@ -75,8 +75,8 @@ std::vector<InitialSphere> initial_spheres(const SkinnedMesh& mesh, std::span<co
     return shapes[a].area != shapes[b].area ? shapes[a].area > shapes[b].area : a < b;
   });
   if (order.size() > sphere_count) order.resize(sphere_count);
-  // The elongation decides the number of spheres. A flat bone (l1 near 0) would get endless small ones, so we
-  // cap it.
+  // The elongation determines the number of spheres. A flat bone (l1 near 0) would get very many small
+  // spheres, so we limit their number.
   std::vector<double> wish(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     const BoneShape& s = shapes[order[i]];
@@ -88,7 +88,7 @@ std::vector<InitialSphere> initial_spheres(const SkinnedMesh& mesh, std::span<co
   double carried = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const BoneShape& s = shapes[order[i]];
-    // The rounding error is carried to the next bone, so that the sum is right.
+    // The rounding error is carried to the next bone, so that the total is exact.
     carried += total > double(order.size()) ? extra * (wish[i] - 1) / (total - double(order.size())) : 0;
     const auto more = std::size_t(std::floor(carried + 1e-9));
     carried -= double(more);
@@ -200,8 +200,8 @@ NearKeyPoints nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> 
   count = std::min(count, key_points.size());
   NearKeyPoints nearest{std::vector<std::uint16_t>(mesh.vertex_count() * count),
                         std::vector<float>(mesh.vertex_count() * count)};
-  // A turn of the normal by 90 degrees, or a full change of bone, counts as this many metres in a body about
-  // 1.7 m tall.
+  // A turn of the normal by 90 degrees, or a full change of bone, counts like this distance in metres in a
+  // body about 1.7 m tall.
   constexpr float normal_metres = 0.04f, weight_metres = 0.15f;
   constexpr std::size_t block = 256;
   tbb::parallel_for(std::size_t(0), (mesh.vertex_count() + block - 1) / block, [&](std::size_t b) {
@@ -222,7 +222,7 @@ NearKeyPoints nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> 
       }
       for (int s = 0; s < SkinWeights::max_bones; ++s) dense[own.bone[s]] = 0;
       std::partial_sort(distance.begin(), distance.begin() + std::ptrdiff_t(count), distance.end());
-      // The nearness falls to a half at the distance of the third key point, so that weights change smoothly
+      // The nearness falls to 0.5 at the distance of the third key point, so that weights change smoothly
       // between clusters.
       const float reach2 = std::max(distance[std::min<std::size_t>(2, count - 1)].first, 1e-8f);
       for (std::size_t c = 0; c < count; ++c) {
@@ -240,7 +240,8 @@ std::vector<Vec3> centre_of_rotation_normals(const SkinnedMesh& mesh, std::span<
   std::vector<float> squared(vertices);
   for (std::size_t i = 0; i < vertices; ++i)
     for (float w : mesh.weights[i].weight) squared[i] += w * w;
-  // Width of the Gaussian on the distance of weight vectors, which is at most sqrt(2).
+  // Inverse squared width of the Gaussian on the distance between weight vectors. This distance is at most
+  // sqrt(2).
   constexpr float inverse_width2 = 1 / 0.1f;
   std::vector<Vec3> normal(vertices);
   constexpr std::size_t block = 64;

@@ -1,5 +1,5 @@
-// The model before the fit (Le et al. 2019, appendix B): proxy spheres along each bone's flesh, and key
-// points by clustering.
+// Makes the model before the fit (Le et al. 2019, appendix B): proxy spheres along the flesh of each bone,
+// and key points by clustering.
 #pragma once
 
 #include <cstdint>
@@ -18,34 +18,35 @@ struct InitialSphere {
 };
 
 // Places spheres by eigen-analysis of the geometry that each bone moves, weighted by skin weight and Voronoi
-// area. About sqrt(l3 / l1) spheres of radius sqrt(l1) are spread along the major axis. The numbers are
-// scaled so that all bones together get at most `sphere_count` spheres. Each bone with geometry gets at least
-// one, largest area first, while they last.
+// area. Spreads about sqrt(l3 / l1) spheres of radius sqrt(l1) along the major axis (l1 is the smallest
+// eigenvalue, l3 the largest). Scales the counts so that all bones together get at most `sphere_count`
+// spheres. Each bone with geometry gets at least one sphere. If there are too few spheres, bones with the
+// largest area come first.
 std::vector<InitialSphere> initial_spheres(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                                            std::size_t sphere_count);
 
 // Returns unit vectors from each vertex's optimised centre of rotation to the vertex (Le & Hodgins 2016, with
-// the Gaussian weight similarity of appendix B). Where both coincide, it returns the mesh normal.
+// the Gaussian weight similarity of appendix B). Where both points coincide, returns the mesh normal.
 std::vector<Vec3> centre_of_rotation_normals(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                                              std::span<const Vec3> mesh_normal);
 
 // Returns the weights for placing key points: each given weight times the variance of the vertex's AO over
 // the first `poses` rows of the targets, relative to the mean variance. AO that never changes needs no key
-// point: a constant holds it.
+// point, because the bias represents it.
 std::vector<float> placement_weights(std::span<const float> vertex_weight, const AoTargets& targets,
                                      std::size_t poses);
 
 struct ClusterSettings {
   std::size_t count = 500;
-  float position_scale = 1;  // scale of a feature with about unit size over a tenth of the body's height
+  float position_scale = 1;  // scale of positions, such that a tenth of the body's height has about unit size
   float normal_scale = 0.7f;
   float weight_scale = 1.0f;
 };
 
 // Clusters the vertices by edge collapse (Schaefer & Yuksel 2007) in the space of position, normal and skin
-// weights. The edges are mesh edges, and extra edges between near vertices with near weights. Returns the
-// cluster of each vertex. There are settings.count clusters, fewer if the mesh has fewer vertices, and more
-// if more parts never touch.
+// weights. The edges are the mesh edges, plus extra edges between near vertices with similar weights. Returns
+// the cluster of each vertex. There are settings.count clusters. There are fewer if the mesh has fewer
+// vertices, and more if the mesh has more than settings.count unconnected parts.
 std::vector<std::uint32_t> cluster_vertices(const SkinnedMesh& mesh, std::span<const float> vertex_weight,
                                             std::span<const Vec3> normal, const ClusterSettings& settings);
 
@@ -61,7 +62,7 @@ FitState initial_state(const Kernel& kernel, std::span<const InitialSphere> sphe
 // The `count` key points nearest to each vertex in position, normal and skin weights.
 struct NearKeyPoints {
   std::vector<std::uint16_t> key_point;  // vertices x count, nearest first
-  std::vector<float> nearness;           // same shape: 1 at distance 0, falls with the squared distance
+  std::vector<float> nearness;           // same shape; 1 at distance 0, and falls with the squared distance
 };
 NearKeyPoints nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> normal,
                                  std::span<const KeyPoint> key_points, std::size_t count);

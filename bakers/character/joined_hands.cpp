@@ -12,7 +12,8 @@ namespace {
 
 constexpr float degree = std::numbers::pi_v<float> / 180;
 
-// Upper arm and forearm each need at least this share of the length of both. Shorter ones do not bend an arm.
+// Upper arm and forearm must each have at least this share of their total length. With shorter bones, the arm
+// cannot bend.
 constexpr float least_bone = 0.1f;
 
 Vec3 normal3(Random& random) {
@@ -52,18 +53,18 @@ float twist_about(const Mat3x4& turn, Vec3 axis) {
 
 }  // namespace
 
-// The unit of place is the arm's length. The unit of other lengths is the hand from wrist to knuckles.
+// `place` is in units of the arm's length. Other lengths are in units of the distance from wrist to knuckles.
 struct JoinedHands::Grip {
-  Vec3 place;       // left, up and forward from the middle between the shoulders
+  Vec3 place;       // left, up and forward from the point halfway between the shoulders
   Vec3 handle;      // direction of the handle, same axes
   float apart[2];   // distance of the knuckles from the handle, towards the back of the hand
   float along[2];   // position of the knuckles along the handle
-  Vec3 miss[2];     // offset by which a hand misses its place, as in retargeted clips
+  Vec3 miss[2];     // error of a hand's position, as in retargeted clips
   float thumb[2];   // 1: the thumb's side lies towards the handle's end, -1: away from it
   Vec3 aim[2];      // added to the direction of the fingers
   Vec3 elbow[2];    // added to the direction to which elbows point
   float curl[2];    // fingers: 0 stretched, 1 a fist
-  float pronation;  // the forearm's share of the hand's turn about it
+  float pronation;  // share of the hand's turn about the forearm's axis that the forearm makes
 };
 
 struct JoinedHands::ArmPose {
@@ -125,7 +126,7 @@ JoinedHands::Arm JoinedHands::find_arm(Side side) const {
 
 JoinedHands::Grip JoinedHands::draw(Random& random) const {
   Grip g{};
-  // Places reach from the lap to above the head, and from the belly to stretched arms.
+  // Places range from the lap to above the head, and from the belly to the reach of stretched arms.
   g.place = {0.25f * random.normal(), random.between(-0.9f, 0.5f), random.between(0.25f, 0.9f)};
   g.handle = normalised(normal3(random) + Vec3{0, 0.6f, 0});
   const float kind = random.unit();
@@ -179,7 +180,7 @@ JoinedHands::ArmPose JoinedHands::solve(const Pose& pose, const Grip& grip, int 
   const Vec3 knuckles = place + hand * (grip.along[s] * handle - grip.apart[s] * palm + grip.miss[s]);
   const Vec3 wrist = knuckles - transform_vector(result.hand, arm.frame.knuckles - arm.wrist);
 
-  // Two bones between shoulder and wrist; elbows point down, outwards and back.
+  // Two-bone inverse kinematics between shoulder and wrist. Elbows point down, outwards and back.
   const float distance = length(wrist - shoulder);
   result.reaches = distance < 0.985f * (upper + fore) && distance > 1.1f * std::fabs(upper - fore) + 1e-6f;
   const float least = std::fabs(upper - fore), most = upper + fore;
@@ -207,7 +208,7 @@ JoinedHands::ArmPose JoinedHands::solve(const Pose& pose, const Grip& grip, int 
 void JoinedHands::close_fingers(const Arm& arm, float curl, std::vector<JointMotion>& motions,
                                 Random& random) const {
   const float thumb = random.unit();
-  // The index finger is on a trigger or points.
+  // With this chance, the index finger is on a trigger or points.
   const bool stretched = random.chance(0.25f);
   const float index = random.between(-0.05f, 0.5f);
   for (const std::uint32_t b : arm.fingers) {
@@ -222,7 +223,7 @@ void JoinedHands::close_fingers(const Arm& arm, float curl, std::vector<JointMot
 }
 
 void JoinedHands::join(std::vector<JointMotion>& motions, bool with_fingers, Random& random) const {
-  // The clavicles that carry the upper arms keep their turns.
+  // Clavicles that carry the upper arms are not turned.
   for (const Arm& arm : arms_) motions[std::size_t(arm.upper)].turn = {};
   const Pose pose = pose_of(mesh_, tree_, motions);
   constexpr int tries = 12;

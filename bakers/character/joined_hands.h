@@ -1,5 +1,6 @@
-// Makes poses in which both hands hold one thing or each other, such as a grip, a handle or a prayer. Most
-// uses of tools, weapons and gestures look like this, and arms that are drawn apart never meet so closely.
+// Makes poses in which both hands hold one object or each other, such as a grip, a handle or a prayer. Most
+// uses of tools and weapons and many gestures look like this. Arms that are drawn independently never come so
+// close to each other.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@ class JoinedHands {
   // Keeps a reference to the mesh.
   explicit JoinedHands(const SkinnedMesh& mesh, const RigCorrections& corrections = {});
 
-  // False if the rig does not have two arms with hands and fingers.
+  // Returns false if the rig does not have two arms with hands and fingers.
   bool possible() const { return arms_[0].index_knuckle >= 0 && arms_[1].index_knuckle >= 0; }
 
   // Draws a place in front of the trunk and moves both arms there. with_fingers closes the fingers as well.
@@ -29,7 +30,7 @@ class JoinedHands {
     std::int32_t upper = -1, fore = -1, hand = -1;  // bones
     Vec3 shoulder, elbow, wrist;                    // joints at rest, metres
     HandFrame frame;
-    std::vector<std::uint32_t> fingers;  // and thumbs, which hold nothing; parents first
+    std::vector<std::uint32_t> fingers;  // and thumbs, without those that hold an object; parents first
     std::int32_t index_knuckle = -1;     // the first joint of the finger beside the thumb
   };
   struct Grip;

@@ -1,5 +1,5 @@
-// Poses as the motion of each joint relative to its parent. In this form, poses of one rig can be mixed,
-// blended and mirrored.
+// Represents poses as the motion of each joint relative to its parent. In this form, poses of one rig can be
+// mixed, blended and mirrored.
 #pragma once
 
 #include <span>
@@ -14,17 +14,19 @@ namespace nook::bake {
 struct JointMotion {
   Vec3 turn;        // about the joint's rest origin: axis times angle, radians
   Vec3 shift;       // moves the joint's origin, metres
-  float scale = 1;  // about the same origin; uneven scales become the even scale of equal volume
+  float scale = 1;  // about the same origin; a non-uniform scale becomes the uniform scale with the same
+                    // volume
 };
 
 // Returns the axis times the angle of the rotation nearest to the matrix's three rows, made orthonormal in
-// order. It finds the quaternion's largest part first (Shepperd 1978), so that half turns are exact.
+// order. Computes the quaternion's largest component first (Shepperd 1978), so that half turns are exact.
 Vec3 turn_of(const Mat3x4& matrix);
 
 std::vector<JointMotion> joint_motions(const SkinnedMesh& mesh, const BodyTree& tree, const Pose& pose);
 Pose pose_of(const SkinnedMesh& mesh, const BodyTree& tree, std::span<const JointMotion> motions);
 
-// Interpolates between two motions: 0 and 1 are the ends, and shares beyond them extrapolate.
+// Interpolates between two motions. A share of 0 gives `from`, 1 gives `to`. Shares outside [0, 1]
+// extrapolate.
 JointMotion between(const JointMotion& from, const JointMotion& to, float share);
 
 }  // namespace nook::bake

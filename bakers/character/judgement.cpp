@@ -18,7 +18,7 @@ namespace nook::bake {
 namespace {
 
 constexpr std::size_t wished_poses = 60, least_of_clip = 4, most_poses = 240;
-// Rays of all poses together, for each vertex. A standard bake fits to ten times as many.
+// Rays per vertex, over all poses together. A standard bake fits to ten times as many rays.
 constexpr std::size_t most_rays = 6000, least_rays = 2000;
 constexpr double visible_truth = 0.01;
 // A clip is worse than a static bake only if its error is larger by at least one step of an 8-bit image.
@@ -33,7 +33,8 @@ std::vector<std::size_t> other_clips(const ImportedCharacter& character, const R
   return clips;
 }
 
-// Fitted frames of a clip are at (i + 0.5) / samples of its duration, so that i / samples lies between two.
+// The fitted frames of a clip are at (i + 0.5) / samples of its duration, so i / samples is halfway between
+// two frames.
 void add_between_frames(const ImportedCharacter& character, std::size_t clip, std::size_t samples,
                         std::size_t count, JudgedPoses& out) {
   for (std::size_t j = 0; j < count; ++j) {
@@ -89,7 +90,8 @@ JudgedPoses judged_poses(const ImportedCharacter& character, const Recipe& recip
 
 namespace {
 
-// Names of the vertices' parts: by the role of the bone that moves a vertex most, and by its mesh.
+// Names the parts of the body that a vertex belongs to: by the role of the bone with the largest weight, and
+// by the vertex's mesh.
 
 const char* part_of(JointRole role) {
   switch (role) {
@@ -170,7 +172,7 @@ double truth_at(const AoTargets& targets, std::size_t pose, std::size_t vertex) 
   return double(targets.row(pose)[vertex]) * double(AoTargets::scale);
 }
 
-// The model and both halves of the truth in the judged poses.
+// The AO of the model and of both halves of the truth in the judged poses.
 struct Traced {
   AoTargets half[2];
   std::vector<float> ao;  // poses x vertices
@@ -199,7 +201,8 @@ std::vector<float> model_ao(const CharacterModel& model, std::span<const Pose> p
   return ao;
 }
 
-// The sums of one vertex over some poses. The means of the two halves of the oracle are independent too.
+// Returns the sums of one vertex over some poses. The oracle also has two independent means, one for each
+// half.
 Sums sums_of(const Traced& traced, const CharacterModel& model, std::size_t v,
              const std::vector<std::size_t>& poses) {
   Sums sums;
@@ -358,7 +361,8 @@ std::string names_of(const std::vector<std::string>& names) {
   return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
 }
 
-// A mesh with far more of the error than of the body, such as a prop; null where there is none.
+// Returns a mesh, such as a prop, with a much larger share of the error than of the body's area. Returns null
+// if there is none.
 const JudgedPart* outlying_mesh(const Judgement& j) {
   if (j.meshes.size() < 2) return nullptr;
   const JudgedPart& worst = j.meshes.front();

@@ -1,4 +1,5 @@
-// The error of a bake on poses that it did not fit, against static bakes, by part of the body.
+// Measures the error of a bake on poses that it did not fit, compared with static bakes, in total and per
+// part of the body.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +14,14 @@
 
 namespace nook::bake {
 
-// Which poses a model is judged on; none of them was fitted.
+// The poses that a model is judged on. The bake fitted none of them.
 struct JudgedPoses {
   enum class Source : std::uint8_t {
     other_clips,     // clips of the file that the bake did not fit
-    between_frames,  // half-way between the fitted frames of the clips
-    generated,       // automatic poses of another seed, as the file has no clip
+    between_frames,  // halfway between the fitted frames of the clips
+    generated,       // automatic poses with another seed, because the file has no clip
     turned,          // an object of one bone
-    recorded,        // every fourth of the poses that were given for calibration
+    recorded,        // every fourth pose of those that were given for calibration
   };
   Source source = Source::generated;
   std::vector<Pose> poses;
@@ -30,23 +31,25 @@ struct JudgedPoses {
 JudgedPoses judged_poses(const ImportedCharacter& character, const Recipe& recipe);
 const char* text_of(JudgedPoses::Source source);
 
-// Mean squared errors over visible vertex-poses, those whose traced AO is at least 0.01. Each is the product
-// of the errors against two independent halves of the rays, so that it has no noise of rays in it.
+// Mean squared errors over visible vertex-poses, which have a traced AO of at least 0.01. Each squared error
+// is the product of the errors against two independent halves of the rays, so it contains no noise of the
+// rays.
 struct JudgedErrors {
   double model = 0, static_bake = 0;
   double over_static() const { return static_bake > 0 ? model / static_bake : 0; }
 };
 
-// A model with a larger share of a static bake's error is poor.
+// A model is poor if its error, divided by a static bake's error, is above this ratio.
 inline constexpr double poor_ratio = 0.25;
 
 struct VisibleErrors {
   JudgedErrors by_vertices, by_area;
-  // The best static bake of these poses has the mean AO of each vertex over the poses that show it.
+  // The oracle is the best possible static bake of these poses. Each vertex has its mean AO over the poses in
+  // which it is visible.
   double oracle = 0;
 };
 
-// Against two tracings of the poses whose rays are independent.
+// Measures against two tracings of the poses with independent rays.
 VisibleErrors visible_errors(const SkinnedMesh& mesh, const CharacterModel& model,
                              std::span<const Pose> poses, const AoTargets& first, const AoTargets& second);
 
@@ -61,9 +64,9 @@ struct Judgement {
   std::size_t poses = 0;
   std::uint32_t rays = 0;
   VisibleErrors errors;
-  std::vector<JudgedPart> clips, parts, meshes;  // the worst first: clips by ratio, the others by share
-  double torn_edges = 0;     // share of edge-poses of the automatic poses; 0 where there are none
-  double torn_by_clips = 0;  // the same of the file's own clips
+  std::vector<JudgedPart> clips, parts, meshes;  // worst first: clips by ratio, the others by share of error
+  double torn_edges = 0;     // share of edge-poses that automatic poses tear; 0 without such poses
+  double torn_by_clips = 0;  // share that the file's own clips tear
   std::vector<std::string> bones_without_role;  // the joints that move at least 2 % of the body's area
 
   double over_static() const { return errors.by_vertices.over_static(); }
@@ -76,7 +79,8 @@ struct Judgement {
 Judgement judge_model(const ImportedCharacter& character, const CharacterModel& model, const Recipe& recipe,
                       const JudgedPoses& judged, std::uint64_t seed, const Progress& progress = {});
 
-// One or two sentences: the figures; and for a poor model what is wrong, why, and what to do.
+// Returns one or two sentences with the figures. For a poor model, they also say what is wrong, why, and what
+// to do.
 std::string summary_of(const Judgement& judgement);
 
 }  // namespace nook::bake

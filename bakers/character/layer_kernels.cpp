@@ -13,7 +13,8 @@ struct Value {
   float y, dy_ddelta2, dy_dxi;
 };
 
-// Slide 18. The absolute distance has no derivative at the centre; the small number keeps it finite.
+// The form of slide 18. The absolute distance has no derivative at the centre. A small added constant keeps
+// the derivative finite.
 struct PaperForm {
   static NOOK_INLINE Value value(float delta2, float xi) {
     const float delta = std::sqrt(delta2 + 1e-12f);
@@ -46,8 +47,8 @@ struct NookForm {
   }
 };
 
-// Keeps powers and their slopes finite where rounding leaves nothing. It is a plain comparison, because fmax
-// also handles NaNs, which stops the compiler from vectorising.
+// Keeps powers and their derivatives finite where rounding gives 0 or less. Uses a plain comparison, because
+// fmax also handles NaNs, and the compiler then does not vectorise.
 NOOK_INLINE float at_least(float y) {
   return y > 1e-9f ? y : 1e-9f;
 }

@@ -61,8 +61,8 @@ ProxySphere merge(const ProxySphere& a, const ProxySphere& b) {
   return both;
 }
 
-// Merges the pairs with the smallest cost until `target` spheres remain: near pairs before distant ones and
-// small spheres before large ones, never across bones.
+// Merges the pair with the smallest cost until `target` spheres remain. Near pairs cost less than distant
+// pairs, and small spheres less than large ones. Spheres of different bones are never merged.
 Vector<ProxySphere> merge_spheres(const CharacterModel& model, std::size_t target) {
   Vector<ProxySphere> spheres(model.spheres.begin(), model.spheres.end());
   while (spheres.size() > target) {
@@ -100,8 +100,8 @@ class Regression {
     coarse_ = centred(coarse, coarse_mean_);
   }
 
-  // Fits shadow of fine point k = scale * shadow of coarse point r + offset, with scale >= 0, because one
-  // shadow does not fall as another rises.
+  // Fits: shadow of fine point k = scale * shadow of coarse point r + offset. The scale is >= 0, because one
+  // shadow should not fall while the other rises.
   Line fit(std::size_t k, std::size_t r) const {
     double kk = 0, kr = 0, rr = 0;
     const float *a = &fine_[k * samples_], *b = &coarse_[r * samples_];
@@ -120,7 +120,7 @@ class Regression {
   }
 
  private:
-  // The rows are ordered by point, so that a fit reads two of them.
+  // Rows are points, so that a fit reads only two rows.
   std::vector<float> centred(const Shadows& shadows, std::vector<float>& mean) const {
     mean.assign(points_, 0.0f);
     std::vector<float> rows(points_ * samples_);
@@ -137,10 +137,10 @@ class Regression {
   std::vector<float> fine_, coarse_, fine_mean_, coarse_mean_;
 };
 
-// Returns the cost of a key point that follows another: the error in the vertices, and a penalty for the
-// distance between the two and the angle between their normals. The penalty is there because the follower
-// also takes over occlusion by casters that no pose contains. A distance of 0.1 m counts as 0.01 of shadow,
-// and an angle of 60 degrees as 0.05.
+// Returns the cost if a key point follows another one: the error at the vertices, plus a penalty for the
+// distance between the two points and the angle between their normals. The penalty is needed because the
+// follower also takes over the occlusion by other casters, which no pose contains. A distance of 0.1 m counts
+// as 0.01 of shadow, and an angle of 60 degrees as 0.05.
 std::vector<float> following_cost(const CharacterModel& model, const Regression& regression) {
   const std::size_t points = model.key_points.size();
   std::vector<float> weight(points, 0.0f);
@@ -158,7 +158,7 @@ std::vector<float> following_cost(const CharacterModel& model, const Regression&
   return cost;
 }
 
-// Chooses key points greedily: each step adds the one that lowers the sum of costs by the largest amount.
+// Chooses key points greedily. Each step adds the key point that lowers the sum of costs most.
 std::vector<std::uint16_t> choose_evaluated(std::span<const float> cost, std::size_t points,
                                             std::size_t target) {
   std::vector<float> best(points, 1e30f);

@@ -24,8 +24,9 @@ std::vector<double> anchor_floors(const Candidates& candidates, std::size_t vert
   return floor;
 }
 
-// Non-negative least squares on the chosen key points by an active set. It solves without bounds and drops
-// the most negative weight until none is negative. A chosen entry whose weight is 0 afterwards was dropped.
+// Non-negative least squares on the chosen key points with an active set. Solves without bounds and drops the
+// entry with the most negative weight, until no weight is negative. A dropped entry has the weight 0 in the
+// result.
 Eigen::VectorXd solve_non_negative(const Eigen::MatrixXd& gram, const Eigen::VectorXd& correlation) {
   const Eigen::Index n = correlation.size();
   std::vector<Eigen::Index> active(static_cast<std::size_t>(n));
@@ -58,8 +59,8 @@ ShadowStatistics statistics_of(std::span<const float> shadows, std::size_t poses
   s.mean = all.colwise().mean();
   s.centred = all.rowwise() - s.mean;
   s.gram = Eigen::MatrixXd::Zero(columns, columns);
-  // Blocks of rows are products in floats, summed in doubles. This is fast, and exact enough for a
-  // well-scaled Gram matrix.
+  // The product of each block of rows is computed in floats, and the products are summed in doubles. This is
+  // fast, and accurate enough for a well-scaled Gram matrix.
   const Eigen::Index block = 256;
   for (Eigen::Index first = 0; first < rows; first += block) {
     const auto part = s.centred.middleRows(first, std::min(block, rows - first));
@@ -71,7 +72,7 @@ ShadowStatistics statistics_of(std::span<const float> shadows, std::size_t poses
   return s;
 }
 
-// The darkness of consecutive vertices in the fitted poses.
+// The darkness (1 - AO) of consecutive vertices in the fitted poses.
 struct DarknessBlock {
   Eigen::RowVectorXf mean;      // per vertex
   RowMatrix centred;            // poses x vertices, mean removed
@@ -94,8 +95,9 @@ DarknessBlock darkness_of(const TrainingSet& set, const ShadowStatistics& shadow
   return block;
 }
 
-// Below this variance a vertex's darkness or a key point's shadow counts as constant. A prop holds still, and
-// the rounding of its shadows would otherwise take enormous weights to explain the noise of rays.
+// If the variance of a vertex's darkness or of a key point's shadow is below this, it counts as constant. For
+// example, the shadows on a rigid prop vary only by rounding. Otherwise, the fit would give them enormous
+// weights to explain the noise of the rays.
 constexpr double constant_variance = 1e-8;
 
 // Some of a vertex's key points, with the weights that explain it best.
@@ -113,7 +115,7 @@ struct Choice {
 // Chooses key points for one vertex one by one, and solves for their weights.
 class KeyPointChoice {
  public:
-  // allowed: the vertex's candidates. The first `anchors` of them always have an entry.
+  // `allowed` has the vertex's candidates. The first `anchors` of them always get an entry.
   KeyPointChoice(const Eigen::MatrixXd& gram, std::span<const std::uint16_t> allowed, std::size_t anchors,
                  std::size_t entries)
       : gram_(gram), allowed_(allowed), anchors_(anchors), entries_(entries) {}
@@ -123,7 +125,7 @@ class KeyPointChoice {
     return std::find(allowed_.begin(), end, k) != end;
   }
 
-  // Stops when another key point would explain less than `minimum_gain` more.
+  // Stops when a further key point would explain less than `minimum_gain` of additional variance.
   Choice run(const Eigen::VectorXd& correlation, double minimum_gain) const {
     Choice choice;
     for (;;) {
@@ -136,7 +138,8 @@ class KeyPointChoice {
   }
 
  private:
-  // Returns the key point that would explain most of the rest if it were added alone; -1 if there is none.
+  // Returns the key point that would explain most of the remaining variance if it were added alone. Returns
+  // -1 if there is none.
   Eigen::Index best_addition(const Choice& choice, const Eigen::VectorXd& correlation) const {
     const auto others = std::count_if(choice.key_point.begin(), choice.key_point.end(),
                                       [&](Eigen::Index k) { return !is_anchor(k); });
@@ -198,7 +201,8 @@ void fit_vertex(std::size_t vertex, Eigen::Index column, const ShadowStatistics&
   const std::size_t anchors =
       settings.anchor_floor > 0 ? std::min({settings.anchors, candidates.count, settings.entries}) : 0;
   const std::span allowed(&candidates.key_point[vertex * candidates.count], candidates.count);
-  // We subtract the anchors' minimum weights from the target and solve the rest with weights >= 0.
+  // We subtract the contribution of the anchors' minimum weights from the target, and solve for the remaining
+  // weights >= 0.
   const std::vector<double> floor = anchor_floors(candidates, vertex, settings, anchors);
   Eigen::VectorXd correlation = darkness.correlation.col(column);
   for (std::size_t a = 0; a < anchors; ++a) correlation -= floor[a] * shadows.gram.col(allowed[a]);

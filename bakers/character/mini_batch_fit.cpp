@@ -13,7 +13,8 @@
 namespace nook::bake {
 namespace {
 
-// Kingma & Ba 2015. Rates differ by parameter because metres, log radii and weights have different scales.
+// The Adam optimiser (Kingma & Ba 2015). Each parameter has its own rate, because metres, log radii and
+// weights have different scales.
 class Adam {
  public:
   explicit Adam(std::size_t count) : first_(count, 0.0f), second_(count, 0.0f) {}
@@ -35,8 +36,8 @@ class Adam {
   std::vector<float> first_, second_;
 };
 
-// Learning rates in the parameters' own units: metres, log radius, unit normals, roots. A step moves each
-// parameter by about this much. We chose the rates by scale and did not search for them.
+// Learning rates in the parameters' own units: metres, log radius, unit normals, roots. A step changes each
+// parameter by about its rate. We chose the rates by the scale of the parameters, without a search.
 constexpr float sphere_rate[LayerStructure::sphere_parameters] = {2e-3f, 2e-3f, 2e-3f, 1e-2f};
 constexpr float key_point_rate[LayerStructure::key_point_parameters] = {
     2e-3f, 2e-3f, 2e-3f, 2e-2f, 2e-2f, 2e-2f, 1e-2f, 1e-2f, 1e-2f, 1e-2f, 1e-2f};
@@ -66,7 +67,7 @@ class PoseOrder {
   std::size_t at_ = 0;
 };
 
-// Weights stay above their floors, and saturations below their bound.
+// Clamps weights to at least their floors, and saturations to at most their bound.
 void keep_in_range(FitState& state) {
   LinearLayerFit& linear = state.linear;
   for (std::size_t s = 0; s < linear.alpha.size(); ++s)

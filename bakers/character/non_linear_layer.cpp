@@ -7,7 +7,8 @@
 namespace nook::bake {
 namespace {
 
-// Place of padding key points: far enough to receive nothing, near enough to stay finite when squared.
+// Position of padding key points. It is far enough to receive no shadow, and near enough that its square is
+// finite.
 constexpr float far_away = 1e6f;
 
 struct BlendedKeyPoint {

@@ -1,6 +1,6 @@
-// The non-linear layer of the model with its gradient: from bone matrices to the shadow at every key point,
-// and back to the parameters (Le et al. 2019, slides 13 to 20). It handles one pose at a time; callers
-// parallelise over poses.
+// The non-linear layer of the model and its gradient (Le et al. 2019, slides 13 to 20). The forward pass
+// computes the shadow at every key point from bone matrices. The backward pass computes the gradient of the
+// parameters. Each call handles one pose. Callers parallelise over poses.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace nook::bake {
 
-// The structure of the layer, which stays fixed while it is fitted.
+// The structure of the layer. The fit does not change it.
 struct LayerStructure {
   Kernel kernel;
   std::vector<std::uint16_t> sphere_bone;
@@ -22,10 +22,10 @@ struct LayerStructure {
 
   std::size_t sphere_count() const { return sphere_bone.size(); }
   std::size_t key_point_count() const { return key_point_bone.size(); }
-  // The padding fills whole SIMD vectors.
+  // Returns the number of key points, padded to whole SIMD vectors.
   std::size_t padded_count() const { return (key_point_count() + 15) / 16 * 16; }
 
-  // Parameters in one flat vector, unconstrained, so that any optimiser can walk it:
+  // All parameters are in one flat vector without constraints, so that any optimiser can be used:
   //   4 for each sphere: centre (rest space, metres), log radius;
   //   11 for each key point: position, normal (any length), 4 roots of bone weights (weight = root^2 / sum of
   //   root^2), root of the saturation. At a root of 0 the saturation has no slope and stays 0.
@@ -45,7 +45,7 @@ class LayerWorkspace {
 
  private:
   friend class NonLinearLayer;
-  std::vector<float> sphere_;        // 5 arrays: x y z radius inverse_radius
+  std::vector<float> sphere_;        // 5 arrays: x, y, z, radius, inverse radius
   std::vector<float> key_;           // position x y z, normal x y z
   std::vector<float> sum_;           // sum of y^gamma
   std::vector<float> gradient_key_;  // same layout as key_
@@ -56,18 +56,18 @@ class NonLinearLayer {
  public:
   explicit NonLinearLayer(const LayerStructure& structure) : structure_(structure) {}
 
-  // Writes padded_count() values to shadow, `stride` apart (1: a row). The workspace keeps what backward
-  // needs.
+  // Writes padded_count() values to `shadow`, with a distance of `stride` values between them. The workspace
+  // keeps the intermediate values that backward needs.
   void forward(std::span<const Mat3x4> bones, std::span<const float> parameters, LayerWorkspace& workspace,
                float* shadow, std::size_t stride = 1) const;
 
-  // Adds d(loss)/d(parameters) to gradient, given d(loss)/d(shadow). forward must have run with the same
-  // arguments.
+  // Adds d(loss)/d(parameters) to `gradient`, given d(loss)/d(shadow). Before the call, you must call forward
+  // with the same arguments.
   void backward(std::span<const Mat3x4> bones, std::span<const float> parameters, LayerWorkspace& workspace,
                 const float* gradient_shadow, std::size_t stride, std::span<float> gradient) const;
 
  private:
-  // The part of backward from shadows to sums and saturations.
+  // The part of backward() that goes from shadows to sums and saturations.
   void backward_response(std::span<const float> parameters, LayerWorkspace& workspace,
                          const float* gradient_shadow, std::size_t stride, std::span<float> gradient) const;
 

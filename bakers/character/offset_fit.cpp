@@ -13,11 +13,11 @@ namespace nook::bake {
 namespace {
 
 constexpr double old_constant_poses = 4;
-// The weight of the old scale: it counts as much as this squared shadow in each pose, and in this many poses
-// more.
+// The prior of the old scale has the weight scale_ridge * (number of poses + old_scale_poses). The unit of
+// scale_ridge is a squared shadow.
 constexpr double scale_ridge = 2e-3, old_scale_poses = 20;
 constexpr double least_scale = 0.05, most_scale = 4;
-// Targets this near to black or white count as black or white: one ray of 64 reaches it.
+// Targets within this margin of black or white count as black or white. One ray of 64 makes this difference.
 constexpr double clamped_margin = 1.0 / 64;
 
 // One vertex in one pose.
@@ -31,13 +31,14 @@ struct Line {
   double scale = 1, bias = 0;
 };
 
-// True where clamping hides the error of a prediction.
+// Returns true if clamping hides the error of a prediction.
 bool is_hidden(const Sample& sample, const Line& line) {
   const double ao = 1 - line.scale * sample.shadow - line.bias;
   return (ao <= 0 && sample.truth <= clamped_margin) || (ao >= 1 && sample.truth >= 1 - clamped_margin);
 }
 
-// The line over shadows about their mean, by least squares over the samples that clamping does not hide.
+// Fits a line over the shadow, centred at the mean shadow, by least squares over the samples that clamping
+// does not hide.
 Line line_of(std::span<const Sample> samples, double old_bias, double mean, const Line& now) {
   const double old_level = old_bias + mean;  // the darkness of the old line at the mean
   double count = old_constant_poses, x1 = 0, y1 = old_constant_poses * old_level, xx = 0, xy = 0;
@@ -58,8 +59,8 @@ Line line_of(std::span<const Sample> samples, double old_bias, double mean, cons
   return line;
 }
 
-// The squared error is convex in the line and quadratic between the places where a sample is clamped, so that
-// Newton's method ends after a few rounds.
+// The squared error is a convex function of the line's parameters. It is quadratic as long as the set of
+// clamped samples does not change. So Newton's method ends after a few rounds.
 Line fitted_line(std::span<const Sample> samples, double old_bias) {
   constexpr int rounds = 12;
   double mean = 0;

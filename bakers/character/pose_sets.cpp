@@ -24,8 +24,8 @@ bool is_letter(char c) {
   return is_lower(c) || is_upper(c) || static_cast<unsigned char>(c) >= 0x80;
 }
 
-// True for a capital after a letter that is not a capital (jumpStart), and for the last of several capitals
-// before a small letter (UALWalk).
+// Returns true for a capital after a letter that is not a capital (jumpStart), and for the last of several
+// capitals before a small letter (UALWalk).
 bool begins_word(std::string_view name, std::size_t i) {
   if (!is_upper(name[i])) return false;
   return !is_upper(name[i - 1]) || (i + 1 < name.size() && is_lower(name[i + 1]));
@@ -36,8 +36,8 @@ std::string_view without_namespace(std::string_view name) {
   return name;
 }
 
-// Returns the length of the start that all names share, up to and including its last byte that is not a
-// letter.
+// Returns the length of the prefix that all names share, up to and including the prefix's last byte that is
+// not a letter.
 std::size_t shared_prefix(std::span<const std::string_view> names) {
   if (names.size() < 2) return 0;
   std::string_view shared = names.front();
@@ -73,8 +73,8 @@ std::vector<std::string> clip_families(std::span<const std::string_view> names) 
 
 namespace {
 
-// True for "T-Pose", "t_pose", "TPose", "A-Pose", "Armature|A pose": the letters of the name end with the
-// word tpose or apose.
+// Returns true for "T-Pose", "t_pose", "TPose", "A-Pose", "Armature|A pose": the letters of the name end with
+// the word tpose or apose.
 bool is_reference_pose(const std::string& name) {
   std::string letters;
   for (char c : name) {
@@ -139,7 +139,7 @@ ClipSplit split_families(const ImportedCharacter& character, std::span<const std
   for (const std::size_t clip : clips) names.push_back(character.clips[clip].name);
   const std::vector<std::string> families = clip_families(names);
   ClipSplit split;
-  std::map<std::string, std::size_t> number;  // number of a family; its clips need not be adjacent in byte
+  std::map<std::string, std::size_t> number;  // index of each family; its clips need not be adjacent in byte
                                               // order
   for (std::size_t i = 0; i < clips.size(); ++i) {
     const std::size_t family = number.emplace(families[i], number.size()).first->second;
@@ -174,8 +174,8 @@ std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh) {
   }
   std::vector<std::uint32_t> joints;
   for (std::size_t b = 0; b < bones; ++b) {
-    // A joint that moves every vertex wholly changes nothing. A root that has only part of the weights still
-    // does.
+    // A joint that moves every vertex with full weight does not change AO. A root with only part of the
+    // weights does.
     if (moved[b] > 0 && moved[b] < vertices) joints.push_back(std::uint32_t(b));
   }
   return joints;

@@ -1,4 +1,4 @@
-// Chooses the poses that a character is baked on and measured on. All are deterministic for a seed.
+// Chooses the poses that a character is baked on and measured on. The same seed gives the same poses.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ namespace nook::bake {
 // Guesses from the names of clips which clips are parts of one motion.
 
 // Returns the family of each clip: the first word of its name in lower case. A word ends at anything that is
-// not a letter, and before a capital that begins another word. Jump_Land, JumpStart, jump.002 and JUMP 3 are
-// all of "jump". Text before the last | or : names an armature or a namespace and does not count. A start
-// that all names share does not count either, up to its last byte that is not a letter: Robot_Walk and
-// Robot_Run are of "walk" and "run". Names without a letter say nothing, so that all of them form one family
-// with an empty name.
+// not a letter, and before a capital that begins another word. For example, Jump_Land, JumpStart, jump.002
+// and JUMP 3 all belong to the family "jump". Text before the last | or : names an armature or a namespace
+// and is ignored. A prefix that all names share is also ignored, up to its last byte that is not a letter:
+// Robot_Walk and Robot_Run belong to "walk" and "run". All names without a letter form one family with an
+// empty name.
 std::vector<std::string> clip_families(std::span<const std::string_view> names);
 
 // A rotation of one joint about its own rest axes, radians.
@@ -28,7 +28,8 @@ struct JointRotation {
   Vec3 axis_angle;  // joint frame; the length is the angle
 };
 
-// Returns the pose in which the given joints are turned and all others rest. A joint given twice turns twice.
+// Returns the pose in which the given joints are turned and all other joints rest. If a joint is listed
+// twice, both turns are applied.
 Pose turn_joints(const SkinnedMesh& mesh, std::span<const JointRotation> turns);
 
 // Samples each clip at the times (i + 0.5) / samples of its duration.
@@ -44,12 +45,12 @@ struct ClipSplit {
   std::vector<std::size_t> fitted, measured;
 };
 ClipSplit split_clips(std::span<const std::size_t> clips);
-// Splits by families (clip_families() above) in the order of their first clips, so that no two parts of one
-// motion are on both sides. With one family, no clip is left for measuring.
+// Splits by families (clip_families() above) in the order of their first clips, so that all parts of one
+// motion are on the same side. If there is only one family, no clip is left for measuring.
 ClipSplit split_families(const ImportedCharacter& character, std::span<const std::size_t> clips);
 
-// Returns poses of an object with one bone, turned about the vertical axis to `count` even directions.
-// `shift` is a share of the step between them.
+// Returns poses of an object with one bone, turned about the vertical axis to `count` evenly spaced
+// directions. `shift` moves all directions by this share of the step between them.
 std::vector<Pose> turned_poses(std::size_t count, float shift);
 
 // Keeps at most this many items, evenly picked; 0 keeps all.
@@ -64,8 +65,8 @@ void thin_out(std::vector<Item>& items, std::size_t max_count) {
 // Returns the joints that move some but not all vertices.
 std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh);
 
-// Turns each such joint alone on a steps^3 grid of Euler rotations (x, then y, then z about its local axes)
-// over +-range radians. This is the paper's training set (slide 9). It contains the rest pose once.
+// Turns each posable joint alone, on a steps^3 grid of Euler rotations (x, then y, then z about its local
+// axes) over +-range radians. This is the paper's training set (slide 9). It contains the rest pose once.
 std::vector<Pose> single_joint_poses(const SkinnedMesh& mesh, int steps, float range_radians);
 
 }  // namespace nook::bake

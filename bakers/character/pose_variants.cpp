@@ -28,7 +28,7 @@ Vec3 reflected_point(Vec3 point, const Plane& plane) {
   return point - 2 * (dot(point, plane.normal) - plane.offset) * plane.normal;
 }
 
-// A joint with all joints below it, which tell apart joints at one place.
+// A joint with all joints below it. The lower joints distinguish joints at the same position.
 struct Branch {
   Vec3 middle;  // mean over the joint and all joints below it, metres
   float count = 1;
@@ -49,7 +49,7 @@ std::vector<Branch> branches(const SkinnedMesh& mesh, const BodyTree& tree) {
   return branch;
 }
 
-// Pairs joints from the roots down. Returns nothing if one joint has no twin.
+// Pairs joints, starting at the roots. Returns an empty list if any joint has no twin.
 std::vector<std::uint32_t> twins(const SkinnedMesh& mesh, const BodyTree& tree, const Plane& plane,
                                  float tolerance_m) {
   const std::size_t count = mesh.bones.size();
@@ -75,7 +75,7 @@ std::vector<std::uint32_t> twins(const SkinnedMesh& mesh, const BodyTree& tree, 
     if (twin[b] == nobody) return {};
     twin[twin[b]] = b;
   }
-  // If all joints of a rig lie in the plane, nothing shows that its sides are equal.
+  // If all joints of a rig lie in the plane, there is no evidence that both sides are equal.
   for (std::uint32_t b = 0; b < count; ++b)
     if (twin[b] != b) return twin;
   return {};
@@ -159,7 +159,8 @@ class Maker {
 
   Pose make(Random& random) const {
     constexpr int tries = 8;
-    // Joined hands keep the fingers of their pose, because all clips of a rig tend to have similar fingers.
+    // Joining the hands does not change the fingers of the pose, because all clips of a rig tend to have
+    // similar finger poses.
     constexpr float allowed = 0.6f, mirrored_share = 0.5f, joined_share = 0.15f;
     Pose best;
     float least = 0;
@@ -181,8 +182,8 @@ class Maker {
   }
 
  private:
-  // Raises limit to the depth of the chosen pose, so that variants of a pose that touches itself may touch as
-  // well.
+  // Picks a random pose. Raises `limit` to the depth of this pose: if the body touches itself in a pose, it
+  // may also do so in variants of the pose.
   const Motions& pick(Random& random, float& limit) const {
     const std::size_t i = random.below(std::uint32_t(given_.size()));
     limit = std::max(limit, depth_[i]);
@@ -191,7 +192,7 @@ class Maker {
 
   Motions draw(Random& random, float& limit) const {
     constexpr float blended_share = 0.4f, mixed_share = 0.6f;
-    // Shares of the way from one pose to the other. Negative shares lead away from it.
+    // Interpolation shares between two poses. A negative share leads away from the other pose.
     constexpr float least = -0.3f, most = 0.7f;
     constexpr int most_limbs = 3;
     Motions motions = pick(random, limit);

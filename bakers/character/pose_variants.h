@@ -1,4 +1,4 @@
-// New poses made of given ones.
+// Makes new poses from given ones.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,26 @@
 
 namespace nook::bake {
 
-// Finds the mirror symmetry of a rig from the places where its joints rest.
+// Finds the mirror symmetry of a rig from the rest positions of its joints.
 
 struct MirrorRig {
   Vec3 normal;                      // normal of the plane of symmetry, unit length
   std::vector<std::uint32_t> twin;  // mirror image of each bone; a bone in the middle of the body is its own
+                                    // mirror image
 };
 
 // Finds the symmetry about an upright plane across x or z. The mirrored rest position of every joint must be
-// at its twin, within 2 % of the rig's extent. Twins must have twin parents, and not all joints may be their
-// own twins. Returns nothing for other rigs.
+// within 2 % of the rig's extent from its twin. The parents of twins must be twins too. At least one joint
+// must have a twin other than itself. Returns nothing for rigs that do not satisfy this.
 std::optional<MirrorRig> find_mirror(const SkinnedMesh& mesh, const BodyTree& tree);
 
 // Returns the mirror image of a pose. Mirroring twice gives the pose back.
 std::vector<JointMotion> mirrored(const MirrorRig& mirror, std::span<const JointMotion> motions);
 
-// Makes poses from given ones: mirrors them, puts limbs of one on the body of another, and goes between and
-// beyond two.
+// Makes poses from given ones: mirrors them, combines limbs of one with the body of another, and interpolates
+// and extrapolates between two.
 
-// Makes count poses. The same seed gives the same poses. Returns nothing if no pose is given.
+// Makes `count` poses. The same seed gives the same poses. Returns nothing if no pose is given.
 std::vector<Pose> pose_variants(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                                 std::span<const Pose> poses, std::size_t count, std::uint64_t seed,
                                 const RigCorrections& corrections = {});

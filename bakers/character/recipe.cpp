@@ -34,8 +34,8 @@ PresetValues preset_values(Preset preset, FitMethod fit) {
       v.single_joint_steps = 3;
       break;
     case Preset::standard:
-      // Few rays on many poses are best. The noise of a target averages out over the poses, but a model never
-      // learns what no pose shows.
+      // Few rays on many poses give the best model. The noise of a target averages out over the poses, but a
+      // model cannot learn what no pose shows.
       v.settings.rays = 16;
       v.settings.steps = paper ? 20 : 20000;
       v.auto_poses = 2700;
@@ -51,7 +51,7 @@ PresetValues preset_values(Preset preset, FitMethod fit) {
         v.settings.key_points = 800;
         v.settings.spheres = 100;
       }
-      // The limit rises, so that a file with few clips still gets its share of the poses.
+      // The limit is higher, so that a file with few clips also gets more poses.
       v.max_samples_per_clip = 256;
       break;
   }
@@ -120,14 +120,14 @@ std::vector<std::size_t> clips_of_bits(const ImportedCharacter& character, const
   return clips;
 }
 
-// The order of names, and names that are given twice, choose nothing.
+// The order of names and repeated names do not matter, so sort them and remove duplicates.
 std::vector<std::string> sorted_names(std::vector<std::string> names) {
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 
-// Of the text of a recipe.
+// Reads the mesh selection from the JSON of a recipe.
 MeshSelection meshes_of(const Json& j) {
   MeshSelection meshes;
   if (!j.contains("meshes")) return meshes;
@@ -191,7 +191,7 @@ std::vector<Pose> automatic_poses(const ImportedCharacter& character, const Reci
 
 namespace {
 
-// Returns whether this version makes the same poses as the recipe's generation.
+// Returns true if this version makes the same poses as the recipe's generation.
 bool makes_same_poses(const ImportedCharacter& character, const Recipe& recipe) {
   if (recipe.generation == pose_generation) return true;
   if (recipe.generation != 3 && recipe.generation != 4) return false;

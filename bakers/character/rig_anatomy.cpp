@@ -73,7 +73,7 @@ JointRole role_of(const std::string& text, Side side, JointRole parent) {
   if (contains(text, {"head"})) return JointRole::head;
   if (contains(text, {"spine", "chest", "torso", "abdomen", "waist"})) return JointRole::spine;
   if (contains(text, {"pelvis", "hip"})) return side == Side::none ? JointRole::pelvis : JointRole::thigh;
-  // Bare "arm" and "leg" mean the limb's next part.
+  // "arm" or "leg" without a prefix means the next part of the limb.
   if (contains(text, {"arm"}) && side != Side::none)
     return parent == JointRole::upper_arm ? JointRole::forearm
            : parent == JointRole::forearm ? JointRole::hand
@@ -102,12 +102,12 @@ JointRole next_role(JointRole role) {
     case JointRole::foot:
       return JointRole::toe;
     default:
-      return role;  // spines, necks and fingers continue in kind
+      return role;  // spines, necks and fingers continue with the same role
   }
 }
 
-// Rigs with inverse kinematics keep feet and hands beside the limbs that they end: the limb is the one of the
-// same side that has no end.
+// Rigs with inverse kinematics keep feet and hands outside the limbs that they belong to. Attaches each to
+// the limb of the same side that has no end yet.
 void attach_loose_ends(std::vector<Joint>& joints) {
   const auto attach = [&](JointRole limb, JointRole end) {
     for (std::size_t b = 0; b < joints.size(); ++b) {
@@ -185,14 +185,14 @@ std::optional<JointRole> role_named(std::string_view name) {
 
 namespace {
 
-// A person's limbs hold their loose ends.
+// Returns the parents for a person. A loose foot or hand becomes a child of its limb.
 std::vector<std::int32_t> parents_of_person(const SkinnedMesh& mesh, std::span<const Joint> joints) {
   BodyTree tree;
   for (const Bone& bone : mesh.bones) tree.parent.push_back(bone.parent);
   for (std::size_t b = 0; b < joints.size(); ++b) {
     const std::int32_t next = joints[b].continuation;
     if (next < 0 || tree.parent[std::size_t(next)] == std::int32_t(b)) continue;
-    // A limb that hangs on its own end would be a ring.
+    // Skip this if the limb is below its own end, because the result would be a cycle.
     if (!is_below(tree, b, std::size_t(next))) tree.parent[std::size_t(next)] = std::int32_t(b);
   }
   return tree.parent;
@@ -212,7 +212,7 @@ Vec3 mean_origin(const SkinnedMesh& mesh, std::span<const Joint> joints, JointRo
 }  // namespace
 
 bool is_person(const SkinnedMesh& mesh, std::span<const Joint> joints) {
-  // A hip above a thigh has the same role; both are one leg.
+  // A hip bone above a thigh has the same role as the thigh. Both belong to one leg.
   const auto count = [&](JointRole role, Side side) {
     int tops = 0;
     for (std::size_t b = 0; b < joints.size(); ++b) {
@@ -233,7 +233,8 @@ bool is_person(const SkinnedMesh& mesh, std::span<const Joint> joints) {
 
 namespace {
 
-// Geometry decides where it finds a limb. Of a part of a body, such as a hand or an arm, names know more.
+// If the geometry shows a limb, the geometry decides. For a single part of a body, such as a hand or an arm,
+// names are more reliable.
 std::vector<Joint> roles_of_other_body(const SkinnedMesh& mesh, std::vector<Joint> named,
                                        const RigCorrections& corrections) {
   std::vector<Joint> joints = roles_by_geometry(mesh, corrections);

@@ -1,4 +1,4 @@
-// Rig files: a user's corrections of what was understood of a rig, as JSON.
+// Rig files hold a user's corrections to the automatically recognised roles of a rig, as JSON.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace nook::bake {
 
-// {"bones": {"IKBackLeg.L": {"role": "foot", "side": "left", "limb": 2, "parent": "BackLowerLeg.L"}}}
-// Every entry of a bone may be left out; "parent": null makes a root. Fails with INVALID_ARGUMENT for text
-// that is not such an object, and for unknown keys, roles and sides. It also refuses bones that the mesh
-// lacks or has twice, and parents that form a ring.
+// {"bones": {"IKBackLeg.L": {"role": "foot", "side": "left", "limb": 2, "parent": "BackLowerLeg.L"}}} Every
+// entry of a bone is optional. "parent": null makes the bone a root. Fails with INVALID_ARGUMENT for text
+// that is not such an object, and for unknown keys, roles and sides. Also fails for bone names that do not
+// exist in the mesh or exist twice, and for parents that form a cycle.
 RigCorrections read_rig(const SkinnedMesh& mesh, std::string_view text);
 
-// The same as one line; empty without corrections.
+// Returns the corrections as one line of the same JSON, or an empty string if there are none.
 std::string rig_text(const SkinnedMesh& mesh, const RigCorrections& corrections);
 
 }  // namespace nook::bake

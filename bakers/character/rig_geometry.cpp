@@ -51,7 +51,7 @@ BoneSkin bone_skin(const SkinnedMesh& mesh) {
   return skin;
 }
 
-// True for a bone that moves skin, or has one below it that does.
+// Returns true for a bone if it, or a bone below it, moves skin.
 std::vector<char> alive(const BoneSkin& skin, std::span<const std::int32_t> parent) {
   std::vector<char> live(parent.size(), 0);
   for (std::size_t b = 0; b < live.size(); ++b) {
@@ -83,7 +83,7 @@ bool has_word(const std::string& name, std::initializer_list<const char*> wanted
   return false;
 }
 
-// A bone for twists lies on the way from its parent to a sibling, and nothing hangs on it.
+// Finds twist bones. A twist bone lies between its parent and a sibling, and has no children.
 std::vector<char> helpers(const SkinnedMesh& mesh) {
   const std::size_t bones = mesh.bones.size();
   std::vector<char> helper(bones, 0), has_child(bones, 0);
@@ -132,7 +132,7 @@ struct Holder {
   float amount = 0, of_ancestors = 0;
 };
 
-// The holder of a branch is the bone outside it that shares most skin with it.
+// Returns the holder of a branch: the bone outside the branch that shares most skin with it.
 Holder holder_by_edges(std::span<const SkinContact> contacts, std::span<const std::int32_t> parent,
                        const std::vector<char>& branch, std::size_t root) {
   std::map<std::uint32_t, float> shared;
@@ -151,8 +151,8 @@ Holder holder_by_edges(std::span<const SkinContact> contacts, std::span<const st
   return holder;
 }
 
-// The same for an island of the mesh: the bone of the nearest vertex that does not belong to it, within 3 %
-// of the body's diagonal.
+// Returns the holder of an unconnected part of the mesh: the bone of the nearest vertex outside that part,
+// within 3 % of the body's diagonal.
 Holder holder_by_nearness(const SkinnedMesh& mesh, const std::vector<char>& branch) {
   constexpr std::size_t most_samples = 12;
   std::vector<std::uint32_t> own, other;
@@ -175,7 +175,7 @@ Holder holder_by_nearness(const SkinnedMesh& mesh, const std::vector<char>& bran
   return holder;
 }
 
-// The root under which most vertices are.
+// Returns the root bone with the most vertices below it.
 std::int32_t main_root(const BoneSkin& skin, std::span<const std::int32_t> parent) {
   std::vector<float> count(skin.count);
   const std::vector<std::uint32_t> order = parents_first(parent);
@@ -208,7 +208,7 @@ std::vector<std::int32_t> parents_by_skin(const SkinnedMesh& mesh, const RigCorr
   for (const std::uint32_t b : parents_first(parent)) {
     if (!live[b] || fixed[b] || std::int32_t(b) == root) continue;
     const std::int32_t above = parent[b];
-    // A bone under one that has skin of its own hangs where the rig says, but at the rig's root.
+    // If the parent has skin and is not the rig's root, the rig's hierarchy is kept.
     if (above >= 0 && skin.count[std::size_t(above)] > 0 && parent[std::size_t(above)] >= 0) continue;
     const std::vector<char> branch = branch_of(parent, b);
     Holder holder = holder_by_edges(contacts, parent, branch, b);
@@ -217,7 +217,7 @@ std::vector<std::int32_t> parents_by_skin(const SkinnedMesh& mesh, const RigCorr
       holder.bone = parent[std::size_t(holder.bone)];
     if (holder.bone < 0 || branch[std::size_t(holder.bone)]) continue;
     if (holder.of_ancestors >= 0.1f * holder.amount) continue;
-    // Siblings touch each other, as thighs do, and hang on their parent nevertheless.
+    // Siblings such as thighs may touch each other, but they are still children of their parent.
     const bool is_far = depth_of(parent, holder.bone) >= depth_of(parent, above) + 2;
     if (above < 0 || is_far) parent[b] = holder.bone;
   }
@@ -235,7 +235,7 @@ Vec3 mirrored_point(const BodySides& sides, Vec3 p) {
   return p;
 }
 
-// Each bone with the nearest to its mirror image, where both choose each other.
+// Pairs each bone with the bone nearest to its mirror image, if both choose each other.
 void pair_bones(const SkinnedMesh& mesh, const std::vector<char>& live, const std::vector<Vec3>& tip,
                 std::span<const std::int32_t> parent, BodySides& sides) {
   const std::size_t bones = mesh.bones.size();
@@ -266,7 +266,8 @@ void pair_bones(const SkinnedMesh& mesh, const std::vector<char>& live, const st
     if (choice[b] >= 0 && choice[std::size_t(choice[b])] == std::int32_t(b)) sides.partner[b] = choice[b];
 }
 
-// Where the skin of a bone lies, or that of the branch below a bone without any, or the joint itself.
+// Returns the position of each bone's skin. If a bone has no skin, uses the skin of the branch below it, or
+// else the joint itself.
 std::vector<Vec3> bone_tips(const SkinnedMesh& mesh, const BoneSkin& skin,
                             std::span<const std::int32_t> parent) {
   const std::vector<std::uint32_t> order = parents_first(parent);
@@ -305,7 +306,8 @@ BodySides body_sides(const SkinnedMesh& mesh, std::span<const std::int32_t> pare
   for (const Vec3 p : mesh.position) all.add(p);
   const Vec3 mean = count > 0 ? (1 / count) * sum : Vec3{}, centre = 0.5f * (all.low + all.high);
   BodySides best;
-  // Pairs count first: the joints of a snake along x have none, and lie in a plane across z.
+  // The number of pairs is compared first. For example, the joints of a snake along x have no pairs across x,
+  // and lie in a plane across z.
   std::pair<int, int> most{-1, -1};
   for (const bool x : {true, false})
     for (const float middle : {x ? mean.x : mean.z, 0.0f, x ? centre.x : centre.z}) {
@@ -325,7 +327,7 @@ BodySides body_sides(const SkinnedMesh& mesh, std::span<const std::int32_t> pare
 
 namespace {
 
-// Reads the roles in the order: middle of the body, limbs, what hangs on limbs.
+// Finds the roles in this order: middle of the body, limbs, branches on limbs.
 class RigReader {
  public:
   RigReader(const SkinnedMesh& mesh, const RigCorrections& corrections);
@@ -393,8 +395,8 @@ RigReader::RigReader(const SkinnedMesh& mesh, const RigCorrections& corrections)
   find_carried();
 }
 
-// A thing that a limb carries: an island of the mesh at the end of a branch, on a body that is not made of
-// islands itself.
+// Finds objects that a limb carries. Such an object is an unconnected part of the mesh at the end of a
+// branch, on a body that does not consist of unconnected parts itself.
 void RigReader::find_carried() {
   carried_.assign(live_.size(), 0);
   std::vector<char> touches(live_.size(), 0);
@@ -413,7 +415,8 @@ void RigReader::find_carried() {
   }
 }
 
-// Names of heads and tails tell the front; without them it is +z, or +x for a body whose sides differ in z.
+// The names of heads and tails determine the front. Without such names, the front is +z, or +x for a body
+// whose sides differ in z.
 void RigReader::find_front() {
   Vec3 all, difference;
   float count = 0;
@@ -432,7 +435,7 @@ void RigReader::find_front() {
   front_ = forward_of(difference) < 0 ? -1.0f : 1.0f;
 }
 
-// The role that a name hints at, where geometry alone leaves a choice.
+// Returns the role that a name suggests. It is used where geometry alone is ambiguous.
 JointRole RigReader::hinted(std::size_t b) const {
   const std::string& name = mesh_.bones[b].name;
   if (has_word(name, {"tail"})) return JointRole::tail;
@@ -453,8 +456,8 @@ std::vector<std::size_t> RigReader::branch_bones(std::size_t root) const {
   return bones;
 }
 
-// The bone at which a branch ends: the one whose skin is lowest, or farthest from the branch's root; of the
-// bones near that, the deepest in the hierarchy.
+// Returns the bone at which a branch ends: the bone with the lowest skin, or with the skin farthest from the
+// branch's root. Among bones near that extreme, returns the deepest one in the hierarchy.
 std::size_t RigReader::branch_end(std::size_t root, bool lowest) const {
   const float tolerance = 0.05f * body_.size().y;
   std::size_t best = root;
@@ -471,7 +474,7 @@ std::size_t RigReader::branch_end(std::size_t root, bool lowest) const {
   return best;
 }
 
-// A leg reaches the ground from a fifth of the body's height or more, by two bones or more.
+// A leg starts at a fifth of the body's height or higher, reaches the ground, and has two bones or more.
 bool RigReader::is_leg(std::size_t root) const {
   const Vec3 size = body_.size();
   const float ground = body_.low.y;
@@ -491,13 +494,13 @@ JointRole RigReader::role_of_branch(std::size_t root) const {
   const Vec3 size = below_[root].size(), body = body_.size();
   const float lateral = sides_.across_x ? size.x : size.z, along = sides_.across_x ? size.z : size.x;
   const float width = sides_.across_x ? body.x : body.z;
-  // A wing is a sheet that reaches far to its side.
+  // A wing is flat and reaches far to its side.
   const float thinnest = std::min({lateral, along, size.y});
   if (lateral > 0.25f * width && thinnest < 0.2f * along && lateral > size.y && along > thinnest &&
       lateral > 0.5f * along)
     return JointRole::wing;
   const float reach = length(size), whole = length(body);
-  // Sockets of heads: small branches of the last bone in the middle.
+  // Small branches of the last bone in the middle mark a head.
   const std::int32_t on = parent_[root];
   if (on >= 0 && joints_[std::size_t(on)].role == JointRole::head)
     return reach < 0.25f * whole && below_[root].high.y > origin(std::size_t(on)).y ? JointRole::ear
@@ -505,7 +508,7 @@ JointRole RigReader::role_of_branch(std::size_t root) const {
   return reach > 0.08f * whole ? JointRole::arm : JointRole::other;
 }
 
-// A leg's last bones below a quarter of the height of its root are its foot.
+// The last bones of a leg that are below a quarter of the height of the leg's root form the foot.
 void RigReader::read_feet(const std::vector<std::size_t>& chain) {
   const float ground = body_.low.y, height = origin(chain.front()).y - ground;
   for (std::size_t i = 2; i < chain.size(); ++i)
@@ -544,7 +547,8 @@ void RigReader::read_branch(std::size_t root) {
   }
 }
 
-// True for a bone in the middle with limbs on both sides of it along the body: the trunk.
+// Returns true for a bone of the trunk: it is in the middle, and there are limbs before and behind it along
+// the body.
 bool RigReader::spans_body(std::size_t b) const {
   std::size_t with = 0;
   bool own = false, elsewhere = false;
@@ -609,8 +613,8 @@ void RigReader::read_middle() {
 }
 
 std::vector<Joint> RigReader::read() {
-  // Heads are needed to tell ears from arms, limbs to tell spines from necks: limbs first, then the middle,
-  // then the small branches again.
+  // Heads are needed to distinguish ears from arms, and limbs to distinguish spines from necks. So read limbs
+  // first, then the middle, then the small branches again.
   std::vector<std::size_t> roots;
   for (const std::uint32_t b : order_) {
     if (!live_[b] || is_middle(b)) continue;
@@ -628,7 +632,8 @@ std::vector<Joint> RigReader::read() {
   return joints_;
 }
 
-// Legs first, front to back, left before right; then all other branches and the chains of the middle.
+// Numbers legs first, from front to back, left before right. Then numbers all other branches and the chains
+// of the middle.
 void RigReader::number_limbs() {
   const float left = front_ * (sides_.across_x ? 1.0f : -1.0f);
   std::vector<std::size_t> roots = branch_roots_;

@@ -9,7 +9,7 @@
 
 namespace nook::bake {
 
-// Rodrigues' formula; the vector's length is the angle in radians.
+// Returns the rotation by Rodrigues' formula. The length of the vector is the angle in radians.
 inline Mat3x4 rotation(Vec3 axis_angle) {
   const float angle = length(axis_angle);
   Mat3x4 r;
@@ -35,7 +35,7 @@ inline Vec3 shortest_arc(Vec3 from, Vec3 to) {
   return std::atan2(s, c) / s * axis;
 }
 
-// A turn about an axis through a point.
+// Returns a turn about an axis through a point.
 inline Mat3x4 rotation_about(Vec3 point, Vec3 axis_angle) {
   Mat3x4 r = rotation(axis_angle);
   const Vec3 t = point - transform_vector(r, point);

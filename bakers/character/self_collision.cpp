@@ -5,7 +5,7 @@
 namespace nook::bake {
 namespace {
 
-// Bones this near in the hierarchy share flesh: their spheres always overlap.
+// Bones that are this near in the hierarchy share flesh, so their spheres always overlap.
 constexpr int related_hops = 2;
 
 bool related(const BodyTree& tree, std::size_t a, std::size_t b) {
@@ -22,7 +22,8 @@ bool related(const BodyTree& tree, std::size_t a, std::size_t b) {
   return false;
 }
 
-// Returns a number for the hand that each bone belongs to: all bones below one forearm share it. -1: none.
+// Returns the index of the hand that each bone belongs to, or -1. All bones below one forearm have the same
+// index.
 std::vector<std::int32_t> hands_of_bones(const BodyTree& tree, std::span<const Joint> joints) {
   std::vector<std::int32_t> hand(joints.size(), -1);
   for (const std::uint32_t b : tree.order) {
@@ -43,7 +44,8 @@ float overlap(Vec3 a, float radius_a, Vec3 b, float radius_b) {
 SelfCollision::SelfCollision(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                              const RigCorrections& corrections)
     : spheres_(initial_spheres(mesh, vertex_area, 100)) {
-  // The spread of points on a round limb's skin is its radius over sqrt(2).
+  // On the skin of a round limb, the standard deviation of the points is the limb's radius divided by
+  // sqrt(2).
   for (InitialSphere& s : spheres_) s.radius *= 1.414f;
   const std::vector<Joint> joints = joint_roles(mesh, corrections);
   const BodyTree tree = body_tree(mesh, joints);

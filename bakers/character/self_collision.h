@@ -1,4 +1,4 @@
-// Measures how deep a posed body runs through itself, from a few spheres for each bone.
+// Measures how deeply a posed body intersects itself, with a few spheres for each bone.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,13 @@ class SelfCollision {
   SelfCollision(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                 const RigCorrections& corrections = {});
 
-  // Returns the deepest overlap of two spheres of bones that are not neighbours, beyond their overlap at
-  // rest. The unit is the smaller radius: at 0 the spheres are apart or touch, at 1 one is sunk in by its
-  // radius.
+  // Returns the deepest overlap of two spheres of bones that are not neighbours, minus their overlap in the
+  // rest pose. The unit is the smaller radius. At 0, the spheres are apart or touch. At 1, the smaller sphere
+  // has sunk in by its radius.
   float depth(const Pose& pose) const;
 
-  // The same without overlaps between the two hands. Use it for hands that hold each other or one thing.
+  // Like depth(), but ignores overlaps between the two hands. Use it for hands that hold each other or one
+  // object.
   float depth_but_hands(const Pose& pose) const;
 
  private:

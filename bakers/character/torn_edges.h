@@ -1,4 +1,5 @@
-// Finds edges of a mesh that a pose tears: a sign that a bone moves without the bone that its skin follows.
+// Finds edges of a mesh that a pose tears. Torn edges are a sign that a bone does not move with the bone that
+// the neighbouring skin follows.
 #pragma once
 
 #include <array>
@@ -18,13 +19,13 @@ constexpr float torn_growth = 0.01f;
 
 using MeshEdge = std::array<std::uint32_t, 2>;
 
-// Each edge of the mesh once, the smaller vertex first, in ascending order.
+// Returns each edge of the mesh once, in ascending order. The smaller vertex index of an edge comes first.
 std::vector<MeshEdge> mesh_edges(const SkinnedMesh& mesh);
 
-// Counts the edges that one pose tears. posed: the skinned vertices of that pose.
+// Counts the edges that one pose tears. `posed` has the skinned vertices of that pose.
 std::size_t count_torn(const SkinnedMesh& mesh, std::span<const MeshEdge> edges, std::span<const Vec3> posed);
 
-// The share of torn edges over all edges and poses, 0 to 1; 0 without edges or poses.
+// Returns the share of torn edges over all edges and poses, 0 to 1. Returns 0 if there are no edges or poses.
 double torn_share(const SkinnedMesh& mesh, std::span<const Pose> poses);
 
 }  // namespace nook::bake

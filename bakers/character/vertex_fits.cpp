@@ -32,8 +32,8 @@ LinearLayerFit fitted_layer(const CharacterModel& model, const FitState& state, 
                           settings);
 }
 
-// Copies all that is the same for each mesh of the rig. This includes the caster weights, and the places
-// where key points take the shadow of casters.
+// Copies everything that is the same for all meshes of the rig, including the caster weights and the
+// positions at which other casters darken key points.
 void take_rig(const CharacterModel& model, CharacterModel& out) {
   out.kernel = model.kernel;
   out.bone_names = model.bone_names;
@@ -86,8 +86,9 @@ CharacterModel refit_vertices(const CharacterModel& model, const SkinnedMesh& me
 
 namespace {
 
-// Weight, in poses, of the two observations that hold for every vertex. A traced observation has noise from
-// its rays, and depends on more than AO. Some ten poses that differ in AO outweigh these two.
+// Weight, in poses, of the two observations that are known for every vertex. Traced observations have noise
+// from their rays, and depend on more than AO. About ten poses with different AO outweigh the two known
+// observations.
 constexpr double known_weight = 0.1;
 
 Mat3x4 blended_bones(const SkinWeights& weights, const Pose& pose) {

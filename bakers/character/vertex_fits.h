@@ -1,4 +1,4 @@
-// Fits values of vertices for a model that exists already.
+// Fits per-vertex values for an existing model.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,16 @@
 namespace nook::bake {
 
 // Fits the linear layer of a model for another mesh of the same rig, such as a level of detail. Spheres, key
-// points, levels and casters stay. Only the weights of each vertex are fitted, to ray tracing of the other
-// mesh, so that the AO follows the other mesh's shape.
+// points, levels and casters are not changed. Only the weights of each vertex are fitted, to ray tracing of
+// the other mesh, so that the AO matches the shape of the other mesh.
 
 struct RefitSettings {
   std::uint32_t rays = 128;  // per vertex and pose
   std::uint64_t seed = 1;
 };
 
-// The mesh has the bones of the model, in the same order, and each pose has one matrix per bone. The result
-// has the mesh's welded vertices. The caller sets bind data and rest surface. Throws
+// The mesh must have the bones of the model, in the same order. Each pose must have one matrix per bone. The
+// result has the mesh's welded vertices. The caller must set the bind data and the rest surface. Throws
 // Failure(NOOK_ERROR_CANCELLED) if progress returns false.
 CharacterModel refit_vertices(const CharacterModel& model, const SkinnedMesh& mesh,
                               std::span<const Pose> poses, const RefitSettings& settings,
@@ -35,17 +35,17 @@ struct OccludedFitSettings {
   std::uint64_t seed = 1;
 };
 
-// One pose as observed at each welded vertex: its AO, and its occluded direction, turned back to rest space
-// by the vertex's own blend of bones.
+// What is observed at a welded vertex in one pose: its AO and its occluded direction. The direction is turned
+// back to rest space by the inverse of the vertex's blended bone matrix.
 struct OccludedSample {
   std::vector<float> ao;
   std::vector<Vec3> occluded;
 };
 OccludedSample trace_occluded(const SkinnedMesh& mesh, const Pose& pose, const OccludedFitSettings& settings);
 
-// The least-squares line over AO through the observations of one vertex. Two more observations with a small
-// weight keep it stable where AO hardly changes. At AO 1 nothing is occluded; at AO 0 everything is, which is
-// 2/3 of the normal.
+// Fits the line of the occluded direction over AO for one vertex, by least squares. Two extra observations
+// with a small weight keep the line stable where AO hardly changes. They are known: at AO 1 nothing is
+// occluded, so the direction is 0. At AO 0 everything is occluded, so the direction is 2/3 of the normal.
 class OccludedLine {
  public:
   void add(float ao, Vec3 occluded, double weight = 1);

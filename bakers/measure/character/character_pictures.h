@@ -34,10 +34,10 @@ struct GlossyPictureSettings {
   std::uint64_t seed = 1;
 };
 
-// Draws four panels from the front: reflections without occlusion, with S. Lagarde's formula and the model's
-// AO, with the model's AO and bent normals, and path traced. The body is a colourless mirror with the given
-// roughness. The map's mean radiance is shown as middle grey. Throws Failure: UNSUPPORTED (the model was
-// baked without bent normals).
+// Draws four panels from the front. They show reflections without occlusion, with Lagarde's formula and the
+// model's AO, with the model's AO and bent normals, and path traced. The body is a colourless mirror with the
+// given roughness. The map's mean radiance is shown as middle grey. Throws Failure: UNSUPPORTED (the model
+// was baked without bent normals).
 bake::Picture glossy_picture(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                              const bake::Pose& pose, const GlossyMap& map,
                              const GlossyPictureSettings& settings);

@@ -76,7 +76,7 @@ double mean(std::span<const float> values) {
   return sum / double(values.size());
 }
 
-// Two bodies in the runtime, posed by clips or by their bones.
+// Two bodies that the runtime updates, posed by clips or by their bones.
 class Pair {
  public:
   Pair(const CharacterModel& model, const ClipSet& set)
