@@ -16,8 +16,8 @@
 namespace nook::bake {
 namespace {
 
-// We measured the error against ray tracing of a body on the ground with neighbours. It hardly changes for a
-// ridge from 0.001 to 0.01, and for a position weight from 0 to 2 per square metre.
+// The error, measured against ray tracing of a body on the ground with neighbours, hardly changes for a ridge
+// from 0.001 to 0.01, and for a position weight from 0 to 2 per square metre.
 constexpr double ridge = 3e-3;
 constexpr double position_weight_per_m2 = 1;
 // The weight of the spheres' term. A weight of 3 lowers the error of neighbours by a fifth, and 30 hardly

@@ -13,8 +13,8 @@ namespace {
 // change the bits.
 constexpr std::size_t block_poses = 32;
 
-// Returns the quadratic form of a block's shadows (count x padded) without its constant. Overwrites `shadow`
-// with the gradient of the form with respect to the shadows.
+// Returns the quadratic form of a block's shadows (count x padded) without its constant. Replaces the values
+// in `shadow` by the gradient of the form with respect to them.
 double quadratic_form(const CachedObjective& cache, std::size_t first, std::size_t count, float* shadow) {
   const auto rows = Eigen::Index(count);
   Eigen::Map<CachedObjective::RowMatrix> x(shadow, rows, cache.a.rows());

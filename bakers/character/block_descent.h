@@ -15,9 +15,9 @@ namespace nook::bake {
 // form contain the linear layer (Le et al. 2019, slides 55 to 57). Block coordinate descent minimises the
 // objective over the non-linear layer.
 
-// E = sum over poses of shadow^T A shadow - 2 B_t^T shadow + constant, divided by poses * vertices, with A =
-// sum_i w_i alpha_i alpha_i^T and B_t = sum_i w_i alpha_i (1 - beta_i - target_ti). The paper prints + 2 for
-// the linear term, but from the paper's own definition of B it must be - 2.
+// E = sum over poses of shadow^T A shadow - 2 B_t^T shadow + constant, divided by poses * vertices, with
+// A = sum_i w_i alpha_i alpha_i^T and B_t = sum_i w_i alpha_i (1 - beta_i - target_ti). The paper prints + 2
+// for the linear term, but from the paper's own definition of B it must be - 2.
 struct CachedObjective {
   using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Eigen::MatrixXf a;  // square matrix over the padded key points

@@ -137,10 +137,10 @@ class Regression {
   std::vector<float> fine_, coarse_, fine_mean_, coarse_mean_;
 };
 
-// Returns the cost if a key point follows another one: the error at the vertices, plus a penalty for the
-// distance between the two points and the angle between their normals. The penalty is needed because the
-// follower also takes over the occlusion by other casters, which no pose contains. A distance of 0.1 m counts
-// as 0.01 of shadow, and an angle of 60 degrees as 0.05.
+// Returns the cost if a key point follows another one. It is the error at the vertices plus a penalty. The
+// penalty is for the distance between the two points and the angle between their normals. The penalty is
+// needed because the follower also takes over the occlusion by other casters, which no pose contains. A
+// distance of 0.1 m counts as 0.01 of shadow, and an angle of 60 degrees as 0.05.
 std::vector<float> following_cost(const CharacterModel& model, const Regression& regression) {
   const std::size_t points = model.key_points.size();
   std::vector<float> weight(points, 0.0f);

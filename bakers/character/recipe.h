@@ -1,4 +1,4 @@
-// The recipe of a model, stored as text inside the model's file. It contains all that is needed to make the
+// A model's file stores the recipe of the model as text. The recipe contains all that is needed to make the
 // same training poses again.
 #pragma once
 

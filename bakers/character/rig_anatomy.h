@@ -85,8 +85,8 @@ using RigCorrections = std::vector<BoneCorrection>;
 // are not recognised get JointRole::other.
 std::vector<Joint> named_roles(const SkinnedMesh& mesh, const RigCorrections& corrections = {});
 
-// Returns true if the joints are those of a person. Each side must have one thigh with a calf, and an upper
-// arm. The vertical distance from the hips to the shoulders must be larger than the horizontal one.
+// Returns true if the joints belong to a person. Each side must have one thigh with a calf, and an upper arm.
+// The vertical distance from the hips to the shoulders must be larger than the horizontal one.
 bool is_person(const SkinnedMesh& mesh, std::span<const Joint> joints);
 
 std::vector<Joint> joint_roles(const SkinnedMesh& mesh, const RigCorrections& corrections = {});

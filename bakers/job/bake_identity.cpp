@@ -9,7 +9,7 @@
 namespace nook::bake {
 namespace {
 
-using Json = nlohmann::json;  // sorts its keys
+using Json = nlohmann::json;  // this type sorts its keys
 
 struct Kind {
   const char* name;
@@ -37,11 +37,11 @@ const char* compiler() {
 }
 
 std::string dumped(const Json& json) {
-  // Names come from files and need not be UTF-8.
+  // Names come from files and may not be UTF-8.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-// What the tool itself decides, for a kind of bake.
+// Returns the part of the identity that depends only on the tool and the kind of bake.
 Json tool_of(const std::string& kind) {
   Json tool = {{"nook", version_text},
                {"embree", embree_version()},

@@ -1,6 +1,7 @@
-// What decides about the bytes of a bake, as canonical text in every baked file, and its key. Two bakes with
-// equal text give equal bytes on any machine, but for the names of sources that recipes of probes, materials,
-// synthesis and transfer mention. A pipeline compares keys to learn what it has to bake again.
+// The identity of a bake contains everything that determines its bytes. Every baked file stores it as
+// canonical text. The key is a hash of this text. Two bakes with equal text give equal bytes on any machine.
+// The only exception is the names of source files in the recipes of probes, materials, synthesis and
+// transfer. A pipeline compares keys to find out what it has to bake again.
 #pragma once
 
 #include <cstdint>
@@ -24,16 +25,16 @@ enum class BakeKind : std::uint8_t {
   transfer
 };
 
-// Returns the name in recipes and messages.
+// Returns the name of the kind in recipes and messages.
 const char* name_of(BakeKind kind);
 
-// Returns the generation of a kind of bake. Raise it in bake_identity.cpp when equal inputs begin to give
-// other bytes.
+// Returns the generation of a kind of bake. Increase it in bake_identity.cpp when a code change gives other
+// bytes for equal inputs.
 int bake_generation(BakeKind kind);
 
 // The text is one line of JSON with sorted keys. It has kind, generation, the versions of Nook, Embree and
-// compiler, and the resolved instruction set. It also has hashes of what was read, and every setting. It
-// names no file and no machine.
+// compiler, and the resolved instruction set. It also has hashes of all inputs, and every setting. It does
+// not contain names of files or machines.
 struct BakeIdentity {
   std::string text;
 
@@ -41,21 +42,22 @@ struct BakeIdentity {
   std::string key() const;
 };
 
-// settings and inputs are objects. Numbers of threads and names of files do not belong there.
+// `settings` and `inputs` must be JSON objects. They must not contain thread counts or file names.
 BakeIdentity identify_bake(BakeKind kind, const nlohmann::json& settings, const nlohmann::json& inputs);
 
-// Stores the identity in a recipe, as its entry "bake".
+// Stores the identity in a recipe, under the key "bake".
 void store_identity(nlohmann::ordered_json& recipe, const BakeIdentity& identity);
 
-// Returns the text of a recipe with an identity; another one in it is replaced. Without an identity the text
-// stays as it is.
+// Returns the text of a recipe with the identity added. Replaces an existing identity. If `identity` is
+// empty, returns the text unchanged.
 std::string with_identity(std::string_view recipe_text, const BakeIdentity& identity);
 
-// Returns the identity that a recipe holds; none for files of earlier versions, or text that is not a recipe.
+// Returns the identity in a recipe. Returns nothing for files of earlier versions, and for text that is not a
+// recipe.
 std::optional<BakeIdentity> stored_identity(std::string_view recipe_text);
 
-// Says in what the tool that made a file differs from this one, such as "embree 3.13.4, here 3.13.5". Empty:
-// in nothing, so that a bake of equal inputs and settings has the same key.
+// Describes how the tool that made a file differs from this tool, such as "embree 3.13.4, here 3.13.5". If
+// the text is empty, a bake with equal inputs and settings has the same key.
 std::string difference_from_this_tool(const BakeIdentity& identity);
 
 }  // namespace nook::bake

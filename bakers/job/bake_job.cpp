@@ -54,7 +54,7 @@ void BakeJob::run(const Bake& bake, std::size_t threads) {
       file = bake(
           [this](JobStage stage, std::size_t done, std::size_t total) { return report(stage, done, total); });
     });
-    // A request to cancel after the last report of progress still counts, because the caller does not need
+    // A request to cancel is honoured even after the last progress callback, because the caller does not need
     // the file.
     if (cancelled_) throw Failure(NOOK_ERROR_CANCELLED, "cancelled when the bake was nearly done");
   } catch (...) {

@@ -1,4 +1,4 @@
-// Runs one bake on a thread of its own, with its outcome and progress as the C interface reports them.
+// Runs one bake on its own thread. Provides its outcome and progress in the form of the C interface.
 #pragma once
 
 #include <nook/nook.h>
@@ -16,7 +16,7 @@
 
 namespace nook::bake {
 
-// The result and the text that a caller of the C interface gets for an exception.
+// The result code and the text that the C interface returns for an exception.
 
 struct Outcome {
   nook_result result = NOOK_OK;
@@ -25,7 +25,7 @@ struct Outcome {
 
 Outcome outcome_of(const std::exception_ptr& exception) noexcept;
 
-// The stage of a job; it is finished once its result is known.
+// The progress of a job. A job is finished as soon as its result is known.
 struct JobProgress {
   bool finished = false;
   JobStage stage = JobStage::waiting;
@@ -34,10 +34,10 @@ struct JobProgress {
 
 class BakeJob {
  public:
-  using Listener =
-      std::function<bool(const JobProgress&)>;  // false cancels; never called once the job has finished
+  using Listener = std::function<bool(const JobProgress&)>;  // return false to cancel; not called after the
+                                                             // job has finished
 
-  // Runs once, on `threads` threads (0: all cores), and is destroyed with the job.
+  // Called once, on `threads` threads (0: all cores). Destroyed together with the job.
   using Bake = std::function<BakedFile(const StageReport&)>;
 
   BakeJob(Bake bake, std::size_t threads, Listener listener);
@@ -46,7 +46,7 @@ class BakeJob {
   JobProgress progress() const;
   void cancel() { cancelled_ = true; }
   void wait() const;
-  // Returns the file of a job that succeeded. Throws Failure: INVALID_ARGUMENT while the job runs, else the
+  // Returns the file of a job that succeeded. Throws Failure: INVALID_ARGUMENT while the job runs, or the
   // failure of the job.
   const BakedFile& file() const;
   // Returns the outcome of a finished job.
@@ -63,7 +63,7 @@ class BakeJob {
   JobProgress progress_;
   BakedFile file_;
   Outcome outcome_;
-  std::thread thread_;  // the last member, because it uses all of the above
+  std::thread thread_;  // must be the last member, because the thread uses all members above
 };
 
 inline nook_bake_progress public_progress(const JobProgress& p) {

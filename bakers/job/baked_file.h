@@ -1,4 +1,4 @@
-// The result of a bake, and its report of progress.
+// The result of a bake, and its progress callback.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 namespace nook::bake {
 
 struct BakedFile {
-  std::vector<std::byte> model;  // of a .nook file
+  std::vector<std::byte> model;  // bytes of a .nook file
   std::string report;            // JSON
 };
 
@@ -28,7 +28,7 @@ enum class JobStage : std::uint8_t {
   done,
 };
 
-// The text that a program shows to its user.
+// Returns the text for the stage that a program shows to its user.
 inline const char* text_of(JobStage stage) {
   switch (stage) {
     case JobStage::waiting:

@@ -15,28 +15,29 @@
 
 namespace nook::bake {
 
-// Throws INVALID_ARGUMENT, which names the pose and the bone, if a number is not finite or beyond the bound
-// of a pose.
+// Throws INVALID_ARGUMENT if a number is not finite or exceeds the bound for poses. The message names the
+// pose and the bone.
 std::vector<Pose> read_poses(const float* bones_3x4, std::size_t poses, std::size_t bones);
 void write_pose(const Pose& pose, float* bones_3x4);
 void write_points(std::span<const Vec3> welded, std::span<const std::uint32_t> file_to_welded, float* xyz);
 
-// Throws INVALID_ARGUMENT unless the caller's count is the required one.
+// Throws INVALID_ARGUMENT if `got` differs from `needed`.
 void need_count(const char* name, std::size_t got, std::size_t needed);
 
-// Makes a character from a host's arrays.
+// Makes a character from arrays of the host.
 
-// Throws INVALID_ARGUMENT with the first fault.
+// Throws INVALID_ARGUMENT with the first error.
 ImportedCharacter character_of_arrays(const nook_bake_source_desc& desc);
 
-// Triangles and receivers of a caller for ray tracing, which are checked here. All functions throw
+// These functions read and check a caller's triangles and receivers for ray tracing. All of them throw
 // Failure(INVALID_ARGUMENT).
 
-// Appends desc.meshes[number], of either kind, to a soup.
+// Checks a mesh and appends it to a soup. `number` is the index of the mesh in desc.meshes, for messages.
 void add_mesh(const nook_bake_occluder_mesh& mesh, std::uint32_t number, TriangleSoup& soup);
 
 std::vector<Vec3> read_points(const char* name, const float* xyz, std::uint32_t count);
-std::vector<Vec3> read_normals(const char* name, const float* xyz, std::uint32_t count);  // of unit length
+std::vector<Vec3> read_normals(const char* name, const float* xyz,
+                               std::uint32_t count);  // unit length
 
 void need_trace_settings(std::uint32_t rays, std::uint32_t threads, float origin_offset);
 

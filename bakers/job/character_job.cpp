@@ -20,7 +20,7 @@
 namespace nook::bake {
 namespace {
 
-// The bounds are far above any sensible bake, and keep hostile numbers from allocating all memory.
+// The bounds are far above any sensible bake. They prevent hostile values from allocating all memory.
 constexpr std::uint32_t max_spheres = 1024, max_key_points = 4096, max_rays = 65536, max_poses = 1'000'000,
                         max_steps = 10'000'000;
 
@@ -105,8 +105,9 @@ std::vector<std::size_t> chosen_clips(const nook_bake_character_desc& desc, nook
   return clips;
 }
 
-// An update takes as long as spheres times key points, and skinning as long as the vertices. Below about
-// 1,000 vertices both numbers follow the vertices. docs/lab/character.md has what the error loses.
+// The time of an update is proportional to spheres times key points. The time of skinning is proportional to
+// the vertices. Below about 1,000 vertices, both counts are limited in proportion to the vertices.
+// docs/lab/character.md says how much this raises the error.
 void limit_capacity(const nook_bake_character_desc& desc, std::size_t vertices, BakeSettings& settings) {
   constexpr std::size_t least_key_points = 64, least_spheres = 48;
   if (!desc.key_points)
@@ -191,7 +192,7 @@ Recipe recipe_of(const nook_bake_character_desc& desc, const nook_bake_character
     recipe.auto_poses = desc.auto_pose_count ? desc.auto_pose_count : preset.auto_poses;
   if (recipe.poses == PoseMode::all) {
     recipe.variant_poses = recipe.clips.size() * recipe.samples_per_clip;
-    // Variants replace automatic poses, so that they do not make a bake longer.
+    // Variants replace automatic poses, so that a bake does not take longer.
     if (!desc.auto_pose_count) recipe.auto_poses -= std::min(recipe.variant_poses, recipe.auto_poses / 2);
   }
   if (recipe.poses == PoseMode::single_joint) recipe.single_joint_steps = preset.single_joint_steps;
@@ -220,7 +221,7 @@ JobStage stage_of(BakeStage stage) {
   return JobStage::casters;
 }
 
-// The figures by which a pipeline may refuse a model.
+// Returns the figures that a pipeline can use to reject a model.
 Json figures_of(const Judgement& judgement) {
   return {
       {"on", text_of(judgement.source)},
@@ -231,7 +232,7 @@ Json figures_of(const Judgement& judgement) {
       {"worst_clip_over_static", judgement.clips.empty() ? 0 : judgement.clips.front().error.over_static()}};
 }
 
-// The worst of them.
+// Returns the worst parts.
 Json parts_of(std::span<const JudgedPart> parts) {
   constexpr std::size_t most = 8;
   Json rows = Json::array();
@@ -260,11 +261,11 @@ Json judgement_of(const Judgement& judgement) {
 }
 
 std::string dumped(const Json& j, int indent) {
-  // Names come from files and need not be UTF-8.
+  // Names come from files and may not be UTF-8.
   return j.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-// The text of a recipe with the figures of the model, which `nook inspect` shows as judged_*.
+// Returns the text of a recipe with the figures of the model added. `nook inspect` shows them as judged_*.
 std::string with_figures(std::string_view recipe, const Judgement& judgement) {
   Json j = Json::parse(recipe);
   j["judged"] = figures_of(judgement);
@@ -312,7 +313,8 @@ std::string report_text(const ImportedCharacter& character, const Recipe& recipe
   return dumped(j, 2);
 }
 
-// For a draft, casters take a few seconds. For the other presets, they take a share of the time.
+// For a draft, fitting casters takes a few seconds. For the other presets, it takes a share of the bake's
+// time.
 WorldCasterSettings caster_settings(const Recipe& recipe) {
   WorldCasterSettings settings;
   settings.seed = recipe.settings.seed;
@@ -335,8 +337,8 @@ Progress tracing(const StageReport& progress) {
       [&progress](std::size_t done, std::size_t total) { return progress(JobStage::raytrace, done, total); };
 }
 
-// Of recorded poses every fourth is not fitted, so that the model can be judged on it; fewer than 16 are all
-// fitted.
+// Every fourth recorded pose is not fitted, so that the model can be judged on it. If there are fewer than
+// 16, all are fitted.
 struct SplitRecording {
   std::vector<Pose> fitted, judged;
 };
@@ -356,15 +358,16 @@ JudgedPoses poses_to_judge(const ImportedCharacter& character, const Recipe& rec
   return {JudgedPoses::Source::recorded, std::move(recording.judged), {}, {}};
 }
 
-// The poses that are most likely in use: recorded ones; some of the clips, evenly picked; or, where the bake
-// has generated poses alone, the rest pose. Where a file has more clips than the few that are fitted, the
-// game shows other motion too, and automatic poses join them. Empty where the host gave poses, and for
-// comparisons with the paper.
+// Returns the poses that are most likely in use. They are the recorded poses, or evenly picked poses of the
+// clips, or, if the bake has only generated poses, the rest pose. If only a few of a file's clips are fitted,
+// the game shows other motion too, so automatic poses are added. Returns an empty list if the host passed
+// poses, and for comparisons with the paper.
 std::vector<Pose> likely_poses(const ImportedCharacter& character, const Recipe& recipe,
                                const CalibrationPoses& calibration) {
   constexpr std::size_t most_of_clips = 240, least_of_clips = 16;
-  // From this number on, the fitted clips stand for the others. Below it, three automatic poses join each of
-  // theirs. docs/lab/character.md measures both.
+  // With at least enough_clips fitted clips, these represent the other clips too. With fewer,
+  // automatic_for_each automatic poses are added per clip pose. docs/lab/character.md has measurements of
+  // both numbers.
   constexpr std::size_t enough_clips = 4, automatic_for_each = 3;
   if (!calibration.poses.empty()) return split_recording(calibration.poses).fitted;
   if (recipe.settings.fit != FitMethod::nook || recipe.auto_poses == 0 || recipe.extra_poses > 0) return {};
@@ -382,7 +385,8 @@ std::vector<Pose> likely_poses(const ImportedCharacter& character, const Recipe&
   return poses;
 }
 
-// Moves constants and scales to the poses in use. Few poses get more rays, whose noise would stay.
+// Fits biases and scales to the poses in use. If there are few poses, uses more rays per pose, because the
+// noise would not average out.
 void fit_to_use(CharacterModel& model, const ImportedCharacter& character, const Recipe& recipe,
                 const CalibrationPoses& calibration, const StageReport& progress) {
   constexpr std::size_t all_rays = 7680, least_rays = 32, most_rays = 256;
@@ -393,7 +397,7 @@ void fit_to_use(CharacterModel& model, const ImportedCharacter& character, const
                     tracing(progress));
 }
 
-// Hashes the matrices of poses; empty for none.
+// Hashes the matrices of poses. Returns an empty text if there are no poses.
 std::string hash_of_poses(std::span<const Pose> poses) {
   if (poses.empty()) return "";
   ContentHash hash;
@@ -406,9 +410,9 @@ std::string hash_of_poses(std::span<const Pose> poses) {
 BakeIdentity identify_character(const ImportedCharacter& character, const Recipe& recipe,
                                 std::span<const Pose> extra_poses, const CalibrationPoses& calibration) {
   nlohmann::json settings = nlohmann::json::parse(recipe_text(character, recipe));
-  settings.erase("nook");     // the identity has both
-  settings.erase("content");  // for all bakes
-  // The text of a rig file can be long, and its order means nothing.
+  settings.erase("nook");     // the identity already has both versions
+  settings.erase("content");  // the identity of every bake has it
+  // The text of a rig file can be long, so only its hash is stored.
   if (settings.contains("rig")) settings["rig"] = sha256(settings["rig"].dump());
   const WorldCasterSettings casters = caster_settings(recipe);
   settings["casters"] = {{"casters", casters.casters},
@@ -442,7 +446,7 @@ BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recip
                                     });
   fit_to_use(baked.model, character, recipe, calibration, progress);
   WorldCasterReport caster_report;
-  // An object with one bone has places instead of poses: we turn it in front of walls and lights.
+  // An object with one bone has positions instead of poses. We turn it in front of walls and lights.
   const std::vector<Pose> caster_poses =
       character.mesh.bones.size() == 1 ? turned_poses(caster_settings(recipe).poses, 0) : std::move(poses);
   const std::vector<WorldCaster> casters = fit_world_casters(

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A NaN is out of every range. The lower bounds allow for the rounding of 0.1f and 1e-4f.
+// A NaN is outside every range. The lower bounds leave room for the rounding of 0.1f and 1e-4f.
 void require_between(const char* name, double value, double low, double high) {
   if (!(value >= low * (1 - 1e-6) && value <= high))
     fail_range(NOOK_ERROR_INVALID_ARGUMENT, name, NumberText(value), NumberText(low), NumberText(high));

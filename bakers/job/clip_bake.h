@@ -19,11 +19,11 @@ struct ClipTask {
   std::vector<std::string> clips;  // empty: all but T- and A-poses
   double frames_per_second = 30;
   std::uint32_t rays = 128;
-  ClipTableSettings tables;  // its seed also seeds the rays
+  ClipTableSettings tables;  // its seed is also the seed of the rays
 };
 
-// Returns the clips in byte order of their names. Throws Failure(INVALID_ARGUMENT) for a name that the
-// character does not have, or if the character has no clip.
+// Returns the clips in byte order of their names. Throws Failure(INVALID_ARGUMENT) if the character has no
+// clip with a given name, or no clips at all.
 std::vector<std::size_t> chosen_clips(const ImportedCharacter& character, std::span<const std::string> names);
 
 // Throws Failure(INVALID_ARGUMENT) for a number out of its range or a NULL name.
@@ -33,12 +33,13 @@ ClipTask clip_task_of(const nook_bake_clips_desc& desc);
 // too many frames.
 ClipFrames frames_of(const ImportedCharacter& character, const ClipTask& task);
 
-// Identifies the bake of bake_clips_file for the model in these bytes. Throws what chosen_clips throws.
+// Returns the identity of a call of bake_clips_file for the model in these bytes. Throws what chosen_clips
+// throws.
 BakeIdentity identify_clips(const ImportedCharacter& character, std::span<const std::byte> model_bytes,
                             const ClipTask& task);
 
-// Pass the model of the character and the frames of the task. The file stores the identity if it has text.
-// The stage is JobStage::raytrace and counts frames. Throws Failure: CANCELLED.
+// Pass the model of the character and the frames of the task. The file stores the identity if it is not
+// empty. The stage is JobStage::raytrace and counts frames. Throws Failure: CANCELLED.
 BakedFile bake_clips_file(const ImportedCharacter& character, const CharacterModel& model,
                           const ClipFrames& frames, const ClipTask& task, const StageReport& progress,
                           const BakeIdentity& identity = {});

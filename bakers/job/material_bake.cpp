@@ -103,7 +103,7 @@ std::vector<float> coverage_of(const nook_bake_material_desc& desc, const RawMat
   return coverage;
 }
 
-// Converts images of RGB to rows of lights and channels, multiplied by the coverage if there is one.
+// Converts RGB images to rows of lights and channels. Multiplies them by the coverage if there is one.
 void read_btf(const float* images, const std::vector<float>& coverage, RawMaterial& raw) {
   const std::size_t views = raw.views.size(), texels = raw.texels();
   raw.btf.resize(raw.light_rows() * views * texels);
@@ -129,7 +129,7 @@ void read_measured(const nook_bake_material_desc& desc, MaterialTask& task) {
   try {
     check_raw_material(task.raw);
   } catch (const Failure& failure) {
-    // Here the fault is the caller's and not a file's.
+    // The error is in the caller's arguments, not in a file.
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.btf or its directions: %s", failure.what());
   }
 }
@@ -289,8 +289,8 @@ RawMaterial obtain(MaterialTask& task, const StageReport& progress) {
   return raw;
 }
 
-// Chooses the same defaults as `nook bake material`. raw holds the images to fit: on the relief, if there is
-// one.
+// Chooses the same defaults as `nook bake material`. `raw` has the images to fit. If there is a relief, they
+// are projected onto it.
 CompressionSettings settings_for(const MaterialTask& task, const RawMaterial& raw) {
   CompressionSettings s = task.settings;
   const bool has_ranks = s.method != Method::neural || has_votf(raw, s);
@@ -350,7 +350,7 @@ CompressedMaterial compress_to_file(const RawMaterial& raw, ReliefSource relief,
   out.recipe.update(describe(out.verdict));
   if (!relief_source.is_null()) out.recipe["relief"] = relief_source;
   store_identity(out.recipe, identity);
-  // Names come from files and need not be UTF-8.
+  // Names come from files and may not be UTF-8.
   material.recipe = out.recipe.dump(-1, ' ', false, Json::error_handler_t::replace).c_str();
   set_core_rounding(raw, material);
   out.file = nook::material::write_material(material);

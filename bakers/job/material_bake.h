@@ -1,4 +1,4 @@
-// Bakes a material: makes its task from a descriptor or a source, its file and its report.
+// Bakes a material: makes a task from a descriptor or a source, and makes the file and the report of a task.
 #pragma once
 
 #include <nook/nook_bake.h>
@@ -20,25 +20,26 @@
 
 namespace nook::bake {
 
-// Says where a raw material comes from, and how to compress it: a traced meso-structure or a file.
+// Where a raw material comes from (a traced meso-structure or a file), and how to compress it.
 
 struct MesoSource {
   material::MesoParameters meso;                        // a built-in structure
-  std::optional<material::MesoSurface> tile;            // replaces meso
-  std::uint32_t views = 100, lights = 0;                // numbers of directions; lights 0: as many as views
-  float max_tilt_deg = material::default_max_tilt_deg;  // their largest angle to the normal, degrees
+  std::optional<material::MesoSurface> tile;            // if set, replaces `meso`
+  std::uint32_t views = 100, lights = 0;                // numbers of directions; if `lights` is 0, there are
+                                                        // as many lights as views
+  float max_tilt_deg = material::default_max_tilt_deg;  // largest angle of directions to the normal, degrees
   material::TraceSettings trace;
 };
 
-// Traces the meso-structure from every pair of directions. progress counts views; throws Failure (CANCELLED)
-// when it returns false.
+// Traces the meso-structure from every pair of directions. `progress` counts views. Throws Failure
+// (CANCELLED) when it returns false.
 material::RawMaterial trace_meso_source(const MesoSource& source, const Progress& progress);
 
 struct MaterialTask {
   std::optional<material::MesoParameters> meso;  // empty: measured data
-  material::TraceSettings trace;                 // for meso
-  // Directions and sizes, and all measured data except the gaps. The coverage defines them; see fill_gaps()
-  // in raw_material.h.
+  material::TraceSettings trace;                 // used if `meso` is set
+  // Directions and sizes. For measured data, also the values, except in gaps. `coverage` defines the gaps;
+  // see fill_gaps() in raw_material.h.
   material::RawMaterial raw;
   std::vector<float> coverage;  // empty: all 1
   material::CompressionSettings settings;
@@ -57,19 +58,20 @@ struct CompressedMaterial {
   material::Verdict verdict;
 };
 
-// Chooses the settings from the images to fit: on the relief, if there is one.
+// Chooses the settings from the images to fit. If there is a relief, the images are projected onto it.
 using ChooseSettings = std::function<material::CompressionSettings(const material::RawMaterial& fitted)>;
 
-// The recipe names `source`, and `relief_source`, the file of the heights, if it is not null, and holds the
-// identity if that has text. Throws what choose throws, and Failure: CANCELLED.
+// The recipe contains the name `source`. If relief_source is not null, it also contains this name of the
+// height file. If the identity is not empty, it contains the identity. Throws what `choose` throws, and
+// Failure: CANCELLED.
 CompressedMaterial compress_to_file(const material::RawMaterial& raw, material::ReliefSource relief,
                                     const ChooseSettings& choose, const nlohmann::ordered_json& source,
                                     const nlohmann::ordered_json& relief_source,
                                     const material::StageProgress& progress,
                                     const BakeIdentity& identity = {});
 
-// Consumes the task's measured data. Throws Failure: INVALID_ARGUMENT (ranks that the data do not allow, a
-// structure that cannot be built), CANCELLED.
+// Moves the measured data out of the task. Throws Failure: INVALID_ARGUMENT (ranks that are not possible for
+// the data, a structure that cannot be built), CANCELLED.
 BakedFile bake_material(MaterialTask& task, const StageReport& progress);
 
 }  // namespace nook::bake

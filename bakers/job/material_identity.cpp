@@ -28,7 +28,7 @@ Json settings_of(const TraceSettings& t) {
 std::string content_hash(const RawMaterial& raw) {
   ContentHash hash;
   hash.add(std::string_view("nook raw material 1"));
-  hash.add(raw.name);  // built-in materials have ranks of their own, by their names
+  hash.add(raw.name);  // the ranks of built-in materials depend on their names
   hash.add_list(raw.lights);
   hash.add_list(raw.views);
   hash.add(raw.width);
@@ -116,7 +116,7 @@ BakeIdentity identify_material(const MaterialTask& task) {
   if (task.meso) settings["trace"] = settings_of(task.trace);
   ContentHash coverage;
   coverage.add_list(task.coverage);
-  // Of a structure, the raw material has only sizes and directions yet.
+  // For a structure, the raw material has only sizes and directions at this time.
   return identify_bake(BakeKind::material, settings,
                        {{"raw", content_hash(task.raw)}, {"coverage", coverage.hex()}});
 }

@@ -1,4 +1,4 @@
-// The identity of a bake of a material: how it is compressed, and the content of what it is made from.
+// Makes the identity of a material's bake from the settings of the compression and the content of the source.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,14 +14,14 @@ std::string content_hash(const material::RawMaterial& raw);
 std::string content_hash(const material::MesoSurface& surface);
 std::string content_hash(const material::PbrMaps& maps);
 
-// Every setting of a compression.
+// Returns every setting of a compression.
 nlohmann::json settings_of(const material::CompressionSettings& settings);
 
-// The settings and the inputs of a source that is traced.
+// Return the settings and the inputs of a source that is traced.
 nlohmann::json settings_of(const MesoSource& source);
 nlohmann::json inputs_of(const MesoSource& source);
 
-// Identifies the bake of bake_material for a descriptor's task.
+// Returns the identity of a call of bake_material for a descriptor's task.
 BakeIdentity identify_material(const MaterialTask& task);
 
 }  // namespace nook::bake

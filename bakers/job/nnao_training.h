@@ -1,4 +1,4 @@
-// Trains what screen-space passes embed.
+// Trains the network and the specular occlusion that screen-space passes embed.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@
 
 namespace nook::bake {
 
-// Returns all that the network's bits depend on, apart from the program itself, as one line of JSON.
+// Returns everything that the network's bits depend on, except the program itself, as one line of JSON.
 std::string network_recipe(const nnao::DatasetSettings& data, const nnao::TrainingSettings& training);
 
-// Returns the error of the network on points that no training used: a row of the constant predictor, then one
-// for each number of taps.
+// Returns the error of the network on points that were not used for training: one row for a constant
+// predictor, then one row for each tap count.
 nlohmann::ordered_json validation_rows(const nook::nnao::Network& network, const nnao::Dataset& data);
 
 // Fits specular occlusion to samples and writes the header that shaders and the runtime include.
@@ -29,8 +29,8 @@ struct SpecularTraining {
   std::size_t training_points = 0, validation_points = 0;
 };
 
-// Traces samples with the embedded network and fits them. Return false from progress to stop, which throws
-// Failure(CANCELLED). Any number of threads gives the same bits.
+// Traces samples, and fits specular occlusion to them with the embedded network. Return false from `progress`
+// to stop. The function then throws Failure(CANCELLED). The bits do not depend on the number of threads.
 SpecularTraining train_specular(const nnao::SpecularFitSettings& settings,
                                 const nnao::DatasetProgress& progress);
 

@@ -1,4 +1,4 @@
-// Bakes probes, from settings to what a file holds: one probe of a map, or a grid in a scene.
+// Bakes the probes of a file from settings: one probe from a map, or a grid in a scene.
 #pragma once
 
 #include <functional>
@@ -18,22 +18,22 @@ struct MapProbe {
   nook::probe::Probes probes;
   std::size_t samples = 0;
 };
-// progress counts samples; throws Failure (CANCELLED) when it returns false.
+// `progress` counts samples. Throws Failure (CANCELLED) when it returns false.
 MapProbe bake_map_probe(const Environment& map, const probe::MapBakeSettings& settings,
                         const Progress& progress);
 
 struct GridRefinement {
   std::uint32_t max_passes = 1;
-  double error = 0.01;         // the statistical error that ends the bake, see probe::GridBake::error
+  double error = 0.01;         // the bake ends at this statistical error, see probe::GridBake::error
   double preview_every_s = 0;  // seconds; 0: no previews
-  Progress progress;           // counts passes; false stops with Failure (CANCELLED)
+  Progress progress;           // counts passes; return false to stop with Failure (CANCELLED)
   std::function<void(double error)> preview;  // called between two passes
 };
 // Adds passes until the error is small enough or all passes are done. Returns the remaining error.
 double refine_grid(probe::GridBake& bake, const GridRefinement& refinement);
 
-// Adds walls to a baked grid, and fits its coefficients to surfaces behind them. probes must be harmonics of
-// order 2. progress counts places.
+// Adds walls to a baked grid, and fits the coefficients to the surfaces behind the walls. `probes` must be
+// harmonics of order 2. `progress` counts places.
 void add_walls(nook::probe::Probes& probes, const LitScene& scene, const probe::TrainingSettings& settings,
                const Progress& progress = {});
 

@@ -1,4 +1,4 @@
-// Bakes a coordinate texture, from a material to the bytes of a file and its report.
+// Bakes a coordinate texture for a material, and returns the bytes of a file and its report.
 #pragma once
 
 #include <nook/experimental/nook_bake_materials.h>
@@ -15,7 +15,7 @@ namespace nook::bake {
 // The part of a material that the plane may show, in texels.
 struct Crop {
   std::uint32_t x = 0, y = 0;
-  std::uint32_t width = 0, height = 0;  // 0: all of the material
+  std::uint32_t width = 0, height = 0;  // 0: the whole material
 };
 
 struct SynthesisTask {
@@ -23,19 +23,19 @@ struct SynthesisTask {
   synthesis::Exemplar exemplar;         // made from the crop
   Crop crop;
   synthesis::SynthesisSettings settings;
-  std::string source;         // the name of the file, if there is one
+  std::string source;         // the name of the source file, if there is one
   std::string material_hash;  // SHA-256 of the material's bytes
 };
 
-// Reads the looks of texels from the bytes of a .nook file that holds a material or a raw material.
-// is_tiling: the material repeats without a seam. A crop never repeats. Throws Failure: INVALID_ARGUMENT (the
-// crop exceeds the material, settings are out of range), BAD_FILE, FILE_VERSION.
+// Reads the appearance of texels from the bytes of a .nook file with a material or a raw material. Set
+// is_tiling if the material repeats without a seam. A crop is never treated as repeating. Throws Failure:
+// INVALID_ARGUMENT (the crop exceeds the material, settings are out of range), BAD_FILE, FILE_VERSION.
 SynthesisTask synthesis_task(std::span<const std::byte> material, const Crop& crop, bool is_tiling,
                              const synthesis::SynthesisSettings& settings);
 // Throws what synthesis_task throws, and INVALID_ARGUMENT for a NULL material.
 SynthesisTask synthesis_task_of(const nook_bake_synthesis_desc& desc);
 
-// Identifies the bake of bake_synthesis_file.
+// Returns the identity of a call of bake_synthesis_file.
 BakeIdentity identify_synthesis(const SynthesisTask& task);
 
 // The stage is JobStage::fit and counts texels. Throws Failure: CANCELLED.

@@ -30,7 +30,7 @@ std::string hash_text(std::uint64_t hash) {
   return text;
 }
 
-// The file stores the hash of the VOTF, and what the bake reads of it is made from it.
+// Hashes the table of holes. The file stores the hash of the VOTF, and the table is made from the VOTF.
 std::string hash_of_holes(const transfer::HoleTable& holes) {
   ContentHash hash;
   hash.add(holes.votf_hash);

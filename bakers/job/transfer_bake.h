@@ -1,4 +1,4 @@
-// Bakes radiance transfer, from a mesh to the bytes of a file and its report.
+// Bakes radiance transfer for a mesh, and returns the bytes of a file and its report.
 #pragma once
 
 #include <nook/experimental/nook_bake_materials.h>
@@ -14,16 +14,16 @@ namespace nook::bake {
 struct TransferTask {
   SurfaceMesh mesh;
   transfer::BakeSettings settings;
-  // If there is a material, the paper's form is baked for it.
+  // If set, the paper's form is baked for this material.
   std::shared_ptr<const nook::material::MaterialTables> material;
   transfer::PaperSettings paper;
   std::string source;                 // the name of the file, if there is one
-  std::string material_hash;          // SHA-256 of the file of the material; empty without one
+  std::string material_hash;          // SHA-256 of the material's file; empty without a material
   std::vector<std::string> warnings;  // warnings of the import
 };
 
-// Makes the mesh of a descriptor, and tangents if it has none. Throws INVALID_ARGUMENT with the first fault,
-// also for what transfer::check_bake refuses.
+// Makes the mesh of a descriptor, and computes tangents if the descriptor has none. Throws INVALID_ARGUMENT
+// with the first error, including errors that transfer::check_bake finds.
 TransferTask transfer_task_of(const nook_bake_transfer_desc& desc);
 
 // Makes the tables of the material in the bytes of a .nook file. Throws Failure: what read_material throws.
@@ -32,7 +32,7 @@ std::shared_ptr<const nook::material::MaterialTables> tables_of_material(std::sp
 // read_material throws, and INVALID_ARGUMENT if the material has no VOTF.
 std::shared_ptr<const transfer::HoleTable> holes_of_material(std::span<const std::byte> bytes);
 
-// Identifies the bake of bake_transfer_file.
+// Returns the identity of a call of bake_transfer_file.
 BakeIdentity identify_transfer(const TransferTask& task);
 
 // The stage is JobStage::raytrace and counts vertices, once for the direct light and once for each

@@ -1,4 +1,4 @@
-// Adds to the model of a baked character: bent normals, or the model of another mesh.
+// Bakes from the model of a baked character: adds bent normals, or makes the model of another mesh.
 #pragma once
 
 #include <nook/nook_bake.h>
@@ -14,7 +14,7 @@
 
 namespace nook::bake {
 
-// The baked model of an imported character, for bakes that add to it.
+// Reads the baked model of an imported character, for bakes that extend it.
 
 // Reads the character's baked model. Throws Failure: BAD_FILE (no model, or a model of another character),
 // FILE_VERSION.
@@ -30,18 +30,18 @@ struct BentTask {
 // Throws Failure(INVALID_ARGUMENT) for a number out of its range.
 BentTask bent_task_of(const nook_bake_bent_desc& desc);
 
-// Identifies the bake of bake_bent_file for the model in these bytes.
+// Returns the identity of a call of bake_bent_file for the model in these bytes.
 BakeIdentity identify_bent(const ImportedCharacter& character, std::span<const std::byte> model_bytes,
                            const BentTask& task);
 
 // Adds occluded directions to the model of `character`, fitted to ray tracing in automatic poses and clips.
-// The clips are the ones that the model was fitted to, or all clips if it has no recipe. The rest of the
-// model stays as it is; its recipe takes the identity if that has text. The stage is JobStage::raytrace and
-// counts poses. Throws Failure: BAD_FILE (a recipe of another character), CANCELLED.
+// The clips are the ones that the model was fitted to, or all clips if it has no recipe. Nothing else in the
+// model is changed, except that its recipe stores the identity if that is not empty. The stage is
+// JobStage::raytrace and counts poses. Throws Failure: BAD_FILE (a recipe of another character), CANCELLED.
 BakedFile bake_bent_file(const ImportedCharacter& character, CharacterModel model, const BentTask& task,
                          const StageReport& progress, const BakeIdentity& identity = {});
 
-// Makes the model of a mesh with less detail from the bake of the full mesh.
+// Makes the model for a mesh with less detail from the bake of the full mesh.
 
 struct LodTask {
   std::size_t auto_poses = 200;
@@ -50,11 +50,11 @@ struct LodTask {
   std::uint64_t seed = 1;
 };
 
-// Identifies the bake of bake_lod_file.
+// Returns the identity of a call of bake_lod_file.
 BakeIdentity identify_lod(const ImportedCharacter& lod, std::span<const std::byte> model_bytes,
                           const LodTask& task);
 
-// `lod` needs the bones of the model in the same order, as meshes of one rig have. The result has the
+// `lod` must have the bones of the model in the same order, as meshes of the same rig do. The result has the
 // spheres, key points, levels and casters of the model. Its vertices are fitted to ray tracing of `lod` in
 // automatic poses and in poses of its clips. The stage is JobStage::raytrace and counts poses. Throws
 // Failure: BAD_FILE (no model, other bones), CANCELLED.

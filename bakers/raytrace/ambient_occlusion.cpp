@@ -18,7 +18,7 @@
 namespace nook::bake {
 namespace {
 
-// If open_sum is given, it receives the sum of the directions of open rays.
+// If open_sum is not null, it receives the sum of the directions of open rays.
 float trace_point(const RayScene& scene, Vec3 position, Vec3 normal, const HemispherePatterns& patterns,
                   float radius, float origin_offset, std::uint64_t random, Vec3* open_sum = nullptr) {
   const float angle = 6.2831853f * unit_float(random);
@@ -40,7 +40,7 @@ float trace_point(const RayScene& scene, Vec3 position, Vec3 normal, const Hemis
   return float(open) / float(rays);
 }
 
-// Counts the work that is done and lets the caller's function stop it.
+// Counts the finished work, and lets the caller's progress function stop it.
 class Pace {
  public:
   Pace(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
@@ -52,7 +52,7 @@ class Pace {
     done_ += count;
     if (!stopped_ && !progress_(done_, total_)) stopped_ = true;
   }
-  // what: the things that are counted. After all workers have ended.
+  // Call this after all workers have ended. `what` names the things that are counted.
   void throw_if_stopped(const char* what) const {
     if (stopped_)
       throw Failure(NOOK_ERROR_CANCELLED, "cancelled while ray tracing (%zu of %zu %s done)", done_, total_,
@@ -66,7 +66,7 @@ class Pace {
   std::atomic<bool> stopped_{false};
 };
 
-// direction may be empty.
+// `direction` may be empty.
 void trace_receivers(const RayScene& scene, const Receivers& receivers, const AoSettings& settings,
                      std::span<float> ao, std::span<Vec3> direction, const Progress& progress = {}) {
   const HemispherePatterns patterns(settings.rays, settings.seed);

@@ -1,5 +1,5 @@
-// Traces ambient occlusion, the reference of all AO in Nook: cosine-weighted visibility over the hemisphere
-// around a normal. Both sides of triangles occlude; 1 is open.
+// Traces ambient occlusion, the reference for all AO in Nook. It is the cosine-weighted visibility over the
+// hemisphere around a normal; 1 is open. Both sides of triangles occlude.
 #pragma once
 
 #include <algorithm>
@@ -21,10 +21,8 @@ namespace nook::bake {
 struct Receivers {
   std::span<const Vec3> position;
   std::span<const Vec3> normal;
-  std::span<const float> radius = {};  // metres, replaces the settings' radius; empty: use the settings'
-                                       // radius
-  std::span<const float> origin_offset =
-      {};  // metres, replaces the settings' offset; empty: use the settings' offset
+  std::span<const float> radius = {};         // per receiver, metres; empty: use the radius of the settings
+  std::span<const float> origin_offset = {};  // per receiver, metres; empty: use the offset of the settings
 };
 
 struct AoSettings {
@@ -34,19 +32,19 @@ struct AoSettings {
   float origin_offset = 0;                                // metres along the normal
 };
 
-// Returns false to stop. Worker threads call it, one call at a time.
+// Called from worker threads, one call at a time. Return false to stop.
 using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
-// Returns the AO of every receiver against one soup. Threads work on blocks of receivers, and the result does
-// not depend on their number. progress counts receivers. Throws Failure(NOOK_ERROR_CANCELLED) if it returns
-// false.
+// Returns the AO of every receiver against one soup. Threads work on blocks of receivers. The result does not
+// depend on the number of threads. `progress` counts receivers. Throws Failure(NOOK_ERROR_CANCELLED) if
+// `progress` returns false.
 std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& receivers,
                             const AoSettings& settings, const Progress& progress = {});
 std::vector<float> trace_ao(const RayScene& scene, const Receivers& receivers, const AoSettings& settings,
                             const Progress& progress = {});
 
-// The AO of receivers, and the mean direction of their open rays: cosine-weighted, in world space. It is
-// shorter the wider the opening is (2/3 over a plane), and zero if no ray is open.
+// The AO of receivers, and the cosine-weighted mean direction of their open rays in world space. The wider
+// the opening, the shorter is this vector. Its length is 2/3 over a plane. It is zero if no ray is open.
 struct Openness {
   std::vector<float> ao;
   std::vector<Vec3> direction;
@@ -54,7 +52,8 @@ struct Openness {
 // Returns the same AO as trace_ao, bit for bit.
 Openness trace_openness(const RayScene& scene, const Receivers& receivers, const AoSettings& settings);
 
-// Receivers for each task: some 10 ms of work, which bounds the wait of a caller who stops.
+// Returns the number of receivers per task. A task takes about 10 ms, so a caller who stops does not wait
+// longer than that.
 inline std::size_t receivers_per_task(std::uint32_t rays) {
   constexpr std::uint32_t most_rays = 1 << 16, most_receivers = 256;
   return std::clamp(most_rays / std::max(rays, 1u), 1u, most_receivers);
@@ -72,13 +71,13 @@ struct AoTargets {
   static constexpr float scale = 1.0f / 65535.0f;
 };
 
-// Distributes poses over all threads, with one BVH for each pose. The same seed gives the same targets on any
-// number of threads. Throws Failure(NOOK_ERROR_CANCELLED) if progress returns false.
+// Distributes poses over all threads. Builds one BVH for each pose. The same seed gives the same targets on
+// any number of threads. Throws Failure(NOOK_ERROR_CANCELLED) if progress returns false.
 AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint32_t rays,
                              std::uint64_t seed, const Progress& progress = {});
 
-// Returns the expected squared error of such targets: half the mean squared difference to a second,
-// independent tracing of some of the poses.
+// Returns the expected squared error of such targets. It is half the mean squared difference between the
+// targets and a second, independent tracing of some of the poses.
 double measure_noise_floor(const SkinnedMesh& mesh, std::span<const Pose> poses, const AoTargets& targets,
                            std::uint32_t rays, std::uint64_t seed);
 

@@ -1,13 +1,13 @@
-// The compiler makes a clone of one plain source for each level of instruction_set.h. A call takes the
-// clone of the level that the process bakes with. The attribute target_clones would do the same, but its
-// choice is made when a program is loaded, and nothing can pin it.
+// The compiler makes one clone of a function for each level of instruction_set.h. A call uses the clone for
+// the level that the process bakes with. The attribute target_clones would do the same, but it chooses when
+// the program is loaded, and this choice cannot be pinned.
 #pragma once
 
 #include "bakers/raytrace/instruction_set.h"
 #include "sdk/src/core/compiler.h"
 
-// NOOK_CLONED(result, name, parameters, arguments) defines name(parameters) by the function
-// name_plain(parameters), which must be NOOK_INLINE. Sanitizers run the plain version.
+// NOOK_CLONED(result, name, parameters, arguments) defines name(parameters), which calls clones of
+// name_plain(parameters). name_plain must be NOOK_INLINE. With sanitizers, the plain version runs.
 #if defined(__x86_64__) && defined(__ELF__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define NOOK_CLONED(result, name, parameters, arguments)                            \
   __attribute__((target("arch=x86-64-v4"))) static result name##_on_v4 parameters { \

@@ -11,17 +11,17 @@
 
 namespace nook::bake {
 
-// The maximum radiance of a map's texel and an emissive surface. It keeps sums of squares over any number of
-// paths far below the maximum of a float.
+// The maximum radiance of a map's texel and of an emissive surface. With this limit, sums of squares over any
+// number of paths stay far below the maximum of a float.
 inline constexpr double max_radiance = 1e15;
 
-// Rows go from +y to -y, and columns around y: the middle column looks along +x, and the column a quarter of
-// the width to its right along +z. Radiance is constant over a texel, so that integrals over the map are sums
-// over its texels.
+// Rows go from +y to -y, and columns go around the y axis. The middle column looks along +x. The column a
+// quarter of the width to the right of it looks along +z. Radiance is constant over a texel, so integrals
+// over the map are sums over its texels.
 class Environment {
  public:
-  // rgb has 3 floats for each texel, rows from the top, each 0 to max_radiance. width and height are at least
-  // 1.
+  // `rgb` has 3 floats for each texel, from 0 to max_radiance. Rows start at the top. `width` and `height`
+  // must be at least 1.
   Environment(std::uint32_t width, std::uint32_t height, std::vector<float> rgb);
 
   std::uint32_t width() const { return width_; }
@@ -30,11 +30,12 @@ class Environment {
   std::span<const float> rgb() const { return rgb_; }
 
   Vec3 texel(std::size_t index) const { return {rgb_[3 * index], rgb_[3 * index + 1], rgb_[3 * index + 2]}; }
-  std::size_t texel_at(Vec3 direction) const;  // of any non-zero length
+  std::size_t texel_at(Vec3 direction) const;  // `direction` may have any non-zero length
   Vec3 radiance(Vec3 direction) const { return texel(texel_at(direction)); }
 
   double solid_angle(std::uint32_t row) const;  // steradians per texel; the sum over the map is 4 pi
-  // u points to the right and v down, each in [0, 1) over a texel, uniform in solid angle.
+  // u and v are positions within the texel in [0, 1). u points to the right and v down. Both are uniform in
+  // solid angle.
   Vec3 direction(std::uint32_t column, std::uint32_t row, float u, float v) const;
 
  private:
@@ -42,7 +43,7 @@ class Environment {
   std::vector<float> rgb_;
 };
 
-// Rec. 709.
+// Luminance with the weights of Rec. 709.
 constexpr float luminance(Vec3 rgb) {
   return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z;
 }
@@ -50,18 +51,18 @@ constexpr float luminance(Vec3 rgb) {
 struct LightSample {
   Vec3 direction;
   Vec3 radiance;
-  float density = 0;  // per steradian
+  float density = 0;  // probability density per steradian
 };
 
-// Samples directions by luminance, mixed with uniform ones: the density is (1 -
-// uniform) * luminance / integral of luminance + uniform / (4 pi).
+// Samples directions by luminance, mixed with uniform directions. The density is (1 - uniform) * luminance /
+// integral of luminance + uniform / (4 pi).
 class LightSampler {
  public:
   // The environment must outlive the sampler. uniform_share is in [0, 1]. A black map is sampled uniformly.
-  // So is a map so dark that its density is not a float.
+  // The same holds for a map that is so dark that its density cannot be a float.
   explicit LightSampler(const Environment& environment, float uniform_share = 0);
 
-  // Takes four numbers in [0, 1). The choice is a double, which reaches every texel of large maps.
+  // Takes four numbers in [0, 1). `choice` is a double, so that every texel of a large map can be chosen.
   LightSample sample(double choice, float alias, float u, float v) const;
   float density(Vec3 direction) const { return texel_density(environment_->texel_at(direction)); }
 
@@ -70,19 +71,19 @@ class LightSampler {
 
   const Environment* environment_;
   float uniform_ = 0, per_luminance_ = 0;  // density = uniform_ + per_luminance_ * luminance
-  std::vector<float> keep_;                // Walker's alias table, by Vose's construction
+  std::vector<float> keep_;                // Walker's alias table, built with Vose's method
   std::vector<std::uint32_t> other_;
 };
 
-// Finds the suns of an environment by the rule of the runtime: sdk/src/core/light_map.h.
+// Finds the suns of an environment with the same rule as the runtime (sdk/src/core/light_map.h).
 
 using Sun = MapSun;
 
-// Returns the luminance where suns begin.
+// Returns the luminance above which a texel belongs to a sun.
 double sun_limit(const Environment& environment);
 // Returns the map without at most max_count of its brightest suns.
 Environment without_suns(const Environment& environment, std::size_t max_count = ~std::size_t(0));
-// Returns the brightest suns, by luminance.
+// Returns the suns with the highest luminance.
 std::vector<Sun> find_suns(const Environment& environment, std::size_t max_count);
 
 }  // namespace nook::bake

@@ -1,4 +1,5 @@
-// Stratified cosine-weighted directions over the hemisphere, which sample ambient occlusion and irradiance.
+// Makes stratified, cosine-weighted directions over the hemisphere, for sampling ambient occlusion and
+// irradiance.
 #pragma once
 
 #include <cmath>
@@ -9,14 +10,15 @@
 
 namespace nook::bake {
 
-// Many independent patterns of `rays` directions each around +z, so that neighbouring vertices and poses do
-// not share noise. Directions are cosine-weighted, so that visibility is their plain mean.
+// Many independent patterns of `rays` directions around +z. Neighbouring vertices and poses use different
+// patterns, so that they do not share noise. Directions are cosine-weighted, so the visibility is the plain
+// mean over a pattern.
 class HemispherePatterns {
  public:
   static constexpr std::uint32_t pattern_count = 256;
 
-  // rays is split into rows x columns strata of equal probability, as near to a square as its divisors allow.
-  // Any rays >= 1 is valid.
+  // `rays` is split into rows x columns strata of equal probability, as close to a square as the divisors of
+  // `rays` allow. Any `rays` >= 1 is valid.
   HemispherePatterns(std::uint32_t rays, std::uint64_t seed);
 
   std::uint32_t rays() const { return rays_; }
@@ -49,8 +51,8 @@ constexpr Vec3 to_world(const Frame& frame, Vec3 v) {
   return v.x * frame.x + v.y * frame.y + v.z * frame.z;
 }
 
-// Returns a direction around +z with the density cos / pi, by Malley's method: uniform on the disc, projected
-// up. u and v are in [0, 1).
+// Returns a direction around +z with the density cos / pi. Uses Malley's method: a uniform point on the disc
+// is projected up to the hemisphere. u and v are in [0, 1).
 inline Vec3 cosine_direction(float u, float v) {
   const float radius = std::sqrt(u);
   const float angle = 6.2831853f * v;

@@ -15,8 +15,8 @@ namespace nook::bake {
 struct LitTriangles {
   TriangleSoup soup;  // world space, metres; may be empty
   std::vector<Surface> surface;
-  std::vector<std::uint32_t> triangle_surface = {};  // an index of surface for each triangle
-  std::vector<Texture> texture = {};                 // the textures that surfaces refer to
+  std::vector<std::uint32_t> triangle_surface = {};  // for each triangle, an index into `surface`
+  std::vector<Texture> texture = {};                 // textures that surfaces refer to by index
   std::vector<std::array<TexturePoint, 2>> uv = {};  // per vertex; empty if no surface has a texture
 };
 
@@ -25,14 +25,14 @@ struct SurfaceColours {
   Vec3 base_colour, emission;
 };
 
-// Any thread may trace. The scene must not be moved, because its sampler refers to its environment.
+// You may trace from any thread. The scene cannot be moved, because its sampler refers to its environment.
 class LitScene {
  public:
   LitScene(LitTriangles triangles, Environment environment);
   LitScene(const LitScene&) = delete;
   LitScene& operator=(const LitScene&) = delete;
 
-  // Returns the nearest hit. Rays pass through the holes of alpha masks.
+  // Returns the nearest hit. Rays pass through the transparent parts of alpha masks.
   RayHit nearest(Vec3 origin, Vec3 direction) const;
   bool occluded(Vec3 origin, Vec3 direction) const;
   SurfaceColours colours(const RayHit& hit) const;
@@ -58,7 +58,7 @@ class LitScene {
   double sun_limit_;
 };
 
-// textures: the decoded textures of scene.image.
+// `textures` are the decoded images of scene.image.
 LitTriangles lit_triangles(StaticScene scene, std::vector<Texture> textures);
 
 }  // namespace nook::bake

@@ -1,4 +1,4 @@
-// Traces paths in diffuse scenes without bias, as the reference of all light probes.
+// Traces paths in diffuse scenes without bias. It is the reference for all light probes.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace nook::bake {
 
-// Which part of the environment's light counts if it arrives directly at the receiving point. Its light that
-// surfaces reflect always counts, suns included, and so does light that surfaces emit.
+// Selects which of the environment's light counts if it reaches the receiving point directly. Light that
+// surfaces reflect always counts, including light from suns. Light that surfaces emit always counts too.
 enum class DirectLight : std::uint8_t {
   none = 0,
   sky = 1,  // the environment without its suns, see environment.h
@@ -30,7 +30,7 @@ struct PathSettings {
 };
 
 // Returns one estimate of the radiance that arrives at a point from a unit direction. settings.direct selects
-// the part of the map's light that arrives without a reflection.
+// which of the map's direct light is included.
 Vec3 trace_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, const PathSettings& settings,
                     Random& random);
 
@@ -40,10 +40,10 @@ struct IrradianceSettings {
   PathSettings path;
 };
 
-// Returns the irradiance (RGB, the integral of radiance times cosine over the hemisphere around the normal)
-// of every receiver; the radii of receivers are not used. Threads work on blocks of receivers, and the result
-// does not depend on their number. progress counts receivers. Throws Failure(NOOK_ERROR_CANCELLED) if it
-// returns false.
+// Returns the RGB irradiance of every receiver, which is the integral of radiance times cosine over the
+// hemisphere around the normal. The radii of receivers are not used. Threads work on blocks of receivers. The
+// result does not depend on the number of threads. `progress` counts receivers. Throws
+// Failure(NOOK_ERROR_CANCELLED) if `progress` returns false.
 std::vector<Vec3> trace_irradiance(const LitScene& scene, const Receivers& receivers,
                                    const IrradianceSettings& settings, const Progress& progress = {});
 

@@ -9,7 +9,7 @@
 
 namespace nook::bake {
 
-// A generator of 64 random bits: the mixed values of a counter.
+// Generates 64 random bits by mixing the bits of a counter.
 class MixedCounter {
  public:
   explicit MixedCounter(std::uint64_t seed) : counter_(mix_bits(seed)) {}
@@ -19,7 +19,7 @@ class MixedCounter {
   std::uint64_t counter_;
 };
 
-// A stream that depends only on its seed, drawn from a generator of 64 random bits.
+// A stream of random numbers from a generator of 64 random bits. It depends only on the seed.
 template <class Generator>
 class RandomFrom {
  public:
@@ -32,7 +32,7 @@ class RandomFrom {
   // Returns a number whose logarithm is uniform; low > 0.
   float log_between(float low, float high) { return low * std::exp(unit() * std::log(high / low)); }
   std::uint32_t below(std::uint32_t count) { return std::uint32_t((bits() >> 32) * count >> 32); }
-  // Both ends are included.
+  // Returns a uniform integer from `low` to `high`, both included.
   int whole(int low, int high) { return low + int(below(std::uint32_t(high - low + 1))); }
   bool chance(float probability) { return unit() < probability; }
   // Returns a number of the standard normal distribution (Box and Muller 1958).

@@ -8,7 +8,8 @@
 namespace nook::bake {
 namespace {
 
-// The register that holds the mode, and its bits that flush inputs and results.
+// These functions read and write the register with the mode. flush_bits are the bits that flush inputs and
+// results to zero.
 #if defined(__SSE2__) || defined(_M_X64)
 
 constexpr std::uint64_t flush_bits = _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON;
@@ -22,7 +23,7 @@ void set_floating_point_mode(std::uint64_t mode) {
 
 #elif defined(__aarch64__) || defined(_M_ARM64)
 
-// FPCR.FZ. No header of GCC and Clang names this register, so they take it by assembly.
+// The bit FPCR.FZ. GCC and Clang have no header for this register, so it is accessed by inline assembly.
 constexpr std::uint64_t flush_bits = std::uint64_t(1) << 24;
 
 std::uint64_t floating_point_mode() {
@@ -94,7 +95,7 @@ RTCRay unbounded_ray(Vec3 origin, Vec3 direction) {
   return ray;
 }
 
-// tfar of an occluded ray becomes -infinity.
+// Embree sets tfar of an occluded ray to -infinity.
 void occluded16(RTCScene scene, const int* valid, RTCRay16& rays) {
 #if RTC_VERSION_MAJOR >= 4
   rtcOccluded16(valid, scene, &rays, nullptr);
@@ -145,8 +146,8 @@ void attach_triangles(RTCDevice device, RTCScene scene, std::span<const Vec3> po
 
 }  // namespace
 
-// The device is single-threaded inside. Callers parallelise over scenes, so that results do not depend on
-// Embree's scheduling.
+// The device uses one thread. Callers parallelise over scenes, so that results do not depend on Embree's
+// scheduling.
 RayDevice::RayDevice()
     : handle_(rtcNewDevice((std::string("threads=1,set_affinity=0") + embree_isa()).c_str())) {}
 

@@ -1,4 +1,4 @@
-// Triangles for ray tracing, and the rays that meet them.
+// Traces rays against triangles.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 
 namespace nook::bake {
 
-// Treats denormals as zero, in threads that trace.
+// Treats denormals as zero in threads that trace.
 
-// Keep one on every thread that traces, because Embree is much slower on denormals. The destructor restores
-// the caller's mode. Processors other than x86 and ARM64 keep their mode.
+// Keep one of these objects alive on every thread that traces, because Embree is much slower with denormals.
+// The destructor restores the caller's mode. On processors other than x86 and ARM64, this does nothing.
 class FlushDenormals {
  public:
   FlushDenormals();
@@ -41,15 +41,15 @@ struct TriangleSoup {
 
 // The first hit of a ray.
 struct RayHit {
-  float distance = 0;  // in lengths of the ray's direction; infinite if there is no hit
-  Vec3 normal;         // geometric, unit length, against the ray
+  float distance = 0;  // in units of the direction's length; infinite if there is no hit
+  Vec3 normal;         // geometric normal, unit length, towards the ray's origin
   std::uint32_t triangle = ~0u;
   float u = 0, v = 0;        // barycentric weights of the triangle's second and third vertex
-  bool from_behind = false;  // the ray hit the side from which the vertices are clockwise
+  bool from_behind = false;  // true if the ray hit the side from which the vertices appear clockwise
 };
 
-// Embree's device. Scenes that are built one after the other share one, because making it takes longer than
-// making a small scene. Any thread may use it.
+// Embree's device. Scenes that are built one after another should share a device, because making a device
+// takes longer than making a small scene. You may use it from any thread.
 class RayDevice {
  public:
   RayDevice();
@@ -62,24 +62,26 @@ class RayDevice {
   RTCDeviceTy* handle_;
 };
 
-// Triangles with their BVH; there may be none. Any thread may trace, with FlushDenormals.
+// Triangles with their BVH. There may be zero triangles. You may trace from any thread that has a
+// FlushDenormals.
 class RayScene {
  public:
   explicit RayScene(const TriangleSoup& soup);
   RayScene(const RayDevice& device, std::span<const Vec3> positions,
            std::span<const std::array<std::uint32_t, 3>> triangles);
-  // Copies of `original`, moved by these offsets. Hits have the triangles of `original`.
+  // A scene with one copy of `original` for each offset. Hits have the triangle indices of `original`.
   RayScene(const RayScene& original, std::span<const Vec3> offsets);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  // Ignores hits up to and at `beyond`, in lengths of the direction. Both sides of triangles count.
+  // Ignores hits at distances up to and including `beyond`, in units of the direction's length. Both sides of
+  // triangles count.
   RayHit nearest(Vec3 origin, Vec3 direction, float beyond = 0) const;
-  bool occluded(Vec3 origin, Vec3 direction) const;  // true for any triangle at any distance
+  bool occluded(Vec3 origin, Vec3 direction) const;  // true if any triangle is hit at any distance
 
   // Traces up to 16 rays from one origin. Bit i of the result is 1 if no triangle is within `reach` along
-  // directions[i], in lengths of the direction.
+  // directions[i]. The unit of `reach` is the direction's length.
   static constexpr std::size_t packet_size = 16;
   std::uint32_t open_rays(Vec3 origin, std::span<const Vec3> directions, float reach) const;
 
@@ -90,13 +92,13 @@ class RayScene {
   RTCSceneTy* scene_;
 };
 
-// The box round points.
+// The bounding box of points.
 
 struct Bounds {
   Vec3 low, high;
 };
 
-// points has one or more.
+// `points` must not be empty.
 inline Bounds bounds_of(std::span<const Vec3> points) {
   Bounds b{points.front(), points.front()};
   for (const Vec3 p : points) {

@@ -8,7 +8,7 @@
 namespace nook::bake {
 namespace {
 
-// Returns a random microfacet normal that the viewer sees. View and result are in the frame of the surface.
+// Samples a visible microfacet normal. `view` and the result are in the frame of the surface.
 Vec3 visible_normal(Vec3 view, float alpha, float u, float v) {
   const Vec3 stretched = normalised(Vec3{alpha * view.x, alpha * view.y, view.z});
   const float across2 = stretched.x * stretched.x + stretched.y * stretched.y;
@@ -24,13 +24,13 @@ Vec3 visible_normal(Vec3 view, float alpha, float u, float v) {
   return normalised(Vec3{alpha * hemisphere.x, alpha * hemisphere.y, std::max(hemisphere.z, 0.0f)});
 }
 
-// Smith's Lambda of GGX.
+// Smith's Lambda function for GGX.
 float hidden_slopes(float cosine, float alpha) {
   const float tangent2 = (1 - cosine * cosine) / std::max(cosine * cosine, 1e-8f);
   return 0.5f * (std::sqrt(1 + alpha * alpha * tangent2) - 1);
 }
 
-// Calls add(direction, weight, open) for each ray; the direction is in world space.
+// Calls add(direction, weight, open) for each ray. The direction is in world space.
 template <class Add>
 void for_each_reflection(const RayScene& scene, const GlossyPoint& point, float roughness, std::uint32_t rays,
                          std::uint64_t seed, Add&& add) {

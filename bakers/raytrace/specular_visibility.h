@@ -1,4 +1,4 @@
-// The reference of specular occlusion: which share of a glossy reflection of uniform light reaches the
+// The reference for specular occlusion: the share of a glossy reflection of uniform light that reaches the
 // viewer.
 #pragma once
 
@@ -17,23 +17,25 @@ struct GlossyPoint {
   float origin_offset = 0;  // metres along the normal
 };
 
-// Returns the mean visibility over the directions that a GGX surface without Fresnel's term reflects to the
-// viewer, weighted by its radiance of uniform light. roughness is perceptual, in (0, 1]: the GGX width is its
-// square. Directions come from the visible normals (E. Heitz, Sampling the GGX Distribution of Visible
-// Normals, 2018). Their weight is the masking on the light's side given the viewer's side, G2 / G1. The same
-// seed gives the same result. Needs FlushDenormals on the calling thread.
+// Returns the mean visibility over the directions that a GGX surface without the Fresnel term reflects to the
+// viewer. Directions are weighted by the radiance that they contribute under uniform light. `roughness` is
+// perceptual, in (0, 1]. The GGX width is its square. Directions come from the visible normals (E. Heitz,
+// Sampling the GGX Distribution of Visible Normals, 2018). The weight of a direction is G2 / G1, the masking
+// of the light given the masking of the view. The same seed gives the same result. The calling thread must
+// have a FlushDenormals.
 float trace_specular_visibility(const RayScene& scene, const GlossyPoint& point, float roughness,
                                 std::uint32_t rays, std::uint64_t seed);
 
 inline constexpr std::size_t max_glossy_maps = 8;
 
-// The same reflection under maps: the mean radiance that the viewer sees, and the radiance without occlusion.
+// The same reflection under a map: the mean radiance that the viewer sees, and this radiance without
+// occlusion.
 struct GlossyLight {
   float visible = 1;  // trace_specular_visibility
   Vec3 seen[max_glossy_maps], open[max_glossy_maps];
 };
 
-// There are at most max_glossy_maps maps. Needs FlushDenormals on the calling thread.
+// Pass at most max_glossy_maps maps. The calling thread must have a FlushDenormals.
 GlossyLight trace_glossy_light(const RayScene& scene, const GlossyPoint& point, float roughness,
                                std::uint32_t rays, std::uint64_t seed, std::span<const Environment> maps);
 

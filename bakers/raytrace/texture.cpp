@@ -8,12 +8,12 @@
 namespace nook::bake {
 namespace {
 
-// IEC 61966-2-1.
+// Converts sRGB to linear (IEC 61966-2-1).
 float linear_of_srgb(float value) {
   return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
 }
 
-// Moves a coordinate to within two widths of the first image, so that it fits into an integer.
+// Wraps a coordinate to within two widths of the first repetition, so that it fits into an integer.
 float near_first(float u) {
   return u - 2 * std::floor(u / 2);
 }
@@ -48,7 +48,7 @@ TextureColour Texture::at(const TextureUse& use, TexturePoint p) const {
   float u = m[0] * p.u + m[1] * p.v + m[2], v = m[3] * p.u + m[4] * p.v + m[5];
   u = use.wrap_u == TextureWrap::clamped ? std::clamp(u, 0.0f, 1.0f) : near_first(u);
   v = use.wrap_v == TextureWrap::clamped ? std::clamp(v, 0.0f, 1.0f) : near_first(v);
-  // Products of large coordinates may overflow.
+  // The result is not finite if products of large coordinates overflow.
   if (!std::isfinite(u) || !std::isfinite(v)) return texel(0, 0, use);
   const float x = u * float(width_), y = v * float(height_);
   if (use.nearest) return texel(std::int64_t(std::floor(x)), std::int64_t(std::floor(y)), use);

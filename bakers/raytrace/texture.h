@@ -1,4 +1,4 @@
-// Decoded colour textures with look-ups in linear light.
+// Decoded colour textures. Look-ups return linear colours.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ struct TextureColour {
 
 class Texture {
  public:
-  // rgba has 4 bytes for each texel, rows from the top; colours are sRGB and not multiplied by alpha. width
-  // and height are at least 1.
+  // `rgba` has 4 bytes for each texel. Rows start at the top. Colours are sRGB and not premultiplied by
+  // alpha. `width` and `height` must be at least 1.
   Texture(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> rgba);
 
   // Texels are at the centres of equal cells. The look-up is bilinear in linear light, or takes the nearest

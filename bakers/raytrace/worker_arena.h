@@ -11,10 +11,11 @@
 
 namespace nook::bake {
 
-// Far above any machine's cores. It keeps a hostile number from allocating all memory.
+// Far above the number of cores of any machine. The limit prevents a hostile value from allocating all
+// memory.
 constexpr std::uint32_t max_threads = 1024;
 
-// Refuses the field `threads` of a descriptor when it is out of range.
+// Throws if the field `threads` of a descriptor is out of range.
 inline void need_threads(std::uint32_t threads) {
   check_at_most("desc.threads", threads, max_threads);
 }

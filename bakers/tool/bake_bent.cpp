@@ -1,4 +1,4 @@
-// nook bake bent: bent normals for a model that is already baked.
+// `nook bake bent` adds bent normals to a model that is already baked.
 #include <memory>
 
 #include "bakers/job/vertex_bakes.h"

@@ -45,7 +45,7 @@ std::string host_name() {
   return safe;
 }
 
-// Writes a file under a name that no other process uses, then renames it. Throws std::system_error.
+// Writes a file under a unique temporary name, then renames it. Throws std::system_error.
 void put(const fs::path& place, std::span<const std::byte> bytes) {
   const fs::path part = place.string() + part_mark + host_name() + "-" + std::to_string(getpid());
   const auto fail = [&](int error) {
@@ -62,7 +62,7 @@ void put(const fs::path& place, std::span<const std::byte> bytes) {
     else if (errno != EINTR)
       error = errno;
   }
-  // A file system that cannot synchronise is not an error.
+  // It is not an error if the file system does not support synchronisation.
   if (error == 0 && fsync(descriptor) != 0 && errno != EINVAL && errno != EROFS) error = errno;
   if (close(descriptor) != 0 && error == 0) error = errno;
   if (error != 0) fail(error);
@@ -81,7 +81,7 @@ std::optional<std::vector<std::byte>> bytes_of(const fs::path& path) {
   }
 }
 
-// Returns the result in both files; nothing if they do not fit together.
+// Returns the result from both files, or nothing if the two files do not belong together.
 std::optional<BakeOutput> checked(const std::vector<std::byte>& entry, std::vector<std::byte> model) {
   const Json json = Json::parse(entry.begin(), entry.end(), nullptr, false);
   if (!json.is_object()) return std::nullopt;
@@ -95,7 +95,8 @@ std::optional<BakeOutput> checked(const std::vector<std::byte>& entry, std::vect
   return fits ? std::optional(std::move(output)) : std::nullopt;
 }
 
-// Pruning removes what was not used for the longest time. A folder that may only be read has no such times.
+// Records the time of use, because pruning removes the least recently used entries. Fails silently in a
+// read-only folder.
 void note_use(const fs::path& place) {
   utimensat(AT_FDCWD, place.c_str(), nullptr, 0);
 }
@@ -157,12 +158,14 @@ struct Entry {
   fs::file_time_type used = fs::file_time_type::min();
 };
 
-// Removes the model first: a report alone counts as nothing.
+// Removes the model first, because a report without a model is ignored.
 void remove_entry(Entry& entry) {
   std::sort(entry.files.begin(), entry.files.end(),
             [](const fs::path& a, const fs::path& b) { return a.extension() > b.extension(); });
   std::error_code error;
-  for (const fs::path& file : entry.files) fs::remove(file, error);  // another host may have been faster
+  for (const fs::path& file : entry.files)
+    fs::remove(file, error);  // another host may have removed it
+                              // already
 }
 
 bool is_key(const std::string& text) {
@@ -175,7 +178,7 @@ fs::file_time_type days_ago(double days) {
          std::chrono::duration_cast<fs::file_time_type::duration>(Days(days));
 }
 
-// The entries of a folder by their keys. Removes abandoned parts on the way.
+// Returns the entries of a folder by their keys. Also removes abandoned unfinished files.
 std::map<std::string, Entry> entries_of(const fs::path& folder) {
   std::map<std::string, Entry> entries;
   std::error_code error;

@@ -1,10 +1,10 @@
-// A folder that keeps the results of bakes by their keys. Several programs on several hosts may share it,
-// also over NFS: it has no locks, and every file appears whole by a rename.
+// A folder that stores the results of bakes by their keys. Several programs on several hosts may share it,
+// also over NFS. It needs no locks, because every file is written completely and then renamed into place.
 //
 //   DIR/ab/KEY.json  the report, the table, and the checksums of report, table and model
 //   DIR/ab/KEY.nook  the model; ab are the first two digits of KEY
 //
-// The report is renamed into its place before the model, so that a model is never without its numbers.
+// The report is renamed into place before the model, so that a model never exists without its report.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,8 @@ namespace nook::tool {
 
 inline constexpr const char* cache_variable = "NOOK_CACHE";
 
-// Returns the folder that --cache names, else the one in the environment; empty without both.
+// Returns the folder that --cache names, or else the folder from the environment variable. Returns an empty
+// path if neither is set.
 std::filesystem::path cache_folder(const std::filesystem::path& option);
 
 class BakeCache {
@@ -26,11 +27,12 @@ class BakeCache {
   // Makes the folder if it does not exist. Throws ToolError.
   explicit BakeCache(std::filesystem::path folder);
 
-  // Returns the result of a key. An entry that does not fit its checksums counts as missing, and the error
-  // stream says so. Unless quiet, it also says that a result came from here.
+  // Returns the result of a key. An entry that does not match its checksums counts as missing, and a message
+  // on the error stream says so. Unless `quiet` is true, a message also says when a result came from the
+  // cache.
   std::optional<BakeOutput> find(const std::string& key, bool quiet) const;
 
-  // Keeps a result. If it fails, the bake does not: the error stream tells why.
+  // Stores a result. If storing fails, the bake does not fail. A message on the error stream says why.
   void store(const std::string& key, const BakeOutput& output) const;
 
  private:
@@ -38,8 +40,9 @@ class BakeCache {
 };
 
 struct CacheLimits {
-  std::optional<double> days;          // remove what nobody has used for longer
-  std::optional<std::uint64_t> bytes;  // then remove what was not used for the longest time, down to this
+  std::optional<double> days;          // remove entries that were not used for this many days
+  std::optional<std::uint64_t> bytes;  // then remove the least recently used entries until the total size is
+                                       // at most this
 };
 
 struct PrunedCache {
@@ -47,7 +50,7 @@ struct PrunedCache {
   std::uint64_t removed_bytes = 0, kept_bytes = 0;
 };
 
-// Adds nook cache prune.
+// Adds the command `nook cache prune`.
 void add_cache_prune(Command cache);
 
 // Removes entries, and unfinished files that are older than a day. Throws ToolError if the folder cannot be

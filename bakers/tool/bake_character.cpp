@@ -1,4 +1,4 @@
-// nook bake character: bakes the model of a rigged character, with the numbers of nook_bake.h.
+// `nook bake character` bakes the model of a rigged character, with the settings of nook_bake.h.
 #include <nook/experimental/nook_trace.h>
 #include <nook/nook_bake.h>
 
@@ -38,12 +38,12 @@ struct Options {
   double time_limit_s = 0;
 };
 
-// The option's check has passed, so the text is a number in range or the word.
+// The option was already checked, so the text is a number in range or the word.
 float gamma_of(const std::string& text) {
   return text == "learned" ? NOOK_BAKE_GAMMA_LEARNED : std::strtof(text.c_str(), nullptr);
 }
 
-// Returns the numbers as a descriptor without the character, because only programs have its handle.
+// Returns the settings as a descriptor. The character is not set, because the command has no handle.
 nook_bake_character_desc desc_of(const Options& options, const std::vector<const char*>& clips) {
   nook_bake_character_desc desc;
   nook_bake_character_desc_init(&desc);
@@ -78,7 +78,7 @@ bake::Recipe requested_recipe(const Options& options, const bake::ImportedCharac
   return bake::recipe_of(desc_of(options, clips), study, character);
 }
 
-// Empty without --calibrate. Poses of other bodies are left out.
+// Returns nothing without --calibrate. Leaves out poses of other bodies.
 bake::CalibrationPoses recorded_poses(const Options& options, const bake::SkinnedMesh& mesh) {
   if (options.calibration.empty()) return {};
   return naming_file(options.calibration, [&] {
@@ -95,7 +95,7 @@ bake::CalibrationPoses recorded_poses(const Options& options, const bake::Skinne
   });
 }
 
-// Leaves out of the table what only a file needs.
+// The table leaves out the keys that are only useful in a file.
 BakeOutput output_of(bake::BakedFile file) {
   nlohmann::ordered_json row = nlohmann::ordered_json::parse(file.report);
   const std::string summary = platform::printable(row["summary"].get<std::string>());

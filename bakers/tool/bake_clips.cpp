@@ -1,4 +1,4 @@
-// nook bake clips: the AO and the poses of a character's clips, for crowds without bones on the CPU.
+// `nook bake clips` bakes the AO and the poses of a character's clips, for crowds without bones on the CPU.
 #include <memory>
 
 #include "bakers/job/clip_bake.h"
@@ -53,7 +53,7 @@ PreparedBake prepare(const Options& o) {
   });
   const bake::BakeIdentity identity = in.identity;
   return {identity, [&o, in = std::move(in)] {
-            // The table has one line for each row; the error by modes is for the report.
+            // The table has one line for each row. The error by modes is only in the report.
             return one_row(naming_file(o.input, [&] { return bake(o, in); }), {"error_of_modes"});
           }};
 }

@@ -1,4 +1,4 @@
-// nook bake lod: the model of a mesh of less detail, from the bake of the full mesh.
+// `nook bake lod` makes the model for a mesh with less detail from the bake of the full mesh.
 #include <memory>
 
 #include "bakers/job/vertex_bakes.h"

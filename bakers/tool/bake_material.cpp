@@ -1,5 +1,5 @@
-// nook bake material: ray traces a meso-structure or the maps of a physically based material, or reads a
-// measured BTF, and compresses it.
+// `nook bake material` ray traces a meso-structure or the maps of a physically based material, or reads a
+// measured BTF. Then it compresses the result.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -36,7 +36,7 @@ struct Options {
   std::string meso, visibility_mapping;
   BakeOptions baking;
   std::filesystem::path pbr, btf, raw, keep_raw, images;
-  std::filesystem::path relief;              // an image of heights; empty: none
+  std::filesystem::path relief;              // a height image; empty: none
   FloatColours colours = FloatColours::rgb;  // for the images of --btf
   std::uint32_t directions = 100, lights = 0, texels = 0;
   float max_tilt_deg = bake::material::default_max_tilt_deg;
@@ -47,7 +47,7 @@ struct Options {
   std::optional<std::uint32_t> count;
   std::optional<float> radius, thickness, roughness;
   float detail = 1;
-  bool strict = false;  // a material that judges itself bad is not written
+  bool strict = false;  // do not write a material with a bad verdict
 };
 
 MesoParameters meso_of(const Options& o) {
@@ -61,7 +61,7 @@ MesoParameters meso_of(const Options& o) {
   return p;
 }
 
-// Any --meso that is not a built-in structure names a mesh.
+// Any value of --meso that is not a built-in structure names a mesh.
 bool is_mesh(const std::string& meso) {
   return !meso.empty() && std::ranges::count(meso_names(), std::string_view(meso)) == 0;
 }
@@ -70,7 +70,8 @@ bool is_traced(const Options& o) {
   return !o.meso.empty() || !o.pbr.empty();
 }
 
-// Grid points along a side of the maps: one for each view ray, which then sees no detail between them.
+// Returns the number of grid points along a side of the maps. There is one grid point for each view ray,
+// because rays cannot see detail between them.
 std::uint32_t map_points(const Options& o) {
   constexpr std::uint32_t fewest = 4, most = 384;
   return std::clamp(o.trace.width * o.trace.samples, fewest, most);
@@ -146,7 +147,8 @@ bake::Progress shown_on(platform::ProgressBar& bar, const char* label, const cha
   };
 }
 
-// What a bake compresses: a raw material, or what is traced first; and the heights of --relief.
+// What a bake compresses: a raw material, or a structure that is traced first. Also has the heights of
+// --relief.
 struct Source {
   RawMaterial raw;
   std::optional<bake::MesoSource> traced;
@@ -170,8 +172,8 @@ RawMaterial obtain(const Options& o, const Source& source, platform::ProgressBar
   return raw;
 }
 
-// Reads the image of --relief. It has the texels of a material that will be traced, or its own if a file
-// decides about them. Throws for heights out of range.
+// Reads the image of --relief. For a material that will be traced, it is resampled to that material's texels.
+// For a material from a file, it keeps its own texels. Throws for heights out of range.
 PbrMaps read_relief(const Options& o) {
   return naming_file(o.relief, [&] {
     PbrMaps image = read_height_image(o.relief);
@@ -194,7 +196,7 @@ void set_heights(const Options& o, const PbrMaps& image, RawMaterial& raw) {
     for (std::size_t y = 0; y < raw.height; ++y) raw.heights[x * raw.height + y] = z[y * raw.width + x];
 }
 
-// Decoding without a view map costs more than the settings of K-CTA suggest.
+// Warns that decoding without a view map is more expensive than the settings of K-CTA suggest.
 void note_missing_map(const Options& o, const CompressionSettings& settings) {
   if (!o.common.quiet && settings.method == Method::k_cta && settings.map_side == 0)
     std::fprintf(stderr, "nook: without a view map decoding mixes up to %u clusters a pixel instead of %u\n",
@@ -225,18 +227,18 @@ bake::BakeIdentity identity_of(const Options& o, const Source& source) {
     settings["height_scale"] = o.height_scale_m;
     settings["tile_side"] = o.tile_side_m;
   }
-  // A result that was kept without --strict may be bad.
+  // A result that was cached without --strict may have a bad verdict, so --strict is part of the identity.
   if (o.strict) settings["strict"] = true;
   return bake::identify_bake(bake::BakeKind::material, settings, inputs);
 }
 
-// The table has no room for sentences, which stand above it.
+// The table has no room for sentences. They are printed above it.
 Json without_words(Json row) {
   row.erase("verdict_words");
   return row;
 }
 
-// Tells the user what the material is worth. Throws with --strict if it is bad, before a file is replaced.
+// Prints the verdict on the material. With --strict, throws if the verdict is bad, before a file is replaced.
 void tell_verdict(const Options& o, const Verdict& verdict) {
   if (o.strict && verdict.grade == Grade::bad)
     throw ToolError(exit_bad_result,
@@ -295,7 +297,8 @@ PreparedBake prepare(const Options& o) {
   return {identity, [&o, source = std::move(source), identity] { return bake(o, source, identity); }};
 }
 
-// Returns the sizes of a material that will be ray traced; without views if it will be read.
+// Returns the sizes of a material that will be ray traced. For a material that will be read from a file, the
+// result has no views.
 RawMaterial expected_sizes(const Options& o) {
   RawMaterial sizes;
   if (!is_traced(o)) return sizes;

@@ -1,4 +1,4 @@
-// nook bake probe: one probe of an environment map, or a grid of them in a path-traced scene.
+// `nook bake probe` bakes one probe from an environment map, or a grid of probes in a path-traced scene.
 #include "bakers/tool/bake_probe.h"
 #include "bakers/tool/command_line.h"
 

@@ -1,4 +1,4 @@
-// nook bake probe, for its two kinds of input.
+// Options of `nook bake probe`, for its two kinds of input.
 #pragma once
 
 #include <array>
@@ -16,12 +16,12 @@ struct BakeProbeOptions {
   BakeOptions baking;
   std::filesystem::path input;
 
-  // For one map.
+  // For one map:
   std::filesystem::path picture;
   std::string sampling = "automatic";
   std::uint32_t samples = 0;  // 0: 1,048,576 for a map; at most 65,536 for each probe of a grid
 
-  // For a scene.
+  // For a scene:
   std::array<std::uint32_t, 3> grid{0, 0, 0};
   std::filesystem::path light;
   BoxArgument box;

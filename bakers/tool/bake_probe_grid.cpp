@@ -1,5 +1,5 @@
-// nook bake probe SCENE --grid AxBxC --light MAP: a grid of probes by path tracing, refined until its error
-// is small.
+// `nook bake probe SCENE --grid AxBxC --light MAP` bakes a grid of probes by path tracing, until its error is
+// small.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -67,7 +67,7 @@ double refine(const BakeProbeOptions& options, GridBake& grid, std::uint32_t max
     return !interrupted();
   };
   refinement.preview = [&](double error) {
-    // It is not the result that the identity promises, and gets none.
+    // A preview is not the final result, so it gets no identity.
     platform::OutputFile(options.baking.output).commit(file_of(options, grid, grid.probes(), error, {}));
     char label[64];
     std::snprintf(label, sizeof label, "preview written, error %.3g", error);
@@ -138,13 +138,13 @@ PreparedBake prepare_probe_grid(const BakeProbeOptions& options) {
                     "--preview-every: -o is a device or a pipe, where no later version can replace "
                     "a preview (got " +
                         options.baking.output.string() + "); give a file");
-  // The scene is read once more for its hash, because textures forget their files.
+  // The scene is read again for its hash, because decoded textures do not store the bytes of their files.
   const std::string scene_hash = naming_file(options.input, [&] {
     return bake::content_hash(bake::import_static_scene(
         options.input, options.no_textures ? bake::SceneTextures::skip : bake::SceneTextures::read,
         options.reading));
   });
-  // Functions must be copied, and the scene cannot be.
+  // A shared pointer is needed because std::function must be copyable, and the scene is not.
   const auto scene = std::make_shared<const bake::ProbeScene>(
       read_probe_scene(options.input, options.light, !options.no_textures, options.reading, options.common));
   const std::string light_hash = bake::content_hash(scene->lit->environment());

@@ -1,4 +1,4 @@
-// nook bake probe MAP: one probe of an environment map.
+// `nook bake probe MAP` bakes one probe from an environment map.
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -57,7 +57,7 @@ BakeOutput bake(const BakeProbeOptions& options, const bake::Environment& map,
   baked.probes.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::vector<std::byte> bytes = probe::write_probes(baked.probes, packing_of(options.probe));
 
-  // Error and picture show what the file gives back, including its packing.
+  // The error and the picture are made from the stored probe, so they include the loss by packing.
   const probe::Probes stored = probe::read_probes(bytes);
   const Json row = row_of(options, map, stored, bytes.size(), seconds);
   if (picture) picture->commit(bake::png_bytes(bake::probe::map_picture(map, stored.basis, stored.of(0))));

@@ -1,4 +1,4 @@
-// nook bake synthesis: a coordinate texture that spreads a material over a plane.
+// `nook bake synthesis` makes a coordinate texture that spreads a material over a plane.
 #include <memory>
 
 #include "bakers/job/synthesis_bake.h"
@@ -25,7 +25,7 @@ struct Options {
   bake::synthesis::SynthesisSettings settings;
 };
 
-// Draws the plane without and with its coordinates, for a compressed material.
+// For a compressed material, draws the plane without and with its coordinates.
 void write_pictures(const Options& o, std::span<const std::byte> material, const bake::Crop& crop,
                     const bake::BakedFile& file) {
   if (o.images.empty() || container_kind(material) != nook::material::material_kind.kind) return;

@@ -1,4 +1,4 @@
-// nook bake transfer: the visibility of lobes at the vertices of a static shape.
+// `nook bake transfer` bakes the visibility of lobes at the vertices of a static shape.
 #include <cstdio>
 #include <memory>
 

@@ -22,7 +22,8 @@
 namespace nook::tool {
 namespace {
 
-// Runs a part of the bake on its threads, and turns what a stopped part throws into the message for its user.
+// Runs a part of the bake on its threads. If the part is stopped, converts its exception to the message for
+// the user.
 template <class Part>
 void run_part(const BakeCommand& command, Part&& part) {
   const auto stopped = [&] { return ToolError(exit_other, command.stopped); };
@@ -32,15 +33,15 @@ void run_part(const BakeCommand& command, Part&& part) {
     if (failure.code() == NOOK_ERROR_CANCELLED) throw stopped();
     throw;
   } catch (const ToolError&) {
-    // A failure that got the name of an input arrives as this.
+    // A failure that naming_file() has extended by the name of an input arrives as ToolError.
     if (interrupted()) throw stopped();
     throw;
   }
-  // Ctrl-C after the last report of progress still counts.
+  // Ctrl-C after the last progress callback also stops the bake.
   if (interrupted()) throw stopped();
 }
 
-// main() has started the program again with the instruction set of --isa in its environment.
+// Checks that main() has started the program again with the instruction set of --isa in its environment.
 void require_instruction_set(const BakeOptions& options) {
   const char* const pinned = std::getenv(bake::isa_variable);
   if (!options.isa.empty() && options.isa != (pinned ? pinned : ""))
@@ -56,7 +57,7 @@ std::optional<BakeCache> cache_of(const BakeOptions& options) {
   return BakeCache(folder);
 }
 
-// Takes the result from the cache, or bakes and keeps it there.
+// Takes the result from the cache, or else bakes it and stores it in the cache.
 BakeOutput obtain(const BakeCommand& command, const std::optional<BakeCache>& cache,
                   const PreparedBake& prepared) {
   if (!cache || command.has_time_limit) return prepared.perform();
@@ -75,7 +76,7 @@ void print_key(const BakeCommand& command, const std::function<PreparedBake()>& 
   platform::print(key + "\n");
 }
 
-// Warns even with --quiet: otherwise a build bakes every time without a word.
+// Warns even with --quiet. Otherwise, a build would bake every time without saying why.
 std::string rule_of(const BakeCommand& command) {
   const std::filesystem::path& output = command.baking.output;
   const std::vector<std::filesystem::path> read = files_read(command.files, command.reads_images);
@@ -143,7 +144,8 @@ void run_bake(BakeCommand command, const std::function<PreparedBake()>& prepare)
   make_image_folder(files.images);
   BakeOutput output;
   run_part(command, [&] { output = obtain(command, cache, prepare()); });
-  // Whoever finds the file also finds its numbers, even if the program is killed here.
+  // The report is written before the file. So if the file exists, its report exists too, even if the program
+  // is killed in between.
   if (report_file) report_file->commit(output.report);
   if (rule_file) rule_file->commit(rule);
   output_file.commit(output.file);

@@ -1,4 +1,4 @@
-// The frame of every bake. It runs the bake on the requested threads and writes the file and its report.
+// Runs any bake on the requested threads, and writes its file and its report.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct BakeOptions {
   std::filesystem::path output;
   std::filesystem::path depfile, cache;  // empty: none
   bool prints_key = false;
-  std::string isa;  // empty: as the environment says
+  std::string isa;  // empty: use the environment variable
   const BakeSurvey* survey = nullptr;
 };
 
@@ -33,11 +33,13 @@ struct BakeCommand {
   const CommonOptions& common;
   const BakeOptions& baking;
   CommandFiles files;  // inputs and outputs of the bake, without its output, report and depfile
-  std::string stopped = "stopped; nothing was written";  // for the user who pressed Ctrl-C
-  // The bake makes more than its file and report, such as pictures, which a cache does not hold.
+  std::string stopped = "stopped; nothing was written";  // the message after Ctrl-C
+  // True if the bake also writes other outputs than its file and report, such as pictures. A cache cannot
+  // store these.
   bool makes_more = false;
-  bool reads_images = false;  // of its glTF files
-  // A time limit makes the result depend on the speed of the machine; such a result stays out of the cache.
+  bool reads_images = false;  // whether it reads the images of its glTF files
+  // True if the bake has a time limit. Then the result depends on the speed of the machine, and it is not
+  // stored in the cache.
   bool has_time_limit = false;
 };
 
@@ -47,20 +49,20 @@ struct BakeOutput {
   std::string table;   // shown to the user
 };
 
-// A bake whose inputs are read and checked, before its work.
+// A bake with inputs that are read and checked. The work has not started.
 struct PreparedBake {
   bake::BakeIdentity identity;
-  std::function<BakeOutput()> perform;  // owns all that it needs
+  std::function<BakeOutput()> perform;  // owns everything that it uses
 };
 
-// The report is {"rows": [row]} with the row of the file's report. The table leaves out keys that only a file
-// needs.
+// Makes a report with one row: {"rows": [row]}, where the row is file.report. The table for the user leaves
+// out the keys in only_in_report.
 BakeOutput one_row(bake::BakedFile file, std::initializer_list<const char*> only_in_report = {});
 
-// Prepares the bake, and performs it unless a cache holds its result. Writes the report, the depfile and the
-// file, in this order, and prints the table. It checks before the work begins that files and folders can be
-// written, and that none would replace a file that is read. A stopped bake writes nothing. With --print-key
-// it only prepares the bake and prints its key. With a survey it calls the survey and does nothing else.
+// Prepares the bake, and performs it unless the cache has its result. Writes the report, the depfile and the
+// file, in this order, and prints the table. Before the work begins, checks that files and folders can be
+// written, and that no output would replace an input. A stopped bake writes nothing. With --print-key, only
+// prepares the bake and prints its key. With a survey, calls the survey and does nothing else.
 void run_bake(BakeCommand command, const std::function<PreparedBake()>& prepare);
 
 }  // namespace nook::tool

@@ -1,4 +1,4 @@
-// nook build: nook plan, and then Ninja for what has to run.
+// `nook build` runs `nook plan`, and then Ninja for the bakes that have to run.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -28,7 +28,8 @@ struct Options {
   unsigned jobs = 0;
 };
 
-// Ninja puts this before each of its lines: finished and all edges.
+// Ninja puts the text in this variable before each of its status lines: the numbers of finished and of all
+// edges.
 constexpr const char* status_variable = "NINJA_STATUS";
 constexpr const char* status_form = "@nook %f %t@ ";
 constexpr const char* failed_line = "FAILED: ";
@@ -49,7 +50,7 @@ fs::path find_program(const std::string& name) {
                                   "tasks.txt of nook plan by other means");
 }
 
-// Shows what Ninja says: its counts as one line of progress, everything else as it is.
+// Shows the output of Ninja. Its counts become one progress line. Everything else is shown unchanged.
 class NinjaOutput {
  public:
   explicit NinjaOutput(bool quiet) : bar_(quiet) {}
@@ -69,7 +70,7 @@ class NinjaOutput {
   std::size_t failed() const { return failed_; }
 
  private:
-  // A line with the status tells the counts; the name behind them is in the log already.
+  // A status line has the counts. The name after the counts is already in the log.
   void line(const std::string& text) {
     std::size_t done = 0, total = 0;
     if (std::sscanf(text.c_str(), "@nook %zu %zu@", &done, &total) == 2) {
@@ -83,7 +84,7 @@ class NinjaOutput {
       std::fprintf(stderr, "%s\n", platform::printable(text).c_str());
     }
   }
-  // A new label begins a new line, which a failure has interrupted anyway.
+  // A new label starts a new line. This happens only after a failure, which has interrupted the line anyway.
   void show() {
     const std::string failed = failed_ > 0 ? ", " + std::to_string(failed_) + " failed" : "";
     bar_.show("build" + failed, "bakes", done_, total_);

@@ -1,4 +1,4 @@
-// nook cache prune: removes old results from the folder of --cache.
+// `nook cache prune` removes old results from the folder of --cache.
 #include <memory>
 #include <optional>
 

@@ -13,13 +13,13 @@
 namespace nook::tool {
 namespace {
 
-constexpr int exit_not_started = 127;  // as shells have it
+constexpr int exit_not_started = 127;  // the code that shells use
 
-// Only calls that are allowed between fork and exec.
+// Makes only calls that are allowed between fork and exec.
 [[noreturn]] void become(const char* program, char* const* arguments, int output, int error, pid_t parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (getppid() != parent) _exit(exit_not_started);  // the parent is gone already
+  if (getppid() != parent) _exit(exit_not_started);  // the parent has already ended
   std::signal(SIGPIPE, SIG_DFL);
   std::signal(SIGXFSZ, SIG_DFL);
   if (output >= 0) dup2(output, STDOUT_FILENO);

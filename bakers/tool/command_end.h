@@ -1,5 +1,5 @@
-// Ends a command before its work is done. A failure has a text for the user and the documented exit code, and
-// Ctrl-C sets a flag.
+// Ways to end a command before its work is done. A failure has a text for the user and a documented exit
+// code. Ctrl-C sets a flag.
 #pragma once
 
 #include <nook/nook.h>
@@ -28,7 +28,8 @@ class ToolError : public std::runtime_error {
   ExitCode code_;
 };
 
-// Ends a command that has already said why with an exit code, such as the code of a program that it ran.
+// Thrown to end a command with an exit code after the command has already told the user why. The code can be
+// the exit code of a program that the command ran.
 class CommandEnd {
  public:
   explicit CommandEnd(int code) : code_(code) {}
@@ -52,14 +53,15 @@ inline ExitCode exit_code_of(nook_result result) {
   }
 }
 
-// Ctrl-C as a flag that long work checks between its steps.
-// The first SIGINT, SIGTERM or SIGHUP sets the flag, a second one ends the process at once. A signal that was
-// ignored when the program began stays ignored.
+// Makes Ctrl-C set a flag, which long work checks between its steps. The first SIGINT, SIGTERM or SIGHUP sets
+// the flag. A second one ends the process at once. A signal that was ignored when the program began stays
+// ignored.
 void watch_for_interrupt();
 bool interrupted();
 
-// Makes files that may be pipes stop waiting at the flag. The error stream tells the user what a command
-// waits for. Without --quiet, it also reports other effects on a file that is replaced.
+// Returns events for files that may be pipes: waiting for such a file ends when the flag is set. Messages on
+// the error stream say what a command waits for. Without --quiet, messages also report other effects on a
+// file that is replaced.
 platform::FileEvents file_events(bool quiet);
 
 }  // namespace nook::tool

@@ -26,8 +26,8 @@ namespace nook::tool {
 namespace {
 
 constexpr FourLetters raw_material = four_letters("MRAW");
-// Raw materials store up to 16 GiB of floats in half as many bytes, and .btf files come from elsewhere. All
-// other kinds are far below 4 GiB at the limits of their formats.
+// Raw materials can have up to 16 GiB of floats, which they store in half as many bytes. .btf files from
+// other tools can be large too. All other kinds are far below 4 GiB at the limits of their formats.
 constexpr std::uint64_t max_raw_bytes = std::uint64_t{16} << 30, max_nook_bytes = std::uint64_t{4} << 30;
 
 std::uint64_t memory_bytes() {
@@ -46,7 +46,7 @@ void check_size(const std::filesystem::path& path, std::uint64_t size, std::uint
                                          : "); it is damaged, or not a file that this command reads"));
 }
 
-// Throws std::runtime_error if the head of a .nook file gives another size than the file's.
+// Throws std::runtime_error if the size in the head of a .nook file differs from the file's size.
 void check_nook_size(const std::filesystem::path& path, std::span<const std::byte> head, std::uint64_t size) {
   check_size(path, size, container_kind(head) == raw_material ? max_raw_bytes : max_nook_bytes);
   const std::uint64_t said = container_size(head);
@@ -119,7 +119,9 @@ std::optional<KnownFile> identify(const NamedFile& file) {
     return KnownFile{file.option, file.path, {there.st_dev, there.st_ino, ""}, S_ISCHR(there.st_mode)};
   const fs::path target = platform::followed(file.path);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  if (stat(folder.c_str(), &there) != 0) return std::nullopt;  // nothing can be written there
+  if (stat(folder.c_str(), &there) != 0)
+    return std::nullopt;  // the folder does not exist, so nothing can be
+                          // written there
   return KnownFile{file.option, file.path, {there.st_dev, there.st_ino, target.filename().string()}, false};
 }
 
@@ -143,7 +145,8 @@ nlohmann::json document_of(const fs::path& path) {
   if ((extension != ".gltf" && extension != ".glb") || !fs::is_regular_file(path, error)) return {};
   std::ifstream stream(path, std::ios::binary);
   if (extension == ".gltf") return nlohmann::json::parse(stream, nullptr, false);
-  // By glTF 2.0, section 4.4, the JSON chunk has its length and type behind a header of 12 bytes.
+  // In a .glb file, the length and the type of the JSON chunk follow a header of 12 bytes (glTF 2.0, section
+  // 4.4).
   std::array<unsigned char, 20> head{};
   if (!stream.read(reinterpret_cast<char*>(head.data()), head.size())) return {};
   const std::uint64_t length = head[12] | head[13] << 8 | head[14] << 16 | std::uint64_t(head[15]) << 24;
@@ -194,7 +197,7 @@ std::vector<KnownFile> identify_all(const std::vector<NamedFile>& files) {
   throw ToolError(exit_bad_arguments, text + "); choose another place for " + output.option);
 }
 
-// A picture could replace a file in their folder, whatever its name.
+// Throws if the file is in the folder of the pictures, because a picture could replace it.
 void require_not_among_pictures(const KnownFile& file, const fs::path& images) {
   const fs::path extension = file.path.extension();
   if (extension != ".png" && extension != ".svg") return;

@@ -12,16 +12,16 @@
 
 namespace nook::tool {
 
-// Reads a .nook file. It checks the size from the first bytes against the memory of the machine before it
-// reads the rest. If the file does not begin like a .nook file, it returns only the first bytes, which are
-// enough for a reader to refuse it. Throws ToolError (bad input) that names the file; platform::Stopped.
+// Reads a .nook file. Before reading the rest, compares the size in the first bytes with the memory of the
+// machine. If the file does not begin like a .nook file, returns only the first bytes. They are enough for a
+// reader to reject the file. Throws ToolError (bad input) that names the file, and platform::Stopped.
 std::vector<std::byte> read_file(const std::filesystem::path& path);
 
-// Reads a file of any kind, up to the size of the largest that a command takes.
+// Reads a file of any kind, up to the size of the largest file that a command accepts.
 std::vector<std::byte> read_any_file(const std::filesystem::path& path);
 
-// Runs body. A Failure inside becomes a ToolError whose text begins with the file's name, unless it has the
-// name already.
+// Runs `body`. Converts a Failure inside to a ToolError. Puts the file's name in front of the text, unless
+// the text already contains it.
 template <class Body>
 auto naming_file(const std::filesystem::path& path, Body&& body) {
   try {
@@ -33,7 +33,7 @@ auto naming_file(const std::filesystem::path& path, Body&& body) {
   }
 }
 
-// A path with its option. An empty path means that the option was not given.
+// A path and the option that it came from. An empty path means that the option was not given.
 struct NamedFile {
   std::string option;
   std::filesystem::path path;
@@ -45,15 +45,16 @@ struct CommandFiles {
   std::filesystem::path images;  // --images: a folder where the command writes .png and .svg files
 };
 
-// Throws ToolError (bad arguments) if an output is an input or another output under any name, and names both
-// options. Files are compared by device and inode. This includes files that a .gltf refers to, and files in a
-// folder that is read. Several outputs may go to one character device.
+// Throws ToolError (bad arguments) that names both options if an output is the same file as an input or
+// another output. Files are compared by device and inode, so different names for one file are found. Inputs
+// include files that a .gltf refers to, and files in a folder that is read. Several outputs may go to one
+// character device.
 void require_distinct_files(const CommandFiles& files);
 
-// Makes the folder before the work begins; an empty path means none. Throws ToolError.
+// Makes the folder before the work begins. Does nothing for an empty path. Throws ToolError.
 void make_image_folder(const std::filesystem::path& folder);
 
-// Makes the beginning of a file's name from a name in a file: slashes and control characters become
+// Converts a name from inside a file to the beginning of a file name. Slashes and control characters become
 // underscores.
 std::string as_file_name(const std::string& name);
 

@@ -12,7 +12,7 @@
 
 namespace nook::tool {
 
-// Prints what an import left out or repaired, unless the command is quiet.
+// Prints the warnings of an import about what it left out or repaired, unless the command is quiet.
 void print_warnings(const std::filesystem::path& path, const std::vector<std::string>& warnings,
                     const CommonOptions& common);
 
@@ -20,16 +20,16 @@ void print_warnings(const std::filesystem::path& path, const std::vector<std::st
 bake::ImportedCharacter read_character(const std::filesystem::path& path, const bake::ImportOptions& reading,
                                        const CommonOptions& common);
 
-// Reads a rig file (bakers/character/rig_file.h); an empty path has no corrections. Throws ToolError that
-// names the file.
+// Reads a rig file (bakers/character/rig_file.h). Returns no corrections for an empty path. Throws ToolError
+// that names the file.
 bake::RigCorrections read_rig_file(const std::filesystem::path& path, const bake::SkinnedMesh& mesh);
 
-// Throws ToolError (bad arguments) that names the first missing clip of --clips and lists the clips that the
-// character has.
+// If a clip of --clips does not exist, throws ToolError (bad arguments) that names the first such clip and
+// lists the clips of the character.
 void require_clips(const std::vector<std::string>& wanted, const bake::ImportedCharacter& character);
 
 // Reads a scene and prints its warnings. Throws ToolError (bad input) that names the file, and the texture if
-// that is at fault. Without textures, their colour factors are used.
+// that is at fault. If textures are not read, uses only the colour factors of materials.
 bake::ProbeScene read_probe_scene(const std::filesystem::path& scene, const std::filesystem::path& light,
                                   bool textures, const bake::ImportOptions& reading,
                                   const CommonOptions& common);

@@ -103,7 +103,7 @@ namespace {
 
 struct NamedCopy {
   std::unique_ptr<platform::InputCopy> copy;
-  std::string named;  // by the user
+  std::string named;  // the name that the user gave
 };
 using InputCopies = std::vector<NamedCopy>;
 
@@ -128,7 +128,7 @@ void copy_stream(std::vector<Path>& paths, InputCopies& copies) {
   for (Path& path : paths) copy_stream(path, copies);
 }
 
-// Returns a message that names the user's files and not their copies.
+// In a message, replaces the names of copies by the names of the user's files.
 std::string without_copies(std::string text, const InputCopies& copies) {
   for (const NamedCopy& each : copies) {
     const std::string path = each.copy->path().string();
@@ -139,7 +139,8 @@ std::string without_copies(std::string text, const InputCopies& copies) {
   return text;
 }
 
-// A script with an unset variable gives an empty name, and many programs take "-" for a stream.
+// Refuses an empty name, which a script with an unset variable gives, and "-", which many programs accept for
+// a stream.
 std::string fault_of_path(const std::string& path) {
   if (path.empty()) return "the name of a file is empty";
   return path == "-"
@@ -185,7 +186,7 @@ void Command::callback(const std::function<void()>& run) const {
   });
 }
 
-// The pose of evaluate casters: two clips, a place and an angle.
+// The value of the pose option of `nook evaluate casters`: two clips, a position and an angle.
 using TwoNamesFourNumbers = std::tuple<std::string, std::string, float, float, float, float>;
 
 template <class T>
@@ -229,7 +230,7 @@ void run_words(std::vector<std::string> words, const std::function<void(Command)
   CLI::App program;
   program.require_subcommand(1);
   add(Command(program, survey));
-  std::reverse(words.begin(), words.end());  // the form of CLI11
+  std::reverse(words.begin(), words.end());  // CLI11 expects the arguments in reverse order
   try {
     program.parse(std::move(words));
   } catch (const CLI::ParseError& fault) {

@@ -1,5 +1,6 @@
-// Commands and their options, by CLI11. Its headers cost every file that includes them four seconds, so only
-// command_line.cpp, command_program.cpp and the main.cpp of the programs include them.
+// Wraps CLI11: commands and their options. CLI11's headers add four seconds to the compilation of each file
+// that includes them. So only command_line.cpp, command_program.cpp and the main.cpp of the programs include
+// them.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +19,7 @@ class Validator;
 
 namespace nook::tool {
 
-// A condition on an option's text. Help shows it.
+// A condition on an option's text. The help text shows it.
 class Check {
  public:
   explicit Check(const CLI::Validator& validator);
@@ -30,7 +31,7 @@ class Check {
   std::shared_ptr<const CLI::Validator> validator_;
 };
 
-// T is int, unsigned, float or double, and names the type in help.
+// T is int, unsigned, float or double. The help text shows the name of the type.
 template <class T>
 Check in_range(T low, T high);
 Check one_of(const std::vector<std::string>& names);
@@ -39,7 +40,7 @@ Check positive_number();
 Check non_negative_number();
 Check existing_file();
 
-// Refers to an option of a command; copies refer to the same.
+// A reference to an option of a command. Copies refer to the same option.
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
@@ -49,16 +50,16 @@ class Option {
   Option check(const std::function<std::string(const std::string&)>& fault)
       const;                                                        // returns what is wrong, or nothing
   Option each(const std::function<void(std::string)>& seen) const;  // calls seen for each text
-  Option capture_default_str() const;  // help shows the variable's value as the default
+  Option capture_default_str() const;  // the help text shows the variable's value as the default
   Option default_str(const std::string& text) const;
   Option type_name(const std::string& name) const;
   Option delimiter(char between) const;
-  Option one_each() const;  // a list takes one text each time that it is named
+  Option one_each() const;  // a list option takes one text each time that it is given
   Option expected(int count) const;
   Option expected(int least, int most) const;
   Option needs(Option other) const;
   Option excludes(Option other) const;
-  // A name of the map becomes its number.
+  // The option's texts are names in the map. Each name is converted to its number.
   Option number_of(const std::map<std::string, int>& numbers) const;
 
  private:
@@ -67,29 +68,30 @@ class Option {
 
 struct BakeSurvey;
 
-// Refers to a command; copies refer to the same. Variables and functions must outlive the parsing.
+// A reference to a command. Copies refer to the same command. Variables and functions that you pass must
+// outlive the parsing.
 class Command {
  public:
-  // With a survey, bakes below this command are described and not performed (bake_survey.h).
+  // If `survey` is not null, bakes below this command are only described, not performed (bake_survey.h).
   explicit Command(CLI::App& app, const BakeSurvey* survey = nullptr);
 
   Command add_subcommand(const char* name, const std::string& help) const;
   void callback(const std::function<void()>& run) const;
   const BakeSurvey* survey() const { return survey_; }
 
-  // T is one of the types that command_line.cpp instantiates it for: text, paths, numbers, and vectors and
-  // optionals of them.
+  // command_line.cpp instantiates this for certain types T: text, paths, numbers, and vectors and optionals
+  // of these.
   template <class T>
   requires(!std::is_enum_v<T>) Option add_option(const char* names, T& value, const std::string& help)
   const;
-  // Adds an option that names one or more files to read. T is text, a path or a vector of paths. A pipe is
-  // read to its end before the command runs, and the value becomes the name of a copy.
+  // Adds an option that names one or more files to read. T is text, a path or a vector of paths. If a file is
+  // a pipe, it is read to its end before the command runs, and the value becomes the name of a copy.
   template <class T>
   Option add_input(const char* names, T& value, const std::string& help) const {
     reads(value);
     return add_option(names, value, help);
   }
-  // The same for a value that an option sets by a function.
+  // Like the function above, but calls a function with the value.
   template <class T>
   void reads(T& value) const;
   Option add_option_function(const char* names, const std::function<void(const std::string&)>& set,
@@ -98,7 +100,7 @@ class Command {
   Option add_flag_callback(const char* names, const std::function<void()>& set,
                            const std::string& help) const;
 
-  // An option whose values are the names of the map.
+  // Adds an option that accepts the names of the map.
   template <class T>
   Option add_choice(const char* option_names, T& value, const std::map<std::string, T>& values,
                     const std::string& help) const {
@@ -118,8 +120,9 @@ class Command {
   std::shared_ptr<Inputs> inputs_;
 };
 
-// Parses words as a program parses its arguments, and runs what they name. `add` adds the commands, which get
-// the survey. Throws ToolError (bad arguments) with the fault of the words, and what the command throws.
+// Parses words like the arguments of a program, and runs the command that they name. `add` adds the commands,
+// which receive the survey. Throws ToolError (bad arguments) if the words are invalid, and what the command
+// throws.
 void run_words(std::vector<std::string> words, const std::function<void(Command)>& add,
                const BakeSurvey* survey);
 

@@ -17,7 +17,7 @@ namespace nook::tool {
 
 namespace {
 
-// The commands that the arguments name, outermost first: "nook", "bake", "probe".
+// Returns the commands that the arguments name, outermost first, for example "nook", "bake", "probe".
 std::vector<CLI::App*> named_commands(CLI::App& program) {
   std::vector<CLI::App*> commands{&program};
   while (!commands.back()->get_subcommands().empty())
@@ -31,14 +31,14 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   return text;
 }
 
-// Begins with the program's own name, or with the command number `first`.
+// Joins the names of the commands, starting at index `first`. Index 0 is the program.
 std::string name_of(const std::vector<CLI::App*>& commands, std::size_t first = 0) {
   std::vector<std::string> names;
   for (std::size_t c = first; c < commands.size(); ++c) names.push_back(commands[c]->get_name());
   return joined(names, " ");
 }
 
-// Ends a message about words that this program does not know.
+// Returns the end of a message about words that this program does not know.
 std::string elsewhere(CLI::App& program, const ElsewhereWords& words) {
   const std::string command = name_of(named_commands(program), 1);
   const auto known = words.words.find(command);
@@ -52,7 +52,7 @@ std::string elsewhere(CLI::App& program, const ElsewhereWords& words) {
   return "";
 }
 
-// Names the existing commands if none was given.
+// Returns a message with the existing commands if the user gave no command.
 std::string missing_command(CLI::App& program) {
   const std::vector<CLI::App*> commands = named_commands(program);
   std::vector<std::string> names;
@@ -65,7 +65,8 @@ std::string missing_command(CLI::App& program) {
          " (need one of " + joined(names, ", ") + ")";
 }
 
-// Options of the command behind `nook task` look like options of the task.
+// Returns a hint about the missing "--" of `nook task`. Without it, options of the command look like options
+// of the task.
 std::string missing_dashes(CLI::App& program) {
   const std::vector<CLI::App*> commands = named_commands(program);
   const std::vector<std::string> unknown = commands.back()->remaining();

@@ -1,5 +1,5 @@
-// A command line program with subcommands. It parses the arguments, runs what they name, and turns failures
-// into a line on the error stream and an exit code. `nook` and `nook-lab` use it.
+// A command line program with subcommands. Parses the arguments and runs the command that they name. Converts
+// failures to a line on the error stream and an exit code. `nook` and `nook-lab` use it.
 #pragma once
 
 #include <functional>
@@ -13,16 +13,17 @@ class App;
 
 namespace nook::tool {
 
-// Commands and options that belong to another program, for users who look for them here.
+// Commands and options that belong to another program. If a user tries them here, a message names that
+// program.
 struct ElsewhereWords {
-  std::string program, how_to_get;  // names in the message
-  // By the command here under which users may look for them, such as "evaluate nnao"; "*" means arguments
-  // without dashes.
+  std::string program, how_to_get;  // texts for the message
+  // The key is the command of this program under which users may look for the words, such as "evaluate nnao".
+  // The word "*" stands for all arguments without dashes.
   std::map<std::string, std::vector<std::string>> words;
 };
 
-// `name` and `description` head the help; `add_commands` adds the subcommands. Returns the exit code. Call it
-// first in main().
+// `name` and `description` are shown at the top of the help. `add_commands` adds the subcommands. Returns the
+// exit code. Call it first in main().
 int run_program(int argc, char** argv, const char* name, const char* description,
                 const std::function<void(CLI::App&)>& add_commands, const ElsewhereWords& elsewhere = {});
 

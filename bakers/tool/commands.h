@@ -1,5 +1,6 @@
-// The subcommands. Each adds itself with its options to its parent, and main.cpp calls it. It runs when the
-// parent is parsed, and returns or throws ToolError or Failure. peers.h adds other methods to evaluations.
+// The subcommands. main.cpp calls these functions, and each adds a command with its options to the parent.
+// The command runs when the parent is parsed. It returns, or throws ToolError or Failure. peers.h adds other
+// methods to evaluations.
 #pragma once
 
 namespace nook::tool {

@@ -80,8 +80,8 @@ void add_compression_options(Command command, CompressionOptions& o) {
 
 namespace {
 
-// Sets the given ranks of the BTF, or the ranks of a built-in material. Returns false if the threshold
-// decides.
+// Sets the ranks of the BTF to the given ranks, or to the ranks of a built-in material. Returns false if the
+// threshold determines the ranks.
 bool set_known_ranks(const CompressionOptions& options, const RawMaterial& raw, CompressionSettings& s) {
   if (options.ranks.empty()) return set_builtin_ranks(raw, s);
   if (options.ranks == "auto") return false;

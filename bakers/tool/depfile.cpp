@@ -8,9 +8,9 @@
 namespace nook::tool {
 namespace {
 
-// Ninja's depfile_parser.in.cc: a backslash before a space or # stands for the character alone, and a dollar
-// is doubled. Backslashes directly before such an escape would count as escapes of their own, so they are
-// doubled; all others stay.
+// Ninja's depfile_parser.in.cc: a space or # is escaped by a backslash, and a dollar is doubled. Backslashes
+// directly before such an escape would be read as escapes themselves, so they are doubled. All other
+// backslashes are unchanged.
 std::string escaped(const std::filesystem::path& path) {
   const std::string name = path.string();
   if (name.find_first_of("\n\r") != std::string::npos)
@@ -27,7 +27,7 @@ std::string escaped(const std::filesystem::path& path) {
   return text;
 }
 
-// The characters that end no name in depfile_parser.in.cc of Ninja 1.11, as they are or escaped.
+// Returns true if depfile_parser.in.cc of Ninja 1.11 accepts the character in a name, plain or escaped.
 bool is_read_by_ninja(char c) {
   constexpr std::string_view others = "+,/_:.~()}{%=@[]!- #$\\";
   const bool is_plain =

@@ -1,4 +1,4 @@
-// The rule that tells Make and Ninja what a bake reads.
+// Makes the depfile rule that tells Make and Ninja which files a bake reads.
 #pragma once
 
 #include <filesystem>
@@ -9,16 +9,17 @@
 
 namespace nook::tool {
 
-// Returns the inputs, the buffers that their glTF files name, with images also the images that they name, and
-// the files of folders that are read.
+// Returns all files that a bake reads: the inputs, the buffers that glTF inputs refer to, and the files of
+// folders that are read. If with_images is true, also returns the images that glTF inputs refer to.
 std::vector<std::filesystem::path> files_read(const CommandFiles& files, bool with_images);
 
 // Returns "output: file file ...", with the escapes that Ninja reads. Throws ToolError (bad arguments) for a
-// name that the rule cannot hold, because it has a line break.
+// name with a line break, which a rule cannot contain.
 std::string depfile_text(const std::filesystem::path& output, const std::vector<std::filesystem::path>& read);
 
-// Returns the first name that Ninja 1.11 cuts off, at a quote for example: it misses the file then, and bakes
-// every time. No escape helps. Empty: none.
+// Returns the first name that Ninja 1.11 would cut off, for example at a quote. Ninja would not find such a
+// file, and would bake every time. There is no escape for these characters. Returns an empty string if there
+// is no such name.
 std::string name_that_ninja_cuts(const std::filesystem::path& output,
                                  const std::vector<std::filesystem::path>& read);
 

@@ -1,4 +1,5 @@
-// nook evaluate bent: bent normals of a character, and what they do for glossy reflections.
+// `nook evaluate bent` measures the bent normals of a character, and how much they improve glossy
+// reflections.
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -20,8 +21,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Columns of the maps for measuring. Their suns are removed, because hosts draw suns as lights with their own
-// shadows. The rest is smooth enough for the rays of a reflection.
+// Width of the maps for measuring. Suns are removed from the maps, because hosts draw suns as lights with
+// their own shadows. The rest is smooth enough for the number of rays of a reflection.
 constexpr std::uint32_t map_columns = 64;
 
 struct Options {

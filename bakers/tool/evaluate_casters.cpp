@@ -1,4 +1,5 @@
-// nook evaluate casters: how much a lone neighbour darkens, by each form and by ray tracing.
+// `nook evaluate casters` measures how much a single neighbour darkens a character, with each form and with
+// ray tracing.
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -19,7 +20,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Clips of the receiver and the caster; the caster's place seen from the receiver, metres; its turn, degrees.
+// The clips of the receiver and the caster, the caster's position relative to the receiver in metres, and the
+// caster's turn in degrees.
 using Contact = std::tuple<std::string, std::string, float, float, float, float>;
 
 struct Options {

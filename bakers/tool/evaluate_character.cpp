@@ -1,4 +1,5 @@
-// nook evaluate character: a model against ray tracing, beside what a team would use instead.
+// `nook evaluate character` compares a model, and the methods that a team would use instead, with ray
+// tracing.
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// nook evaluate clips: baked clips against ray tracing, beside the live model.
+// `nook evaluate clips` compares baked clips and the live model with ray tracing.
 #include <memory>
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-// nook evaluate material: a compressed material against the raw one, with pictures.
+// `nook evaluate material` compares a compressed material with the raw one, and draws pictures.
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -29,7 +29,7 @@ struct Options {
   CommonOptions common;
   std::filesystem::path raw, material, unseen, images;
   bool jumps = false, mipmaps = false, grazing = false;
-  nook::material::ModeForm form;  // form of what is drawn
+  nook::material::ModeForm form;  // number format of the drawn modes
 };
 
 const std::map<std::string, nook::material::BlockForm> block_forms = {
@@ -37,7 +37,7 @@ const std::map<std::string, nook::material::BlockForm> block_forms = {
     {"rgtc", nook::material::BlockForm::rgtc},
     {"eac", nook::material::BlockForm::eac}};
 
-// Draws the pictures of --images: one of each material, and one of all side by side.
+// Draws the pictures of --images: one for each material, and one with all materials side by side.
 class Pictures {
  public:
   Pictures(const Options& o, const RawMaterial& raw) : o_(o), raw_(raw) {}
@@ -62,7 +62,7 @@ class Pictures {
 
   const Options& o_;
   const RawMaterial& raw_;
-  std::vector<Material> materials_;  // the file first
+  std::vector<Material> materials_;  // the file's material comes first
   std::vector<bake::Picture> jumps_;
 };
 

@@ -1,4 +1,4 @@
-// nook evaluate nnao: draws recorded frames of the screen-space pass again, on OpenGL without a display.
+// `nook evaluate nnao` draws recorded frames of the screen-space pass again, on OpenGL without a display.
 #include "bakers/tool/evaluate_nnao.h"
 
 #include <algorithm>

@@ -13,14 +13,14 @@
 
 namespace nook::tool {
 
-// The embedded network, and the network of --network.
+// The embedded network, and the network from --network.
 struct Networks {
   nook::nnao::Network embedded;
   std::vector<std::byte> file;  // empty: none
   nook::nnao::Network other;
 };
 
-// file: from --network; empty: none. Throws ToolError that names it.
+// `file` is the path from --network, or empty. Throws ToolError that names the file.
 Networks read_networks(const std::filesystem::path& file);
 
 // Returns an OpenGL 3.3 context without a display.
@@ -34,11 +34,11 @@ struct FrameWords {
   bool quiet = false;
 };
 
-// Makes the further methods of one frame.
+// Returns additional methods for one frame.
 using FrameMethods = std::function<std::vector<measure::FrameMethod>(const GladGLContext&)>;
 
-// Returns a report with rows for each frame, then their means. further may be null. Throws ToolError that
-// names the file.
+// Returns a report with the rows of each frame, followed by rows of means. `further` may be null. Throws
+// ToolError that names the file.
 nlohmann::ordered_json evaluate_frames(platform::Context& context, const FrameWords& words,
                                        const FrameMethods& further);
 

@@ -1,4 +1,4 @@
-// nook evaluate probe: compares fits of a probe, and baked probes, with their maps, and baked grids with path
+// `nook evaluate probe` compares fits of a probe and baked probes with their maps, and baked grids with path
 // tracing.
 #include <filesystem>
 #include <memory>
@@ -25,7 +25,7 @@ using namespace bake::probe;
 
 struct EvaluateGridOptions {
   std::filesystem::path scene, light;
-  std::uint32_t points = 1024;  // per kind
+  std::uint32_t points = 1024;  // per kind of place
   std::uint32_t paths = 2048;   // per point
   std::uint32_t max_bounces = ~0u;
   bool no_textures = false;
@@ -70,7 +70,7 @@ void write_picture(const Options& options, const std::string& name, const bake::
   MapBakeSettings settings;
   settings.basis = nook::probe::vogel_basis(options.lobes);
   settings.seed = options.common.seed;
-  constexpr std::uint32_t panel_width = 320;  // four of them fit a page
+  constexpr std::uint32_t panel_width = 320;  // four panels fit on a page
   platform::OutputFile(options.images / (name + ".png"))
       .commit(bake::png_bytes(map_picture(map, settings.basis, bake_map(map, settings), panel_width)));
 }

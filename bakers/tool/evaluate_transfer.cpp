@@ -1,4 +1,5 @@
-// nook evaluate transfer: baked radiance transfer against direct sums and path tracing, beside simpler forms.
+// `nook evaluate transfer` compares baked radiance transfer, and simpler forms, with direct sums and path
+// tracing.
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -41,7 +42,7 @@ void check_mesh(const Options& o, const bake::SurfaceMesh& mesh, const transfer:
                                         o.mesh.string() + "; bake the transfer again");
 }
 
-// The light transport that the truth follows. It is the same as in the file, with the material that is worn.
+// The light transport of the truth. It is the same as in the file, with the material on the shape.
 struct TruthOf {
   TruthOf(const Options& o, const transfer::Transfer& baked, const material::MaterialTables& tables) {
     settings.bounces = o.truth_bounces.value_or(baked.bounces);

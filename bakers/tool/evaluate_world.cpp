@@ -1,4 +1,5 @@
-// nook evaluate world: what a character darkens besides itself, against ray tracing and what engines use.
+// `nook evaluate world` measures how a character darkens its surroundings, against ray tracing and against
+// what engines use.
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -33,7 +34,7 @@ struct Options {
   std::size_t image_count = 3;
   bool composite = false, silhouettes = false;
   std::vector<std::filesystem::path> scenes;  // in addition to the built-in room
-  std::vector<float> scene_metres;            // unit of each
+  std::vector<float> scene_metres;            // unit of each scene
   measure::CompositeStudy rooms;
   std::vector<std::filesystem::path> lights;
 };

@@ -1,4 +1,4 @@
-// nook export casters: the world casters of a model as text for other engines.
+// `nook export casters` writes the world casters of a model as text for other engines.
 #include "bakers/measure/world/caster_export.h"
 #include "bakers/tool/command_line.h"
 

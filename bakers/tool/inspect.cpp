@@ -1,4 +1,4 @@
-// nook inspect: shows what is inside a .nook file, and what a bake would take from a glTF file.
+// `nook inspect` shows what is inside a .nook file, and what a bake would use from a glTF file.
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -40,7 +40,7 @@ bool is_gltf(const std::vector<std::byte>& bytes) {
   return i < bytes.size() && text(i) == '{';
 }
 
-// Returns the meshes, skins and clips of a file, and which primitive of a bake is which node.
+// Returns the meshes, skins and clips of a file, and which node each primitive of a bake comes from.
 std::vector<Table> tables_of_gltf(const Options& options) {
   const bake::GltfContents contents =
       naming_file(options.input, [&] { return bake::list_gltf(options.input, options.reading); });
@@ -66,7 +66,7 @@ std::vector<Table> tables_of_gltf(const Options& options) {
   return {{"rows", meshes}, {"skins", skins}, {"clips", clips}};
 }
 
-// The bones, and what automatic poses do to the skin.
+// Returns the bones, and how much automatic poses tear the skin.
 std::vector<Table> tables_of_rig(const Options& options) {
   const bake::ImportedCharacter character = read_character(options.input, options.reading, options.common);
   const bake::RigCorrections corrections = read_rig_file(options.rig, character.mesh);

@@ -1,4 +1,4 @@
-// nook: bakes, measures and inspects what the runtime loads.
+// The program `nook` bakes, measures and inspects the files that the runtime loads.
 #include <CLI/CLI.hpp>
 
 #include <initializer_list>
@@ -54,7 +54,7 @@ void add_commands(CLI::App& tool) {
   nook::tool::add_report(nook::tool::Command(tool));
 }
 
-// Names comparisons with other methods by the nearest command of `nook`.
+// Lists the comparisons with other methods in nook-lab, by the most similar command of `nook`.
 nook::tool::ElsewhereWords lab_words() {
   nook::tool::ElsewhereWords lab{"nook-lab", "(built with -DNOOK_LAB=ON)", {}};
   lab.words["evaluate"] = {"grid"};

@@ -1,4 +1,4 @@
-// The evaluations of commands.h with other methods beside Nook's. nook-lab adds the methods of bakers/lab.
+// The evaluations of commands.h, extended by methods outside Nook. nook-lab adds the methods of bakers/lab.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ class Command;
 
 void add_evaluate_character(Command evaluate, std::span<const measure::CharacterPeer> peers);
 
-// What `evaluate material` has read and measured before other methods run.
+// The data that `evaluate material` has read and measured before other methods run.
 struct MaterialEvaluation {
   const bake::material::RawMaterial& raw;
   measure::MaterialFile file;
@@ -30,7 +30,7 @@ struct MaterialEvaluation {
   bake::material::CompressionSettings settings;  // settings of the file
   std::filesystem::path images;                  // empty: none
   measure::MethodProgress progress;
-  // Draws a material among the pictures of --images.
+  // Adds a material to the pictures of --images.
   std::function<void(const std::string& name, const nook::material::Material& material,
                      const bake::material::MethodRow& row)>
       draw;
@@ -40,9 +40,9 @@ class MaterialPeers {
  public:
   virtual ~MaterialPeers() = default;
   virtual void add_options(Command command) = 0;
-  // Throws Failure before anything is measured, for a file that the methods cannot be fitted to.
+  // Throws Failure if the methods cannot be fitted to this file. Called before anything is measured.
   virtual void check(const nook::material::Material& material) const = 0;
-  // Adds its rows and keys to the report.
+  // Adds the rows and keys of the methods to the report.
   virtual void measure(const MaterialEvaluation& evaluation, nlohmann::ordered_json& report) const = 0;
 };
 
@@ -55,7 +55,8 @@ class ProbePeers {
   // Returns ways to fit a probe that replace Nook's own.
   virtual std::vector<bake::probe::ProbeMethod> methods(std::uint32_t lobes,
                                                         const bake::probe::Region& region) const = 0;
-  // Returns rows of a map that replace the rows of the methods; null if the options request none.
+  // Returns rows for a map, which replace the rows of the methods. Returns null if the options request no
+  // such rows.
   virtual nlohmann::ordered_json rows_of_map(const bake::Environment& map, const std::string& name,
                                              std::uint32_t lobes, std::uint64_t seed,
                                              platform::ProgressBar& bar) const = 0;

@@ -11,8 +11,8 @@
 namespace nook::tool {
 namespace {
 
-// Without these features glibc takes the paths of its mathematics for SSE. Level 3 needs no pin: glibc has no
-// paths of its mathematics beyond AVX2 and FMA, which every processor of the level has.
+// If these features are turned off, glibc uses the SSE versions of its math functions. Level 3 needs no pin,
+// because glibc has no versions beyond AVX2 and FMA, and every processor of that level has these.
 constexpr const char* tunables_variable = "GLIBC_TUNABLES";
 constexpr const char* tunables_of_v2 = "glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4";
 
@@ -28,7 +28,7 @@ std::string environment(const char* name) {
   return value ? value : "";
 }
 
-// words begins with the command.
+// The first word is the command.
 std::optional<std::string> asked_isa(const std::vector<std::string>& words) {
   if (words.empty() || (words[0] != "bake" && words[0] != "plan" && words[0] != "build")) return std::nullopt;
   std::optional<std::string> asked;
@@ -42,7 +42,7 @@ std::optional<std::string> asked_isa(const std::vector<std::string>& words) {
   return asked;
 }
 
-// Returns whether the environment had to change.
+// Returns true if the environment had to be changed.
 bool pin_environment(const std::string& isa) {
   const std::string tunables = environment(tunables_variable);
   const bool needs_tunables = isa == "x86-64-v2" && tunables.find(tunables_of_v2) == std::string::npos;
@@ -61,7 +61,7 @@ void pin_process(int argc, char** argv) {
   const std::vector<std::string> words(argv + (argc > 0), argv + argc);
   if (!pin_environment(asked_isa(words).value_or(before))) return;
   execv("/proc/self/exe", argv);
-  // The process goes on as it was.
+  // Restores the environment. The process continues as before.
   before.empty() ? unsetenv(bake::isa_variable) : setenv(bake::isa_variable, before.c_str(), 1);
 }
 

@@ -1,5 +1,6 @@
-// Starts the program again with the instruction set of --isa in its environment. The C library chooses the
-// paths of its mathematics when a process starts, so that a running process cannot pin them.
+// Starts the program again with the instruction set of --isa in its environment. This is necessary because
+// the C library chooses the code paths of its math functions when a process starts. A running process cannot
+// change them.
 #pragma once
 
 #include <string>
@@ -7,16 +8,16 @@
 
 namespace nook::tool {
 
-// Call it first in main(). It returns if the arguments name no instruction set, or the environment has it
-// already; also if the program cannot be started again, which run_bake() then reports. `nook plan` and
-// `nook build` pin themselves to x86-64-v3 if nothing names another one.
+// Call it first in main(). It returns if the arguments name no instruction set, or if the environment already
+// has it. It also returns if the program cannot be started again. In that case, run_bake() reports the
+// failure. `nook plan` and `nook build` pin themselves to x86-64-v3 if nothing names another one.
 void pin_process(int argc, char** argv);
 
-// Pins the programs that this one starts, for the words of a bake behind the program's name. They need not
-// start themselves again.
+// Sets the environment so that programs that this one starts are pinned and need not start themselves again.
+// `words` are the arguments of a bake after the program's name.
 void pin_children(const std::vector<std::string>& words);
 
-// Returns the instruction set that pin_process() found: native if none is pinned.
+// Returns the instruction set that pin_process() found, or "native" if none is pinned.
 std::string pinned_isa();
 
 }  // namespace nook::tool

@@ -1,4 +1,4 @@
-// nook plan: decides which of many assets have to be baked, and writes that for Ninja and for farms.
+// `nook plan` decides which of many assets have to be baked, and writes this plan for Ninja and for farms.
 #include <memory>
 
 #include "bakers/tool/command_line.h"

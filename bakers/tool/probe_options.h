@@ -1,4 +1,4 @@
-// Options and arguments of commands on probes: basis, fit and packing, and the places of a grid.
+// Options and arguments of commands on probes: basis, fit and packing, and the positions of a grid.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ class Command;
 
 struct ProbeOptions {
   std::uint32_t lobes = 12;
-  float sharpness = 0;  // 0: from the number of lobes
+  float sharpness = 0;  // 0: derived from the number of lobes
   bool ambient = false, hemisphere = false;
   std::string basis = "gaussians", method = "least-squares", constraint = "bands", packing = "float";
   std::uint32_t order = 2;
@@ -29,7 +29,7 @@ probe::Basis basis_of(const ProbeOptions& options);
 probe::FitSettings fit_of(const ProbeOptions& options);
 probe::Packing packing_of(const ProbeOptions& options);
 
-// Every option, for the identity of a bake.
+// Returns every option, for the identity of a bake.
 nlohmann::json settings_of(const ProbeOptions& options);
 
 nlohmann::ordered_json describe(const ProbeOptions& options, const probe::Basis& basis);
@@ -39,9 +39,9 @@ struct BoxArgument {
   Vec3 low_ws, high_ws;  // metres
 };
 
-// AxBxC. Throws ToolError(bad arguments).
+// Parses "AxBxC". Throws ToolError(bad arguments).
 std::array<std::uint32_t, 3> parse_grid_counts(const std::string& text);
-// x0,y0,z0,x1,y1,z1. Throws ToolError(bad arguments).
+// Parses "x0,y0,z0,x1,y1,z1". Throws ToolError(bad arguments).
 BoxArgument parse_grid_box(const std::string& text);
 
 }  // namespace nook::tool

@@ -1,4 +1,4 @@
-// nook report: makes a page for artists about the content of a .nook file, and about its errors.
+// `nook report` makes a page for artists about the content of a .nook file and its errors.
 #include <algorithm>
 #include <cctype>
 #include <memory>
@@ -27,14 +27,14 @@
 namespace nook::tool {
 namespace {
 
-// The files for a page beside its .nook file, by kind.
+// The files that a page needs in addition to its .nook file, by kind.
 struct ReportSources {
   std::filesystem::path shape;               // .glb or .gltf
   std::filesystem::path map;                 // .hdr or .exr
   std::vector<std::filesystem::path> nooks;  // other .nook files, and raw materials
 };
 
-// The sources that a page of one kind takes.
+// The sources that a page of one kind accepts.
 struct TakenSources {
   bool shape = false, map = false;
   std::size_t nooks = 0;
@@ -52,7 +52,7 @@ void take_once(std::filesystem::path& place, const std::filesystem::path& file, 
   place = file;
 }
 
-// Sorts files by the ends of their names. Throws ToolError (bad arguments) for an unknown ending, or a second
+// Sorts files by their extensions. Throws ToolError (bad arguments) for an unknown extension, or a second
 // shape or map.
 ReportSources sort_sources(const std::vector<std::filesystem::path>& files) {
   ReportSources sources;
@@ -71,8 +71,8 @@ ReportSources sort_sources(const std::vector<std::filesystem::path>& files) {
   return sources;
 }
 
-// Throws ToolError (bad arguments) if a page of `kind` does not take one of the sources. need: what it takes,
-// in words.
+// Throws ToolError (bad arguments) if a page of `kind` does not accept one of the sources. `need` says in
+// words what the page accepts.
 void require_sources(const ReportSources& sources, const TakenSources& taken, const std::string& kind,
                      const std::string& need) {
   const std::filesystem::path* extra = nullptr;

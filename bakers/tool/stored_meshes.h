@@ -1,4 +1,4 @@
-// The choice of meshes of a bake, for commands that read its model and its character again.
+// Gets the mesh selection of a bake, for commands that read the bake's model and character again.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,9 @@
 
 namespace nook::tool {
 
-// Returns the options with the choice of meshes in the recipe of the model in these bytes, unless they have a
-// choice of their own. Bytes that are not a model change nothing: whoever reads them next tells what is
-// wrong.
+// Returns `reading` with the mesh selection from the recipe of the model in these bytes. If `reading` already
+// has a selection, it is not changed. If the bytes are not a model, nothing is changed either. The code that
+// reads the model afterwards reports the error.
 bake::ImportOptions with_stored_meshes(bake::ImportOptions reading, std::span<const std::byte> model_bytes);
 
 }  // namespace nook::tool

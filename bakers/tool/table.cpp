@@ -36,7 +36,7 @@ std::string table_text(const nlohmann::ordered_json& rows) {
   }
   std::string text;
   for (std::string& key : keys) key = platform::printable(key);
-  // One row reads better as a column.
+  // A single row is easier to read as a column.
   if (cells.size() == 1) {
     std::size_t width = 0;
     for (const std::string& key : keys) width = std::max(width, key.size());

@@ -12,12 +12,12 @@ namespace nook::tool {
 // have three significant digits.
 std::string table_text(const nlohmann::ordered_json& rows);
 
-// Throws ToolError if the table is the only place of a result and the program has no output stream. Call it
+// Throws ToolError if the result is only shown in the table, but the program has no output stream. Call it
 // before the work.
 void require_place_of_table(const CommonOptions& options);
 
-// Prints a table unless the options say --quiet. in_file: a file has the result as well, so that nothing is
-// lost without an output stream. Throws if the table cannot be printed.
+// Prints a table, unless the options contain --quiet. Set in_file if a file has the result too. Then nothing
+// is lost if there is no output stream. Throws if the table cannot be printed.
 void print_table(const CommonOptions& options, const std::string& text, bool in_file);
 
 }  // namespace nook::tool

@@ -1,4 +1,4 @@
-// nook task: runs one bake as a farm wants it, with a log and with repetitions.
+// `nook task` runs one bake for a farm, with a log and with retries.
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -30,10 +30,10 @@ struct Options {
 };
 
 constexpr std::size_t shown_lines = 20;
-constexpr unsigned pause_s = 1;  // a full disk or a lost mount may come back
+constexpr unsigned pause_s = 1;  // a full disk or a lost mount may recover
 
-// The log file. It is written line by line at its own place, so that it can be read while the bake runs and
-// after a kill. Without a file, the bake has this program's streams.
+// The log file. It is written line by line directly to its final path, so that it can be read while the bake
+// runs and after a kill. If there is no file, the bake uses this program's streams.
 class Log {
  public:
   explicit Log(const std::filesystem::path& path) : path_(path) {
@@ -53,7 +53,7 @@ class Log {
 
   int descriptor() const { return descriptor_; }
 
-  // A full disk loses lines of the log, and the bake goes on.
+  // On a full disk, lines of the log are lost, but the bake continues.
   void note(const std::string& text) const {
     const std::string line = "nook task: " + platform::printable(text) + "\n";
     if (descriptor_ >= 0 && write(descriptor_, line.data(), line.size()) < 0) return;

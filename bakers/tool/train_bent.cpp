@@ -1,4 +1,4 @@
-// nook train bent: fits the specular occlusion of characters and writes its numbers as a header.
+// `nook train bent` fits the specular occlusion of characters and writes its weights as a header.
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// nook train nnao: makes the training set, trains a screen-space network and prints its validation error.
+// `nook train nnao` makes the training set, trains a screen-space network and prints its validation error.
 #include <tbb/task_arena.h>
 
 #include <cstdio>
@@ -51,7 +51,7 @@ TrainingState starting_state(const Options& options, const Dataset& data, const 
 Network train_with_progress(const Options& options, const Dataset& data, const std::string& recipe) {
   TrainingState state = starting_state(options, data, recipe);
   platform::ProgressBar bar(options.common.quiet);
-  // A new label begins a new line of the bar: one for every tenth of the epochs.
+  // Each new label starts a new line of the progress bar, so there is one line per tenth of the epochs.
   const std::uint32_t tenth = std::max(1u, options.training.epochs / 10);
   std::string label = "training";
   std::uint32_t labelled = 0;

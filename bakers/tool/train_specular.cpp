@@ -1,4 +1,4 @@
-// nook train specular: fits the specular occlusion of the screen-space pass and writes its numbers as a
+// `nook train specular` fits the specular occlusion of the screen-space pass and writes its weights as a
 // header.
 #include <tbb/task_arena.h>
 

@@ -76,8 +76,8 @@ struct GridReportSettings {
 // Returns the progress callback for the points of one kind of place.
 using PlacesProgress = std::function<bake::Progress(const char* places)>;
 
-// Returns three rows, without file names. The first is for points on surfaces, the second for the same points
-// with lookups offset by half a cell along the normal, and the third for points in the open.
+// Returns three rows, without file names. The first is for points on surfaces. The second is for the same
+// points with lookups offset by half a cell along the normal. The third is for points in the open.
 nlohmann::ordered_json grid_rows(const bake::LitScene& scene, const bake::TriangleSoup& soup,
                                  const probe::Probes& probes, const GridReportSettings& settings,
                                  const PlacesProgress& progress);

@@ -39,7 +39,7 @@ Row describe(std::span<const std::byte> bytes) {
   if (found != 0)
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "a .nook file of a kind that this version cannot inspect; use a newer one");
-  return describe_character(bytes);  // refuses bytes that are not a .nook file, with the reason
+  return describe_character(bytes);  // throws, with the reason, for bytes that are not a .nook file
 }
 
 Row describe_briefly(std::span<const std::byte> bytes) {

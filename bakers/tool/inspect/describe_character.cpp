@@ -40,7 +40,7 @@ Row describe_character(std::span<const std::byte> bytes) {
     row[std::string("bytes_") + name] = container.has(letters) ? container.section(letters).remaining() : 0;
   }
   add_recipe(row, model.recipe);
-  // Computes the host memory of the loaded model and of an instance, as nook_model_describe does.
+  // Measures the host memory of the loaded model and of an instance, like nook_model_describe.
   MeteredMemory memory(default_memory());
   const Ref<LoadedModel> loaded = Owned<LoadedModel>::make(&memory, Ref<const RefCounted>(),
                                                            read_character_model(bytes, &memory), &memory);

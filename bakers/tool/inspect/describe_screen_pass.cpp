@@ -26,14 +26,14 @@ std::string packing_name(const Vector<float>& image) {
   return std::to_string(packing.bits) + " bits";
 }
 
-// Adds the depths of the near and the far plane, null if unknown or infinite.
+// Adds the depths of the near and the far plane. A depth is null if it is unknown or infinite.
 void add_planes(Row& row, const Recording& recording) {
   row["near"] = row["far"] = nullptr;
   row["reversed"] = nullptr;
   if (recording.frame.depth_kind != int(nnao::DepthKind::hardware)) return;
   const nnao::DepthDecode decode = nnao::depth_decode(recording.depth_source());
   row["reversed"] = decode.far_sign < 0;
-  if (decode.slope_x != 0 || decode.slope_y != 0) return;  // oblique planes lie at no single depth
+  if (decode.slope_x != 0 || decode.slope_y != 0) return;  // an oblique plane has no single depth
   for (const char* plane : {"near", "far"}) {
     const double stored = (plane[0] == 'f') == (decode.far_stored > 0.5f) ? 1 : 0;
     const double depth = (decode.x + decode.y * stored) / (decode.z + decode.w * stored);

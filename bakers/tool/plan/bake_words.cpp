@@ -16,8 +16,8 @@ namespace {
 struct Kind {
   const char* name;
   void (*add)(Command);
-  std::size_t inputs;  // arguments without an option
-  bool is_of_rules;    // may be the "bake" of a rule
+  std::size_t inputs;  // number of positional arguments
+  bool is_of_rules;    // allowed as the "bake" of a rule
 };
 constexpr std::array kinds{Kind{"character", add_bake_character, 1, true},
                            Kind{"probe", add_bake_probe, 1, true},
@@ -27,7 +27,7 @@ constexpr std::array kinds{Kind{"character", add_bake_character, 1, true},
                            Kind{"bent", add_bake_bent, 2, false},
                            Kind{"clips", add_bake_clips, 2, false}};
 
-// The plan itself gives these to every bake.
+// The plan itself adds these options to every bake.
 constexpr std::array<std::string_view, 10> options_of_plan{
     "output", "report", "depfile", "cache", "print-key", "isa", "threads", "quiet", "help", "help-all"};
 

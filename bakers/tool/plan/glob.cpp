@@ -20,10 +20,11 @@ std::vector<std::string> names_of(const std::string& path) {
   return names;
 }
 
-// A backslash makes the next character stand for itself; literal_pattern() writes it.
+// After a backslash, the next character is not a wildcard. literal_pattern() writes such backslashes.
 bool name_matches(std::string_view pattern, std::string_view name) {
   if (name.starts_with('.') && !pattern.starts_with('.')) return false;
-  // Where the last * was, and what it has swallowed: on a mismatch it swallows one character more.
+  // The position of the last *, and the end of the text that it matches. On a mismatch, * is extended by one
+  // character.
   std::size_t p = 0, n = 0, star = std::string_view::npos, swallowed = 0;
   while (n < name.size()) {
     const bool escaped = p + 1 < pattern.size() && pattern[p] == '\\';
@@ -47,7 +48,7 @@ bool name_matches(std::string_view pattern, std::string_view name) {
 
 using Names = std::vector<std::string>;
 
-// Whether the names from number n match the pattern from number p.
+// Returns true if the names from index n on match the pattern from index p on.
 bool names_match(const Names& pattern, std::size_t p, const Names& path, std::size_t n) {
   if (p == pattern.size()) return n == path.size();
   if (pattern[p] == any_folders) {
@@ -125,7 +126,7 @@ void FileTree::enter(const Names& pattern, std::size_t at, const std::string& fo
 }
 
 void FileTree::search(const Names& pattern, std::size_t at, const std::string& folder, Names& found) {
-  // ** also stands for no folder at all.
+  // ** also matches zero folders.
   if (pattern[at] == any_folders && at + 1 < pattern.size()) search(pattern, at + 1, folder, found);
   const std::string begin =
       pattern[at] == any_folders ? "" : pattern[at].substr(0, pattern[at].find_first_of("*?\\"));

@@ -1,5 +1,5 @@
-// Names of files with wildcards, as a manifest has them: * stands for any text in one name, ? for any
-// character in it, and ** for any folders. A backslash makes the next character stand for itself.
+// Matches the file patterns of a manifest. * matches any text within one name, ? matches one character of a
+// name, and ** matches any number of folders. After a backslash, a character is not a wildcard.
 #pragma once
 
 #include <filesystem>
@@ -9,25 +9,25 @@
 
 namespace nook::tool::plan {
 
-// Both are relative, with slashes, and without "." and "..". A name that begins with a dot matches only a
-// pattern that writes the dot.
+// Both arguments are relative paths with slashes, without "." and "..". A name that begins with a dot matches
+// only if the pattern contains the dot.
 bool matches(const std::string& pattern, const std::string& path);
 
-// Returns the pattern of a text that stands for itself.
+// Returns a pattern that matches exactly this text.
 std::string literal_pattern(const std::string& text);
 
-// The files below a root. Each folder is read once, when a pattern first leads there.
+// The files below a root. Each folder is read only once, when a pattern needs it for the first time.
 class FileTree {
  public:
-  // `skipped` is a folder that is never read, or empty.
+  // The folder `skipped` is never read. It may be empty.
   FileTree(std::filesystem::path root, std::filesystem::path skipped);
 
-  // Returns the files that match, relative to the root and sorted. Links to folders are followed where the
-  // pattern names them, and not below **.
+  // Returns the matching files, relative to the root and sorted. Follows a link to a folder if the pattern
+  // names the folder, but not below **.
   std::vector<std::string> find(const std::string& pattern);
 
-  // Returns every folder that was read, relative to the root; "" is the root. Other files in them could
-  // change what find() returns.
+  // Returns every folder that was read, relative to the root. "" is the root. New files in these folders
+  // could change the result of find().
   std::vector<std::string> folders() const;
 
  private:

@@ -76,7 +76,7 @@ void find_needs(const Manifest& m, std::vector<Job>& jobs, const Writers& writer
 struct Order {
   const Manifest& manifest;
   const std::vector<Job>& jobs;
-  std::vector<std::size_t> done, open;  // numbers of jobs
+  std::vector<std::size_t> done, open;  // indices of jobs
   std::vector<char> state;              // 0 new, 1 open, 2 done
 
   void visit(std::size_t job) {
@@ -91,7 +91,7 @@ struct Order {
   }
 };
 
-// Jobs that are connected by needs get the smallest number among them.
+// Jobs that are connected by needs get the smallest index among them as their group.
 void find_groups(std::vector<Job>& jobs) {
   std::vector<std::size_t> parent(jobs.size());
   std::iota(parent.begin(), parent.end(), 0);

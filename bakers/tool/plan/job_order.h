@@ -1,4 +1,4 @@
-// Which bake needs which, and an order that respects it.
+// Finds which bakes need the outputs of others, and orders the bakes accordingly.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace nook::tool::plan {
 
-// Fills `needs` and `group`, and sorts. Throws ToolError (bad input) as jobs_of() does.
+// Sets `needs` and `group` of each job, and sorts the jobs. Throws ToolError (bad input) like jobs_of().
 std::vector<Job> ordered_jobs(const Manifest& manifest, std::vector<Job> jobs);
 
 }  // namespace nook::tool::plan

@@ -16,11 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One file that rules match, with its settings.
+// A file that matches at least one rule, with its settings.
 struct Asset {
   std::string path;
   Json settings;
-  const Rule* rule = nullptr;  // the last that matches
+  const Rule* rule = nullptr;  // the last rule that matches
   std::vector<std::string> lods;
 };
 
@@ -67,7 +67,7 @@ const Json* part_of(const Asset& asset, const char* name) {
   return found != asset.settings.end() && found->is_object() ? &*found : nullptr;
 }
 
-// Finds the levels of detail of a character. `used` gets the patterns that found a file.
+// Finds the levels of detail of a character. Adds the patterns that found a file to `used`.
 void find_lods(const Manifest& m, FileTree& tree, Asset& asset, std::set<std::string>& used,
                std::map<std::string, std::string>& unused) {
   const Json* const lods = part_of(asset, "lods");
@@ -90,7 +90,7 @@ void find_lods(const Manifest& m, FileTree& tree, Asset& asset, std::set<std::st
   }
 }
 
-// A file that is the level of detail of a character is not a character of its own.
+// A file that is a level of detail of a character is not baked as a separate character. Removes these files.
 void take_lods(const Manifest& m, FileTree& tree, std::vector<Asset>& assets) {
   std::set<std::string> used;
   std::map<std::string, std::string> unused;
@@ -115,7 +115,7 @@ struct Builder {
   const Manifest& manifest;
   std::vector<Job> jobs;
 
-  // `inputs` are the arguments without an option, `about` the file that placeholders stand for.
+  // `inputs` are the positional arguments. `about` is the file that replaces the placeholders.
   void add(const std::string& place, const std::string& kind, const Words& inputs, const std::string& about,
            const std::string& output, const Json& settings) {
     Job job;
@@ -142,7 +142,7 @@ struct Builder {
   }
 };
 
-// A name that begins with a dash would be an option.
+// Prepends "./" if necessary, because a name that begins with a dash would be read as an option.
 std::string as_argument(const std::string& path) {
   return path.starts_with('-') ? "./" + path : path;
 }

@@ -1,4 +1,4 @@
-// The bakes that a manifest asks for, in an order in which every bake comes after those that it needs.
+// Makes the list of bakes that a manifest asks for. Every bake comes after the bakes that it needs.
 #pragma once
 
 #include <cstddef>
@@ -14,21 +14,22 @@ namespace nook::tool::plan {
 
 struct Job {
   std::string kind;    // of `nook bake`
-  std::string source;  // the file that the rule matched; paths are relative to the manifest's folder
-  std::string output;  // ends in .nook; it names the job
-  std::string place;   // of its rule in the manifest
-  std::string preset;  // of a character, else empty
-  Words words;         // without what the plan adds
+  std::string source;  // the file that the rule matched; all paths are relative to the manifest's folder
+  std::string output;  // ends in .nook; serves as the name of the job
+  std::string place;   // place of its rule in the manifest
+  std::string preset;  // preset of a character; otherwise empty
+  Words words;         // without the options that the plan adds
   BakeOutline outline;
   std::vector<std::size_t> needs;  // jobs whose outputs this one reads
-  std::size_t group = 0;           // jobs that need each other, directly or not, have one number
+  std::size_t group = 0;           // jobs that are connected by needs, directly or indirectly, have the same
+                                   // number
 };
 
 // Returns the report of an output: the same name with .json.
 std::string report_of(const std::string& output);
 
-// Throws ToolError (bad input) that names the place in the manifest. It refuses patterns that match nothing,
-// two bakes with one output, bakes that need each other in a circle, and paths outside the folder.
+// Throws ToolError (bad input) that names the place in the manifest. Causes are patterns that match nothing,
+// two bakes with the same output, bakes that need each other in a cycle, and paths outside the folder.
 std::vector<Job> jobs_of(const Manifest& manifest, FileTree& tree);
 
 }  // namespace nook::tool::plan

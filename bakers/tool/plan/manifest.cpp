@@ -25,7 +25,7 @@ const Keys& keys_of_rule() {
   static const Keys keys{"match", "skip", "bake", "input", "output", "options", "lods", "bent", "clips"};
   return keys;
 }
-// Of "lods", "bent" and "clips".
+// Returns the allowed keys of "lods", "bent" and "clips".
 const Keys& keys_of_part(const std::string& part) {
   static const Keys lods{"match", "output", "options"}, others{"output", "options"};
   return part == "lods" ? lods : others;
@@ -37,7 +37,7 @@ std::string listed(const Keys& keys) {
   return text;
 }
 
-// The parser of the JSON library keeps the last of two equal keys in silence.
+// Finds duplicate keys. Without this, the JSON library silently keeps the last of two equal keys.
 class EqualKeys {
  public:
   bool see(Json::parse_event_t event, const Json& parsed) {
@@ -101,7 +101,7 @@ std::string text_of(const Manifest& m, const std::string& place, const Json& jso
   return text;
 }
 
-// A path below the manifest's folder without detours.
+// Throws if a path is not below the manifest's folder, or contains "." or "..".
 void require_inside(const Manifest& m, const std::string& place, const std::string& path) {
   const fs::path as_path(path);
   bool is_plain = !as_path.is_absolute();
@@ -170,8 +170,8 @@ Rule checked_rule(const Manifest& m, const std::string& place, const Json& json)
   return rule;
 }
 
-// A rule that does not name its bake belongs to characters, unless some rule names another bake: then only
-// the files tell, and describe_job() checks the options.
+// A rule without a bake is for characters, if no rule names another bake. Otherwise, the bake depends on the
+// matched files, and describe_job() checks the options later.
 void check_rule_options(const Manifest& m) {
   const bool all_characters = std::none_of(m.rules.begin(), m.rules.end(), [](const Rule& rule) {
     return rule.settings.contains("bake") && rule.settings["bake"] != "character";
@@ -225,7 +225,7 @@ std::string expanded(std::string pattern, const std::string& path, bool escaped)
     for (std::size_t at = 0; (at = pattern.find(name, at)) != std::string::npos; at += text.size())
       pattern.replace(at, name.size(), text);
   };
-  // A file in the manifest's own folder has no {dir}, and the slash behind it goes, too.
+  // For a file in the manifest's own folder, {dir} is empty. Then the slash after it is removed too.
   if (folder.empty()) replace("{dir}/", "");
   replace("{dir}", shown(folder));
   replace("{stem}", shown(as_path.stem().string()));

@@ -76,7 +76,7 @@ Memory read_memory(const fs::path& file, const std::string& tool) {
     if (json.at("version") != memory_version || json.at("tool") != tool) return {};
     return memory_in(json);
   } catch (const Json::exception&) {
-    return {};  // everything is read again
+    return {};  // the plan then reads everything again
   } catch (const ToolError&) {
     return {};
   }
@@ -95,7 +95,8 @@ std::string this_tool() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const Stamp stamp = stamp_of(program);
-  // The status of a program changes with every link to it; its size and time are enough.
+  // Does not use the status-change time, because it changes with every new link to the program. Its size and
+  // modification time are enough.
   return std::string(version_text) + " " + bake::embree_version() + " " + bake::isa_level_name() + " " +
          program.string() + " " + std::to_string(stamp.bytes) + " " + std::to_string(stamp.modified_ns);
 }
@@ -121,7 +122,7 @@ std::int64_t now_ns() {
 std::string identity_in(const fs::path& output) {
   try {
     const std::vector<std::byte> bytes = read_file(output);
-    // Every baked file has its recipe in one section, whatever its kind.
+    // Every kind of baked file stores its recipe in the same section.
     const Container file(bytes, {container_kind(bytes), "baked file", 0, UINT32_MAX});
     ByteReader recipe = file.section("RECP");
     const auto stored = bake::stored_identity(recipe.text(recipe.remaining()));

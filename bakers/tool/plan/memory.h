@@ -1,5 +1,6 @@
-// What nook plan remembers in DIR/plan.json, so that a plan in which nothing changed reads no asset:
-// identities of bakes and of their outputs, with size and times of the files that they were read from.
+// What `nook plan` remembers in DIR/plan.json: the identities of bakes and of their outputs, with the sizes
+// and times of the files that they were read from. If nothing has changed, the next plan need not read any
+// asset.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@
 
 namespace nook::tool::plan {
 
-// A file that did not change has an equal stamp. The time of its last change of status is in it, because a
-// copy can keep the time of its source.
+// If a file does not change, its stamp stays equal. The stamp includes the time of the last status change
+// (ctime), because a copied file can have the modification time of its source.
 struct Stamp {
   std::int64_t bytes = -1, modified_ns = 0, changed_ns = 0;  // -1: there is no file
 
@@ -27,14 +28,14 @@ struct StampedFile {
   Stamp stamp;
 };
 
-// The identity of a bake, as it was when these words read these files.
+// The identity of a bake, computed when a bake with these words read these files.
 struct KnownBake {
   Words words;
   std::vector<StampedFile> read;
   std::string identity;
 };
 
-// The identity in the recipe of an output, empty if it has none.
+// The identity in the recipe of an output; empty if the recipe has none.
 struct KnownOutput {
   Stamp stamp;
   std::string identity;
@@ -45,22 +46,23 @@ struct Memory {
   std::map<std::string, KnownOutput> outputs;  // by output
 };
 
-// Returns nothing for a file that is missing, damaged, or of another tool.
+// Returns an empty memory if the file is missing or damaged, or if another tool wrote it.
 Memory read_memory(const std::filesystem::path& file, const std::string& tool);
 std::string memory_text(const Memory& memory, const std::string& tool);
 
-// Names this program and the instruction set that it is pinned to.
+// Returns the name of this program and of the instruction set that it is pinned to.
 std::string this_tool();
 
-// True if every file has its stamp still.
+// Returns true if every file still has its stamp.
 bool is_unchanged(const std::vector<StampedFile>& files);
 
-// True if a file changed shortly before `began_ns` or later. A further change could then leave its stamp
-// equal, because file systems count time in steps of up to 10 ms.
+// Returns true if a file changed shortly before `began_ns` or later. Another change could then leave the
+// stamp equal, because file systems store times in steps of up to 10 ms.
 bool is_too_young(const std::vector<StampedFile>& files, std::int64_t began_ns);
 std::int64_t now_ns();
 
-// Reads the identity in an output's recipe. Empty if the file is not a .nook file or has none.
+// Reads the identity in an output's recipe. Returns an empty text if the file is not a .nook file or has no
+// identity.
 std::string identity_in(const std::filesystem::path& output);
 
 }  // namespace nook::tool::plan

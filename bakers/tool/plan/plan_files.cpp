@@ -18,15 +18,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The time of keys whose outputs are up to date: before any output. Ninja takes 0 for a missing file.
+// The time of a key if its output is up to date. It is older than any output. It is not 0, because Ninja
+// treats 0 as a missing file.
 constexpr std::int64_t old_ns = 1'000'000'000;
 
-// The path of a job's file below DIR; outputs lie below the manifest's folder, so that their names serve.
+// Returns the path of a job's file below DIR. Outputs are below the manifest's folder, so their relative
+// names can be used.
 fs::path place_of(const PlanPlaces& places, const char* folder, const Job& job, const char* extension) {
   return places.build / folder / (job.output + extension);
 }
 
-// Ninja's escapes in paths.
+// Escapes a path for Ninja.
 std::string ninja_path(const fs::path& path) {
   std::string text;
   for (const char c : path.string()) {
@@ -36,7 +38,7 @@ std::string ninja_path(const fs::path& path) {
   return text;
 }
 
-// Ninja's escape in the value of a variable.
+// Escapes the value of a Ninja variable.
 std::string ninja_value(const std::string& value) {
   std::string text;
   for (const char c : value) text += c == '$' ? "$$" : std::string(1, c);
@@ -70,7 +72,7 @@ void make_folder(const fs::path& folder) {
   if (error) refuse_to_write(folder, error.message());
 }
 
-// The key of a bake that waits contains the order to run it, as its own key is not known yet.
+// If a bake waits, its key is not known yet. Then the key file contains a text that makes the bake run.
 std::string key_text(const JobState& state) {
   return (state.key.empty() ? std::string(name_of(state.state)) : state.key) + "\n";
 }
@@ -83,7 +85,7 @@ void write_one_key(const fs::path& path, const Job& job, const JobState& state) 
   if (runs && !is_new && key.modified_ns > output.modified_ns) return;
   if (!runs && !is_new && key.modified_ns <= old_ns) return;
   if (is_new) write_key(path, text);
-  // An output from a clock that runs ahead would look newer than its key.
+  // If the output was written by a clock that runs ahead, it would look newer than its key.
   if (runs)
     set_time(path, std::max(now_ns(), output.modified_ns + 1));
   else
@@ -115,8 +117,8 @@ std::string bake_command(const PlanPlaces& places, const Job& job, std::uint32_t
   return written;
 }
 
-// Inputs are not in a depfile, whose reader ends names at quotes. A file that is gone must not be an error,
-// so that each is the output of a rule without a command.
+// The inputs are not in a depfile, because Ninja's depfile reader ends names at quotes. A removed file must
+// not be an error, so each input is also the output of a rule without a command.
 std::string ninja_text(const PlanPlaces& places, const std::vector<Job>& jobs,
                        const std::vector<fs::path>& read) {
   std::string inputs;
@@ -146,7 +148,7 @@ std::string ninja_text(const PlanPlaces& places, const std::vector<Job>& jobs,
 
 std::string tasks_text(const PlanPlaces& places, const std::vector<Job>& jobs,
                        const std::vector<JobState>& states) {
-  std::map<std::size_t, Task> tasks;  // by group
+  std::map<std::size_t, Task> tasks;  // the key is the group
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     if (!must_run(states[i].state)) continue;
     Task& task = tasks[jobs[i].group];

@@ -1,4 +1,4 @@
-// The files that nook plan writes into its folder DIR:
+// Writes the files of `nook plan` in its folder DIR:
 //
 //   build.ninja     every bake, for Ninja, which plans again when a file changed that the plan has read
 //   keys/NAME.key   the key of a bake; newer than the output if the bake must run, else old
@@ -21,12 +21,12 @@ struct PlanPlaces {
   std::filesystem::path program, manifest, root, build;  // absolute
   std::string cache;                                     // absolute; empty: none
   std::string isa;
-  std::uint32_t ninja_threads = 0, task_threads = 1;  // of each bake
-  std::string plan_command;                           // makes this plan again
+  std::uint32_t ninja_threads = 0, task_threads = 1;  // threads of each bake
+  std::string plan_command;                           // the command that makes this plan again
 };
 
-// Returns the command of a bake for a shell in the manifest's folder. It ends with an option, so that words
-// can follow.
+// Returns the command of a bake for a shell in the manifest's folder. It ends with an option, so that more
+// arguments can be appended.
 std::string bake_command(const PlanPlaces& places, const Job& job, std::uint32_t threads);
 
 // `read` are the files and folders that the plan depends on.
@@ -35,13 +35,13 @@ std::string ninja_text(const PlanPlaces& places, const std::vector<Job>& jobs,
 std::string tasks_text(const PlanPlaces& places, const std::vector<Job>& jobs,
                        const std::vector<JobState>& states);
 
-// Writes the keys. After it, a key is newer than its output exactly if the bake must run.
+// Writes the keys. Afterwards, a key is newer than its output if and only if the bake must run.
 void write_keys(const PlanPlaces& places, const std::vector<Job>& jobs, const std::vector<JobState>& states);
 
-// Returns the bytes of a file; nothing if it cannot be read.
+// Returns the content of a file, or an empty text if it cannot be read.
 std::string text_in(const std::filesystem::path& path);
 
-// Makes the folders of outputs and logs, which bakes need.
+// Makes the folders of outputs and logs. Bakes do not make them.
 void make_folders(const PlanPlaces& places, const std::vector<Job>& jobs);
 
 }  // namespace nook::tool::plan

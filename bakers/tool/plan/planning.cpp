@@ -29,7 +29,7 @@ fs::path absolute_path(const fs::path& path) {
   return path.empty() ? path : fs::absolute(path).lexically_normal();
 }
 
-// Bakes share the cores when many run, and a single one gets them all.
+// If many bakes run, they share the cores. A single bake gets all cores.
 std::uint32_t shared_threads(std::size_t bakes) {
   const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
   return std::uint32_t(std::max<std::size_t>(1, cores / std::clamp<std::size_t>(bakes, 1, cores)));
@@ -63,8 +63,8 @@ PlanPlaces places_of(const PlanOptions& o, const Manifest& manifest) {
   return places;
 }
 
-// Everything that another plan could depend on: the manifest, this program, folders that patterns search,
-// and files that bakes read, but for those that other bakes write.
+// Returns everything that could change the plan: the manifest, this program, the folders that patterns
+// search, and the files that bakes read, except files that other bakes write.
 std::vector<fs::path> read_by_plan(const PlanPlaces& places, const std::vector<Job>& jobs,
                                    const States& states, const FileTree& tree) {
   std::set<std::string> written, files;
@@ -84,7 +84,7 @@ void write(const fs::path& path, const std::string& text) {
   platform::OutputFile(path, file_events(true)).commit(text);
 }
 
-// A file that stays as it is costs no wait for the disk. Its time becomes new all the same.
+// If the content is equal, only sets the file's time to now, which does not wait for the disk.
 void renew(const fs::path& path, const std::string& text) {
   std::error_code error;
   if (text_in(path) != text)
@@ -98,11 +98,11 @@ void write_plan(const PlanPlaces& places, const std::vector<Job>& jobs, const St
   write_keys(places, jobs, states.jobs);
   renew(places.build / "tasks.txt", tasks_text(places, jobs, states.jobs));
   renew(places.build / "plan.json", memory_text(states.memory, this_tool()));
-  // The last: a plan that was stopped before is made again.
+  // build.ninja is written last. If the program is stopped before this, the plan is made again.
   renew(places.build / "build.ninja", ninja_text(places, jobs, read_by_plan(places, jobs, states, tree)));
 }
 
-// A file that changed while the plan read it makes the plan old at once.
+// If a file changed while the plan read it, marks the plan as outdated.
 void recheck(const PlanPlaces& places, const States& states, std::int64_t began_ns) {
   const bool same = std::all_of(states.jobs.begin(), states.jobs.end(), [](const JobState& state) {
     return must_run(state.state) || is_unchanged(state.read);

@@ -1,4 +1,4 @@
-// nook plan as a function, which nook build also calls.
+// `nook plan` as a function. `nook build` also calls it.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,9 @@ struct PlanResult {
   std::size_t to_run = 0;       // bakes
 };
 
-// Reads the manifest, decides about every bake, copies results of the cache and writes the files of
-// plan_files.h. Prints what must run and why. Changes the process's folder to the manifest's, in which the
-// bakes run as well.
+// Reads the manifest, decides for every bake whether it must run, copies results from the cache, and writes
+// the files of plan_files.h. Prints what must run and why. Changes the working directory of the process to
+// the manifest's folder. The bakes run there too.
 PlanResult make_plan(const PlanOptions& options);
 
 }  // namespace nook::tool::plan

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Names the entries of two objects that differ.
+// Returns the names of the entries that differ between two objects.
 std::string differing(const Json& there, const Json& here) {
   std::string names;
   const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
@@ -30,7 +30,7 @@ void add(std::string& reasons, const std::string& reason) {
   reasons += (reasons.empty() ? "" : "; ") + reason;
 }
 
-// The reports of bakes have "seconds", or a number for each stage.
+// Reads the duration from the row of a report. It is "seconds", or the sum of one entry per stage.
 double seconds_in(const Json& row) {
   double seconds = 0;
   if (row.contains("seconds") && row["seconds"].is_number()) return row["seconds"].get<double>();
@@ -55,7 +55,7 @@ double reported_s(const std::string& report) {
   }
 }
 
-// Of a file of a megabyte.
+// Returns the typical time for an input file of one megabyte.
 double typical_s(const Job& job) {
   if (job.kind == "lod" || job.kind == "bent") return 10;
   if (job.kind == "clips") return 30;

@@ -1,4 +1,4 @@
-// Why a bake has to run, and how long it will take.
+// Finds out why a bake has to run, and estimates how long it will take.
 #pragma once
 
 #include <string>
@@ -9,12 +9,13 @@
 
 namespace nook::tool::plan {
 
-// Compares the identity of a bake with the identity in its output.
+// Returns the reason, by comparing the identity of a bake with the identity in its output.
 std::string reason_of(const Job& job, const std::string& identity, const std::string& there, bool exists,
                       bool was_there);
 
-// Returns seconds on one machine. The report of the last bake has them. Without a report they are the time of
-// the preset, scaled by the size of the files that are read; only the order of tasks depends on them.
+// Returns the estimated seconds on one machine. They come from the report of the last bake. Without a report,
+// they are the typical time of the preset, scaled by the size of the files that are read. Only the order of
+// tasks depends on the estimate.
 double estimate_s(const Job& job, const std::vector<StampedFile>& read);
 
 }  // namespace nook::tool::plan

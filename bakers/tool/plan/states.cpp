@@ -38,7 +38,8 @@ std::vector<StampedFile> stamped(const std::vector<fs::path>& files) {
   return all;
 }
 
-// Returns the text of the identity, from the memory if nothing that it depends on has changed.
+// Returns the text of the identity. It comes from the memory if nothing that the identity depends on has
+// changed.
 std::string identity_text(const Work& work, std::size_t i) {
   const Job& job = work.jobs[i];
   const auto known = work.known.bakes.find(job.output);
@@ -71,7 +72,7 @@ std::string output_identity(const Work& work, std::size_t i) {
   return text;
 }
 
-// Returns whether the cache has the result. Copies it as a bake writes it: the report first.
+// Returns true if the cache has the result. Copies it like a bake writes it, the report first.
 bool take_from_cache(const Work& work, std::size_t i, const std::string& identity) {
   const Job& job = work.jobs[i];
   if (!work.options.cache || !job.outline.is_cacheable) return false;
@@ -101,7 +102,7 @@ void decide(const Work& work, std::size_t i) {
   }
 }
 
-// Finds what a job waits for: a bake that must run first, or whose copy a dry run leaves out.
+// Finds the job that a job waits for. That job must run first, or a dry run has not copied its result.
 const Job* first_unready(const Work& work, std::size_t i) {
   for (const std::size_t need : work.jobs[i].needs) {
     const State state = work.states[need].state;
@@ -116,7 +117,7 @@ void examine(const Work& work, std::size_t i) {
   if (const Job* const need = first_unready(work, i)) {
     state.state = State::waits;
     state.reason = "after " + need->output;
-    // The next plan asks again, and the files still belong to what the plan depends on.
+    // The next plan will try again. The plan still depends on the files.
     state.read = stamped(files_read(work.jobs[i].outline.files, work.jobs[i].outline.reads_images));
     output_identity(work, i);
     const auto known = work.known.bakes.find(work.jobs[i].output);
@@ -130,7 +131,7 @@ void examine(const Work& work, std::size_t i) {
       state = {State::unreadable, error.what(), "", 0, state.read};
     } catch (const Failure& failure) {
       state = {State::unreadable, failure.what(), "", 0, state.read};
-    } catch (const std::runtime_error& error) {  // a result of the cache that cannot be written
+    } catch (const std::runtime_error& error) {  // a result from the cache could not be written
       state = {State::missing, error.what(), state.key, 0, state.read};
     }
   }

@@ -1,4 +1,4 @@
-// Which bakes are up to date, which come from the cache, and which have to run, and why.
+// Decides which bakes are up to date, which come from the cache, and which have to run, and why.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@ namespace nook::tool::plan {
 
 enum class State : std::uint8_t {
   up_to_date,  // the output's recipe has the key of the bake
-  from_cache,  // the cache had the result, and it is copied (with a dry run: would be)
-  missing,     // has to be baked
-  waits,       // reads the output of another bake that runs first, so that its key is not known yet
-  unreadable   // its inputs cannot be read; the bake will fail and say so
+  from_cache,  // the cache has the result; it is copied, except in a dry run
+  missing,     // the output has to be baked
+  waits,       // reads the output of another bake, which must run first; so the key is not known yet
+  unreadable   // the inputs cannot be read; the bake will fail with a message
 };
 const char* name_of(State state);
 inline bool must_run(State state) {
@@ -43,8 +43,9 @@ struct States {
   Memory memory;  // for the next plan
 };
 
-// The process must be in the manifest's folder, and pinned to the instruction set of the bakes. Jobs of one
-// group run one after another, groups in parallel. Throws platform::Stopped at Ctrl-C.
+// The working directory must be the manifest's folder, and the process must be pinned to the instruction set
+// of the bakes. Jobs of one group are handled one after another, groups in parallel. Throws platform::Stopped
+// at Ctrl-C.
 States states_of(const std::vector<Job>& jobs, const Memory& known, const StateOptions& options);
 
 }  // namespace nook::tool::plan

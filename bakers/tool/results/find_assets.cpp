@@ -19,7 +19,7 @@ bool is_key(const std::string& text) {
   return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-// Removes an extension; false if the name has another one.
+// Removes an extension. Returns false if the name has another extension.
 bool take_end(std::string& name, std::string_view extension) {
   if (name.size() <= extension.size() || !name.ends_with(extension)) return false;
   name.resize(name.size() - extension.size());
@@ -68,7 +68,7 @@ void add_folder(const fs::path& path, const std::string& name, FoundAssets& foun
 
 // The log of a plan: `nook plan` keeps the log of the model ROOT/MODEL as ROOT/BUILD/logs/MODEL.log.
 struct PlannedLog {
-  std::string name;    // of the log, as an asset
+  std::string name;    // name of the log as an asset
   std::string folder;  // ROOT/BUILD
   std::string model;
 };
@@ -92,8 +92,8 @@ std::string parent_of(std::string folder) {
   return folder;
 }
 
-// Returns ROOT for each folder of a plan: the nearest folder around it that has a model of its logs, or else
-// the one that it lies in.
+// Returns ROOT for each folder of a plan. It is the nearest parent folder with a model for one of the plan's
+// logs, or else the direct parent folder.
 std::map<std::string, std::string> roots_of(const std::vector<PlannedLog>& logs, const FoundAssets& found) {
   std::map<std::string, std::string> roots;
   for (const PlannedLog& log : logs) {
@@ -110,7 +110,7 @@ std::map<std::string, std::string> roots_of(const std::vector<PlannedLog>& logs,
   return roots;
 }
 
-// Brings logs that a plan keeps apart to their assets.
+// Assigns the logs in the folders of plans to their assets.
 void place_logs(FoundAssets& found) {
   const std::vector<PlannedLog> logs = planned_logs(found);
   const std::map<std::string, std::string> roots = roots_of(logs, found);

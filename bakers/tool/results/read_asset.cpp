@@ -17,17 +17,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A page of 5,000 rows stays small whatever a log says.
+// Limits the length of texts, so that a page of 5,000 rows stays small.
 constexpr std::size_t most_words = 400;
-// Enough to tell keys apart.
+// Enough digits to distinguish keys.
 constexpr std::size_t key_digits = 16;
-// The report of a long bake has some 100 kB. Larger files of JSON are something else.
+// The report of a long bake has about 100 kB. Larger JSON files are not reports.
 constexpr std::uintmax_t most_report_bytes = 16u << 20;
 
 std::string cut(std::string text) {
   if (text.size() <= most_words) return text;
   std::size_t end = most_words;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // whole UTF-8 characters
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80)
+    --end;  // do not cut a UTF-8 character
   return text.substr(0, end) + "...";
 }
 
@@ -37,13 +38,14 @@ void add(std::string& list, const std::string& words) {
   list += words;
 }
 
-// What read_any_file says begins with the path, which the row has already.
+// Removes the path from a message of read_any_file, because the row already shows it.
 std::string without_path(std::string text, const fs::path& path) {
   const std::string begin = path.string() + ": ";
   return text.starts_with(begin) ? text.substr(begin.size()) : text;
 }
 
-// The row of a bake's report; null for JSON of another kind. The report of a character is the row itself.
+// Returns the row of a bake's report, or null for JSON of another kind. The report of a character is the row
+// itself.
 Row row_of_report(const Row& json) {
   const Row* row = &json;
   if (json.is_object() && json.contains("rows")) {
@@ -55,14 +57,14 @@ Row row_of_report(const Row& json) {
   return has("model_bytes") || has("file_bytes") || is_probe ? *row : Row();
 }
 
-// Returns the size of the model that a report is of.
+// Returns the size of the model that a report describes.
 std::optional<std::uint64_t> reported_bytes(const Row& row) {
   for (const char* name : {"model_bytes", "file_bytes", "bytes"})
     if (row.contains(name) && row[name].is_number_unsigned()) return row[name].get<std::uint64_t>();
   return std::nullopt;
 }
 
-// Files beside the model that a page of its kind is made with.
+// Returns the source file beside the model that `nook report` needs for a page of this kind.
 std::string source_of(const fs::path& folder, const std::string& name, const std::string& kind) {
   const bool is_probe = kind == "light probe";
   if (!is_probe && kind != "character" && kind != "level of detail" && kind != "bent normals" &&
@@ -142,7 +144,7 @@ class Reader {
     end_ = end_of_log({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
 
-  // A report with another size belongs to another bake, and does not judge this model.
+  // If a report has another size, it belongs to another bake and must not be used to judge this model.
   void drop_other_report() {
     if (report_.is_null() || reported_bytes(report_).value_or(asset_.bytes) == asset_.bytes) return;
     add(asset_.notes, "its report is of another bake");

@@ -36,7 +36,7 @@ std::string time_now() {
   return text;
 }
 
-// Encodes a path for a link.
+// URL-encodes a path for a link.
 std::string encoded(const std::string& path) {
   std::string link;
   for (const char c : path) {
@@ -53,7 +53,8 @@ std::string encoded(const std::string& path) {
   return link;
 }
 
-// The way from the page to the folder. A page on a stream has no place, and no links.
+// Returns the path from the page to the folder. A page that is written to a stream has no location, so it has
+// no links.
 std::string links_of(const fs::path& folder, const fs::path& output, bool is_regular) {
   std::error_code error;
   const fs::path page = fs::absolute(output, error).parent_path();
@@ -61,7 +62,8 @@ std::string links_of(const fs::path& folder, const fs::path& output, bool is_reg
   return error || way.empty() ? "" : encoded(way.generic_string()) + "/";
 }
 
-// Reads all assets on all threads, in pieces, so that progress and Ctrl-C come between them.
+// Reads all assets on all threads. The work is split into pieces, so that progress and Ctrl-C can be handled
+// between them.
 std::vector<report::Asset> read_all(const fs::path& folder, const FoundAssets& found,
                                     const CommonOptions& common) {
   constexpr std::size_t piece = 256;
@@ -83,7 +85,7 @@ std::vector<report::Asset> read_all(const fs::path& folder, const FoundAssets& f
   return assets;
 }
 
-// A folder that cannot be read may hold anything, so that it stands among what is broken.
+// An unreadable folder may contain anything, so it is listed as broken.
 void add_faults(const FoundAssets& found, std::vector<report::Asset>& assets) {
   for (const auto& [name, reason] : found.faults) {
     report::Asset asset;
@@ -95,7 +97,8 @@ void add_faults(const FoundAssets& found, std::vector<report::Asset>& assets) {
   }
 }
 
-// The page that the new one is compared with. What is at the place of the output need not be a page.
+// Reads the page that the new one is compared with. The file at the output path may be something else than a
+// page.
 std::optional<report::LastPage> last_page(const ReportAllOptions& options, const fs::path& output) {
   const bool is_named = !options.before.empty();
   const fs::path& path = is_named ? options.before : output;
@@ -115,7 +118,7 @@ void require_places(const ReportAllOptions& options, const fs::path& output, con
                     const FoundAssets& found) {
   CommandFiles files{{}, {{"-o", output}, {"--report", common.report}}, {}};
   for (const auto& [name, asset] : found.assets) {
-    // JSON without a model may be what an earlier --report wrote here.
+    // JSON without a model may be the output of an earlier --report.
     const bool is_free = asset.model.empty() && asset.report == common.report;
     for (const fs::path* path : {&asset.model, &asset.report, &asset.log})
       if (!path->empty() && !(is_free && path == &asset.report))
@@ -151,7 +154,7 @@ void report_all(const ReportAllOptions& options, const CommonOptions& common) {
   const std::optional<report::LastPage> last = last_page(options, output);
 
   report::Overview overview;
-  // "." names no folder to who reads the page later.
+  // "." would not tell a later reader of the page which folder it is.
   std::error_code unknown;
   const fs::path whole = fs::absolute(options.folder, unknown).lexically_normal();
   overview.folder = (unknown ? options.folder : whole).string();

@@ -1,4 +1,4 @@
-// nook report --all DIR: one page about every baked file of a folder.
+// `nook report --all DIR` makes one page about all baked files of a folder.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,11 @@ namespace nook::tool {
 
 struct ReportAllOptions {
   std::filesystem::path folder, output;
-  std::filesystem::path before;  // the page to compare with; empty: the one that `output` replaces
+  std::filesystem::path before;  // the page to compare with; empty: the page that `output` replaces
 };
 
-// Throws ToolError for a folder that cannot be read or holds nothing baked. A broken file becomes a row.
+// Throws ToolError if the folder cannot be read or contains no baked files. A broken file gets a row on the
+// page.
 void report_all(const ReportAllOptions& options, const CommonOptions& common);
 
 }  // namespace nook::tool

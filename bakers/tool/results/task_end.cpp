@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view mark = "exit code ";
 constexpr std::string_view blanks = " \t\r\n";
 
-// Removes the last line that is not blank, and returns it without blanks around it.
+// Removes the last line that is not blank, and returns it without surrounding blanks.
 std::string_view take_last_line(std::string_view& text) {
   const std::size_t end = text.find_last_not_of(blanks);
   text = text.substr(0, end == std::string_view::npos ? 0 : end + 1);

@@ -1,4 +1,4 @@
-// Tells whether a task of a farm failed, from what it left beside the place of its model.
+// Finds out whether a task of a farm failed, from the files that it left beside its model.
 #pragma once
 
 #include <filesystem>
@@ -8,27 +8,28 @@
 
 namespace nook::tool {
 
-// The files of one asset. A path is empty where there is no such file.
+// The files of one asset. A path is empty if there is no such file.
 struct AssetFiles {
   std::filesystem::path model;   // NAME.nook
   std::filesystem::path report;  // NAME.json, if it is the report of a bake
-  std::filesystem::path log;     // of the task, NAME.log
-  std::filesystem::path part;    // an unfinished NAME.nook of a bake that runs or was killed
+  std::filesystem::path log;     // log of the task, NAME.log
+  std::filesystem::path part;    // an unfinished NAME.nook; the bake is running or was killed
 };
 
 // The end of a task's log.
 struct TaskEnd {
   std::optional<int> exit_code;  // none: the task still runs, was killed, or another program wrote the log
-  std::string words;             // the last line that the task itself said
-  bool is_of_task = false;  // `nook task` wrote the log, which then has an end unless the task was killed
+  std::string words;             // the last line that the task itself wrote
+  bool is_of_task = false;  // true if `nook task` wrote the log; unless the task was killed, such a log has
+                            // an end
 };
 
-// The last line of a log says "exit code N".
+// Reads the end of a log. Its last line is "exit code N".
 TaskEnd end_of_log(std::string_view log);
 
-// Returns why a task failed; nothing if it did not. A report, a log or a part without a model is a failure,
-// and so is a log that ends in one, or a log of `nook task` without an end. end: of the log, where there is
-// one.
+// Returns why a task failed, or nothing if it did not fail. It failed if there is a report, a log or a part
+// but no model. It also failed if the log ends with a failure, or if a log of `nook task` has no end. `end`
+// is the end of the log, if there is one.
 std::optional<std::string> failure_of(const AssetFiles& files, const std::optional<TaskEnd>& end);
 
 }  // namespace nook::tool
