@@ -1,10 +1,10 @@
-/* Nook computes ambient occlusion (AO) for OpenGL engines. This header holds the version, results, shared
- * types and the context. Lengths are in metres, or in a unit of yours (units_per_metre), and spaces are
- * right-handed. AO lies in [0, 1], where 1 is open. Each function states one of three thread contracts:
+/* Nook computes ambient occlusion (AO) for OpenGL engines. This header has the version, results, shared types
+ * and the context. Lengths are in metres unless you set nook_context_desc.units_per_metre. Coordinate systems
+ * are right-handed. AO is in [0, 1]; 1 means not occluded. Functions state one of three thread contracts:
  *   any thread       Call it at any time from any thread.
  *   context thread   Call it only on the thread where the OpenGL context of the object is current.
  *   one at a time    Call it from any thread, but never twice at once on the same object.
- * A call that fails leaves its outputs and its objects as they were, unless its comment says otherwise. */
+ * A failed call does not change its outputs or its objects, unless its comment says otherwise. */
 #ifndef NOOK_NOOK_H
 #define NOOK_NOOK_H
 
@@ -18,10 +18,10 @@ extern "C" {
 #define NOOK_VERSION_MAJOR 1
 #define NOOK_VERSION_MINOR 0
 #define NOOK_VERSION_PATCH 0
-/* The text behind the numbers: "-rc1" for the first candidate of a release, "" for the release. */
+/* The text after the version numbers: "-rc1" for the first release candidate, "" for a release. */
 #define NOOK_VERSION_SUFFIX "-rc1"
-/* The init functions pass this value, so that the library knows with which header you compiled. It is
- * unsigned and has no cast, so that #if can compare it too. */
+/* The init functions pass this value, so that the library knows which header version you compiled with. The
+ * value is unsigned and contains no cast, so that #if can compare it too. */
 #define NOOK_VERSION (((NOOK_VERSION_MAJOR + 0u) << 22) | (NOOK_VERSION_MINOR << 12) | NOOK_VERSION_PATCH)
 
 /* If you link the static library, define NOOK_STATIC; the CMake target and the pkg-config file do it for you.
@@ -40,8 +40,7 @@ extern "C" {
 #define NOOK_API
 #endif
 
-/* The result of a call: 0 is success and every error is negative. nook_last_message() returns the text of the
- * failure. */
+/* The result of a call: 0 is success, and errors are negative. nook_last_message() returns the error text. */
 typedef int32_t nook_result;
 enum {
   NOOK_OK = 0,
@@ -55,7 +54,7 @@ enum {
   NOOK_ERROR_BAD_FILE = -4,
   /* The .nook file has a format version that this library cannot read. */
   NOOK_ERROR_FILE_VERSION = -5,
-  /* The caller's headers do not fit this library. */
+  /* You compiled with headers whose version this library does not support. */
   NOOK_ERROR_VERSION = -6,
   /* The processor, the GL context or the build lacks what the call needs. */
   NOOK_ERROR_UNSUPPORTED = -7,
@@ -74,15 +73,15 @@ NOOK_API const char* nook_last_message(void);
 /* Returns the name of a result, such as "NOOK_ERROR_BAD_FILE", or "unknown result". Any thread. */
 NOOK_API const char* nook_result_name(nook_result result);
 
-/* Returns the version of the library, which compares with NOOK_VERSION. Any thread. */
+/* Returns the version of the library, encoded like NOOK_VERSION. Any thread. */
 NOOK_API uint32_t nook_version(void);
 
 /* Returns the version as text, such as "1.0.0-rc1", valid until the program ends. Any thread. */
 NOOK_API const char* nook_version_text(void);
 
-/* The host's memory functions. allocate returns NULL when it cannot; alignment is a power of two up to 64
- * bytes. release receives the same size and alignment. Nook calls both from any thread that calls Nook, and
- * from the host's jobs. */
+/* Your memory functions. `allocate` returns NULL if it fails; `alignment` is a power of two up to 64 bytes.
+ * `release` receives the same size and alignment. Nook calls both functions on any thread that calls Nook,
+ * and in the jobs of your parallel_for. */
 typedef struct nook_allocator {
   void* user;
   void* (*allocate)(void* user, size_t size, size_t alignment);
@@ -91,8 +90,8 @@ typedef struct nook_allocator {
 
 enum { NOOK_LOG_INFO = 0, NOOK_LOG_WARNING = 1, NOOK_LOG_ERROR = 2 };
 typedef int32_t nook_log_severity;
-/* Receives one line of the log; text is valid during the call only. Nook calls it from any thread that calls
- * Nook. */
+/* Receives a line of the log. `text` is valid only during the call. Nook calls this function on any thread
+ * that calls Nook. */
 typedef void (*nook_log_fn)(void* user, nook_log_severity severity, const char* text);
 
 /* A nook_parallel_for_fn runs body(body_user, i) once for every i in [0, count), in any order and on any
@@ -102,9 +101,9 @@ typedef void (*nook_parallel_for_fn)(void* user, uint32_t count, nook_job_fn bod
 
 /* The instruction sets of the CPU kernels. */
 enum {
-  /* The best of this processor. */
+  /* The best set that this processor supports. */
   NOOK_ISA_AUTO = 0,
-  /* On every platform: one number at a time. */
+  /* Scalar code, on every platform. */
   NOOK_ISA_SCALAR = 1,
   /* x86-64: every processor. */
   NOOK_ISA_SSE2 = 2,
@@ -119,40 +118,40 @@ enum {
 };
 typedef int32_t nook_isa;
 
-/* The published form of a method, or Nook's own. */
+/* Which form of a method to use: the published one, or Nook's own. */
 enum {
-  /* Nook's form, which is the better one. */
+  /* Nook's form, which is better than the published one. */
   NOOK_FORM_DEFAULT = 0,
   /* The form of the paper, for comparisons. */
   NOOK_FORM_PAPER = 1
 };
 typedef int32_t nook_form;
 
-/* The values of a vertex that a call reads. */
+/* Which values of each vertex a call reads. */
 enum {
   /* Ambient occlusion: 1 number. */
   NOOK_CHANNEL_AO = 0,
-  /* AO of the light that nook_scene_set_light gave: 3 numbers, red, green and blue. */
+  /* AO for the light that you set with nook_scene_set_light: 3 numbers (red, green, blue). */
   NOOK_CHANNEL_DIRECTIONAL_AO = 1,
-  /* The direction to where the vertex is open, in world space, and AO: 4 numbers, x, y, z and AO. */
+  /* The bent normal in world space (the mean open direction), and AO: 4 numbers (x, y, z, AO). */
   NOOK_CHANNEL_BENT_NORMAL = 2
 };
 typedef int32_t nook_channel;
 
-/* The type of each number of a channel. */
+/* The format of each number of a channel. */
 enum {
   /* 32-bit floats. */
   NOOK_FORMAT_FLOAT = 0,
   /* 16-bit floats, rounded to the nearest. */
   NOOK_FORMAT_HALF = 1,
-  /* Bytes, 255 for 1, rounded to the nearest: within 1/510. */
+  /* Unsigned bytes: 255 means 1. Values are rounded to the nearest byte; the error is at most 1/510. */
   NOOK_FORMAT_UNORM8 = 2,
-  /* Signed bytes, 127 for 1 and -127 for -1. */
+  /* Signed bytes: 127 means 1, and -127 means -1. */
   NOOK_FORMAT_SNORM8 = 3
 };
 typedef int32_t nook_format;
 
-/* Handles of objects. Each create or load call gives one, and each destroy call takes its address. */
+/* Handles of objects. Create and load calls return a handle; pass its address to the destroy call. */
 typedef struct nook_context_s* nook_context;
 typedef struct nook_model_s* nook_model;
 typedef struct nook_scene_s* nook_scene;
@@ -167,7 +166,7 @@ typedef struct nook_world_s* nook_world;
 typedef struct nook_bake_character_s* nook_bake_character;
 typedef struct nook_bake_job_s* nook_bake_job;
 
-/* A run of entries, such as the vertices of a primitive. */
+/* A contiguous range of entries, such as the vertices of a primitive. */
 typedef struct nook_range {
   uint32_t first, count;
 } nook_range;
@@ -176,23 +175,23 @@ typedef struct nook_range {
 typedef struct nook_lobe {
   /* Unit vector. */
   float axis[3];
-  /* >= 0; 0 is constant over the sphere. */
+  /* >= 0. With 0, the lobe is constant over the sphere. */
   float sharpness;
   /* Linear RGB. */
   float amplitude[3];
   float reserved;
 } nook_lobe;
 
-/* A light has at most this many lobes, and a probe this many functions. */
+/* A light can have at most this many lobes, and a probe at most this many basis functions. */
 #define NOOK_PROBE_MAX_FUNCTIONS 64
 
 /* ---- Descriptors and infos ----
  *
- * A call whose inputs may grow takes a descriptor, a struct whose name ends in _desc. Fill it with its init
- * function, such as nook_scene_desc_init(&desc), on any thread, then set the fields that you want to change.
- * The init function sets struct_size and type. Leave fields named `reserved` 0 and `next` NULL, or set it to
- * an experimental descriptor that its comment names. Programs that were compiled with an older header of the
- * same major version keep working.
+ * A call that may get more inputs in later versions takes a descriptor, a struct whose name ends in _desc.
+ * Fill it with its init function, such as nook_scene_desc_init(&desc), on any thread, then set the fields
+ * that you want to change. The init function sets struct_size and type. Leave fields named `reserved` 0.
+ * Leave `next` NULL, or point it to an experimental descriptor that its comment names. Programs that were
+ * compiled with an older header of the same major version keep working.
  *
  * A call that describes an object fills an info, a struct whose name ends in
  * _info. Set its struct_size first; all other fields are outputs:
@@ -238,8 +237,8 @@ enum {
   NOOK_DESC_WORLD_FRAME_DEBUG = 36
 };
 
-/* Fills the descriptor of a type with defaults. Call the typed functions instead, which pass their sizeof and
- * NOOK_VERSION. The library never writes beyond size bytes.
+/* Fills a descriptor of the given type with defaults. Call the typed functions instead, such as
+ * nook_scene_desc_init, which pass sizeof and NOOK_VERSION. The library never writes more than `size` bytes.
  * Any thread. Errors: INVALID_ARGUMENT (desc is NULL, the type is unknown, or size is smaller than in the
  * first release), VERSION (the major version differs, or the minor version is newer than the library's). */
 NOOK_API nook_result nook_desc_init(uint32_t type, void* desc, size_t size, uint32_t header_version);
@@ -247,30 +246,30 @@ NOOK_API nook_result nook_desc_init(uint32_t type, void* desc, size_t size, uint
 typedef struct nook_context_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* Both functions NULL: Nook uses the global operator new (default). Otherwise both are required. */
+  /* If both functions are NULL (default), Nook uses the global operator new. Otherwise, you must set both. */
   nook_allocator allocator;
-  /* NULL: nothing is logged (default). */
+  /* If NULL (default), nothing is logged. */
   nook_log_fn log;
   void* log_user;
-  /* NULL: everything runs on the calling thread (default). */
+  /* If NULL (default), everything runs on the calling thread. */
   nook_parallel_for_fn parallel_for;
   void* parallel_for_user;
   /* The instruction set of all objects that you create from this context; default NOOK_ISA_AUTO. */
   nook_isa isa;
-  /* Your units of length in a metre, such as 100; > 0, default 1. Defaults that are lengths follow it. */
+  /* How many of your length units make one metre, such as 100; > 0, default 1. It scales default lengths. */
   float units_per_metre;
 } nook_context_desc;
 static inline nook_result nook_context_desc_init(nook_context_desc* desc) {
   return nook_desc_init(NOOK_DESC_CONTEXT, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Creates a context, which models, scenes and GL objects are created from. On failure *out is NULL.
+/* Creates a context. You need it to create models, scenes and GL objects. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the build or the processor lacks desc->isa; the message
- * names the sets that it has), OUT_OF_MEMORY. */
+ * lists the available sets), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_context_create(const nook_context_desc* desc, nook_context* out);
 
-/* Releases your reference and sets *context to NULL; both may be NULL. Objects that were created from it keep
- * alive what they need, so destroy objects in any order. Any thread. */
+/* Releases your reference and sets *context to NULL; both may be NULL. Objects that you created from the
+ * context keep alive what they need, so you can destroy objects in any order. Any thread. */
 NOOK_API void nook_context_destroy(nook_context* context);
 
 #ifdef __cplusplus

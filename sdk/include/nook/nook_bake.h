@@ -1,9 +1,9 @@
-/* The bakers as a library, nook_bake, for offline use. Import a character and bake its model, its bent
- * normals and its clips, or bake a material. Each bake is a job: fill a descriptor, start it, wait, and take
- * the bytes of a .nook file, which the runtime loads. experimental/nook_bake_materials.h bakes synthesis and
- * radiance transfer; experimental/nook_trace.h traces references.
- * The library links Embree, oneTBB and others; the runtime never needs it. It follows the rules of nook.h,
- * with nook_bake_last_message() for its messages. */
+/* The bakers as a library, nook_bake, for offline use. It imports a character and bakes its model, bent
+ * normals and clips, and it bakes materials. Each bake is a job: fill a descriptor, start the job, wait for
+ * it, and get the bytes of a .nook file. The runtime loads this file. experimental/nook_bake_materials.h
+ * bakes synthesis and radiance transfer; experimental/nook_trace.h traces references. The library links
+ * Embree, oneTBB and others; the runtime does not need it. The rules of nook.h apply here too, but error
+ * messages come from nook_bake_last_message(). */
 #ifndef NOOK_BAKE_H
 #define NOOK_BAKE_H
 
@@ -13,18 +13,17 @@
 extern "C" {
 #endif
 
-/* Fills a descriptor with defaults; call the typed functions instead. Any thread. Errors: INVALID_ARGUMENT,
- * VERSION. */
+/* Fills a descriptor. Call the typed functions instead. Any thread. Errors: INVALID_ARGUMENT, VERSION. */
 NOOK_API nook_result nook_bake_desc_init(uint32_t type, void* desc, size_t size, uint32_t header_version);
 
-/* Returns the message of this thread's latest failure in this library, as nook_last_message(). Any thread. */
+/* Like nook_last_message(), but for failures in this library. Any thread. */
 NOOK_API const char* nook_bake_last_message(void);
 
 /* ---- Jobs: bakes on threads of their own; any number may run at once ----
  *
- * Every descriptor of a bake has four fields for its job. `seed` is 1 by default; the same seed gives the
- * same bytes on any number of threads. `threads` is 0 by default, which means all cores; the maximum is 1024.
- * `progress` is NULL by default: poll instead. progress_user is its first argument. */
+ * Every bake descriptor has four fields for its job. `seed` is 1 by default; the same seed gives the same
+ * bytes with any number of threads. `threads` is 0 by default, which means all cores; the maximum is 1024.
+ * `progress` is a callback, or NULL (default) if you poll instead; `progress_user` is its first argument. */
 
 /* The state of a job. */
 enum {
@@ -38,10 +37,9 @@ typedef int32_t nook_bake_state;
 typedef struct nook_bake_progress {
   uint32_t struct_size;
   nook_bake_state state;
-  /* The current stage as English text for users, such as "ray tracing"; never NULL, valid while the library
-   * is loaded. */
+  /* The current stage in English, such as "ray tracing"; not NULL, valid while the library is loaded. */
   const char* stage;
-  /* Steps of this stage: poses, views, vertices, texels or steps of a fit. */
+  /* Completed and total steps of this stage. A step is a pose, view, vertex, texel or step of a fit. */
   uint64_t done, total;
 } nook_bake_progress;
 
@@ -50,12 +48,11 @@ typedef struct nook_bake_progress {
  * in it. */
 typedef int32_t (*nook_bake_progress_fn)(void* user, const nook_bake_progress* progress);
 
-/* Starts a bake and returns at once. The call tells the kind by the descriptor's `type`; where you know the
- * kind, call a typed function such as nook_bake_start_character instead. The call checks the descriptor and
- * copies what it points to, so you may free its arrays and destroy its character afterwards. On failure *out
- * is NULL.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (`model` is no model, or
- * another character's), FILE_VERSION, OUT_OF_MEMORY. */
+/* Starts a bake and returns at once. The descriptor's `type` selects the kind of bake; if you know the kind,
+ * call a typed function such as nook_bake_start_character instead. The call checks the descriptor and copies
+ * its data, so you may free its arrays and destroy its character afterwards. On failure *out is NULL.
+ * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (`model` is not a model,
+ * or belongs to another character), FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_start(const void* desc, nook_bake_job* out);
 
 /* Gives the state of a job and its progress. Any thread. Errors: INVALID_ARGUMENT. */
@@ -64,7 +61,7 @@ NOOK_API nook_result nook_bake_job_poll(nook_bake_job job, nook_bake_progress* p
 /* Requests that the job stop soon, and returns at once. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_bake_job_cancel(nook_bake_job job);
 
-/* Waits until the job ends and returns its result; it may be called any number of times.
+/* Waits until the job ends and returns its result. You may call it any number of times.
  * Any thread. Errors: INVALID_ARGUMENT, CANCELLED, OUT_OF_MEMORY, INTERNAL. */
 NOOK_API nook_result nook_bake_job_wait(nook_bake_job job);
 
@@ -81,16 +78,17 @@ NOOK_API void nook_bake_job_destroy(nook_bake_job* job);
 
 /* ---- Characters: immutable; jobs that use one keep it alive ----
  *
- * Matrices of poses are NOOK_POSE_REST_TO_WORLD: one 3x4 matrix for each bone, row-major, from rest space to
- * world space in metres. Vertices are in the imported file's order, the primitives that are in one after
- * another (`nook inspect FILE` lists them), which is also the order of the runtime's AO. */
+ * Pose matrices are of the kind NOOK_POSE_REST_TO_WORLD: one row-major 3x4 matrix for each bone, from rest
+ * space to world space in metres. Vertices are in the order of the imported file, one imported primitive
+ * after another (`nook inspect FILE` lists them). The runtime's AO has the same order. */
 
-/* Where a rigged character comes from. Set exactly one: the path of a .glb or .gltf file, the bytes of one,
-   or arrays, from positions on, in the rest pose and in metres. The import copies what it needs. */
+/* Where a rigged character comes from. Set exactly one source: `path` (a .glb or .gltf file), `bytes` (the
+ * contents of such a file), or the arrays (`positions` and the fields after it, in the rest pose and in
+ * metres). The import copies what it needs. */
 typedef struct nook_bake_source_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* UTF-8. The file may name other files of its folder; of any folder if allow_outside_files is 1. */
+  /* UTF-8. The file may refer to other files in its folder, and in any folder if allow_outside_files is 1. */
   const char* path;
   /* All buffers must be embedded. */
   const void* bytes;
@@ -105,16 +103,17 @@ typedef struct nook_bake_source_desc {
   /* Default 4. The import keeps the 8 largest weights of each vertex. */
   uint32_t influences;
   uint32_t bone_count;
-  /* NULL: the names are bone_0, bone_1 and so on. */
+  /* If NULL, the names are bone_0, bone_1 and so on. */
   const char* const* bone_names;
-  /* The index of each bone's parent, which is smaller than the bone's own; -1 for a root. */
+  /* The index of each bone's parent, or -1 for a root. A parent must come before its children. */
   const int32_t* bone_parents;
   /* Joint frames in rest space, 12 floats for each bone: orthonormal axes, with the origin at the joint. */
   const float* bone_frames_3x4;
-  /* Primitives in order and without gaps. NULL: one primitive holds all vertices. */
+  /* Primitives in order and without gaps. If NULL, one primitive holds all vertices. */
   const nook_range* primitives;
   uint32_t primitive_count;
-  /* Names of nodes or meshes to take, and to leave out, with * and ?. Default: all shown but LOD1, LOD2... */
+  /* Names of nodes or meshes to import (`meshes`) or to skip (`without`); * and ? are wildcards. By default,
+   * imports every visible one except LOD1, LOD2 and so on. */
   const char* const* meshes;
   const char* const* without;
   uint32_t mesh_count, without_count;
@@ -133,16 +132,16 @@ NOOK_API void nook_bake_character_destroy(nook_bake_character* character);
 
 typedef struct nook_bake_character_info {
   uint32_t struct_size;
-  /* Vertices after welding: those that the file splits at seams count once. */
+  /* The number of vertices after welding: vertices that the file splits at seams count once. */
   uint32_t vertex_count;
-  /* Vertices of the file's primitives that are in. */
+  /* The number of vertices of the imported primitives. */
   uint32_t file_vertex_count;
-  /* Triangles with an area; the import drops degenerate ones. */
+  /* The number of triangles, without the degenerate ones, which the import drops. */
   uint32_t triangle_count;
   uint32_t bone_count, clip_count, primitive_count;
-  /* The number of things that the import left out or repaired. */
+  /* The number of import warnings. A warning tells what the import left out or repaired. */
   uint32_t warning_count;
-  /* Minimum and maximum of the rest pose, metres. */
+  /* The bounding box of the rest pose, in metres. */
   float bounds_min[3], bounds_max[3];
 } nook_bake_character_info;
 
@@ -177,7 +176,7 @@ enum {
   /* 3 floats for each vertex: its unit normal, area-weighted over the welded surface. */
   NOOK_BAKE_ARRAY_NORMALS = 4,
   /* 3 uint32_t for each triangle, indices of vertices. At seams, all triangles use the first of the split
-   * vertices: right for AO and positions, but not for texture coordinates. */
+   * vertices. This is correct for AO and positions, but not for texture coordinates. */
   NOOK_BAKE_ARRAY_TRIANGLES = 5,
   /* 4 uint16_t for each vertex: the bones with the largest weights, in descending order. */
   NOOK_BAKE_ARRAY_JOINTS = 6,
@@ -195,13 +194,13 @@ NOOK_API nook_result nook_bake_character_read(nook_bake_character character, noo
 NOOK_API nook_result nook_bake_character_clip_duration(nook_bake_character character, uint32_t clip,
                                                        float* seconds);
 
-/* Writes the pose of a clip at time_s, in seconds from the first key and clamped to the clip. bone_count must
- * be the character's, here and below. Any thread. Errors: INVALID_ARGUMENT. */
+/* Writes the pose of a clip at `time_s`, in seconds from the first key, clamped to the clip. Here and below,
+ * `bone_count` must be the character's bone count. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_bake_character_sample_clip(nook_bake_character character, uint32_t clip,
                                                      float time_s, float* bones_3x4, uint32_t bone_count);
 
-/* Writes pose_count generated whole-body poses, bone_count matrices each. The same seed gives the same poses.
- * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+/* Writes `pose_count` generated whole-body poses with `bone_count` matrices each. The same seed gives the
+ * same poses. Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_character_auto_poses(nook_bake_character character, uint64_t seed,
                                                     uint32_t pose_count, float* bones_3x4,
                                                     uint32_t bone_count);
@@ -221,8 +220,8 @@ enum {
   NOOK_BAKE_PRESET_DRAFT = 0,
   /* Up to 5 minutes and 2 GB of memory. */
   NOOK_BAKE_PRESET_STANDARD = 1,
-  /* Up to half an hour: nearly four times the poses, twice the rays, and up to 800 key points in place of
-   * 500, with which an update takes a fifth longer. */
+  /* Up to half an hour. Uses nearly four times the poses, twice the rays, and up to 800 key points instead of
+   * 500. With 800 key points, an update takes about 20 % longer. */
   NOOK_BAKE_PRESET_PRODUCTION = 2
 };
 typedef int32_t nook_bake_preset;
@@ -231,22 +230,22 @@ typedef int32_t nook_bake_preset;
 enum {
   /* Generated whole-body poses, which need no clip. */
   NOOK_BAKE_POSES_AUTO = 0,
-  /* One joint at a time, on a grid over +-45 degrees: a set to measure by, not to ship. */
+  /* Poses that rotate only one joint, on a grid over +-45 degrees. Use them to measure, not to ship. */
   NOOK_BAKE_POSES_SINGLE_JOINT = 1,
   /* The character's clips. */
   NOOK_BAKE_POSES_CLIPS = 2,
-  /* AUTO, CLIPS, and as many variants of the poses of the clips: mirrored, mixed and blended. */
+  /* The poses of AUTO and CLIPS, and as many variants of the clip poses: mirrored, mixed and blended. */
   NOOK_BAKE_POSES_ALL = 3,
   /* Only extra_poses_3x4. */
   NOOK_BAKE_POSES_EXTRA = 4
 };
 typedef int32_t nook_bake_pose_mode;
 
-/* A gamma that makes the bake try several exponents and keep the one with the lowest error on held-out poses.
- * The runtime has fast paths for 1, 1.5 and 2; other exponents take two to four times as long. */
+/* With this `gamma`, the bake tries several exponents and keeps the one with the lowest error on held-out
+ * poses. The runtime has fast paths for 1, 1.5 and 2; other exponents take two to four times as long. */
 #define NOOK_BAKE_GAMMA_LEARNED (-1.0f)
 
-/* A saturation that keeps all shadows unsaturated. */
+/* With this `saturation`, no shadow is saturated. */
 #define NOOK_BAKE_UNSATURATED (-1.0f)
 
 typedef struct nook_bake_character_desc {
@@ -255,28 +254,29 @@ typedef struct nook_bake_character_desc {
   const void* next;
   /* The character to bake. */
   nook_bake_character character;
-  /* Default STANDARD. It gives the numbers that are 0 below, from spheres to samples_per_clip. */
+  /* Default STANDARD. The preset gives the values of the fields from `spheres` to `samples_per_clip` that are
+   * 0. */
   nook_bake_preset preset;
-  /* The maximum numbers of proxy spheres and key points, up to 1024 and 4096. */
+  /* The maximum number of proxy spheres, up to 1024, and of key points, up to 4096. */
   uint32_t spheres, key_points;
-  /* Rays for each vertex and pose of the ray-traced targets, up to 65,536. */
+  /* Rays per vertex and pose for the ray-traced AO that the model is fitted to, up to 65,536. */
   uint32_t rays;
   /* Steps of the fit, up to 10,000,000. */
   uint32_t steps;
   /* Default ALL, which is AUTO for a character without clips. */
   nook_bake_pose_mode pose_mode;
-  /* Generated poses of AUTO and ALL. The variants of ALL lower its default by their number, at most by
-   * half. */
+  /* The number of generated poses of AUTO and ALL. With ALL, the default is reduced by the number of
+   * clip-pose variants, at most by half. */
   uint32_t auto_pose_count;
   /* The number of poses of each clip. */
   uint32_t samples_per_clip;
-  /* The number of names in clip_names. 0: every clip with motion; a T-pose or A-pose has none. */
+  /* The number of names in clip_names. 0: every clip that has motion (a T-pose or A-pose has none). */
   uint32_t clip_count;
   /* The number of poses in extra_poses_3x4. */
   uint32_t extra_pose_count;
-  /* An unknown name fails, and the message lists the clips of the character. */
+  /* The clips to use. With an unknown name the bake fails; the message lists the character's clips. */
   const char* const* clip_names;
-  /* Poses in addition to pose_mode's, bone_count matrices each. The call copies them. */
+  /* More poses in addition to pose_mode, with bone_count matrices each. The call copies them. */
   const float* extra_poses_3x4;
   uint64_t seed;
   uint32_t threads;
@@ -286,12 +286,13 @@ typedef struct nook_bake_character_desc {
   /* The exponent of the shadow norm, 1 to 8, or NOOK_BAKE_GAMMA_LEARNED. 0 (default): 1, or 2 with
    * NOOK_FORM_PAPER. */
   float gamma;
-  /* Where many spheres overlap, a plain sum is too dark: a key point's shadow is n / (1 + c n), n being the
-   * norm over its spheres. This is c before the fit, up to 64; the fit changes it. 0 (default): 0.5 with the
-   * default form and a gamma of 1, none otherwise. NOOK_BAKE_UNSATURATED turns it off; other numbers need the
-   * default form and a gamma of 1. */
+  /* The start value of c, up to 64; the fit changes c. A key point's shadow is n / (1 + c n), where n is the
+   * norm over its spheres, because a plain sum is too dark where many spheres overlap. 0 (default) means 0.5
+   * with the default form and a gamma of 1, and no saturation otherwise. NOOK_BAKE_UNSATURATED turns
+   * saturation off; other values need the default form and a gamma of 1. */
   float saturation;
-  /* Seconds after which the fit ends, and then is not reproducible bit for bit. Default 0: no limit. */
+  /* A time limit for the fit in seconds. If it is reached, results are not reproducible. 0 (default):
+   * none. */
   double time_limit_s;
   nook_bake_progress_fn progress;
   void* progress_user;
@@ -300,7 +301,7 @@ static inline nook_result nook_bake_character_desc_init(nook_bake_character_desc
   return nook_bake_desc_init(NOOK_DESC_BAKE_CHARACTER, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Starts to bake a character's model, for nook_model_load. As nook_bake_start. */
+/* Starts to bake a character's model, for nook_model_load. Otherwise like nook_bake_start. */
 static inline nook_result nook_bake_start_character(const nook_bake_character_desc* desc,
                                                     nook_bake_job* out) {
   return nook_bake_start(desc, out);
@@ -308,8 +309,8 @@ static inline nook_result nook_bake_start_character(const nook_bake_character_de
 
 /* ---- Bent normals ----
  *
- * For each vertex, two vectors of the directions that its body occludes, ray traced in a few poses of the
- * model (docs/character.md). */
+ * Each vertex gets two vectors that describe which directions its body occludes. The bake ray traces them in
+ * a few poses of the model (docs/character.md). */
 
 typedef struct nook_bake_bent_desc {
   uint32_t struct_size, type;
@@ -323,8 +324,8 @@ typedef struct nook_bake_bent_desc {
   uint32_t rays;
   /* Generated poses, 8 to 100,000; default 48. */
   uint32_t auto_pose_count;
-  /* Poses of each clip that the model was fitted to, or of every clip with motion if the model has no recipe;
-   * 1 to 100,000; default 3. */
+  /* Poses per clip, 1 to 100,000; default 3. The bake uses the clips that the model was fitted to, or every
+   * clip with motion if the model has no recipe. */
   uint32_t samples_per_clip;
   uint32_t threads;
   uint64_t seed;
@@ -335,16 +336,16 @@ static inline nook_result nook_bake_bent_desc_init(nook_bake_bent_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_BENT, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Starts to bake bent normals. The file is the model with them, all else unchanged, for nook_model_load. As
- * nook_bake_start. */
+/* Starts to bake bent normals. The resulting file, for nook_model_load, is the model with bent normals added.
+ * Otherwise like nook_bake_start. */
 static inline nook_result nook_bake_start_bent(const nook_bake_bent_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }
 
 /* ---- Clips ----
  *
- * Ray-traced AO and poses of a character's clips as a small table over frames (nook_clips.h,
- * docs/character.md), for crowds that need no bones on the CPU. */
+ * The bake stores ray-traced AO and poses of a character's clips in a small table over frames (nook_clips.h,
+ * docs/character.md). Crowds drawn from this table need no bones on the CPU. */
 
 typedef struct nook_bake_clips_desc {
   uint32_t struct_size, type;
@@ -354,20 +355,21 @@ typedef struct nook_bake_clips_desc {
   /* The bytes of the character's baked model. */
   const void* model;
   size_t model_size;
-  /* The clips to bake; NULL (default): every clip with motion. A T-pose or A-pose has none. */
+  /* The clips to bake. If NULL (default), every clip that has motion (a T-pose or A-pose has none). */
   const char* const* clip_names;
   /* The number of names; default 0. */
   uint32_t clip_count;
   /* Rays for each vertex and frame, 1 to 65,536; default 128. */
   uint32_t rays;
-  /* Frames for each second, 0.1 to 1000; default 30. All clips together have at most 2^20 frames. */
+  /* Frames per second, 0.1 to 1000; default 30. All clips together have at most 2^20 frames. */
   float frames_per_second;
-  /* The file takes as many modes as this error of AO needs, root mean square over vertices and frames, 1e-4
-   * to 1; default 0.015. */
+  /* The AO error that the bake aims for, root mean square over vertices and frames, 1e-4 to 1; default 0.015.
+   * The file gets as many modes as this error needs. */
   float max_error;
-  /* Bytes of the file for each frame and vertex, 1e-4 to 100; default 0.25. Modes beyond it are left out. */
+  /* The file has at most this many bytes per frame and vertex, 1e-4 to 100; default 0.25. Modes beyond this
+   * size are left out. */
   float max_bytes;
-  /* Modes of AO, a multiple of 4 from 4 to 256; default 96. */
+  /* The maximum number of AO modes, a multiple of 4 from 4 to 256; default 96. */
   uint32_t max_modes;
   uint64_t seed;
   uint32_t threads;
@@ -379,8 +381,8 @@ static inline nook_result nook_bake_clips_desc_init(nook_bake_clips_desc* desc) 
   return nook_bake_desc_init(NOOK_DESC_BAKE_CLIPS, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Starts to bake the clips of a character, for nook_clips_load. As nook_bake_start; an unknown clip's message
- * lists the clips. */
+/* Starts to bake the clips of a character, for nook_clips_load. Otherwise like nook_bake_start; if a clip
+ * name is unknown, the message lists the clips. */
 static inline nook_result nook_bake_start_clips(const nook_bake_clips_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }
@@ -395,32 +397,32 @@ enum {
   NOOK_BAKE_METHOD_CTA = 1,
   /* N-mode singular value decomposition: one cluster. */
   NOOK_BAKE_METHOD_N_SVD = 2,
-  /* Experimental: a small network over features of the texels, which trains for minutes; better on flat and
-     glossy materials (docs/materials.md). The ranks apply to the VOTF, which is K-CTA's. */
+  /* Experimental: a small neural network over features of the texels. It trains for minutes, and is better
+   * than the other methods on flat and glossy materials (docs/materials.md). The VOTF is compressed by K-CTA;
+   * the ranks apply only to it. */
   NOOK_BAKE_METHOD_NEURAL = 3
 };
 typedef int32_t nook_bake_method;
 
 /* A material and its compression. Directions are unit vectors in tangent space that point away from the
- * surface, z >= 0, and no two of a set may be equal. nook_bake_start copies all arrays. The limits are 1024
- * directions of a kind, 1024 texels along a side, and 6 GiB of floats. docs/materials.md describes what ranks
- * cost. */
+ * surface, z >= 0. Within each set, all directions must be different. nook_bake_start copies all arrays. The
+ * limits are 1024 light and 1024 view directions, 1024 texels along a side, and 6 GiB of floats.
+ * docs/materials.md describes the cost of ranks. */
 typedef struct nook_bake_material_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* "fiber", "roughhole" or "weave": a built-in structure, which is ray traced. NULL: btf holds measured
-   * data. */
+  /* A built-in structure to ray trace: "fiber", "roughhole" or "weave". If NULL, `btf` has measured data. */
   const char* meso;
   /* light_count x view_count x height x width x RGB, where RGB varies fastest; row 0 is at v = 0. Pass finite
    * linear radiances towards the view, for an irradiance of 1 on a plane that faces the light. NULL with
-   * meso. */
+   * `meso`. */
   const float* btf;
-  /* view_count x height x width: the share of a texel that the view meets, in [0, 1]; colours where it is 0
-   * are not read. The VOTF's mask is 1 where the share is at least 0.5. NULL: 1 everywhere, and no VOTF. NULL
-   * with meso. */
+  /* view_count x height x width: the share of each texel where the view meets the material, in [0, 1].
+   * Colours where it is 0 are not read. The VOTF's mask is 1 where the share is at least 0.5. If NULL, the
+   * share is 1 everywhere and there is no VOTF. Must be NULL with `meso`. */
   const float* coverage;
-  /* 3 floats for each direction, at least 1e-3 apart; with meso z >= 0.08 (85 degrees). NULL, which needs
-   * meso: a spiral down to max_tilt_degrees. */
+  /* 3 floats for each direction, at least 1e-3 apart; with `meso`, z must be >= 0.08 (85 degrees). NULL is
+   * allowed only with `meso`, and gives a spiral of directions down to max_tilt_degrees. */
   const float* lights;
   const float* views;
   /* Default 100. */
@@ -429,58 +431,59 @@ typedef struct nook_bake_material_desc {
   uint32_t width, height;
   /* The largest angle of the spirals from the normal; default 75. */
   float max_tilt_degrees;
-  /* For meso: view rays along the side of a texel, default 2; diffuse interreflections, default 2; and rays
-   * from each vertex for them, default 64. */
+  /* Only for `meso`: view rays along the side of a texel, default 2; the number of diffuse bounces, default
+   * 2; and rays per vertex for the bounces, default 64. */
   uint32_t samples, bounces, bounce_rays;
   /* Default K_CTA. */
   nook_bake_method method;
-  /* Default NOOK_FORM_DEFAULT. NOOK_FORM_PAPER: half floats, no view map, no relief, and the visibility
-   * mapping of Tsai and Shih; `bits` and `view_map_side` are not read, and `relief` must be 0. */
+  /* Default NOOK_FORM_DEFAULT. NOOK_FORM_PAPER uses half floats, no view map, no relief, and the visibility
+   * mapping of Tsai and Shih; it ignores `bits` and `view_map_side`, and `relief` must be 0. */
   nook_form form;
-  /* A nook_material_visibility: 0 for no VOTF, 1 for masks, 2 (default) for signed distances. */
+  /* A value of nook_material_visibility: 0 for no VOTF, 1 for masks, 2 (default) for signed distances. */
   int32_t visibility;
   /* Ranks of the BTF's modes; rank_view is the sum over the clusters. All four 0 (default): a built-in
-     structure has the ranks of docs/materials.md, and measured data follow rank_threshold. */
+   * structure gets the ranks of docs/materials.md; for measured data, rank_threshold sets them. */
   uint32_t rank_light, rank_view, rank_x, rank_y;
-  /* Ranks of the VOTF's spatial modes. Both 0 (default): the same as the BTF. */
+  /* Ranks of the VOTF's spatial modes. If both are 0 (default), the same as the BTF. */
   uint32_t votf_rank_x, votf_rank_y;
-  /* The view rank of one cluster, default 4; and clusters, default 0: rank_view / cluster_rank_view. */
+  /* The view rank of one cluster, default 4; the number of clusters, default 0: rank_view /
+   * cluster_rank_view. */
   uint32_t cluster_rank_view, clusters;
   /* K, the number of clusters that a view mixes; default 3. */
   uint32_t mixture;
-  /* Cells along the side of the resampled view maps of K-CTA; default 64. 0: none, and decoding mixes the
-   * three nearest views, for up to three times the work. */
+  /* Cells along the side of the resampled view maps of K-CTA; default 64. With 0 there are no view maps, and
+   * decoding mixes the three nearest views, which is up to three times the work. */
   uint32_t view_map_side;
-  /* The squared error that the choice of ranks allows in each mode, relative to the squared norm; default
-   * 0.01. */
+  /* The allowed squared error when ranks are chosen, per mode, relative to the squared norm; default 0.01. */
   float rank_threshold;
-  /* Threshold and weight of the visibility mapping, equation (26). Both 0 (default): 0.5 and 1 for masks;
-   * for distances half a texel and its reciprocal, or 0.05 and 12 with NOOK_FORM_PAPER. */
+  /* Threshold and weight of the visibility mapping, equation (26). If both are 0 (default), they are 0.5 and
+   * 1 for masks, and half a texel and its reciprocal for distances (0.05 and 12 with NOOK_FORM_PAPER). */
   float visibility_threshold, visibility_weight;
   uint32_t threads;
   uint64_t seed;
   nook_bake_progress_fn progress;
   void* progress_user;
-  /* 8 (default): integers in the file and in textures. 16: half floats, twice the room for about 0.1 dB. */
+  /* 8 (default): 8-bit integers in file and textures. 16: half floats, twice the size, 0.1 dB better. */
   uint32_t bits;
-  /* 1: views are aligned on a relief, so that views between them are sharper (docs/materials.md): from
-   * `heights` or meso, else the one on which the views agree. Where it predicts no view better, the material
-   * has none. 0 (default): no relief. */
+  /* 1: views are aligned by a relief (a height map), so that interpolated views are sharper
+   * (docs/materials.md). The relief comes from `heights` or `meso`; otherwise the bake finds the relief on
+   * which the views agree best. If the relief does not improve the prediction of views, the material gets
+   * none. 0 (default): no relief. */
   uint32_t relief;
-  /* Known heights of measured data, for a relief: height x width, row 0 at v = 0, over the plane of the
-   * texels in tiles, -1 to 1. NULL (default): not known. */
+  /* Known heights of measured data, for the relief: height x width values, row 0 at v = 0, from -1 to 1. They
+   * are relative to the plane of the texels, in units of a tile's size. NULL (default): not known. */
   const float* heights;
-  /* For NEURAL: channels of the features, a multiple of 4 up to 64, default 16; and steps of the training, 1
-   * to 1000000, default 8000. */
+  /* Only for NEURAL: the number of feature channels, a multiple of 4 up to 64, default 16; and the number of
+   * training steps, 1 to 1000000, default 8000. */
   uint32_t neural_channels, neural_steps;
 } nook_bake_material_desc;
 static inline nook_result nook_bake_material_desc_init(nook_bake_material_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_MATERIAL, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Starts to bake a material, for nook_material_load. As nook_bake_start; faults that only the data show, such
- * as ranks that exceed the sizes, fail here too. The report has the signal-to-error ratio in dB and the share
- * of wrong texels. */
+/* Starts to bake a material, for nook_material_load. Otherwise like nook_bake_start; the call also fails on
+ * faults in the data, such as ranks that exceed the sizes. The report contains the signal-to-error ratio in
+ * dB and the share of wrong texels. */
 static inline nook_result nook_bake_start_material(const nook_bake_material_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }

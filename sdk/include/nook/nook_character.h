@@ -1,7 +1,7 @@
 /* Dynamic ambient occlusion of skinned characters: baked models, scenes of instances, evaluation on the CPU.
- * The model is B. H. Le et al., I3D 2019. Proxy spheres are rigid to bones and cast shadow on key points, and
- * each vertex blends the shadows of a few key points. A scene holds instances of models with their poses.
- * Links let one instance darken another; the ground and free occluders darken too. None needs a new bake. */
+ * The method is B. H. Le et al., I3D 2019. Proxy spheres are rigidly attached to bones and cast shadow on key
+ * points; each vertex blends the shadows of a few key points. A scene holds instances of models with their
+ * poses. Linked instances, the ground and free occluders darken an instance too, without a new bake. */
 #ifndef NOOK_CHARACTER_H
 #define NOOK_CHARACTER_H
 
@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-/* Identify an instance and an occluder, each in its own scene only. 0 is never an id; none is used again. */
+/* Identify an instance and an occluder within their scene. 0 is never an id; ids are never reused. */
 typedef uint32_t nook_instance_id;
 typedef uint32_t nook_occluder_id;
 
@@ -27,7 +27,7 @@ NOOK_API void nook_model_destroy(nook_model* model);
 
 typedef struct nook_model_info {
   uint32_t struct_size;
-  /* Bones; a pose has a matrix for each. */
+  /* The number of bones. A pose has one matrix for each bone. */
   uint32_t bone_count;
   uint32_t sphere_count, key_point_count;
   /* The number of vertices after welding. */
@@ -37,7 +37,7 @@ typedef struct nook_model_info {
   uint32_t primitive_count;
   /* The number of levels of detail, full detail included; at least 1. */
   uint32_t lod_count;
-  /* Metres; the radius of the rest pose about the centre of its bounding box. */
+  /* Metres; the radius of the rest pose around the centre of its bounding box. */
   float bounding_radius;
   /* The exponent of the shadow norm (Le et al. 2019, slide 20). */
   float gamma;
@@ -45,77 +45,77 @@ typedef struct nook_model_info {
   uint32_t skin_count;
   /* The number of vertices of nook_model_describe_check_vertex, at most 64; 0 without bind data. */
   uint32_t check_vertex_count;
-  /* Bytes of host memory that all instances share. What the allocator adds to each piece is not counted. */
+  /* Bytes of host memory that all instances share, without the overhead of the allocator. */
   uint64_t model_bytes;
-  /* Bytes of host memory of each instance, without links; and after nook_scene_set_light. */
+  /* Bytes of host memory per instance, without links; and per instance that has a light. */
   uint64_t instance_bytes, lit_instance_bytes;
 } nook_model_info;
 
-/* Describes a model; nook_gl_model_memory has its memory on the GPU. Any thread. Errors: INVALID_ARGUMENT. */
+/* Describes a model. For its GPU memory, call nook_gl_model_memory. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_model_describe(nook_model model, nook_model_info* info);
 
 /* Returns the name of a bone, valid while the model lives, or NULL for an index out of range. Any thread. */
 NOOK_API const char* nook_model_bone_name(nook_model model, uint32_t bone);
 
-/* Gives the run of AO values of a primitive, less than nook_model_info.primitive_count. Primitives are in the
- * order of the file's nodes, and within a node in the order of its mesh.
+/* Gives the range of AO values of a primitive; its index must be less than nook_model_info.primitive_count.
+ * Primitives are in the order of the file's nodes, and within a node in the order of its mesh.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_model_describe_primitive(nook_model model, uint32_t primitive, nook_range* out);
 
 /* The arrays of nook_model_read, with one entry for each vertex. */
 enum {
-  /* One float: the ray-traced AO of the rest pose, which is what a static bake gives. */
+  /* One float: the ray-traced AO of the rest pose, the same value that a static AO bake gives. */
   NOOK_MODEL_STATIC_AO = 0,
-  /* Eight signed bytes, 127 for 1: the mean occluded direction x, y, z at AO 0, a 0, x, y, z at AO 1, a 0.
-   * Pass them to your vertex shader as two normalised attributes of GL_BYTE. They are in the space of the
-   * file's NORMAL attribute if the model has bind data, otherwise in rest space. */
+  /* Eight signed bytes, where 127 means 1: the mean occluded direction for AO = 0 (x, y, z, 0), then the one
+   * for AO = 1. Pass them to your vertex shader as two normalised attributes of GL_BYTE. They are in the
+   * space of the file's NORMAL attribute if the model has bind data, otherwise in rest space. */
   NOOK_MODEL_OCCLUDED_DIRECTIONS = 1
 };
 typedef int32_t nook_model_array;
 
 /* Copies an array in the file's vertex order. count must be file_vertex_count; stride is in bytes (0: tightly
- * packed). Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (baked without it). */
+ * packed). Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model was baked without this array). */
 NOOK_API nook_result nook_model_read(nook_model model, nook_model_array array, void* out, uint32_t count,
                                      size_t stride);
 
 /* ---- Bent normals: the mean direction of the light that reaches a vertex ----
  *
- * A bent normal points to where a vertex is open; use it for specular occlusion. After `nook bake bent` a
- * model has two vectors for each vertex, NOOK_MODEL_OCCLUDED_DIRECTIONS: the cosine-weighted mean of the
- * directions that the body occludes when AO is 0, and when it is 1. Rotate both as you rotate the normal n,
- * and compute normalize(2/3 n - mix(dark, open, AO)) in the vertex shader, as nook_scene_bent_normal of
- * nook_gl_view's text. It needs no update and is the same on all tiers. Occlusion by others and the ground
- * counts as the body's own. */
+ * A bent normal points in the mean open direction of a vertex; use it for specular occlusion. After `nook
+ * bake bent` a model has two vectors for each vertex, NOOK_MODEL_OCCLUDED_DIRECTIONS: the cosine-weighted
+ * mean of the directions that the body occludes when AO is 0, and when it is 1. Rotate both as you rotate the
+ * normal n, and compute normalize(2/3 n - mix(dark, open, AO)) in the vertex shader, as the function
+ * nook_scene_bent_normal in nook_gl_view.glsl does. This needs no update and is the same on all tiers.
+ * Occlusion by other bodies and by the ground is treated like occlusion by the body itself. */
 
 /* ---- Scenes ---- */
 
 typedef struct nook_scene_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* The way in which casters that were not baked join the self-shadow. NOOK_FORM_DEFAULT (default): by a term
-   * of their own, AO = self * (1 - added). NOOK_FORM_PAPER: in the norm of the self-shadow, as in Le et al.
-   * 2019. */
+  /* How the shadow of casters outside the bake (linked instances, occluders, ground) is combined with the
+   * self-shadow. NOOK_FORM_DEFAULT (default): as a separate factor, AO = self * (1 - added). NOOK_FORM_PAPER:
+   * in the norm of the self-shadow, as in Le et al. 2019. */
   nook_form form;
   /* AO, in [0, 1], default 1/1024. An update skips linked casters, occluders and grounds that cannot darken
    * an instance by more than this. */
   float cutoff_error;
-  /* AO, root mean square, >= 0. An update uses the coarsest level whose baked error of self-shadow is below
-   * lod_error * (distance to the camera / lod_distance). Default 0: full detail. */
+  /* AO, root mean square, >= 0. An update uses the coarsest level of detail whose baked self-shadow error is
+   * below lod_error * (distance to the camera / lod_distance). Default 0: full detail. */
   float lod_error;
-  /* Above 0, or 0 (default): 10 metres. */
+  /* > 0. The default 0 means 10 metres. */
   float lod_distance;
-  /* Frames, >= 1, default 1. An update may skip distant instances, but none for so many frames. */
+  /* Frames, >= 1, default 1. Updates may skip a distant instance, but never for this many frames in a row. */
   uint32_t lod_max_interval;
-  /* The radius of the sphere that stands for a ground. 0 (default): 11,000 bounding radii of the body. */
+  /* The radius of the sphere that represents the ground. 0 (default): 11,000 bounding radii of the body. */
   float ground_radius;
-  /* 0 (default): a bone that is sheared or scaled unevenly is projected to the nearest rotation with one
-   * scale, as the baker does, and logged once for an instance. 1: such a pose fails. */
+  /* 0 (default): a bone that is sheared or scaled unevenly is replaced by the nearest rotation with uniform
+   * scale, as in the baker, and logged once per instance. 1: setting such a pose fails. */
   uint32_t strict_poses;
-  /* The change of AO, root mean square over a body, that you allow when nook_scene_update replaces far
-   * spheres by fewer, larger ones; 0 to 1, default 1/1024. Linked casters become 16, 6 or 2 groups. The
-   * body's own spheres take part only with the default kernel, at most 256 spheres, full detail and no light.
-   * A single vertex can change 18 times as much. 0 turns it off; NOOK_FORM_PAPER and the tiers 43 and ES31
-   * ignore it. */
+  /* The AO change, root mean square over a body, that you allow when nook_scene_update replaces distant
+   * spheres by fewer, larger ones; 0 to 1, default 1/1024. The spheres of a linked caster become 16, 6 or 2
+   * groups. The body's own spheres are grouped only with the default kernel, at most 256 spheres, full detail
+   * and no light. A single vertex can change 18 times as much. 0 turns grouping off. NOOK_FORM_PAPER and the
+   * tiers 43 and ES31 ignore this field. */
   float far_error;
 } nook_scene_desc;
 static inline nook_result nook_scene_desc_init(nook_scene_desc* desc) {
@@ -125,7 +125,7 @@ static inline nook_result nook_scene_desc_init(nook_scene_desc* desc) {
 /* Creates an empty scene. On failure *out is NULL. Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_create(nook_context context, const nook_scene_desc* desc, nook_scene* out);
 
-/* Destroys the scene and sets *scene to NULL, before or after its GL objects. One at a time. */
+/* Destroys the scene and sets *scene to NULL. Its GL objects may outlive it. One at a time. */
 NOOK_API void nook_scene_destroy(nook_scene* scene);
 
 /* Adds an instance in the rest pose, without ground and links. The call allocates.
@@ -135,29 +135,30 @@ NOOK_API nook_result nook_scene_add_instance(nook_scene scene, nook_model model,
 /* Removes an instance and all of its links. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_remove_instance(nook_scene scene, nook_instance_id instance);
 
-/* Gives an instance another model with the same number of bones: a new bake of the same character, or the
- * model of a coarser mesh. Pose, links, ground and light stay; AO is 1 until the next update. Call
- * nook_gl_scene_view again. The call allocates.
+/* Gives an instance another model with the same number of bones, such as a new bake of the character, or the
+ * model of a coarser mesh. The instance keeps its pose, links, ground and light; its AO is 1 until the next
+ * update. Call nook_gl_scene_view again afterwards. The call allocates.
  * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_set_model(nook_scene scene, nook_instance_id instance, nook_model model);
 
-/* Lets caster darken receiver until nook_scene_unlink; a second call for the same pair changes nothing. The
- * call allocates. One at a time. Errors: INVALID_ARGUMENT (receiver and caster are the same), INVALID_HANDLE,
- * OUT_OF_MEMORY. */
+/* Lets `caster` darken `receiver` until you call nook_scene_unlink. A second call for the same pair has no
+ * effect. The call allocates. One at a time. Errors: INVALID_ARGUMENT (receiver and caster are the same),
+ * INVALID_HANDLE, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_link(nook_scene scene, nook_instance_id receiver, nook_instance_id caster);
 
 /* Removes a link. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE (an id or the link is unknown). */
 NOOK_API nook_result nook_scene_unlink(nook_scene scene, nook_instance_id receiver, nook_instance_id caster);
 
-/* Links each instance to its k nearest instances in addition to the links above, from the next update on. k
- * is 0 (off) to 16; max_distance is in metres between the centres of bounding spheres. Each update finds the
- * nearest instances anew, in a time that grows linearly with their number where they are spread out. This
- * call may allocate, so that the update does not. One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+/* From the next update on, links each instance to its `k` nearest instances, in addition to the links above.
+ * `k` is 0 (off) to 16. `max_distance` is in metres, between the centres of bounding spheres. Each update
+ * searches the nearest instances again; the time grows linearly with the number of instances if they are
+ * spread out. This call may allocate, so that the update does not have to. One at a time. Errors:
+ * INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_link_nearest(nook_scene scene, uint32_t k, float max_distance);
 
 /* Sets the ground under an instance: the points p with dot(normal, p) = offset, in world space. plane_xyzd
  * holds the normal, which points upwards and has unit length to 1e-3, and the offset; NULL removes the
- * ground. It acts as a sphere that touches the plane under the instance.
+ * ground. Nook represents the ground by a large sphere that touches the plane under the instance.
  * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_set_ground(nook_scene scene, nook_instance_id instance,
                                            const float* plane_xyzd);
@@ -172,7 +173,7 @@ typedef struct nook_occluder {
   nook_instance_id receiver;
 } nook_occluder;
 
-/* Adds an occluder. If you remove the instance that is its receiver, it stays and darkens none. Allocates.
+/* Adds an occluder. If you remove its receiver, the occluder stays but darkens nothing. The call allocates.
  * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE (occluder->receiver is unknown), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_add_occluder(nook_scene scene, const nook_occluder* occluder,
                                              nook_occluder_id* out);
@@ -187,38 +188,37 @@ NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_
 
 /* ---- Directional occlusion: the occlusion of a probe's light, by colour channel ----
  *
- * Light that comes from few directions is darkened only by what stands in these directions. With lobes set, a
- * sphere that covers the share f of its receiver's hemisphere takes f * rho of the light instead of f. For
- * each channel, rho is the mean radiance of the lobes behind the sphere over their mean radiance in the
- * receiver's hemisphere. The spheres of a linked instance share one rho, and the ground has the rho of the
- * half-space below its plane. The result is a colour for each vertex that takes the place of AO in albedo /
- * pi * E * AO, where E is the irradiance of the same lobes. Under constant light it is equal to AO. Both
- * updates evaluate it; nook_gl.h describes the use in a shader. */
+ * Light that comes from few directions is only occluded by objects in these directions. If you set lobes, a
+ * sphere that covers the share f of its receiver's hemisphere takes away f * rho of the light instead of f.
+ * For each channel, rho is the mean radiance of the lobes behind the sphere divided by their mean radiance in
+ * the receiver's hemisphere. All spheres of a linked instance share one rho; the ground uses the rho of the
+ * half-space below its plane. The result is a colour for each vertex. In albedo / pi * E * AO, use it instead
+ * of AO; E is the irradiance of the same lobes. Under constant light, the colour is equal to AO. The CPU and
+ * the GPU update both compute it; nook_gl.h shows how to use it in a shader. */
 
-/* Sets the light of an instance for the updates that follow: at most NOOK_PROBE_MAX_FUNCTIONS lobes, such as
- * nook_probe_read_lobes gives for its place, which the call copies. lobe_count 0 or lobes NULL removes the
- * light. With 12 lobes an update of an instance takes 0.1 to 0.2 ms longer on one core with AVX2, and as much
- * again for each linked instance. The call allocates at the first light of an instance.
+/* Sets the light of an instance for the next updates. Pass at most NOOK_PROBE_MAX_FUNCTIONS lobes, such as
+ * from nook_probe_read_lobes at the instance's position; the call copies them. `lobe_count` 0 or `lobes` NULL
+ * removes the light. With 12 lobes an update of an instance takes 0.1 to 0.2 ms longer on one core with AVX2,
+ * and as much again for each linked instance. The call allocates at the first light of an instance.
  * One at a time. Errors: INVALID_ARGUMENT (the message names the lobe), INVALID_HANDLE, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, const nook_lobe* lobes,
                                           uint32_t lobe_count);
 
-/* Sets the position of the camera, in world space and metres, for levels of detail. Without it, and with
- * NULL, every instance has full detail in every update. One at a time. Errors: INVALID_ARGUMENT. */
+/* Sets the position of the camera, in world space and metres, for levels of detail. Without it, or with NULL,
+ * every instance has full detail. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_set_camera(nook_scene scene, const float position_ws[3]);
 
-/* Evaluates the shadows of all instances at their key points on the CPU, through the context's parallel_for
- * if there is one, without an allocation or a lock. One at a time. Errors: INVALID_ARGUMENT. */
+/* Evaluates the shadows of all instances at their key points on the CPU. It uses the context's parallel_for
+ * if you set one, and neither allocates nor locks. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_update(nook_scene scene);
 
-/* Reads a channel of an instance for each vertex, in the imported file's vertex order. It takes these
- * formats:
+/* Reads a channel of an instance for each vertex, in the imported file's vertex order. Valid formats:
  *   NOOK_CHANNEL_AO              FLOAT, HALF, UNORM8
  *   NOOK_CHANNEL_DIRECTIONAL_AO  FLOAT
  *   NOOK_CHANNEL_BENT_NORMAL     SNORM8
- * Values come from the last nook_scene_update. AO is 1 until an update has evaluated the instance, and
- * directional AO is AO three times if the update found no light on it. Bent normals follow the pose that is
- * set; each vertex turns with the key point that it takes most from. count must be
+ * The values come from the last nook_scene_update. AO is 1 until an update has evaluated the instance. If the
+ * instance had no light in the update, directional AO is the AO in all three channels. Bent normals use the
+ * current pose; each vertex rotates with the key point that has the largest weight. count must be
  * nook_model_info.file_vertex_count; stride is in bytes (0: tightly packed), and nothing between the values
  * is written. The call does not allocate. Any thread, while no call changes the scene. Errors:
  * INVALID_ARGUMENT (also for a format that the channel does not take), INVALID_HANDLE, UNSUPPORTED (the model
@@ -230,9 +230,9 @@ typedef struct nook_scene_info {
   uint32_t struct_size;
   /* All instances, and the instances that the last update evaluated. */
   uint32_t instances, instances_updated;
-  /* Pairs of receiver and caster that it evaluated; and casters, occluders and grounds that it skipped. */
+  /* Receiver-caster pairs that the update evaluated; and casters, occluders and grounds that it skipped. */
   uint32_t links, links_culled;
-  /* Instances whose pose now has a bone that is sheared or scaled unevenly, and so was projected. */
+  /* Instances whose current pose has a bone that was sheared or scaled unevenly, and was corrected. */
   uint32_t uneven_instances;
   /* Pairs of sphere and key point that the last update evaluated. */
   uint64_t evaluations;
@@ -245,16 +245,17 @@ NOOK_API nook_result nook_scene_describe(nook_scene scene, nook_scene_info* info
 
 /* ---- Poses ----
  *
- * Pass the matrices that your engine already has: your vertex shader's (NOOK_POSE_SKINNING), or the world
- * matrices of the joints (NOOK_POSE_JOINT_TO_WORLD). Nook converts them to its own, from rest space to the
- * world. Rest space is the bind pose in metres with the node transforms of the file applied. Do not convert
- * yourself: many files have a node above the skeleton that scales by 0.01 or turns by 90 degrees. If AO looks
- * wrong, call nook_model_check_pose. docs/poses.md has the formula. */
+ * Pass the matrices that your engine already has: the skinning matrices of your vertex shader
+ * (NOOK_POSE_SKINNING), or the world matrices of the joints (NOOK_POSE_JOINT_TO_WORLD). Nook converts them to
+ * its own rest-to-world matrices. Rest space is the bind pose in metres with the node transforms of the file
+ * applied. Do not convert them yourself: in many files, a node above the skeleton scales by 0.01 or rotates
+ * by 90 degrees. If AO looks wrong, call nook_model_check_pose. docs/poses.md has the formula. */
 
-/* The matrices that you pass. Each maps to the space of place_3x4, or to the world if that is NULL. */
+/* Which matrices you pass. They map to world space or, if you set place_3x4, to the space that place_3x4
+ * transforms to world space. */
 enum {
   /* From rest space: Nook's own matrices, as nook_model_convert_pose gives them, one for each bone. Models
-   * without bind data take no other kind. */
+   * without bind data accept only this kind. */
   NOOK_POSE_REST_TO_WORLD = 0,
   /* From the joint's own space: the world matrices of joints, bones or nodes. One for each bone. */
   NOOK_POSE_JOINT_TO_WORLD = 1,
@@ -284,12 +285,12 @@ typedef int32_t nook_transform_layout;
 
 /* Bits of nook_pose_desc.flags. */
 enum {
-  /* Bones without a transform keep their matrices. Pose a character of several skins by one call for each
-   * skin with this flag. */
+  /* Bones without a transform keep their matrices. With this flag you can pose a character with several skins
+   * by one call for each skin. */
   NOOK_POSE_FLAG_PARTIAL = 1,
   /* A bone that is sheared or scaled unevenly by more than 1 % fails, as with strict_poses. */
   NOOK_POSE_FLAG_STRICT = 2,
-  /* transform_count may be larger than needed, as with a buffer of fixed size; the first ones count. */
+  /* transform_count may be larger than needed, as in buffers of fixed size; Nook reads the first ones. */
   NOOK_POSE_FLAG_SURPLUS = 4
 };
 
@@ -300,22 +301,22 @@ typedef struct nook_pose_desc {
   nook_pose_kind kind;
   /* Default NOOK_TRANSFORM_COLUMNS_4X4. */
   nook_transform_layout layout;
-  /* The transforms, transform_count of them, `stride` bytes apart (0: tightly packed). Must not be NULL. */
+  /* An array of `transform_count` transforms, `stride` bytes apart (0: tightly packed). Must not be NULL. */
   const float* transforms;
   size_t stride;
-  /* The number of bones, or of joints of the skin; with transform_of_bone any number from 1 to 65536. */
+  /* The number of bones, or of joints of the skin. With transform_of_bone, any number from 1 to 65536. */
   uint32_t transform_count;
-  /* For NOOK_POSE_SKINNING the skin's index in the file, default 0; nook_model_describe_skin lists them. */
+  /* For NOOK_POSE_SKINNING: the index of the skin in the file, default 0; see nook_model_describe_skin. */
   uint32_t skin;
-  /* NULL (default): bone b takes transform b, and with NOOK_POSE_SKINNING the bone of joint j takes transform
-   * j. Otherwise the transform of each bone, or -1 for none, as nook_model_map_bones makes it; bone_count is
-   * then the model's. */
+  /* NULL (default): bone b uses transform b; with NOOK_POSE_SKINNING, the bone of joint j uses transform j.
+   * Otherwise, the transform index of each bone, or -1 for none; nook_model_map_bones fills this array, and
+   * bone_count must be the model's bone count. */
   const int32_t* transform_of_bone;
   uint32_t bone_count;
   /* A sum of NOOK_POSE_FLAG_ bits, default 0. */
   uint32_t flags;
-  /* NULL (default), or a 3x4 row-major matrix that is applied after every transform: where the character
-   * stands. It may scale and mirror. */
+  /* NULL (default), or a 3x4 row-major matrix that is applied after every transform and places the character
+   * in the world. It may scale and mirror. */
   const float* place_3x4;
 } nook_pose_desc;
 static inline nook_result nook_pose_desc_init(nook_pose_desc* desc) {
@@ -323,18 +324,19 @@ static inline nook_result nook_pose_desc_init(nook_pose_desc* desc) {
 }
 
 /* Sets the pose of an instance. Call it once per frame for each instance that moves, before the update. A
- * matrix may have one scale for all axes, which scales the body, and may mirror. A bone whose axes are all
- * zero shrinks to nothing. On failure the old pose stays. The call does not allocate. One at a time. Errors:
- * INVALID_ARGUMENT (a count is wrong, or a matrix is not finite; if strict also a matrix that is sheared or
+ * matrix may scale the body uniformly, and may mirror it. A bone whose axes are all zero shrinks to nothing.
+ * On failure, the instance keeps its old pose. The call does not allocate. One at a time. Errors:
+ * INVALID_ARGUMENT (a count is wrong, or a matrix is not finite; if strict, also if a matrix shears, or
  * scales unevenly or to zero; the message names the bone), INVALID_HANDLE, UNSUPPORTED (the model has no bind
  * data: bake it again from the glTF file, or pass NOOK_POSE_REST_TO_WORLD). */
 NOOK_API nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id instance,
                                          const nook_pose_desc* desc);
 
 /* Converts a pose on any thread, such as your animation jobs. Pass the result to nook_scene_set_pose with
- * NOOK_POSE_REST_TO_WORLD and NOOK_TRANSFORM_ROWS_3X4. bones_3x4 takes 12 floats for each of the model's
- * bones; on failure it may hold a part of the result. With NOOK_POSE_FLAG_PARTIAL, bones without a transform
- * keep what it holds. The call does not allocate. Any thread. Errors: as nook_scene_set_pose. */
+ * NOOK_POSE_REST_TO_WORLD and NOOK_TRANSFORM_ROWS_3X4. `bones_3x4` receives 12 floats for each bone of the
+ * model. With NOOK_POSE_FLAG_PARTIAL, entries of bones without a transform are not changed. On failure,
+ * `bones_3x4` may hold a part of the result. The call does not allocate. Any thread. Errors: as
+ * nook_scene_set_pose. */
 NOOK_API nook_result nook_model_convert_pose(nook_model model, const nook_pose_desc* desc, float* bones_3x4,
                                              uint32_t bone_count);
 
@@ -342,23 +344,23 @@ NOOK_API nook_result nook_model_convert_pose(nook_model model, const nook_pose_d
 
 /* Bits of nook_bone_map_desc.flags. */
 enum {
-  /* Compares letters without their case, and skips the characters space . _ - : | */
+  /* Ignores case, and the characters space . _ - : | */
   NOOK_BONE_MAP_LOOSE = 1,
-  /* Removes what all names of a side have in common at their beginning, up to one of . _ - : | such as
-   * "mixamorig:" or "Armature|". */
+  /* Removes the prefix that all of your names share, and the prefix that all of the model's names share, such
+   * as "mixamorig:" or "Armature|". A prefix ends with one of . _ - : | */
   NOOK_BONE_MAP_DROP_SHARED_PREFIX = 2
 };
 
 typedef struct nook_bone_map_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* The names of your transforms, name_count of them. A NULL entry matches nothing. */
+  /* The names of your `name_count` transforms. A NULL entry matches nothing. */
   const char* const* names;
   uint32_t name_count;
   /* A sum of NOOK_BONE_MAP_ bits, default 0. */
   uint32_t flags;
-  /* NULL (default), or text that is removed from the beginning or the end of a name before names are
-   * compared. The first two are for your names, the last two for the model's. */
+  /* Text to remove from the beginning or end of your names (`host_`) and of the model's names (`model_`)
+   * before comparing them, or NULL (default). */
   const char* host_prefix;
   const char* host_suffix;
   const char* model_prefix;
@@ -368,10 +370,10 @@ static inline nook_result nook_bone_map_desc_init(nook_bone_map_desc* desc) {
   return nook_desc_init(NOOK_DESC_BONE_MAP, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Finds the transform of each bone by name, for nook_pose_desc.transform_of_bone: an index into names, or -1
- * where no name matches. bone_count must be the model's. If several names are equal, the first one counts.
- * Bones of one joint share its name. *unmatched, which may be NULL, takes the number of bones with -1. The
- * call allocates. Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+/* Finds the transform of each bone by name, for nook_pose_desc.transform_of_bone: an index into `names`, or
+ * -1 if no name matches. bone_count must be the model's bone count. If several names are equal, the first one
+ * is used. Bones of the same joint share its name. *unmatched receives the number of bones with -1;
+ * `unmatched` may be NULL. The call allocates. Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_map_bones(nook_model model, const nook_bone_map_desc* desc,
                                           int32_t* transform_of_bone, uint32_t bone_count,
                                           uint32_t* unmatched);
@@ -382,28 +384,28 @@ typedef struct nook_skin_info {
   uint32_t struct_size;
   /* The index of the skin in the file. */
   uint32_t file_index;
-  /* Its joints: the transforms that NOOK_POSE_SKINNING takes. */
+  /* The number of joints of the skin, which is the number of transforms that NOOK_POSE_SKINNING takes. */
   uint32_t joint_count;
-  /* From the space of the skin's meshes to rest space, 3x4, row-major; S of docs/poses.md. */
+  /* The 3x4 row-major matrix from the space of the skin's meshes to rest space; it is S in docs/poses.md. */
   float rest_from_mesh_3x4[12];
 } nook_skin_info;
 
-/* Describes a skin, less than nook_model_info.skin_count. Skins that no mesh uses are left out: compare
- * file_index. Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (no bind data). */
+/* Describes a skin; `skin` must be less than nook_model_info.skin_count. Skins that no mesh uses are left
+ * out, so compare file_index. Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (no bind data). */
 NOOK_API nook_result nook_model_describe_skin(nook_model model, uint32_t skin, nook_skin_info* info);
 
 typedef struct nook_check_vertex_info {
   uint32_t struct_size;
-  /* The vertex, in the order of nook_scene_read. */
+  /* The index of the vertex, in the order of nook_scene_read. */
   uint32_t vertex;
-  /* Its place in rest space, metres, and in the space of its mesh, which is the file's POSITION. */
+  /* Its position in rest space, metres, and in the space of its mesh, as the file's POSITION attribute. */
   float position[3], mesh_position[3];
   /* The bone with the largest weight. */
   uint32_t bone;
 } nook_check_vertex_info;
 
-/* Describes a vertex of the file for nook_model_check_pose, less than nook_model_info.check_vertex_count.
- * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (no bind data). */
+/* Describes a check vertex for nook_model_check_pose; `index` is less than
+ * nook_model_info.check_vertex_count. Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (no bind data). */
 NOOK_API nook_result nook_model_describe_check_vertex(nook_model model, uint32_t index,
                                                       nook_check_vertex_info* info);
 
@@ -416,19 +418,19 @@ enum {
   NOOK_POSE_FAULT_TRANSPOSED = 1,
   /* Skinning matrices were given as rest-to-world matrices: pass NOOK_POSE_SKINNING. */
   NOOK_POSE_FAULT_NO_BIND = 2,
-  /* The transforms are of another kind than `kind`. */
+  /* The transforms are not of the kind that nook_pose_desc.kind says. */
   NOOK_POSE_FAULT_KIND = 3,
-  /* The skinning matrices are of another skin. */
+  /* The skinning matrices belong to another skin. */
   NOOK_POSE_FAULT_SKIN = 4,
-  /* Transforms go to the wrong bones. */
+  /* Transforms are assigned to the wrong bones. */
   NOOK_POSE_FAULT_ORDER = 5,
   /* The transforms and the vertices are in different units. */
   NOOK_POSE_FAULT_UNIT = 6,
-  /* The pose is turned, moved or mirrored as a whole against the place. */
+  /* The whole pose is rotated, moved or mirrored relative to `place_3x4`. */
   NOOK_POSE_FAULT_PLACE = 7,
   /* The transforms are the inverses of what is needed. */
   NOOK_POSE_FAULT_INVERTED = 8,
-  /* None of these explains the difference: other clips or frames, another mesh. */
+  /* None of these faults explains the difference. Possibly another clip, frame or mesh. */
   NOOK_POSE_FAULT_UNKNOWN = 9
 };
 typedef int32_t nook_pose_fault;
@@ -436,16 +438,16 @@ typedef int32_t nook_pose_fault;
 typedef struct nook_pose_check_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* Where your own skinning puts the vertices: three floats each, `stride` bytes apart (0: 12). Not NULL. */
+  /* The positions from your own skinning: three floats each, `stride` bytes apart (0: 12). Not NULL. */
   const float* positions;
   size_t stride;
-  /* The check vertex of each position; NULL (default): 0, 1, 2 and so on. */
+  /* The index of the check vertex for each position; NULL (default) means 0, 1, 2 and so on. */
   const uint32_t* check_vertices;
-  /* NULL (default), or the 3x4 row-major matrix that brings the positions to the world. */
+  /* NULL (default), or the 3x4 row-major matrix that transforms the positions to world space. */
   const float* place_3x4;
-  /* At least 8, at most nook_model_info.check_vertex_count. */
+  /* The number of positions, from 8 to nook_model_info.check_vertex_count. */
   uint32_t vertex_count;
-  /* Share of the model's bounding radius that counts as equal, above 0 and at most 1, default 0.005. */
+  /* The largest allowed distance, as a share of the model's bounding radius, in (0, 1], default 0.005. */
   float tolerance;
 } nook_pose_check_desc;
 static inline nook_result nook_pose_check_desc_init(nook_pose_check_desc* desc) {
@@ -461,27 +463,28 @@ typedef struct nook_pose_check_info {
   float max_error, rms_error;
   /* The bone with the largest weight at the farthest vertex. */
   uint32_t worst_bone;
-  /* For NOOK_POSE_FAULT_NO_BIND and NOOK_POSE_FAULT_SKIN the index of the skin that fits, otherwise 0. */
+  /* For NOOK_POSE_FAULT_NO_BIND and NOOK_POSE_FAULT_SKIN: the index of the skin that fits, otherwise 0. */
   uint32_t fitting_skin;
-  /* For NOOK_POSE_FAULT_UNIT the factor from the pose's length unit to the vertices', otherwise 1. */
+  /* For NOOK_POSE_FAULT_UNIT: the factor from the pose's length unit to the vertices' unit, otherwise 1. */
   float scale;
-  /* The same in words, with all other faults that explain the difference as well. */
+  /* The result as text. It also lists all other faults that would explain the difference. */
   char text[512];
 } nook_pose_check_info;
 
 /* Compares a pose with vertices that you skinned yourself, and names the likely fault in info->fault; the
- * call itself returns OK. Use a frame of a clip: in the bind pose all matrices are equal. The call allocates.
- * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model has no bind data), OUT_OF_MEMORY. */
+ * call itself returns OK. Use a frame of a clip: in the bind pose, all matrices are equal. The call
+ * allocates. Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model has no bind data),
+ * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_check_pose(nook_model model, const nook_pose_desc* desc,
                                            const nook_pose_check_desc* check, nook_pose_check_info* info);
 
 /* ---- Vertices of your mesh ----
  *
- * AO comes in the order of the file's vertices. If your engine has another order, match your vertices once
- * and remap the model: the new model gives AO in your order on every tier. For a mesh with other vertices,
- * such as a level of detail, see experimental/nook_lod.h. */
+ * AO values are in the order of the file's vertices. If your engine uses another order, match your vertices
+ * once and remap the model. The new model gives AO in your order on every tier. For a mesh with other
+ * vertices, such as a level of detail, see experimental/nook_lod.h. */
 
-/* Every primitive of the file; and a vertex without a match. */
+/* The constants for every primitive of the file, and for a vertex without a match. */
 enum { NOOK_ALL_PRIMITIVES = -1 };
 #define NOOK_NO_VERTEX 0xffffffffu
 
@@ -491,21 +494,22 @@ typedef struct nook_vertex_match_desc {
   /* The rest positions of your vertices, three floats each, position_stride bytes apart (0: 12). Not NULL. */
   const float* positions;
   size_t position_stride;
-  /* NULL (default), or normals, three floats each, normal_stride bytes apart (0: 12). They tell the two sides
-   * of a card apart, which lie at one place and have AO of their own. */
+  /* NULL (default), or normals, three floats each, normal_stride bytes apart (0: 12). Normals distinguish the
+   * two sides of a card, which share their positions but have different AO. */
   const float* normals;
   size_t normal_stride;
   /* The number of your vertices. */
   uint32_t vertex_count;
   /* The primitive of the file that the vertices come from, default NOOK_ALL_PRIMITIVES. */
   int32_t primitive;
-  /* 0 (default): the positions are as in the file's POSITION attribute. 1: in rest space, metres. */
+  /* 0 (default): positions are in the space of the file's POSITION attribute. 1: in rest space, metres. */
   uint32_t in_rest_space;
-  /* The largest distance of a match, as a share of the diagonal of the model's box, in [0, 1]. 0 (default):
-   * 1e-4, which allows for positions of 16 bits. */
+  /* The largest distance of a match, as a share of the diagonal of the model's box, in [0, 1]. 0 (default)
+   * means 1e-4, which is enough for 16-bit positions. */
   float tolerance;
-  /* NULL (default), or `influences` joints and weights for each vertex (1 to 8, default 4), strides in bytes,
-   * which tell vertices apart where meshes meet: joints of the file's skin `skin` (default 0), or bones. */
+  /* NULL (default), or `influences` joints and weights for each vertex (1 to 8, default 4); strides are in
+   * bytes. They distinguish vertices where meshes meet. Joints are of the skin `skin` (default 0), or
+   * bones. */
   const uint16_t* joints;
   size_t joint_stride;
   const float* weights;
@@ -518,32 +522,33 @@ static inline nook_result nook_vertex_match_desc_init(nook_vertex_match_desc* de
 
 typedef struct nook_vertex_match_info {
   uint32_t struct_size;
-  /* Your vertices with NOOK_NO_VERTEX; and those that fit several vertices, which have other AO. */
+  /* How many of your vertices got NOOK_NO_VERTEX; and how many fit several vertices with different AO. */
   uint32_t unmatched, ambiguous;
-  /* The same in words, with the first of each and the cure; empty if all vertices are sure. */
+  /* The result as text, with the first vertex of each kind and what to do; empty if every match is unique. */
   char text[320];
 } nook_vertex_match_info;
 
 /* Finds the model's vertex for each vertex of your mesh: by position, then by normal, weights and order.
- * vertices takes vertex_count indices in the order of nook_scene_read, or NOOK_NO_VERTEX where none is near
- * enough. info may be NULL: ambiguous vertices are logged as well. The call allocates.
+ * `vertices` receives vertex_count indices in the order of nook_scene_read, or NOOK_NO_VERTEX if no vertex is
+ * near enough. `info` may be NULL; ambiguous vertices are also logged. The call allocates.
  * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model has no rest positions), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_match_vertices(nook_model model, const nook_vertex_match_desc* desc,
                                                uint32_t* vertices, nook_vertex_match_info* info);
 
-/* Makes a model whose vertex i is vertex vertices[i] of the given one; all else is copied. Its primitives are
- * the runs of vertices whose meshes have the same space: one for most files. On failure *out is NULL.
+/* Creates a model whose vertex i is vertex vertices[i] of the given model; everything else is copied. Each
+ * new primitive is a range of vertices whose meshes share a space; most files give one. On failure *out is
+ * NULL.
  * Any thread. Errors: INVALID_ARGUMENT (also for NOOK_NO_VERTEX; the message names it), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_remap(nook_model model, const uint32_t* vertices, uint32_t count,
                                       nook_model* out);
 
 /* ---- Capsules: what darkens the world ---- */
 
-/* The most capsules of a model, and the parts of a light's cone that are darkened apart. */
+/* A model has at most this many capsules. A light's cone is divided into this many parts (nook_world.h). */
 #define NOOK_WORLD_MAX_CASTERS 64
 #define NOOK_WORLD_CONE_PARTS 16
 
-/* The points round the segment from a to b, within a radius that changes evenly from a to b. Metres. */
+/* All points around the segment from a to b, within a radius that changes linearly from a to b. Metres. */
 typedef struct nook_capsule {
   float a[3];
   float radius_a;

@@ -2,18 +2,17 @@
  * of probes, materials and clips for your shaders. Nook needs OpenGL 3.3 core, OpenGL ES 3.0, WebGL 2 or
  * newer, and includes no OpenGL header.
  *
- * Create one nook_gl for each OpenGL context that shares nothing with
- * another. Once per frame, after you set the poses, call nook_gl_scene_update. For each character, bind the
- * view of nook_gl_scene_view as a vertex attribute, and multiply the ambient term (not the direct light) of
- * the material by it:
+ * Create one nook_gl for each OpenGL context in which you call Nook. Once per frame, after you set the poses,
+ * call nook_gl_scene_update. For each character, bind the view of nook_gl_scene_view as a vertex attribute,
+ * and multiply the ambient term (not the direct light) of the material by it:
  *     glBindBuffer(GL_ARRAY_BUFFER, view.buffer);
  *     glVertexAttribPointer(slot, 1, GL_FLOAT, GL_FALSE, view.stride, (const void*)(uintptr_t)view.offset);
- * The i-th value belongs to the i-th vertex of the imported file, the primitives one after another; see
- * nook_model_describe_primitive. "Texture buffer" means a GL_TEXTURE_BUFFER, and on OpenGL ES and WebGL a
- * GL_TEXTURE_2D, where Nook's GLSL declares its sampler accordingly. At each call, no transform feedback may
- * be active unless it is paused, and neither conditional rendering nor a query that counts primitives or
- * samples. Calls that allocate report OpenGL errors that you left to the log; other calls neither read nor
- * clear them. Functions make OpenGL calls unless their comment says otherwise. */
+ * The i-th value belongs to the i-th vertex of the imported file, one primitive after another; see
+ * nook_model_describe_primitive. "Texture buffer" means a GL_TEXTURE_BUFFER; on OpenGL ES and WebGL it means
+ * a GL_TEXTURE_2D, and Nook's GLSL declares its sampler accordingly. Before each call, end or pause transform
+ * feedback, and end conditional rendering and queries that count primitives or samples. Calls that allocate
+ * log the OpenGL errors of your earlier calls; other calls neither read nor clear them. Functions make OpenGL
+ * calls unless their comment says otherwise. */
 #ifndef NOOK_GL_H
 #define NOOK_GL_H
 
@@ -29,10 +28,10 @@ extern "C" {
 /* Returns the address of an OpenGL function, or NULL. Nook calls it only inside nook_gl_create. */
 typedef void* (*nook_gl_proc_fn)(void* user, const char* name);
 
-/* The tiers of max_tier and nook_gl_info. 43 and ES31 evaluate spheres, shadows and vertices in compute
+/* The tiers, for max_tier and nook_gl_info. 43 and ES31 evaluate spheres, shadows and vertices in compute
  * shaders. 33 and ES30 evaluate shadows at key points on the CPU, through the context's parallel_for, and
- * vertices by transform feedback; on software renderers such as Mesa's llvmpipe this is faster. As max_tier,
- * the two of a kind are alike. */
+ * vertices by transform feedback. They are faster on software renderers such as Mesa's llvmpipe. As max_tier,
+ * 33 and ES30 mean the same, and so do 43 and ES31. */
 enum {
   NOOK_GL_TIER_BEST = 0,
   NOOK_GL_TIER_33 = 33,
@@ -44,14 +43,14 @@ enum {
 };
 typedef int32_t nook_gl_tier;
 
-/* The treatment of the OpenGL state that Nook touches; docs/gl_state.md lists all of it. */
+/* How Nook treats the OpenGL state that it changes. docs/gl_state.md lists this state. */
 enum {
   /* Each call queries the state and restores it. A query may stall a threaded driver. */
   NOOK_GL_STATE_PRESERVE = 0,
-  /* Nook reads no state, and leaves what it touched at OpenGL's defaults. For WebGL, where reads stall. */
+  /* Nook reads no state, and sets what it changed to OpenGL's defaults. For WebGL, where reads stall. */
   NOOK_GL_STATE_DEFAULTS = 1,
-  /* Nook reads no state, and leaves what it touched undefined: set it again. Rasterizer discard and primitive
-   * restart are left disabled. */
+  /* Nook reads no state, and leaves the state that it changed undefined, so you must set it again. Rasterizer
+   * discard and primitive restart are left disabled. */
   NOOK_GL_STATE_HOST = 2
 };
 typedef int32_t nook_gl_state_mode;
@@ -59,15 +58,15 @@ typedef int32_t nook_gl_state_mode;
 typedef struct nook_gl_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* Required; get_proc_user is its first argument. */
+  /* Required. Nook passes get_proc_user as its first argument. */
   nook_gl_proc_fn get_proc;
   void* get_proc_user;
   /* The highest tier to use; default NOOK_GL_TIER_BEST. state_mode is NOOK_GL_STATE_PRESERVE by default. */
   nook_gl_tier max_tier;
   nook_gl_state_mode state_mode;
   /* 1, for development: each call fails with NOOK_ERROR_GL unless the OpenGL context of nook_gl_create is
-   * current, and frames without a surface are logged. Both query OpenGL. 0 (default): without this context, a
-   * call may return NOOK_OK and do nothing, or change your objects. */
+   * current, and frames without a surface are logged. Both checks query OpenGL. 0 (default): in a wrong
+   * context, a call may return NOOK_OK and do nothing, or change your objects. */
   int32_t debug;
 } nook_gl_desc;
 static inline nook_result nook_gl_desc_init(nook_gl_desc* desc) {
@@ -85,8 +84,8 @@ NOOK_API nook_result nook_gl_create(nook_context context, const nook_gl_desc* de
  * Context thread. */
 NOOK_API void nook_gl_destroy(nook_gl* gl);
 
-/* Tells Nook that the OpenGL context is gone: gl forgets all OpenGL names without an OpenGL call. Afterwards
- * only nook_gl_describe and the destroy calls work, and others fail with NOOK_ERROR_GL.
+/* Tells Nook that the OpenGL context is lost: `gl` forgets all OpenGL names and makes no OpenGL call.
+ * Afterwards only nook_gl_describe and the destroy calls work; other calls fail with NOOK_ERROR_GL.
  * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_context_lost(nook_gl gl);
 
@@ -110,16 +109,15 @@ NOOK_API nook_result nook_gl_describe(nook_gl gl, nook_gl_info* info);
 NOOK_API nook_result nook_gl_scene_prepare(nook_gl gl, nook_scene scene);
 
 /* Evaluates the AO of all instances on the GPU. Call it in place of nook_scene_update; the values agree
- * within 2e-3, beside what far_error of the scene changes there. It allocates host memory only if instances
- * were added, received their first light or have more lobes than the lights had room for, and never waits for
- * the GPU. No other call may use the scene meanwhile.
- * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (as nook_gl_scene_prepare; also, the lights exceed
- * the texture buffer of this OpenGL: each takes 12 + 2 * lobes texels, and every OpenGL has 65,536), GL,
- * OUT_OF_MEMORY. */
+ * within 2e-3, plus the change that far_error allows on the CPU. The call allocates host memory only if you
+ * added instances, or set first lights or more lobes than before. It never waits for the GPU. No other call
+ * may use the scene during this call. Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (as
+ * nook_gl_scene_prepare; also if the lights exceed the texture buffer of this OpenGL, which has at least
+ * 65,536 texels; each light takes 12 + 2 * lobes), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_scene_update(nook_gl gl, nook_scene scene);
 
-/* The place of an instance's values: one float in [0, 1] for each vertex for NOOK_CHANNEL_AO, three (red,
- * green, blue) for NOOK_CHANNEL_DIRECTIONAL_AO. */
+/* Where an instance's values are stored. Each vertex has one float in [0, 1] for NOOK_CHANNEL_AO, or three
+ * (red, green, blue) for NOOK_CHANNEL_DIRECTIONAL_AO. */
 typedef struct nook_gl_view {
   uint32_t struct_size;
   /* A buffer that Nook owns. Read it, but never write or delete it. */
@@ -142,9 +140,8 @@ typedef struct nook_gl_view {
 /* Gives the view of an instance for NOOK_CHANNEL_AO, or for NOOK_CHANNEL_DIRECTIONAL_AO if the instance had a
  * light in the last nook_gl_scene_update. Buffer, offset and texture stay the same until the instance, the
  * scene or gl is destroyed, you call nook_gl_scene_release, or nook_scene_set_model gives the instance
- * another model. AO is 1 before the first update. After an update you may read the values as vertex
- * attributes, texture buffers, shader storage and by buffer reads without a barrier. The call makes no OpenGL
- * call.
+ * another model. AO is 1 before the first update. After an update you need no barrier to read the values as
+ * vertex attributes, texture buffers, shader storage or by buffer reads. This function makes no OpenGL call.
  * Context thread. Errors: INVALID_ARGUMENT (also: NOOK_CHANNEL_BENT_NORMAL, which your vertex shader
  * computes), INVALID_HANDLE (the id is unknown, the instance is not prepared yet, or it had no light), GL. */
 NOOK_API nook_result nook_gl_scene_view(nook_gl gl, nook_scene scene, nook_instance_id instance,
@@ -155,34 +152,33 @@ NOOK_API nook_result nook_gl_scene_view(nook_gl gl, nook_scene scene, nook_insta
 NOOK_API nook_result nook_gl_scene_read(nook_gl gl, nook_scene scene, nook_instance_id instance,
                                         nook_channel channel, float* out, uint32_t count);
 
-/* Where nook_gl_scene_write puts AO: a buffer or a texture of yours. Set all fields to 0 first. */
+/* The buffer or texture of yours that nook_gl_scene_write writes AO to. Set all fields to 0 first. */
 typedef struct nook_gl_ao_target {
   /* sizeof(nook_gl_ao_target). */
   uint32_t struct_size;
-  /* The numbers in a buffer. A texture's own format decides instead; but on OpenGL ES, where uploads do not
-   * convert, set its format here: NOOK_FORMAT_FLOAT for GL_R32F, _HALF for GL_R16F, _UNORM8 for GL_R8. */
+  /* The number format in a buffer. A texture uses its own format. On OpenGL ES, uploads do not convert, so
+   * set the texture's format here: NOOK_FORMAT_FLOAT for GL_R32F, _HALF for GL_R16F, _UNORM8 for GL_R8. */
   nook_format format;
   /* The OpenGL name of a buffer that is not mapped, or 0. */
   uint32_t buffer;
   /* The OpenGL name of a GL_TEXTURE_2D with a red channel of floats or normalised integers, or 0. The value
    * of vertex i goes to texel i, row by row. */
   uint32_t texture;
-  /* Of the first value: bytes, a multiple of 4, or texels. */
+  /* The offset of the first value: bytes, a multiple of 4, or texels. */
   uint64_t offset;
-  /* The distance from one instance's values to the next's: bytes, a multiple of 4, or texels. Only with count
-     > 1. */
+  /* From one instance's values to the next: bytes, a multiple of 4, or texels. Only read if count > 1. */
   uint64_t instance_stride;
-  /* Bytes between the starts of two values in a buffer, a multiple of 4, for AO among other attributes of a
-   * vertex; a value then owns a whole word. Needs compute shaders. 0: tightly packed; the bytes of an
-   * instance are rounded up to a multiple of 4, and the padding is written. */
+  /* Bytes between the starts of two values in a buffer, a multiple of 4, for AO interleaved with other vertex
+   * attributes; each value then uses 4 whole bytes. Needs compute shaders. 0: tightly packed; the bytes of an
+   * instance are padded to a multiple of 4, and the padding is overwritten. */
   uint32_t stride;
-  /* Texels. Needed on OpenGL ES 3.0 and WebGL 2, which do not tell it; elsewhere 0 has it looked up. */
+  /* Texels. Required on OpenGL ES 3.0 and WebGL 2. Elsewhere, 0 lets Nook query it from OpenGL. */
   uint32_t texture_width;
 } nook_gl_ao_target;
 
 /* Copies the AO of the last nook_gl_scene_update to a buffer or texture of yours on the GPU, for count
- * instances one after another. Vertices, texture fetches and buffer reads see the values without a barrier.
- * The call does not wait for the GPU. The first call with a format makes a program.
+ * instances one after another. You need no barrier before vertex fetches, texture fetches and buffer reads.
+ * The call does not wait for the GPU. The first call with a format creates a program.
  * Context thread. Errors: INVALID_ARGUMENT (also: the target is too small), INVALID_HANDLE (an id is unknown,
  * or an instance is not prepared yet), UNSUPPORTED (a stride without compute shaders), GL. */
 NOOK_API nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
@@ -190,7 +186,7 @@ NOOK_API nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const noo
 
 /* ---- Directional occlusion: nook_scene_set_light, evaluated for each vertex on the GPU ----
  *
- * For each instance with a light, nook_gl_scene_update leaves a colour for each vertex that takes the place
+ * For each instance with a light, nook_gl_scene_update writes a colour for each vertex, which you use instead
  * of AO, and puts the lobes of all lights into a texture buffer. Put the glsl of nook_gl_view after the
  * #version line of your vertex or fragment shader, bind view.texture to a texture unit (GL_TEXTURE_BUFFER; on
  * OpenGL ES GL_TEXTURE_2D), and set the sampler nook_scene_lights to this unit. For each draw, set the values
@@ -198,13 +194,13 @@ NOOK_API nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const noo
  * space:
  *     vec3 e = nook_scene_irradiance(light, n, directional_ao);
  *     colour = albedo / 3.14159265 * e;
- * nook_scene_open_irradiance(light, n) is the irradiance without occlusion. A shader may hold this text and
- * the text of an upload of a probe, in either order. The values agree with nook_scene_read within 4e-3,
- * because each term takes two estimates of a square root. */
+ * nook_scene_open_irradiance(light, n) is the irradiance without occlusion. A shader may contain both this
+ * text and the text of a probe upload, in any order. The values agree with nook_scene_read within 4e-3; the
+ * difference comes from two approximate square roots per term. */
 
-/* Deletes the OpenGL objects that gl holds for a scene, which ends the views of its instances; the scene
- * lives on. Without this call the next update, or nook_gl_destroy, deletes the objects of a destroyed scene.
- * Context thread. Errors: INVALID_ARGUMENT, GL. */
+/* Deletes the OpenGL objects that `gl` holds for a scene, but not the scene. The views of its instances
+ * become invalid. Without this call, the next update or nook_gl_destroy deletes the objects of a destroyed
+ * scene. Context thread. Errors: INVALID_ARGUMENT, GL. */
 NOOK_API nook_result nook_gl_scene_release(nook_gl gl, nook_scene scene);
 
 /* ---- A frame of the host ----
@@ -220,8 +216,8 @@ enum {
   NOOK_DEPTH_LINEAR = 1,
   /* Your shader wrote log2(1 + C (w - n)) / log2(1 + C (f - n)) to gl_FragDepth, or to the red channel of a
    * 32-bit float texture. w is -z of view space; C, n and f are depth_log_scale, depth_log_near and
-   * depth_log_far; values of 1 and more are sky. Only with a perspective. three.js has C = 1 and n = 0,
-   * Cesium has C = 1 and its near plane. */
+   * depth_log_far; values >= 1 are sky. Only for perspective projections. three.js uses C = 1 and n = 0,
+   * Cesium uses C = 1 and its near plane. */
   NOOK_DEPTH_LOGARITHMIC = 2
 };
 typedef int32_t nook_depth_kind;
@@ -230,25 +226,25 @@ typedef int32_t nook_depth_kind;
 enum { NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE = 0, NOOK_CLIP_SPACE_ZERO_TO_ONE = 1 };
 typedef int32_t nook_clip_space;
 
-/* The combination of a pass's result s with AO that you draw yourself into a texture of the frame (G-buffer
- * AO). c is its red channel: AO of another kind, such as the AO of nook_gl_scene_update, and 1 where there is
- * none. w is its green channel, a weight. */
+/* How a pass combines its result s with AO that you draw into a texture yourself (G-buffer AO). c is the red
+ * channel of the texture: AO of another kind, such as from nook_gl_scene_update, and 1 where there is none. w
+ * is its green channel, a weight. */
 enum {
   /* s. */
   NOOK_GBUFFER_AO_NONE = 0,
-  /* min(s, c): occlusion that both contain darkens once. */
+  /* min(s, c): occlusion that both s and c contain is applied only once. */
   NOOK_GBUFFER_AO_MIN = 1,
-  /* min(s, c) / c: for an image that c has already darkened, so that the product is min(s, c). */
+  /* min(s, c) / c: for an image that is already multiplied by c, so that the product is min(s, c). */
   NOOK_GBUFFER_AO_REMAINDER = 2,
   /* (1 - w) s + w c: where w is 1, only the G-buffer AO counts. */
   NOOK_GBUFFER_AO_REPLACE = 3,
-  /* (1 - w) s + w c, and the screen pass leaves out surfaces whose w is above 0.5 as occluders. Use it for
-   * characters whose capsules darken the world in nook_world_render, so that they darken it once. */
+  /* (1 - w) s + w c. In addition, surfaces with w > 0.5 do not occlude in the screen pass. Use it for
+   * characters that darken the world by their capsules in nook_world_render, so that they do it only once. */
   NOOK_GBUFFER_AO_EXCLUDE = 4
 };
 typedef int32_t nook_gbuffer_ao;
 
-/* Where the result goes. */
+/* Where a pass writes its result. */
 enum {
   /* The pass's own texture; see nook_nnao_info and nook_world_info. */
   NOOK_TARGET_OWN = 0,
@@ -260,7 +256,7 @@ enum {
 };
 typedef int32_t nook_target;
 
-/* The change of the target by the result. */
+/* How the result changes the target. */
 enum {
   /* The target becomes (ao, ao, ao, 1), or the bent normal and ao; see nook_nnao_desc.bent_normals. */
   NOOK_BLEND_WRITE = 0,
@@ -269,40 +265,40 @@ enum {
 };
 typedef int32_t nook_blend;
 
-/* One frame. Textures are 2D and single-sampled, unless the pass was made for views or samples; level 0 with
- * width x height texels is read, through the pass's own samplers. The pass remembers the last four sets of
- * names, kinds and sizes here, and queries OpenGL when a set is new or comes back for the first time. */
+/* One frame. Textures are 2D and single-sampled, unless you created the pass for views or samples. The pass
+ * reads width x height texels of level 0, through its own samplers. The pass remembers the last four sets of
+ * names, kinds and sizes, and queries OpenGL when a set is new or returns for the first time. */
 typedef struct nook_gl_frame_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* Pixels; the size of every texture here, which may not exceed the maximum of the pass. Required. */
+  /* The size of every texture of the frame in pixels, at most the maximum size of the pass. Required. */
   int32_t width, height;
-  /* x, y, width and height in pixels of the part that `projection` fills. Nook reads and writes nothing
-     outside it; all 0 (default): everything. */
+  /* x, y, width and height of the part that `projection` covers, in pixels. Nook reads and writes nothing
+   * outside it. All 0 (default): the whole frame. */
   int32_t viewport[4];
   /* Required; depth_kind is NOOK_DEPTH_HARDWARE by default. */
   uint32_t depth_texture;
   nook_depth_kind depth_kind;
-  /* Metres, for linear depth only: this depth and greater ones are sky, whose AO is exactly 1. 0 (default):
-   * no depth is. Sky is also a depth that is not finite, or is not positive in a perspective, and the far
-   * plane of hardware depth. */
+  /* Metres, for linear depth only: this depth and greater ones are sky, where AO is exactly 1. 0 (default):
+   * no limit. These are sky too: a depth that is not finite, a depth <= 0 in a perspective projection, and
+   * the far plane of hardware depth. */
   float sky_depth;
-  /* For logarithmic depth: C in 1 / metres, > 0, default 1; n in metres, 0 or more, default 0; f in metres, >
-   * n, required. */
+  /* For logarithmic depth: C in 1 / metres, > 0, default 1; n in metres, >= 0, default 0; f in metres, > n,
+   * required. */
   float depth_log_scale, depth_log_near, depth_log_far;
   /* 0 (default): the pass reconstructs normals from depth. */
   uint32_t normal_texture;
   /* The normal is normal_matrix * (texel * normal_scale + normal_bias), then normalised. Defaults 1 and 0;
-   * normals that are stored as (n + 1) / 2 need 2 and -1. The pass reconstructs a normal that is shorter than
-   * 0.001, in normalised integers 0.25: clear to n = 0. */
+   * normals that are stored as (n + 1) / 2 need 2 and -1. Normals shorter than 0.001 (0.25 in normalised
+   * integers) are reconstructed from depth, so clear the texture to n = 0. */
   float normal_scale, normal_bias;
-  /* Column-major; it maps to view space. The identity by default. */
+  /* Column-major, from the space of the normals to view space. The identity by default. */
   float normal_matrix[9];
   /* Column-major; required. Perspective, off-centre, orthographic, reversed-depth, infinite or oblique. */
   float projection[16];
   /* From world space to view space, column-major: a rotation and a translation. The identity by default. The
-   * world pass needs it. The screen pass with max_history_frames remembers it, and follows surfaces into the
-   * next frame by it; set nook_nnao_frame_desc.reset after a cut. */
+   * world pass needs it. With max_history_frames, the screen pass uses it to follow surfaces into the next
+   * frame; set nook_nnao_frame_desc.reset after a cut. */
   float view[16];
   /* Only hardware depth uses it. Default NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE. */
   nook_clip_space clip_space;
@@ -316,10 +312,10 @@ typedef struct nook_gl_frame_desc {
   uint32_t target_name;
   /* Default NOOK_BLEND_WRITE. */
   nook_blend blend;
-  /* Set 1 if you created a texture or target anew under an old name since the last call. Default 0. */
+  /* Set 1 if you recreated a texture or target under an old name since the last call. Default 0. */
   int32_t textures_changed;
-  /* For passes with views: 16, 16 and 9 numbers for each view, in place of projection, view and
-   * normal_matrix. NULL (default): all views have the frame's own matrix. */
+  /* For passes with views: 16, 16 and 9 numbers for each view, which replace `projection`, `view` and
+   * `normal_matrix`. NULL (default): all views use the single matrix above. */
   const float* view_projections;
   const float* view_matrices;
   const float* view_normal_matrices;
@@ -330,9 +326,9 @@ static inline nook_result nook_gl_frame_desc_init(nook_gl_frame_desc* desc) {
 
 /* ---- Uploads: probes, materials and clips in shaders ----
  *
- * An upload is a probe, a grid, a material or baked clips as textures, with the GLSL that reads them. Upload
- * once. Put the GLSL of nook_gl_upload_describe after the #version line of your shader. Before a draw, call
- * nook_gl_upload_bind with your program. */
+ * An upload stores a probe, a grid, a material or baked clips in textures, with the GLSL that reads them.
+ * Upload once. Put the GLSL of nook_gl_upload_describe after the #version line of your shader. Before a draw,
+ * call nook_gl_upload_bind with your program. */
 
 /* One texture of an upload. */
 typedef struct nook_gl_upload_texture {
@@ -340,27 +336,27 @@ typedef struct nook_gl_upload_texture {
   uint32_t target;
   /* A texture that Nook owns. Bind it, but never change or delete it. */
   uint32_t texture;
-  /* The name of its sampler in the GLSL; it is valid while the upload lives. */
+  /* The name of its sampler in the GLSL, valid while the upload lives. */
   const char* uniform;
 } nook_gl_upload_texture;
 
 typedef struct nook_gl_upload_info {
   uint32_t struct_size;
-  /* The number of textures, and of the texture units that a draw needs; at most 16. */
+  /* The number of textures, at most 16. A draw needs as many texture units. */
   uint32_t texture_count;
   nook_gl_upload_texture textures[16];
-  /* The memory of all textures. On OpenGL ES, tables of texels are textures with rows of 2048 texels. */
+  /* The memory of all textures. On OpenGL ES, texture buffers become textures with rows of 2048 texels. */
   uint64_t bytes;
-  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, valid until the next update of the upload,
-   * or its end. Every name in it, here and in all GLSL of Nook, begins with nook_, Nook or NOOK_. */
+  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, valid until you update or destroy the
+   * upload. All names in Nook's GLSL begin with nook_, Nook or NOOK_. */
   const char* glsl;
-  /* A uniform of constants, or NULL. A grid has nook_grid_frame, clips have nook_clip_vec4s. */
+  /* The name of a uniform for constants, or NULL: nook_grid_frame for a grid, nook_clip_vec4s for clips. */
   const char* constant;
-  /* Its values: constant_vec4s times four floats for glUniform4fv, or if that is 0 one integer, for
+  /* Its values: constant_vec4s * 4 floats for glUniform4fv; if constant_vec4s is 0, an integer for
    * glUniform1i. */
   float constant_values[16];
   uint32_t constant_vec4s;
-  /* 1: walls choose among the probes of a grid. */
+  /* 1: the grid has walls, and each surface uses only the probes on its side of a wall. */
   int32_t walls;
 } nook_gl_upload_info;
 
@@ -368,9 +364,9 @@ typedef struct nook_gl_upload_info {
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_upload_describe(nook_gl_upload upload, nook_gl_upload_info* info);
 
-/* Prepares a draw with program. Binds the textures to the texture units from first_unit on, without sampler
- * objects, and sets the sampler uniforms and the constants of the program. In every nook_gl_state_mode the
- * program stays in use and the textures stay bound; the active unit is treated as state_mode says. A sampler
+/* Prepares a draw with `program`. Binds the textures to the texture units from `first_unit` on, without
+ * sampler objects, and sets the program's sampler uniforms and constants. In every nook_gl_state_mode, the
+ * program stays in use and the textures stay bound; state_mode applies only to the active unit. A sampler
  * that your shader does not use may be missing. If all are missing, the call fails and changes nothing; the
  * message names what the program was compiled for.
  * Context thread. Errors: INVALID_ARGUMENT (program is not a linked program, was compiled with the GLSL of
@@ -384,8 +380,8 @@ NOOK_API void nook_gl_upload_destroy(nook_gl_upload* upload);
 
 /* ---- Probes in shaders ----
  *
- * Form LOBES keeps the lobes of a probe or a grid in a table of texels, with the sampler nook_probe_texels.
- * Your shader:
+ * LOBES stores the lobes of a probe or a grid in a texture buffer for the sampler nook_probe_texels. Your
+ * shader:
  *     NookProbeSurface surface =
  *         NookProbeSurface(normal_ws, view_ws, tangent_ws, vec2(alpha_x, alpha_y), reflectance);
  *     NookProbePlace place = nook_probe_place(position_ws);  // once: the probes around a point
@@ -396,76 +392,75 @@ NOOK_API void nook_gl_upload_destroy(nook_gl_upload* upload);
  * For a single lobe, such as one in a uniform block, call nook_sg_lobe_radiance, nook_sg_lobe_irradiance and
  * so on; shaders/probe documents them. NookLobe has the layout of nook_lobe in std140 and std430. The GLSL
  * agrees with nook_probe.h within 1e-4 of the largest value, and is the same for every probe. Forms SH and
- * ZH3 keep a grid of diffuse light in a 3D texture of GL_RGBA16F, which the hardware filters. They take 7
- * fetches per pixel, 4 for ZH3, at most 40 where walls choose among ZH3 probes. They are smaller and faster
- * than lobes. The sampler is nook_grid_texels, the constant nook_grid_frame. Your shader:
+ * ZH3 keep a grid of diffuse light in a 3D texture of GL_RGBA16F, which the hardware filters. SH takes 7
+ * fetches per pixel, and ZH3 takes 4, or up to 40 if the grid has walls. Both are smaller and faster than
+ * lobes. The sampler is nook_grid_texels, and the constant is nook_grid_frame. Your shader:
  *     vec3 e = nook_grid_irradiance(position_ws, normal_ws);
- * experimental/nook_capture.h fills them from cube maps that your engine renders, while the game runs. */
+ * experimental/nook_capture.h fills these textures at run time from cube maps that your engine renders. */
 
-/* The numbers that an upload holds for each probe. */
+/* What an upload stores for each probe. */
 enum {
   /* Bands 0 to 2 of spherical harmonics, 27 half floats. */
   NOOK_GL_PROBE_SH = 0,
   /* ZH3, see nook_sh_to_zh3 of experimental/nook_sg.h; 15 half floats. */
   NOOK_GL_PROBE_ZH3 = 1,
-  /* The lobes of the probe, four floats each. */
+  /* The lobes of the probe, with four floats for each lobe. */
   NOOK_GL_PROBE_LOBES = 2
 };
 typedef int32_t nook_gl_probe_form;
 
-/* Uploads a probe or a grid in a form, with its walls if it was baked with them and the form is not LOBES.
+/* Uploads a probe or a grid in the given form. SH and ZH3 include the walls if the grid was baked with them.
  * You may destroy the probe afterwards. For SH and ZH3, lobes are projected exactly, and bands above 2 are
  * left out. On failure *out is NULL and no OpenGL object is left.
  * Context thread. Errors: INVALID_ARGUMENT (LOBES: the basis of the probe is not NOOK_PROBE_BASIS_LOBES; SH
- * and ZH3: the probe is of ambient dice, or a coefficient is above 65504), UNSUPPORTED (LOBES: the probe
- * exceeds the texture buffer of this OpenGL, as it takes 3 + lobes * (1 + probes) texels, and every OpenGL
- * has 65,536; SH and ZH3: the texture has counts x by counts y by 7 counts z texels, as ZH3 4 counts z, with
- * walls 5 counts z more, and one of these is above GL_MAX_3D_TEXTURE_SIZE, which is 256 or more), GL,
- * OUT_OF_MEMORY. */
+ * and ZH3: the probe's basis is ambient dice, or a coefficient is above 65504), UNSUPPORTED (LOBES: the 3 +
+ * lobes * (1 + probes) texels exceed the texture buffer of this OpenGL, which has at least 65,536; SH and
+ * ZH3: a side of the texture exceeds GL_MAX_3D_TEXTURE_SIZE, which is at least 256; the sides are counts x,
+ * counts y and 7 counts z, or 4 counts z for ZH3, plus 5 counts z with walls), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_upload_probe(nook_gl gl, nook_probe probe, nook_gl_probe_form form,
                                           nook_gl_upload* out);
 
-/* Uploads another probe or grid in place of the present one, in the form that the upload has. The textures
- * keep their names. Draws that were issued before still read the old values. The constant changes with the
- * box of a grid, and the GLSL if only one of both has walls. On failure the old probe stays.
+/* Replaces the probe or grid of an upload, in the same form. The textures keep their names. Draws that you
+ * issued before still read the old values. The constant changes if the box of the grid changes. The GLSL
+ * changes if only one of the two grids has walls. On failure the upload keeps the old probe.
  * Context thread. Errors: those of nook_gl_upload_probe, INVALID_ARGUMENT (the upload is not a probe). */
 NOOK_API nook_result nook_gl_update_probe(nook_gl_upload upload, nook_probe probe);
 
 /* ---- Materials in shaders ----
  *
- * Put the GLSL after the #version line of your fragment shader. For each light, which includes the cosine:
+ * Put the GLSL after the #version line of your fragment shader. For each light (`irradiance` includes the
+ * cosine):
  *     vec4 modes[NOOK_LIGHT_VEC4_COUNT];
  *     nook_material_decode(uv, dFdx(uv), dFdy(uv), view, modes);
  *     colour = nook_material_radiance(modes, light) * irradiance;
  *     alpha = nook_material_visibility(nook_material_occlusion(uv, dFdx(uv), dFdy(uv), view));
- * Both filter a pixel by one fetch of each mode at the mipmap level of its longer side, which blurs grazing
- * views. With several fetches along that side, `fetches` being a constant of 1 to NOOK_MATERIAL_MAX_FETCHES,
- * these stay sharp (see nook_material_evaluate):
+ * Both functions filter a pixel by one fetch per mode, at the mipmap level of the pixel's longer side. This
+ * blurs grazing views. The following functions take several fetches along that side and stay sharp; `fetches`
+ * is a constant from 1 to NOOK_MATERIAL_MAX_FETCHES (see nook_material_evaluate):
  *     nook_material_decode_anisotropic(uv, dFdx(uv), dFdy(uv), view, fetches, modes);
  *     alpha = nook_material_visibility(
  *         nook_material_occlusion_anisotropic(uv, dFdx(uv), dFdy(uv), view, fetches));
  * Each fetch beyond the first costs further_decode_fetches of nook_material_info. The `modes` of a neural
- * material are sums of its network for the pixel: you cannot add them up or mix them.
- * Silhouettes of the meso-structure need two passes over the same triangles. The first draws pixels with
- * alpha = 1 and discards the others. The second blends those with 0 < alpha < 1 by alpha; it tests depth but
- * does not write it. */
+ * material are values inside its network, so you cannot add or mix them. Silhouettes of the meso-structure
+ * need two passes over the same triangles. In the first, draw pixels with alpha = 1 and discard the others.
+ * In the second, blend pixels with 0 < alpha < 1 by alpha, with depth test but without depth writes. */
 
-/* Uploads a material, which you may destroy afterwards, as GL_TEXTURE_2D_ARRAYs. Materials of the same sizes
- * and mapping have the same GLSL and may share a program; a neural material has its own. The uniform vec2
- * nook_visibility_mapping, a constant on OpenGL ES, holds threshold and weight and starts with the
- * material's. On failure *out is NULL and no OpenGL object is left. Context thread. Errors: INVALID_ARGUMENT,
- * UNSUPPORTED (the material needs more texture units or larger textures than this OpenGL has, or blocks that
- * it does not have), GL, OUT_OF_MEMORY. */
+/* Uploads a material, which you may destroy afterwards, as GL_TEXTURE_2D_ARRAYs. Materials with the same
+ * sizes and visibility mapping have the same GLSL and may share a program; a neural material needs its own.
+ * The uniform vec2 nook_visibility_mapping (a constant on OpenGL ES) holds threshold and weight; its initial
+ * values are the material's. On failure *out is NULL and no OpenGL object is left. Context thread. Errors:
+ * INVALID_ARGUMENT, UNSUPPORTED (the material needs more texture units, larger textures or other blocks than
+ * this OpenGL supports), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_upload_material(nook_gl gl, nook_material material, nook_gl_upload* out);
 
 /* ---- Clips in shaders ----
  *
- * The AO of baked clips (nook_clips.h), decoded in your vertex shader. nook_clips_frames gives the frames and
- * their share for each character; pass both as uniforms or as attributes of the instance. Your shader:
+ * Your vertex shader decodes the AO of baked clips (nook_clips.h). nook_clips_frames computes `frames` and
+ * `share` for each character; pass both as uniforms or as instance attributes. Your shader:
  *     float ao = nook_clip_ao(gl_VertexID, frames, share);
- * The first argument is the number of a file vertex; where gl_VertexID counts other vertices, pass the number
- * as an attribute. The shader reads mode_count / 4 texels of the modes, and twice as many of the weights,
- * which are the same for all vertices of a character. */
+ * The first argument is the index of a file vertex. If gl_VertexID is another index, pass the file vertex as
+ * an attribute. For each vertex, the shader reads mode_count / 4 texels of modes and twice as many texels of
+ * weights; the weights are the same for all vertices of a character. */
 
 /* Uploads clips, which you may destroy afterwards, as two GL_TEXTURE_2Ds for the samplers nook_clip_modes and
  * nook_clip_weights. The constant is the integer nook_clip_vec4s. The GLSL has the function

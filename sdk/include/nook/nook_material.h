@@ -1,15 +1,15 @@
 /* Compressed materials: bidirectional texture functions (BTF) and view-dependent occlusion texture functions
- * (VOTF). `nook bake material` bakes them; your shaders decode them per pixel (nook_gl.h), or the CPU does.
- * The method is Y.-T. Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012. Equation (24) gives
- * the BTF from cores, bases, memberships and coefficients; a view mixes K of the C clusters. N-SVD is the
- * case C = K = 1, and CTA is K = 1. Equation (25) gives the VOTF, without a light mode. Loading expands the x
- * and y modes into images S_c[a, b], so that a pixel needs
+ * (VOTF). `nook bake material` bakes them. Your shaders (nook_gl.h) or the CPU decode them per pixel. The
+ * method is Y.-T. Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012. Equation (24) gives the
+ * BTF from cores, bases, memberships and coefficients; each view mixes K of the C clusters. N-SVD is the case
+ * C = K = 1, and CTA is the case K = 1. Equation (25) gives the VOTF, which has no light mode. Loading
+ * expands the x and y modes into images S_c[a, b]. A pixel then computes
  *     light mode a:  L_a = sum_k sum_b coefficient[view, k, b] S_c(k)[a, b](u, v)
  *     radiance:      sum_a light_basis[light, a] L_a, for red, green and blue, and again for each light.
- * Both are linear in the images, so that mipmaps give the mean over a pixel's footprint. A neural material
- * (`--method neural`) has a small network over features of its texels in place of the BTF's tensor; the same
- * calls load, evaluate and draw it. Radiance transfer refuses it, because its radiance is not a sum of light
- * modes. Its mipmaps are means of features, not of radiance. Directions are unit vectors in tangent space
+ * Both are linear in the images, so mipmaps give the exact mean over a pixel's footprint. A neural material
+ * (`--method neural`) replaces the BTF's tensor by a small network over features of its texels. The same
+ * calls load, evaluate and draw it. Radiance transfer does not accept it, because its radiance is not a sum
+ * of light modes. Its mipmaps average features, not radiance. Directions are unit vectors in tangent space
  * that point away from the surface: x along u, y along v, z along the normal. */
 #ifndef NOOK_MATERIAL_H
 #define NOOK_MATERIAL_H
@@ -31,15 +31,15 @@ enum {
 };
 typedef int32_t nook_material_visibility;
 
-/* The form of a material's spatial modes, in host memory and in textures. WebGL 2 has either form of blocks
- * only as an extension that the page enables. */
+/* How a material's spatial modes are stored, in host memory and in textures. On WebGL 2, each kind of blocks
+ * is an extension that your page must enable. */
 enum {
-  /* As the file has its numbers: signed bytes, or half floats. Every context has these textures. */
+  /* The same numbers as in the file: signed bytes, or half floats. Every context supports these textures. */
   NOOK_MATERIAL_BLOCKS_NONE = 0,
-  /* Blocks of 4 x 4 texels, half the bytes: signed RGTC (BC5). On OpenGL, and on OpenGL ES with
+  /* Signed RGTC (BC5), blocks of 4 x 4 texels with half the bytes. Needs OpenGL, or OpenGL ES with
    * GL_EXT_texture_compression_rgtc. In WebGL, both sides of the tile must be multiples of 4 texels. */
   NOOK_MATERIAL_BLOCKS_RGTC = 1,
-  /* Signed EAC (RG11). On OpenGL ES, and on OpenGL 4.3 or GL_ARB_ES3_compatibility, where most drivers expand
+  /* Signed EAC (RG11). Needs OpenGL ES, OpenGL 4.3 or GL_ARB_ES3_compatibility. Most desktop drivers expand
    * it. */
   NOOK_MATERIAL_BLOCKS_EAC = 2
 };
@@ -48,26 +48,26 @@ typedef int32_t nook_material_blocks;
 typedef struct nook_material_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* Default NOOK_MATERIAL_BLOCKS_NONE. With blocks, four numbers take two fetches. Whole modes and the light
-   * map become signed bytes, also for a file of half floats, and the light map has 32 x 32 cells for up to
-   * 128 lights. The VOTF is in blocks as well. Of a neural material, only the VOTF changes. */
+  /* Default NOOK_MATERIAL_BLOCKS_NONE. With blocks, four numbers take two fetches. Modes outside blocks and
+   * the light map become signed bytes, even if the file has half floats; for up to 128 lights the light map
+   * has 32 x 32 cells. The VOTF is in blocks too. In a neural material, only the VOTF changes. */
   nook_material_blocks blocks;
-  /* With blocks: the number of first light modes that stay whole, because blocks would lose most there;
-   * rounded up to a multiple of 4. 0 to 3,072, default 4. */
+  /* How many of the first light modes are not stored in blocks, because blocks would cause the largest errors
+   * there. Rounded up to a multiple of 4; 0 to 3,072, default 4. */
   int32_t whole_light_modes;
 } nook_material_desc;
 static inline nook_result nook_material_desc_init(nook_material_desc* desc) {
   return nook_desc_init(NOOK_DESC_MATERIAL, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Loads a material from the bytes of a .nook file, which you may free afterwards; desc NULL means its
- * defaults. The call expands the material, through the context's parallel_for if you set one, and validates
+/* Loads a material from the bytes of a .nook file, which you may free afterwards. With `desc` NULL, uses the
+ * defaults. The call expands the material, through the context's parallel_for if you set one. It validates
  * every number, so that hostile bytes are safe. On failure *out is NULL.
  * With blocks, textures take about half the memory, and nook_material_evaluate returns what the shader will.
- * Some drivers (llvmpipe) interpolate RGTC with byte weights: decoded values can differ by 4/127. Transfer
- * that was baked with a file of half floats does not fit that file with blocks.
- * Any thread. Errors: INVALID_ARGUMENT (also, the blocks of a tensor take more than 1 GiB, which a tile with
- * few texels can), BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
+ * Some drivers (llvmpipe) interpolate RGTC with byte weights, so decoded values can differ by 4/127. If the
+ * file has half floats, radiance transfer that was baked with it cannot be used with the blocks.
+ * Any thread. Errors: INVALID_ARGUMENT (also if the blocks of a tensor take more than 1 GiB, which can happen
+ * with very small tiles), BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_material_load(nook_context context, const void* bytes, size_t size,
                                         const nook_material_desc* desc, nook_material* out);
 
@@ -80,12 +80,11 @@ typedef struct nook_material_tensor {
   uint32_t rank_light, rank_view;
   /* R_x and R_y, the ranks of the spatial modes. */
   uint32_t rank_x, rank_y;
-  /* C, the number of clusters, and K, the number of them that a view mixes. */
+  /* C, the number of clusters, and K, the number of clusters that a view mixes. */
   uint32_t clusters, mixture;
-  /* Cells along the side of the view map. 0: the file has none, and decoding mixes the three nearest
-   * views. */
+  /* Cells along the side of the view map. 0: there is no view map; decoding mixes the three nearest views. */
   uint32_t view_map_side;
-  /* Clusters that a pixel mixes: K with a view map, up to 3 K without one (3 for CTA, 1 for N-SVD). */
+  /* The clusters that a pixel mixes: K with a view map, up to 3 K without (3 for CTA, 1 for N-SVD). */
   uint32_t terms;
 } nook_material_tensor;
 
@@ -101,9 +100,8 @@ typedef struct nook_material_info {
   nook_material_tensor btf;
   /* All members are 0 without a VOTF. */
   nook_material_tensor votf;
-  /* The texels that nook_material_decode fetches, where a filtered fetch counts as one and a mode in blocks
-   * as two, and its multiply-adds of single numbers. A relief adds at most a fetch for each plane of its
-   * march. */
+  /* Texel fetches and scalar multiply-adds of nook_material_decode. A filtered fetch counts as one, and a
+   * mode in blocks as two. A relief adds at most one fetch per plane of its ray march. */
   uint32_t decode_fetches, decode_multiply_adds;
   /* The same for nook_material_radiance. */
   uint32_t light_fetches, light_multiply_adds;
@@ -114,12 +112,11 @@ typedef struct nook_material_info {
   uint64_t compressed_bytes;
   /* Bytes of the view maps, which compressed_bytes does not include. */
   uint64_t view_map_bytes;
-  /* Bytes of the expanded images: host memory that is held now, and texture memory after an upload. */
+  /* Bytes of the expanded images, in host memory now, and in texture memory after an upload. */
   uint64_t table_bytes;
-  /* Of a neural material the channels of its features and the units of a layer, and all of btf is 0; 0 for
-   * others. */
+  /* The feature channels and units per layer of a neural material, for which `btf` is all 0; otherwise 0. */
   uint32_t neural_channels, neural_units;
-  /* The fetches that each further place of the functions ending in _anisotropic adds to decode_fetches and to
+  /* How many fetches each additional sample of the _anisotropic functions adds to decode_fetches and to
    * occlusion_fetches. */
   uint32_t further_decode_fetches, further_occlusion_fetches;
 } nook_material_info;
@@ -128,27 +125,25 @@ typedef struct nook_material_info {
 NOOK_API nook_result nook_material_describe(nook_material material, nook_material_info* info);
 
 typedef struct nook_material_value {
-  /* Linear RGB towards the view, if the irradiance on a plane that faces the light is 1. Never
-     negative: what compression leaves below 0 is clamped, here as in the GLSL. */
+  /* Linear RGB towards the view, if the irradiance on a plane that faces the light is 1. Compression errors
+   * below 0 are clamped to 0, here and in the GLSL. */
   float radiance[3];
   /* The VOTF: a filtered mask in [0, 1], or a distance in [-1, 1]; 1 without a VOTF. */
   float occlusion;
-  /* Equation (26): 1 where occlusion is at least the threshold, weight * occlusion between 0 and the
-   * threshold, else 0. */
+  /* Equation (26): 1 from the threshold on, weight * occlusion between 0 and the threshold, otherwise 0. */
   float visibility;
 } nook_material_value;
 
 /* The largest number of fetches along the longer side of a pixel. */
 enum { NOOK_MATERIAL_MAX_FETCHES = 8 };
 
-/* A pixel of a picture, of any shape. To ask for a mipmap level, pass a round pixel and 1 fetch, with dx[1] =
- * dy[0] = 0:
+/* A pixel footprint of any shape. To request a mipmap level, pass 1 fetch and an isotropic footprint with
+ * dx[1] = dy[0] = 0:
  *     pixel.dx[0] = exp2f(level) / (float)info.width;  pixel.dy[1] = exp2f(level) / (float)info.height; */
 typedef struct nook_material_pixel {
-  /* Texture coordinates of its middle; 0 to 1 is one tile, and the tile repeats. */
+  /* Texture coordinates of the pixel centre; 0 to 1 is one tile, and the tile repeats. */
   float uv[2];
-  /* The changes of uv to the next pixel to the right and above: dFdx(uv), dFdy(uv). Both 0: the finest
-   * level. */
+  /* The changes of uv to the next pixel to the right and above: dFdx(uv), dFdy(uv). 0: the finest level. */
   float dx[2], dy[2];
   /* Unit vector; a view from below the horizon is moved onto it. */
   float view[3];
@@ -156,16 +151,15 @@ typedef struct nook_material_pixel {
   float light[3];
 } nook_material_pixel;
 
-/* Decodes pixels on the CPU, to check your shader. Each value is the mean over `fetches` places along the
- * longer side of the pixel, 1 to NOOK_MATERIAL_MAX_FETCHES. With 1 fetch and round pixels it is the reference
- * of nook_material_decode and nook_material_occlusion, with more fetches of the functions ending in
- * _anisotropic. The GLSL agrees within 1/255 for radiances up to 1 if the driver weighs texels with floats
- * (for RGTC see nook_material_load). GPUs weigh texels with about 8 bits, as if the place moved by 1/512 of a
- * texel. Two fetches leave at most a fifth of the squared error of one in views beyond 60 degrees, and two
- * fifths with neural materials (seven measured files). A pixel longer than `fetches` times its width is
- * blurred across.
- * Any thread. Errors: INVALID_ARGUMENT (also, a number of a pixel is not finite, or fetches is out of
- * range). */
+/* Decodes pixels on the CPU, to check your shader. Each value is the mean over `fetches` samples along the
+ * longer side of the pixel, 1 to NOOK_MATERIAL_MAX_FETCHES. With 1 fetch and isotropic footprints, it is the
+ * reference for nook_material_decode and nook_material_occlusion; with more fetches, for the functions ending
+ * in _anisotropic. The GLSL agrees within 1/255 for radiances up to 1 if the driver filters with float
+ * weights (for RGTC see nook_material_load). GPUs filter with about 8-bit weights, like a shift by 1/512 of a
+ * texel. In views beyond 60 degrees, two fetches have at most 1/5 of the squared error of one fetch, and 2/5
+ * with neural materials (seven measured files). A pixel longer than `fetches` times its width is blurred
+ * across. Any thread. Errors: INVALID_ARGUMENT (also if a number of a pixel is not finite, or `fetches` is
+ * out of range). */
 NOOK_API nook_result nook_material_evaluate(nook_material material, const nook_material_pixel* pixels,
                                             uint32_t count, uint32_t fetches, nook_material_value* values);
 

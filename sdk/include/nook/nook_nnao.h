@@ -1,10 +1,10 @@
 /* Screen-space ambient occlusion by a small neural network. The input is a depth buffer, and normals if you
- * have them; the output is AO in a texture, or AO multiplied into an image of yours. The one required setting
+ * have them; the output is AO in a texture, or multiplied into an image of yours. The only required setting
  * is the radius. The method is D. Holden, J. Saito and T. Komura, Neural Network Ambient Occlusion, 2016. The
- * embedded network reads pixels along directions on the screen (the horizon form); you can load a network of
- * the paper's form, which reads a grid of 31 x 31 pixels. Both are trained on the cosine-weighted visibility
- * of the hemisphere around the normal, up to the radius. Each frame, after you have drawn depth and before
- * you light:
+ * embedded network reads pixels along directions on the screen (the horizon form). You can also load a
+ * network of the paper's form, which reads a grid of 31 x 31 pixels. Both are trained on the cosine-weighted
+ * visibility of the hemisphere around the normal, up to the radius. Each frame, between drawing depth and
+ * lighting:
  *     nook_gl_frame_desc frame;
  *     nook_nnao_frame_desc nnao_frame;
  *     nook_gl_frame_desc_init(&frame);
@@ -28,11 +28,11 @@
 extern "C" {
 #endif
 
-/* Presets by cost. Cycles count all stages for a pixel on one GPU family (docs/gpu_cost.md). */
+/* Presets. "Cycles" are GPU cycles per pixel for all stages, on one GPU family (docs/gpu_cost.md). */
 enum {
   /* 9 taps, one filter. */
   NOOK_NNAO_PRESET_DEFAULT = 0,
-  /* 9 taps at half resolution, one filter. 0.44 of the cycles of DEFAULT. */
+  /* 9 taps at half resolution, one filter. 0.44 times the cycles of DEFAULT. */
   NOOK_NNAO_PRESET_FAST = 1,
   /* 32 taps, one filter. 2.3 times the cycles of DEFAULT. */
   NOOK_NNAO_PRESET_BEST = 2
@@ -45,51 +45,50 @@ typedef struct nook_nnao_desc {
   const void* next;
   /* Pixels, 1 to 16384; required. Frames of any size up to this allocate nothing. */
   int32_t max_width, max_height;
-  /* Gives taps, half_resolution and blur where these are -1. Default NOOK_NNAO_PRESET_DEFAULT. */
+  /* Sets `taps`, `half_resolution` and `blur` if they are -1. Default NOOK_NNAO_PRESET_DEFAULT. */
   nook_nnao_preset preset;
   /* Pixels that the network reads around each pixel: 9, 16, 32, 64, 128 or 256. Default -1: the preset's. */
   int32_t taps;
-  /* 1: AO is computed at half width and height, and upsampled by a joint-bilateral filter. Default -1: the
-   * preset's. */
+  /* 1: AO is computed at half width and height, and upsampled joint-bilaterally. Default -1: the preset's. */
   int32_t half_resolution;
-  /* The number of bilateral filters over 5 x 5 pixels: 0, 1 or 2. A filter averages the noise of the taps.
-   * The second time takes noise at edges away, and fine lines with it. Default -1: the preset's. */
+  /* The number of bilateral filters over 5 x 5 pixels: 0, 1 or 2. A filter averages out the noise of the
+   * taps. The second filter removes noise at edges, but also fine lines. Default -1: the preset's. */
   int32_t blur;
-  /* > 0, default 16. The filter does not cross depths that depart from a surface by more than 1 /
-   * blur_sharpness radii. */
+  /* > 0, default 16. The filter does not mix surfaces whose depths differ by more than 1 / blur_sharpness
+   * radii. */
   float blur_sharpness;
-  /* 1: the pass computes bent normals as well: the mean of the open directions, weighted by their cosine.
-   * nook_nnao_info.glsl lights with them. The pass's own texture is GL_RGBA8 then, and NOOK_BLEND_WRITE
-   * writes (n + 1) / 2 of the unit bent normal n in view space, and AO into alpha. Not with a network of the
-   * paper's form. Default 0. */
+  /* 1: the pass also computes bent normals, the cosine-weighted mean of the open directions;
+   * nook_nnao_info.glsl has functions for lighting with them. The pass's own texture is GL_RGBA8 then, and
+   * NOOK_BLEND_WRITE writes (n + 1) / 2 of the unit bent normal n in view space, and AO into alpha. Not with
+   * a network of the paper's form. Default 0. */
   int32_t bent_normals;
   /* The bytes of a .nook file of `nook train nnao`, of either form. NULL (default): the embedded network. */
   const void* network;
   /* The size of network in bytes. */
   size_t network_size;
-  /* 2 to 64: the pass keeps a mean of AO over at most so many frames, which flickers less. Start with 4 to 8;
-   * more frames follow changes later. It follows surfaces by nook_gl_frame_desc.view and motion_vectors. 0
-   * (default): each frame stands alone. Not with bent_normals. */
+  /* 2 to 64: the pass averages AO over at most this many frames, so it flickers less. Start with 4 to 8; with
+   * more frames, AO reacts later to changes. The pass follows surfaces by nook_gl_frame_desc.view and
+   * motion_vectors. 0 (default): no averaging. Not with bent_normals. */
   int32_t max_history_frames;
   /* 1 to 16: depth is GL_TEXTURE_2D_MULTISAMPLE with this many samples, which needs OpenGL 3.3 or OpenGL ES
-   * 3.1, or with views GL_TEXTURE_2D_MULTISAMPLE_ARRAY, which needs OpenGL 3.3 or OpenGL ES 3.2. A pixel
-   * takes the median of its depths, of two the nearer one. Motion vectors, G-buffer AO and target stay
+   * 3.1, or with views GL_TEXTURE_2D_MULTISAMPLE_ARRAY, which needs OpenGL 3.3 or OpenGL ES 3.2. A pixel uses
+   * the median of its depths, or the nearer one of two. Motion vectors, G-buffer AO and target stay
    * single-sampled. 0 (default): 2D textures, or arrays of them. */
   int32_t depth_samples;
   /* 1 to 8: the pass draws this many views in one call, such as two eyes. Depth, normals, motion vectors,
    * G-buffer AO and target are then GL_TEXTURE_2D_ARRAY with at least this many layers, and so is the pass's
    * own texture. 0 (default): 2D textures. */
   int32_t views;
-  /* 0 (default): normals are single-sampled. Otherwise the same number as depth_samples: they are
-   * multisampled, and a pixel has the normal of the sample whose depth it has. */
+  /* 0 (default): normals are single-sampled. The value of depth_samples: normals are multisampled, and each
+   * pixel uses the normal of the same sample that its depth comes from. */
   int32_t normal_samples;
 } nook_nnao_desc;
 static inline nook_result nook_nnao_desc_init(nook_nnao_desc* desc) {
   return nook_desc_init(NOOK_DESC_NNAO, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Creates textures and shaders; you may free the network's bytes afterwards. On failure *out is NULL and no
- * OpenGL object is left.
+/* Creates a pass. You may free the network's bytes afterwards. On failure *out is NULL and no OpenGL object
+ * is left.
  * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the size exceeds the textures of this OpenGL, or it
  * lacks multisample textures or arrays of them), BAD_FILE, FILE_VERSION, GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_create(nook_gl gl, const nook_nnao_desc* desc, nook_nnao* out);
@@ -99,9 +98,9 @@ NOOK_API nook_result nook_nnao_create(nook_gl gl, const nook_nnao_desc* desc, no
  * thread. */
 NOOK_API void nook_nnao_destroy(nook_nnao* pass);
 
-/* The measure of the radius. */
+/* How the radius is measured. */
 enum {
-  /* Metres, or the unit of projection, linear depth and sky_depth: AO depends on their ratios alone. */
+  /* Metres, or any unit, if `projection`, linear depth and sky_depth use it too; only the ratios matter. */
   NOOK_NNAO_RADIUS_METRES = 0,
   /* A share of the viewport's height, up to 1: the radius covers the same number of pixels at each depth. */
   NOOK_NNAO_RADIUS_SCREEN = 1,
@@ -119,32 +118,33 @@ typedef struct nook_nnao_frame_desc {
   float radius;
   /* Default NOOK_NNAO_RADIUS_METRES. */
   nook_nnao_radius_kind radius_kind;
-  /* Metres, > 0: for NOOK_NNAO_RADIUS_SCENE a length of the scene, such as the diagonal of its box. */
+  /* For NOOK_NNAO_RADIUS_SCENE: a length of the scene, metres, > 0, such as the diagonal of its bounds. */
   float scene_size;
-  /* Pixels that the radius covers at most; near the camera it shrinks. 0 (default): a quarter of the
-   * viewport's height, and no maximum with NOOK_NNAO_RADIUS_SCREEN. */
+  /* The maximum radius in pixels; near the camera, the radius is reduced to it. 0 (default): a quarter of the
+   * viewport's height, or no maximum with NOOK_NNAO_RADIUS_SCREEN. */
   float max_radius_px;
   /* AO becomes max(0, 1 - intensity * (1 - AO)) ^ power; in [0, 16] and (0, 16], both default to 1. */
   float intensity, power;
   /* For passes with max_history_frames: a 2D texture of width x height in floats or normalised integers. Red
-   * and green times motion_vector_scale are the pixels by which the surface moved since the last frame, to
-   * the right and up, with the camera's motion. 0 (default): nothing but the camera moves. */
+   * and green, times motion_vector_scale, are the motion of the surface to the right and up since the last
+   * frame, in pixels, including the camera's motion. 0 (default): only the camera moves. */
   uint32_t motion_vectors;
   /* 1, 1 by default: motion in pixels. For motion in texture coordinates, set width, height. */
   float motion_vector_scale[2];
-  /* 1 at a cut: earlier frames are not used. Another viewport size or kind of projection cuts by itself. */
+  /* Set 1 at a cut to ignore earlier frames. A new viewport size or kind of projection does this too. */
   int32_t reset;
-  /* Pixels that the radius covers at least, default 12; 0: no minimum. Far away the radius grows to them, and
-   * its AO becomes weaker in return, so that AO spreads evenly where it would flicker. */
+  /* The minimum radius in pixels, default 12; 0: no minimum. Far away, the radius grows to this minimum and
+   * the AO becomes weaker in return, which gives smooth AO instead of flicker. */
   float min_radius_px;
-  /* Metres in front of the camera: AO fades from fade_begin on and is 1 from fade_end on. 0: never. */
+  /* Metres from the camera: AO fades from fade_begin on, and is 1 from fade_end on. 0 (default): no
+   * fading. */
   float fade_begin, fade_end;
 } nook_nnao_frame_desc;
 static inline nook_result nook_nnao_frame_desc_init(nook_nnao_frame_desc* desc) {
   return nook_desc_init(NOOK_DESC_NNAO_FRAME, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Draws the AO of a frame, without an allocation, a read or a wait for the GPU. On failure it leaves no
+/* Draws the AO of a frame. The call does not allocate, read back or wait for the GPU. On failure it leaves no
  * OpenGL error, changes no state and draws nothing. Context thread. Errors: INVALID_ARGUMENT (the message
  * names the field, its value and what is needed), GL (the OpenGL context was lost). */
 NOOK_API nook_result nook_nnao_render(nook_nnao pass, const nook_gl_frame_desc* frame,
@@ -153,15 +153,15 @@ NOOK_API nook_result nook_nnao_render(nook_nnao pass, const nook_gl_frame_desc* 
 typedef struct nook_nnao_info {
   uint32_t struct_size;
   /* The pass's own texture, which Nook owns, an array for passes with views. It is GL_R8, or GL_RGBA8 with
-   * bent normals, max_width x max_height. Texel (x, y) has the AO of pixel (x, y) in red or in alpha. AO is 1
-   * everywhere before the first frame. Later frames write only their viewport; frames with another target
-   * leave it undefined. */
+   * bent normals, max_width x max_height. Texel (x, y) holds the AO of pixel (x, y) in red, or in alpha with
+   * bent normals. AO is 1 everywhere before the first frame. Frames write only their viewport; after a frame
+   * with another target, this texture is undefined. */
   uint32_t texture;
   /* The memory of all textures of the pass. */
   uint64_t texture_bytes;
-  /* The preset's numbers, where the descriptor had -1. */
+  /* The settings in use, with the preset's value where the descriptor had -1. */
   int32_t taps, half_resolution, blur;
-  /* 1: the network has the horizon form; 0: it has the paper's. */
+  /* 1: the network has the horizon form; 0: the paper's form. */
   int32_t horizon_form;
   /* 1: a compute shader evaluates the network; 0: a draw does. */
   int32_t compute;
@@ -174,9 +174,9 @@ typedef struct nook_nnao_info {
    *     vec3 nook_nnao_multi_bounce(float ao, vec3 albedo)   AO with light that the surroundings reflect
    *     float nook_nnao_specular_occlusion(vec3 bent_normal, float ao, vec3 normal, vec3 to_viewer,
    *                                        float roughness)
-   * Look up the irradiance of a probe along the bent normal and multiply it by AO; multiply what a glossy
-   * surface reflects by the specular occlusion. The text is the same for every pass and valid while the
-   * library is loaded. */
+   * Look up the irradiance of a probe along the bent normal and multiply it by AO. Multiply glossy
+   * reflections by the specular occlusion. The text is the same for every pass and valid while the library is
+   * loaded. */
   const char* glsl;
 } nook_nnao_info;
 

@@ -1,6 +1,6 @@
-/* Light probes. A probe holds the radiance that arrives at a point, over all directions, as a few basis
- * functions. Fit a probe to samples of radiance, or load it from a file, and read radiance, irradiance and
- * lobes from it. AO attenuates a probe's light. In your integrator:
+/* Light probes. A probe stores the radiance that arrives at a point from all directions, as a sum of a few
+ * basis functions. Fit a probe to samples of radiance, or load it from a file; then read radiance, irradiance
+ * and lobes from it. Multiply a probe's light by AO. In your integrator:
  *     nook_probe_fit_add_samples(fit, directions, radiance, NULL, count);      as often as you have samples
  *     nook_probe_fit_solve(fit, &probe);                                       at any time
  * Directions are unit vectors that point away from the probe. Radiance is linear RGB in any unit, and
@@ -22,7 +22,7 @@ extern "C" {
 
 /* The basis functions of a probe. */
 enum {
-  /* Lobes, and an ambient term if the descriptor has one: 3 floats each. */
+  /* Lobes, and an ambient term if the descriptor asks for one: 3 floats for each. */
   NOOK_PROBE_BASIS_LOBES = 0,
   /* Real spherical harmonics (SH) of bands 0 to order, orthonormal over the sphere. */
   NOOK_PROBE_BASIS_SH = 1
@@ -32,22 +32,22 @@ typedef int32_t nook_probe_basis;
 /* The directions over which a probe is fitted. */
 enum {
   NOOK_PROBE_DOMAIN_SPHERE = 0,
-  /* The directions within 90 degrees of an axis, for lightmaps; a fit skips samples of the others. */
+  /* The directions within 90 degrees of an axis, for lightmaps. A fit skips samples from other directions. */
   NOOK_PROBE_DOMAIN_HEMISPHERE = 1
 };
 typedef int32_t nook_probe_domain;
 
 /* ---- Fits ---- */
 
-/* The method of a fit. NON_NEGATIVE methods keep all coefficients at 0 or above, for small strong sources,
- * whose unconstrained fit rings below 0; they need NOOK_PROBE_BASIS_LOBES. */
+/* The method of a fit. NON_NEGATIVE methods keep all coefficients >= 0. Use them for small bright sources,
+ * where an unconstrained fit rings below 0. They need NOOK_PROBE_BASIS_LOBES. */
 enum {
-  /* The most accurate method at any number of samples. Fits merge exactly. */
+  /* The most accurate method for any number of samples. Merging fits is exact. */
   NOOK_PROBE_FIT_LEAST_SQUARES = 0,
-  /* Least squares without negative coefficients. Fits merge exactly. */
+  /* Least squares without negative coefficients. Merging fits is exact. */
   NOOK_PROBE_FIT_LEAST_SQUARES_NON_NEGATIVE = 1,
-  /* Recursive least squares by blocks of 1,024 samples, with a solution after every sample. Its error tends
-     to the error of LEAST_SQUARES. */
+  /* Recursive least squares by blocks of 1,024 samples, with a solution after every sample. Its error
+   * converges to the error of LEAST_SQUARES. */
   NOOK_PROBE_FIT_RUNNING_AVERAGE = 2,
   /* A running average without negative coefficients: the non-negative solution nearest to RUNNING_AVERAGE. */
   NOOK_PROBE_FIT_RUNNING_AVERAGE_NON_NEGATIVE = 3
@@ -61,13 +61,13 @@ typedef struct nook_probe_fit_desc {
   /* Default NOOK_PROBE_FIT_LEAST_SQUARES. */
   nook_probe_method method;
   /* Default NOOK_FORM_DEFAULT. NOOK_FORM_PAPER is the published method in its corrected form: a running
-   * average with the step 1 / n after each sample and without match_sh. Leave method and match_sh at their
-   * defaults then. */
+   * average with the step 1 / n after each sample, without match_sh. Leave `method` and `match_sh` at their
+   * defaults. */
   nook_form form;
-  /* 1 (default): the lobes agree with the light in its spherical harmonics of bands 0 to 2, which make up 99
-   * % of its irradiance. The total light is exact, and irradiance has about a third of the error. Lobes that
-   * cannot agree (fewer than 9, non-negative methods, a hemisphere) come close. 0: least squares alone, for
-   * lobes so sharp that there are gaps between them. Only lobes use it. */
+  /* Only for lobes. 1 (default): the fit matches the light's spherical harmonics of bands 0 to 2, which make
+   * up 99 % of its irradiance. The total light is then exact, and irradiance has about a third of the error.
+   * With fewer than 9 lobes, non-negative methods or a hemisphere, the match is approximate. 0: plain least
+   * squares, for lobes so sharp that there are gaps between them. */
   int32_t match_sh;
   /* Default NOOK_PROBE_BASIS_LOBES. */
   nook_probe_basis basis;
@@ -77,10 +77,10 @@ typedef struct nook_probe_fit_desc {
   float up[3];
   /* The number of lobes without the ambient term; 1 to 64, or 63 with the ambient term. Default 12. */
   uint32_t lobe_count;
-  /* The sharpness of all lobes if sharpnesses is NULL, 0 to 10000. 0 (default): such that neighbouring lobes
-   * always overlap alike; 6 for 12 lobes on the sphere. */
+  /* The sharpness of all lobes if sharpnesses is NULL, 0 to 10000. 0 (default): chosen so that neighbouring
+   * lobes overlap equally for any lobe_count; 6 for 12 lobes on the sphere. */
   float sharpness;
-  /* lobe_count directions of unit length to 1e-3, which the call copies. NULL (default): a Vogel spiral. */
+  /* lobe_count unit directions (to 1e-3), which the call copies. NULL (default): a Vogel spiral. */
   const float* axes;
   /* lobe_count values above 0, up to 10000, which the call copies. NULL (default): `sharpness` for all. */
   const float* sharpnesses;
@@ -88,8 +88,8 @@ typedef struct nook_probe_fit_desc {
   int32_t ambient;
   /* For harmonics: the highest band, 1 to 4; default 2. */
   uint32_t order;
-  /* Samples, >= 0, default 0: every sample has its own weight. Above 0, the weight of sample k, counted from
-   * 1, is multiplied by 1 - exp(-k / growing_samples), for first samples that are noisy. */
+  /* Samples, >= 0. If 0 (default), weights are used as given. Otherwise, the weight of sample k, counted from
+   * 1, is multiplied by 1 - exp(-k / growing_samples). Use it if the first samples are noisy. */
   float growing_samples;
   uint32_t reserved;
 } nook_probe_fit_desc;
@@ -98,60 +98,61 @@ static inline nook_result nook_probe_fit_desc_init(nook_probe_fit_desc* desc) {
 }
 
 /* Creates a fit without samples. On failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT (also, NOOK_FORM_PAPER with method or match_sh set; or two functions
- * are so nearly equal that no fit can separate them, and the message names both), OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT (also if `method` or `match_sh` is set with NOOK_FORM_PAPER, or if two
+ * functions are too similar for a fit to separate; the message names both), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_fit_create(nook_context context, const nook_probe_fit_desc* desc,
                                            nook_probe_fit* out);
 
 /* Destroys the fit and sets *fit to NULL. One at a time. */
 NOOK_API void nook_probe_fit_destroy(nook_probe_fit* fit);
 
-/* Adds samples of radiance. weights NULL: directions are distributed uniformly, and each has the weight 1. A
- * direction that you drew with the probability density p over a domain of area a has the weight 1 / (a p), so
- * that the mean of all weights is 1; with another mean, running averages converge more slowly. The fit skips
- * and counts a sample whose direction is not of unit length to 1e-3 or lies outside the hemisphere. It also
- * skips negative weights, numbers that are not finite, and radiance or weights above 1e18. Running averages
- * need directions in random order. The call does not allocate. One at a time. Errors: INVALID_ARGUMENT. */
+/* Adds samples of radiance. Pass `weights` NULL if directions are distributed uniformly; each then has the
+ * weight 1. Otherwise, a direction drawn with probability density p over a domain of area a has the weight 1
+ * / (a p), so that the mean of all weights is 1. With another mean, running averages converge more slowly.
+ * The fit skips and counts a sample whose direction is not of unit length to 1e-3 or lies outside the
+ * hemisphere. It also skips negative weights, values that are not finite, and values above 1e18. Running
+ * averages need directions in random order. The call does not allocate. One at a time. Errors:
+ * INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_add_samples(nook_probe_fit fit, const float* directions,
                                                 const float* radiance, const float* weights, size_t count);
 
-/* Adds the samples of other, such as a fit on another thread, to fit; both must have equal descriptors.
- * Methods that solve end as one fit with all samples, up to rounding. Running averages become the average
- * weighted by the samples' weights. other stays as it is. Neither fit may be in use elsewhere.
- * One at a time. Errors: INVALID_ARGUMENT. */
+/* Adds the samples of the fit `other`, such as one from another thread, to `fit`. Both must have equal
+ * descriptors. With least squares, the result is the same as one fit of all samples, up to rounding. Running
+ * averages are averaged, weighted by their samples' weights. `other` is not changed. No other thread may use
+ * the fits. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_merge(nook_probe_fit fit, nook_probe_fit other);
 
 /* Removes all samples. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_reset(nook_probe_fit fit);
 
-/* Creates a probe from the samples so far, black before the first one. You may add more and solve again. For
- * a grid, fit each probe and pass all fits to nook_probe_create. On failure *out is NULL.
+/* Creates a probe from the samples so far; without samples, it is black. You may add more samples and solve
+ * again. For a grid, fit each probe and pass all fits to nook_probe_create. On failure *out is NULL.
  * One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_fit_solve(nook_probe_fit fit, nook_probe* out);
 
 typedef struct nook_probe_fit_info {
   uint32_t struct_size;
-  /* Lobes and ambient term, or harmonics, or 12 for ambient dice. */
+  /* The number of lobes with the ambient term, or of harmonics; 12 for ambient dice. */
   uint32_t function_count;
-  /* Samples that the fit used, and samples that it skipped: the sum of the next three. */
+  /* Samples that the fit used, and samples that it skipped. `skipped` is the sum of the next three counts. */
   uint64_t samples, skipped;
-  /* Direction not finite, not of unit length, or below the hemisphere; radiance not finite; weight not finite
-   * or negative. */
+  /* Samples skipped because the direction is not finite, not of unit length or below the hemisphere; because
+   * radiance is not finite; and because the weight is not finite or negative. */
   uint64_t skipped_direction, skipped_radiance, skipped_weight;
   /* The sum of the weights of the used samples. */
   double weight;
-  /* The weighted mean of the used samples, with which the mean of a good fit agrees. */
+  /* The weighted mean of the used samples. The mean of a good fit is close to it. */
   double mean_radiance[3];
 } nook_probe_fit_info;
 
 /* Describes a fit and counts its samples. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_describe(nook_probe_fit fit, nook_probe_fit_info* info);
 
-/* ---- Probes: immutable, one or a grid of them with common functions, shared by threads ---- */
+/* ---- Probes: one or a grid with common functions; immutable, usable on several threads ---- */
 
-/* Set counts, origin and spacing for a grid, and one of three sources of light: fits, lobes, or functions
- * with coefficients. In arrays with an entry for each probe, x varies fastest, then y, then z. The call
- * copies all arrays, and you may destroy the fits after it. */
+/* For a grid, set `counts`, `origin_ws` and `spacing_ws`. Set one of three sources of light: `fits`, `lobes`,
+ * or `functions` with `coefficients`. In arrays with an entry for each probe, x varies fastest, then y, then
+ * z. The call copies all arrays, and you may destroy the fits after it. */
 typedef struct nook_probe_desc {
   uint32_t struct_size, type;
   const void* next;
@@ -163,8 +164,7 @@ typedef struct nook_probe_desc {
   float spacing_ws[3];
   /* The number of fits: one for each probe. Default 0. */
   uint32_t fit_count;
-  /* The fits, all with the same basis and domain, or NULL (default). Each probe is as of
-   * nook_probe_fit_solve. */
+  /* Fits with the same basis and domain, or NULL (default). Each is solved as by nook_probe_fit_solve. */
   const nook_probe_fit* fits;
   /* lobe_count lobes for each probe, or NULL (default). All probes must have the same axes and sharpnesses.
    * Only the last lobe may have the sharpness 0; it is the ambient term. */
@@ -172,7 +172,7 @@ typedef struct nook_probe_desc {
   /* Lobes of each probe, 1 to 64. Default 0. */
   uint32_t lobe_count;
   uint32_t reserved;
-  /* A fit whose basis and domain the coefficients belong to, or NULL (default). Its samples do not matter. */
+  /* A fit that defines the coefficients' basis and domain, or NULL (default). Its samples are not used. */
   nook_probe_fit functions;
   /* function_count x RGB for each probe, or NULL (default). */
   const float* coefficients;
@@ -181,9 +181,9 @@ static inline nook_result nook_probe_desc_init(nook_probe_desc* desc) {
   return nook_desc_init(NOOK_DESC_PROBE, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Creates a probe or a grid. On failure *out is NULL. No other thread may use the fits during the call.
- * Any thread. Errors: INVALID_ARGUMENT (also, not exactly one source is set, the fits differ in their
- * functions, or a coefficient is not finite or its magnitude is above 1e22), OUT_OF_MEMORY. */
+/* Creates a probe or a grid. On failure *out is NULL. No other thread may use the fits during the call. Any
+ * thread. Errors: INVALID_ARGUMENT (also if not exactly one source is set, if the fits have different
+ * functions, or if a coefficient is not finite or its magnitude is above 1e22), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_create(nook_context context, const nook_probe_desc* desc, nook_probe* out);
 
 /* Loads a probe or a grid from the bytes of a .nook file, which you may free afterwards. The library
@@ -198,19 +198,18 @@ NOOK_API void nook_probe_destroy(nook_probe* probe);
 enum {
   /* 12 bytes, exact. */
   NOOK_PROBE_PACKING_FLOAT = 0,
-  /* 6 bytes. For each channel, the relative error is at most 2^-11 from 6.1e-5 to 65504, and the absolute
-   * error at most 3e-8 below. Larger values fail with INVALID_ARGUMENT. */
+  /* 6 bytes. The relative error of a channel is at most 2^-11 for values from 6.1e-5 to 65504; below, the
+   * absolute error is at most 3e-8. Larger values fail with INVALID_ARGUMENT. */
   NOOK_PROBE_PACKING_HALF = 1,
-  /* 4 bytes. The error is at most 2^-9 of the largest of the three channels, where that is 3.1e-5 to 65408.
+  /* 4 bytes. The error is at most 2^-9 of the largest of the three channels, if that is 3.1e-5 to 65408.
    * Negative channels and larger values fail with INVALID_ARGUMENT. */
   NOOK_PROBE_PACKING_RGB9E5 = 2
 };
 typedef int32_t nook_probe_packing;
 
-/* Writes the .nook file of a probe to bytes. *size is the buffer's size before the call and the file's
- * afterwards; with bytes NULL the call gives only the size. It allocates from the C++ heap. Any thread.
- * Errors: INVALID_ARGUMENT (also, the buffer is too small; *size is then the required size), OUT_OF_MEMORY.
- */
+/* Writes the .nook file of a probe to bytes. Set *size to the buffer's size; the call sets it to the file's
+ * size. With `bytes` NULL, it only sets *size. The call allocates from the C++ heap. Any thread. Errors:
+ * INVALID_ARGUMENT (also if the buffer is too small; *size is then the required size), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_save(nook_probe probe, nook_probe_packing packing, void* bytes, size_t* size);
 
 typedef struct nook_probe_info {
@@ -230,7 +229,7 @@ typedef struct nook_probe_info {
   float origin_ws[3];
   /* Metres between neighbours along x, y and z. */
   float spacing_ws[3];
-  /* The number of cells between probes in which walls choose among the probes; 0: the grid has no walls. */
+  /* The number of cells between probes that contain walls; 0: the grid has no walls. */
   uint32_t wall_cells;
 } nook_probe_info;
 
@@ -242,24 +241,24 @@ NOOK_API nook_result nook_probe_describe(nook_probe probe, nook_probe_info* info
 NOOK_API nook_result nook_probe_read_coefficients(nook_probe probe, uint32_t index, float* coefficients,
                                                   uint32_t function_count);
 
-/* Writes the lobes at a point (world space, metres), trilinearly interpolated between the probes of a grid;
- * outside it, the lobes at its nearest point. position_ws NULL: the first probe's lobes. The call does not
- * allocate. Any thread. Errors: INVALID_ARGUMENT (also, the basis is not NOOK_PROBE_BASIS_LOBES). */
+/* Writes the lobes at a point (world space, metres). A grid is interpolated trilinearly; outside, you get the
+ * lobes at its nearest point. With `position_ws` NULL, you get the first probe's lobes. The call does not
+ * allocate. Any thread. Errors: INVALID_ARGUMENT (also if the basis is not NOOK_PROBE_BASIS_LOBES). */
 NOOK_API nook_result nook_probe_read_lobes(nook_probe probe, const float* position_ws, nook_lobe* lobes,
                                            uint32_t function_count);
 
-/* Evaluates the radiance from count unit directions. positions_ws has a position for each direction (world
- * space, metres), where the probes of a grid are interpolated; outside the grid you get the light of its
- * nearest point. NULL: the first probe for all. Walls do not count. A hemisphere was fitted to no samples
- * below it. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT. */
+/* Evaluates the radiance from `count` unit directions. `positions_ws` has a position for each direction
+ * (world space, metres), at which the grid is interpolated; outside the grid you get the light at its nearest
+ * point. With NULL, all use the first probe. Walls are ignored. Below a hemisphere, the result is not
+ * meaningful. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_radiance(nook_probe probe, const float* positions_ws, const float* directions,
                                          float* radiance, size_t count);
 
 /* Evaluates the irradiance on count surfaces with unit normals, at positions as in nook_probe_radiance. In a
- * grid that was baked with walls, only the probes on the surface's side of a wall count. Lobes use the
- * clamped cosine in spherical harmonics up to band 4: the error is at most 0.2 % up to sharpness 6 and 1 % at
- * 16, and 1.6 % above; harmonics are exact. The result is not clamped at 0. The call does not allocate.
- * Any thread. Errors: INVALID_ARGUMENT. */
+ * grid that was baked with walls, a surface uses only the probes on its side of a wall. For lobes, the
+ * clamped cosine is expanded in spherical harmonics up to band 4; the error is at most 0.2 % up to sharpness
+ * 6, 1 % at 16, and 1.6 % above. Harmonics are exact. The result is not clamped at 0. The call does not
+ * allocate. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_irradiance(nook_probe probe, const float* positions_ws, const float* normals,
                                            float* irradiance, size_t count);
 
