@@ -1,5 +1,5 @@
 // C++17 wrappers of the C headers: handles destroy their objects, and failed calls throw nook::Error. This
-// header includes all of the stable ones. nook_gl.hpp and nook_nnao.hpp also include the experimental headers
+// header includes all stable wrappers. nook_gl.hpp and nook_nnao.hpp also include the experimental headers
 // that their members need. Each nook_X.hpp wraps nook_X.h, and you can include it alone.
 #ifndef NOOK_NOOK_HPP
 #define NOOK_NOOK_HPP
@@ -8,7 +8,7 @@
 #include "nook_clips.hpp"
 #include "nook_material.hpp"
 #include "nook_probe.hpp"
-// A library without its OpenGL half (NOOK_GL=OFF) is installed without these headers.
+// A library built without OpenGL (NOOK_GL=OFF) is installed without these headers.
 #if __has_include("nook_gl.h")
 #include "nook_gl.hpp"
 #include "nook_nnao.hpp"

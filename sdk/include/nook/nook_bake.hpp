@@ -30,7 +30,7 @@ inline nook_bake_source_desc source_desc() {
 class Character : public Unique<nook_bake_character, nook_bake_character_destroy> {
  public:
   explicit Character(const nook_bake_source_desc& desc) : Unique(create(desc)) {}
-  // A .glb or .gltf file; path is UTF-8.
+  // Imports a .glb or .gltf file; `path` is UTF-8.
   explicit Character(const std::string& path) : Unique(import(path)) {}
 
   nook_bake_character_info info() const {
@@ -39,11 +39,11 @@ class Character : public Unique<nook_bake_character, nook_bake_character_destroy
     check(nook_bake_character_describe(get(), &info));
     return info;
   }
-  // NULL for an index out of range; valid while the character lives.
+  // Returns NULL if the index is out of range. The text is valid while the character lives.
   const char* name(nook_bake_name kind, std::uint32_t index) const {
     return nook_bake_character_name(get(), kind, index);
   }
-  // count elements of an array, as nook_bake_array says, without gaps.
+  // Reads `count` elements of an array, without gaps. nook_bake_array describes the elements.
   void read(nook_bake_array array, void* out, std::uint32_t count) const {
     check(nook_bake_character_read(get(), array, out, count, 0));
   }
@@ -52,7 +52,7 @@ class Character : public Unique<nook_bake_character, nook_bake_character_destroy
     check(nook_bake_character_clip_duration(get(), clip, &seconds));
     return seconds;
   }
-  // 12 floats for each bone.
+  // Returns 12 floats for each bone.
   std::vector<float> sample_clip(std::uint32_t clip, float time_s) const {
     const std::uint32_t bones = info().bone_count;
     std::vector<float> pose(12 * std::size_t(bones));
@@ -73,10 +73,10 @@ class Character : public Unique<nook_bake_character, nook_bake_character_destroy
   }
 };
 
-// A bake that runs. The destructor cancels it and waits for its end.
+// A running bake. The destructor cancels it and waits until it ends.
 class Job : public Unique<nook_bake_job, nook_bake_job_destroy> {
  public:
-  // Any descriptor of a bake, such as nook_bake_character_desc.
+  // Pass any bake descriptor, such as nook_bake_character_desc.
   template <class Desc>
   explicit Job(const Desc& desc) : Unique(start(&desc)) {}
 

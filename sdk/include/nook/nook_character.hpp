@@ -65,14 +65,14 @@ class CharacterModel : public Unique<nook_model, nook_model_destroy> {
     check(nook_model_read(get(), NOOK_MODEL_STATIC_AO, ao.data(), static_cast<std::uint32_t>(ao.size()), 0));
     return ao;
   }
-  // Eight signed bytes for each vertex, as NOOK_MODEL_OCCLUDED_DIRECTIONS has them.
+  // Returns eight signed bytes for each vertex, as NOOK_MODEL_OCCLUDED_DIRECTIONS describes.
   std::vector<std::int8_t> occluded_directions() const {
     const std::uint32_t count = info().file_vertex_count;
     std::vector<std::int8_t> bytes(std::size_t{8} * count);
     check(nook_model_read(get(), NOOK_MODEL_OCCLUDED_DIRECTIONS, bytes.data(), count, 0));
     return bytes;
   }
-  // The transform of each bone, -1 where no name matches.
+  // Returns the index of the transform of each bone, or -1 if no name matches.
   std::vector<std::int32_t> map_bones(const std::vector<const char*>& names, std::uint32_t flags = 0) const {
     nook_bone_map_desc desc = bone_map_desc();
     desc.flags = flags;
@@ -96,14 +96,14 @@ class CharacterModel : public Unique<nook_model, nook_model_destroy> {
     check(nook_model_describe_skin(get(), index, &skin));
     return skin;
   }
-  // pose_check_desc() begins `vertices`.
+  // Initialise `vertices` with pose_check_desc().
   nook_pose_check_info check_pose(const nook_pose_desc& desc, const nook_pose_check_desc& vertices) const {
     nook_pose_check_info info{};
     info.struct_size = sizeof info;
     check(nook_model_check_pose(get(), &desc, &vertices, &info));
     return info;
   }
-  // The model in the order of a host's vertices; vertices[i] is this model's vertex for the host's vertex i.
+  // Returns the model in the order of your vertices. vertices[i] is this model's vertex for your vertex i.
   CharacterModel remap(const std::vector<std::uint32_t>& vertices) const {
     nook_model handle = nullptr;
     check(nook_model_remap(get(), vertices.data(), static_cast<std::uint32_t>(vertices.size()), &handle));
@@ -130,11 +130,11 @@ class Scene : public Unique<nook_scene, nook_scene_destroy> {
     return id;
   }
   void remove_instance(nook_instance_id id) { check(nook_scene_remove_instance(get(), id)); }
-  // The bone counts of both models are equal.
+  // Both models must have the same number of bones.
   void set_model(nook_instance_id id, const CharacterModel& model) {
     check(nook_scene_set_model(get(), id, model.get()));
   }
-  // pose_desc() begins a description.
+  // Initialise `desc` with pose_desc().
   void set_pose(nook_instance_id id, const nook_pose_desc& desc) {
     check(nook_scene_set_pose(get(), id, &desc));
   }
@@ -165,7 +165,7 @@ class Scene : public Unique<nook_scene, nook_scene_destroy> {
             std::size_t stride = 0) const {
     check(nook_scene_read(get(), id, channel, format, out, count, stride));
   }
-  // One float for each vertex.
+  // Writes one float for each vertex.
   void read_ao(nook_instance_id id, float* out, std::uint32_t count, std::size_t stride = 0) const {
     read(id, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, out, count, stride);
   }

@@ -37,7 +37,7 @@ class Clips : public Unique<nook_clips, nook_clips_destroy> {
     while (index < count && clip(index).name != name) ++index;
     return index;
   }
-  // The AO of the character alone, in the order of Scene::read.
+  // Returns the AO of the character alone, in the vertex order of Scene::read.
   std::vector<float> ao(const nook_clip_time& time) const {
     std::vector<float> values(info().file_vertex_count);
     check(nook_clips_read_ao(get(), &time, NOOK_FORMAT_FLOAT, values.data(),

@@ -1,5 +1,5 @@
-// C++17 wrappers of nook_gl.h: characters on the GPU, and uploads of probes, materials and clips. Every
-// function and every destructor belongs to the context thread.
+// C++17 wrappers of nook_gl.h: characters on the GPU, and uploads of probes, materials and clips. Call every
+// function and every destructor on the context thread.
 #ifndef NOOK_GL_HPP
 #define NOOK_GL_HPP
 
@@ -16,21 +16,21 @@
 namespace nook {
 inline namespace wrapper {
 
-// The caller sets get_proc.
+// You must set get_proc.
 inline nook_gl_desc gl_desc() {
   nook_gl_desc desc;
   check(nook_gl_desc_init(&desc));
   return desc;
 }
 
-// You set the size, the depth texture, the projection and, where the camera moves, the view.
+// You must set the size, the depth texture and the projection, and the view if the camera moves.
 inline nook_gl_frame_desc gl_frame_desc() {
   nook_gl_frame_desc desc;
   check(nook_gl_frame_desc_init(&desc));
   return desc;
 }
 
-// Every function and the destructor belong to the context thread, as nook_gl.h documents.
+// Call every function and the destructor on the context thread, as nook_gl.h documents.
 class Gl : public Unique<nook_gl, nook_gl_destroy> {
  public:
   Gl() = default;
@@ -58,7 +58,7 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
     check(nook_gl_scene_view(get(), scene.get(), id, channel, &view));
     return view;
   }
-  // Copies AO to a buffer or texture of the host on the GPU; struct_size of the target is set here.
+  // Copies AO to a buffer or texture of yours on the GPU. This function sets struct_size of the target.
   void write_ao(const Scene& scene, const std::vector<nook_instance_id>& ids,
                 nook_gl_ao_target target) const {
     target.struct_size = sizeof target;
@@ -80,8 +80,8 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
   }
 };
 
-// A probe, a grid, a material or clips as textures, and the GLSL that reads them. Every function and the
-// destructor belong to the context thread, as nook_gl.h documents.
+// A probe, a grid, a material or clips in textures, with the GLSL that reads them. Call every function and
+// the destructor on the context thread, as nook_gl.h documents.
 class Upload : public Unique<nook_gl_upload, nook_gl_upload_destroy> {
  public:
   Upload() = default;
@@ -100,7 +100,7 @@ class Upload : public Unique<nook_gl_upload, nook_gl_upload_destroy> {
     check(nook_gl_upload_describe(get(), &info));
     return info;
   }
-  // Leaves the program in use and the textures bound.
+  // Afterwards the program is in use and the textures are bound.
   void bind(std::uint32_t program, std::uint32_t first_unit) const {
     check(nook_gl_upload_bind(get(), program, first_unit));
   }

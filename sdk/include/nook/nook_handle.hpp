@@ -1,4 +1,4 @@
-// C++17 wrappers, the part that all share: failed calls throw nook::Error, and handles destroy their objects.
+// The common part of the C++17 wrappers: failed calls throw nook::Error, and handles destroy their objects.
 // The wrappers are header-only, so that no C++ type crosses the library's boundary. The C headers document
 // every function, its thread contract included.
 #ifndef NOOK_HANDLE_HPP
@@ -19,7 +19,7 @@ namespace nook {
 // nook::Scene.
 inline namespace wrapper {
 
-// A failed call: what() is the message of nook_last_message(), or of the library that failed.
+// A failed call. what() is the message of nook_last_message(), or of the library that failed.
 class Error : public std::runtime_error {
  public:
   explicit Error(nook_result result) : Error(result, nook_last_message()) {}

@@ -12,7 +12,7 @@
 namespace nook {
 inline namespace wrapper {
 
-// The caller sets max_width and max_height.
+// You must set max_width and max_height.
 inline nook_nnao_desc nnao_desc(nook_nnao_preset preset = NOOK_NNAO_PRESET_DEFAULT) {
   nook_nnao_desc desc;
   check(nook_nnao_desc_init(&desc));
@@ -20,7 +20,7 @@ inline nook_nnao_desc nnao_desc(nook_nnao_preset preset = NOOK_NNAO_PRESET_DEFAU
   return desc;
 }
 
-// You set the radius.
+// You must set the radius.
 inline nook_nnao_frame_desc nnao_frame_desc() {
   nook_nnao_frame_desc desc;
   check(nook_nnao_frame_desc_init(&desc));
@@ -34,7 +34,7 @@ inline std::uint64_t nnao_memory(const nook_nnao_desc& desc) {
   return bytes;
 }
 
-// Every function and the destructor belong to the context thread, as nook_nnao.h documents.
+// Call every function and the destructor on the context thread, as nook_nnao.h documents.
 class Nnao : public Unique<nook_nnao, nook_nnao_destroy> {
  public:
   Nnao() = default;

@@ -18,7 +18,7 @@ inline nook_probe_fit_desc probe_fit_desc() {
   return desc;
 }
 
-// The caller sets fits, lobes, or functions and coefficients.
+// You must set fits, or lobes, or functions and coefficients.
 inline nook_probe_desc probe_desc() {
   nook_probe_desc desc;
   check(nook_probe_desc_init(&desc));

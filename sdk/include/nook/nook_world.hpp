@@ -8,21 +8,21 @@
 namespace nook {
 inline namespace wrapper {
 
-// The caller sets max_width and max_height.
+// You must set max_width and max_height.
 inline nook_world_desc world_pass_desc() {
   nook_world_desc desc;
   check(nook_world_desc_init(&desc));
   return desc;
 }
 
-// You set what casts.
+// You must set the casters.
 inline nook_world_frame_desc world_frame_desc() {
   nook_world_frame_desc desc;
   check(nook_world_frame_desc_init(&desc));
   return desc;
 }
 
-// Every function and the destructor belong to the context thread, as nook_world.h documents.
+// Call every function and the destructor on the context thread, as nook_world.h documents.
 class WorldPass : public Unique<nook_world, nook_world_destroy> {
  public:
   WorldPass() = default;

@@ -1,5 +1,6 @@
-/* Bakes of synthesis and of radiance transfer. They are experimental, because the objects that they make are:
- * experimental/nook_synthesis.h and experimental/nook_transfer.h. nook_bake.h follows and ends their jobs. */
+/* Bakes of synthesis and of radiance transfer. They are experimental, like the objects that they make
+ * (experimental/nook_synthesis.h, experimental/nook_transfer.h). Use the job functions of nook_bake.h to
+ * follow and end the bakes. */
 #ifndef NOOK_BAKE_MATERIALS_H
 #define NOOK_BAKE_MATERIALS_H
 
@@ -11,29 +12,29 @@ extern "C" {
 
 /* ---- Synthesis ----
  *
- * A plane of any size that wears a material without visible repeats, though the material may not even tile.
- */
+ * A synthesis covers a plane of any size with a material, without visible repeats. The material need not
+ * tile. */
 
 /* A material and the settings of its synthesis. docs/synthesis.md describes the method. */
 typedef struct nook_bake_synthesis_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* The bytes of a .nook file: a material, or a raw material that `nook bake material --keep-raw` wrote. It
-   * has 16 texels or more along each side. nook_bake_start reads it before it returns. */
+  /* The bytes of a .nook file: a material, or a raw material from `nook bake material --keep-raw`. The
+   * material must have at least 16 texels along each side. nook_bake_start reads it before it returns. */
   const void* material;
   size_t material_size;
   /* The part of the material that the plane may show, in texels: x, y, width, height. All 0 (default): the
-   * whole. */
+   * whole material. */
   uint32_t crop[4];
-  /* 1 (default): the material tiles without a seam, and the plane may go on across its border. 0: it does
-   * not. A crop never tiles. */
+  /* 1 (default): the material tiles without a seam, so the plane may continue across the material's border.
+   * 0: it does not tile. A crop never tiles. */
   uint32_t is_tiling;
-  /* Texels along a side of the plane, which repeats after them: a multiple of 64 up to 4096; default 512. The
-   * file has 4 bytes for each texel. */
+  /* Texels along a side of the plane, a multiple of 64 up to 4096; default 512. The plane repeats after this
+   * length. The file has 4 bytes for each texel. */
   uint32_t side;
-  /* Random movement, 0 to 1; default 0.8. More of it repeats less and has more seams. */
+  /* The amount of random movement, 0 to 1; default 0.8. More movement gives fewer repeats, but more seams. */
   float jitter;
-  /* Corrections at each level, 1 to 16; default 8. */
+  /* The number of correction passes at each level, 1 to 16; default 8. */
   uint32_t passes;
   /* Default 1. The same seed gives the same bytes on any number of threads. */
   uint64_t seed;
@@ -50,7 +51,7 @@ static inline nook_result nook_bake_synthesis_desc_init(nook_bake_synthesis_desc
 
 /* Starts to bake a synthesis, as nook_bake_start does. nook_bake_job_file gives the bytes for
  * nook_synthesis_load. The report holds the sizes, the time and the seams.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (of material),
+ * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (`material`),
  * FILE_VERSION, OUT_OF_MEMORY. */
 static inline nook_result nook_bake_start_synthesis(const nook_bake_synthesis_desc* desc,
                                                     nook_bake_job* out) {
@@ -59,8 +60,8 @@ static inline nook_result nook_bake_start_synthesis(const nook_bake_synthesis_de
 
 /* ---- Radiance transfer: from a static textured shape in memory ---- */
 
-/* A shape in the space of its vertices, which light is later turned into, in metres.
- * nook_bake_start copies all arrays. docs/transfer.md describes what is baked. */
+/* A shape, in metres, in the space of its vertices. Lights are later rotated into this space. nook_bake_start
+ * copies all arrays. docs/transfer.md describes what is baked. */
 typedef struct nook_bake_transfer_desc {
   uint32_t struct_size, type;
   const void* next;
@@ -68,9 +69,10 @@ typedef struct nook_bake_transfer_desc {
   const float* positions;
   /* 3 floats for each vertex, of unit length to 1e-3. */
   const float* normals;
-  /* 4 floats for each vertex: a unit vector along growing u, and a handedness of 1 or -1, so that handedness
-   * * cross(normal, tangent) points along growing v. In glTF, TANGENT has this vector and the opposite
-   * handedness. NULL: the job makes tangents from the texture coordinates by the rule of MikkTSpace. */
+  /* 4 floats for each vertex: a unit vector in the direction of increasing u, and a handedness of 1 or -1, so
+   * that handedness * cross(normal, tangent) points in the direction of increasing v. The TANGENT of glTF has
+   * the same vector and the opposite handedness. If NULL, the job computes tangents from the texture
+   * coordinates, as MikkTSpace does. */
   const float* tangents;
   /* 2 floats for each vertex, the material's texture coordinates. */
   const float* uvs;
@@ -80,35 +82,36 @@ typedef struct nook_bake_transfer_desc {
   uint32_t vertex_count;
   /* A multiple of 3. */
   uint32_t index_count;
-  /* The number of lobes that will hold the light, 12 to 2562; default 642. The file has a byte for each lobe
-   * and vertex. */
+  /* The number of lobes that represent the light, 12 to 2562; default 642. The file has one byte for each
+   * lobe and vertex. */
   uint32_t lobes;
-  /* Cells along a face of the cube of ray directions, 8 to 256; default 32, which is 6,144 rays for each
-   * vertex. */
+  /* Ray directions are the cells of a cube map. This is the number of cells along a side of a face, 8 to 256;
+   * default 32, which gives 6,144 rays per vertex. */
   uint32_t ray_side;
-  /* Default 0: all cores; up to 1024. The bytes do not depend on it. */
+  /* Default 0: all cores; up to 1024. The file does not depend on it. */
   uint32_t threads;
   uint32_t reserved;
   /* NULL (default): you poll instead. */
   nook_bake_progress_fn progress;
   void* progress_user;
-  /* Reflections of the shape onto itself, 0 (default) to 2; each adds 18 bytes for a vertex. */
+  /* The number of light bounces between parts of the shape, 0 (default) to 2. Each bounce adds 18 bytes per
+   * vertex. */
   uint32_t bounces;
   /* How many tiles of the material fit in one unit of texture coordinates, 0.01 to 1000, for `votf`; default
      1. */
   float tiles;
-  /* The bytes of the .nook file of the material that the shape wears: light falls through the holes of its
-   * VOTF, which it must have. NULL (default): surfaces have no holes. */
+  /* The bytes of the .nook file of the shape's material, which must have a VOTF: light falls through the
+   * holes of the VOTF. NULL (default): surfaces have no holes. */
   const void* votf;
   size_t votf_size;
-  /* The bytes of the .nook file of the material for whose light modes the job bakes NOOK_FORM_PAPER, which
-   * needs it. NULL (default) otherwise. */
+  /* Required for NOOK_FORM_PAPER, otherwise NULL (default): the bytes of a material's .nook file. The job
+   * bakes for the light modes of this material. */
   const void* material;
   size_t material_size;
-  /* Clusters of vertices of NOOK_FORM_PAPER, up to 256; 0 (default): one for each 360 vertices. */
+  /* For NOOK_FORM_PAPER: the number of vertex clusters, up to 256; 0 (default): one per 360 vertices. */
   uint32_t clusters;
-  /* Default NOOK_FORM_DEFAULT: transfer that is separate from materials, so that the shape can wear any.
-     NOOK_FORM_PAPER follows Tsai and Shih 2012, for the light modes of `material`. */
+  /* Default NOOK_FORM_DEFAULT: the transfer does not depend on a material, so you can use any with the shape.
+   * NOOK_FORM_PAPER follows Tsai and Shih 2012, for the light modes of `material`. */
   nook_form form;
 } nook_bake_transfer_desc;
 static inline nook_result nook_bake_transfer_desc_init(nook_bake_transfer_desc* desc) {
@@ -117,7 +120,7 @@ static inline nook_result nook_bake_transfer_desc_init(nook_bake_transfer_desc* 
 
 /* Starts to bake radiance transfer, as nook_bake_start does. nook_bake_job_file gives the bytes for
  * nook_transfer_load. The report holds the settings, sizes, the time and warnings.
- * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (of votf or material),
+ * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (`votf` or `material`),
  * OUT_OF_MEMORY. */
 static inline nook_result nook_bake_start_transfer(const nook_bake_transfer_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);

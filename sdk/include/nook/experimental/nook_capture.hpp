@@ -11,11 +11,11 @@
 namespace nook {
 inline namespace wrapper {
 
-// Cube maps that the host renders become probes of one or two Uploads. Every function and the destructor
-// belong to the context thread, as nook_capture.h documents.
+// Turns cube maps that you render into probes of one or two Uploads. Call every function and the destructor
+// on the context thread, as nook_capture.h documents.
 class GlProbeCapture : public Unique<nook_gl_capture, nook_gl_capture_destroy> {
  public:
-  // Defaults, for the caller to change.
+  // Returns the defaults. Change the fields as you need.
   static nook_gl_capture_desc defaults() {
     nook_gl_capture_desc desc;
     check(nook_gl_capture_desc_init(&desc));
@@ -23,7 +23,7 @@ class GlProbeCapture : public Unique<nook_gl_capture, nook_gl_capture_destroy> {
   }
   GlProbeCapture(const Gl& gl, const nook_gl_capture_desc& desc) : Unique(create(gl, desc)) {}
 
-  // With restart, this map is the first one of the average.
+  // If `restart` is true, the average starts again with this map.
   void add(std::uint32_t index, std::uint32_t cube_map, bool restart = false) {
     check(nook_gl_capture_add(get(), index, cube_map, restart));
   }

@@ -1,10 +1,10 @@
 /* Shapes for debug drawing, the terms that updates evaluate, the memory of a model on the GPU, and debug
- * views and choices of the screen pass and the world pass. The shapes show the parts that a scene evaluates:
- * the proxy spheres and key points of an instance in its pose, its links, and its level of detail. Draw them
- * over your own picture to see why a character is dark. A sphere may stick out of the body, a bone may not
- * follow, or a neighbour may not be linked.
+ * views and choices of the screen pass and the world pass. The shapes show what a scene evaluates: the proxy
+ * spheres and key points of an instance in its pose, its links, and its level of detail. Draw them over your
+ * own image to see why the AO of a character is wrong. For example, a sphere may stick out of the body, a
+ * bone may not follow, or a neighbour may not be linked.
  *
- * Calls that describe or read do not allocate and change nothing. nook_scene_set_terms changes what the next
+ * The describe and read calls do not allocate and change nothing. nook_scene_set_terms changes what the next
  * updates evaluate, and nook_gl_model_memory gives the memory of a model on the GPU. Spheres and points
  * follow the current pose; links and levels come from the last update, on the CPU or on OpenGL. */
 #ifndef NOOK_DEBUG_H
@@ -20,17 +20,17 @@ typedef struct nook_scene_instance_info {
   uint32_t struct_size;
   /* The level of detail of the last update; 0 is full detail. */
   uint32_t level;
-  /* AO, root mean square: the error of this level against full detail, as the bake measured it; 0 at full
+  /* AO, root mean square: the error of this level relative to full detail, as measured by the bake; 0 at full
    * detail. */
   float level_error;
   /* The numbers of spheres and key points that are evaluated at this level. */
   uint32_t sphere_count;
   uint32_t key_point_count;
-  /* The numbers of linked casters that darken the instance, and of linked casters, occluders and ground that
-   * the last update skipped because of cutoff_error. */
+  /* The number of linked casters that darken the instance; and the number of linked casters, occluders and
+   * grounds that the last update skipped because of cutoff_error. */
   uint32_t link_count;
   uint32_t culled_count;
-  /* 1 if the last update evaluated the instance, 0 if its turn comes later (lod_max_interval). */
+  /* 1 if the last update evaluated the instance, 0 if a later one will (lod_max_interval). */
   uint32_t updated;
   /* A sphere that contains all spheres and key points of the pose; world space, metres. */
   float bound_centre_ws[3];
@@ -47,12 +47,12 @@ typedef struct nook_scene_sphere {
   float centre_ws[3];
   float radius;
   uint32_t bone;
-  /* The share of the sphere that counts where it darkens another instance, >= 0. */
+  /* The weight of the sphere when it darkens another instance, >= 0. */
   float caster_weight;
 } nook_scene_sphere;
 
-/* Writes the proxy spheres of an instance at its level. *count is the room in `out`, and becomes the number
- * of spheres; with out NULL only that is written.
+/* Writes the proxy spheres of an instance at its level. Set *count to the capacity of `out`; the call sets it
+ * to the number of spheres. With `out` NULL, the call only sets *count.
  * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT (there is too little room),
  * INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_read_spheres(nook_scene scene, nook_instance_id instance,
@@ -63,11 +63,12 @@ typedef struct nook_scene_key_point {
   /* Where the self-shadow is evaluated. The fit may leave it beside the surface. */
   float position_ws[3];
   /* The shadow of the instance's own spheres in the last nook_scene_update, >= 0, before the weights of the
-   * vertices. Updates on OpenGL keep theirs on the GPU: it is -1 before the first nook_scene_update. */
+   * vertices. It is -1 before the first nook_scene_update; OpenGL updates do not set it, because their
+   * shadows stay on the GPU. */
   float shadow;
   float normal_ws[3];
-  /* The occlusion by links, ground and occluders in the last nook_scene_update, in [0, 1], or -1 like the
-   * shadow. It is 0 with NOOK_FORM_PAPER, where they count in the shadow. */
+  /* The occlusion by links, ground and occluders in the last nook_scene_update, in [0, 1], or -1 like
+   * `shadow`. It is 0 with NOOK_FORM_PAPER, where `shadow` includes them. */
   float added;
   /* Where links, ground and occluders are evaluated: a point on the surface. */
   float surface_position_ws[3];
@@ -75,18 +76,18 @@ typedef struct nook_scene_key_point {
   uint32_t index;
 } nook_scene_key_point;
 
-/* Writes the key points of an instance that are evaluated at its level, by ascending index. *count is the
- * room in `out`, and becomes the number of points; with out NULL only that is written.
+/* Writes the key points of an instance that are evaluated at its level, by ascending index. Set *count to the
+ * capacity of `out`; the call sets it to the number of points. With `out` NULL, the call only sets *count.
  * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT (there is too little room),
  * INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_read_key_points(nook_scene scene, nook_instance_id instance,
                                                 nook_scene_key_point* out, uint32_t* count);
 
-/* Writes the instances that darken an instance by links, from nook_scene_link or as its nearest neighbours.
- * They are the casters of its last update that matter; between the removal of an instance and the next update
- * there are none. *count is the room in `out`, and becomes the number of casters; with out NULL only that is
- * written. Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT (there is too little room),
- * INVALID_HANDLE. */
+/* Writes the instances that darken an instance by links, from nook_scene_link or as nearest neighbours. They
+ * are the casters that its last update did not skip. After you remove any instance, there are none until the
+ * next update. Set *count to the capacity of `out`; the call sets it to the number of casters. With `out`
+ * NULL, the call only sets *count. Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT
+ * (there is too little room), INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_read_links(nook_scene scene, nook_instance_id instance, nook_instance_id* out,
                                            uint32_t* count);
 
@@ -99,9 +100,9 @@ enum {
   NOOK_TERM_ALL = 15
 };
 
-/* Chooses the casters that updates evaluate, a sum of NOOK_TERM_ values, for debug views and artists; default
- * NOOK_TERM_ALL. Without NOOK_TERM_SELF the bias of the fit is left out as well, so that an instance without
- * added casters is open.
+/* Chooses the casters that updates evaluate, for debug views and artists. `terms` is a sum of NOOK_TERM_
+ * values; default NOOK_TERM_ALL. Without NOOK_TERM_SELF, the bias of the fit is left out too, so that an
+ * instance without other casters has AO 1.
  * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_set_terms(nook_scene scene, uint32_t terms);
 
@@ -115,25 +116,25 @@ typedef struct nook_gl_memory {
   uint64_t model_bytes;
   /* The bytes of one instance, without links. */
   uint64_t instance_bytes;
-  /* The same with a light. */
+  /* The bytes of one instance that has a light. */
   uint64_t lit_instance_bytes;
 } nook_gl_memory;
 
-/* Computes the OpenGL memory of a model before any of it is used; buffers that grow have up to half as much
- * again. The call makes no OpenGL call. One at a time. Errors: INVALID_ARGUMENT. */
+/* Computes the OpenGL memory of a model before you use it. Growing buffers can take up to 50 % more. The call
+ * makes no OpenGL call. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_model_memory(nook_gl gl, nook_model model, nook_gl_memory* memory);
 
-/* ---- Debug descriptors of the screen pass and the world pass: set `next` of a descriptor to one ---- */
+/* ---- Debug descriptors: point `next` of a descriptor of the screen pass or the world pass to one ---- */
 
-/* The stage that evaluates the network; the other stages are draws in any case. Both paths give the same AO,
- * on Mesa's llvmpipe the same bits. */
+/* How the network is evaluated; the other stages are always draws. Both paths give the same AO, bit for bit
+ * on Mesa's llvmpipe. */
 enum {
-  /* Compute if OpenGL has it, else fragments; fragments on OpenGL ES. */
+  /* Compute if OpenGL supports it, otherwise fragments; always fragments on OpenGL ES. */
   NOOK_NNAO_PATH_AUTOMATIC = 0,
   /* A draw, on OpenGL 3.3, OpenGL ES 3.0 and WebGL 2. */
   NOOK_NNAO_PATH_FRAGMENT = 1,
-  /* A dispatch. It needs OpenGL 4.3 or OpenGL ES 3.1, glBindImageTexture, and a max_tier in nook_gl_desc
-   * that allows it. OpenGL ES writes no images of one byte: AO takes four there. */
+  /* A dispatch. It needs OpenGL 4.3 or OpenGL ES 3.1, glBindImageTexture, and a max_tier in nook_gl_desc that
+   * allows it. OpenGL ES cannot write one-byte images, so AO takes four bytes there. */
   NOOK_NNAO_PATH_COMPUTE = 2
 };
 typedef int32_t nook_nnao_path;
@@ -141,11 +142,11 @@ typedef int32_t nook_nnao_path;
 /* Which sample of a multisampled depth texture gives the pixel its depth and, with
    nook_nnao_desc.normal_samples, its normal. */
 enum {
-  /* The median of the depths, of two the nearer one: a surface that covers most of the pixel. */
+  /* The median of the depths, or the nearer one of two: a surface that covers most of the pixel. */
   NOOK_NNAO_SAMPLE_MEDIAN = 0,
   /* Sample 0. */
   NOOK_NNAO_SAMPLE_FIRST = 1,
-  /* The nearest one. */
+  /* The nearest sample. */
   NOOK_NNAO_SAMPLE_NEAREST = 2
 };
 typedef int32_t nook_nnao_sample;
@@ -158,14 +159,15 @@ typedef struct nook_nnao_debug_desc {
   nook_nnao_path path;
   /* Default NOOK_NNAO_SAMPLE_MEDIAN, whose error was measured to be the smallest (docs/nnao.md). */
   nook_nnao_sample depth_sample;
-  /* 1: every stage is timed for nook_nnao_read_timings of experimental/nook_stages.h. Default 0. */
+  /* 1: the pass measures the time of every stage, for nook_nnao_read_timings of experimental/nook_stages.h.
+   * Default 0. */
   int32_t timers;
 } nook_nnao_debug_desc;
 static inline nook_result nook_nnao_debug_desc_init(nook_nnao_debug_desc* desc) {
   return nook_desc_init(NOOK_DESC_NNAO_DEBUG, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* The quantity that the screen pass shows. */
+/* What the screen pass shows. */
 enum {
   /* The result. */
   NOOK_NNAO_VIEW_AO = 0,
@@ -190,22 +192,22 @@ static inline nook_result nook_nnao_frame_debug_desc_init(nook_nnao_frame_debug_
   return nook_desc_init(NOOK_DESC_NNAO_FRAME_DEBUG, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* The quantity that the world pass shows. */
+/* What the world pass shows. */
 enum {
   /* The result. */
   NOOK_WORLD_VIEW_AO = 0,
-  /* The number of casters that a pixel evaluates, over 255. At half resolution, far bodies' casters count by
-     the share of their pixels. */
+  /* The number of casters that a pixel evaluates, divided by 255. At half resolution, casters of far bodies
+   * count by their share of pixels. */
   NOOK_WORLD_VIEW_CASTERS = 1,
-  /* The number of those casters that are capsules of the model or of nook_world_frame_desc, in place of the
-   * capsule of a limb or a body; over 255. */
+  /* The number of these casters that are exact capsules (of a model or of nook_world_frame_desc), not the one
+   * capsule that replaces a limb or a body; divided by 255. */
   NOOK_WORLD_VIEW_EXACT_CASTERS = 2,
-  /* The number of bodies whose reach a pixel tests, over 255. */
+  /* The number of bodies whose reach a pixel tests, divided by 255. */
   NOOK_WORLD_VIEW_TESTS = 3,
-  /* The number of far bodies that are evaluated at the pixels which have them at half resolution, spread over
-   * the others; over 255. At full resolution 0. */
+  /* The number of far bodies that the pixels of the half-resolution stage evaluate, interpolated to all
+   * pixels; divided by 255. It is 0 if the pass has full resolution. */
   NOOK_WORLD_VIEW_FAR_CASTERS = 4,
-  /* The same of the far bodies whose reach is tested. */
+  /* The number of far bodies whose reach these pixels test, interpolated in the same way. */
   NOOK_WORLD_VIEW_FAR_TESTS = 5
 };
 typedef int32_t nook_world_view;

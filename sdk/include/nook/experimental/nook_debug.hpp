@@ -18,14 +18,14 @@ inline nook_scene_instance_info instance_info(const Scene& scene, nook_instance_
   return info;
 }
 
-// terms: a sum of NOOK_TERM_ values.
+// `terms` is a sum of NOOK_TERM_ values.
 inline void set_terms(Scene& scene, std::uint32_t terms) {
   check(nook_scene_set_terms(scene.get(), terms));
 }
 
 namespace detail {
 
-// The first call returns the count, the second one fills the elements.
+// The first call gets the count, the second call fills the elements.
 template <class Element>
 std::vector<Element> read_all(nook_result (*read)(nook_scene, nook_instance_id, Element*, std::uint32_t*),
                               const Scene& scene, nook_instance_id id) {

@@ -1,4 +1,4 @@
-/* The ambient occlusion of many poses of one model in one call, for tools and pipelines. */
+/* Computes the ambient occlusion of many poses of one model in one call, for tools and pipelines. */
 #ifndef NOOK_POSES_H
 #define NOOK_POSES_H
 
@@ -8,19 +8,20 @@
 extern "C" {
 #endif
 
-/* Evaluates pose_count poses of a character that stands alone, and writes the AO of each vertex in each pose
- * to ao: pose after pose, file_vertex_count floats each. count must be pose_count * file_vertex_count. This
- * call gives the same bits as nook_scene_set_pose, nook_scene_update and nook_scene_read in a scene with one
- * instance.
+/* Evaluates `pose_count` poses of a single character, and writes the AO of each vertex in each pose to `ao`:
+ * one pose after another, with file_vertex_count floats each. count must be pose_count * file_vertex_count.
+ * This call gives the same bits as nook_scene_set_pose, nook_scene_update and nook_scene_read in a scene with
+ * one instance.
  *
- * first describes the first pose, as nook_scene_set_pose takes it; its kind, layout, place and maps hold for
- * all poses. pose_stride is the number of bytes from the first transform of a pose to the first transform of
- * the next pose. It is a multiple of 4; 0 means that poses are tightly packed. With NOOK_POSE_FLAG_PARTIAL, a
- * bone without a transform stays in the rest pose. plane_xyzd is a ground under all poses, as
- * nook_scene_set_ground takes it, or NULL. settings may be NULL for the defaults of nook_scene_desc_init.
+ * `first` describes the first pose, as for nook_scene_set_pose; its kind, layout, place and bone map apply to
+ * all poses. `pose_stride` is the number of bytes from the first transform of a pose to the first transform
+ * of the next pose. It is a multiple of 4; 0 means that poses are tightly packed. With
+ * NOOK_POSE_FLAG_PARTIAL, a bone without a transform stays in the rest pose. `plane_xyzd` is a ground under
+ * all poses, as for nook_scene_set_ground, or NULL. `settings` may be NULL for the defaults of
+ * nook_scene_desc_init.
  *
- * The call runs through the context's parallel_for if there is one, and allocates. If a pose is refused, the
- * message names it; ao may then hold a part of the result.
+ * The call uses the context's parallel_for if there is one, and allocates. If a pose is invalid, the message
+ * names it; `ao` may then hold a part of the result.
  * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (as nook_scene_set_pose), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_evaluate_poses(nook_model model, const nook_scene_desc* settings,
                                                const nook_pose_desc* first, uint32_t pose_count,

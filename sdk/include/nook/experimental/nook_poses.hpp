@@ -12,8 +12,8 @@
 namespace nook {
 inline namespace wrapper {
 
-// The AO of all vertices in the first pose, then in the second one, and so on. pose_desc() begins `first`,
-// and scene_desc() the settings.
+// Returns the AO of all vertices in the first pose, then in the second pose, and so on. Initialise `first`
+// with pose_desc(), and the settings with scene_desc().
 inline std::vector<float> evaluate_poses(const CharacterModel& model, const nook_pose_desc& first,
                                          std::uint32_t pose_count, std::size_t pose_stride = 0,
                                          const float* plane_xyzd = nullptr,

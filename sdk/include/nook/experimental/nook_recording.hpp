@@ -15,7 +15,7 @@
 namespace nook {
 inline namespace wrapper {
 
-// The caller sets the size, depth, the projection and the radius.
+// You must set the size, depth, the projection and the radius.
 inline nook_nnao_recording_desc nnao_recording_desc() {
   nook_nnao_recording_desc desc;
   check(nook_nnao_recording_desc_init(&desc));
@@ -46,9 +46,9 @@ class Recording : public Unique<nook_nnao_recording, nook_nnao_recording_destroy
     check(nook_nnao_recording_save(get(), bytes.data(), &size));
     return bytes;
   }
-  // Writes the file beside its place, under a name that is new, and renames it, so that it appears whole or
-  // not at all. A file that is replaced keeps its permissions, and a link its place. Throws
-  // std::runtime_error with a text that names the file.
+  // Writes a new temporary file in the same folder and then renames it, so that no incomplete file can
+  // appear. If a file is replaced, its permissions are kept. If the path is a link, the link stays and its
+  // target is replaced. Throws std::runtime_error with a text that names the file.
   void write(const std::filesystem::path& file) const {
     const std::vector<unsigned char> bytes = save();
     std::error_code error;

@@ -1,7 +1,7 @@
-/* Arithmetic of spherical Gaussians (lobes) and of spherical harmonics (SH) on plain arrays, and methods of
- * probe fits for comparison.
+/* Calculations with spherical Gaussians (lobes) and spherical harmonics (SH) in plain arrays, and other
+ * methods of probe fits for comparison.
  *
- * Lobes: pass at most NOOK_PROBE_MAX_FUNCTIONS of them. No call of this header allocates. */
+ * Pass at most NOOK_PROBE_MAX_FUNCTIONS lobes. The functions of this header do not allocate. */
 #ifndef NOOK_SG_H
 #define NOOK_SG_H
 
@@ -18,16 +18,17 @@ extern "C" {
 NOOK_API nook_result nook_sg_radiance(const nook_lobe* lobes, uint32_t lobe_count, const float* directions,
                                       float* radiance, size_t count);
 
-/* The method that computes the irradiance of a lobe. */
+/* How the irradiance of a lobe is computed. */
 enum {
-  /* S. Hill's fit of a lobe under the clamped cosine. Its error is at most 1.6 % of the irradiance of a light
-   * that is perpendicular to the surface. Below sharpness 3, where the fit is not defined, the bands are
-   * used. */
+  /* S. Hill's fit for a lobe under the clamped cosine. Its error is at most 1.6 % of the irradiance of the
+   * same light from the direction of the normal. The fit is not defined below sharpness 3; BANDS is used
+   * there. */
   NOOK_PROBE_IRRADIANCE_FITTED = 0,
-  /* The clamped cosine as a lobe. It costs less, and is never 0 behind a light. */
+  /* The clamped cosine is approximated by a lobe. This is cheaper, but the irradiance is never 0 for surfaces
+   * that face away from the light. */
   NOOK_PROBE_IRRADIANCE_INNER_PRODUCT = 1,
   /* The clamped cosine in spherical harmonics up to band 4, as nook_probe_irradiance uses it. Its error is at
-   * most 0.2 % up to sharpness 6 and 1 % at 16; above, the fitted form is used. */
+   * most 0.2 % up to sharpness 6 and 1 % at 16; above 16, FITTED is used. */
   NOOK_PROBE_IRRADIANCE_BANDS = 2
 };
 typedef int32_t nook_probe_irradiance_form;
@@ -38,12 +39,12 @@ NOOK_API nook_result nook_sg_irradiance(const nook_lobe* lobes, uint32_t lobe_co
                                         nook_probe_irradiance_form form, const float* normals,
                                         float* irradiance, size_t count);
 
-/* The shape of what a surface reflects to the eye. */
+/* How the GGX lobe of a surface is approximated. */
 enum {
   /* One spherical Gaussian (after Wang et al. 2009). */
   NOOK_PROBE_SPECULAR_ISOTROPIC = 0,
-  /* Four of them round normals that the eye sees (Heitz 2018), which stretch at grazing views and where the
-   * two widths differ. */
+  /* Four Gaussians around normals that are visible to the eye (Heitz 2018). They stretch at grazing views,
+   * and if the two widths differ. */
   NOOK_PROBE_SPECULAR_ANISOTROPIC = 1
 };
 typedef int32_t nook_probe_specular_form;
@@ -53,7 +54,7 @@ typedef struct nook_probe_surface {
   float normal[3];
   /* Unit vector from the surface to the eye. */
   float view[3];
-  /* Unit vector perpendicular to the normal. It is only read where alpha_x and alpha_y differ. */
+  /* Unit vector perpendicular to the normal. It is only read if alpha_x and alpha_y differ. */
   float tangent[3];
   /* The GGX width along the tangent, roughness squared, in [0.001, 1]. */
   float alpha_x;
@@ -64,27 +65,28 @@ typedef struct nook_probe_surface {
 } nook_probe_surface;
 
 /* Computes the radiance that GGX surfaces reflect to the eye, one colour for each surface. Use it to check
- * your shader. The model is single scattering with Schlick Fresnel and Smith masking whose heights correlate
- * (Heitz 2014). Where the cosine between normal and view is 0.02 or more, expect these errors:
+ * your shader. The model is single scattering with Schlick Fresnel and height-correlated Smith masking (Heitz
+ * 2014). If the cosine between normal and view is 0.02 or more, expect these errors:
  *     5 %        under constant light, for a reflectance of 0.02 or more
  *     9 %        anisotropic form, under 12 lobes of sharpness 6 whose amplitudes differ by up to 1 : 9
  *     13 %       isotropic form, under the same lobes
  *     40 %       if one lobe is 20 times as bright as the others
- * Surfaces with two widths are within 14 % in the anisotropic form; under constant light within 5 % at
- * reflectance 1 and 20 % at 0.04. docs/probes.md has the rest.
+ * For surfaces with two widths, the error of the anisotropic form is at most 14 %. Under constant light, it
+ * is at most 5 % at reflectance 1 and 20 % at reflectance 0.04. docs/probes.md has more measurements.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sg_specular(const nook_lobe* lobes, uint32_t lobe_count,
                                       nook_probe_specular_form form, const nook_probe_surface* surfaces,
                                       float* rgb, size_t count);
 
-/* Writes the lobes for glossy reflection at a point, which you pass to nook_sg_specular. They have the axes
- * and sharpnesses of nook_probe_read_lobes, and amplitudes of their own that are never negative. The lobes of
- * nook_probe_read_lobes suit irradiance, because they keep the light's bands 0 to 2. Their radiance falls
- * below 0 between strong lights, which a glossy surface shows as a black patch. A probe has amplitudes for
- * gloss if it comes from fits, or from the file of a bake. `nook bake probe` first takes suns out of a map,
- * which your engine draws as lights. position_ws and function_count are as in nook_probe_read_lobes. The GLSL
- * of an upload reads the same amplitudes. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT
- * (also, the basis is not NOOK_PROBE_BASIS_LOBES), UNSUPPORTED (the probe has no amplitudes for gloss). */
+/* Writes the lobes for glossy reflection at a point. Pass them to nook_sg_specular. They have the same axes
+ * and sharpnesses as the lobes of nook_probe_read_lobes, but different amplitudes, which are never negative.
+ * The lobes of nook_probe_read_lobes are good for irradiance, because they keep the light's bands 0 to 2. But
+ * their radiance is below 0 between strong lights, which shows as a black patch on glossy surfaces. A probe
+ * has amplitudes for gloss if it comes from fits, or from a baked file. `nook bake probe` first removes suns
+ * from a map; draw them as lights. `position_ws` and `function_count` are as in nook_probe_read_lobes. The
+ * GLSL of an upload reads the same amplitudes. The call does not allocate. Any thread. Errors:
+ * INVALID_ARGUMENT (also if the basis is not NOOK_PROBE_BASIS_LOBES), UNSUPPORTED (the probe has no
+ * amplitudes for gloss). */
 NOOK_API nook_result nook_probe_read_gloss(nook_probe probe, const float* position_ws, nook_lobe* lobes,
                                            uint32_t function_count);
 
@@ -92,13 +94,13 @@ NOOK_API nook_result nook_probe_read_gloss(nook_probe probe, const float* positi
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sg_integral(const nook_lobe* lobe, float rgb[3]);
 
-/* Computes the product of two lobes, which is exactly one lobe; amplitudes multiply by channel. Pass it to
- * nook_sg_integral for the integral of the product.
+/* Computes the product of two lobes, which is exactly one lobe. Amplitudes are multiplied per channel. For
+ * the integral of the product, pass the result to nook_sg_integral.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sg_product(const nook_lobe* a, const nook_lobe* b, nook_lobe* out);
 
-/* Computes a lobe about the axis of a that approximates a convolved with b: it has the integral and the mean
- * cosine of the convolution.
+/* Computes a lobe around the axis of `a` that approximates the convolution of `a` with `b`. The lobe has the
+ * same integral and the same mean cosine as the convolution.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sg_convolve(const nook_lobe* a, const nook_lobe* b, nook_lobe* out);
 
@@ -106,36 +108,36 @@ NOOK_API nook_result nook_sg_convolve(const nook_lobe* a, const nook_lobe* b, no
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sg_rotate(nook_lobe* lobes, uint32_t lobe_count, const float rotation[9]);
 
-/* ---- Spherical harmonics: they have the lowest error of diffuse light for their size ----
+/* ---- Spherical harmonics: the smallest data for the same error of diffuse light ----
  *
  * A fit of NOOK_PROBE_BASIS_SH gives coefficients from samples (nook_probe_read_coefficients), and
  * nook_sg_to_sh gives them from lobes. shaders/probe/harmonics.glsl evaluates bands 0 to 2 (27 floats), and
  * ZH3 (15 floats). */
 
-/* Projects lobes exactly onto real spherical harmonics of bands 0 to order (1 to 4). coefficients receives
- * (order + 1)^2 x RGB, band by band from m = -l to l, without the Condon-Shortley phase: 0.282095, 0.488603
- * (y, z, x), and so on.
+/* Projects lobes exactly onto real spherical harmonics of bands 0 to `order` (1 to 4). `coefficients`
+ * receives (order + 1)^2 x RGB, band by band, from m = -l to l, without the Condon-Shortley phase: 0.282095,
+ * 0.488603 (y, z, x), and so on.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sg_to_sh(const nook_lobe* lobes, uint32_t lobe_count, uint32_t order,
                                    float* coefficients);
 
-/* In place of an order: the coefficients are the 5 x RGB of nook_sh_to_zh3. */
+/* Pass it as `order` if the coefficients are the 5 x RGB of nook_sh_to_zh3. */
 enum { NOOK_SH_ZH3 = 100 };
 
-/* Evaluates the radiance from count unit directions, exactly for these coefficients. order is 1 to 4, or
+/* Evaluates the radiance from `count` unit directions, exactly for these coefficients. order is 1 to 4, or
  * NOOK_SH_ZH3. The result is not clamped at 0: harmonics ring below 0 opposite a sun.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sh_radiance(const float* coefficients, uint32_t order, const float* directions,
                                       float* rgb, size_t count);
 
-/* Evaluates the irradiance on count surfaces with the given unit normals, exactly for these coefficients.
+/* Evaluates the irradiance on `count` surfaces with the given unit normals, exactly for these coefficients.
  * order is 1 to 4, or NOOK_SH_ZH3. The result is not clamped at 0. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sh_irradiance(const float* coefficients, uint32_t order, const float* normals,
                                         float* rgb, size_t count);
 
 /* Computes quadratic zonal harmonics, ZH3 (Roughton et al. 2024), from bands 0 to 2, 9 x RGB. The result is 5
- * x RGB: bands 0 and 1 unchanged, then the coefficient of the part of band 2 that is symmetric about the
- * direction of band 1's luminance. You may interpolate and pack it as other coefficients.
+ * x RGB: bands 0 and 1 unchanged, then one coefficient for band 2. It is the part of band 2 that is symmetric
+ * around the direction of band 1's luminance. You can interpolate and pack ZH3 like other coefficients.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sh_to_zh3(const float* coefficients, float* zonal);
 
@@ -145,8 +147,8 @@ NOOK_API nook_result nook_sh_to_zh3(const float* coefficients, float* zonal);
  * 0.35 c^2 + 0.25 c^4 with c = max(dot(v, s), 0), at the 12 vertices v of an icosahedron. */
 enum { NOOK_PROBE_BASIS_DICE = 2 };
 
-/* Methods in place of nook_probe_fit_desc.method. G_ik is the integral of B_i B_k, and m_i the integral of
- * B_i f, which the samples estimate. */
+/* Methods that replace nook_probe_fit_desc.method. G_ik is the integral of B_i B_k. m_i is the integral of
+ * B_i f, estimated from the samples. */
 enum {
   /* The method of nook_probe_fit_desc. */
   NOOK_PROBE_FIT_STUDY_DEFAULT = 0,
@@ -154,35 +156,36 @@ enum {
    * match_sh has no effect. */
   NOOK_PROBE_FIT_STUDY_NAIVE = 1,
   /* The running average in its first published form, b_i += (1 / n) B_i (v - R) / mean of B_i. It has the
-   * same limit as the corrected form with about half the step, so that it converges far more slowly. Not with
+   * same limit as the corrected form, but about half the step, so it converges much more slowly. Not for
    * harmonics. match_sh has no effect. */
   NOOK_PROBE_FIT_STUDY_RUNNING_AVERAGE_ORIGINAL = 2,
-  /* b = G^-1 m with the exact G. It merges exactly. */
+  /* b = G^-1 m with the exact G. Merging fits is exact. */
   NOOK_PROBE_FIT_STUDY_MOMENTS = 3
 };
 typedef int32_t nook_probe_study_method;
 
-/* D_i of the published step. */
+/* How D_i of the published step is computed. */
 enum {
-  /* An average over the same samples that is never below the exact integral. */
+  /* An average over the same samples, but not below the exact integral. */
   NOOK_PROBE_DENOMINATOR_LOCKSTEP = 0,
   /* The exact integral. */
   NOOK_PROBE_DENOMINATOR_PRECOMPUTED = 1
 };
 typedef int32_t nook_probe_denominator;
 
-/* Options of a fit for comparisons of papers. Set nook_probe_fit_desc.next to it. */
+/* Options of a fit for comparisons with papers. Set nook_probe_fit_desc.next to it. */
 typedef struct nook_probe_fit_study_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* Default NOOK_PROBE_FIT_STUDY_DEFAULT. Another method replaces nook_probe_fit_desc.method; method and form
-   * must then have their defaults. */
+  /* Default NOOK_PROBE_FIT_STUDY_DEFAULT. Another method replaces nook_probe_fit_desc.method; `method` and
+   * `form` must then have their defaults. */
   nook_probe_study_method method;
-  /* 1: running averages take the published step. At each sample (w, v), with a the domain's area and n the
-   * weight so far, b_i += (1 / n) (B_i(w) (v - sum over k != i of b_k B_k(w)) / D_i - b_i), where D_i is an
-   * estimate of G_ii / a; the non-negative form clamps after each sample. NOOK_FORM_PAPER always does so.
-   * 0 (default): the step by blocks. With S and m the block's sums of B_i B_k and B_i v and n the weight
-   * before it, (n G / a + S) (b' - b) = m - S b. */
+  /* 1: running averages take the published step. At each sample (direction w, radiance v), where a is the
+   * domain's area and n the sum of weights so far, b_i += (1 / n) (B_i(w) (v - sum over k != i of b_k B_k(w))
+   * / D_i - b_i), where D_i is an estimate of G_ii / a; the non-negative form clamps after each sample.
+   * NOOK_FORM_PAPER always takes the published step. 0 (default): one step per block, (n G / a + S) (b' - b)
+   * = m - S b. S and m are the block's sums of B_i B_k and B_i v, and n is the sum of weights before the
+   * block. */
   int32_t published_step;
   /* Only the published step uses it. Default NOOK_PROBE_DENOMINATOR_LOCKSTEP. */
   nook_probe_denominator denominator;
@@ -194,9 +197,10 @@ static inline nook_result nook_probe_fit_study_desc_init(nook_probe_fit_study_de
   return nook_desc_init(NOOK_DESC_PROBE_FIT_STUDY, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Starts a running average that has no samples yet from the coefficients of short_run instead of 0; they
- * count as much as the samples of short_run did. Both fits must have the same basis. Methods that solve
- * ignore the call, and nook_probe_fit_reset removes the seed. Neither fit may be in use elsewhere.
+/* Lets a running average without samples start from the coefficients of the fit `short_run` instead of 0.
+ * They have the same weight as the samples of `short_run`. Both fits must have the same basis. Methods other
+ * than running averages ignore the call. nook_probe_fit_reset removes the seed. No other thread may use the
+ * fits.
  * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_seed(nook_probe_fit fit, nook_probe_fit short_run);
 

@@ -1,7 +1,7 @@
 /* The stages of the screen-space pass as data, for graphics interfaces other than OpenGL, such as Vulkan or
  * Direct3D. You get shader text, descriptions of images, and the numbers that the shaders read. You create
  * the images and pipelines, and draw. Only nook_nnao_read_timings makes OpenGL calls and needs an OpenGL
- * context. The library must have been built with its OpenGL half (NOOK_GL, the default), which holds the
+ * context. The library must be built with its OpenGL part (NOOK_GL, the default), because it contains the
  * shaders.
  *
  * Once:
@@ -12,23 +12,24 @@
  *     nook_nnao_stages_describe_stage(stages, i, &stage);               fragment shader, output, inputs
  * For each frame:
  *     nook_nnao_stages_frame(stages, &frame, &desc, NULL, 0, 0, &values);
- * and for each stage of values.drawn_stages in order a draw of three vertices without attributes, without
- * blending, depth test and culling, into the viewport of the stage. Each stage ends before the next one reads
- * its output, and after the frame before has read the images that it writes. Every image but the host's is
- * written as a colour attachment and read as a texture; its contents before the first frame do not matter.
- * samples/vulkan does all this in Vulkan 1.1.
+ * Then, for each stage of values.drawn_stages in order, draw three vertices without attributes, without
+ * blending, depth test and culling, into the viewport of the stage. Add barriers: a stage must end before the
+ * next stage reads its output, and must not write images that the previous frame still reads. All images
+ * except yours are written as colour attachments and read as textures; their contents before the first frame
+ * do not matter. samples/vulkan does all this in Vulkan 1.1.
  *
- * The shaders are GLSL 4.50 for Vulkan (`glslangValidator -V`, from which SPIRV-Cross makes HLSL or MSL), and
- * of OpenGL 4.5 as well. In set 0, binding 0 is a uniform buffer with nook_nnao_frame_values.constants.
- * Binding 1, only in the stage "occlusion", is a uniform buffer with nook_nnao_stages_info.network. From
- * binding 2 on come the input images, with a sampler that does not filter, because the shaders read texels.
- * Location 0 is the output.
+ * The shaders are GLSL 4.50 for Vulkan, and also for OpenGL 4.5. Compile them with `glslangValidator -V`;
+ * SPIRV-Cross can convert the result to HLSL or MSL. In set 0, binding 0 is a uniform buffer with
+ * nook_nnao_frame_values.constants. Binding 1, only in the stage "occlusion", is a uniform buffer with
+ * nook_nnao_stages_info.network. The input images start at binding 2. Use a sampler without filtering,
+ * because the shaders read texels. The output is at location 0.
  *
- * Row 0 of every image is where clip y is -1: in Vulkan its first row, with the projection as Vulkan takes
- * it. In Direct3D, and in Vulkan with viewports of negative height, the first row is where clip y is 1.
- * There, negate the second row of the projection (numbers 1, 5, 9 and 13), and draw the stages with viewports
- * of positive height. Always set frame.clip_space to NOOK_CLIP_SPACE_ZERO_TO_ONE. View space looks along -z.
- * If yours looks along +z, negate the third column (numbers 8 to 11), and z of normals by normal_matrix. */
+ * In row 0 of every image, clip y must be -1. In Vulkan this is the first row; pass the projection that you
+ * use in Vulkan. In Direct3D, and in Vulkan with viewports of negative height, clip y is 1 in the first row.
+ * There, negate the second row of the projection (elements 1, 5, 9 and 13), and draw the stages with
+ * viewports of positive height. Always set frame.clip_space to NOOK_CLIP_SPACE_ZERO_TO_ONE. View space looks
+ * along -z. If yours looks along +z, negate the third column of the projection (elements 8 to 11), and negate
+ * z of normals with normal_matrix. */
 #ifndef NOOK_STAGES_H
 #define NOOK_STAGES_H
 
@@ -41,29 +42,31 @@ extern "C" {
 
 typedef struct nook_nnao_stages_s* nook_nnao_stages;
 
-/* Images that stages read or write. The first four are the host's: texture arrays for passes with views, and
- * multisampled depth for passes with depth_samples, as well as multisampled normals for those with
- * normal_samples. The host gives the images that its frames have, and any 1 x 1 image for the others. */
+/* Images that stages read or write. The first four are your images. They are texture arrays for passes with
+ * views. Depth is multisampled for passes with depth_samples, and normals for passes with normal_samples. If
+ * your frames lack one of the four, use any 1 x 1 image. */
 enum {
   NOOK_NNAO_IMAGE_HOST_DEPTH = 0,
   NOOK_NNAO_IMAGE_HOST_NORMAL = 1,
   NOOK_NNAO_IMAGE_HOST_GBUFFER_AO = 2,
   NOOK_NNAO_IMAGE_HOST_MOTION_VECTORS = 3,
-  /* Linear depth of the surface, as the bits of floats, and with normal_samples the number of its sample. */
+  /* Linear depth of the surface, stored as the bits of a float, and with normal_samples the index of its
+   * sample. */
   NOOK_NNAO_IMAGE_DEPTH = 4,
   /* AO and edges. */
   NOOK_NNAO_IMAGE_AO = 5,
-  /* The same after filters; with two of them AO is written anew by the second. */
+  /* AO and edges after a filter draw. Filter draws write alternately to this image and to
+   * NOOK_NNAO_IMAGE_AO. */
   NOOK_NNAO_IMAGE_FILTERED = 6,
-  /* With max_history_frames: the mean over frames, and what it and linear depth were in the frame before.
+  /* With max_history_frames: the mean over frames, and the mean and the linear depth of the previous frame.
    * After each frame you must swap NOOK_NNAO_IMAGE_DEPTH with NOOK_NNAO_IMAGE_HISTORY_DEPTH, and
-   * NOOK_NNAO_IMAGE_ACCUMULATED_AO with NOOK_NNAO_IMAGE_HISTORY_AO. Each view has its own four images of this
-   * kind. */
+   * NOOK_NNAO_IMAGE_ACCUMULATED_AO with NOOK_NNAO_IMAGE_HISTORY_AO. Each view needs its own set of these four
+   * images. */
   NOOK_NNAO_IMAGE_ACCUMULATED_AO = 7,
   NOOK_NNAO_IMAGE_HISTORY_DEPTH = 8,
   NOOK_NNAO_IMAGE_HISTORY_AO = 9,
-  /* The result, in the format of the pass's own texture. Any colour format will do, and blending source times
-     destination multiplies it, in place of frame.blend. */
+  /* The result, in the format of the pass's own texture. You can use any colour format. Instead of setting
+   * frame.blend, you can multiply the result into an image by blending (source * destination). */
   NOOK_NNAO_IMAGE_TARGET = 10,
   NOOK_NNAO_IMAGE_COUNT = 11
 };
@@ -71,7 +74,7 @@ typedef int32_t nook_nnao_image;
 
 /* Formats by their channels, as DXGI_FORMAT and VkFormat name them. */
 enum {
-  /* The host's, or the image does not exist. */
+  /* The image is yours, or does not exist. */
   NOOK_NNAO_FORMAT_NONE = 0,
   NOOK_NNAO_FORMAT_R8_UNORM = 1,
   NOOK_NNAO_FORMAT_R8G8_UNORM = 2,
@@ -82,15 +85,15 @@ enum {
 typedef int32_t nook_nnao_format;
 
 enum {
-  /* The most inputs of a stage. */
+  /* The maximum number of inputs of a stage. */
   NOOK_NNAO_STAGE_MAX_INPUTS = 6,
-  /* Floats of nook_nnao_frame_values.constants. */
+  /* The number of floats in nook_nnao_frame_values.constants. */
   NOOK_NNAO_STAGE_CONSTANTS = 80
 };
 
-/* Describes the stages of a pass. path and timers of a nook_nnao_debug_desc have no effect. Not with a
- * network of the paper's form. It allocates; on failure *out is NULL. Any thread. Errors: INVALID_ARGUMENT,
- * BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
+/* Creates a description of the stages of a pass. `path` and `timers` of a nook_nnao_debug_desc have no
+ * effect. Networks of the paper's form are not supported. The call allocates. On failure *out is NULL. Any
+ * thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_stages_create(nook_context context, const nook_nnao_desc* desc,
                                              nook_nnao_stages* out);
 
@@ -101,12 +104,12 @@ NOOK_API void nook_nnao_stages_destroy(nook_nnao_stages* stages);
 typedef struct nook_nnao_stages_info {
   uint32_t struct_size;
   uint32_t stage_count;
-  /* Of every stage: one triangle over the viewport. */
+  /* The vertex shader of every stage; it draws one triangle that covers the viewport. */
   const char* vertex_shader;
-  /* The numbers of binding 1, which never change. Pointers are valid while the object lives. */
+  /* The data for binding 1, which never changes. Pointers are valid while the object lives. */
   const void* network;
   uint32_t network_bytes;
-  /* The preset's numbers, where the descriptor had -1. */
+  /* The settings in use, with the preset's value where the descriptor had -1. */
   int32_t taps, half_resolution, blur;
 } nook_nnao_stages_info;
 
@@ -115,9 +118,9 @@ NOOK_API nook_result nook_nnao_stages_describe(nook_nnao_stages stages, nook_nna
 
 typedef struct nook_nnao_image_info {
   uint32_t struct_size;
-  /* NOOK_NNAO_FORMAT_NONE for images of the host, and for images that no stage uses. */
+  /* NOOK_NNAO_FORMAT_NONE for your images, and for images that no stage uses. */
   nook_nnao_format format;
-  /* Pixels at the pass's maximum size; 0 for images of the host, and for images that no stage uses. */
+  /* Pixels at the pass's maximum size; 0 for your images, and for images that no stage uses. */
   int32_t width, height;
 } nook_nnao_image_info;
 
@@ -130,15 +133,15 @@ typedef struct nook_nnao_stage_info {
   nook_nnao_image output;
   /* "depth", "depth_apart", "occlusion", "accumulate", "filter_x", "filter_y", "resolve" or
    * "resolve_layered", and the text of its fragment shader; valid while the object lives. The first two
-   * stages are depth and depth_apart: a frame runs the second if frame.gbuffer_ao is NOOK_GBUFFER_AO_EXCLUDE,
-   * and the first otherwise. The last two are resolve and resolve_layered: a frame runs the first if
-   * frame.gbuffer_ao is NOOK_GBUFFER_AO_NONE, and the second otherwise. nook_nnao_frame_values.drawn_stages
-   * has the choice. */
+   * stages are alternatives: a frame draws "depth_apart" if frame.gbuffer_ao is NOOK_GBUFFER_AO_EXCLUDE,
+   * otherwise "depth". The last two are alternatives too: a frame draws "resolve" if frame.gbuffer_ao is
+   * NOOK_GBUFFER_AO_NONE, otherwise "resolve_layered". nook_nnao_frame_values.drawn_stages says which stages
+   * to draw. */
   const char* name;
   const char* fragment_shader;
   /* 1: the viewport is nook_nnao_frame_values.viewport; 0: it is surface_width x surface_height at (0, 0). */
   int32_t draws_viewport;
-  /* 1: it reads binding 1. */
+  /* 1: the stage reads binding 1. */
   int32_t reads_network;
   uint32_t input_count;
   /* Input i has the binding 2 + i. */
@@ -152,24 +155,24 @@ NOOK_API nook_result nook_nnao_stages_describe_stage(nook_nnao_stages stages, ui
 
 typedef struct nook_nnao_frame_values {
   uint32_t struct_size;
-  /* Pixels of the surface, which is the viewport at the resolution at which AO is computed. */
+  /* The size in pixels of the viewport at the resolution at which AO is computed (the surface). */
   int32_t surface_width, surface_height;
-  /* x, y, width and height of the last stage. */
+  /* x, y, width and height of the viewport of the last stage. */
   int32_t viewport[4];
-  /* Binding 0. */
+  /* The data for binding 0. */
   float constants[NOOK_NNAO_STAGE_CONSTANTS];
   /* Bit i: the frame draws stage i. */
   uint32_t drawn_stages;
 } nook_nnao_frame_values;
 
-/* Computes the numbers of a frame. It depends on its arguments alone, and allocates nothing.
+/* Computes the values of a frame. The result depends only on the arguments, and the call does not allocate.
  * Set frame->normal_texture and desc->motion_vectors to 1 if the frame has such images; no other texture name
- * is read. The call cannot see the format of the normals: with a normal_bias other than 0 it takes them as
- * normalised integers, where a normal shorter than 0.25 is reconstructed from depth.
- * target and target_name are not read, and blend only with bent normals. desc->show is
- * NOOK_NNAO_VIEW_AO, RAW or BLURRED, and RAW only without max_history_frames.
- * earlier: the frame before, or NULL for a cut. number: the count of frames before, which turns the noise of
- * passes with max_history_frames. view: less than nook_nnao_desc.views, or 0.
+ * is read. The call does not know the format of the normals. If normal_bias is not 0, it assumes normalised
+ * integers, in which normals shorter than 0.25 are reconstructed from depth. `target` and `target_name` are
+ * not read; `blend` is read only with bent normals. The debug view (`show`) can be NOOK_NNAO_VIEW_AO or
+ * BLURRED, or RAW without max_history_frames. `earlier` is the previous frame, or NULL after a cut. `number`
+ * is the number of earlier frames; it rotates the noise in passes with max_history_frames. `view` is less
+ * than nook_nnao_desc.views, or 0.
  * Any thread. Errors: INVALID_ARGUMENT (as nook_nnao_render). */
 NOOK_API nook_result nook_nnao_stages_frame(nook_nnao_stages stages, const nook_gl_frame_desc* frame,
                                             const nook_nnao_frame_desc* desc,
@@ -178,48 +181,49 @@ NOOK_API nook_result nook_nnao_stages_frame(nook_nnao_stages stages, const nook_
 
 /* ---- Tables of clips, for hosts without OpenGL ---- */
 
-/* The textures of nook_gl.h. */
+/* The two textures of uploaded clips in nook_gl.h. */
 enum {
-  /* RGBA, 8 bits with sign (GL_RGBA8_SNORM from GL_BYTE): mode_count / 4 texels for each file vertex. */
+  /* RGBA with signed 8-bit channels (GL_RGBA8_SNORM from GL_BYTE): mode_count / 4 texels for each file
+   * vertex. */
   NOOK_CLIPS_MODES = 0,
   /* RGBA, half floats (GL_RGBA16F from GL_HALF_FLOAT): mode_count / 4 texels for each frame. */
   NOOK_CLIPS_WEIGHTS = 1
 };
 typedef int32_t nook_clips_table;
 
-/* Writes the texels of a table, for a 2D texture of *width x *height texels: rows one after another without
- * gaps, the last one filled up with zeros. *size is the room in bytes, and becomes the size of the table;
- * with texels NULL the call only sets *size, *width and *height. The AO of vertex v in frame f is clamp(0.5 +
- * sum of weight * mode over the mode_count numbers of each, 0, 1). Any thread. Errors: INVALID_ARGUMENT
- * (also, there is too little room). */
+/* Writes the texels of a table, for a 2D texture of *width x *height texels. Rows follow each other without
+ * gaps; the last row is padded with zeros. Set *size to the size of `texels` in bytes; the call sets it to
+ * the size of the table. With `texels` NULL, the call only sets *size, *width and *height. The AO of vertex v
+ * in frame f is clamp(0.5 + sum of weight * mode, 0, 1), summed over the mode_count weights of f and modes of
+ * v. Any thread. Errors: INVALID_ARGUMENT (also if *size is too small). */
 NOOK_API nook_result nook_clips_read_table(nook_clips clips, nook_clips_table table, void* texels,
                                            size_t* size, uint32_t* width, uint32_t* height);
 
 /* ---- Memory and time of a pass ---- */
 
-/* Computes the texture memory that a pass will take, before you create it: 75 MB at 3840 x 2160, 25 MB at
- * half resolution, 133 and 58 MB with bent normals. docs/nnao.md has the bytes for each option. Makes no
- * OpenGL call. Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION. */
+/* Computes the texture memory that a pass will take, before you create it. At 3840 x 2160, a pass takes 75
+ * MB, or 25 MB at half resolution; with bent normals, 133 and 58 MB. docs/nnao.md has the bytes for each
+ * option. Makes no OpenGL call. Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION. */
 NOOK_API nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* bytes);
 
-/* The time that the GPU took for each stage of the newest finished frame, in milliseconds; with
- * nook_nnao_desc.views, for the last view. */
+/* The GPU time of each stage in the last finished frame, in milliseconds; with nook_nnao_desc.views, for the
+ * last view. */
 typedef struct nook_nnao_timings {
   uint32_t struct_size;
-  /* 0: no frame is finished yet, or the pass has no timers; the other members are 0 then. */
+  /* 0: no frame is finished yet, or the pass has no timers; all other fields are then 0. */
   int32_t valid;
   /* Linear depth, and the normals of the paper's form. */
   float normals;
-  /* The network, edges, reading or reconstructing normals, and the mean over frames. */
+  /* The network, the edges, reading or reconstructing normals, and the mean over frames. */
   float occlusion;
   /* The filter at half resolution; at full resolution it is a part of resolve. */
   float blur;
-  /* Filter or upsample, G-buffer AO and target. */
+  /* Filtering or upsampling, combining with G-buffer AO, and writing the target. */
   float resolve;
   float total;
 } nook_nnao_timings;
 
-/* Gives the newest times; the call never waits.
+/* Gives the latest times. The call never waits.
  * Context thread. Errors: INVALID_ARGUMENT, GL. */
 NOOK_API nook_result nook_nnao_read_timings(nook_nnao pass, nook_nnao_timings* timings);
 

@@ -23,7 +23,7 @@ class Synthesis : public Unique<nook_synthesis, nook_synthesis_destroy> {
     check(nook_synthesis_describe(get(), &info));
     return info;
   }
-  // Two floats for each point.
+  // Takes and returns two floats for each point.
   void material_uvs(const float* plane_uvs, std::uint32_t count, float* material_uvs) const {
     check(nook_synthesis_material_uvs(get(), plane_uvs, count, material_uvs));
   }
@@ -36,7 +36,7 @@ class Synthesis : public Unique<nook_synthesis, nook_synthesis_destroy> {
   }
 };
 
-// Uploads a coordinate texture; context thread.
+// Uploads a coordinate texture. Call it on the context thread.
 inline Upload upload_synthesis(const Gl& gl, const Synthesis& synthesis) {
   nook_gl_upload handle = nullptr;
   check(nook_gl_upload_synthesis(gl.get(), synthesis.get(), &handle));

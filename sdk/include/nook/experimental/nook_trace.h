@@ -1,5 +1,5 @@
-/* References for measurements: ray-traced ambient occlusion and path-traced irradiance of a scene, the poses
- * and the bakes of studies. */
+/* References for measurements: ray-traced ambient occlusion and path-traced irradiance of a scene, and poses
+ * and bake options for studies. */
 #ifndef NOOK_TRACE_H
 #define NOOK_TRACE_H
 
@@ -11,35 +11,35 @@ extern "C" {
 
 /* ---- Studies of characters ---- */
 
-/* The clips that a model is fitted to, when clip_names names none. */
+/* Which clips a model is fitted to, if clip_names is empty. */
 enum {
-  /* Every clip with motion; clips whose name says T-pose or A-pose have none. */
+  /* Every clip that has motion; clips named T-pose or A-pose have none. */
   NOOK_BAKE_SPLIT_ALL = 0,
-  /* Every second of these clips in byte order of their names, from the first on, so that the others can
-   * measure. */
+  /* Every second one of the clips of ALL, in byte order of their names, starting with the first. You can use
+   * the other clips to measure. */
   NOOK_BAKE_SPLIT_HALF = 1,
-  /* Every second family of these clips. A family is the clips whose names start with the same word, in upper
-   * or lower case. A word ends at a digit, at a sign and before a capital; the part of a name up to its last
-   * | or : does not count, and neither does a prefix of all names that ends at a sign or a digit. A file
-   * whose clips are a single family is refused. */
+  /* Every second family of the clips of ALL. A family consists of all clips whose names start with the same
+   * word, ignoring case. A word ends at a digit, at a punctuation character or before a capital letter. Two
+   * parts of a name are ignored: the part up to its last | or :, and a prefix that all names share and that
+   * ends with punctuation or a digit. A file with only one family is refused. */
   NOOK_BAKE_SPLIT_FAMILIES = 2
 };
 typedef int32_t nook_bake_clip_split;
 
-/* Choices that only comparisons need. Set the `next` of a nook_bake_character_desc to it. */
+/* Options that you need only for comparisons. Set nook_bake_character_desc.next to it. */
 typedef struct nook_bake_character_study_desc {
   uint32_t struct_size, type;
   const void* next;
   /* Default ALL. */
   nook_bake_clip_split clip_split;
-  /* NOOK_FORM_PAPER: the kernel of Le et al. 2019, whatever the fit is. Default NOOK_FORM_DEFAULT: the one of
-   * the form of the bake. */
+  /* NOOK_FORM_PAPER: the kernel of Le et al. 2019, with any fit. Default NOOK_FORM_DEFAULT: the kernel that
+   * belongs to nook_bake_character_desc.form. */
   nook_form kernel;
-  /* NOOK_FORM_PAPER: the block coordinate descent of Le et al. 2019, whatever the kernel is. Default
-   * NOOK_FORM_DEFAULT: the fit of the form of the bake. */
+  /* NOOK_FORM_PAPER: the block coordinate descent of Le et al. 2019, with any kernel. Default
+   * NOOK_FORM_DEFAULT: the fit that belongs to nook_bake_character_desc.form. */
   nook_form fit;
-  /* Recorded poses of your game, as extra_poses_3x4 has them: the bake ends with a fit of the constant and
-   * the scale of each vertex to these. Default 0: none. */
+  /* The number of recorded poses of your game, in the layout of extra_poses_3x4. The bake ends with a fit of
+   * the constant and the scale of each vertex to these poses. Default 0: no poses. */
   uint32_t calibration_pose_count;
   const float* calibration_poses_3x4;
 } nook_bake_character_study_desc;
@@ -47,9 +47,9 @@ static inline nook_result nook_bake_character_study_desc_init(nook_bake_characte
   return nook_bake_desc_init(NOOK_DESC_BAKE_CHARACTER_STUDY, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Writes poses in which one joint is rotated: every joint that moves some but not all vertices, on a grid of
- * steps^3 rotations over +-range_degrees about its axes. With bones_3x4 NULL the call only sets *pose_count
- * to the number of poses; otherwise *pose_count must be that number before the call.
+/* Writes poses in which one joint is rotated. It uses every joint that moves some but not all vertices, and
+ * rotates each about its axes, on a grid of steps^3 rotations over +-range_degrees. With `bones_3x4` NULL,
+ * the call only sets *pose_count to the number of poses. Otherwise, you must set *pose_count to this number.
  * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_character_single_joint_poses(nook_bake_character character, uint32_t steps,
                                                             float range_degrees, uint32_t* pose_count,
@@ -84,12 +84,12 @@ typedef struct nook_bake_trace_desc {
   uint32_t threads;
   /* Default 1. The result does not depend on the number of threads. */
   uint64_t seed;
-  /* Metres, > 0, default infinity: hits beyond this distance count as open. */
+  /* Metres, > 0, default infinity. Hits beyond this distance count as open. */
   float radius;
-  /* Metres along the normal, >= 0, default 1e-4: the distance of a ray's origin from its point. */
+  /* The distance of a ray's origin from its point, in metres along the normal; >= 0, default 1e-4. */
   float origin_offset;
-  /* NULL (default), or a function that the call reports to while it traces, with the number of points. It
-   * runs on threads of the call, one call at a time. If it returns 0, the call ends within some 10 ms with
+  /* NULL (default), or a function that receives the number of traced points during the call. It runs on
+   * threads of the call, one call at a time. If it returns 0, tracing ends within about 10 ms with
    * NOOK_ERROR_CANCELLED. */
   nook_bake_progress_fn progress;
   void* progress_user;
@@ -98,15 +98,15 @@ static inline nook_result nook_bake_trace_desc_init(nook_bake_trace_desc* desc) 
   return nook_bake_desc_init(NOOK_DESC_BAKE_TRACE, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Traces the cosine-weighted visibility of all points and writes point_count values to ao; count must be
- * point_count. The call returns when all points are done; a call that fails writes nothing.
+/* Traces the cosine-weighted visibility of all points and writes point_count values to `ao`. `count` must be
+ * point_count. The call returns when all points are done. If it fails, it writes nothing.
  * Any thread. Errors: INVALID_ARGUMENT, CANCELLED, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float* ao, uint32_t count);
 
 /* ---- Path-traced irradiance of a scene under an environment ---- */
 
-/* A latitude-longitude map of linear radiance, which is constant over a texel. Rows go from +y to -y, and
- * columns around y: the middle column looks along +x, and the column a quarter of the width to its right
+/* A latitude-longitude map of linear radiance, which is constant within a texel. Rows go from +y to -y, and
+ * columns go around y. The middle column looks along +x; a quarter of the width to the right, columns look
  * along +z. */
 typedef struct nook_bake_environment {
   /* 3 floats in [0, 1e15] for each texel, rows from the top. NULL only if width is 0; then the environment is
@@ -118,7 +118,7 @@ typedef struct nook_bake_environment {
   uint32_t height;
 } nook_bake_environment;
 
-/* A mesh in world space and metres with a diffuse surface, which is the same from both sides. */
+/* A mesh in world space and metres with a diffuse surface, which is the same on both sides. */
 typedef struct nook_bake_lit_mesh {
   /* 3 floats for each vertex. */
   const float* positions;
@@ -126,7 +126,7 @@ typedef struct nook_bake_lit_mesh {
   const uint32_t* indices;
   uint32_t vertex_count;
   uint32_t index_count;
-  /* RGB, the share of light that the surface reflects, in [0, 1]. A surface with 0 only occludes. */
+  /* RGB, the share of light that the surface reflects, in [0, 1]. With 0, the surface only occludes. */
   float base_colour[3];
   /* RGB, the radiance that the surface emits, in [0, 1e15]. */
   float emission[3];
@@ -151,11 +151,11 @@ typedef struct nook_bake_irradiance_desc {
   uint32_t threads;
   /* Default 1. The result does not depend on the number of threads. */
   uint64_t seed;
-  /* The maximum number of reflections; 0 traces direct light only. Default UINT32_MAX: all of them, without
-   * bias. */
+  /* The maximum number of reflections; 0 traces direct light only. Default UINT32_MAX: no maximum, so that
+   * the result is unbiased. */
   uint32_t max_bounces;
-  /* Metres along the normal, >= 0, default 1e-4: the distance of a ray's origin from the surface that it
-   * leaves. */
+  /* The distance of a ray's origin from the surface that the ray leaves, in metres along the normal; >= 0,
+   * default 1e-4. */
   float origin_offset;
   /* As in nook_bake_trace_desc; a block of points with many bounces may take longer than 10 ms. */
   nook_bake_progress_fn progress;
@@ -165,12 +165,12 @@ static inline nook_result nook_bake_irradiance_desc_init(nook_bake_irradiance_de
   return nook_bake_desc_init(NOOK_DESC_BAKE_IRRADIANCE, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Traces the irradiance of all points and writes 3 floats (RGB) for each to irradiance; count must be
- * point_count. E(n) = integral of L(w) max(dot(n, w), 0) over the sphere, in the map's unit times steradians;
- * a diffuse surface there reflects the radiance E * base colour / pi. Each path samples the environment by
- * luminance and the hemisphere by cosine, combined by the balance heuristic. The estimate is unbiased, and
- * its noise falls with the square root of rays. The call returns when all points are done; a call that fails
- * writes nothing.
+/* Traces the irradiance of all points and writes 3 floats (RGB) for each to `irradiance`. `count` must be
+ * point_count. E(n) = integral of L(w) max(dot(n, w), 0) over the sphere, in the map's unit times steradians.
+ * A diffuse surface with this irradiance reflects the radiance E * base colour / pi. Each path samples the
+ * environment by luminance and the hemisphere by cosine, combined by the balance heuristic. The estimate is
+ * unbiased, and its noise is proportional to 1 / sqrt(rays). The call returns when all points are done. If it
+ * fails, it writes nothing.
  * Any thread. Errors: INVALID_ARGUMENT, CANCELLED, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_trace_irradiance(const nook_bake_irradiance_desc* desc, float* irradiance,
                                                 uint32_t count);

@@ -1,30 +1,31 @@
 /* Radiance transfer: compressed materials on static shapes under any distant light, with the shapes' own
- * shadows. `nook bake transfer` bakes the visibility of a shape; any material can be put on it at run time.
+ * shadows. `nook bake transfer` bakes the visibility of a shape; at run time, you can use any material on it.
  *
- * Light is held by lobes, spherical Gaussians of one sharpness that are evenly spread over the sphere. A
- * vertex p has, for channel c and light mode a of a material, the vector
+ * Light is represented by lobes: spherical Gaussians with the same sharpness, distributed evenly over the
+ * sphere. A vertex p has, for channel c and light mode a of a material, the vector
  *     r_p[c, a] = sum over lobes j of amplitude_j[c] share_p,j response[c, a](direction of lobe j at p),
- * where the share, a byte of the file, is the cosine-weighted part of the lobe that no triangle hides from
- * the vertex, and the response is the integral of the lobe and the material's light basis over the upper
- * hemisphere. Light that the shape reflects onto itself, baked with `--bounces`, is added for the mean
- * reflectance of the response's material. A pixel's radiance is sum_a L_a r[c, a] with the light modes L_a of
- * nook_material_decode and the vectors interpolated between vertices.
+ * where the share (a byte of the file) is the cosine-weighted part of the lobe that no triangle hides from
+ * the vertex, and the response is the integral of the lobe times the material's light basis over the upper
+ * hemisphere. Light that the shape reflects onto itself is added if you bake with `--bounces`; it uses the
+ * mean reflectance of the response's material. A pixel's radiance is sum_a L_a r[c, a], with the light modes
+ * L_a of nook_material_decode and r interpolated between vertices.
  *
- * When the light or the shape turns, call
+ * When the light or the shape rotates, call
  *     nook_transfer_light_project(light, lobe_count, NULL, amplitudes, NULL);
  *     nook_transfer_read_vectors(response, &desc, vectors, vertex_count, 0);
- * where desc has the transfer and the amplitudes. When only the view moves, call nothing. The paper's form of
- * a file, baked with `--form paper`, has the matrices from lobes to the light modes of one material in place
- * of shares; the calls are the same.
+ * where `desc` has the transfer and the amplitudes. When only the view moves, you need not call anything.
+ * Files in the paper's form (`--form paper`) contain matrices from lobes to the light modes of one material,
+ * instead of shares. You use them with the same calls.
  *
- * Directions are in the space of the baked vertices. Frames have x along growing u, z along the normal, and y
- * = handedness * cross(normal, tangent) along growing v. The vectors of a vertex are 3 x light_modes floats:
- * the modes of red, then of green, then of blue. Least squares rings around bright sources, so that light and
- * vectors can be slightly negative; nook_transfer_projection_info gives the share.
+ * Directions are in the space of the baked vertices. Frames have x in the direction of increasing u, z along
+ * the normal, and y = handedness * cross(normal, tangent) in the direction of increasing v. The vectors of a
+ * vertex are 3 x light_modes floats: the modes of red, then of green, then of blue. Least squares rings
+ * around bright sources, so light and vectors can be slightly negative; nook_transfer_projection_info gives
+ * the negative share.
  *
  * nook_gl_upload_transfer keeps vectors in a buffer, and nook_gl_upload_describe gives the GLSL. The method
- * follows section 6.3 of Y.-T. Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012, in a
- * separated form and in its own. */
+ * follows section 6.3 of Y.-T. Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012. The paper's
+ * form is their method; the default form separates transfer and material. */
 #ifndef NOOK_TRANSFER_H
 #define NOOK_TRANSFER_H
 
@@ -41,41 +42,40 @@ typedef struct nook_transfer_response_s* nook_transfer_response;
 
 /* ---- Baked shapes: immutable, shared by threads ---- */
 
-/* Loads baked transfer from the bytes of a .nook file; the caller may free the bytes afterwards. The library
- * validates everything, so that hostile bytes are safe. On failure *out is NULL.
+/* Loads baked transfer from the bytes of a .nook file, which you may free afterwards. The library validates
+ * everything, so that hostile bytes are safe. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_transfer_load(nook_context context, const void* bytes, size_t size,
                                         nook_transfer* out);
 
-/* Releases the caller's reference and sets *transfer to NULL.
+/* Releases your reference and sets *transfer to NULL.
  * Any thread. */
 NOOK_API void nook_transfer_destroy(nook_transfer* transfer);
 
 typedef struct nook_transfer_info {
   uint32_t struct_size;
-  /* Vertices of the baked file, over all primitives in its order. */
+  /* The number of vertices of the baked file, over all primitives in file order. */
   uint32_t vertex_count;
-  /* The axes of the lobes are H. Vogel's spiral, so that the number alone determines them: lobe i has
-   * z = 1 - (2 i + 1) / lobe_count and the azimuth i * pi * (3 - sqrt(5)) from +x towards +y. */
+  /* The number of lobes. Their axes form H. Vogel's spiral, so they depend only on this number: lobe i has z
+   * = 1 - (2 i + 1) / lobe_count and the azimuth i * pi * (3 - sqrt(5)) from +x towards +y. */
   uint32_t lobe_count;
-  /* The sharpness of every lobe, 0.35 times their number. */
+  /* The sharpness of every lobe, 0.35 * lobe_count. */
   float sharpness;
   /* Bytes of shares in memory, vertex_count * lobe_count. */
   uint64_t share_bytes;
-  /* Reflections of the shape onto itself that the vectors hold, 0 to 2. */
+  /* The number of light bounces between parts of the shape that the vectors include, 0 to 2. */
   uint32_t bounces;
-  /* 1: light fell through the holes of a material's VOTF; see nook_transfer_check. */
+  /* 1: the bake let light through the holes of a material's VOTF; see nook_transfer_check. */
   int32_t has_holes;
   /* Bytes of reflected light in memory, vertex_count * bounces * 18. */
   uint64_t indirect_bytes;
-  /* NOOK_FORM_DEFAULT: a share for each vertex and lobe, which takes any material. NOOK_FORM_PAPER: the
-   * matrices from lobes to the light modes of one material, compressed by CTA, with less work when the light
+  /* NOOK_FORM_DEFAULT: a share for each vertex and lobe; works with any material. NOOK_FORM_PAPER: matrices
+   * from lobes to the light modes of one material, compressed by CTA; needs less work when the light
    * changes. */
   nook_form form;
-  /* Of the paper's form: the light modes of the material that it was baked with; else 0. */
+  /* For the paper's form, the number of light modes of the material that it was baked with; otherwise 0. */
   uint32_t light_modes;
-  /* For the paper's form, the bytes of its compressed matrices in memory, and in the file; otherwise these
-     are 0. */
+  /* For the paper's form, the bytes of its compressed matrices, in memory and in the file; otherwise 0. */
   uint64_t paper_bytes;
 } nook_transfer_info;
 
@@ -83,21 +83,21 @@ typedef struct nook_transfer_info {
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_transfer_describe(nook_transfer transfer, nook_transfer_info* info);
 
-/* Writes the frames that the vectors refer to: normals with 3 floats and tangents with 4, the handedness
- * last, for each vertex; either may be NULL. A host that draws with them needs no tangents of its own.
- * vertex_count must be the transfer's. The paper's form has no frames.
+/* Writes the frames that the vectors refer to. Each vertex has a normal with 3 floats and a tangent with 4
+ * floats, the handedness last; either array may be NULL. If you draw with these frames, you need no tangents
+ * of your own. `vertex_count` must be the transfer's vertex count. The paper's form has no frames.
  * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the paper's form). */
 NOOK_API nook_result nook_transfer_read_frames(nook_transfer transfer, float* normals, float* tangents,
                                                uint32_t vertex_count);
 
-/* The arrays of a mesh in the form in which they were baked. */
+/* The arrays of a mesh, in the same form as for the bake. */
 typedef struct nook_transfer_mesh_desc {
   uint32_t struct_size, type;
   const void* next;
   /* Required. */
   uint32_t vertex_count;
   /* 3, 3, 4 and 2 floats for each vertex; arrays that are NULL (default) are not compared. The numbers must
-     equal the baked ones bit for bit, in the space of the file's scene. */
+   * be bit for bit the same as in the bake, in the space of the file's scene. */
   const float* positions;
   const float* normals;
   const float* tangents;
@@ -107,14 +107,14 @@ static inline nook_result nook_transfer_mesh_desc_init(nook_transfer_mesh_desc* 
   return nook_desc_init(NOOK_DESC_TRANSFER_MESH, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Checks that a mesh and a material are the baked ones. Pass NULL for what you do not want to check. Call it
- * once after loading; nook_transfer_read_vectors does not compare meshes.
+/* Checks that a mesh and a material are the ones that were baked. Pass NULL for what you do not want to
+ * check. Call it once after loading, because nook_transfer_read_vectors does not compare meshes.
  *
- * The mesh must have the baked number of vertices, and the same checksum of each array. The material must
- * have the baked light modes in the paper's form, and the baked VOTF if light fell through its holes. You can
- * nevertheless draw a material with another VOTF; the shadows then show the baked holes, and `nook evaluate
- * transfer` measures the error. Reflected light follows any material. Any thread. Errors: INVALID_ARGUMENT
- * (the message names the first array or the part of the material that differs). */
+ * The mesh must have the same number of vertices as the baked mesh, and the same checksum of each array. For
+ * the paper's form, the material must have the baked light modes. If the bake let light through holes, it
+ * must have the baked VOTF. You can still draw a material with another VOTF; its shadows then show the baked
+ * holes, and `nook evaluate transfer` measures the error. Reflected light adapts to any material. Any thread.
+ * Errors: INVALID_ARGUMENT (the message names the first array or the part of the material that differs). */
 NOOK_API nook_result nook_transfer_check(nook_transfer transfer, const nook_transfer_mesh_desc* mesh,
                                          nook_material material);
 
@@ -122,28 +122,29 @@ NOOK_API nook_result nook_transfer_check(nook_transfer transfer, const nook_tran
 
 /* The layout of a map. */
 enum {
-  /* Latitude and longitude: rows from +y down to -y; the middle column looks along +x, and the column a
-   * quarter of the width to its right along +z. */
+  /* Latitude and longitude: rows go from +y down to -y. The middle column looks along +x; a quarter of the
+   * width to the right, columns look along +z. */
   NOOK_TRANSFER_MAP_LATLONG = 0,
-  /* Six square faces below each other, +x, -x, +y, -y, +z, -z, each with the axes of an OpenGL cube map. */
+  /* Six square faces, one below the other (+x, -x, +y, -y, +z, -z), each with the axes of an OpenGL cube
+   * map. */
   NOOK_TRANSFER_MAP_CUBE = 1
 };
 typedef int32_t nook_transfer_map_layout;
 
-/* Exactly one source of light: a map (rgb), a probe, or a direction. */
+/* Set exactly one source of light: a map (`rgb`), a `probe`, or a `direction`. */
 typedef struct nook_transfer_light_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* A map of width * height linear RGB radiances, each 0 to 1e15. Default NULL. */
+  /* A map of width * height linear RGB radiances, each from 0 to 1e15. Default NULL. */
   const float* rgb;
   /* 1 to 16,384; the height of a cube map is 6 times its width. */
   uint32_t width;
   uint32_t height;
   /* Default NOOK_TRANSFER_MAP_LATLONG. */
   nook_transfer_map_layout layout;
-  /* 1: Nook takes suns out of the map, and nook_transfer_light_read_suns lists them. Draw them yourself, with
-   * shadow maps and nook_material_radiance, because lobes hold a sun badly: it rings. Default 0. A sun is a
-   * texel whose luminance is above 100 times the mean of the map without its suns. */
+  /* 1: Nook removes suns from the map, and nook_transfer_light_read_suns lists them. Draw them yourself, with
+   * shadow maps and nook_material_radiance, because lobes ring around a sun. Default 0. A sun is a texel
+   * whose luminance is above 100 times the mean of the map without its suns. */
   int32_t split_suns;
   /* The light of a probe at a point. Default NULL. */
   nook_probe probe;
@@ -151,58 +152,59 @@ typedef struct nook_transfer_light_desc {
   const float* position_ws;
   /* The direction that the light comes from, a unit vector of 3 floats. */
   const float* direction;
-  /* With a direction: RGB on a surface that faces the light, finite numbers up to 1e15. */
+  /* For `direction`: the RGB irradiance on a surface that faces the light, finite numbers up to 1e15. */
   float irradiance[3];
 } nook_transfer_light_desc;
 static inline nook_result nook_transfer_light_desc_init(nook_transfer_light_desc* desc) {
   return nook_desc_init(NOOK_DESC_TRANSFER_LIGHT, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Creates a light. Nook copies what it needs: you may free the map and destroy the probe afterwards. On
- * failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT (also, a texel is not a number in range), OUT_OF_MEMORY. */
+/* Creates a light. Nook copies what it needs, so you may free the map and destroy the probe afterwards. On
+ * failure *out is NULL. Any thread. Errors: INVALID_ARGUMENT (also if a texel is out of range),
+ * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_transfer_light_create(nook_context context, const nook_transfer_light_desc* desc,
                                                 nook_transfer_light* out);
 
-/* Releases the caller's reference and sets *light to NULL.
+/* Releases your reference and sets *light to NULL.
  * Any thread. */
 NOOK_API void nook_transfer_light_destroy(nook_transfer_light* light);
 
 typedef struct nook_transfer_sun {
   /* Unit vector towards the sun, in the map's space. */
   float direction[3];
-  /* RGB, on a surface that faces the sun. */
+  /* RGB irradiance on a surface that faces the sun. */
   float irradiance[3];
   /* Steradians. */
   float solid_angle;
 } nook_transfer_sun;
 
-/* Writes the suns that split_suns took out, the brightest first. *count is the number of entries before the
- * call and the number of suns afterwards. Pass NULL for suns to ask for the number. With too little room the
- * call fails, sets *count and writes no sun.
+/* Writes the suns that split_suns removed, the brightest first. Set *count to the capacity of `suns`; the
+ * call sets it to the number of suns. With `suns` NULL, the call only sets *count. If the capacity is too
+ * small, the call fails, sets *count and writes no sun.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_transfer_light_read_suns(nook_transfer_light light, nook_transfer_sun* suns,
                                                    uint32_t* count);
 
-/* The error of lobes that hold a light. */
+/* The error of the lobes that represent a light. */
 typedef struct nook_transfer_projection_info {
   uint32_t struct_size;
   /* The relative error is the root of the integral of the squared difference divided by the integral of the
      squared light. */
   float relative_error;
-  /* The negative part of the light that the lobes hold, relative to its magnitude. */
+  /* The negative part of the light in the lobes, relative to its magnitude. */
   float negative_share;
 } nook_transfer_projection_info;
 
-/* Projects a light to lobes by least squares over the sphere. amplitudes gets lobe_count x RGB; lobe_count is
- * 12 to 2562, as many as your response and your transfer have. light_from_shape is a rotation, 9 floats
- * row-major, from the shape's space to the light's; NULL is none.
+/* Projects a light to lobes by least squares over the sphere. `amplitudes` receives lobe_count x RGB.
+ * `lobe_count` is 12 to 2562, and must be the same as in your response and your transfer. `light_from_shape`
+ * is a rotation from the shape's space to the light's space, 9 floats row-major; NULL means no rotation.
  *
- * The first call for a number of lobes factors a Gram matrix, about lobe_count^3 / 6 multiply-adds, and the
- * context keeps it until it is destroyed, lobe_count^2 * 4 bytes (25 MiB at 2562). All other calls only
- * solve. info may be NULL; filling it takes about as long as the projection. It must be NULL with the light
- * of a direction, whose square has no integral. The call allocates from the host's allocator. Any thread.
- * Errors: INVALID_ARGUMENT (also, light_from_shape is not a rotation within 1e-3), OUT_OF_MEMORY. */
+ * The first call with a lobe_count factors a Gram matrix, which takes about lobe_count^3 / 6 multiply-adds.
+ * The context keeps the matrix until it is destroyed, in lobe_count^2 * 4 bytes (25 MiB at 2562). Later calls
+ * only solve. `info` may be NULL; filling it takes about as long as the projection. It must be NULL for a
+ * light from a direction, because the square of such a light has no integral. The call allocates with your
+ * allocator. Any thread. Errors: INVALID_ARGUMENT (also if light_from_shape is not a rotation to 1e-3),
+ * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_transfer_light_project(nook_transfer_light light, uint32_t lobe_count,
                                                  const float* light_from_shape, float* amplitudes,
                                                  nook_transfer_projection_info* info);
@@ -212,7 +214,7 @@ NOOK_API nook_result nook_transfer_light_project(nook_transfer_light light, uint
 typedef struct nook_transfer_response_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* Required; it may be destroyed after the call. */
+  /* Required. You may destroy it after the call. */
   nook_material material;
   /* 12 to 2562; default 642. */
   uint32_t lobe_count;
@@ -228,21 +230,21 @@ NOOK_API nook_result nook_transfer_response_create(nook_context context,
                                                    const nook_transfer_response_desc* desc,
                                                    nook_transfer_response* out);
 
-/* Releases the caller's reference and sets *response to NULL.
+/* Releases your reference and sets *response to NULL.
  * Any thread. */
 NOOK_API void nook_transfer_response_destroy(nook_transfer_response* response);
 
 typedef struct nook_transfer_response_info {
   uint32_t struct_size;
   uint32_t lobe_count;
-  /* The modes of one channel, R_l of the material rounded up to a multiple of 4; NOOK_LIGHT_VEC4_COUNT of its
-   * GLSL is a quarter of it. */
+  /* The number of light modes of one channel: R_l of the material, rounded up to a multiple of 4. It is 4 *
+   * NOOK_LIGHT_VEC4_COUNT of the material's GLSL. */
   uint32_t light_modes;
-  /* Floats of a vertex, 3 * light_modes. */
+  /* The number of floats of a vertex, 3 * light_modes. */
   uint32_t vector_floats;
   /* Memory of the table. */
   uint64_t table_bytes;
-  /* The share of light that the material reflects under even light, RGB, 0 to 1. */
+  /* The share of light that the material reflects under uniform light, RGB, 0 to 1. */
   float reflectance[3];
   /* 0. */
   uint32_t reserved;
@@ -256,11 +258,11 @@ NOOK_API nook_result nook_transfer_response_describe(nook_transfer_response resp
 typedef struct nook_transfer_vectors_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* The baked shape. NULL (default): vertices without baked visibility, which all light above their horizon
-   * reaches. A prop under a probe needs no more than this. */
+  /* The baked shape. NULL (default): vertices without baked visibility, which receive all light above their
+   * horizon. This is enough for a prop under a probe. */
   nook_transfer transfer;
   /* lobe_count x RGB from nook_transfer_light_project, finite numbers whose magnitude is at most 1e22;
-   * required. lobe_count must be the number of the response and of the transfer. */
+   * required. `lobe_count` must be the same as in the response and the transfer. */
   const float* amplitudes;
   uint32_t lobe_count;
   /* With a transfer: the first vertex to write. Default 0. */
@@ -274,33 +276,31 @@ static inline nook_result nook_transfer_vectors_desc_init(nook_transfer_vectors_
   return nook_desc_init(NOOK_DESC_TRANSFER_VECTORS, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Writes the vectors of vertex_count vertices under a light. Call it when the light or the shape turns.
- * stride_floats is the number of floats between the vectors of two vertices, 0 for vector_floats of
- * nook_transfer_response_info. The work goes through the context's parallel_for if you set one, and the
- * result does not depend on it. The call allocates 16 bytes for a lobe, in the paper's form 3 * light_modes *
- * vertex rank floats for a cluster (2.2 KiB at 16 modes), and without a transfer the frames of the vertices.
- * Any thread. Errors: INVALID_ARGUMENT (also, in the paper's form, the response is of another material),
- * OUT_OF_MEMORY. */
+/* Writes the vectors of `vertex_count` vertices under a light. Call it when the light or the shape rotates.
+ * `stride_floats` is the number of floats from one vertex to the next; 0 means vector_floats of
+ * nook_transfer_response_info. The call uses the context's parallel_for if you set one; the result does not
+ * depend on it. It allocates 16 bytes per lobe; in the paper's form, 3 * light_modes * vertex rank floats per
+ * cluster (2.2 KiB at 16 modes); and without a transfer, the frames of the vertices. Any thread. Errors:
+ * INVALID_ARGUMENT (also if in the paper's form the response belongs to another material), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_transfer_read_vectors(nook_transfer_response response,
                                                 const nook_transfer_vectors_desc* desc, float* vectors,
                                                 uint32_t vertex_count, uint32_t stride_floats);
 
-/* Computes the radiance, linear RGB, of material pixels from vectors of vector_floats floats each, one for
- * each pixel. The call does not read the light of a pixel, and decodes it with one fetch. Use it to check
- * your shader: it is the reference of the GLSL of nook_gl_upload_transfer. Any thread. Errors:
- * INVALID_ARGUMENT (also, vector_floats is not the material's, or a number is not finite). */
+/* Computes the radiance (linear RGB) of material pixels from one vector of `vector_floats` floats per pixel.
+ * The call ignores the field `light` of a pixel, and decodes with one fetch. Use it to check your shader: it
+ * is the reference for the GLSL of nook_gl_upload_transfer. Any thread. Errors: INVALID_ARGUMENT (also if
+ * vector_floats does not fit the material, or a number is not finite). */
 NOOK_API nook_result nook_transfer_shade(nook_material material, const nook_material_pixel* pixels,
                                          const float* vectors, uint32_t vector_floats, uint32_t count,
                                          float* radiance);
 
 /* ---- In shaders ----
  *
- * Radiance transfer in your shaders: the vectors of a shape's vertices as an upload of nook_gl.h, and the
- * GLSL that lights a material with them.
+ * An upload (nook_gl.h) stores the vectors of a shape's vertices. Its GLSL lights a material with them.
  *
  * Call nook_gl_upload_transfer once for a shape, and nook_gl_update_transfer when the light or the shape
- * turns. Put the GLSL of nook_gl_upload_describe after the #version line of the vertex shader, and after the
- * material's GLSL in the fragment shader. For each draw, call nook_gl_upload_bind. The vertex shader:
+ * rotates. Put the GLSL of nook_gl_upload_describe after the #version line of the vertex shader, and after
+ * the material's GLSL in the fragment shader. For each draw, call nook_gl_upload_bind. The vertex shader:
  *     out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT];
  *     nook_transfer_vectors(gl_VertexID, vectors);
  * The fragment shader:
@@ -308,28 +308,29 @@ NOOK_API nook_result nook_transfer_shade(nook_material material, const nook_mate
  *     vec4 modes[NOOK_LIGHT_VEC4_COUNT];
  *     nook_material_decode(uv, dFdx(uv), dFdy(uv), view, modes);
  *     colour = max(nook_transfer_radiance(modes, vectors), 0.0);
- * 16 light modes are 12 varyings of the 15 that every OpenGL 3.3 has. A material with more uses
- * nook_transfer_mix in the fragment shader instead. You may also upload the floats of
- * nook_transfer_read_vectors as vertex attributes of your own; nook_transfer_radiance is the same. */
+ * 16 light modes take 12 varyings of the 15 that every OpenGL 3.3 has. For a material with more light modes,
+ * use nook_transfer_mix in the fragment shader instead. You can also upload the floats of
+ * nook_transfer_read_vectors as your own vertex attributes, and call the same nook_transfer_radiance. */
 
-/* Makes room for a transfer under a response. With a transfer in the default form, or with transfer NULL and
- * vertex_count vertices of your own, the upload holds vectors. With a transfer in the paper's form, the
- * vertices stay on the GPU, and nook_transfer_vectors mixes the matrices of their clusters. vertex_count is
- * read only if transfer is NULL. All light is 0 at first. You may destroy both afterwards. The GLSL is the
- * same for all responses with as many light modes, in the paper's form for all transfers with as many
- * clusters, ranks and reflections too. On failure *out is NULL and no OpenGL object is left.
- * Context thread. Errors: INVALID_ARGUMENT (also, light modes or lobes of the paper's form are not those of
- * the response), UNSUPPORTED (a table exceeds the texture buffer of this OpenGL: vectors take vertex_count *
- * vector_floats / 4 texels, and every OpenGL has 65,536), GL, OUT_OF_MEMORY. */
+/* Creates an upload for a transfer and a response, with all light 0. With a transfer in the default form, or
+ * with `transfer` NULL and `vertex_count` vertices of your own, the upload holds vectors. With a transfer in
+ * the paper's form, it holds the vertices, and nook_transfer_vectors mixes the matrices of their clusters.
+ * `vertex_count` is read only if `transfer` is NULL. You may destroy transfer and response afterwards. The
+ * GLSL depends only on the number of light modes; in the paper's form, also on the numbers of clusters, ranks
+ * and bounces. On failure *out is NULL and no OpenGL object is left.
+ * Context thread. Errors: INVALID_ARGUMENT (also if light modes or lobes of the paper's form and of the
+ * response differ), UNSUPPORTED (a table exceeds the texture buffer of this OpenGL, which has at least 65,536
+ * texels; vectors take vertex_count * vector_floats / 4 texels), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_upload_transfer(nook_gl gl, nook_transfer transfer,
                                              nook_transfer_response response, uint32_t vertex_count,
                                              nook_gl_upload* out);
 
-/* Uploads the light of an upload of nook_gl_upload_transfer. Vectors: vertex_count x vector_floats without
- * gaps, as nook_transfer_read_vectors writes them. The paper's form: the amplitudes of the lobes, lobe_count
- * x RGB; the CPU makes the clusters' matrices of them, with the parallel-for of the context. Draws that were
- * issued before still read the old light. The call does not wait for the GPU.
- * Context thread. Errors: INVALID_ARGUMENT (also, float_count is not that of the upload), GL,
+/* Sets the light of an upload of nook_gl_upload_transfer. If the upload holds vectors, pass vertex_count x
+ * vector_floats without gaps, as nook_transfer_read_vectors writes them. In the paper's form, pass the
+ * amplitudes of the lobes, lobe_count x RGB; the CPU computes the matrices of the clusters from them, using
+ * the context's parallel_for. Draws that you issued before still read the old light. The call does not wait
+ * for the GPU.
+ * Context thread. Errors: INVALID_ARGUMENT (also if float_count does not fit the upload), GL,
  * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_update_transfer(nook_gl_upload upload, const float* values,
                                              uint64_t float_count);

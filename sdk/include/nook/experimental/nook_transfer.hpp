@@ -25,7 +25,7 @@ class Transfer : public Unique<nook_transfer, nook_transfer_destroy> {
     check(nook_transfer_describe(get(), &info));
     return info;
   }
-  // Throws unless the mesh and the material are the baked ones; either may be NULL.
+  // Throws unless the mesh and the material are the ones that were baked. Either may be NULL.
   void check_baked(const nook_transfer_mesh_desc* mesh, const Material* material) const {
     check(nook_transfer_check(get(), mesh, material ? material->get() : nullptr));
   }
@@ -75,7 +75,7 @@ class TransferResponse : public Unique<nook_transfer_response, nook_transfer_res
     check(nook_transfer_response_describe(get(), &info));
     return info;
   }
-  // The vectors of all vertices, without gaps.
+  // Returns the vectors of all vertices, without gaps.
   std::vector<float> vectors(const Transfer& transfer, const std::vector<float>& amplitudes) const {
     nook_transfer_vectors_desc desc;
     check(nook_transfer_vectors_desc_init(&desc));
@@ -101,21 +101,22 @@ class TransferResponse : public Unique<nook_transfer_response, nook_transfer_res
   }
 };
 
-// An upload of vectors of vertex_count vertices.
+// Creates an upload for the vectors of `vertex_count` vertices.
 inline Upload upload_transfer(const Gl& gl, const TransferResponse& response, std::uint32_t vertex_count) {
   nook_gl_upload handle = nullptr;
   check(nook_gl_upload_transfer(gl.get(), nullptr, response.get(), vertex_count, &handle));
   return Upload(handle);
 }
 
-// An upload of a transfer: vectors, or in the paper's form the vertices and the matrices of their clusters.
+// Creates an upload for a transfer. It holds vectors, or in the paper's form the vertices and the matrices of
+// their clusters.
 inline Upload upload_transfer(const Gl& gl, const Transfer& transfer, const TransferResponse& response) {
   nook_gl_upload handle = nullptr;
   check(nook_gl_upload_transfer(gl.get(), transfer.get(), response.get(), 0, &handle));
   return Upload(handle);
 }
 
-// Uploads vectors, in the paper's form the amplitudes of lobes.
+// Uploads vectors, or in the paper's form the amplitudes of the lobes.
 inline void update_transfer(const Upload& upload, const std::vector<float>& values) {
   check(nook_gl_update_transfer(upload.get(), values.data(), values.size()));
 }

@@ -11,7 +11,7 @@
 namespace nook {
 inline namespace wrapper {
 
-// The casters of a model; throws UNSUPPORTED for a model that was baked without.
+// Returns the casters of a model. Throws UNSUPPORTED if the model was baked without casters.
 inline std::vector<nook_model_capsule> world_casters(const CharacterModel& model) {
   std::uint32_t count = NOOK_WORLD_MAX_CASTERS;
   std::vector<nook_model_capsule> casters(count);
@@ -20,21 +20,21 @@ inline std::vector<nook_model_capsule> world_casters(const CharacterModel& model
   return casters;
 }
 
-// The caller sets points and normals, and a light where there is one.
+// You must set points and normals, and a light if you have one.
 inline nook_world_sample_desc world_sample_desc() {
   nook_world_sample_desc desc;
   check(nook_world_sample_desc_init(&desc));
   return desc;
 }
 
-// The AO at the points of desc.
+// Returns the AO at the points of `desc`.
 inline std::vector<float> world_ao(const Scene& scene, const nook_world_sample_desc& desc) {
   std::vector<float> ao(desc.point_count);
   check(nook_world_sample(scene.get(), &desc, ao.data(), nullptr));
   return ao;
 }
 
-// The open share of the light of desc at its points.
+// Returns the open share of the light at the points of `desc`.
 inline std::vector<float> world_light(const Scene& scene, const nook_world_sample_desc& desc) {
   std::vector<float> light(desc.point_count);
   check(nook_world_sample(scene.get(), &desc, nullptr, light.data()));
