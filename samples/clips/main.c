@@ -2,9 +2,9 @@
  *
  *   clips CHARACTER.glb MODEL.nook CLIPS.nook OUT.png
  *
- * `nook bake character` makes MODEL.nook and `nook bake clips` makes CLIPS.nook. On the left, the picture
- * has no AO. On the right, the vertex shader decodes the crowd's own AO from the clips; it multiplies this AO
- * by what neighbours and ground leave open. An engine needs the marked regions. */
+ * `nook bake character` makes MODEL.nook and `nook bake clips` makes CLIPS.nook. On the left, the picture has
+ * no AO. On the right, the vertex shader decodes the crowd's own AO from the clips, and multiplies it by the
+ * AO of the neighbours and the ground. An engine needs the marked regions. */
 #include <math.h>
 #include <nook/nook_clips.h>
 #include <nook/nook_gl.h>
@@ -23,7 +23,7 @@ enum { samples_across = 2 };
 enum { heroes = 2, rows = 4, columns = 5, members = heroes + rows * columns, ground_member = members };
 
 static const char version_text[] = "#version 330 core\n";
-/* The GLSL of the clips stands before it. */
+/* The GLSL of the clips is inserted before this text. */
 static const char vertex_text[] =
     "layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal;\n"
     "layout(location = 2) in uvec4 joints; layout(location = 3) in vec4 weights;\n"
@@ -40,7 +40,8 @@ static const char vertex_text[] =
     "      rows[i] += weights[j] * texelFetch(bones, 3 * (first_bone + int(joints[j])) + i);\n"
     "  vec3 d = vec3(dot(rows[0], p), dot(rows[1], p), dot(rows[2], p)) - eye;\n"
     "  normal_ws = vec3(dot(rows[0].xyz, normal), dot(rows[1].xyz, normal), dot(rows[2].xyz, normal));\n"
-    /* A live pose has its whole AO in the scene's buffer, a clip what the others leave open. */
+    /* For a live pose, the scene's buffer holds the complete AO. For a clip, it holds only the AO of the
+     * others and the ground. */
     "  ao = scene_ao;\n"
     "  if (has_clip) ao *= nook_clip_ao(gl_VertexID, frames, share);\n"
     "  if (!with_ao) ao = 1.0;\n"
@@ -109,7 +110,7 @@ static nook_result start(App* a, const void* model, size_t model_size, const voi
   return r;
 }
 
-/* Puts a member at x and z, turned by yaw, and as tall as a man. */
+/* Places a member at x and z, rotated by `yaw` and scaled to human height. */
 static void stand(const App* a, Member* m, float x, float z, float yaw) {
   const float low = a->body.info.bounds_min[1], s = 1.75F / (a->body.info.bounds_max[1] - low);
   const float place[12] = {s * cosf(yaw),  0, s * sinf(yaw), x, 0, s, 0, -s * low,
@@ -205,7 +206,7 @@ static nook_result pose_all(App* a) {
   return nook_gl_scene_update(a->gl, a->scene);
 }
 
-/* Sets the frames of a clip between which the time lies. */
+/* Sets the two frames of a clip that the time lies between. */
 static nook_result set_time(const App* a, GLuint program, const nook_clip_time* time) {
   uint32_t frames[2] = {0, 0};
   float share = 0;
@@ -265,7 +266,7 @@ static nook_result draw_panel(const App* a, GLuint program, int panel) {
   return r;
 }
 
-/* Returns the program of a vertex shader that decodes AO of the clips. */
+/* Returns a program with a vertex shader that decodes the AO of the clips. */
 static GLuint program_of(const App* a, const char* vertex, const char* fragment) {
   const size_t size = sizeof version_text + strlen(a->shader.glsl) + strlen(vertex);
   char* const text = malloc(size);
@@ -356,7 +357,7 @@ static void stop(App* a) {
   free(a->bones);
 }
 
-/* A model or clips of another character would not fit the mesh. */
+/* Checks that model and clips belong to the character of the mesh. */
 static int same_character(const App* a) {
   const nook_bake_character_info* const body = &a->body.info;
   const int same = body->file_vertex_count == a->info.file_vertex_count &&

@@ -180,7 +180,7 @@ void Renderer::upload_bones(std::span<const DrawnInstance> instances) {
   gl_.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffers_[bone_matrices]);
 }
 
-// An engine binds the values of vertices like this: AO, and directional AO where it uses Nook's lights.
+// An engine binds the values of vertices like this. It binds AO, and directional AO if it uses Nook's lights.
 void Renderer::bind_values(GLuint slot, GLint components, const VertexSource& values) {
   if (values.buffer == 0) {
     gl_.DisableVertexAttribArray(slot);
@@ -277,7 +277,7 @@ void Renderer::draw(std::span<const DrawnInstance> instances, const Camera& came
   GLint viewport[4];
   gl_.GetIntegerv(GL_VIEWPORT, viewport);
   gl_.Enable(GL_DEPTH_TEST);
-  // Behind everything is the light from the horizon ahead.
+  // The background is the light from the horizon in the view direction.
   glm::vec3 ahead = camera.target_ws - camera.eye_ws;
   ahead = glm::normalize(glm::vec3(ahead.x, 0.4f * glm::length(glm::vec2(ahead.x, ahead.z)), ahead.z));
   const glm::vec3 background = 1.0f - glm::exp(-look.light.exposure * look.light.radiance(ahead));

@@ -14,7 +14,7 @@
 
 namespace crowd {
 
-// Where the values of an instance's vertices lie. Nook's views of an instance have these fields.
+// Where the values of an instance's vertices are stored. Nook's views of an instance have these fields.
 struct VertexSource {
   GLuint buffer = 0;  // 0 if there is none
   std::uint64_t offset = 0;
@@ -29,7 +29,7 @@ struct DrawnInstance {
   GLint light_texel = 0;  // where Nook's view has the instance's light
 };
 
-// The result of the passes over the screen for the same instances through the same camera.
+// The result of the screen-space pass and the world pass, for the same instances and the same camera.
 struct ScreenAo {
   // 0 if there was no such pass. Red is AO. Under a light, red, green and blue are the open shares of the
   // soft light, and alpha is the open share of the sun.
@@ -54,14 +54,15 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Draws depth, normals and the layer of the screen-space pass into the framebuffer that is bound, which is
-  // cleared and has its viewport set. The layer is 1 everywhere; its weight is 1 on characters alone.
+  // Draws depth, normals and the G-buffer AO of the screen-space pass into the bound framebuffer. You must
+  // clear it and set the viewport before. The G-buffer AO is 1 everywhere; its weight is 1 only on
+  // characters.
   void draw_surfaces(std::span<const DrawnInstance> instances, const Camera& camera, float aspect);
-  // Draws into the framebuffer that is bound, whose viewport is set. Characters have the irradiance of the
-  // light times their directional AO, and the ground has its irradiance times look.screen_ao.
+  // Draws into the bound framebuffer; you must set its viewport before. Characters are lit by the irradiance
+  // times their directional AO, and the ground by the irradiance times look.screen_ao.
   void draw(std::span<const DrawnInstance> instances, const Camera& camera, const Look& look);
 
-  // Parts of a picture, for programs that are made of character_vertex and ground_vertex.
+  // Draw parts of a picture, with programs that use character_vertex and ground_vertex.
   void draw_characters(const platform::Program& program, std::span<const DrawnInstance> instances,
                        const glm::mat4& clip_from_ws);
   void draw_ground(const platform::Program& program, const glm::vec3& albedo, const glm::mat4& clip_from_ws);
@@ -88,16 +89,16 @@ class Renderer {
 
 inline constexpr glm::vec3 ground_albedo{0.36f, 0.36f, 0.37f};
 
-// The sample's shaders, for OpenGL 3.3 core. Fragment shaders write linear light to an sRGB target.
-// Both vertex shaders also write surface_ao, plain AO. Only the fragment shaders of nook-lab-crowd read it:
-// the sample's take directional AO from surface_light. Characters: linear blend skinning with the bones in a
-// texture buffer, three texels for each bone.
+// The sample's shaders, for OpenGL 3.3 core. Fragment shaders write linear light to an sRGB target. Both
+// vertex shaders also write surface_ao, plain AO. Only the fragment shaders of nook-lab-crowd read it; the
+// fragment shaders of the sample use directional AO from surface_light. Characters: linear blend skinning
+// with the bones in a texture buffer, three texels for each bone.
 extern const char* const character_vertex;
 // One big quad on y = 0, made from gl_VertexID.
 extern const char* const ground_vertex;
 extern const char* const glsl_version;
-// The function fetch_screen_light(), by which a fragment reads ScreenAo, and for nook-lab-crowd
-// fetch_screen_ao(), its red.
+// The function fetch_screen_light(), with which a fragment shader reads ScreenAo; and fetch_screen_ao() for
+// nook-lab-crowd, which returns its red channel.
 extern const char* const fetch_screen_glsl;
 
 }  // namespace crowd

@@ -11,7 +11,7 @@ namespace crowd {
 namespace {
 
 constexpr float ground_plane[4] = {0, 1, 0, 0};
-// Between the centres of bounding spheres. Neighbours that are farther away hardly darken.
+// The distance between the centres of bounding spheres. Neighbours that are farther away cause hardly any AO.
 constexpr float link_distance_m = 4.0f;
 
 nook_context_desc host_services() {
@@ -33,7 +33,7 @@ nook_gl_desc gl_settings(platform::Context& context, int tier) {
   return desc;
 }
 
-// A muted colour that stays with a character.
+// Returns a muted colour, always the same for the same character.
 glm::vec3 albedo_of(std::size_t character) {
   // Linear reflectances of plaster, sand, terracotta, sage, slate and rose.
   static const glm::vec3 colours[] = {{0.62f, 0.60f, 0.56f}, {0.58f, 0.48f, 0.34f}, {0.52f, 0.28f, 0.19f},
@@ -55,7 +55,8 @@ CrowdScene::CrowdScene(platform::Context& context, const Hero& hero, std::span<c
     scene_.set_ground(instances_.back(), ground_plane);
   }
   link_nearest(size.neighbours);
-  // Makes the buffers now, so that the first frame allocates nothing, and gl_.view has an answer before it.
+  // Makes the buffers now, so that the first frame does not allocate, and gl_.view works before the first
+  // frame.
   gl_.prepare(scene_);
 }
 

@@ -20,11 +20,11 @@ struct CrowdSize {
 
 class CrowdScene {
  public:
-  // Throws if the model belongs to another character than the hero. The hero must outlive this object.
+  // Throws if the model does not belong to the hero. The hero must outlive this object.
   CrowdScene(platform::Context& context, const Hero& hero, std::span<const unsigned char> model,
              const CrowdSize& size, const nook_scene_desc& desc = nook::scene_desc());
 
-  // Gives all characters another model of the hero. Throws if it belongs to another character, and then
+  // Gives all characters another model of the hero. If the model belongs to another character, throws and
   // changes nothing.
   void set_model(std::span<const unsigned char> model);
   void link_nearest(std::uint32_t neighbours);
@@ -35,12 +35,13 @@ class CrowdScene {
   // Levels of detail follow the distance to the camera, if lod_error of the scene's descriptor is above 0. It
   // is 0 in the sample, so that all characters have full detail.
   void set_camera(const glm::vec3& eye_ws);
-  // Evaluates the AO and leaves it on the GPU. The terms (NOOK_TERM_*) are what darkens a character.
+  // Evaluates the AO and leaves it on the GPU. `terms` (a sum of NOOK_TERM_*) selects what darkens a
+  // character.
   void update(std::uint32_t terms = NOOK_TERM_ALL);
-  // All characters with the results of the last update, in the poses that it had.
+  // Returns all characters with the results of the last update. `poses` must be the poses of this update.
   std::vector<DrawnInstance> drawn(const std::vector<Bones>& poses) const;
-  // The light of the last update. All characters have the same lobes, and the texture and the GLSL are the
-  // scene's, so that the view of the first one is enough to bind them. drawn() holds what differs.
+  // The light of the last update. All characters have the same lobes and share the texture and the GLSL, so
+  // the view of the first one is enough. drawn() has what differs between characters.
   nook_gl_view light() const { return gl_.view(scene_, instances_[0], NOOK_CHANNEL_DIRECTIONAL_AO); }
 
   nook::Scene& scene() { return scene_; }

@@ -20,7 +20,7 @@ struct Lines {
     glm::vec4 a = clip_from_ws * glm::vec4(a_ws, 1), b = clip_from_ws * glm::vec4(b_ws, 1);
     constexpr float nearest = 0.1f;
     if (std::max(a.w, b.w) <= nearest) return;
-    // An end behind the camera moves to where the line comes into view.
+    // If one end is behind the camera, clip the line at the near plane.
     if (a.w < nearest) a = glm::mix(b, a, (b.w - nearest) / (b.w - a.w));
     if (b.w < nearest) b = glm::mix(a, b, (a.w - nearest) / (a.w - b.w));
     const auto pixel = [&](const glm::vec4& at) {

@@ -1,4 +1,4 @@
-// The occluders of the crowd, as lines over its picture: what nook_debug.h tells of a scene.
+// Draws the occluders of the crowd as lines over its picture, using nook_debug.h.
 #pragma once
 
 #include "samples/crowd/crowd_scene.h"
@@ -11,7 +11,7 @@ struct DebugView {
   int bodies = 1;        // the bodies that spheres are shown for, the nearest to the camera first
 };
 
-// Draws over everything but ImGui's panels, within an ImGui frame. Spheres and links are as of the last
+// Draws over everything but ImGui's panels, within an ImGui frame. Spheres and links come from the last
 // update.
 void draw_debug_lines(const CrowdScene& scene, const Camera& camera, const DebugView& view);
 

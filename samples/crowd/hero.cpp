@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::uint32_t rest_pose = ~0u;
 
-// T-poses and A-poses show nothing, and a character that sits needs a chair, which this sample does not have.
+// T-poses and A-poses are not worth showing, and a sitting character needs a chair, which this sample does
+// not have.
 bool is_unfit(std::string name) {
   std::erase_if(name, [](unsigned char c) { return !std::isalnum(c); });
   for (char& c : name) c = char(std::tolower(static_cast<unsigned char>(c)));

@@ -23,7 +23,7 @@ class Hero {
   const nook::bake::Character& character() const { return character_; }
   std::uint32_t vertex_count() const { return info_.file_vertex_count; }
   std::uint32_t bone_count() const { return info_.bone_count; }
-  // The clips in which a character stands or moves. If the file has none, this is the rest pose as a clip.
+  // The clips in which a character stands or moves. If the file has none, the rest pose is the only clip.
   const std::vector<Clip>& clips() const { return clips_; }
   // The pose of a clip at a phase from 0 to 1, which runs once through the clip.
   Bones pose(std::size_t clip, float phase) const;

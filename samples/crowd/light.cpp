@@ -43,8 +43,8 @@ Light::Light(std::vector<nook_lobe> all_lobes, bool has_sun) : lobes(std::move(a
   if (has_sun) {
     const nook_lobe& sun = lobes.back();
     to_sun = glm::make_vec3(sun.axis);
-    // A cone whose directions are as far from its axis in the mean: 1 / sharpness = (1 - cos(half angle))
-    // / 2.
+    // The cone whose directions have the same mean distance from the axis: 1 / sharpness = (1 - cos(half
+    // angle)) / 2.
     sun_degrees = 2 * std::acos(1 - 2 / sun.sharpness) * 180 / glm::pi<float>();
     sun_up = irradiance_up(&sun, 1);
     soft.pop_back();

@@ -1,5 +1,5 @@
-// The light of the crowd as lobes, one of which may be a sun, and what the passes and the shaders need from
-// them.
+// The light of the crowd. It holds lobes, of which the last may be a sun, and the values that passes and
+// shaders need.
 #pragma once
 
 #include <nook/nook_probe.h>

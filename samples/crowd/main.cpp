@@ -27,7 +27,7 @@ struct Options {
   WindowRequest window;
 };
 
-// Refuses a window in a program that was built without ImGui, and options that only a window obeys.
+// Rejects a window if the program was built without ImGui, and options that need a window if there is none.
 void require_window(const CLI::App& app, const Options& o) {
 #ifndef CROWD_HAS_WINDOW
   if (o.context == "window")
@@ -88,7 +88,7 @@ int parse(int argc, char** argv, Options& o) {
   }
 }
 
-// Writes frame_0000.png and so on, and without_ao.png, the first of them without ambient occlusion.
+// Writes frame_0000.png and so on, and without_ao.png, which is the first frame without ambient occlusion.
 void draw_frames(platform::Context& context, const Hero& hero, const std::vector<Placement>& places,
                  CrowdScene& scene, const Light& light, const Options& o) {
   constexpr float seconds_per_frame = 1.0f / 30;

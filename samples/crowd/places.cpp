@@ -20,7 +20,7 @@ int bearing_index(float bearing_rad) {
   return int((turns - std::floor(turns)) * Outline::bearings) % Outline::bearings;
 }
 
-// The distributions of the standard library differ between its implementations, and this one does not.
+// This gives the same values everywhere, unlike the distributions of the standard library.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}
@@ -31,7 +31,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-// Bearings turn from +z towards +x, as the yaw does.
+// Bearings increase from +z towards +x, like the yaw.
 bool overlap(const std::vector<Outline>& outlines, const Placement& a, const Placement& b) {
   const float bearing = std::atan2(b.x_m - a.x_m, b.z_m - a.z_m);
   const float needed = outlines[a.clip].reach(bearing - a.yaw_rad) +
@@ -45,7 +45,7 @@ bool fits(const std::vector<Outline>& outlines, const std::vector<Placement>& cr
                       [&](const Placement& other) { return overlap(outlines, other, candidate); });
 }
 
-// Tries bearings round the leader, from near to far, and leaves the member out if the group has no room.
+// Tries bearings around the leader, from near to far. If the group has no room, the member is left out.
 void place_beside(const std::vector<Outline>& outlines, std::vector<Placement>& crowd,
                   const Placement& leader, Placement member, Random& random) {
   const float first = random.unit() * two_pi;
@@ -89,7 +89,7 @@ std::vector<Placement> make_layout(const std::vector<Outline>& outlines, std::ui
   std::uint32_t made = 0;
   const auto next_member = [&] {
     Placement p;
-    // The clips come in turn, so that a small crowd shows all of them.
+    // Characters use the clips in turn, so that a small crowd shows all of them.
     p.clip = made++ % std::uint32_t(outlines.size());
     p.phase = random.unit();
     p.yaw_rad = random.unit() * two_pi;
@@ -102,7 +102,7 @@ std::vector<Placement> make_layout(const std::vector<Outline>& outlines, std::ui
     widest = std::max(widest, *std::max_element(o.reach_m.begin(), o.reach_m.end()));
   const float spacing = std::max(group_spacing_m, 2.4f * widest);
   std::vector<Placement> crowd;
-  // Members for whom their group has no room go to further rows of the grid.
+  // Members that do not fit into their group go to further rows of the grid.
   for (int cell = 0; crowd.size() < count; ++cell) {
     Placement leader = next_member();
     leader.x_m = (float(cell % columns) - float(columns - 1) / 2 + random.between(-0.2f, 0.2f)) * spacing;

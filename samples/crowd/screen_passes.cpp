@@ -20,7 +20,7 @@ nook_nnao_desc screen_settings(int width, int height, const ScreenQuality& quali
   nook_nnao_desc desc = nook::nnao_desc();
   desc.max_width = width;
   desc.max_height = height;
-  // An engine sets desc.preset alone. A software renderer gets settings here that no preset has.
+  // An engine sets only desc.preset. This sample uses settings for software renderers that no preset has.
   desc.taps = quality.taps;
   desc.half_resolution = quality.half_resolution;
   return desc;

@@ -1,5 +1,5 @@
-// The part of an engine that calls Nook for its floor: depth and normals are drawn before the lighting. The
-// screen-space pass reads them, and then the world pass, by which the characters darken the floor.
+// The part of an engine that calls Nook for its floor. It draws depth and normals before the lighting. Then
+// it runs the screen-space pass, and the world pass, in which the characters darken the floor.
 #pragma once
 
 #include <nook/nook.hpp>
@@ -31,18 +31,19 @@ class ScreenPasses {
   const int width_px, height_px;
   const ScreenQuality quality;
 
-  // The texture is 1 on characters. The lighting multiplies it with the AO of their vertices, and the passes
-  // would count the same occlusion twice. The instances must be the instances of `scene`: its casters darken
-  // the floor, and the screen-space pass leaves characters out. Leaves another framebuffer bound. With a
-  // light, red, green and blue are the open shares of its soft part, and alpha is the open share of its sun.
-  // The light must outlive the next draw.
+  // The texture is 1 on characters, because the lighting multiplies it by the AO of their vertices, which
+  // contains the same occlusion. The instances must be the instances of `scene`: its casters darken the
+  // floor, and the screen-space pass leaves characters out. The call binds another framebuffer. With a light,
+  // red, green and blue are the open shares of its soft part, and alpha is the open share of its sun. The
+  // light must outlive the next draw.
   ScreenAo draw(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
                 nook_scene scene, const Light* light);
-  // The screen-space pass alone. With NOOK_GBUFFER_AO_NONE the texture has its AO on characters too.
+  // Draws only the screen-space pass. With NOOK_GBUFFER_AO_NONE, the texture has the pass's AO on characters
+  // too.
   ScreenAo draw_screen(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
                        nook_gbuffer_ao layer);
 
-  // The passes, and what they got in the last draw: a report evaluates it again, or records it.
+  // The passes and their inputs in the last draw. A report evaluates the frame again, or records it.
   nook::Nnao screen;
   nook::WorldPass world;
   nook_gl_frame_desc frame{};

@@ -19,9 +19,9 @@
 namespace crowd {
 namespace {
 
-// ImGui finds the sizes of its panels in the first few frames, and answers input in as many.
+// ImGui needs a few frames to find the sizes of its panels, and to react to input.
 constexpr int frames_before_picture = 4;
-// While nothing moves, few frames are enough for a cursor that blinks and for a model's file that changes.
+// While nothing moves, a low frame rate is enough for a blinking cursor, and to notice a changed model file.
 constexpr double still_frame_s = 0.25;
 
 struct Controls {
@@ -46,7 +46,7 @@ struct Controls {
 // Numbers that are typed into a slider are clamped as well.
 void show_controls(Controls& c, const nook_scene_info& info, float width) {
   constexpr ImGuiSliderFlags clamped = ImGuiSliderFlags_AlwaysClamp;
-  // A row of boxes breaks where the panel is too narrow for it.
+  // A row of boxes wraps if the panel is too narrow.
   const auto boxes = [=](std::initializer_list<std::pair<const char*, bool*>> row) {
     for (const auto& [name, on] : row) {
       const float needed = ImGui::CalcTextSize(name).x + 3 * ImGui::GetFontSize();
@@ -67,14 +67,14 @@ void show_controls(Controls& c, const nook_scene_info& info, float width) {
   if (!c.model_text.empty()) ImGui::TextWrapped("%s", c.model_text.c_str());
 }
 
-// The panel is as wide as the window lets it, and moves back inside when the window has become smaller.
+// The panel is as wide as the window allows, and moves back inside when the window becomes smaller.
 void show_panel(Controls& c, const nook_scene_info& info) {
   const ImVec2 room = ImGui::GetIO().DisplaySize;
   const float line = ImGui::GetFontSize();
   ImGui::SetNextWindowPos(ImVec2(line, line), ImGuiCond_FirstUseEver);
   ImGui::Begin("Nook", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
   if (!ImGui::IsWindowFocused()) ImGui::SetWindowFocus();  // keys reach it after a click beside it
-  // Beside a slider stands its name, which has up to 10 times the height of a line.
+  // The name next to a slider is up to 10 line heights wide.
   const float width = std::clamp(room.x - 3 * line, 13 * line, 23 * line);
   ImGui::PushItemWidth(width - 11 * line);
   ImGui::PushTextWrapPos(width);
@@ -91,7 +91,7 @@ void move_camera(Controls& c, GLFWwindow* window) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool over_panel = io.WantCaptureMouse, drags = !over_panel && ImGui::IsMouseDragging(0);
   const auto held = [&](int key) { return !io.WantTextInput && glfwGetKey(window, key) == GLFW_PRESS; };
-  // In a slow frame a key moves as far as in a tenth of a second.
+  // In a slow frame, a key moves the camera by at most a tenth of a second's distance.
   const float step = std::min(io.DeltaTime, 0.1f);
   const float turn = step * float(held(GLFW_KEY_D) - held(GLFW_KEY_A)),
               rise = step * float(held(GLFW_KEY_W) - held(GLFW_KEY_S)),
@@ -126,7 +126,7 @@ class Window {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
-    // A key that is pressed and let go between two frames counts.
+    // Keys that are pressed and released between two frames are not lost.
     glfwSetInputMode(context.window(), GLFW_STICKY_KEYS, GLFW_TRUE);
     ImGui_ImplGlfw_InitForOpenGL(context.window(), true);
     ImGui_ImplOpenGL3_Init("#version 330");

@@ -1,5 +1,5 @@
-// The crowd in a window with controls. The model's file is loaded again whenever it changes, so that an
-// artist sees what a bake has made.
+// The crowd in a window with controls. It loads the model's file again whenever the file changes, so that an
+// artist sees the result of a new bake.
 #pragma once
 
 #include <filesystem>

@@ -36,7 +36,7 @@ class NookAo {
 
   // Evaluates a pose. The result is bound as a vertex attribute of one float.
   nook_gl_view character(const Pose& pose) {
-    // Joint matrices pose the parts without a skin; their nodes are found by the names of the bones.
+    // Joint matrices also pose the parts without a skin. Bone names identify their nodes.
     const std::span matrices(pose.matrices);
     set_pose(NOOK_POSE_JOINT_TO_WORLD, matrices.subspan(file_.first_node_matrix), node_of_bone_, 0);
     for (std::uint32_t s = 0; s < file_.skins.size(); ++s)

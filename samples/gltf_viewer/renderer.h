@@ -12,7 +12,7 @@ struct View {
   glm::mat4 view_from_world, clip_from_view;
 };
 
-// Where the AO of the vertices lies: one float for each.
+// Where the AO of the vertices is stored: one float for each vertex.
 struct VertexAo {
   GLuint buffer = 0;
   std::uint64_t offset = 0;
@@ -26,12 +26,12 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // First: depth, and the layer for the AO of the screen, which is (1, 1) on the character and (1, 0)
-  // elsewhere.
+  // Call this first. It draws depth, and the G-buffer AO for the screen pass, which is (1, 1) on the
+  // character and (1, 0) elsewhere.
   void draw_depth(const Pose& pose, const View& view, float ground_half_size_m);
   GLuint depth() const { return textures_[depth_texture]; }
   GLuint layer() const { return textures_[layer_texture]; }
-  // Second: the colours, with both kinds of AO.
+  // Then call this. It draws the colours, with both kinds of AO.
   void draw_colour(const VertexAo& character_ao, GLuint screen_ao);
   // Leaves the colours bound for reading.
   void bind_picture() const;

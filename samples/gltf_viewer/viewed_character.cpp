@@ -168,7 +168,7 @@ std::vector<glm::mat4> instances(const tinygltf::Model& model, const tinygltf::N
   return out.empty() ? std::vector{glm::mat4(1)} : out;
 }
 
-// Where the vertices of a primitive belong: the node, its skin or -1, and the instance.
+// What the vertices of a primitive belong to: the node, its skin or -1, and the instance.
 struct Shown {
   int node = 0, skin = -1;
   glm::mat4 instance{1};
@@ -194,7 +194,7 @@ void read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& pri
   if (primitive.material >= 0) {
     const auto& pbr = model.materials.at(std::size_t(primitive.material)).pbrMetallicRoughness;
     const auto& factor = pbr.baseColorFactor;
-    // The viewer reads no images. Where an image has the colour, the factor is white.
+    // The viewer reads no images. A material whose colour is in an image has a white factor.
     if (factor.size() >= 3 && factor[0] + factor[1] + factor[2] < 2.9) albedo = glm::make_vec3(factor.data());
   }
   for (std::size_t v = 0; v < positions.size() / 3; ++v) {
@@ -237,7 +237,7 @@ bool is_hidden(const tinygltf::Node& node) {
   return visible.IsBool() && !visible.Get<bool>();
 }
 
-// "Body_LOD1": the model is baked from the finest level.
+// Names such as "Body_LOD1" are coarser levels; the model is baked from the finest level.
 bool is_lower_level(const std::string& name) {
   static const std::regex level("(^|.*[_.\\- ])LOD0*[1-9][0-9]*", std::regex::icase);
   return std::regex_match(name, level);

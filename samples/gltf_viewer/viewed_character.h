@@ -1,6 +1,6 @@
 // Reads a rigged glTF file for a viewer: one mesh, skins, nodes and clips. Vertices are in the order of the
 // file, and primitives follow the order of the nodes, which is also the order of Nook's AO. A mesh with
-// EXT_mesh_gpu_instancing is there once for each instance. It leaves out meshes that a bake leaves out:
+// EXT_mesh_gpu_instancing appears once for each instance. The file leaves out meshes that a bake leaves out:
 // hidden meshes, lower levels of detail, and meshes that the caller names.
 #pragma once
 
@@ -66,14 +66,14 @@ struct CharacterFile {
   std::vector<std::uint32_t> triangles;
   std::vector<Clip> clips;
 
-  // Reads a .glb or .gltf of triangle lists, without the nodes with these names. Throws std::runtime_error,
-  // whose text names the file.
+  // Reads a .glb or .gltf file with triangle lists, without the nodes with these names. Throws
+  // std::runtime_error with a text that names the file.
   explicit CharacterFile(const std::filesystem::path& path, const std::vector<std::string>& without = {});
 
-  // Throws std::runtime_error that lists the clips. An empty name is the first clip; without clips the result
-  // is null.
+  // An empty name means the first clip; if the file has no clips, returns null. For an unknown name, throws
+  // std::runtime_error with a list of the clips.
   const Clip* find_clip(const std::string& name) const;
-  // Without a clip the pose is the file's own.
+  // If `clip` is null, returns the pose of the file.
   Pose pose(const Clip* clip, float time_s) const;
   // Returns the positions of the vertices in a pose.
   std::vector<glm::vec3> skinned(const Pose& pose) const;

@@ -1,5 +1,5 @@
-// The host programs share this: arguments, the character in one pose with a camera, the count of OpenGL's
-// errors, and the picture.
+// Code that the host programs share: arguments, the character in one pose with a camera, an OpenGL error
+// counter, and the picture.
 #pragma once
 
 #include <nook/nook_gl.h>
@@ -28,7 +28,7 @@ struct Options {
 // Prints usage and returns false when the program must end with exit_code.
 bool parse_options(const char* name, int argc, char** argv, Options& options, int& exit_code);
 
-// The character in a pose of its clip, and a camera that sees all of it.
+// The character in a pose of its clip, and a camera that shows all of the character.
 struct Scene {
   viewer::CharacterFile file;
   viewer::Pose pose;
@@ -46,16 +46,16 @@ struct Scene {
 // Finds functions of the current GLX context. Ignores the user pointer.
 void* gl_proc(void* user, const char* name);
 
-// From start_counting on, OpenGL's errors are counted through KHR_debug, synchronously.
+// Starts to count OpenGL errors, synchronously through KHR_debug.
 void start_counting_gl_errors();
 
 // Writes the picture, rows from top to bottom, three bytes each, and prints a report in JSON.
 void finish(const char* name, const Options& options, const unsigned char* rgb);
 
-// The colours that all hosts use. They take the AO of a vertex and of a pixel: GLSL without #version.
+// The GLSL for the colours of all hosts, without #version. Its inputs are the AO of a vertex and of a pixel.
 extern const char* const light_glsl;
 
-// Runs the body and prints what it throws. Returns the exit code.
+// Runs `body`, and prints the text of an exception. Returns the exit code.
 int run(const char* name, int argc, char** argv, void (*body)(const Options&));
 
 }  // namespace hosts

@@ -21,7 +21,7 @@ struct Stage {
   bool is_one_sided = false;  // without the insides of the surfaces
 };
 
-// Draws all passes of a frame. Without silhouettes it leaves out the visibility of the meso-structure.
+// Draws all passes of a frame. Without `silhouettes`, it ignores the visibility of the meso-structure.
 void draw_frame(const Stage& stage, const MaterialProgram& program, const View& view, bool silhouettes);
 
 struct FrameRequest {
@@ -34,7 +34,8 @@ struct FrameRequest {
 // The times of a frame between two calls of glFinish, the minimum over all frames.
 struct FrameTimes {
   double ms = 0;
-  // The time of the whole process over all threads. A software renderer has this cost whatever else runs.
+  // The CPU time of the process, over all threads. For a software renderer, it does not depend on other
+  // processes.
   double cpu_ms = 0;
 };
 

@@ -21,7 +21,7 @@ void main() {
 }
 )glsl";
 
-// The material's own text stands between the version and this text.
+// The material's GLSL is inserted between the version and this text.
 constexpr char fragment_text[] = R"glsl(
 in vec3 position_ws, normal_ws, tangent_ws; in vec2 uv;
 uniform vec3 eye, key_direction, fill_direction;
@@ -81,8 +81,8 @@ MaterialProgram::MaterialProgram(const GladGLContext& gl, const nook::Upload& ma
   }
 }
 
-// The depth pass of a material without a VOTF reads none of its textures, and nook_gl_upload_bind refuses a
-// program without samplers of the upload.
+// Without a VOTF, the depth pass reads no texture of the material, and nook_gl_upload_bind fails for a
+// program that uses no sampler of the upload.
 bool MaterialProgram::samples_material(const platform::Program& program) const {
   const nook_gl_upload_info info = material_.info();
   const auto first = info.textures, last = info.textures + info.texture_count;

@@ -1,4 +1,4 @@
-// The use of a material in an engine: it puts the material's GLSL into a program and binds its textures.
+// Shows how an engine uses a material: it inserts the material's GLSL into a program and binds the textures.
 #pragma once
 
 #include <glad/gl.h>
@@ -12,8 +12,8 @@
 
 namespace material {
 
-// The passes of a frame. Decoding costs many times as much as the visibility, so that the depth of the fully
-// visible pixels is drawn first, and each of them is decoded once.
+// The passes of a frame. Decoding costs much more than visibility. So the depth of the fully visible pixels
+// is drawn first, and each of these pixels is then decoded only once.
 enum class Pass {
   depth,         // the depth of fully visible pixels
   colour,        // the colour of the pixels that have that depth
@@ -23,7 +23,8 @@ enum class Pass {
 
 class MaterialProgram {
  public:
-  // fetches along the longer side of a pixel; 0: the isotropic functions. The material outlives the program.
+  // `fetches` is the number of fetches along the longer side of a pixel; 0 uses the isotropic functions. The
+  // material must outlive the program.
   MaterialProgram(const GladGLContext& gl, const nook::Upload& material, std::uint32_t fetches);
 
   // Binds the pass's program and the textures, and sets the OpenGL state that the pass needs.

@@ -12,7 +12,7 @@ struct View {
   glm::vec3 fill_direction{0};
 };
 
-// While turns goes from 0 to 1 the key light goes once round, and the camera swings to and fro.
+// While `turns` goes from 0 to 1, the key light moves once around, and the camera swings back and forth.
 View view_at(float turns, float aspect);
 
 }  // namespace material

@@ -54,7 +54,7 @@ Shape make_shape(const Surface& surface, Closed closed, int columns, int rows, f
   return shape;
 }
 
-// A tube round a closed curve.
+// A tube around a closed curve.
 Surface tube(std::function<glm::vec3(float)> curve, float radius_m) {
   return [curve, radius_m](float s, float t) {
     constexpr float h = 1e-3f;

@@ -1,5 +1,4 @@
-// Surfaces whose texture coordinates do not run together anywhere, as they would at the poles of a sphere.
-// Metres, y up.
+// Surfaces whose texture coordinates have no singular points, such as the poles of a sphere. Metres, y up.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +19,9 @@ struct Shape {
   std::vector<std::uint32_t> indices;  // triangles, counter-clockwise from outside
 };
 
-// A ring, a knotted tube, a vase that is open at the top, and a cloth in folds, side by side round the
-// origin. A tile's side has tile_m. Closed surfaces take the nearest whole number of tiles round.
+// Makes a ring, a knotted tube, a vase that is open at the top, and a folded cloth, side by side around the
+// origin. A tile is `tile_m` metres wide. Around closed surfaces, the number of tiles is rounded to an
+// integer.
 std::vector<Shape> make_shapes(float tile_m);
 
 }  // namespace material

@@ -1,5 +1,5 @@
-// The ten lines of the project's README, with what stands round them: a file that is read, an animation and a
-// mean that is printed.
+// The ten lines of the project's README in a complete program: it reads a file, animates, and prints the mean
+// AO.
 //
 //   ten_lines MODEL.nook
 #include <algorithm>
@@ -31,7 +31,7 @@ std::vector<float> animate(const nook::CharacterModel& model, float x_m) {
   return columns;
 }
 
-// Describes matrices and names their kind.
+// Describes matrices of the given kind.
 nook_pose_desc pose(nook_pose_kind kind, const std::vector<float>& columns_4x4) {
   nook_pose_desc desc = nook::pose_desc();
   desc.kind = kind;

@@ -167,7 +167,7 @@ static nook_result run_pass(Pass* p, const Engine* e, float radius_m, GLuint* ao
   return r;
 }
 
-/* Writes the AO alone over the colours, which is what NOOK_TARGET_TEXTURE is for. */
+/* Overwrites the colours with the AO alone, by NOOK_TARGET_TEXTURE. */
 static nook_result show_ao(Pass* p, const Engine* e, float radius_m) {
   nook_gl_frame_desc frame;
   nook_nnao_frame_desc desc;

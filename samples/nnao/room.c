@@ -49,8 +49,8 @@ static void put_box(Mesh* m, float x, float y, float z, float width, float heigh
     for (int side = 0; side < 2; ++side) put_side(m, low, high, axis, side);
 }
 
-/* Adds a surface of revolution round a vertical axis, from (r[0], y[0]) to (r[1], y[1]). The normals have the
- * components nr away from the axis and ny upwards. */
+/* Adds a surface of revolution around a vertical axis, from (r[0], y[0]) to (r[1], y[1]). The normals have
+ * the components nr away from the axis and ny upwards. */
 static void put_ring(Mesh* m, float x, float z, const float r[2], const float y[2], const float nr[2],
                      const float ny[2]) {
   enum { sides = 48 };

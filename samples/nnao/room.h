@@ -10,7 +10,8 @@ typedef struct room_vertex {
  * memory runs out. */
 room_vertex* room_make(int* count);
 
-/* The view of a camera that looks from above the room's open corner to its middle. Column-major. */
+/* Writes the view matrix of a camera that looks from above the room's open corner to its middle.
+ * Column-major. */
 void room_view(float view[16]);
 
 #endif

@@ -21,8 +21,8 @@ static unsigned char* put_32(unsigned char* out, uint32_t value) {
   return out;
 }
 
-/* Puts length and name before the `size` bytes that lie at chunk + 8 and the checksum after them, and writes
- * all. */
+/* Writes a chunk of `size` bytes, which start at chunk + 8. It adds length and name before them, and the
+ * checksum after them. */
 static int write_chunk(FILE* file, unsigned char* chunk, const char* name, size_t size) {
   put_32(chunk, (uint32_t)size);
   memcpy(chunk + 4, name, 4);
@@ -30,7 +30,7 @@ static int write_chunk(FILE* file, unsigned char* chunk, const char* name, size_
   return fwrite(chunk, 1, size + 12, file) == size + 12;
 }
 
-/* Makes a zlib stream of stored blocks. It is larger than a compressed one and needs no library. */
+/* Makes a zlib stream of stored blocks. This is larger than a compressed stream, but needs no library. */
 static size_t store(unsigned char* out, const unsigned char* bytes, size_t count) {
   unsigned char* const begin = out;
   uint32_t a = 1, b = 0;

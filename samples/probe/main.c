@@ -3,8 +3,8 @@
  *
  *   probe PROBE.nook OUT.png [CHARACTER.glb MODEL.nook]
  *
- * `nook bake probe MAP.hdr -o PROBE.nook` makes PROBE.nook from any map; it has to have lobes, which is the
- * default. The upper spheres are metal, and the lower spheres are plastic. Their roughness
+ * `nook bake probe MAP.hdr -o PROBE.nook` makes PROBE.nook from any map; the probe must have lobes, which is
+ * the default. The upper spheres are metal, and the lower spheres are plastic. Their roughness
  * grows from left to right. The character has the directional occlusion that its model gives under the same
  * lobes. An engine needs the marked regions, here and in shapes.c. */
 #include <math.h>
@@ -40,7 +40,8 @@ static const char fragment_end[] =
     "void main() {\n"
     "  NookProbePlace probe = nook_probe_place(position_ws);\n"
     "  vec3 v = normalize(eye_ws - position_ws), n = normalize(normal_ws), light;\n"
-    /* At silhouettes interpolated normals may face away from the eye, and then nothing would be reflected. */
+    /* At silhouettes, interpolated normals may face away from the eye, and the surface would reflect
+     * nothing. */
     "  n = normalize(n + max(0.02 - dot(n, v), 0.0) * v);\n"
     "  if (sky) light = max(nook_probe_radiance(probe, -v), 0.0);\n"
     "  else {\n"

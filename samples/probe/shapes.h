@@ -13,7 +13,7 @@ typedef struct Shape {
   int vertex_count, index_count;
 } Shape;
 
-/* Makes a sphere of unit radius round the origin. Returns 0 if memory runs out. */
+/* Makes a sphere of unit radius around the origin. Returns 0 if memory runs out. */
 int sphere_make(Shape* shape);
 /* Makes a character in the middle of its file's first clip, on the ground plane y = 0, with the directional
  * occlusion that its model gives under the lobes. Returns 0 on failure and prints the reason to stderr. */

@@ -3,7 +3,7 @@
 #ifndef RELIGHT_ROOM_H
 #define RELIGHT_ROOM_H
 
-/* The share of normal light that a surface mirrors is reflectance; 0 is matt. */
+/* `reflectance` is the mirror reflectance at normal incidence; 0 is matt. */
 typedef struct room_vertex {
   float position[3], normal[3], albedo[3], roughness, reflectance;
 } room_vertex;

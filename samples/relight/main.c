@@ -32,8 +32,8 @@ static const char vertex_text[] =
     "}\n";
 static const char shadow_text[] = "#version 330 core\nvoid main() {}\n";
 static const char fragment_begin[] = "#version 330 core\n";
-/* exposure is 0 when a cube map is drawn: the map stores radiance, and glossy surfaces are drawn as matt
- * ones. */
+/* `exposure` is 0 when a cube map is drawn. Then the shader outputs radiance, and treats glossy surfaces as
+ * matt. */
 static const char fragment_end[] =
     "in vec3 position_ws, normal_ws, albedo; in vec2 roughness_reflectance; out vec4 pixel;\n"
     "uniform vec3 eye_ws, sun_direction, sun_irradiance; uniform mat4 sun_camera;\n"
@@ -202,7 +202,8 @@ static void camera_towards(const float eye[3], const float target[3], float tall
   if (tall > 0) project(m, wide, tall);
 }
 
-/* The sun at a share of the day: low and warm at both ends. It passes the window from left to right. */
+/* Returns the sun at a time of day from 0 to 1. It is low and warm at both ends, and passes the window from
+ * left to right. */
 static Sun sun_at(float day) {
   Sun sun;
   const float azimuth = 1.1F * (2 * day - 1), height = 0.25F + 0.4F * sinf(3.14159265F * day);
@@ -236,7 +237,7 @@ static void draw_shadow(const Engine* e, const Sun* sun) {
   glDrawArrays(GL_TRIANGLES, 0, e->vertex_count);
 }
 
-/* Draws into the framebuffer that is bound. */
+/* Draws into the bound framebuffer. */
 static void draw_room(const Engine* e, const Light* l, const Sun* sun, const float camera[16],
                       const float eye[3], float exposure) {
   const GLuint p = e->room;
@@ -339,7 +340,7 @@ static int make_targets(Engine* e) {
   return e->framebuffer && glGetError() == GL_NO_ERROR;
 }
 
-/* Draws the view into panel number `panel` of the picture, in which each pixel is the mean of its block of
+/* Draws the view into panel `panel` of the picture. Each pixel of the picture is the mean of a block of
  * samples. */
 static void draw_panel(const Engine* e, const Light* l, const Sun* sun, int panel, unsigned char* picture) {
   const float eye[3] = {-2.7F, 1.6F, 2.25F}, target[3] = {1.2F, 1.05F, -0.95F};

@@ -1,5 +1,5 @@
-/* The smallest program that uses radiance transfer. It bakes a knot over a floor, and draws it in a material
- * under a map, on the left with its own shadows and on the right without.
+/* The smallest program that uses radiance transfer. It bakes a knot over a floor, and draws it with a
+ * material under an environment map. On the left it has its own shadows, on the right it does not.
  *
  *   transfer MATERIAL.nook OUT.png
  *
@@ -120,7 +120,7 @@ static int start(App* a, const void* material, size_t material_size, const void*
   return ok(r, nook_last_message());
 }
 
-/* ---- When the light or the shape turns ---- */
+/* ---- When the light or the shape rotates ---- */
 static int relight(App* a, uint32_t vertex_count, int with_shadows) {
   const size_t floats = (size_t)vertex_count * a->vector_floats;
   nook_transfer_vectors_desc desc;

@@ -13,7 +13,7 @@ enum { max_texel_bytes = 16 };
 static const VkFormat depth_format = VK_FORMAT_D32_SFLOAT, normal_format = VK_FORMAT_R32G32B32A32_SFLOAT,
                       colour_format = VK_FORMAT_R8G8B8A8_UNORM;
 
-/* The numbers that the shaders read with each draw. */
+/* The push constants, which the shaders read in each draw. */
 typedef struct engine_push {
   float clip_from_world[16];
   int use_ao;
@@ -80,7 +80,7 @@ static VkResult make_image(engine* e, VkFormat format, VkImageUsageFlags usage, 
   return r ? r : vkCreateImageView(e->device, &view, NULL, &out->view);
 }
 
-/* Makes a buffer that the host writes or reads. */
+/* Makes a buffer that the CPU writes or reads. */
 static VkResult make_buffer(engine* e, VkDeviceSize size, VkBufferUsageFlags usage, VkBuffer* buffer,
                             VkDeviceMemory* memory) {
   const VkBufferCreateInfo info = {
@@ -108,8 +108,8 @@ static VkResult upload_room(engine* e) {
   return r;
 }
 
-/* Pass 0 clears depth, pass 1 compares with it. Both end with images that shaders may read, and wait for
- * whoever used their images before. */
+/* Pass 0 clears depth, pass 1 compares with it. Afterwards shaders may read the images of both. Both wait for
+ * earlier commands that use their images. */
 static VkResult make_pass(engine* e, int which) {
   const VkImageLayout read = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
   const VkAttachmentDescription attachments[2] = {
@@ -175,7 +175,7 @@ static VkResult make_framebuffer(engine* e, int which) {
   return vkCreateFramebuffer(e->device, &info, NULL, &e->framebuffers[which]);
 }
 
-/* The set holds the texture of AO. */
+/* The descriptor set holds the AO texture. */
 static VkResult make_layouts(engine* e) {
   const VkSamplerCreateInfo nearest = {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
   VkResult r = vkCreateSampler(e->device, &nearest, NULL, &e->sampler);

@@ -57,7 +57,7 @@ static VkResult make_instance(engine* e) {
   return create ? create(e->instance, &messenger, NULL, &e->messenger) : VK_SUCCESS;
 }
 
-/* Returns the first family of queues that draw, or -1. */
+/* Returns the first queue family that can draw, or -1. */
 static int drawing_family(VkPhysicalDevice physical) {
   VkQueueFamilyProperties families[16];
   uint32_t count = 16;

@@ -3,8 +3,8 @@
  *   vulkan [FOLDER] [fast|default|best] [normals] [reversed] [mean] [RADIUS]
  *
  * It writes before.png, after.png, ao.png and frame.nook. The radius is in metres and 0.5 by default.
- * `normals` gives the pass the normals of the room, `reversed` is a reversed depth buffer, and `mean` the
- * mean of AO over four frames.
+ * `normals` gives the pass the normals of the room, `reversed` uses a reversed depth buffer, and `mean`
+ * averages AO over four frames.
  *
  * An engine needs nook_vulkan.h and the marked regions. engine.h stands in for the engine. */
 #include <nook/experimental/nook_recording.h>
@@ -48,7 +48,7 @@ static VkResult start_pass(Pass* p, const engine* e, const Settings* s) {
   return nook_vulkan_create(e->physical, e->device, p->context, &p->desc, &inputs, &p->vulkan);
 }
 
-/* Column-major: from the world, which normals are in, to view space. */
+/* Writes the rotation from world space, the space of the normals, to view space. Column-major. */
 static void rotation(const float view[16], float out[9]) {
   for (int i = 0; i < 9; ++i) out[i] = view[i / 3 * 4 + i % 3];
 }
@@ -74,7 +74,7 @@ static void stop_pass(Pass* p) {
   nook_context_destroy(&p->context);
 }
 
-/* The images of a frame, the upper row first. normals is NULL where the frame has none. */
+/* The images of a frame, the upper row first. `normals` is NULL if the frame has none. */
 typedef struct Texels {
   float *depth, *normals, *ao;
 } Texels;
@@ -172,7 +172,7 @@ static int save_all(Pass* p, engine* e, const Settings* s) {
   return ok;
 }
 
-/* Returns 0 if an argument is none. */
+/* Returns 0 if an argument is unknown. */
 static int read_arguments(int argc, char** argv, Settings* s) {
   static const char* const presets[3] = {"default", "fast", "best"};
   if (argc > 1) s->folder = argv[1];

@@ -5,15 +5,15 @@
 
 #include "samples/vulkan/spirv.h"
 
-/* The bindings of nook_stages.h, and the places of both blocks in one buffer: 1024 is a multiple of
- * every device's alignment. */
+/* Bindings as in nook_stages.h, and the offsets of both blocks in one buffer: 1024 is a multiple of the
+ * alignment of every device. */
 enum { first_image = 2, bindings = first_image + NOOK_NNAO_STAGE_MAX_INPUTS, network_offset = 1024 };
 
 static VkResult from_nook(nook_result result) {
   return result ? VK_ERROR_UNKNOWN : VK_SUCCESS;
 }
 
-/* Returns a type of memory that the device allows, on the device itself where there is one. */
+/* Returns an allowed memory type, if possible a device-local one. */
 static uint32_t memory_type(VkPhysicalDevice physical, uint32_t allowed) {
   VkPhysicalDeviceMemoryProperties memory;
   uint32_t any = 0;
@@ -86,7 +86,7 @@ static VkResult make_image(nook_vulkan* v, nook_nnao_image which) {
   return r ? r : vkCreateImageView(v->device, &view, NULL, &to->view);
 }
 
-/* The images whose contents outlive a frame change their places in every second one. */
+/* Images that keep their contents for the next frame are swapped in every second frame. */
 static const nook_vulkan_image* image_of(const nook_vulkan* v, nook_nnao_image which, int odd) {
   const int swaps = odd && v->images[NOOK_NNAO_IMAGE_HISTORY_AO].image;
   if (swaps && (which == NOOK_NNAO_IMAGE_DEPTH || which == NOOK_NNAO_IMAGE_HISTORY_DEPTH))
@@ -143,8 +143,8 @@ static VkResult make_layouts(nook_vulkan* v) {
   return r ? r : vkCreateDescriptorPool(v->device, &pool, NULL, &v->descriptor_pool);
 }
 
-/* The dependencies of the render pass are the barriers between stages: this one waits for whoever read or
- * wrote its output, and shaders after it see what it wrote. */
+/* The dependencies of the render pass are the barriers between stages: a stage waits for earlier commands
+ * that read or wrote its output, and later shaders see what it wrote. */
 static VkResult make_render_pass(nook_vulkan* v, nook_vulkan_stage* stage) {
   const VkImageLayout read = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
   nook_nnao_image_info image;
@@ -235,7 +235,7 @@ static VkResult make_pipeline(nook_vulkan* v, nook_vulkan_stage* stage) {
   return r;
 }
 
-/* Returns the view of an image of the host or of Nook. */
+/* Returns the view of an image of the engine or of Nook. */
 static VkImageView view_of(const nook_vulkan* v, const nook_vulkan_inputs* inputs, nook_nnao_image which,
                            int odd) {
   const VkImageView host[4] = {inputs->depth, inputs->normal, inputs->layer, inputs->motion};
@@ -263,7 +263,8 @@ static VkResult make_set(nook_vulkan* v, nook_vulkan_stage* stage, const nook_vu
       writes[i].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
       writes[i].pBufferInfo = &blocks[i];
     } else {
-      /* Bindings without an input hold depth, because some drivers read every descriptor of a set. */
+      /* Bindings without an input get the depth image, because some drivers read every descriptor of a set.
+       */
       const uint32_t input = i - first_image;
       const nook_nnao_image which =
           input < stage->info.input_count ? stage->info.inputs[input] : NOOK_NNAO_IMAGE_HOST_DEPTH;
@@ -319,7 +320,7 @@ VkResult nook_vulkan_create(VkPhysicalDevice physical, VkDevice device, nook_con
   return r;
 }
 
-/* Brings every image into the layout that stages expect, once. */
+/* Changes every image once to the layout that stages expect. */
 static void record_first_layouts(const nook_vulkan* v, VkCommandBuffer commands) {
   for (int i = 0; i < NOOK_NNAO_IMAGE_COUNT; ++i) {
     const VkImageMemoryBarrier barrier = {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
@@ -336,8 +337,8 @@ static void record_first_layouts(const nook_vulkan* v, VkCommandBuffer commands)
   }
 }
 
-/* The numbers of the frame go into the buffer in order with the draws, after the numbers of the frame before.
- */
+/* The constants of the frame are written to the buffer in order with the draws, after the previous frame has
+ * read its constants. */
 static void record_uniforms(const nook_vulkan* v, VkCommandBuffer commands, const float* constants) {
   const VkMemoryBarrier written = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                    .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,

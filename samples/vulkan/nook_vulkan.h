@@ -1,15 +1,15 @@
-/* Nook's screen-space pass in a Vulkan 1.1 host: images, pipelines and commands made of what
- * nook_stages.h hands out. Copy this header, nook_vulkan.c, and spirv.h with its source or your own
- * compiler of GLSL. */
+/* Nook's screen-space pass for an engine with Vulkan 1.1. It makes images, pipelines and commands from the
+ * data of nook_stages.h. Copy this header, nook_vulkan.c, and spirv.h with its source or your own GLSL
+ * compiler. */
 #ifndef NOOK_VULKAN_H
 #define NOOK_VULKAN_H
 
 #include <nook/experimental/nook_stages.h>
 #include <vulkan/vulkan.h>
 
-/* Images of the host, of the size of its frames, which shaders may read without a filter. They are in
- * VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL when the pass runs. Images that the frames never use may be
- * VK_NULL_HANDLE: depth is bound in their place. */
+/* Your images, of the same size as your frames. Shaders read them without filtering. They must be in
+ * VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL when the pass runs. Images that your frames never use may be
+ * VK_NULL_HANDLE; depth is bound instead. */
 typedef struct nook_vulkan_inputs {
   VkImageView depth; /* the aspect of depth alone; required */
   VkImageView normal, layer, motion;
@@ -26,7 +26,7 @@ typedef struct nook_vulkan_stage {
   nook_nnao_stage_info info;
   VkRenderPass render_pass;
   VkPipeline pipeline;
-  /* One each for even and odd frames, because they swap the images of earlier frames. */
+  /* Even and odd frames need different framebuffers, because frames swap the history images. */
   VkFramebuffer framebuffers[2];
   VkDescriptorSet sets[2];
 } nook_vulkan_stage;
@@ -49,20 +49,21 @@ typedef struct nook_vulkan {
   uint32_t frames;
 } nook_vulkan;
 
-/* Makes the objects of a pass. desc has no views; it and the context may go afterwards. Returns
- * VK_ERROR_UNKNOWN where Nook refuses, with the reason in nook_last_message(). On failure *pass is all 0. */
+/* Makes the objects of a pass. `desc` must not have views. You may destroy `desc` and the context afterwards.
+ * Returns VK_ERROR_UNKNOWN if a call of Nook fails; nook_last_message() has the reason. On failure *pass is
+ * all 0. */
 VkResult nook_vulkan_create(VkPhysicalDevice physical, VkDevice device, nook_context context,
                             const nook_nnao_desc* desc, const nook_vulkan_inputs* inputs, nook_vulkan* pass);
 
-/* Records the draws of a frame, outside of render passes. Frames follow each other on one queue. The host's
- * barriers stand before: the inputs are written, and visible to fragment shaders. Afterwards fragment shaders
- * may read images[NOOK_NNAO_IMAGE_TARGET], which is in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; outside of
- * the frame's viewport it keeps what it had. frame->normal_texture and desc->motion_vectors are 1 where
- * the frame has these images. */
+/* Records the draws of a frame. Call it outside of render passes, and submit all frames to one queue. Before,
+ * record barriers that make the inputs visible to fragment shaders. Afterwards fragment shaders may read
+ * images[NOOK_NNAO_IMAGE_TARGET], which is in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; outside of the
+ * frame's viewport its contents do not change. Set frame->normal_texture and desc->motion_vectors to 1 if the
+ * frame has these images. */
 VkResult nook_vulkan_record(nook_vulkan* pass, VkCommandBuffer commands, const nook_gl_frame_desc* frame,
                             const nook_nnao_frame_desc* desc);
 
-/* Destroys what nook_vulkan_create made. No command of it may be running. */
+/* Destroys the pass. None of its commands may be running. */
 void nook_vulkan_destroy(nook_vulkan* pass);
 
 #endif

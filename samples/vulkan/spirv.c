@@ -27,7 +27,8 @@ VkResult spirv_module(VkDevice device, VkShaderStageFlagBits stage, const char* 
       .messages = GLSLANG_MSG_SPV_RULES_BIT | GLSLANG_MSG_VULKAN_RULES_BIT,
       .resource = (const glslang_resource_t*)glslang_default_resource()};
   VkResult r = VK_ERROR_INVALID_SHADER_NV;
-  /* Kept until the program ends: to start glslang takes longer than to compile a shader. */
+  /* glslang stays initialised until the program ends, because initialising it takes longer than compiling a
+   * shader. */
   static int started;
   if (!started) started = glslang_initialize_process();
   glslang_shader_t* const shader = glslang_shader_create(&input);

@@ -55,7 +55,7 @@ Ogre::Vector3 vector_of(const glm::vec3& v) {
   return {v.x, v.y, v.z};
 }
 
-// Sets the transformation of a bone relative to its parent: rotation and a scale for all axes.
+// Sets the transformation of a bone relative to its parent: translation, rotation and uniform scale.
 void set_local(Ogre::Bone& bone, const glm::mat4& local) {
   const float scale = std::cbrt(glm::determinant(glm::mat3(local)));
   const glm::quat rotation = glm::quat_cast(glm::mat3(local) / scale);
@@ -64,7 +64,7 @@ void set_local(Ogre::Bone& bone, const glm::mat4& local) {
   bone.setScale(scale, scale, scale);
 }
 
-// Returns the joint above a joint of the skin, as an index into it, or -1.
+// Returns the parent joint of a joint, as an index into the skin, or -1.
 int joint_above(const viewer::CharacterFile& file, std::size_t joint) {
   const std::vector<int>& joints = file.skins[0].joints;
   int node = file.nodes[std::size_t(joints[joint])].parent;

@@ -8,16 +8,17 @@
 
 class NookOgre : public Ogre::RenderTargetListener {
  public:
-  // The bones of the entity's skeleton have the names of the file's nodes. ao is a vertex buffer of one float
-  // for each vertex, in the order of the file.
+  // The bones of the entity's skeleton must have the names of the file's nodes. `ao` is a vertex buffer with
+  // one float for each vertex, in the order of the file.
   NookOgre(const Ogre::Entity& entity, Ogre::HardwareVertexBufferSharedPtr ao, const void* model,
            std::size_t size, const nook_gl_desc& gl);
-  // The distance of the surface from the camera's plane lies in the red channel of depth, a render texture of
-  // 32-bit floats, to which this listens. The AO goes to result, an RGBA texture of the same size.
+  // After OGRE has drawn `depth`, writes AO to `result`, an RGBA texture of the same size. `depth` is a
+  // render texture of 32-bit floats; its red channel must hold the distance of the surface from the camera's
+  // plane.
   void listen(const Ogre::TexturePtr& depth, const Ogre::TexturePtr& result, const Ogre::Camera& camera,
               float radius_m);
 
-  // Call one of them in each frame, after the bones have moved.
+  // Call one of these in each frame, after the bones have moved.
   void update_on_gpu();
   void update_on_cpu();
   void postRenderTargetUpdate(const Ogre::RenderTargetEvent& event) override;

@@ -7,18 +7,19 @@
 #include <osg/Geometry>
 #include <osg/Texture2D>
 
-// A callback of the camera that draws depth before the others, after which it runs the passes. All OpenGL
-// calls happen in the draw traversal, on its thread.
+// A callback of the camera that draws depth before the other cameras. The callback runs the passes
+// afterwards. All OpenGL calls happen in the draw traversal, on its thread.
 class NookOsg : public osg::Camera::DrawCallback {
  public:
   // The AO of the vertices reaches the shaders in this attribute.
   static constexpr unsigned ao_slot = 5;
 
-  // The vertices of the geometry are in the order of the file. gl names the loader and the state contract.
+  // The vertices of the geometry must be in the order of the file. `gl` sets the function loader and the
+  // state mode.
   NookOsg(osg::Geometry* geometry, const void* model, std::size_t size, const nook_gl_desc& gl, bool on_gpu);
-  // After the camera has drawn depth, the AO of the screen goes to result, a texture of the same size.
+  // After the camera has drawn depth, writes the AO of the screen to `result`, a texture of the same size.
   void listen(osg::Camera* camera, osg::Texture2D* depth, osg::Texture2D* result, float radius_m);
-  // The skinning matrices of the next frame, in the order of the skin in the file.
+  // Sets the skinning matrices of the next frame, in the order of the skin in the file.
   void set_pose(const std::vector<osg::Matrixf>& matrices, std::uint32_t skin);
   void operator()(osg::RenderInfo& info) const override;
 

@@ -1,5 +1,5 @@
-// A render pass of VTK with Nook's screen-space AO. It stands where vtkSSAOPass stands, around the pass of
-// the opaque props:
+// A render pass of VTK with Nook's screen-space AO. Use it like vtkSSAOPass, around the pass of the opaque
+// props:
 //
 //   vtkNew<vtkRenderStepsPass> steps;
 //   vtkNew<vtkNookAoPass> ao;
@@ -7,9 +7,8 @@
 //   steps->SetOpaquePass(ao);
 //   renderer->SetPass(steps);
 //
-// Only ambient light is darkened, which a property has if its ambient coefficient is above 0; DirectShare
-// darkens the rest too. Translucent props, volumes and overlays are drawn after the pass and stay as they
-// are.
+// Only ambient light is darkened, so set the ambient coefficient of properties above 0. DirectShare darkens
+// the other light too. Translucent props, volumes and overlays are drawn after the pass and are not darkened.
 #pragma once
 
 #include <vtkImageProcessingPass.h>
@@ -25,12 +24,13 @@ class vtkNookAoPass : public vtkImageProcessingPass {
   static vtkNookAoPass* New();
   vtkTypeMacro(vtkNookAoPass, vtkImageProcessingPass);
 
-  // In the unit of the data; 0 (default): RadiusShare of the diagonal of what is visible (default 0.1).
+  // The radius in the unit of the data. 0 (default): RadiusShare (default 0.1) times the diagonal of the
+  // visible props.
   vtkSetMacro(Radius, double);
   vtkSetMacro(RadiusShare, double);
   // From 0 (default) to 1: how much of the AO darkens diffuse light of lamps.
   vtkSetMacro(DirectShare, double);
-  // Required. gl names the loader and the state contract.
+  // Required. `gl` sets the function loader and the state mode.
   void SetGl(const nook_gl_desc& gl) { gl_desc_ = gl; }
 
   void Render(const vtkRenderState* state) override;
