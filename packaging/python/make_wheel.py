@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""make_wheel.py VERSION FOLDER: writes the module as a wheel. The same sources and SOURCE_DATE_EPOCH give the same bytes."""
+"""make_wheel.py VERSION FOLDER: writes the module as a wheel. The same sources and the same SOURCE_DATE_EPOCH give the same
+bytes."""
 import base64
 import hashlib
 import pathlib

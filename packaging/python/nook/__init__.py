@@ -9,8 +9,8 @@
     model = nook.CharacterModel(data)
     ao = nook.evaluate_pose(model, character.sample_clip(0, 0.5))   # one value for each vertex of the file
 
-The module calls the C interface of the shared libraries libnook and libnook_bake. A call that fails raises NookError with the
-library's message; arrays of a wrong shape and numbers out of range raise ValueError before the call.
+The module calls the C interface of the shared libraries libnook and libnook_bake. A failed call raises NookError with the library's
+message. Arrays of a wrong shape and numbers out of range raise ValueError before the call.
 """
 from ._layouts import NOOK_VERSION_MAJOR, NOOK_VERSION_MINOR, NOOK_VERSION_PATCH, NOOK_VERSION_SUFFIX
 from ._library import Cancelled, MissingLibrary, NookError

@@ -1,4 +1,4 @@
-"""The shared library, the results of its calls, and what Python gives as the arguments of C: numbers, names, bytes, arrays."""
+"""The shared library, the results of its calls, and conversion of Python values to C arguments: numbers, names, bytes, arrays."""
 import ctypes
 import ctypes.util
 import functools
@@ -19,7 +19,7 @@ Own = TypeVar("Own", bound="Handle")
 
 
 class NookError(Exception):
-    """A call that failed. code is the name of the result, such as "BAD_FILE"."""
+    """A failed call. `code` is the name of the result, such as "BAD_FILE"."""
 
     def __init__(self, code: str, message: str) -> None:
         super().__init__(message)
@@ -95,15 +95,15 @@ for _kind in (ctypes.c_int32, ctypes.c_uint16, ctypes.c_uint32, ctypes.c_uint64,
 
 
 def came(value: Any) -> str:
-    """What came, in a few words for a message: its type, and its value if that is short."""
+    """Describes a value in a few words for a message: its type, and the value if it is short."""
     kind, said = type(value).__name__, repr(value)
     return f"{kind} {said}" if len(said) <= 60 and not said.startswith("<") else kind
 
 
 def integer(value: Any, kind: Any, what: str) -> int:
-    """A whole number that an integer type of C holds. Raises ValueError for others, and TypeError for what is not a whole number.
+    """Returns a number that fits an integer type of C. Raises ValueError for other whole numbers, and TypeError for other values.
 
-    ctypes itself would keep the lower bits without a word.
+    ctypes itself would silently keep only the lower bits.
     """
     try:
         found = int(value) if isinstance(value, np.bool_) else operator.index(value)
@@ -131,7 +131,7 @@ def number(value: Any, kind: Any, what: str) -> float:
 
 
 def checked(value: Any, kind: Any, what: str) -> Any:
-    """A value for a field or an argument of a type of C; numbers are checked, and all else goes to ctypes."""
+    """Returns a value for a field or an argument of a C type. Numbers are checked; ctypes handles everything else."""
     limits = _RANGES.get(kind)
     if limits is not None:
         # The first condition is for speed: most values are ints that fit.
@@ -154,7 +154,7 @@ def put(structure: Any, **values: Any) -> None:
 
 
 def put_settings(structure: Any, settings: Dict[str, Any], names: Iterable[str], of: str) -> None:
-    """Sets plain fields that a user gave by their names in the C header. A field with words, such as form, takes its words too."""
+    """Sets fields that a user gave by their names in the C header. Enumerations, such as form, can be given as words."""
     allowed = sorted(names)
     for name, value in settings.items():
         if name not in allowed:
@@ -166,13 +166,13 @@ def put_settings(structure: Any, settings: Dict[str, Any], names: Iterable[str],
 
 @functools.lru_cache(maxsize=None)
 def _numbers(name: str) -> Tuple[Tuple[int, Any, str], ...]:
-    """The arguments of a function that are numbers: place, type, and words for a message."""
+    """Returns the numeric arguments of a function: position, type, and words for a message."""
     kinds = enumerate(c.FUNCTIONS[name][1])
     return tuple((at, kind, f"{name}, argument {at + 1}") for at, kind in kinds if kind in _RANGES or kind in (ctypes.c_float, ctypes.c_double))
 
 
 def call(name: str, *arguments: Any) -> Any:
-    """Calls a function; a result that is an error becomes NookError with the library's message."""
+    """Calls a function. If it fails, raises NookError with the library's message."""
     checks = list(arguments)
     for at, kind, what in _numbers(name):
         checks[at] = checked(checks[at], kind, what)
@@ -187,11 +187,11 @@ def call(name: str, *arguments: Any) -> Any:
 
 def call_interruptibly(name: str, *arguments: Any, stop: Optional[Callable[[], None]] = None, keep: Any = None,
                        entries: Optional[int] = None) -> Any:
-    """call(), which Ctrl+C ends: a call of C on the main thread would hold back Ctrl+C until it returns.
+    """Like call(), but Ctrl+C can end it. A C call on the main thread would delay Ctrl+C until it returns.
 
-    The call runs on another thread. After Ctrl+C, stop() asks it to end. If it does not end soon, it continues without a reader,
-    and its result is lost. So it may write only into what nobody else has; keep is what its descriptor points to. A call with few
-    entries ends soon anyway, and needs no thread.
+    The call runs on another thread. After Ctrl+C, stop() asks it to end. If it does not end soon, it continues in the background,
+    and its result is lost. So it may write only to memory that nobody else uses. keep is the memory that its descriptor points to.
+    A call with few entries ends soon anyway, and needs no thread.
     """
     # Signals come to the main thread alone.
     if threading.current_thread() is not threading.main_thread() or (entries is not None and entries < 50_000):
@@ -221,7 +221,7 @@ def call_interruptibly(name: str, *arguments: Any, stop: Optional[Callable[[], N
 
 
 def described(kind: Any, name: str, *arguments: Any) -> Any:
-    """A structure that a call fills."""
+    """Returns a structure that a call has filled."""
     info = kind()
     info.struct_size = ctypes.sizeof(kind)
     call(name, *arguments, ctypes.byref(info))
@@ -229,7 +229,7 @@ def described(kind: Any, name: str, *arguments: Any) -> Any:
 
 
 def descriptor(kind: Any) -> Any:
-    """A descriptor with the defaults of the library."""
+    """Returns a descriptor with the defaults of the library."""
     desc = kind()
     name = kind.__name__.removeprefix("nook_").removesuffix("_desc").upper()
     init = "nook_bake_desc_init" if name.startswith("BAKE_") else "nook_desc_init"
@@ -279,14 +279,14 @@ class Handle:
 
 
 def need(value: Any, kind: Type[Any], what: str) -> Any:
-    """Returns the value if it is an instance of the class. Raises TypeError, which names what came."""
+    """Returns the value if it is an instance of the class. Otherwise raises TypeError, whose text describes the value."""
     if not isinstance(value, kind):
         raise TypeError(f"{what}: need a nook.{kind.__name__}, got {came(value)}")
     return value
 
 
 def encoded(value: Any, what: str) -> bytes:
-    """A name or a path for C, which ends a text at its first NUL."""
+    """Encodes a name or a path for C. C ends a text at its first NUL."""
     if not isinstance(value, str):
         raise TypeError(f"{what}: need a str, got {came(value)}")
     if "\0" in value:
@@ -314,7 +314,7 @@ def name_array(found: List[bytes]) -> Any:
 
 
 def path_or_bytes(value: Any, what: str) -> Union[str, bytes]:
-    """What stands for a file: a path (str, os.PathLike) stays a str; a buffer or a binary file that is open becomes its bytes."""
+    """Converts a file argument: a path (str, os.PathLike) becomes a str; a buffer or an open binary file becomes its bytes."""
     if isinstance(value, (str, os.PathLike)):
         path = os.fsdecode(value)
         if not path:
@@ -353,7 +353,7 @@ def _shaped(array: npt.NDArray[Any], shape: Tuple[Optional[int], ...], what: str
 
 
 def numbers(values: Any, what: str) -> npt.NDArray[Any]:
-    """Values as an array of any shape. Raises ValueError for lists of different lengths."""
+    """Returns values as an array of any shape. Raises ValueError for lists of different lengths."""
     try:
         return np.asarray(values)
     except ValueError as error:
@@ -361,7 +361,8 @@ def numbers(values: Any, what: str) -> npt.NDArray[Any]:
 
 
 def floats(values: Any, shape: Tuple[Optional[int], ...], what: str) -> FloatArray:
-    """Values as packed floats of a shape, in which None is any length. Raises ValueError, which names what came."""
+    """Returns values as packed floats of a shape, in which None means any length. Otherwise raises ValueError, whose text describes
+    the values."""
     array = numbers(values, what)
     if array.dtype.kind not in "biufO":
         raise ValueError(f"{what}: need numbers, got an array of {array.dtype}")
@@ -376,7 +377,7 @@ def floats(values: Any, shape: Tuple[Optional[int], ...], what: str) -> FloatArr
 
 
 def integers(values: Any, kind: Any, shape: Tuple[Optional[int], ...], what: str) -> npt.NDArray[Any]:
-    """The same for integers. Raises ValueError for values that the type does not hold."""
+    """Like floats(), but for integers. Raises ValueError for values that do not fit the type."""
     array = numbers(values, what)
     info = np.iinfo(kind)
     if array.size:
@@ -389,7 +390,7 @@ def integers(values: Any, kind: Any, shape: Tuple[Optional[int], ...], what: str
 
 
 def pointer(array: Optional[npt.NDArray[Any]]) -> Any:
-    """The C pointer of an array, which the caller keeps alive; None is NULL."""
+    """Returns the C pointer of an array, or NULL for None. The caller must keep the array alive."""
     if array is None:
         return None
     kinds: Dict[str, Any] = {"f": ctypes.c_float, "u4": ctypes.c_uint32, "i4": ctypes.c_int32, "u2": ctypes.c_uint16}
@@ -413,7 +414,7 @@ def choice(beginning: str, name: str, what: str) -> int:
 
 
 def word(beginning: str, value: int) -> str:
-    """The word of a constant."""
+    """Returns the word of a constant."""
     for key, number in vars(c).items():
         if key.startswith(beginning) and number == value:
             return key.removeprefix(beginning).lower()

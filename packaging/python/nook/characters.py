@@ -1,4 +1,4 @@
-"""Characters of the bakers: import, poses, skinning."""
+"""Characters for the bakers: import, poses and skinning."""
 import ctypes
 import operator
 import os
@@ -17,7 +17,7 @@ from ._library import (
 class Character(Handle):
     """A rigged character in its rest pose, in metres. Vertices are in the order of its file.
 
-    A pose is an array of bones x 3 x 4: from rest space to world space, row by row.
+    A pose is an array of bones x 3 x 4: one row-major matrix from rest space to world space for each bone.
     """
 
     _kind = c.nook_bake_character
@@ -27,10 +27,11 @@ class Character(Handle):
                  without: Union[str, Sequence[str]] = (), allow_outside_files: bool = False) -> None:
         """Imports a .glb or .gltf file from its path, or from its bytes if its buffers are embedded.
 
-        path is a str, an os.PathLike, or bytes in any form: bytes, bytearray, memoryview, a numpy array, a binary file that is open.
-        data is another name for it. meshes and without are names of nodes or meshes to take and to leave out; one str is one name,
-        and * and ? stand for any text and any character. Without meshes you get all that the file shows, except lower levels of
-        detail. The file may name other files in its own folder. With allow_outside_files it may name files in any folder.
+        path is a str, an os.PathLike, or bytes in any form: bytes, bytearray, memoryview, a numpy array, a binary file that is
+        open. You can pass it as `data` instead. `meshes` and `without` are names of nodes or meshes to import and to skip. A single
+        str is one name; * and ? stand for any text and any character. If you pass no `meshes`, you get everything that the file
+        shows, except lower levels of detail. The file may refer to other files in its own folder, and with allow_outside_files to
+        files in any folder.
         """
         super().__init__()
         if (path is None) == (data is None):
@@ -44,7 +45,8 @@ class Character(Handle):
     @classmethod
     def from_arrays(cls, positions: Any, triangles: Any, joints: Any, weights: Any, bone_parents: Sequence[int], bone_frames: Any,
                     bone_names: Optional[Sequence[str]] = None) -> "Character":
-        """A character without a file: joints and weights are vertices x influences, bone_frames bones x 3 x 4 in rest space."""
+        """Makes a character from arrays. joints and weights are vertices x influences; bone_frames is bones x 3 x 4, in rest
+        space."""
         p = floats(positions, (None, 3), "positions")
         bones = integers(joints, np.uint16, (len(p), None), "joints")
         parents = integers(bone_parents, np.int32, (None,), "bone_parents")
@@ -58,7 +60,7 @@ class Character(Handle):
         return _character(cls, {name: value.copy() if isinstance(value, np.ndarray) else value for name, value in arrays.items()})
 
     def _import(self, origin: Dict[str, Any]) -> None:
-        """Creates the character from its file or its arrays, which a pickle has as well."""
+        """Creates the character from its file or its arrays. A pickle contains the same."""
         desc = descriptor(c.nook_bake_source_desc)
         held: Any = None
         if "source" in origin:
@@ -118,44 +120,44 @@ class Character(Handle):
         return index
 
     def clip_duration(self, clip: Union[int, str]) -> float:
-        """Seconds."""
+        """Returns the duration of a clip in seconds."""
         seconds = ctypes.c_float()
         call("nook_bake_character_clip_duration", self.handle, self._clip(clip), ctypes.byref(seconds))
         return float(seconds.value)
 
     def sample_clip(self, clip: Union[int, str], time_s: float) -> FloatArray:
-        """The pose of a clip at a time in seconds from its first key."""
+        """Returns the pose of a clip at a time, in seconds from its first key."""
         bones = np.empty((self.bone_count, 3, 4), np.float32)
         at = number(time_s, ctypes.c_float, "time_s")
         call("nook_bake_character_sample_clip", self.handle, self._clip(clip), at, pointer(bones), self.bone_count)
         return bones
 
     def rest_pose(self) -> FloatArray:
-        """The matrices of the rest pose, identities."""
+        """Returns the matrices of the rest pose: identities."""
         return np.tile(np.eye(3, 4, dtype=np.float32), (self.bone_count, 1, 1))
 
     def auto_poses(self, count: int, seed: int = 1) -> FloatArray:
-        """Generated whole-body poses, count x bones x 3 x 4."""
+        """Returns generated whole-body poses, count x bones x 3 x 4."""
         count, seed = integer(count, ctypes.c_uint32, "count"), integer(seed, ctypes.c_uint64, "seed")
         bones = np.empty((count, self.bone_count, 3, 4), np.float32)
         call_interruptibly("nook_bake_character_auto_poses", self.handle, seed, count, pointer(bones), self.bone_count, keep=self)
         return bones
 
     def vertices(self) -> Tuple[FloatArray, FloatArray]:
-        """Rest positions in metres, and unit normals."""
+        """Returns rest positions in metres, and unit normals."""
         positions, normals = (np.empty((self.vertex_count, 3), np.float32) for _ in range(2))
         for array, values in ((c.NOOK_BAKE_ARRAY_POSITIONS, positions), (c.NOOK_BAKE_ARRAY_NORMALS, normals)):
             call("nook_bake_character_read", self.handle, array, pointer(values), self.vertex_count, 0)
         return positions, normals
 
     def triangles(self) -> npt.NDArray[np.uint32]:
-        """Indices of vertices, triangles x 3."""
+        """Returns vertex indices, triangles x 3."""
         indices = np.empty((self.triangle_count, 3), np.uint32)
         call("nook_bake_character_read", self.handle, c.NOOK_BAKE_ARRAY_TRIANGLES, pointer(indices), len(indices), 0)
         return indices
 
     def skin(self, pose: Any) -> Tuple[FloatArray, FloatArray]:
-        """Positions and normals of a pose in world space."""
+        """Returns positions and normals of a pose in world space."""
         bones = floats(pose, (self.bone_count, 3, 4), "pose")
         positions, normals = (np.empty((self.vertex_count, 3), np.float32) for _ in range(2))
         call("nook_bake_character_skin", self.handle, pointer(bones), self.bone_count, pointer(positions), pointer(normals), self.vertex_count)
@@ -163,7 +165,7 @@ class Character(Handle):
 
 
 def _character(kind: Any, origin: Dict[str, Any], expected: Any = None) -> Character:
-    """Makes a character of what it came from; copies and pickles call it."""
+    """Makes a character from its file or its arrays. Copies and pickles call it."""
     made: Character = kind.__new__(kind)
     Handle.__init__(made)
     made._import(origin)

@@ -18,7 +18,8 @@ from .materials import Material
 
 
 class Progress(NamedTuple):
-    """stage is what the job does now, in a few words to show to a user, such as ray tracing; is_done says that it has ended."""
+    """`stage` says what the job does now, in a few words for users, such as "ray tracing". `is_done` is True when the job has
+    ended."""
 
     stage: str
     done: int
@@ -30,7 +31,7 @@ ProgressFunction = Callable[[Progress], Optional[bool]]
 
 
 class Job(Handle):
-    """A bake that runs. Iterating gives its progress until it ends."""
+    """A running bake. Iterate over it to get its progress until it ends."""
 
     _kind = c.nook_bake_job
     _destroy = "nook_bake_job_destroy"
@@ -64,13 +65,13 @@ class Job(Handle):
         return super().handle
 
     def close(self) -> None:
-        """Cancels the job if it runs, waits until it has stopped, and destroys it; a second call does nothing."""
+        """Cancels the job if it is running, waits until it has stopped, and destroys it. A second call does nothing."""
         if getattr(self, "_process", None) not in (None, os.getpid()):
             self._handle = self._kind()  # a process that was forked has no thread of the job, and would wait for ever
         super().close()
 
     def poll(self) -> Progress:
-        """The stage that the job is in; it does not wait."""
+        """Returns the current progress, without waiting."""
         return _progress(described(c.nook_bake_progress, "nook_bake_job_poll", self.handle))
 
     def __iter__(self) -> Iterator[Progress]:
@@ -116,7 +117,7 @@ class Job(Handle):
         return ctypes.string_at(data, size.value)
 
     def report(self) -> Dict[str, Any]:
-        """Settings, times, errors and the curve of the fit. Only after the end of the job."""
+        """Returns settings, times, errors and the curve of the fit. Call it only after the job has ended."""
         json_text = ctypes.c_char_p()
         call("nook_bake_job_report", self.handle, ctypes.byref(json_text))
         found: Dict[str, Any] = json.loads((json_text.value or b"{}").decode("utf-8"))
@@ -133,10 +134,11 @@ def bake_character(character: Character, *, preset: str = "standard", poses: Opt
     """Starts to bake a character model and returns at once.
 
     preset: draft, standard or production. poses: auto, single_joint, clips, all or extra. form: default, or paper: Le et al. 2019.
-    clips: names of the clips to take poses from; one str is one name. calibration_poses: recorded poses of your game as extra_poses,
-    to which the bake fits the constant and the scale of each vertex last. clip_split: all, half or families, for comparisons.
-    settings: spheres, key_points, rays, steps, auto_pose_count, samples_per_clip, seed, threads, gamma, saturation, time_limit_s, as
-    nook_bake_character_desc has them. progress is called on threads of the job; it returns False to cancel.
+    clips: names of the clips to take poses from; one str is one name. calibration_poses: recorded poses of your game, in the form
+    of extra_poses. The bake ends with a fit of the constant and the scale of each vertex to these poses. clip_split: all, half or
+    families, for comparisons. settings: spheres, key_points, rays, steps, auto_pose_count, samples_per_clip, seed, threads, gamma,
+    saturation, time_limit_s. They have the meanings of the fields of nook_bake_character_desc. progress: a function that the job
+    calls on its threads; return False from it to cancel.
     """
     desc, keep = _character_bake(character, preset=preset, poses=poses, clips=clips, clip_split=clip_split, extra_poses=extra_poses,
                                  calibration_poses=calibration_poses, form=form, **settings)
@@ -181,8 +183,9 @@ def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any 
 
     Pass meso (fiber, roughhole or weave), or btf (lights x views x height x width x 3). With btf, lights and views are directions
     in tangent space, and coverage is views x height x width. method: k_cta, cta, n_svd or neural. form: default, or paper (Tsai and
-    Shih 2012). relief aligns the views on a relief: the heights of meso; with btf, `heights` (height x width, in tiles), or a
-    relief that the bake searches for. settings are the numbers of nook_bake_material_desc.
+    Shih 2012). With relief, the views are aligned by a relief. With meso, it comes from the built-in structure. With btf, it comes
+    from `heights` (height x width, in tiles), or the bake searches for it. settings: numeric fields of nook_bake_material_desc,
+    such as seed.
     """
     desc, keep = _material_bake(meso=meso, btf=btf, coverage=coverage, lights=lights, views=views, method=method, form=form, relief=relief,
                                 heights=heights, **settings)
@@ -236,8 +239,8 @@ def bake_transfer(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tan
                   progress: Optional[ProgressFunction] = None, **settings: Any) -> Job:
     """Starts to bake radiance transfer of a static shape and returns at once.
 
-    holes_of: the material through whose holes light falls, a Material or its .nook file as a path or bytes. settings: lobes,
-    ray_side, threads, bounces, tiles.
+    holes_of: a material; light falls through the holes of its VOTF. Pass a Material, or its .nook file as a path or bytes.
+    settings: lobes, ray_side, threads, bounces, tiles.
     """
     desc, keep = _transfer_bake(positions, normals, uvs, triangles, tangents=tangents, holes_of=holes_of, **settings)
     return Job(desc, progress, keep)
@@ -263,7 +266,7 @@ def _transfer_bake(positions: Any, normals: Any, uvs: Any, triangles: Any, *, ta
 
 
 def bake_key(bake: Callable[..., Job], *arguments: Any, **settings: Any) -> str:
-    """The key of a bake, 64 hexadecimal digits, without baking: two bakes with one key give the same file.
+    """Returns the key of a bake, 64 hexadecimal digits, without baking. Two bakes with the same key give the same file.
 
     bake: bake_character, bake_material or bake_transfer; the rest is what you would pass to it. `nook bake character --print-key` gives
     the same key for the same character and settings.

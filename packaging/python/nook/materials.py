@@ -10,7 +10,7 @@ from .scenes import shared_context
 
 
 class MaterialValues(NamedTuple):
-    """radiance is n x 3 linear RGB for an irradiance of 1; occlusion and visibility are n values."""
+    """`radiance` is n x 3 linear RGB for an irradiance of 1. `occlusion` and `visibility` have n values each."""
 
     radiance: FloatArray
     occlusion: FloatArray
@@ -40,9 +40,9 @@ class Material(Handle):
         return type(self), (self.data,)
 
     def evaluate(self, uv: Any, view: Any, light: Any, dx: Any = None, dy: Any = None, fetches: int = 1) -> MaterialValues:
-        """The material in n pixels: uv is n x 2, view and light are n x 3 unit vectors in tangent space, away from the surface. dx and dy
-        are n x 2, the changes of uv to the neighbours to the right and above; None is a pixel without a size. Each value is the mean
-        over that many places along the longer side of the pixel, 1 to NOOK_MATERIAL_MAX_FETCHES."""
+        """Evaluates the material in n pixels. uv is n x 2. view and light are n x 3 unit vectors in tangent space that point away
+        from the surface. dx and dy are n x 2, the changes of uv to the next pixel to the right and above; None means the finest
+        level. Each value is the mean over `fetches` samples along the longer side of the pixel, 1 to NOOK_MATERIAL_MAX_FETCHES."""
         fetches = integer(fetches, ctypes.c_uint32, "fetches")
         points = floats(uv, (None, 2), "uv")
         sides = [floats(np.zeros_like(points) if side is None else side, (len(points), 2), name) for side, name in ((dx, "dx"), (dy, "dy"))]

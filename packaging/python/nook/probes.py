@@ -30,7 +30,7 @@ class Probe(Handle):
         self._describe()
 
     def __reduce_ex__(self, protocol: Any) -> Tuple[Callable[..., "Probe"], Tuple[Any, ...]]:
-        """A copy loads the file that save("float") makes, which has all numbers as they are."""
+        """A copy loads the file that save("float") makes, which is lossless."""
         return type(self), (self.save("float"),)
 
     def _describe(self) -> None:
@@ -41,12 +41,13 @@ class Probe(Handle):
         self.spacing = np.array(info.spacing_ws[:], dtype=np.float32)
 
     def radiance(self, directions: Any, position: Any = None) -> FloatArray:
-        """Light from directions. position, in metres, is where a grid is looked up: one for all, or one for each direction."""
+        """Returns the radiance from directions. position, in metres, is where a grid is evaluated: one position for all directions,
+        or one for each."""
         return self._evaluate("nook_probe_radiance", directions, "directions", position)
 
     def irradiance(self, normals: Any, position: Any = None) -> FloatArray:
-        """Light on surfaces; a white one reflects it divided by pi. position is one position for all normals, or one for each
-        normal."""
+        """Returns the irradiance on surfaces. A white surface reflects irradiance / pi. position is one position for all normals,
+        or one for each normal."""
         return self._evaluate("nook_probe_irradiance", normals, "normals", position)
 
     def _evaluate(self, function: str, directions: Any, what: str, position: Any) -> FloatArray:
@@ -60,13 +61,13 @@ class Probe(Handle):
         return rgb
 
     def coefficients(self, index: int = 0) -> FloatArray:
-        """The coefficients of one probe of the grid: function_count x 3, for tools that edit or plot them."""
+        """Returns the coefficients of one probe of the grid, function_count x 3, for tools that edit or plot them."""
         rgb = np.empty((self.function_count, 3), dtype=np.float32)
         call("nook_probe_read_coefficients", self.handle, integer(index, ctypes.c_uint32, "index"), pointer(rgb), self.function_count)
         return rgb
 
     def save(self, packing: str = "half") -> bytes:
-        """The bytes of its .nook file; packing is float, half or rgb9e5."""
+        """Returns the bytes of its .nook file. packing is float, half or rgb9e5."""
         kind, size = choice("NOOK_PROBE_PACKING_", packing, "packing"), ctypes.c_size_t()
         call("nook_probe_save", self.handle, kind, None, ctypes.byref(size))
         data = ctypes.create_string_buffer(size.value)
@@ -82,7 +83,7 @@ class ProbeFit(Handle):
     _no_copy = "its sums stay in the library; call solve() and pass on the probe, or fill a fit for each thread and merge() them"
 
     def __init__(self, lobes: int = 12, *, method: str = "least_squares", ambient: bool = False, form: str = "default") -> None:
-        """form is default, or paper for the published method, which needs the default method."""
+        """form is default, or paper for the published method. With paper, method must be default."""
         super().__init__()
         desc, study = descriptor(c.nook_probe_fit_desc), descriptor(c.nook_probe_fit_study_desc)
         desc.lobe_count = integer(lobes, ctypes.c_uint32, "lobes")
@@ -97,8 +98,8 @@ class ProbeFit(Handle):
         call("nook_probe_fit_create", shared_context().handle, ctypes.byref(desc), ctypes.byref(self._handle))
 
     def add_samples(self, directions: Any, radiance: Any, weights: Any = None) -> None:
-        """Light from unit directions; weights are 1 / (4 pi p) for directions of density p, None for uniform ones. Ctrl+C closes the fit,
-        because it may have a part of the samples."""
+        """Adds radiance from unit directions. weights are 1 / (4 pi p) for directions with the probability density p, or None for
+        uniform directions. Ctrl+C closes the fit, because it may contain only a part of the samples."""
         d = floats(directions, (None, 3), "directions")
         rgb = floats(radiance, (len(d), 3), "radiance")
         w = None if weights is None else floats(weights, (len(d),), "weights")
@@ -111,11 +112,11 @@ class ProbeFit(Handle):
             raise
 
     def merge(self, other: "ProbeFit") -> None:
-        """Adds the samples of another fit with the same settings, such as one that another thread filled."""
+        """Adds the samples of another fit with the same settings, such as a fit from another thread."""
         call("nook_probe_fit_merge", self.handle, need(other, ProbeFit, "other").handle)
 
     def solve(self) -> Probe:
-        """A probe of the samples so far; more may follow."""
+        """Returns a probe from the samples so far. You can add more samples afterwards."""
         probe = Probe.__new__(Probe)
         Handle.__init__(probe)
         call("nook_probe_fit_solve", self.handle, ctypes.byref(probe._handle))

@@ -1,4 +1,4 @@
-"""What the runtime does with baked characters: models, scenes, ambient occlusion of poses."""
+"""The runtime part for baked characters: models, scenes, and ambient occlusion of poses."""
 import ctypes
 import logging
 import os
@@ -22,7 +22,7 @@ _log = logging.getLogger("nook")
 
 
 def _write_log(_user: Any, severity: int, line: bytes) -> None:
-    """Passes what the library logs to the logger "nook"."""
+    """Passes the log of the library to the logger "nook"."""
     levels = {c.NOOK_LOG_WARNING: logging.WARNING, c.NOOK_LOG_ERROR: logging.ERROR}
     _log.log(levels.get(severity, logging.DEBUG), "%s", text(line))
 
@@ -31,7 +31,7 @@ _log_line = c.nook_log_fn(_write_log)
 
 
 class Context(Handle):
-    """The library's own object, from which all others are created."""
+    """The context of the library, from which all other objects are created."""
 
     _kind = c.nook_context
     _destroy = "nook_context_destroy"
@@ -54,15 +54,15 @@ def shared_context() -> Context:
 
 
 class Skin(NamedTuple):
-    """file_index is what a skinning pose takes as skin; joint_count is the number of its matrices."""
+    """Pass `file_index` as `skin` of a skinning pose. `joint_count` is the number of matrices of such a pose."""
 
     file_index: int
     joint_count: int
 
 
 class VertexMatch(NamedTuple):
-    """vertices has the model's vertex for each of yours, or NO_VERTEX for the unmatched ones, which are counted. ambiguous counts
-    the vertices that fit several vertices with different AO, and text names the first of each kind."""
+    """`vertices` has the model's vertex for each of your vertices, or NO_VERTEX if there is no match. `unmatched` counts these.
+    `ambiguous` counts the vertices that fit several vertices with different AO. `text` names the first vertex of each kind."""
 
     vertices: npt.NDArray[np.uint32]
     unmatched: int
@@ -106,7 +106,7 @@ class CharacterModel(Handle):
         return _model, (type(self), self._data, self._maps)
 
     def static_ao(self) -> FloatArray:
-        """AO of the rest pose as a static bake has it, one value for each vertex of the file."""
+        """Returns the AO of the rest pose, as from a static AO bake: one value for each vertex of the file."""
         ao = np.empty(self.vertex_count, np.float32)
         call("nook_model_read", self.handle, c.NOOK_MODEL_STATIC_AO, pointer(ao), self.vertex_count, 0)
         return ao
@@ -115,10 +115,11 @@ class CharacterModel(Handle):
                        primitive: Optional[int] = None, in_rest_space: bool = False, tolerance: float = 0.0) -> VertexMatch:
         """Finds the model's vertex for each vertex of your mesh, for remap().
 
-        positions are n x 3, as the file's POSITION has them; with in_rest_space, in rest space and metres. normals are n x 3 and tell
-        the two sides of a card apart. joints and weights are n x k, with k from 1 to 8, and tell vertices apart where meshes meet; skin
-        is the index of their skin in the file. primitive is the file's primitive that your vertices come from; None is all
-        primitives. tolerance is the largest distance as a share of the diagonal of the model's box; 0 is 1e-4.
+        positions are n x 3, in the space of the file's POSITION attribute, or with in_rest_space in rest space and metres. normals
+        are n x 3; they distinguish the two sides of a card. joints and weights are n x k, with k from 1 to 8; they distinguish
+        vertices where meshes meet. skin is the index of their skin in the file. primitive is the file's primitive that your
+        vertices come from; None means all primitives. tolerance is the largest distance of a match, as a share of the diagonal of
+        the model's box; 0 means 1e-4.
         """
         desc = descriptor(c.nook_vertex_match_desc)
         p = floats(positions, (None, 3), "positions")
@@ -138,8 +139,8 @@ class CharacterModel(Handle):
         return VertexMatch(vertices, info.unmatched, info.ambiguous, info.text.decode())
 
     def remap(self, vertices: Any) -> "CharacterModel":
-        """A model whose vertex i is this model's vertex vertices[i], so that AO comes in the order of your mesh. It takes the answer of
-        match_vertices() too."""
+        """Returns a model whose vertex i is this model's vertex vertices[i], so that AO is in the order of your mesh. You can also
+        pass the result of match_vertices()."""
         if isinstance(vertices, VertexMatch):
             vertices = vertices.vertices
         indices = integers(vertices, np.uint32, (None,), "vertices").copy()
@@ -153,9 +154,8 @@ class CharacterModel(Handle):
 
     def map_bones(self, names_of_transforms: Union[str, Sequence[str]], *, loose: bool = False,
                   drop_shared_prefix: bool = False) -> npt.NDArray[np.int32]:
-        """The index of the transform of each bone by its name, or -1, for transform_of_bone of a pose. loose compares letters without
-        their case and skips the characters space . _ - : |. drop_shared_prefix removes what all names have in common at their
-        beginning, such as "mixamorig:"."""
+        """Returns the index of the transform of each bone by name, or -1, for transform_of_bone of a pose. loose ignores case and
+        the characters space . _ - : |. drop_shared_prefix removes the prefix that all names share, such as "mixamorig:"."""
         desc = descriptor(c.nook_bone_map_desc)
         found = names(names_of_transforms, "names_of_transforms")
         flags = (c.NOOK_BONE_MAP_LOOSE if loose else 0) | (c.NOOK_BONE_MAP_DROP_SHARED_PREFIX if drop_shared_prefix else 0)
@@ -173,7 +173,7 @@ class CharacterModel(Handle):
 
 
 def _model(kind: Any, data: bytes, maps: Tuple[Any, ...]) -> CharacterModel:
-    """Makes a model of its bytes and its maps; copies and pickles call it."""
+    """Makes a model from its bytes and its maps. Copies and pickles call it."""
     made: CharacterModel = kind(data)
     for indices in maps:
         made = made.remap(indices)
@@ -182,7 +182,8 @@ def _model(kind: Any, data: bytes, maps: Tuple[Any, ...]) -> CharacterModel:
 
 def _pose(model: CharacterModel, pose: Any, kind: str, *, layout: Optional[str] = None, skin: int = 0, transform_of_bone: Any = None,
           place: Any = None, strict: bool = False, many: bool = False) -> Tuple[Any, List[Any]]:
-    """A pose for C, and the arrays that it points to, transforms first. many: an array of poses; C gets the first one."""
+    """Returns a pose for C, and the arrays that it points to, transforms first. With `many`, the matrices are an array of poses,
+    and the pose for C is the first one."""
     what = "poses" if many else "pose"
     if not isinstance(kind, str) or kind not in _KINDS:
         raise ValueError(f"kind: {kind!r} is none of {', '.join(_KINDS)}")
@@ -212,7 +213,7 @@ def _pose(model: CharacterModel, pose: Any, kind: str, *, layout: Optional[str] 
 
 
 class Instance:
-    """A character of a scene."""
+    """A character in a scene."""
 
     def __init__(self, scene: "Scene", model: CharacterModel, number: int) -> None:
         self.scene, self.model, self.number = scene, model, number
@@ -223,9 +224,9 @@ class Instance:
     def set_pose(self, pose: Any, kind: str = "rest_to_world", **options: Any) -> None:
         """Sets the pose for the next update.
 
-        kind says what the matrices are. rest_to_world: bones x 3 x 4, from rest space to the world. joint_to_world: the world matrices
-        of the joints, one for each bone. skinning: joint matrix times inverse bind matrix, one for each joint of the file's skin.
-        Matrices are n x 3 x 4, or n x 4 x 4 for column vectors, with the translation in the last column.
+        kind is the kind of the matrices. rest_to_world: bones x 3 x 4, from rest space to world space. joint_to_world: the world
+        matrices of the joints, one for each bone. skinning: joint matrix times inverse bind matrix, one for each joint of the
+        file's skin. Matrices are n x 3 x 4, or n x 4 x 4 for column vectors, with the translation in the last column.
 
         options: layout (rows_3x4, rows_4x4, columns_4x4, columns_4x3, dual_quaternion, trs) is the form of a transform. skin is the
         file's index of the skin. transform_of_bone is the result of CharacterModel.map_bones(). place is a 3 x 4 matrix that is
@@ -235,19 +236,19 @@ class Instance:
         call("nook_scene_set_pose", self.scene.handle, self.number, ctypes.byref(desc))
 
     def set_ground(self, plane: Optional[Sequence[float]]) -> None:
-        """The plane a x + b y + c z = d as (a, b, c, d) with a unit normal, or None for no ground."""
+        """Sets the ground: the plane a x + b y + c z = d as (a, b, c, d) with a unit normal, or None for no ground."""
         values = None if plane is None else floats(plane, (4,), "plane")
         call("nook_scene_set_ground", self.scene.handle, self.number, pointer(values))
 
     def link(self, caster: "Instance") -> None:
-        """The other instance, which is in the same scene, darkens this one."""
+        """Lets another instance of the same scene darken this one."""
         if need(caster, Instance, "caster").scene is not self.scene:
             # The library knows an instance by its number, which another scene has given to another one.
             raise ValueError("caster: it is in another scene; add its model to this scene and link that instance")
         call("nook_scene_link", self.scene.handle, self.number, caster.number)
 
     def record_pose(self) -> bytes:
-        """The pose as a record of a file of poses, which `nook bake character --calibrate` takes: append it to the file."""
+        """Returns the pose as a record. Append it to a pose file for `nook bake character --calibrate`."""
         size = ctypes.c_size_t()
         call("nook_scene_record_pose", self.scene.handle, self.number, None, ctypes.byref(size))
         record = ctypes.create_string_buffer(size.value)
@@ -255,7 +256,7 @@ class Instance:
         return record.raw
 
     def read_ao(self) -> FloatArray:
-        """AO after the scene's update, one value for each vertex of the file; 1 is open."""
+        """Returns the AO of the last update of the scene, one value for each vertex of the file. 1 means not occluded."""
         ao = np.empty(self.model.vertex_count, np.float32)
         call("nook_scene_read", self.scene.handle, self.number, c.NOOK_CHANNEL_AO, c.NOOK_FORMAT_FLOAT, pointer(ao),
              self.model.vertex_count, 0)
@@ -263,7 +264,7 @@ class Instance:
 
 
 class Sphere(int):
-    """The number of an occluder, which belongs to one scene."""
+    """The id of an occluder, valid in one scene."""
 
     _scene: Any = None
 
@@ -279,7 +280,7 @@ class Scene(Handle):
     _no_copy = "it belongs to this process; pass on the models and poses, and make a scene of them there"
 
     def __init__(self, **settings: Any) -> None:
-        """settings: numbers of nook_scene_desc, such as cutoff_error."""
+        """settings: numeric fields of nook_scene_desc, such as cutoff_error."""
         super().__init__()
         desc = descriptor(c.nook_scene_desc)
         put_settings(desc, settings, [field for field, *_ in c.nook_scene_desc._fields_[3:]], "a scene")
@@ -291,7 +292,7 @@ class Scene(Handle):
         return Instance(self, model, int(number.value))
 
     def add_sphere(self, centre: Sequence[float], radius: float) -> int:
-        """An occluder in metres; the number that is returned removes it."""
+        """Adds an occluder, in metres. Use the returned id to remove it."""
         number = c.nook_occluder_id()
         ball = c.nook_occluder()
         ball.centre_ws[:] = floats(centre, (3,), "centre").tolist()
@@ -308,7 +309,7 @@ class Scene(Handle):
 
     @property
     def uneven_instances(self) -> int:
-        """The number of instances whose pose has a bone that is sheared or scaled unevenly, which is projected."""
+        """The number of instances whose pose has a bone that was sheared or scaled unevenly, and was corrected."""
         return int(described(c.nook_scene_info, "nook_scene_describe", self.handle).uneven_instances)
 
     def update(self) -> None:
@@ -318,7 +319,8 @@ class Scene(Handle):
 
 def evaluate_pose(model: CharacterModel, pose: Any, *, ground: Optional[Sequence[float]] = None, kind: str = "rest_to_world",
                   **options: Any) -> FloatArray:
-    """AO of one character in one pose. kind and options are as in Instance.set_pose(). For many poses call evaluate_poses()."""
+    """Returns the AO of one character in one pose. kind and options are as in Instance.set_pose(). For many poses, call
+    evaluate_poses()."""
     with Scene() as scene:
         instance = scene.add_instance(model)
         instance.set_pose(pose, kind, **options)
@@ -330,10 +332,11 @@ def evaluate_pose(model: CharacterModel, pose: Any, *, ground: Optional[Sequence
 
 def evaluate_poses(model: CharacterModel, poses: Any, *, ground: Optional[Sequence[float]] = None, kind: str = "rest_to_world",
                    threads: int = 0, **options: Any) -> FloatArray:
-    """AO of one character in many poses: poses x vertices, the same numbers as evaluate_pose() gives for each.
+    """Returns the AO of one character in many poses, poses x vertices. For each pose, the values are the same as from
+    evaluate_pose().
 
-    poses has one more axis than a pose: poses x bones x 3 x 4. kind and options are as in Instance.set_pose(), and hold for all
-    poses. threads is 0 for all cores, or up to 1024; the numbers do not depend on it. Ctrl+C ends the call within moments.
+    poses has one more axis than a pose: poses x bones x 3 x 4. kind and options are as in Instance.set_pose(), and apply to all
+    poses. threads is 0 for all cores, or up to 1024; the values do not depend on it. Ctrl+C ends the call quickly.
     """
     handle = need(model, CharacterModel, "model").handle
     if integer(threads, ctypes.c_uint32, "threads") > _MOST_THREADS:
@@ -369,7 +372,8 @@ def _cores() -> int:
 def _share(work: Callable[[int, int], None], count: int, threads: int) -> None:
     """Calls work(first, end) for runs of 0 to count, on this thread and others. Raises the error of the first run that failed.
 
-    A run takes some 50 ms, so that Ctrl+C is answered between two of them and what a call costs does not count.
+    A run takes about 50 ms: short enough to react to Ctrl+C between two runs, and long enough that the cost of a call does not
+    matter.
     """
     lock, taken = threading.Lock(), 0
     errors: List[Tuple[int, BaseException]] = []

@@ -15,8 +15,8 @@ VISIBLE = 0.01  # vertex-poses whose traced AO is smaller are inside the body
 
 def trace_ao(meshes: Sequence[Tuple[Any, Any]], positions: Any, normals: Any, *, rays: int = 64, seed: int = 1, threads: int = 0,
              radius: float = float("inf"), origin_offset: float = 1e-4) -> FloatArray:
-    """Cosine-weighted visibility of points against meshes, each (positions, triangles) in world space and metres. Ctrl+C ends the call
-    within moments."""
+    """Returns the cosine-weighted visibility of points. Each mesh is (positions, triangles), in world space and metres. Ctrl+C ends
+    the call quickly."""
     for mesh in meshes:
         if not isinstance(mesh, (tuple, list)) or len(mesh) != 2:
             raise TypeError("meshes: need a list of pairs (positions, triangles)")
@@ -39,7 +39,7 @@ def trace_ao(meshes: Sequence[Tuple[Any, Any]], positions: Any, normals: Any, *,
 
 
 class ModelError(NamedTuple):
-    """Mean squared errors over vertices of the file and poses. mse_visible leaves out vertices that ray tracing finds black."""
+    """Mean squared errors over vertices of the file and poses. `mse_visible` leaves out vertices whose ray-traced AO is almost 0."""
 
     mse: float
     mse_visible: float
@@ -48,7 +48,7 @@ class ModelError(NamedTuple):
 
 
 def model_error(character: Character, model: CharacterModel, poses: Any, *, rays: int = 128, seed: int = 1, threads: int = 0) -> ModelError:
-    """Measures a model against ray tracing in poses, beside AO that is baked once in the rest pose.
+    """Measures the errors of a model, and of AO baked once in the rest pose, against ray tracing in poses.
 
     `nook evaluate character` gives all welded vertices the same weight. This function gives all vertices of the file the same
     weight, so its numbers differ if the file splits vertices.
