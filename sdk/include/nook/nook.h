@@ -48,7 +48,7 @@ enum {
   NOOK_ERROR_INVALID_ARGUMENT = -1,
   /* The scene has no instance, link or occluder with this id. */
   NOOK_ERROR_INVALID_HANDLE = -2,
-  /* The host's allocator returned NULL. */
+  /* Your allocator returned NULL. */
   NOOK_ERROR_OUT_OF_MEMORY = -3,
   /* The bytes are not a .nook file, are truncated or corrupted, or hold another kind of data. */
   NOOK_ERROR_BAD_FILE = -4,

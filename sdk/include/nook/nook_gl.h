@@ -142,7 +142,7 @@ typedef struct nook_gl_view {
  * scene or gl is destroyed, you call nook_gl_scene_release, or nook_scene_set_model gives the instance
  * another model. AO is 1 before the first update. After an update you need no barrier to read the values as
  * vertex attributes, texture buffers, shader storage or by buffer reads. This function makes no OpenGL call.
- * Context thread. Errors: INVALID_ARGUMENT (also: NOOK_CHANNEL_BENT_NORMAL, which your vertex shader
+ * Context thread. Errors: INVALID_ARGUMENT (also for NOOK_CHANNEL_BENT_NORMAL, which your vertex shader
  * computes), INVALID_HANDLE (the id is unknown, the instance is not prepared yet, or it had no light), GL. */
 NOOK_API nook_result nook_gl_scene_view(nook_gl gl, nook_scene scene, nook_instance_id instance,
                                         nook_channel channel, nook_gl_view* view);
@@ -179,8 +179,8 @@ typedef struct nook_gl_ao_target {
 /* Copies the AO of the last nook_gl_scene_update to a buffer or texture of yours on the GPU, for count
  * instances one after another. You need no barrier before vertex fetches, texture fetches and buffer reads.
  * The call does not wait for the GPU. The first call with a format creates a program.
- * Context thread. Errors: INVALID_ARGUMENT (also: the target is too small), INVALID_HANDLE (an id is unknown,
- * or an instance is not prepared yet), UNSUPPORTED (a stride without compute shaders), GL. */
+ * Context thread. Errors: INVALID_ARGUMENT (also if the target is too small), INVALID_HANDLE (an id is
+ * unknown, or an instance is not prepared yet), UNSUPPORTED (a stride without compute shaders), GL. */
 NOOK_API nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
                                          uint32_t count, const nook_gl_ao_target* target);
 
@@ -205,7 +205,7 @@ NOOK_API nook_result nook_gl_scene_release(nook_gl gl, nook_scene scene);
 
 /* ---- A frame of the host ----
  *
- * The images and the camera of one frame, which nook_nnao_render and nook_world_render take. */
+ * The images and the camera of one of your frames, for nook_nnao_render and nook_world_render. */
 
 /* The contents of a depth texture. */
 enum {
@@ -248,9 +248,9 @@ typedef int32_t nook_gbuffer_ao;
 enum {
   /* The pass's own texture; see nook_nnao_info and nook_world_info. */
   NOOK_TARGET_OWN = 0,
-  /* Level 0 of a 2D texture of the host, or of a texture array for passes with views. */
+  /* Level 0 of a 2D texture of yours, or of a texture array for passes with views. */
   NOOK_TARGET_TEXTURE = 1,
-  /* The first draw buffer of a framebuffer of the host; framebuffer 0 is the window. The contents of further
+  /* The first draw buffer of a framebuffer of yours; framebuffer 0 is the window. The contents of further
    * draw buffers become undefined. Not for passes with views. */
   NOOK_TARGET_FRAMEBUFFER = 2
 };

@@ -53,7 +53,7 @@ static inline nook_result nook_gl_capture_desc_init(nook_gl_capture_desc* desc) 
 }
 
 /* Creates the programs and buffers of a capture. Each probe takes 384 bytes for every 12 lobes, and 384 bytes
- * for harmonics. In addition, each texel of face_size_px takes 2304 bytes. The textures keep their light
+ * for harmonics. In addition, the capture takes face_size_px * 2304 bytes. The textures keep their light
  * until the first map of each probe. On failure *out is NULL and no OpenGL object is left. Context thread.
  * Errors: INVALID_ARGUMENT, UNSUPPORTED (the sums of all probes exceed the texture buffer of this OpenGL;
  * every OpenGL has room for 2,500 probes of 12 lobes), GL, OUT_OF_MEMORY. */

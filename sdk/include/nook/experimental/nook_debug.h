@@ -53,7 +53,7 @@ typedef struct nook_scene_sphere {
 
 /* Writes the proxy spheres of an instance at its level. Set *count to the capacity of `out`; the call sets it
  * to the number of spheres. With `out` NULL, the call only sets *count.
- * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT (there is too little room),
+ * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT (`out` is too small),
  * INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_read_spheres(nook_scene scene, nook_instance_id instance,
                                              nook_scene_sphere* out, uint32_t* count);
@@ -78,7 +78,7 @@ typedef struct nook_scene_key_point {
 
 /* Writes the key points of an instance that are evaluated at its level, by ascending index. Set *count to the
  * capacity of `out`; the call sets it to the number of points. With `out` NULL, the call only sets *count.
- * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT (there is too little room),
+ * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT (`out` is too small),
  * INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_read_key_points(nook_scene scene, nook_instance_id instance,
                                                 nook_scene_key_point* out, uint32_t* count);
@@ -87,7 +87,7 @@ NOOK_API nook_result nook_scene_read_key_points(nook_scene scene, nook_instance_
  * are the casters that its last update did not skip. After you remove any instance, there are none until the
  * next update. Set *count to the capacity of `out`; the call sets it to the number of casters. With `out`
  * NULL, the call only sets *count. Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT
- * (there is too little room), INVALID_HANDLE. */
+ * (`out` is too small), INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_read_links(nook_scene scene, nook_instance_id instance, nook_instance_id* out,
                                            uint32_t* count);
 
