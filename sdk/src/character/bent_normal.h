@@ -1,6 +1,7 @@
-// Bent normals from occluded directions. The occluded direction of a point is a mean over its cosine-weighted
-// hemisphere, in which open directions count as zero. It is 0 if everything is open, and 2/3 of the normal if
-// nothing is. 2/3 of the normal minus the occluded direction points to where the point is open.
+// Bent normals from occluded directions. The occluded direction of a point is the mean direction over its
+// cosine-weighted hemisphere, in which open directions count as zero. It is 0 if everything is open, and 2/3
+// of the normal if nothing is open. The bent normal is the direction of 2/3 of the normal minus the occluded
+// direction.
 #pragma once
 
 #include <cmath>
@@ -10,8 +11,8 @@
 
 namespace nook {
 
-// The occluded direction of a vertex depends linearly on its AO; these are its values at both ends. They turn
-// as the normal does.
+// The occluded direction of a vertex depends linearly on its AO. These are the directions at AO 0 and at AO
+// 1. Skinning rotates them like the normal.
 struct OccludedEnds {
   Vec3 dark;  // at AO 0
   Vec3 open;  // at AO 1
@@ -22,8 +23,8 @@ struct OccludedEnds {
 // The length of the cosine-weighted mean direction of an open hemisphere.
 inline constexpr float open_hemisphere = 2.0f / 3;
 
-// Returns a unit vector, which is the normal if the point is not open at all. Both vectors are in the same
-// space.
+// Returns the bent normal as a unit vector. If the point is not open at all, returns the normal. Both vectors
+// are in the same space.
 inline Vec3 bent_normal(Vec3 normal, Vec3 occluded) {
   const Vec3 left = open_hemisphere * normal - occluded;
   const float size = length(left);

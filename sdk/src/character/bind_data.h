@@ -1,7 +1,7 @@
 // The rest pose of a model's rigged file. Engines have joint matrices or skinning matrices, but not this
-// library's rest space. This data converts between them (pose_source.h), lets a host compare its own skinned
-// vertices with the model's (pose_check.h), and finds the model's vertices in a host's mesh
-// (host_vertices.h).
+// library's rest space. The bind data is used to convert the engine's matrices (pose_source.h), to compare
+// the host's skinned vertices with the model's (pose_check.h), and to find the model's vertices in a host's
+// mesh (host_vertices.h).
 #pragma once
 
 #include <array>
@@ -16,12 +16,12 @@ namespace nook {
 struct BoneBind {
   // Maps rest space to the joint's own space: the matrix of the bone is joint_to_world * node_from_rest.
   Mat3x4 node_from_rest;
-  // The first bone of the same joint. A joint has several bones if skins bind it differently.
+  // The first bone of the same joint. A joint has several bones if several skins bind it differently.
   std::uint16_t first_of_joint = 0;
 };
 
 struct SkinBind {
-  std::uint32_t file_index = 0;                    // of the skin in the file
+  std::uint32_t file_index = 0;                    // index of the skin in the file
   std::uint16_t space = 0;                         // index into BindData::rest_from_mesh
   std::uint32_t first_joint = 0, joint_count = 0;  // range of BindData::bone_of_joint, in the skin's order
 };
@@ -31,25 +31,25 @@ struct BoneWeights {
   static constexpr std::uint32_t max_bones = 8;
   std::uint32_t count = 0;
   std::array<std::uint16_t, max_bones> bone{};
-  std::array<float, max_bones> weight{};  // 0 to 1 up to count, with sum 1
+  std::array<float, max_bones> weight{};  // the first `count` entries are 0 to 1 and sum to 1
 };
 
-// A welded vertex with others so near that the steps of rest positions do not tell them apart.
+// A welded vertex that lies so near to others that their quantised rest positions may be equal.
 struct CloseVertex {
   std::uint32_t welded = 0;
   std::uint16_t space = 0;  // index into BindData::rest_from_mesh
-  Vec3 mesh_position;       // in that space, to the bit as the file has it
-  BoneWeights weights;      // none where all vertices nearby have the same
+  Vec3 mesh_position;       // in the space `space`, bit-exact as in the file
+  BoneWeights weights;      // no weights if all nearby vertices have the same weights
 };
 
-// A vertex of the file with everything that skins it.
+// A vertex of the file, with all data that is needed to skin it.
 struct RestVertex {
   static constexpr std::uint32_t max_bones = 8;
   std::uint32_t file_vertex = 0;
   Vec3 position;  // rest space, metres
   std::uint32_t bone_count = 0;
   std::array<std::uint16_t, max_bones> bone{};
-  std::array<float, max_bones> weight{};  // above 0 up to bone_count, with sum 1
+  std::array<float, max_bones> weight{};  // the first bone_count entries are above 0 and sum to 1
 };
 
 struct BindData {
@@ -70,8 +70,9 @@ struct BindData {
   Vector<std::uint16_t> primitive_space;  // index into rest_from_mesh, for each primitive
   Vector<SkinBind> skins;                 // empty: the meshes are rigid, or came as arrays
   Vector<std::uint16_t> bone_of_joint;    // of all skins
-  Vector<RestVertex> vertices;            // at most max_vertices, spread over the bones
-  Vector<CloseVertex> close;              // in any order; vertices that are near each other follow each other
+  Vector<RestVertex> vertices;            // at most max_vertices, distributed over the bones
+  Vector<CloseVertex> close;              // vertices that are near each other are stored next to each other;
+                                          // otherwise in any order
 
   bool empty() const { return bones.empty(); }
 };

@@ -1,5 +1,5 @@
-// The single test for whether the matrix of a bone is a rotation with one scale, for matrices of any
-// precision.
+// Tests whether the matrix of a bone is a rotation with uniform scale, for matrices of any precision. All
+// code uses this one test.
 #pragma once
 
 #include <algorithm>
@@ -8,15 +8,16 @@
 
 namespace nook {
 
-// A matrix's axes are the columns of its 3x3 part. These are their lengths and angles.
+// The lengths of, and angles between, the axes of a matrix. The axes are the columns of its 3x3 part.
 template <class Real>
 struct BoneAxes {
   std::array<Real, 3> squared{};  // length of each axis
   Real longest_squared = 0;
-  Real shear = 0;  // the largest product of two axes; divided by longest_squared, it is about a cosine
+  Real shear = 0;  // the largest absolute dot product of two axes; divided by longest_squared, about the
+                   // cosine of their angle
 
-  // True for a rotation with one scale, to 1 %. 1 % of length is 2 % of its square, and the last digits allow
-  // for rounding. A matrix of zeros is not even.
+  // True for a rotation with uniform scale, within 1 %. 1 % of the length is 2 % of the squared length; the
+  // last digits of the constants allow for rounding. A zero matrix is not even.
   bool is_even() const {
     const Real shortest = std::min({squared[0], squared[1], squared[2]});
     return longest_squared > 0 && longest_squared <= shortest * Real(1.0205) &&
@@ -26,7 +27,7 @@ struct BoneAxes {
   double cosine() const { return longest_squared > 0 ? double(shear / longest_squared) : 0; }
 };
 
-// A matrix has three rows of four in `m`.
+// `matrix.m` holds three rows of four elements.
 template <class Matrix>
 auto axes_of(const Matrix& matrix) {
   const auto& m = matrix.m;

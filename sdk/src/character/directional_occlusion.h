@@ -1,6 +1,6 @@
 // Directional occlusion: the share of the light in a key point's hemisphere that comes from behind one
 // sphere. The light is a sum of lobes (core/spherical_gaussian.h). A sphere that covers the share f of the
-// cosine-weighted hemisphere takes f times
+// cosine-weighted hemisphere removes f times
 //   rho = mean radiance behind the sphere / mean radiance of the hemisphere
 // of the irradiance, for each channel. Under constant light rho is 1, and the result is plain occlusion.
 //
@@ -34,22 +34,23 @@ struct LightLobe {
 struct LightView {
   const LightLobe* lobes = nullptr;
   std::uint32_t count = 0;
-  // A lower bound of the radiance of a hemisphere: a small share of the mean radiance of all directions, > 0.
-  // Without it, fits that ring below 0 on their dark side would give extreme ratios there.
+  // Lower bound for the radiance of a hemisphere, > 0: a small share of the mean radiance of all directions.
+  // Fitted lobes can ring below 0 on the dark side. Without the bound, the ratios there would be extreme.
   Vec3 darkest;
 };
 
 // The sharpness of the lobe that approximates the clamped cosine, as in core/spherical_gaussian.h.
 inline constexpr float directional_cosine = float(NOOK_COSINE_LOBE_SHARPNESS);
-// k = caster_concentration sqrt(height) (1 - f^2) / f. A far sphere is then a lobe of its solid angle, and a
-// sphere that fills the hemisphere is the hemisphere.
+// k = caster_concentration sqrt(height) (1 - f^2) / f. With this k, a far sphere becomes a lobe of the
+// sphere's solid angle, and a sphere that fills the hemisphere becomes the hemisphere.
 inline constexpr float caster_concentration = float(NOOK_CASTER_CONCENTRATION);
 inline constexpr float smallest_share = float(NOOK_SMALLEST_SHARE);
-// No sphere dims its receiver by more than this times its share. This bounds the effect of one bright lobe.
+// A sphere dims its receiver by at most this factor times the share that it covers. This limits the effect of
+// a single bright lobe.
 inline constexpr float largest_ratio = float(NOOK_LARGEST_RATIO);
 
-// Returns (1 - e^(-2 v)) / v as 1 / (v + v / (e^(2 v) - 1)) with the series of the exponential. The relative
-// error is below 0.006 for v from 0 to 1e6.
+// Returns (1 - e^(-2 v)) / v as 1 / (v + v / (e^(2 v) - 1)) with the power series of the exponential. The
+// relative error is below 0.006 for v from 0 to 1e6.
 template <class F>
 F lobe_norm(F v) {
   constexpr float c[] = {float(NOOK_LOBE_NORM_0), float(NOOK_LOBE_NORM_1), float(NOOK_LOBE_NORM_2),
@@ -91,12 +92,12 @@ Colour<F> inverse_hemisphere(const LightView& light, const Direction<F>& n) {
 template <class F>
 struct Sight {
   Direction<F> towards;  // unit
-  F cosine;              // with the normal
+  F cosine;              // cosine of the angle to the normal
 };
 
-// Returns the sight of a sphere whose centre is at o from the key point, in units of its radius, with height
-// xi = dot(o, n) and squared distance delta2. If the horizon cuts the sphere, the sight points to the middle
-// of the part above it.
+// Returns the sight of a sphere from a key point. o is the sphere's centre relative to the key point, in
+// units of its radius; xi = dot(o, n) is its height, and delta2 its squared distance. If the horizon cuts the
+// sphere, the sight points to the middle of the visible part.
 template <class F>
 Sight<F> sight_of(const Direction<F>& n, const Direction<F>& o, F xi, F delta2) {
   const F height = max(xi, fma(max(xi, F(-1.0f)), F(0.5f), F(0.5f)));
@@ -107,7 +108,7 @@ Sight<F> sight_of(const Direction<F>& n, const Direction<F>& o, F xi, F delta2) 
           height * inverse_distance};
 }
 
-// Returns k of a caster that covers the share f of the hemisphere. sqrt(height) / f is computed as height /
+// Returns k for a caster that covers the share f of the hemisphere. sqrt(height) / f is computed as height /
 // sqrt(height f^2), which needs one estimated root instead of a root and a division.
 template <class F>
 F concentration_of(const Sight<F>& sight, F f, float concentration) {
@@ -121,8 +122,8 @@ Colour<F> bounded_ratio(const Colour<F>& behind, const Colour<F>& inverse) {
   return {ratio(behind.r, inverse.r), ratio(behind.g, inverse.g), ratio(behind.b, inverse.b)};
 }
 
-// Returns rho of a caster that covers `share` of the hemisphere. Its lobe is at least as wide as one of
-// sharpness `sharpest`.
+// Returns rho of a caster that covers `share` of the hemisphere. The sharpness of the caster's lobe is
+// limited to `sharpest`.
 template <class F>
 Colour<F> light_ratio(const LightView& light, const Colour<F>& inverse, const Direction<F>& n,
                       const Sight<F>& sight, F share, F sharpest) {
@@ -134,7 +135,7 @@ Colour<F> light_ratio(const LightView& light, const Colour<F>& inverse, const Di
       inverse);
 }
 
-// The `sharpest` of a single sphere, which sets no bound.
+// Pass this as `sharpest` for a single sphere: it does not limit the sharpness.
 inline constexpr float no_sharpest = float(NOOK_NO_SHARPEST);
 
 // Combines the spheres of one caster: the mean of their sights, weighted by their shares, and the sum of
@@ -165,8 +166,9 @@ struct JointSight {
 };
 
 // Returns the share below the horizon of a lobe of sharpness m whose vector rises `height` (-m to m) above
-// it: (1 - erf(x)) / 2 with x = height / sqrt(5.09 + 2 m^2 / (m + 4)). It is exact for small m, tends to the
-// exact share for large m, and is within 0.016 between. erf is Abramowitz and Stegun 7.1.27, within 5e-4.
+// it: (1 - erf(x)) / 2 with x = height / sqrt(5.09 + 2 m^2 / (m + 4)). The formula is exact for small m,
+// tends to the exact share for large m, and has an error of at most 0.016 in between. erf uses the formula
+// 7.1.27 of Abramowitz and Stegun, with an error of at most 5e-4.
 template <class F>
 F share_below(F height, F m) {
   const F x = height * rsqrt(fma(m, F(2.0f) * m / (m + F(4.0f)), F(float(NOOK_BELOW_WIDTH))));
@@ -179,8 +181,8 @@ F share_below(F height, F m) {
   return select(less(x, F(0.0f)), F(1.0f) - tail, tail);
 }
 
-// Returns rho of the ground, which hides the half-space below its plane, under the density b = h n. `above`
-// has no effect here, because `light` is the light without the ground.
+// Returns rho of the ground, which hides the half-space below its plane, under the density b = h n. The light
+// is taken as it would be without the ground, so LightLobe::above has no effect here.
 template <class F>
 Colour<F> ground_ratio(const LightView& light, const Direction<F>& n, const Direction<F>& up) {
   const F h(directional_cosine), zero(0.0f);
@@ -207,17 +209,18 @@ Colour<F> ground_ratio(const LightView& light, const Direction<F>& n, const Dire
 }
 
 // The light of self-shadow: bands 0 to 2 of the lobes (core/light_bands.h). The fitted spheres darken from
-// all sides, so that their shadow has little directional detail. A key point sums the weighted densities of
-// its spheres and combines them with the light once.
+// all sides, so their shadow has little directional detail. Each key point first sums the weighted densities
+// of its spheres, and then combines the sum with the light once.
 //
 // All functions are templates over a number type F, as in kernel.h.
 
-// This share of the self-shadow follows the light; the rest takes all colours alike. k is defined at
-// caster_concentration. Both were measured against ray tracing in a crowd.
+// This share of the self-shadow depends on the direction of the light. The remaining share darkens all
+// colours equally. Both this share and k (see caster_concentration) were tuned against ray tracing in a
+// crowd.
 inline constexpr float self_strength = float(NOOK_SELF_STRENGTH);
 inline constexpr float self_concentration = float(NOOK_SELF_CONCENTRATION);
 
-// Returns the density for a sphere of the body itself that takes y^gamma = `term` of the light.
+// Returns the density for a sphere of the body itself that removes y^gamma = `term` of the light.
 template <class F>
 void gather(GatheredBands<F>& gathered, const Direction<F>& n, const Sight<F>& sight, F y, F term) {
   const F k = concentration_of(sight, max(y, F(smallest_share)), self_concentration), h(directional_cosine);
@@ -225,7 +228,7 @@ void gather(GatheredBands<F>& gathered, const Direction<F>& n, const Sight<F>& s
   gathered.add(Direction<F>{fma(d.x, k, n.x * h), fma(d.y, k, n.y * h), fma(d.z, k, n.z * h)}, term);
 }
 
-// Sums the terms, each times the light that it takes.
+// Sums the terms, each multiplied by the light that it removes.
 template <class F>
 Colour<F> coloured_sum(const GatheredBands<F>& gathered, const LightBands& bands, const Direction<F>& n) {
   GatheredBands<F> open = GatheredBands<F>::none();
@@ -239,8 +242,9 @@ Colour<F> coloured_sum(const GatheredBands<F>& gathered, const LightBands& bands
   return {channel(&Vec3::x), channel(&Vec3::y), channel(&Vec3::z)};
 }
 
-// Returns how much light a vertex' self-shadow takes, relative to light from all directions alike. The
-// arguments are sums over its key points of the coloured and of the plain shadow. Without shadow it is 1.
+// Returns how much light the self-shadow of a vertex removes, relative to the same shadow under uniform
+// light. The arguments are the sums of the coloured and of the plain shadow over the vertex's key points.
+// Without shadow, the result is 1.
 template <class F>
 F vertex_light_ratio(F coloured, F shadow) {
   return (coloured + F(smallest_share)) / (max(shadow, F(0.0f)) + F(smallest_share));

@@ -5,8 +5,8 @@ namespace nook {
 Vector<Vec3> face_normals_of(const HostVertices& host, std::span<const std::uint32_t> indices,
                              Memory* memory) {
   Vector<Vec3> sum(host.count, Vec3{}, memory);
-  // Twice the area that looks to the side of the normals, and that looks away from it. Cards whose normals
-  // are equal on both faces have as much of both.
+  // `along` is twice the area of the triangles that face to the side of the normals, and `away` is twice the
+  // area of the other triangles. Both are equal for cards whose normals are the same on both faces.
   double along = 0, away = 0;
   for (std::size_t t = 0; t + 2 < indices.size(); t += 3) {
     const std::uint32_t a = indices[t], b = indices[t + 1], c = indices[t + 2];

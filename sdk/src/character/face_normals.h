@@ -1,5 +1,5 @@
-// The sides that the vertices of a host's mesh look to by its triangles. Smooth normals may agree on both
-// faces of a sharp fold or of a leaf.
+// Finds the side to which each vertex of a host's mesh faces, from its triangles. Smooth normals cannot tell
+// this where they are the same on both faces, as on a sharp fold or a leaf.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace nook {
 
-// Returns the mean normal of the triangles of each vertex, weighted by area: unit length, or 0 without a
-// triangle. Indices are in range, three for each triangle. If most triangles look away from the host's
-// normals, as in mirrored files, all are turned round.
+// Returns for each vertex the mean normal of its triangles, weighted by area. It has unit length, or is 0 if
+// the vertex has no triangle. `indices` holds three vertex indices for each triangle; all must be in range.
+// If most triangles face away from the host's normals, as in mirrored files, all results are flipped.
 Vector<Vec3> face_normals_of(const HostVertices& host, std::span<const std::uint32_t> indices,
                              Memory* memory);
 

@@ -10,20 +10,20 @@
 namespace nook {
 namespace {
 
-// Normals go to the mesh's space by the transpose of the matrix that brings positions from there to rest
-// space.
+// Transforms a normal from rest space to the mesh's space. For normals, this takes the transpose of the
+// matrix that transforms positions from the mesh's space to rest space.
 Vec3 normal_in_mesh(const Mat3x4& rest_from_mesh, Vec3 n) {
   const float* m = rest_from_mesh.m;
   return normalised({m[0] * n.x + m[4] * n.y + m[8] * n.z, m[1] * n.x + m[5] * n.y + m[9] * n.z,
                      m[2] * n.x + m[6] * n.y + m[10] * n.z});
 }
 
-// Where the file has a close vertex, to the bit.
+// Returns the position of a close vertex, bit-exact as in the file.
 Vec3 exact_position(const CloseVertex& vertex, const Affine& rest_from_mesh, bool in_rest_space) {
   return in_rest_space ? transform(rest_from_mesh, vertex.mesh_position) : vertex.mesh_position;
 }
 
-// The close vertex of each welded vertex, null for most.
+// Returns the close vertex of each welded vertex; null for most vertices.
 Vector<const CloseVertex*> close_vertices(const CharacterModel& model, Memory* memory) {
   Vector<const CloseVertex*> out(model.vertex_count(), nullptr, memory);
   for (const CloseVertex& vertex : model.bind.close) out[vertex.welded] = &vertex;
@@ -41,7 +41,7 @@ Candidate candidate_of(const CharacterModel& model, std::uint32_t file_vertex, s
   return out;
 }
 
-// Metres in rest space.
+// In metres of rest space.
 float diagonal_of(const RestSurface& rest) {
   Vec3 low = rest.position[0], high = low;
   for (const Vec3 p : rest.position) {
@@ -99,7 +99,7 @@ std::uint16_t space_of(const CharacterModel& model, std::uint32_t file_vertex) {
 Candidates candidates_of(const CharacterModel& model, const HostVertices& host, Memory* memory) {
   const BindData& bind = model.bind;
   const Vector<const CloseVertex*> close = close_vertices(model, memory);
-  // Vertices that were welded count as one vertex, so that seams of the file do not count twice.
+  // Takes each welded vertex once per space, because seams in the file repeat it.
   Vector<std::uint32_t> seen_in_space(model.vertex_count(), no_vertex, memory);
   Candidates candidates(memory);
   for (std::size_t p = 0; p < model.primitives.size(); ++p) {
@@ -152,8 +152,8 @@ CharacterModel remapped(const CharacterModel& model, std::span<const std::uint32
   out.file_to_welded.reserve(file_vertices.size());
   for (const std::uint32_t vertex : file_vertices) out.file_to_welded.push_back(model.file_to_welded[vertex]);
   set_primitives(model, file_vertices, out);
-  // A rest vertex becomes the first host vertex that has its welded vertex. Without such a host vertex, it is
-  // dropped.
+  // Each rest vertex is mapped to the first host vertex that has the same welded vertex. If there is none,
+  // the rest vertex is dropped.
   Vector<std::uint32_t> first_host(model.vertex_count(), no_vertex, memory);
   for (std::size_t i = out.file_to_welded.size(); i-- > 0;)
     first_host[out.file_to_welded[i]] = static_cast<std::uint32_t>(i);

@@ -1,5 +1,5 @@
-// A host's vertices beside the vertices of a model: a model in the host's order, and a model for another mesh
-// of the same body. vertex_match.h finds the matches.
+// Adapts a model to a host's vertices: reorders a model to the order of the host's vertices, or resamples it
+// for another mesh of the same body. vertex_match.h finds the matching vertices.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct HostWeights {
   const float* weight = nullptr;         // finite, 0 or more
   std::size_t joint_stride = 0, weight_stride = 0;
   std::uint32_t influences = 0;
-  // The bone of each joint, which has an entry for every joint with a weight; empty: joints are bones.
+  // The bone of each joint, for at least every joint that has a weight. If empty, joints are bone indices.
   std::span<const std::uint16_t> bone_of_joint;
 
   std::uint16_t joint_at(std::size_t vertex, std::uint32_t influence) const;
@@ -36,10 +36,11 @@ struct HostVertices {
   std::uint32_t count = 0;
   StridedPoints position;
   StridedPoints normal;       // first null: none
-  StridedPoints face_normal;  // of the triangles round each vertex, unit length or 0; first null: none
+  StridedPoints face_normal;  // mean normal of the triangles around each vertex, unit length or 0; first
+                              // null: none
   HostWeights weights;
   bool in_rest_space = false;
-  std::int32_t primitive = -1;  // of the file; -1: all
+  std::int32_t primitive = -1;  // index of a primitive of the file; -1: all primitives
   float tolerance = 1e-4f;      // share of the diagonal of the model's box
 };
 
@@ -47,35 +48,37 @@ struct HostVertices {
 // model must have bind data.
 std::uint16_t space_of(const CharacterModel& model, std::uint32_t file_vertex);
 
-// A vertex of the model that may be the same as a host's vertex, in the host's space.
+// A model vertex that possibly matches a host vertex, given in the host's space.
 struct Candidate {
   Vec3 position;
   Vec3 normal;
-  std::uint32_t file_vertex = 0;  // the first one of the welded vertex in the space of its mesh
+  std::uint32_t file_vertex = 0;  // the first file vertex of the welded vertex that is in this space
   std::uint32_t welded = 0;
   std::uint16_t space = 0;
-  const BoneWeights* weights = nullptr;  // null: not known, as where no near vertex has others
+  const BoneWeights* weights = nullptr;  // null: not stored, because all nearby vertices have the same
+                                         // weights
 };
 using Candidates = Vector<Candidate>;
 
-// The welded vertices of the primitives that the host names, once for each space, in file order. The model
-// has a rest surface and bind data, and outlives the result.
+// Returns the welded vertices of the primitives that the host selects, in file order. A welded vertex is
+// returned once for each space. The model must have a rest surface and bind data, and must outlive the
+// result.
 Candidates candidates_of(const CharacterModel& model, const HostVertices& host, Memory* memory);
 
-// The diagonal of the box of the model's rest pose in the host's unit.
+// Returns the diagonal of the bounding box of the model's rest pose, in the host's unit.
 float diagonal_of(const CharacterModel& model, const HostVertices& host);
 
-// HostVertices::tolerance as a length in the host's unit.
+// Returns HostVertices::tolerance as a length in the host's unit.
 float tolerance_of(const CharacterModel& model, const HostVertices& host);
 
-// Sets the primitives of `out` and their spaces; each is a run of vertices of the same space. Vertex i of
-// `out` belongs to the mesh of file_vertices[i] of `model`.
+// Sets the primitives of `out` and their spaces. Each primitive is a run of vertices of the same space.
+// Vertex i of `out` belongs to the mesh of file_vertices[i] of `model`.
 void set_primitives(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,
                     CharacterModel& out);
 
 inline constexpr std::uint32_t no_vertex = UINT32_MAX;
 
-// The model with file_vertices[i] as its vertex i. Every index is in range.
+// Returns the model with file_vertices[i] as its vertex i. Every index must be in range.
 CharacterModel remapped(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,
                         Memory* memory);
 
@@ -83,8 +86,9 @@ CharacterModel remapped(const CharacterModel& model, std::span<const std::uint32
 // same body, such as a level of detail.
 
 struct FarVertex {
-  std::uint32_t vertex = 0;  // of the host
-  float distance = 0;        // to the nearest vertex of the model that faces the same way, host's unit
+  std::uint32_t vertex = 0;  // index of the host vertex
+  float distance = 0;        // distance to the nearest model vertex that faces the same way, in the host's
+                             // unit
 };
 
 // Returns the host's vertex that is farthest from the model's. The model must have a rest surface and bind

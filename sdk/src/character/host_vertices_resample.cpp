@@ -10,20 +10,21 @@
 namespace nook {
 namespace {
 
-// Normals whose cosine is below this belong to another side of the body.
+// If the cosine between two normals is below this, they belong to different sides of the body.
 constexpr float min_facing = 0.2f;
 constexpr float facing_power = 8;
 constexpr std::size_t interpolated_vertices = 3;
-// Points count as one place below this share of the rest pose's diameter. It allows for 16-bit positions.
+// Points closer than this are treated as one place. As a share of the rest pose's diameter; it allows for
+// 16-bit positions.
 constexpr float same_place = 1e-4f;
 
-// A position with a normal. Without normals, all of them face the same way.
+// A position with a normal. If there are no normals, all points get the same one.
 struct Oriented {
   Vec3 position;
   Vec3 normal;
 };
 
-// Points sorted by x, so that those near a place are in a short range.
+// Points sorted by x, so that all points near a place are in a short range of the list.
 class SortedPoints {
  public:
   struct Near {
@@ -93,9 +94,9 @@ struct Share {
   float weight = 0;
 };
 
-// Weights the nearest candidates by the inverse square of their distance; the weights sum to 1. At the place
-// of a baked vertex, that vertex has all but a millionth of the weight. Where parts of a body meet, vertices
-// at one place face different ways. A high power of the cosine chooses among them.
+// Weights the nearest candidates by the inverse square of their distance. The weights sum to 1. At the place
+// of a baked vertex, this vertex gets all but a millionth of the weight. Where parts of a body meet, vertices
+// at the same place face different ways. A high power of the cosine chooses between them.
 Vector<Share> shares_of(const Oriented& at, const SortedPoints& baked, std::span<const Oriented> points,
                         Memory* memory) {
   Vector<Share> shares(memory);
@@ -151,7 +152,7 @@ class LayerMean {
       alpha_kept += sum_[i].alpha;
       blend_kept += sum_[i].blend;
     }
-    // Weights of blend may be negative, so that the sum of the kept ones can be close to zero.
+    // Blend weights may be negative, so the sum of the kept blend weights can be close to zero.
     const bool blend_is_sound = blend_kept > 0.25f;
     for (std::size_t i = 0; i < out.influences; ++i) {
       const Influence entry = i < kept ? sum_[i] : Influence{};
@@ -177,14 +178,14 @@ class LayerMean {
   OccludedEnds occluded_;
 };
 
-// The host's vertex and its normal in rest space.
+// Returns the host's vertex and its normal in rest space.
 Oriented in_rest_space(const Oriented& at, const CharacterModel& model, std::uint32_t file_vertex,
                        const HostVertices& host, const Vec3& baked_normal) {
   Oriented rest = at;
   const Mat3x4& matrix = model.bind.rest_from_mesh[space_of(model, file_vertex)];
   if (!host.in_rest_space) rest.position = transform(to_double(matrix), at.position);
-  // A mesh's own normals would need the inverse transpose; the nearest baked vertex has its normal in rest
-  // space.
+  // The mesh's own normals would need the inverse transpose. The normal of the nearest baked vertex is
+  // already in rest space.
   if (!host.in_rest_space || !host.normal.first) rest.normal = baked_normal;
   return rest;
 }

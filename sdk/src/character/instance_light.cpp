@@ -47,14 +47,15 @@ void fill(float* const* lanes, std::uint32_t count, float value) {
   for (int c = 0; c < 3; ++c) std::fill_n(lanes[c], count, value);
 }
 
-// Inverts norm_root, to 6e-8 (1 + c n) of the norm n for the saturation c, and returns at most n = 1e6 / c.
+// Inverts norm_root. For the norm n and the saturation c, the relative error is 6e-8 (1 + c n). The result is
+// at most 1e6 / c.
 float norm_sum_of(float shadow, float saturation, float gamma) {
   const float norm = shadow / std::max(1 - saturation * shadow, 1e-6f);
   return gamma == 1 ? norm : std::pow(norm, gamma);
 }
 
-// Turns weighted sums into colours of the shadow, shadow * (sum of y^gamma rho) / (sum of y^gamma), and
-// spreads them from the evaluated key points to all.
+// Turns the weighted sums into the coloured shadow, shadow * (sum of y^gamma rho) / (sum of y^gamma). Then
+// copies it from the evaluated key points to all key points.
 void colour_shadow(const Instance& instance, InstanceLight& light) {
   const PointLanes& points = instance.result.arrays.points;
   const float gamma = instance.model->model.kernel.gamma;
@@ -63,7 +64,7 @@ void colour_shadow(const Instance& instance, InstanceLight& light) {
   const float* saturation = rest_points_of(instance).view().saturation;
   for (std::uint32_t k = 0; k < points.count; ++k) {
     const std::uint32_t source = level ? level->source[k] : k;
-    // At a coarser level the shadows have replaced the sums.
+    // At a coarser level, the sums are no longer stored, and are computed back from the shadows.
     const float sum =
         level ? norm_sum_of(points.norm_sum[source], saturation[source], gamma) : points.norm_sum[source];
     const float scale = sum > 0 ? points.shadow[k] / sum : 0;
@@ -100,7 +101,7 @@ void evaluate_composed(const Scene& scene, const Instance& instance, const Point
   spread_added(instance, light);
 }
 
-// In the paper's form, casters add to the one norm.
+// In the paper's form, the spheres of casters and of the body are summed in one norm.
 void join_paper_norm(const Scene& scene, const Instance& instance, const PointLanes& points,
                      InstanceLight& light) {
   const auto join = [&](const SphereSoa& spheres) {
@@ -133,7 +134,7 @@ void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGauss
     light.lobes[i] = {lobes[i].axis * lobes[i].sharpness, lobes[i].sharpness, lobes[i].amplitude, 1};
     light.lobe_bands[i] = bands_of(lobes[i].sharpness);
   }
-  // A distant instance shows its first light at once, without waiting for its turn.
+  // A distant instance is evaluated at once for its first light, without waiting for its turn.
   if (light.count == 0 && !lobes.empty()) instance.result.evaluated_frame = 0;
   light.count = static_cast<std::uint32_t>(lobes.size());
   light.darkest = darkest_of(lobes);
@@ -151,7 +152,7 @@ InstanceLight moved_light(const InstanceLight& light, const PointLanes& points, 
   return moved;
 }
 
-// In the joint norm the ground is one of the spheres, and takes its light there.
+// In the paper's form, the ground is one of the spheres of the norm, and removes its light there.
 void prepare_light(const Scene& scene, Instance& instance) noexcept {
   InstanceLight& light = instance.light;
   const bool hides = instance.plan.ground_sphere.radius > 0 && scene.settings.form == NOOK_FORM_DEFAULT;

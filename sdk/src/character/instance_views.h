@@ -9,7 +9,7 @@
 
 namespace nook {
 
-// Returns the spheres of an instance at a level, or at its coarsest level if the given one is coarser still.
+// Returns the spheres of an instance at `level`, or at its coarsest level if the model has fewer levels.
 inline SphereSoa spheres_of(const Instance& instance, std::uint32_t level) {
   const LoadedModel& model = *instance.model;
   const std::size_t l = std::min<std::size_t>(level, model.levels.size());
@@ -25,9 +25,9 @@ inline bool may_group(const Scene& scene) {
   return scene.settings.far_error > 0 && scene.settings.form == NOOK_FORM_DEFAULT;
 }
 
-// Returns the spheres of a caster for a receiver: the smallest number of groups whose error the distance
-// allows, or the spheres at the receiver's level. group_spheres leaves no groups for a caster that must not
-// be grouped.
+// Returns the spheres of a caster for a receiver. Uses the coarsest tier of groups whose error is small
+// enough at this distance, or else the spheres at the receiver's level. For a caster that must not be
+// grouped, group_spheres has not made any groups.
 inline SphereSoa caster_spheres(const Scene& scene, const Instance& receiver, const Instance& caster) {
   const InstanceResult& result = caster.result;
   if (result.grouped_revision == caster.input.pose_revision) {
@@ -40,7 +40,8 @@ inline SphereSoa caster_spheres(const Scene& scene, const Instance& receiver, co
   return spheres_of(caster, receiver.plan.level);
 }
 
-// True if the instance's own spheres darken its key points. A clip has baked AO instead.
+// True if the instance's own spheres darken its key points. An instance that plays a clip uses baked AO
+// instead.
 inline bool has_self_shadow(const Scene& scene, const Instance& instance) {
   return (scene.terms & NOOK_TERM_SELF) && !instance.input.clip.is_used();
 }
@@ -83,7 +84,7 @@ void for_ground(const Instance& instance, Apply&& apply) {
   apply(SphereSoa{&ground.centre.x, &ground.centre.y, &ground.centre.z, &inverse_radius, nullptr, 1});
 }
 
-// Passes free occluders in batches that live on the stack; their caster weight is 1.
+// Calls `apply` for the free occluders, in batches that live on the stack. Their caster weight is 1.
 template <class Apply>
 void for_occluders(const Scene& scene, const Instance& instance, Apply&& apply) {
   constexpr std::uint32_t batch = 16;

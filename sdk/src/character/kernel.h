@@ -1,7 +1,7 @@
-// The effect of one sphere on one key point. The model has a solid-angle term and a visibility term; casters
-// that were not part of the fit have the physical form factor. The formulas are templates over a number type
-// F: float, double, or a SIMD vector with the same operators and the functions of core/simd_scalar.h. So the
-// scalar reference and all SIMD paths share them.
+// The effect of one sphere on one key point. The fitted model uses a solid-angle term and a visibility term.
+// Casters that were not part of the fit use the physical form factor. The formulas are templates over a
+// number type F: float, double, or a SIMD vector with the same operators and the functions of
+// core/simd_scalar.h. The scalar reference and all SIMD paths therefore share them.
 //
 // Take a sphere of centre o and radius r, a key point c with unit normal u, and d = o - c. Two numbers
 // describe the sphere:
@@ -18,16 +18,17 @@ namespace nook {
 
 enum class KernelForm : std::uint8_t {
   paper = NOOK_KERNEL_PAPER,        // Le et al. 2019, slide 18
-  nook = NOOK_KERNEL_NOOK,          // smooth horizon and a fall-off with the true power of distance
-  rational = NOOK_KERNEL_RATIONAL,  // the paper's visibility, a fall-off with the true power of distance
+  nook = NOOK_KERNEL_NOOK,          // smooth horizon, and the physically correct fall-off with distance
+  rational = NOOK_KERNEL_RATIONAL,  // the paper's visibility, and the physically correct fall-off with
+                                    // distance
 };
 inline constexpr int kernel_form_count = 3;
 
 struct Kernel {
   KernelForm form = KernelForm::nook;
   // The exponent of the norm over spheres, >= 1 (slide 20). The paper needs larger exponents, so that the
-  // spheres of neighbours do not darken twice. Here neighbours have a term of their own (the composed form),
-  // and the plain sum fits self-shadow best.
+  // spheres of neighbours do not darken twice. In Nook, neighbours have a separate term (the composed form),
+  // and for self-shadow the plain sum (gamma 1) fits best.
   float gamma = 1;
 };
 
@@ -53,14 +54,14 @@ F shadow_paper(F xi, F delta2) {
 inline constexpr float nook_kernel_core = float(NOOK_KERNEL_CORE);
 template <class F>
 F shadow_nook(F xi, F delta2) {
-  // For spheres far below the horizon the sum cancels, and rounding can leave a tiny negative y. The powers
-  // treat it as 0.
+  // For spheres far below the horizon, cancellation in the sum can leave a tiny negative y. The power
+  // functions treat a negative y as 0.
   return (xi + sqrt_positive(fma(xi, xi, F(1.0f)))) * rsqrt_cubed(delta2 + F(nook_kernel_core), 0.5f);
 }
 
-// The same for a sphere at the height h = r xi, with d2_and_core = r^2 (delta2 + core): r^2 / 2 (h + sqrt(h^2
-// + r^2)) / d2_and_core^(3/2). `softness` is r^2. `mass` is 3/4 r^2: the cube's estimate is then scaled by
-// 2/3, which leaves it without a constant factor.
+// The same y from values that are not divided by r: r^2 / 2 (h + sqrt(h^2 + r^2)) / d2_and_core^(3/2), where
+// h = r xi is the height and d2_and_core = r^2 (delta2 + core). `softness` is r^2. `mass` is 3/4 r^2, because
+// the estimate of the cube is then scaled by 2/3, and its constant factor becomes 1.
 template <class F>
 F shadow_nook_of_mass(F h, F d2_and_core, F softness, F mass) {
   return mass * ((h + sqrt_positive(fma(h, h, softness))) * rsqrt_cubed(d2_and_core, 2.0f / 3));
@@ -85,8 +86,8 @@ F shadow_term(KernelForm form, F xi, F delta2) {
 }
 
 // Returns the shadow of a key point whose spheres have the norm n: n / (1 + c n). The norm adds up spheres as
-// if none stood behind another. Spheres close together hide each other, so that the shadow grows less than
-// the norm. c is fitted for each key point; 0 is the paper's form.
+// if no sphere stood behind another. But spheres that are close together hide each other, so the shadow grows
+// more slowly than the norm. c is fitted for each key point; c = 0 is the paper's form.
 template <class F>
 F saturated(F norm, F c) {
   return norm / fma(c, norm, F(1.0f));
@@ -94,11 +95,11 @@ F saturated(F norm, F c) {
 
 // The share of the cosine-weighted hemisphere above a surface that a sphere covers, clipped at the horizon.
 // With h = delta and c = sqrt((h^2 - 1) / (h^2 - xi^2)), for -1 < xi < 1 < h:
-//   f = [ (xi acos(-xi c) / h - sqrt((1 - xi^2)(h^2 - 1))) / h^2 + acos(c) ] / pi.
-// f is xi / h^3 where the sphere is completely above the horizon (xi >= 1), and 0 where it is below (xi <=
-// -1). Inside the sphere the exact value is 1, which is discontinuous at the surface, where f = (1 + xi) / 2.
-// A proxy sphere is not a solid, so f rises continuously with the depth instead: f = t + (1 - t)(1 - h^2)
-// with t = (1 + xi) / 2, up to 1 at the centre.
+//   f = [ (xi acos(-xi c) / h - sqrt((1 - xi^2)(h^2 - 1))) / h^2 + acos(c) ] / pi. f is xi / h^3 where the
+// sphere is completely above the horizon (xi >= 1), and 0 where it is below (xi <= -1). On the sphere's
+// surface f = (1 + xi) / 2, but inside the sphere the exact value is 1, which is discontinuous. A proxy
+// sphere is not a solid body. So inside it, f instead rises continuously with the depth, up to 1 at the
+// centre: f = t + (1 - t)(1 - h^2) with t = (1 + xi) / 2.
 template <class F>
 F form_factor_exact(F xi, F delta2) {
   const F one(1.0f);
@@ -109,7 +110,7 @@ F form_factor_exact(F xi, F delta2) {
   const F depth = max(one - delta2, F(0.0f));
 
   const F outside = h2 - one;
-  // On the surface and exactly at the horizon, numerator and denominator are both 0.
+  // For a point on the surface with xi exactly 1 or -1, numerator and denominator are both 0.
   const F c = sqrt(min(outside / max(h2 - s * s, F(1e-20f)), one));
   const F k = sqrt(max(one - s * s, F(0.0f)) * outside);
   const F clipped =
@@ -119,13 +120,13 @@ F form_factor_exact(F xi, F delta2) {
   return fma(max(one - f, F(0.0f)), depth, f);
 }
 
-// The same share without angles, for the many spheres of a caster. With a = 1 / h, b = sqrt(1 - a^2) and t =
-// (1 + xi) / 2 clamped to [0, 1], f = a^3 max(xi, 1) (t + t (1 - t) P(b, t)). This is exact if the sphere is
-// not clipped, and P is even in xi because f(xi) - f(-xi) = xi a^3 exactly. P is 0 on the surface (b = 0, f =
-// t). At infinity (b = 1) P is -1 - 0.6044 t (1 - t), which gives 2 / (3 pi) on the horizon and, within
-// 0.004, the integral G(xi) = 2/pi int_-xi^1 (xi + x) sqrt(1 - x^2) dx. Two further coefficients are fitted
-// between these limits. The maximum error against form_factor_exact is 0.009, for h >= 1.05 0.005, and the
-// rms error is 0.0022.
+// An approximation of the same share without inverse trigonometric functions, for the many spheres of a
+// caster. With a = 1 / h, b = sqrt(1 - a^2) and t = (1 + xi) / 2 clamped to [0, 1], f = a^3 max(xi, 1) (t + t
+// (1 - t) P(b, t)). The formula is exact if the horizon does not clip the sphere. P is even in xi, because
+// f(xi) - f(-xi) = xi a^3 exactly. P is 0 on the surface (b = 0, f = t). At infinity (b = 1) P is -1 - 0.6044
+// t (1 - t), which gives 2 / (3 pi) on the horizon and, within 0.004, the integral G(xi) = 2/pi int_-xi^1 (xi
+// + x) sqrt(1 - x^2) dx. Between these two limits, two further coefficients are fitted. The maximum error
+// against form_factor_exact is 0.009, or 0.005 for h >= 1.05; the rms error is 0.0022.
 template <class F>
 F form_factor_fast(F xi, F delta2) {
   const F one(1.0f);
@@ -142,10 +143,11 @@ F form_factor_fast(F xi, F delta2) {
 }
 
 // Returns the optical depth of a caster whose spheres have the sum d of weight * form factor. Spheres at
-// random places leave exp(-d) open. The spheres of a body stand side by side and leave less open where they
-// cover much: a single sphere of the share f leaves 1 - f = exp(-(f + f^2 / 2 + ...)). For vertices of bodies
-// 0.3 to 1 m apart, the ray-traced depth is d + 0.2 d^2 to d + 0.45 d^2 up to d = 0.6, which leaves half
-// open. Beyond, the traced depth is smaller: points between two bodies that press together come out too dark.
+// random places would leave the share exp(-d) open. But the spheres of a body lie side by side, so they leave
+// less open where they cover much. For example, a single sphere of the share f leaves 1 - f = exp(-(f + f^2 /
+// 2 + ...)). For vertices of bodies 0.3 to 1 m apart, the ray-traced depth is d + 0.2 d^2 to d + 0.45 d^2 up
+// to d = 0.6, where about half is open. For larger d, the ray-traced depth is smaller than this function's,
+// so points between two bodies that touch become too dark.
 template <class F>
 F solid_depth(F d) {
   return fma(F(float(NOOK_SOLID_DEPTH)) * d, d, d);

@@ -28,10 +28,10 @@ std::uint32_t block_count_of(std::size_t vertices) {
 }
 
 // The columns of all blocks, one block after another. A block has a column for each key point that its
-// vertices use, in ascending order. If their number is odd, the last one is repeated.
+// vertices use, in ascending order. If the number of columns is odd, the last one is repeated.
 struct Columns {
   Vector<std::uint16_t> key_point;
-  Vector<std::uint32_t> first;  // for each block, and the end
+  Vector<std::uint32_t> first;  // first column of each block, then the total number
 
   Columns(const CharacterModel& model, const Vector<std::uint32_t>& order, Memory* memory)
       : key_point(memory), first(memory) {
@@ -67,13 +67,13 @@ float largest_of(const Vector<float>& weights) {
   return largest;
 }
 
-// Alphas in a file are max (c / 127)^2 with whole c, so they are whole multiples of this step.
+// Alphas in a file are max_alpha * (c / 127)^2 with an integer c, so they are integer multiples of this step.
 float alpha_step_of(const Vector<float>& alpha) {
   const float largest = largest_of(alpha);
   return largest > 0 ? largest / (2 * 127 * 127) : 1;
 }
 
-// The step is a power of two, so that the sixteenths of a file are whole multiples of it.
+// The step is a power of two, so the multiples of 1/16 in a file are also integer multiples of the step.
 float blend_step_of(const Vector<float>& blend) {
   return std::exp2(std::ceil(std::log2(std::max(largest_of(blend), 1.0f)))) / 16384;
 }
@@ -85,7 +85,7 @@ AlignedArray<std::int16_t> in_steps(const Vector<float>& weights, float step, Me
   return out;
 }
 
-// Returns the largest sum of absolute weights, in steps, over the columns of any vertex.
+// Returns the maximum over all vertices of the sum of the absolute weights, in steps.
 double largest_sum(const AlignedArray<LinearBlock>& blocks, const AlignedArray<std::int16_t>& weights) {
   double largest = 1;
   for (const LinearBlock& block : blocks)

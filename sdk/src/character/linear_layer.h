@@ -1,5 +1,5 @@
-// The linear layer of a character model in an efficient order for processors. Blocks of 16 vertices share key
-// points, and each block is a small dense matrix.
+// The linear layer of a character model, in an order that is efficient on CPUs. The layer is divided into
+// blocks of 16 vertices that share key points. Each block is a small dense matrix.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,13 @@
 
 namespace nook {
 
-// A multiple of all block sizes. A window's AO fits into 4 KiB if the file has no other vertices in between.
+// A multiple of all block sizes. If the vertices of a window are consecutive in the file, their AO fits into
+// 4 KiB.
 inline constexpr std::uint32_t linear_window_vertices = 1024;
 
-// Returns all vertices in the order of their slots. Each block takes vertices from one window of the file's
-// order: the first vertex that is left, then repeatedly the vertex that needs the fewest new key points. The
-// model's influences must be valid.
+// Returns all vertices in the order of their slots. The vertices of a block come from one window of the
+// file's order. A block starts with the first vertex that is left in the window, and then repeatedly takes
+// the vertex that adds the fewest key points to the block. The model's influences must be valid.
 Vector<std::uint32_t> linear_layer_order(const CharacterModel& model, std::uint32_t block_vertices,
                                          Memory* memory);
 

@@ -16,7 +16,8 @@ void for_influences(const CharacterModel& model, std::size_t vertex, Body&& body
     if (model.alpha[e] != 0) body(model.influence[e]);
 }
 
-// Sorts vertices by their first place in the file; vertices without a place come last.
+// Sorts welded vertices by their first occurrence in the file. Vertices that do not occur in the file come
+// last.
 Indices file_order(const CharacterModel& model, Memory* memory) {
   Indices first(model.vertex_count(), ~0u, memory);
   for (std::size_t i = model.file_to_welded.size(); i-- > 0;)
@@ -29,7 +30,7 @@ Indices file_order(const CharacterModel& model, Memory* memory) {
   return order;
 }
 
-// Makes blocks from the vertices of a window, which are numbered within it.
+// Divides the vertices of a window into blocks. Vertex indices are relative to the window.
 class Window {
  public:
   Window(const CharacterModel& model, std::span<const std::uint32_t> vertices, Memory* memory)
@@ -49,13 +50,13 @@ class Window {
       });
   }
 
-  // Appends the vertices of the next block to `order`; at least one must be left. Returns the number of its
-  // key points.
+  // Appends the vertices of the next block to `order`. At least one vertex must be left. Returns the block's
+  // number of key points.
   std::size_t append_block(std::uint32_t count, Indices& order) {
     while (is_taken_[first_left_]) ++first_left_;
     take(first_left_, order);
     for (std::uint32_t i = 1; i < count; ++i) take(next(), order);
-    // Counts the missing key points for an empty block again.
+    // Resets the counts of missing key points to those for an empty block.
     for (const std::uint16_t k : block_key_points_) {
       in_block_[k] = 0;
       for (const std::uint32_t user : users_[k]) ++missing_[user];
@@ -95,18 +96,18 @@ class Window {
 
   const CharacterModel& model_;
   std::span<const std::uint32_t> vertices_;
-  Vector<Indices> users_;          // of each key point
+  Vector<Indices> users_;          // the vertices that use each key point
   Vector<std::uint8_t> in_block_;  // for each key point
-  Indices missing_;                // for each vertex, the number of its entries whose key points the block
-                                   // lacks
+  Indices missing_;                // for each vertex, the number of its key points that are not in the block
   Vector<std::uint8_t> is_taken_, is_candidate_;
   Vector<std::uint16_t> block_key_points_;
   Indices candidates_;  // vertices that share a key point with the block
   std::uint32_t first_left_ = 0;
 };
 
-// Appends the blocks of a window, blocks with the most key points first: a processor predicts a loop's end if
-// the loop is as long as the one before. A block that is not full stays last.
+// Appends the blocks of a window, sorted by descending number of key points. Successive loops over the key
+// points then often have equal lengths, and the processor predicts the end of such a loop. A block that is
+// not full stays last.
 void append_window(Window& window, std::size_t vertices, std::uint32_t block_vertices, Memory* memory,
                    Indices& order) {
   struct Block {

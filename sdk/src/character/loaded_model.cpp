@@ -26,9 +26,9 @@ std::size_t longest_side(std::span<const std::uint32_t> indices, const Vector<Pl
   return longest;
 }
 
-// Orders `indices` so that places near each other are side by side, in blocks of equal size; only the last
-// block may be smaller. Every coordinate must be finite. The recursion depth is the logarithm of the number
-// of blocks.
+// Reorders `indices` into blocks of places that are near each other. All blocks have the same size; only the
+// last one may be smaller. Every coordinate must be finite. The recursion depth is O(log of the number of
+// blocks).
 void order_in_space(std::span<std::uint32_t> indices, std::size_t block, const Vector<Place>& places) {
   if (indices.size() <= block) return;
   const std::size_t blocks = (indices.size() + block - 1) / block;
@@ -48,8 +48,8 @@ std::ptrdiff_t bones_of(const KeyPoint& point) {
   return 4 - std::count(point.weight.begin(), point.weight.end(), 0.0f);
 }
 
-// Within a group, key points with many bones come first: four key points with few bones each are posed faster
-// together.
+// Within a group, key points with many bones come first. Key points are posed four at a time, which is faster
+// if all four have few bones.
 Indices near_order(const CharacterModel& model, Memory* memory) {
   Vector<Place> places(memory);
   for (const KeyPoint& point : model.key_points)
@@ -81,7 +81,7 @@ void permute(Vector<T>& values, const Indices& order, Memory* memory) {
   values = std::move(permuted);
 }
 
-// A level's key points stay in ascending order in the new numbers.
+// Renumbers the key points of a level. They are in ascending order of the new numbers, too.
 void renumber(CharacterLevel& level, const Indices& order, const Indices& place, Memory* memory) {
   const auto new_number = [&](std::uint32_t e) { return place[level.evaluated[e]]; };
   Indices sorted(level.evaluated.size(), 0u, memory);
@@ -102,7 +102,7 @@ void renumber(CharacterLevel& level, const Indices& order, const Indices& place,
 CharacterModel with_near_key_points_together(CharacterModel model, Memory* memory) {
   const Indices order = near_order(model, memory), place = inverse_of(order, memory);
   permute(model.key_points, order, memory);
-  // Entries without weight may have any index.
+  // Entries with weight 0 may have any index.
   for (std::uint16_t& k : model.influence)
     if (k < place.size()) k = static_cast<std::uint16_t>(place[k]);
   for (CharacterLevel& level : model.levels) renumber(level, order, place, memory);
@@ -115,7 +115,8 @@ void grow(LoadedModel::BoneBound& bound, Vec3 place, float radius) {
   bound.radius = std::max(bound.radius, length(place - bound.centre) + radius);
 }
 
-// The bound is centred on the mean of the points that the bone moves. It need not be the smallest sphere.
+// Each sphere is centred on the mean of the points that the bone moves. It is not necessarily the smallest
+// sphere.
 AlignedArray<LoadedModel::BoneBound> make_bone_bounds(const CharacterModel& model, Memory* memory) {
   AlignedArray<LoadedModel::BoneBound> bounds(model.bone_count(), memory);
   Vector<std::uint32_t> count(model.bone_count(), 0u, memory);
@@ -156,7 +157,7 @@ Vector<LoadedLevel> load_levels(const CharacterModel& model, Memory* memory) {
   return loaded;
 }
 
-// Maps chunks of slots of the linear layer to runs of file vertices, as one list of lists.
+// For each chunk of slots of the linear layer, collects the runs of file vertices that read from it.
 void invert_file_order(LoadedModel& loaded, Memory* memory) {
   constexpr std::uint32_t chunk = LoadedModel::slot_chunk;
   const AlignedArray<std::uint32_t>& slot_of = loaded.linear.file_to_slot();

@@ -1,4 +1,4 @@
-// A model in the runtime is shared and immutable, and holds values derived once from its data.
+// A model as the runtime uses it: shared, immutable, and with values that are derived once from its data.
 #pragma once
 
 #include <array>
@@ -36,13 +36,13 @@ struct LoadedModel : RefCounted {
   const SphereTree sphere_tree;      // also of the spheres of full detail
   const Vector<LoadedLevel> levels;  // for model.levels, without full detail
 
-  // A run of consecutive file vertices that take their AO from one chunk of slots of the linear layer. Their
-  // slots, counted from the first of the chunk, are slot_in_chunk[first_entry...first_entry + vertices].
+  // A run of consecutive file vertices that read their AO from one chunk of slots of the linear layer. Their
+  // slots, relative to the first slot of the chunk, are slot_in_chunk[first_entry...first_entry + vertices].
   struct FileRun {
     std::uint32_t first_vertex = 0, vertices = 0, first_entry = 0;
   };
-  // Chunk c has the runs file_run[run_begin[c]...run_begin[c + 1]], in ascending order. Chunks are the
-  // windows of linear_layer_order, whose vertices are consecutive in most files.
+  // Chunk c consists of the runs file_run[run_begin[c]...run_begin[c + 1]], in ascending order. Chunks are
+  // the windows of linear_layer_order, whose vertices are consecutive in most files.
   static constexpr std::uint32_t slot_chunk = linear_window_vertices;
   AlignedArray<std::uint32_t> run_begin;
   AlignedArray<FileRun> file_run;
@@ -50,9 +50,10 @@ struct LoadedModel : RefCounted {
   AlignedArray<float>
       open_without_bias;  // 1 for each slot, in place of LinearView::open_bias if self-shadow is switched off
 
-  // For each bone, a sphere in rest space that contains every key point that the bone moves and every proxy
-  // sphere that is rigid to it, or radius < 0 if there is none. Moved by their bones, these spheres contain
-  // the posed character, because a blended point lies between its images.
+  // For each bone, a sphere in rest space that contains all key points that the bone moves, and all proxy
+  // spheres of the bone. The radius is < 0 if there are none. When each sphere is transformed by its bone,
+  // the spheres together bound the posed character: a blended key point lies between the points to which its
+  // bones move it.
   struct BoneBound {
     Vec3 centre;
     float radius = -1;
@@ -63,9 +64,9 @@ struct LoadedModel : RefCounted {
   float caster_strength = 0;  // maximum over the levels of the sum of caster_weight * radius^2, square metres
 };
 
-// Renumbers the key points of a model into groups of key_point_group that are near each other. One decision
-// about a far part of the body then serves a whole group. The model's results stay the same. It must have
-// passed check_model.
+// Renumbers the key points of a model so that each group of key_point_group key points lies close together. A
+// whole group can then share one decision about a far part of the body. The model's results stay the same.
+// The model must have passed check_model.
 CharacterModel with_near_key_points_together(CharacterModel model, Memory* memory);
 
 }  // namespace nook

@@ -24,18 +24,19 @@ struct ProxySphere {
   Vec3 centre;
   float radius = 0;
   std::uint16_t bone = 0;
-  // The share of the sphere's form factor that counts when it darkens another instance, >= 0. The bake fits
-  // it against ray tracing, so that overlapping spheres of one character do not darken twice.
+  // Factor of the sphere's form factor when the sphere darkens another instance, >= 0. The bake fits it
+  // against ray tracing, so that overlapping spheres of one character do not darken twice.
   float caster_weight = 1;
 };
 
-// A capsule that is rigid to one bone. All capsules of a body together stand for its volume where it darkens
-// something else.
+// A capsule that is rigid to one bone. Together, the capsules of a body represent its volume when the body
+// darkens the world.
 struct WorldCaster {
-  Capsule capsule;  // with the radii that hide a light
+  Capsule capsule;  // with the radii that are used to block a light
   std::uint16_t bone = 0;
-  // AO uses the capsule's radii times this scale. AO multiplies what casters leave open, as if they covered
-  // the hemisphere independently, so overlapping casters must count as thinner.
+  // AO uses the capsule's radii times this scale. For AO, the open shares of several casters are multiplied
+  // together, as if the casters covered the hemisphere independently. Overlapping casters must therefore be
+  // thinner.
   float ao_scale = 1;
 };
 
@@ -56,8 +57,8 @@ struct PrimitiveRange {
   std::uint32_t vertex_count = 0;
 };
 
-// A coarser version of the non-linear layer for distant instances. Fewer spheres act on fewer key points, and
-// every key point derives its shadow from an evaluated one. The linear layer stays the same.
+// A coarser version of the non-linear layer for distant instances. Fewer spheres darken fewer key points, and
+// every other key point derives its shadow from an evaluated key point. The linear layer stays the same.
 struct CharacterLevel {
   using allocator_type = Allocator<std::byte>;
   explicit CharacterLevel(const allocator_type& memory = {})
@@ -80,7 +81,8 @@ struct CharacterLevel {
   Vector<std::uint16_t> source;
   Vector<float> scale;
   Vector<float> offset;
-  // The error against full detail in the AO of the instance alone, over vertices and held-out poses.
+  // The RMS difference from full detail, in the AO of the instance alone, over all vertices and the held-out
+  // poses.
   float error_rms = 0;
 };
 
@@ -112,7 +114,7 @@ struct CharacterModel {
 
   // Linear layer: the AO of welded vertex i is 1 - (sum_s alpha[i * influences + s] * shadow[influence[...]]
   // + bias[i]).
-  std::uint32_t influences = 0;     // entries per vertex, 1 to max_influences; unused ones have alpha 0
+  std::uint32_t influences = 0;     // entries per vertex, 1 to max_influences; unused entries have alpha 0
   Vector<std::uint16_t> influence;  // key-point indices
   Vector<float> alpha;              // >= 0; at least one entry of each vertex is > 0
   Vector<float> bias;
@@ -123,7 +125,7 @@ struct CharacterModel {
   // AO of the rest pose for each welded vertex, as in a static bake; may be empty.
   Vector<float> static_ao;
 
-  // For each welded vertex, in rest space; empty if the model was baked without.
+  // For each welded vertex, in rest space. Empty if the model was baked without occluded directions.
   Vector<OccludedEnds> occluded;
 
   Vector<std::uint32_t> file_to_welded;  // the welded vertex of each vertex in file order
@@ -133,9 +135,9 @@ struct CharacterModel {
   Vector<CharacterLevel> levels;  // from fine to coarse, without full detail; may be empty
 
   static constexpr std::size_t max_world_casters = 64;
-  Vector<WorldCaster> world_casters;  // empty if the model was baked without
+  Vector<WorldCaster> world_casters;  // empty if the model was baked without world casters
 
-  float bounding_radius = 0;  // metres, of the rest pose around bounding_centre
+  float bounding_radius = 0;  // metres; the sphere around bounding_centre contains the rest pose
   Vec3 bounding_centre;
   std::uint16_t root_bone = 0;  // the bone that the ground and the bounding sphere follow
 
@@ -148,23 +150,23 @@ struct CharacterModel {
   std::size_t bone_count() const { return bone_names.size(); }
 };
 
-// The largest saturation of the key points; 0 where no shadow is saturated.
+// Returns the largest saturation of the key points, or 0 if no key point saturates its shadow.
 inline float max_saturation_of(const CharacterModel& model) {
   float max = 0;
   for (const KeyPoint& point : model.key_points) max = std::max(max, point.saturation);
   return max;
 }
 
-// The bound of alpha, bias and caster weight. Fitted values come near it only if the spheres are far too
-// small.
+// Upper bound for alpha, bias and caster weight. Fitted values come near this bound only if the spheres are
+// far too small.
 constexpr float max_coefficient = 1e4f;
 
 // Above this saturation, a key point acts like a switch: half of its shadow's range lies below a norm of
 // 1/64.
 constexpr float max_saturation = 64;
 
-// Throws Failure with `code` and the first fault. A count or index may be out of range, a number may not be
-// finite or within its range, or weights may not sum to one.
+// Throws Failure with `code` for the first fault that it finds. A fault is a count or index out of range, a
+// value that is not finite or out of its range, or weights that do not sum to one.
 void check_model(const CharacterModel& model, nook_result code);
 
 }  // namespace nook

@@ -6,8 +6,8 @@
 //   WCAS world casters (optional)   BENT occluded directions of the welded vertices (optional)
 //   SATU saturations of the key points (optional, all 0 without it)
 //   NEAR exact places of welded vertices that lie next to others, and weights where these differ (optional)
-// Readers also accept version 2, without BIND and REST, and version 3, without SATU. Numbers are quantised
-// within the error budget, with the bits that model_file_packing.h lists.
+// Readers also accept version 2, without BIND and REST, and version 3, without SATU. Values are quantised
+// within the error budget. model_file_packing.h lists the bits of each field.
 #pragma once
 
 #include <cstddef>
@@ -25,12 +25,13 @@ inline constexpr ContainerKind character_kind{four_letters("CHAR"), "character m
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if the model fails check_model.
 std::vector<std::byte> write_character_model(const CharacterModel& model);
 
-// Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
-// NOOK_ERROR_FILE_VERSION), and allocates no more than a small multiple of the file's size.
+// Malicious bytes are safe, even if their checksum is correct. For bytes that are not a valid model, throws
+// Failure(NOOK_ERROR_BAD_FILE or NOOK_ERROR_FILE_VERSION). Never allocates more than a small multiple of the
+// file's size.
 CharacterModel read_character_model(std::span<const std::byte> bytes, Memory* memory = default_memory());
 
-// Returns the model as it is after a write and a read, so that the bakers can measure the error of
-// quantisation.
+// Returns the model as it is after it was written to a file and read again. Bakers use it to measure the
+// quantisation error.
 CharacterModel quantise(const CharacterModel& model);
 
 }  // namespace nook

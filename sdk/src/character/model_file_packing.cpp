@@ -10,7 +10,7 @@ Range read_range(ByteReader& in, float limit) {
   Range range;
   range.low = in.f32();
   range.high = in.f32();
-  // The comparison fails for NaN.
+  // The comparison is false for NaN.
   if (!(range.low >= -limit && range.low <= range.high && range.high <= limit))
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "section %s holds a bad range (got %g to %g, need within %g); bake the file again",
@@ -58,8 +58,8 @@ std::array<std::uint32_t, KeyPoint::max_bones> weight_codes(
     remainder[i] = weight[i] * 256 - static_cast<float>(code[i]);
     left -= static_cast<int>(code[i]);
   }
-  // The sum of the weights is 1 up to rounding, so at most n steps remain. A surplus step comes off the
-  // largest weight.
+  // The weights sum to 1 except for rounding, so at most n steps remain. If one step is too many, it is
+  // subtracted from the largest weight.
   for (; left > 0; --left) {
     const auto most = std::max_element(remainder.begin(), remainder.end()) - remainder.begin();
     ++code[most];

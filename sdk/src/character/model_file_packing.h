@@ -22,11 +22,11 @@ struct CharacterBits {
   static constexpr int surface_offset = 12;  // surface position minus position: 0.1 mm in 0.4 m
   static constexpr int surface_normal = 10;
   static constexpr int bone_count = 2;
-  // Units of 1/256, so that the sum of a key point's weights is exactly 1.
+  // In units of 1/256, so that the weights of a key point sum to exactly 1.
   static constexpr int bone_weight = 8;
   static constexpr int saturation = 8;  // square-root companded
   static constexpr int entry_count = 3;
-  static constexpr int reference = 5;  // the earlier vertex that shares key points
+  static constexpr int reference = 5;  // selects the earlier vertex that shares key points
   static constexpr int alpha = 7;      // square-root companded
   static constexpr int bias = 8;
   static constexpr int blend = 5;
@@ -42,14 +42,14 @@ struct CharacterBits {
   static constexpr int close_weight = 16;
 };
 
-// A vertex may share key points with one of this many vertices before it.
+// A vertex may share key points with one of this many vertices that precede it.
 inline constexpr std::size_t max_references = std::size_t{1} << CharacterBits::reference;
 
-// A bone's name takes over at most this many bytes from the previous one, so that a small file cannot fill
-// the memory with names.
+// A bone's name shares at most this many leading bytes with the previous name. Without this limit, the names
+// in a small malicious file could fill the memory.
 inline constexpr std::uint32_t max_shared_name = 64;
 
-// Codes are evenly spaced from low to high; both ends are exact.
+// Codes are evenly spaced from `low` to `high`, and represent both ends exactly.
 struct Range {
   float low = 0, high = 0;
 
@@ -83,8 +83,8 @@ inline void write_range(ByteWriter& out, const Range& range) {
   out.f32(range.low);
   out.f32(range.high);
 }
-// Throws Failure unless low <= high and both are finite and at most `limit` in magnitude, so that every
-// decoded value is finite.
+// Throws Failure unless low <= high and both are finite and at most `limit` in magnitude, so that all decoded
+// values are finite.
 Range read_range(ByteReader& in, float limit);
 
 inline void write_box(ByteWriter& out, const Box& box) {
@@ -113,7 +113,7 @@ Vec3 read_normal(ByteReader& in, int bits);
 std::array<std::uint32_t, KeyPoint::max_bones> weight_codes(
     const std::array<float, KeyPoint::max_bones>& weight);
 
-// alpha = max_alpha * (code / last code)^2, so that steps are fine where alpha is small. Code 0 means "no
+// alpha = max_alpha * (code / largest code)^2, so that steps are fine where alpha is small. Code 0 means "no
 // entry".
 inline float decode_alpha(std::uint32_t code, float max_alpha) {
   const double share = code / double(Range::last_code(CharacterBits::alpha));
@@ -125,8 +125,8 @@ inline std::uint32_t encode_alpha(float alpha, float max_alpha) {
   return static_cast<std::uint32_t>(std::min(std::max(code, 1.0), double(last)));
 }
 
-// Blend weights are sixteenths, from -8 / 16 on. The weights of a vertex sum to exactly 1, so one of them is
-// not written.
+// Blend weights are multiples of 1/16, starting at -8/16. The weights of a vertex sum to exactly 1, so one of
+// them is not written.
 inline constexpr int blend_one = 16, blend_low = -8;
 inline float decode_blend(std::uint32_t code) {
   return static_cast<float>(static_cast<int>(code) + blend_low) / blend_one;

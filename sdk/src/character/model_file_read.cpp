@@ -12,7 +12,7 @@ namespace {
 
 using Bits = CharacterBits;
 
-// check_model decides what is valid, by the same bounds. This bound only keeps decoded numbers finite.
+// check_model decides later which values are valid. This bound only ensures that decoded values are finite.
 constexpr float max_box_metres = 2 * max_metres;
 
 void read_head(ByteReader in, CharacterModel& model) {
@@ -124,7 +124,7 @@ void read_linear_layer(ByteReader in, CharacterModel& model) {
   model.alpha.assign(std::size_t(vertices) * influences, 0.0f);
   model.blend.assign(std::size_t(vertices) * influences, 0.0f);
   model.bias.reserve(vertices);
-  std::array<std::uint32_t, max_references> counts{};  // of the earlier vertices
+  std::array<std::uint32_t, max_references> counts{};  // numbers of key points of the earlier vertices
   for (std::uint32_t i = 0; i < vertices; ++i) {
     const std::uint32_t count = in.bits(Bits::entry_count) + 1;
     if (count > influences)
@@ -243,7 +243,8 @@ void read_skin(ByteReader& in, BindData& bind, int bone_bits) {
   skin.file_index = in.varint();
   skin.space = static_cast<std::uint16_t>(std::min(in.varint(), 0xffffu));
   skin.first_joint = static_cast<std::uint32_t>(bind.bone_of_joint.size());
-  // A model of one bone writes no bits for a joint, so only this bound limits the count.
+  // In a model with one bone, a joint takes no bits in the file, so the size of the file does not limit the
+  // count. Only this check does.
   skin.joint_count = in.varint();
   if (skin.joint_count > bind.bones.size())
     throw Failure(NOOK_ERROR_BAD_FILE,

@@ -26,8 +26,8 @@ ByteWriter write_head(const CharacterModel& model) {
   return out;
 }
 
-// Front coding: the number of bytes that a name shares with the previous one, then the rest. Names of bones
-// share long prefixes.
+// Uses front coding: for each name, writes how many leading bytes it shares with the previous name, then the
+// remaining bytes. Bone names often share long prefixes.
 ByteWriter write_bone_names(const CharacterModel& model) {
   ByteWriter out;
   out.varint(static_cast<std::uint32_t>(model.bone_count()));
@@ -90,14 +90,14 @@ ByteWriter write_key_points(const CharacterModel& model) {
     for (int b = 0; b < KeyPoint::max_bones; ++b) {
       if (codes[b] == 0) continue;
       out.bits(point.bone[b], index_bits(model.bone_count()));
-      // The last weight follows from the sum of 256.
+      // The last weight is not written, because the weights sum to 256.
       if (--used > 0) out.bits(codes[b], Bits::bone_weight);
     }
   }
   return out;
 }
 
-// Square roots are quantised evenly, so that steps are fine for small saturations.
+// Quantises the square root of the saturations in equal steps, so that steps are fine for small saturations.
 ByteWriter write_saturations(const CharacterModel& model) {
   const Range root{0, std::sqrt(max_saturation_of(model))};
   ByteWriter out;
@@ -117,8 +117,9 @@ struct CodedEntries {
   std::uint32_t count = 0;
 };
 
-// Codes alphas in descending order. Each passes its rounding error on to the next, whose steps are finer. So
-// the sum of alphas stays accurate, which matters most, because neighbouring key points have similar shadows.
+// Encodes the alphas in descending order. The rounding error of each alpha is added to the next alpha, whose
+// steps are finer. So the sum of the alphas stays accurate. The sum matters most, because neighbouring key
+// points have similar shadows.
 CodedEntries code_entries(const CharacterModel& model, std::size_t vertex, float max_alpha) {
   const float* const alpha = model.alpha.data() + vertex * model.influences;
   std::array<std::uint32_t, CharacterModel::max_influences> order{};
@@ -138,8 +139,8 @@ CodedEntries code_entries(const CharacterModel& model, std::size_t vertex, float
   return out;
 }
 
-// Moves the entries whose key points `other` also has to the front, in the other's order, and returns their
-// number. Bit e of kept is set if the other's entry e is among them.
+// Moves the entries of `own` whose key points also occur in `other` to the front, in the order of `other`.
+// Returns their number. Bit e of `kept` is set if entry e of `other` is shared.
 std::uint32_t gather_shared(CodedEntries& own, const CodedEntries& other, std::uint32_t& kept) {
   std::uint32_t shared = 0;
   kept = 0;
@@ -153,8 +154,9 @@ std::uint32_t gather_shared(CodedEntries& own, const CodedEntries& other, std::u
   return shared;
 }
 
-// Consecutive vertices are mostly neighbours and share key points. So a vertex names an earlier vertex nearby
-// and which of its key points it keeps. Only the remaining key points are written as numbers.
+// Consecutive vertices are mostly neighbours and share key points. So for each vertex, writes a reference to
+// an earlier vertex, and a bit mask of the key points that are shared with it. Only the remaining key points
+// are written as indices.
 void write_key_points_of(ByteWriter& out, CodedEntries& own, std::span<const CodedEntries> before,
                          int key_point_bits) {
   std::uint32_t shared = 0, kept = 0;
@@ -196,15 +198,15 @@ ByteWriter write_linear_layer(const CharacterModel& model) {
     write_key_points_of(out, own, std::span(vertices).subspan(first, i - first),
                         index_bits(model.key_points.size()));
     for (std::uint32_t e = 0; e < own.count; ++e) out.bits(own.entry[e].alpha, Bits::alpha);
-    // The first weight follows from the sum of 1.
+    // The first weight is not written, because the weights sum to 1.
     for (std::uint32_t e = 1; e < own.count; ++e) out.bits(own.entry[e].blend, Bits::blend);
     out.bits(bias.encode(model.bias[i], Bits::bias), Bits::bias);
   }
   return out;
 }
 
-// Writes one bit for each key point, set if the key point is evaluated. Otherwise its source, scale and
-// offset follow.
+// For each key point, writes one bit that is set if the key point is evaluated. If it is not, also writes its
+// source, scale and offset.
 void write_level(ByteWriter& out, const CharacterLevel& level, std::size_t bones) {
   out.f32(level.error_rms);
   write_spheres(out, level.spheres, bones);
@@ -234,8 +236,9 @@ ByteWriter write_static_ao(const CharacterModel& model) {
   return out;
 }
 
-// Mode 0 is for welded vertices that are numbered in the order of their first occurrence. A bit 0 stands for
-// the next new vertex; a bit 1 is followed by the index of an earlier one. Mode 1 writes the index.
+// Mode 0 is used if the welded vertices are numbered in the order of their first occurrence. In this mode, a
+// bit 0 stands for the next new vertex, and a bit 1 is followed by the index of an earlier vertex. In mode 1,
+// every index is written.
 ByteWriter write_file_order(const CharacterModel& model) {
   std::uint32_t next = 0;
   const bool in_order =
@@ -308,7 +311,8 @@ ByteWriter write_bind_data(const CharacterModel& model) {
   return out;
 }
 
-// Close vertices follow each other, so that their floats differ in few low bits.
+// Vertices that are near each other are stored one after another, so consecutive floats differ only in a few
+// low bits. Writes these bits.
 void write_changed_bits(ByteWriter& out, float value, float before) {
   const std::uint32_t changed = bit_cast<std::uint32_t>(value) ^ bit_cast<std::uint32_t>(before);
   const int count = std::bit_width(changed);
@@ -316,7 +320,7 @@ void write_changed_bits(ByteWriter& out, float value, float before) {
   out.bits(changed, count);
 }
 
-// The last weight follows from the sum of 1.
+// The last weight is not written, because the weights sum to 1.
 void write_close_weights(ByteWriter& out, const BoneWeights& weights, int bone_bits) {
   out.bits(weights.count, Bits::close_bones);
   std::uint32_t left = Range::last_code(Bits::close_weight);

@@ -10,10 +10,11 @@ namespace {
 using Entry = NeighbourTree::Entry;
 using Node = NeighbourTree::Node;
 
-// A leaf holds at most this many points: smaller leaves cost more boxes than they save points.
+// A leaf holds at most this many points. With smaller leaves, testing the additional boxes costs more than
+// testing fewer points saves.
 constexpr std::size_t max_leaf_points = 8;
 
-// Returns how often the range is halved until a leaf holds its part.
+// Returns how often the range must be halved until each part fits into a leaf.
 std::uint32_t depth_of(std::size_t points) {
   std::uint32_t depth = 0;
   while ((points - 1) >> depth >= max_leaf_points) ++depth;
@@ -38,7 +39,8 @@ Node node_of(std::span<const Entry> range) {
 
 template <float Vec3::*axis>
 void halve_along(std::span<Entry> range) {
-  // Coincident points are divided by slot: queries break ties by slot, and so skip whole nodes of them.
+  // Coincident points are ordered by slot. Queries prefer lower slots at equal distances, so they can then
+  // skip whole nodes of coincident points.
   const auto before = [](const Entry& a, const Entry& b) {
     return a.place.*axis != b.place.*axis ? a.place.*axis < b.place.*axis : a.slot < b.slot;
   };
@@ -69,7 +71,7 @@ bool nearer(const Neighbour& a, const Neighbour& b) {
   return a.distance_squared != b.distance_squared ? a.distance_squared < b.distance_squared : a.slot < b.slot;
 }
 
-// Returns a lower bound of the squared distance to any point of the box, with room for rounding.
+// Returns a lower bound of the squared distance to any point of the box, reduced to allow for rounding.
 float box_distance_squared(const Node& node, Vec3 p) {
   const Vec3 d{std::max({node.low.x - p.x, p.x - node.high.x, 0.0f}),
                std::max({node.low.y - p.y, p.y - node.high.y, 0.0f}),
@@ -82,7 +84,7 @@ struct Query {
   Vec3 place;
   std::uint32_t self;
   std::uint32_t k;
-  float limit;  // squared; points beyond it are ignored
+  float limit;  // squared distance; farther points are ignored
   std::span<Neighbour, max_nearest> found;
   std::uint32_t count = 0;
 

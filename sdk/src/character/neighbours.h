@@ -1,6 +1,6 @@
-// Finds the k nearest points of a set. A balanced tree adapts to any distribution of the points, so that a
-// query costs as much in a pile of coincident points as on an even field: O(n log n) for the set, O(log n +
-// k) for a query.
+// Finds the k nearest points of a set. The points are stored in a balanced tree, which adapts to any
+// distribution of points. A query therefore costs the same for coincident points as for evenly spaced points.
+// Building the tree costs O(n log n), and a query O(log n + k).
 #pragma once
 
 #include <cstdint>
@@ -37,16 +37,17 @@ struct Neighbour {
   std::uint32_t slot = 0;
 };
 
-// Makes room for `count` points, so that building allocates nothing.
+// Reserves memory for `count` points, so that building the tree does not allocate.
 void reserve_tree(NeighbourTree& tree, std::size_t count);
 
-// Starts a new set, takes its points one by one, then sorts them for queries.
+// To build a tree, call clear_tree, then add the points one by one, then sort them.
 void clear_tree(NeighbourTree& tree) noexcept;
 void add_to_tree(NeighbourTree& tree, std::uint32_t slot, Vec3 place) noexcept;
 void build_tree(NeighbourTree& tree) noexcept;
 
-// Finds the k <= max_nearest points nearest to `place` within max_distance, without `slot` itself, and
-// returns their number. The nearest come first; at equal distances, the lower slot does.
+// Finds the k <= max_nearest points that are nearest to `place` and within max_distance, excluding `slot`
+// itself. Returns how many points it found. Points are sorted by distance; at equal distances, the lower slot
+// comes first.
 std::uint32_t find_nearest(const NeighbourTree& tree, std::uint32_t slot, Vec3 place, std::uint32_t k,
                            float max_distance, std::span<Neighbour, max_nearest> found) noexcept;
 

@@ -15,8 +15,8 @@ void put(std::int8_t* out, Vec3 v) {
   out[2] = encode_coordinate(v.z);
 }
 
-// Returns the columns of a matrix without their scale. The inverse of a rotation with one scale is its
-// transpose, which here takes vectors from rest space to the mesh's space.
+// The normalised columns of a matrix. Without its scale, the inverse of such a matrix is its transpose. It is
+// used here to transform vectors from rest space to the mesh's space.
 struct Axes {
   Vec3 x, y, z;
 
@@ -27,7 +27,7 @@ struct Axes {
   Vec3 to_mesh(Vec3 v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
 };
 
-// Returns the key point from which a vertex takes most of its added occlusion.
+// Returns the key point that has the largest blend weight for a vertex.
 const KeyPoint& nearest_key_point(const CharacterModel& model, std::size_t vertex) {
   const std::size_t first = vertex * model.influences;
   std::size_t best = first;
@@ -72,7 +72,8 @@ void check_bent_normals(const CharacterModel& model) {
     throw Failure(NOOK_ERROR_UNSUPPORTED, "the model was baked without rest normals; bake it again");
 }
 
-// AO is first written as a byte and read back from there, so that nothing is allocated.
+// First writes the AO of each vertex as a byte into `out`, and later reads it back from there. In this way,
+// nothing is allocated.
 void read_bent_normals(const Scene& scene, const Instance& instance, std::int8_t* out,
                        std::size_t stride_bytes) noexcept {
   read_ao_as(scene, instance, NOOK_FORMAT_UNORM8, out + 3, stride_bytes);

@@ -11,7 +11,7 @@ float coordinate(Vec3 p, std::uint8_t axis) {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
-// Rounding may make a distance smaller than its largest coordinate.
+// Because of rounding, a computed distance may be smaller than its largest coordinate.
 constexpr float rounding = 1 + 1e-6f;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A k-d tree of points: a query costs about the logarithm of their number, wherever they lie.
+// A k-d tree of points. A query costs about O(log n) for n points, for any distribution of the points.
 #pragma once
 
 #include <cstdint>
@@ -11,32 +11,33 @@ namespace nook {
 
 class PlaceTree {
  public:
-  // The points outlive the tree.
+  // `points` must outlive the tree.
   PlaceTree(std::span<const Vec3> points, Memory* memory);
 
-  // The distance from `at` to the nearest point, or INFINITY if none is within `reach`.
+  // Returns the distance from `at` to the nearest point, or INFINITY if no point is within `reach`.
   float nearest(Vec3 at, float reach) const;
 
-  // Appends the points within `reach` of `at`, as length() gives their distances, in no order.
+  // Appends the points within `reach` of `at` to `out`, in no particular order. Distances are computed by
+  // length().
   void find_within(Vec3 at, float reach, Vector<std::uint32_t>& out) const;
 
  private:
-  struct Run {  // of order_; its middle point divides it along an axis
+  struct Run {  // a range of order_; its middle point splits it along an axis
     std::uint32_t first = 0, end = 0;
-    float distance = 0;  // no point of the run is nearer
+    float distance = 0;  // lower bound of the distance to any point of the run
     std::uint32_t middle() const { return first + (end - first) / 2; }
   };
-  // A run is halved until nothing is left.
+  // The tree halves runs until they are empty.
   static constexpr std::size_t max_depth = 40;
 
   void divide(Run run);
-  // Visits points, near ones first, without those beyond `reach`, which the visitor may lessen.
+  // Visits the points within `reach`, near points first. The visitor may reduce `reach` on the way.
   template <class Visitor>
   void visit(Vec3 at, const float& reach, Visitor visitor) const;
 
   std::span<const Vec3> points_;
   Vector<std::uint32_t> order_;
-  Vector<std::uint8_t> axis_;  // of the middle point of each run
+  Vector<std::uint8_t> axis_;  // split axis of the run, stored at its middle point
 };
 
 }  // namespace nook

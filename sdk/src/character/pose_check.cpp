@@ -43,28 +43,29 @@ bool explain(PoseFinding& finding, nook_pose_fault fault, const char* format, ..
   return is_first;
 }
 
-// The check tries the readings of the host's transforms that mistakes turn into each other. It names those
-// under which the model's vertices match the host's; in the bind pose, several may. A best affine map between
-// the two sets of vertices reveals a wrong place, unit, turn or mirror image of the whole pose.
+// The check interprets the host's transforms in each way that a host may have confused with another. It
+// reports the readings under which the model's vertices match the host's. In the bind pose, several readings
+// may match. The best affine map between the two sets of vertices reveals a wrong place, unit, rotation or
+// mirroring of the whole pose.
 
 namespace {
 
 struct Distances {
-  double max = INFINITY, rms = INFINITY;  // metres of the world
+  double max = INFINITY, rms = INFINITY;  // in metres, world space
   std::size_t worst = 0;                  // index into the compared vertices
 };
 
-// What all readings share.
+// The data that is shared by all readings.
 struct Check {
   const CharacterModel& model;
   const PoseSource& given;
   std::span<const SkinnedVertex> all;
   Affine vertex_place;
   double tolerance_ws = 0;
-  std::size_t least_vertices = 1;    // that a reading needs to be conclusive
-  Vector<const RestVertex*> vertex;  // of the latest reading: those whose bones all have transforms
-  Vector<Point3> host;               // as the host skinned them
-  Vector<Point3> posed;              // as the latest reading poses them
+  std::size_t least_vertices = 1;    // number of vertices that a reading needs to be conclusive
+  Vector<const RestVertex*> vertex;  // in the latest reading, the vertices whose bones all have transforms
+  Vector<Point3> host;               // the same vertices, as the host skinned them
+  Vector<Point3> posed;              // the same vertices, as the latest reading poses them
   Vector<std::uint8_t> has_matrix;   // for each bone
   Vector<Affine> matrix;             // for each bone
 
@@ -90,7 +91,8 @@ Point3 skinned(const Check& check, const RestVertex& vertex) {
   return sum;
 }
 
-// Returns the index of the first of a vertex's bones that has no matrix, or the vertex's bone_count.
+// Returns the index of the first bone of a vertex that has no matrix, or the vertex's bone_count if all have
+// one.
 std::uint32_t first_missing(const Check& check, const RestVertex& vertex) {
   std::uint32_t b = 0;
   while (b < vertex.bone_count && check.has_matrix[vertex.bone[b]]) ++b;
@@ -111,8 +113,8 @@ void pose_vertices(Check& check) {
   }
 }
 
-// Poses the vertices by a reading. Returns false if the host's transforms cannot be read that way, or if too
-// few vertices remain.
+// Poses the vertices according to a reading. Returns false if the host's transforms cannot be read in this
+// way, or if too few vertices remain.
 bool pose(Check& check, const Reading& reading) {
   PoseSource source = reading.source;
   source.is_partial = true;
@@ -150,7 +152,8 @@ Distances compare(const Check& check) {
   return compare(check, [](const Point3& p) { return p; });
 }
 
-// Returns the transform under which a vertex that follows one bone matches the host's, or -1.
+// For a vertex that follows one bone, returns the transform under which the vertex matches the host's.
+// Returns -1 if there is none.
 std::int64_t fitting_transform(const Check& check, const RestVertex& vertex, const Point3& host) {
   double nearest = 3 * check.tolerance_ws;
   std::int64_t fitting = -1;
@@ -166,8 +169,8 @@ std::int64_t fitting_transform(const Check& check, const RestVertex& vertex, con
   return fitting;
 }
 
-// A vertex that follows almost only one bone, is at the wrong place, and matches under another bone's
-// transform.
+// A vertex at the wrong place that would be right with another bone's transform. It follows almost only one
+// bone.
 struct Misplaced {
   std::uint32_t bone = 0;
   std::int64_t transform = -1;
@@ -181,9 +184,10 @@ std::size_t count_of_different(std::span<const Misplaced> all, std::int64_t (*ke
   return out;
 }
 
-// Looks for the transforms that vertices which are off should have had. If several bones match the same
-// transform, they stand still in the host's pose, as bones under the root do in the bind pose. Then the
-// host's frame is wrong. If only a part of the vertices does not match, the text names both.
+// For vertices at wrong places, looks for the transforms that would put them at the right places. If several
+// bones match the same transform, these bones do not move in the host's pose, like the bones below the root
+// in the bind pose. Then the function returns false, because the vertices probably belong to another frame.
+// If only a part of the vertices does not match, the text mentions both explanations.
 bool explain_by_order(const Check& check, PoseFinding& finding) {
   std::size_t off = 0;
   Vector<Misplaced> found(check.host.get_allocator());
@@ -211,8 +215,9 @@ bool explain_by_order(const Check& check, PoseFinding& finding) {
   return true;
 }
 
-// The tolerance is in the unit of the host's vertices. Their spread reveals that unit; the transforms may be
-// misread. A pose changes the spread by a few tens of percent.
+// Sets the tolerance in the unit of the host's vertices. This unit is estimated from the spread of the
+// vertices, and not from the transforms, which may be misread. A pose changes the spread only by a few tens
+// of percent.
 void set_tolerance(Check& check, double tolerance) {
   Vector<Point3> at_rest(check.host.get_allocator());
   at_rest.reserve(check.vertex.size());
@@ -292,7 +297,7 @@ PoseFinding find_pose_fault(const CharacterModel& model, const PoseSource& sourc
   check.least_vertices = std::min<std::size_t>(count, 6);
   const Reading as_given(source, memory);
   PoseFinding finding;
-  // A vertex that the pose moves to a place that is not finite counts as different.
+  // If the pose moves a vertex to a place that is not finite, the vertex counts as different.
   const bool is_readable = pose(check, as_given) && check.vertex.size() == count;
   const Distances distances = is_readable ? compare(check) : Distances{};
   const double unit = check.tolerance_ws / tolerance;

@@ -8,8 +8,8 @@
 namespace nook {
 namespace {
 
-// Finds the affine map that is best in the least-squares sense from one set of points to another of the same
-// size. Returns false if the points of the first set lie in a plane.
+// Finds the least-squares best affine map from one set of points to another set of the same size. Returns
+// false if the points of the first set lie in a plane.
 bool best_map(std::span<const Point3> from_points, std::span<const Point3> to_points, Affine& map) {
   Point3 from{}, to{};
   const double share = 1 / static_cast<double>(from_points.size());
@@ -18,7 +18,8 @@ bool best_map(std::span<const Point3> from_points, std::span<const Point3> to_po
       from[i] += share * from_points[v][i];
       to[i] += share * to_points[v][i];
     }
-  Affine own, cross;  // 3x3 parts: sums of p p^T and of x p^T about the means
+  Affine own, cross;  // 3x3 parts: the sum of p p^T and the sum of x p^T, where p and x are relative to their
+                      // means
   own.m.fill(0);
   cross.m.fill(0);
   for (std::size_t v = 0; v < from_points.size(); ++v)
@@ -36,7 +37,7 @@ bool best_map(std::span<const Point3> from_points, std::span<const Point3> to_po
   return true;
 }
 
-// Returns the scale of a map that is a similarity to 1 %, mirrored or not; else 0.
+// Returns the scale of a map if it is a similarity to 1 %, mirrored or not. Otherwise returns 0.
 double scale_of_similarity(const Affine& map) {
   const double scale = std::cbrt(std::abs(determinant(map)));
   double difference = 0;
@@ -49,7 +50,7 @@ double scale_of_similarity(const Affine& map) {
   return difference <= 0.02 * scale * scale ? scale : 0;
 }
 
-// Returns the turn of a similarity whose scale is known.
+// Returns the rotation angle of a similarity with the given scale.
 double turn_degrees(const Affine& map, double scale) {
   const double cosine = 0.5 * ((map.m[0] + map.m[5] + map.m[10]) / scale - 1);
   return std::acos(std::clamp(cosine, -1.0, 1.0)) * 57.29577951308232;
@@ -78,7 +79,7 @@ Affine turned_back(const Affine& place) {
   return out;
 }
 
-// Reads a place that the host passed as four columns of three numbers instead of three rows of four.
+// Corrects a place that the host passed as four columns of three numbers, instead of three rows of four.
 Affine from_columns_4x3(const Affine& place) {
   Affine out;
   for (int i = 0; i < 3; ++i)
@@ -86,7 +87,7 @@ Affine from_columns_4x3(const Affine& place) {
   return out;
 }
 
-// True if the model's vertices match the host's under this place.
+// True if the model's vertices match the host's with this place.
 bool fits_under(const PosedPoints& points, const Affine& place) {
   const Affine map = place * inverse(points.pose_place);
   for (std::size_t v = 0; v < points.posed.size(); ++v) {
@@ -96,8 +97,8 @@ bool fits_under(const PosedPoints& points, const Affine& place) {
   return true;
 }
 
-// Explains the difference by a place that the host has but did not pass, or passed in another form.
-// true_place is the place that the vertices need.
+// Tries to explain the difference by a place that the host has, but did not pass or passed in another form.
+// true_place is the place with which the vertices would match.
 bool explain_by_known_place(const PosedPoints& points, const Affine& true_place, PoseFinding& finding) {
   const Affine none, &given = points.pose_place;
   const double tolerance_m = points.tolerance_ws;
@@ -107,7 +108,8 @@ bool explain_by_known_place(const PosedPoints& points, const Affine& true_place,
     explain(finding, fault, "desc.place_3x4 is the inverse of the place");
     return true;
   }
-  // Columns of a 4x4 matrix lose the translation, so only the turn decides.
+  // If the host passed the columns of a 4x4 matrix, the translation is lost. So only the rotation is
+  // compared.
   if (is_given &&
       (fits_under(points, from_columns_4x3(given)) ||
        (!is_same_turn(given, turned_back(given)) && is_same_turn(turned_back(given), true_place)))) {
@@ -136,8 +138,8 @@ bool explain_by_known_place(const PosedPoints& points, const Affine& true_place,
   return false;
 }
 
-// Returns the axis of the character's space whose sign a map changes, as text to follow "mirror image". Empty
-// if the map also turns.
+// Returns the axis of the character's space along which a map mirrors, as text to follow "mirror image".
+// Returns an empty text if the map also rotates.
 const char* mirrored_axis(const Affine& map, double scale, const Affine& place) {
   const Affine own = inverse(place) * map * place;
   constexpr const char* names[] = {" in x", " in y", " in z"};

@@ -53,8 +53,9 @@ void add_skins(const CharacterModel& model, const PoseSource& given, Memory* mem
   }
 }
 
-// Adds the readings of another kind or skin, the likeliest first. A host that mistakes the kind has its
-// transforms in the order of the bones, or in the order of the skin's joints.
+// Adds the readings with another kind of transforms or another skin, the most likely one first. If the host
+// passed the wrong kind, its transforms may be in the order of the bones or in the order of the skin's
+// joints.
 void add_kinds(const CharacterModel& model, const PoseSource& given, Memory* memory, Vector<Reading>& out) {
   add_skins(model, given, memory, out);
   for (const nook_pose_kind kind : {NOOK_POSE_JOINT_TO_WORLD, NOOK_POSE_REST_TO_WORLD}) {
@@ -115,7 +116,7 @@ Vector<Reading> other_readings(const CharacterModel& model, const PoseSource& gi
     other.fault = NOOK_POSE_FAULT_PLACE;
     out.push_back(other);
   }
-  // Tries centimetres, millimetres, inches and feet against metres, in both directions.
+  // Tries centimetres, millimetres, inches and feet instead of metres, and metres instead of each of these.
   for (const double unit : {100.0, 0.01, 1000.0, 0.001, 1 / 0.0254, 0.0254, 1 / 0.3048, 0.3048}) {
     other = Reading(given, memory);
     other.translation_scale = unit;
@@ -125,7 +126,7 @@ Vector<Reading> other_readings(const CharacterModel& model, const PoseSource& gi
   return out;
 }
 
-// A misread layout hides a mistaken kind, so the two are also tried together.
+// With a wrong layout, no kind matches. So each other layout is also tried together with each other kind.
 Vector<Reading> readings_of_two_mistakes(const CharacterModel& model, const PoseSource& given,
                                          Memory* memory) {
   Vector<Reading> out(memory);

@@ -24,7 +24,7 @@ struct Head {
   std::uint64_t names_hash = 0;
 };
 
-// Fails before anything is allocated for a record that is cut off.
+// Throws Failure for a record that is cut off, before anything is allocated for it.
 Head read_head(ByteReader& in, std::size_t record) {
   if (in.remaining() < pose_record_head || in.text(magic.size()) != magic)
     throw Failure(NOOK_ERROR_BAD_FILE,

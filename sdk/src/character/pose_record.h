@@ -1,5 +1,5 @@
-// Recorded poses of a game, for `nook bake character --calibrate`: a file of records, one after another, so
-// that a host appends to it. A record holds one pose of one body:
+// Recorded poses of a game, for `nook bake character --calibrate`. A file is a sequence of records, so a host
+// can append records to it. A record holds one pose of one body:
 //
 //   offset  bytes  what
 //   0       8      "NOOKPOSE"
@@ -8,7 +8,7 @@
 //   16      8      XXH64 of the names of the bones, each with a zero byte behind it
 //   24      48 b   12 floats for each bone, rest space to world: three rows of rotation and scale | translation
 //
-// Numbers are little-endian.
+// All numbers are little-endian.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ constexpr std::size_t pose_record_size(std::size_t bones) {
   return pose_record_head + bones * pose_record_bone;
 }
 
-// Hashes names, whose elements have data() and size().
+// Returns the hash of the names for a record. The elements of `names` must have data() and size().
 template <class Names>
 std::uint64_t hash_of_bone_names(const Names& names) {
   Hash64 hash;
@@ -38,12 +38,12 @@ std::uint64_t hash_of_bone_names(const Names& names) {
   return hash.value();
 }
 
-// out has pose_record_size bytes.
+// `out` must have pose_record_size bytes.
 void write_pose_record(std::uint64_t names_hash, std::span<const Mat3x4> bones, std::span<std::byte> out);
 
-// Returns the poses of a file that belong to a body with these bones. A file may hold poses of other bodies
-// too, which are counted. Throws Failure: BAD_FILE (no records, a record that is cut off or of another
-// version, a matrix that is not finite or far too large).
+// Reads the poses of a file that belong to a body with these bones. The file may also hold poses of other
+// bodies, which are only counted in of_others. Throws Failure(NOOK_ERROR_BAD_FILE) if the file has no
+// records, if a record is cut off or has another version, or if a matrix is not finite or far too large.
 struct RecordedPoses {
   std::vector<std::vector<Mat3x4>> poses;
   std::size_t of_others = 0;

@@ -19,7 +19,7 @@ const char* name_of(const CharacterModel& model, std::size_t bone) {
   return model.bone_names[bone].c_str();
 }
 
-// Returns the model's number of a skin of the file.
+// Returns the model's index for the skin with this index in the file.
 std::uint32_t find_skin(const CharacterModel& model, std::uint32_t file_index) {
   const Vector<SkinBind>& skins = model.bind.skins;
   const auto found = std::find_if(skins.begin(), skins.end(),
@@ -63,7 +63,7 @@ Affine of_trs(const float* v) {
   return to_affine(trs);
 }
 
-// Without a map of the bones, only the first `expected` transforms count.
+// Without a map of the bones, only the first `expected` transforms are used.
 void take_surplus_off(PoseSource& source, std::size_t expected) {
   const std::uint32_t got = source.transform_count;
   if (got == expected) return;
@@ -180,7 +180,8 @@ std::array<double, 3> joint_origin(const CharacterModel& model, std::size_t bone
 
 namespace {
 
-// True for small deviations, which come from exporters and from rounding to floats. They are kept.
+// True for small deviations, which come from exporters and from rounding to floats. Such matrices are not
+// projected.
 bool is_kept(const BoneAxes<double>& axes) {
   constexpr double kept = 1e-4;
   const double shortest = std::min({axes.squared[0], axes.squared[1], axes.squared[2]});
@@ -282,8 +283,8 @@ std::string_view without(std::string_view name, std::string_view prefix, std::st
   return name;
 }
 
-// Returns the number of characters that all names begin with, up to and including their last separator. A
-// single name has no others to compare with and returns 0.
+// Returns the length of the prefix that all names share, up to and including its last separator. For a single
+// name, returns 0.
 std::size_t shared_prefix(std::span<const std::string_view> names) {
   if (names.size() < 2) return 0;
   std::string_view shared = names[0];
@@ -306,7 +307,7 @@ void drop_shared_prefix(Names& names, Memory* memory) {
     if (!name.empty()) name.remove_prefix(shared);
 }
 
-// Returns the form in which names are compared.
+// Returns the normalised form of a name, in which names are compared.
 String key_of(std::string_view name, bool is_loose, Memory* memory) {
   String key(memory);
   for (const char c : name) {
@@ -339,7 +340,7 @@ std::size_t map_bones(const CharacterModel& model, const nook_bone_map_desc& nam
   for (std::size_t i = 0; i < host.size(); ++i)
     if (!host[i].empty())
       index_of.push_back({key_of(host[i], is_loose, memory), static_cast<std::int32_t>(i)});
-  // If keys are equal, the host's first one counts.
+  // If several host names have the same key, the first one is used.
   std::sort(index_of.begin(), index_of.end(), [](const KeyedIndex& a, const KeyedIndex& b) {
     return a.key != b.key ? a.key < b.key : a.index < b.index;
   });

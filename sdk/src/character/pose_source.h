@@ -1,4 +1,4 @@
-// Converts a host's transforms to bone matrices, which map rest space to world.
+// Converts a host's transforms to bone matrices, which map rest space to world space.
 #pragma once
 
 #include <nook/nook_character.h>
@@ -14,34 +14,35 @@
 
 namespace nook {
 
-// A host's transforms with everything that defines their meaning. The host owns the memory behind the
-// pointers.
+// A host's transforms, with everything that is needed to interpret them. The host owns the memory that the
+// pointers point to.
 struct PoseSource {
   nook_pose_kind kind = NOOK_POSE_REST_TO_WORLD;
   nook_transform_layout layout = NOOK_TRANSFORM_ROWS_3X4;
   const float* transforms = nullptr;
   std::size_t stride = 0;                           // bytes, never 0 after check_pose_source
-  std::uint32_t transform_count = 0;                // after check_pose_source, only the transforms that count
-  std::uint32_t given_count = 0;                    // set by check_pose_source: the host's own number
-  std::uint32_t file_skin = 0;                      // of NOOK_POSE_SKINNING, as the file numbers its skins
-  std::uint32_t skin = 0;                           // its index in BindData::skins
-  std::span<const std::int32_t> transform_of_bone;  // empty: transforms are in the order of the bones, or of
-                                                    // the skin's joints
+  std::uint32_t transform_count = 0;                // after check_pose_source, without surplus transforms
+  std::uint32_t given_count = 0;                    // set by check_pose_source: the host's original
+                                                    // transform_count
+  std::uint32_t file_skin = 0;                      // for NOOK_POSE_SKINNING: index of the skin in the file
+  std::uint32_t skin = 0;                           // index of the same skin in BindData::skins
+  std::span<const std::int32_t> transform_of_bone;  // if empty, the transforms are in the order of the bones
+                                                    // or of the skin's joints
   bool is_partial = false;
   bool is_strict = false;
   bool allows_surplus = false;  // ignores transforms after the ones that the model needs
   Affine place;
 };
 
-// Throws Failure unless every number and index is in range and the model has bind data if the kind needs it.
-// Sets `skin` and given_count, sets the stride if it is 0, and takes a surplus off transform_count. A map of
-// the bones must have the model's bone count.
+// Throws Failure if a value or index is out of range, or if the kind of transforms needs bind data and the
+// model has none. Sets `skin` and given_count, sets `stride` if it is 0, and subtracts surplus transforms
+// from transform_count. If transform_of_bone is not empty, it must have one entry for each bone of the model.
 void check_pose_source(const CharacterModel& model, PoseSource& source, bool needs_bind_data = false);
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless the host's array has one entry for each bone.
 void check_bone_count(std::size_t got, std::size_t of_model);
 
-// Throws Failure(NOOK_ERROR_UNSUPPORTED).
+// Throws Failure(NOOK_ERROR_UNSUPPORTED) if the model has no bind data.
 void need_bind_data(const CharacterModel& model);
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) for a matrix that is not finite or far too large.
@@ -49,15 +50,16 @@ void check_size(const CharacterModel& model, std::size_t bone, const Mat3x4& mat
 
 std::size_t floats_of_layout(nook_transform_layout layout);
 
-// The transform as the matrix that its layout says. Quaternions need not be of unit length.
+// Reads one transform in the layout of the source, and returns it as a matrix. Quaternions need not have unit
+// length.
 Affine read_transform(const PoseSource& source, std::uint32_t index);
 
 // Both throw Failure with INVALID_ARGUMENT.
 [[noreturn]] void fail_without_transform(const CharacterModel& model, std::size_t bone);
 [[noreturn]] void fail_without_joint(const CharacterModel& model, const SkinBind& skin);
 
-// Calls body(bone, index) for each bone with the index of its transform. If a bone has none, it is skipped if
-// the source is partial; otherwise the call throws Failure.
+// Calls body(bone, index) for each bone, with the index of the bone's transform. For a bone without a
+// transform, throws Failure, or skips the bone if the source is partial.
 template <class Body>
 void for_each_transform(const CharacterModel& model, const PoseSource& source, Body&& body) {
   if (!source.transform_of_bone.empty()) {
@@ -78,30 +80,31 @@ void for_each_transform(const CharacterModel& model, const PoseSource& source, B
   }
 }
 
-// Returns the matrix of a bone from its transform: place * transform * the matrix that the kind needs.
+// Returns the matrix of a bone from its transform: place * transform * the matrix that this kind of
+// transforms needs.
 Affine bone_matrix(const CharacterModel& model, const PoseSource& source, std::size_t bone,
                    const Affine& transform);
 
-// Returns the joint's origin in rest space. Its image does not move when shear or uneven scale is removed.
+// Returns the joint's origin in rest space. The projection of an uneven matrix does not move this point.
 std::array<double, 3> joint_origin(const CharacterModel& model, std::size_t bone);
 
-// Returns the nearest rotation or mirrored rotation with one scale above 0; the image of `fixed` stays. A
-// matrix that is a similarity to 1e-4 is returned unchanged.
+// Returns the nearest similarity: a rotation, possibly mirrored, with one scale above 0. Both matrices map
+// the point `fixed` to the same point. A matrix that already is a similarity to 1e-4 is returned unchanged.
 Affine projected(const Affine& matrix, const std::array<double, 3>& fixed);
 
 // Remarks for the log about a pose that was accepted. A bone is uneven if its matrix is sheared, scaled
 // unevenly or has a zero axis; then it is projected.
 struct PoseNotes {
-  std::uint32_t bones = 0;   // that the pose set
+  std::uint32_t bones = 0;   // number of bones that the pose set
   std::uint32_t uneven = 0;  // uneven bones among them
   std::uint32_t zero = 0;    // uneven bones whose axes are all zero
   std::uint32_t first = 0;   // the first uneven bone
   BoneAxes<double> axes;     // of the first uneven bone
   bool is_place_uneven = false;
-  std::uint32_t transforms_given = 0, transforms_used = 0;  // they differ if there was a surplus
+  std::uint32_t transforms_given = 0, transforms_used = 0;  // they differ if the host gave surplus transforms
 
-  // Topics are bits, so that each is reported once. If all of a pose is zero, as in a buffer that was not
-  // filled, nothing else is reported.
+  // Topics are bits in a mask, so that each topic is reported only once. If the whole pose is zero, as in a
+  // buffer that was not filled, only that is reported.
   enum Topic : std::uint32_t { topic_uneven = 1, topic_zero = 2, topic_surplus = 4 };
   std::uint32_t topics() const {
     const bool is_all_zero = bones > 0 && zero == bones;
@@ -113,26 +116,26 @@ struct PoseNotes {
 };
 
 void note_uneven(PoseNotes& notes, std::size_t bone, const BoneAxes<double>& axes);
-// Returns the notes of a pose whose matrices are even before its place, perhaps uneven, is applied.
+// Returns the notes of a pose whose bone matrices are even, multiplied by a `place` that may be uneven.
 PoseNotes notes_of_place(const CharacterModel& model, const Mat3x4& place);
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT): the axes of a bone are uneven and the pose is strict.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT), for a bone with uneven axes in a strict scene.
 [[noreturn]] void fail_uneven(const CharacterModel& model, std::size_t bone, const BoneAxes<double>& axes);
 
 // A bit for each bone of an instance, set if its matrix was projected.
 using UnevenBones = Vector<bool>;
 
-// Converts all bones. Throws Failure for a transform that is not finite or far too large. It also does for a
-// missing transform unless the source is partial, and for an uneven one if the source is strict. bones, and
-// uneven unless it is null, must have the model's bone count. Only bones with a transform change; after a
-// failure, some may have changed.
+// Converts all bones. Throws Failure for a transform that is not finite or far too large. Also throws for a
+// missing transform unless the source is partial, and for an uneven transform if the source is strict.
+// `bones` must have one entry for each bone of the model, and so must `uneven` unless it is null. Only the
+// entries of bones with a transform change. After a failure, some entries may have changed.
 PoseNotes convert_pose(const CharacterModel& model, const PoseSource& source, std::span<Mat3x4> bones,
                        UnevenBones* uneven = nullptr);
 
 // Finds a host's transforms by the names of bones.
 
-// Writes for each bone the index of the first of the host's names that matches, or -1, and returns the number
-// of -1. A bone whose own name has no match takes the transform of the first bone of its joint.
+// For each bone, writes the index of the first of the host's names that matches, or -1. Returns the number of
+// bones with -1. A bone whose own name has no match takes the transform of the first bone of its joint.
 std::size_t map_bones(const CharacterModel& model, const nook_bone_map_desc& names,
                       std::span<std::int32_t> transform_of_bone, Memory* memory);
 

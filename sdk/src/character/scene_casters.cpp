@@ -42,20 +42,22 @@ void pose_world_casters(Instance& instance) noexcept {
   }
 }
 
-// Chooses the casters of each instance in an update: explicit links, the k nearest, free occluders and the
-// ground, without those below the cut-off. Chooses the instances that are due and their levels of detail.
+// Chooses which instances are due in an update, and their levels of detail. Then chooses the casters of each
+// of them: linked instances, the k nearest instances, free occluders and the ground, except for casters below
+// the cut-off.
 
 namespace {
 
-// Returns an upper bound of how much spheres with sum(weight * radius^2) = strength darken any vertex whose
-// key points are at least `gap` from their centres. A form factor is at most (radius / distance)^2. 1 -
-// exp(-x) and 1 - exp(-solid_depth(x)) are at most x, since their slopes are 1 at 0 and fall from there.
+// Returns an upper bound of how much a caster darkens a vertex. The caster's spheres have sum(weight *
+// radius^2) = strength, and their centres are at least `gap` away from the vertex's key points. A form factor
+// is at most (radius / distance)^2. 1 - exp(-x) and 1 - exp(-solid_depth(x)) are at most x, because their
+// slopes are 1 at 0 and decrease from there.
 float composed_bound(const LoadedModel& receiver, float strength, float gap) {
   return gap > 0 ? receiver.linear.max_blend_gain() * strength / (gap * gap) : INFINITY;
 }
 
-// No term of the paper's form exceeds this at `delta` radii. It is the solid angle of slide 18, or the
-// fall-off of the other kernels, with full visibility.
+// Returns an upper bound for the term of a sphere in the paper's form, at a distance of `delta` radii. The
+// bound is the solid angle of slide 18, or the fall-off of the other kernels, at full visibility.
 float term_bound(KernelForm form, float delta) {
   switch (form) {
     case KernelForm::paper:
@@ -68,8 +70,8 @@ float term_bound(KernelForm form, float delta) {
   return 1 / (delta * delta);
 }
 
-// One sphere adds at most its term to the norm of a shadow, and AO changes by at most max_alpha_sum times
-// that.
+// Returns an upper bound for a single sphere. A sphere increases the norm of a shadow by at most its term,
+// and AO changes by at most max_alpha_sum times that.
 float paper_bound(const LoadedModel& receiver, float radius, float gap) {
   return gap > radius ? receiver.max_alpha_sum * term_bound(receiver.model.kernel.form, gap / radius)
                       : INFINITY;
@@ -80,8 +82,8 @@ const Vector<ProxySphere>& spheres_at(const CharacterModel& model, std::uint32_t
   return l == 0 ? model.spheres : model.levels[l - 1].spheres;
 }
 
-// For all spheres of a caster: by Minkowski's inequality the norm grows by at most the norm of the new terms,
-// and the shadow by no more than the norm.
+// Returns an upper bound for all spheres of a caster. By Minkowski's inequality, the norm increases by at
+// most the norm of the new terms. The shadow increases by at most as much as the norm.
 float paper_bound(const LoadedModel& receiver, std::uint32_t receiver_level, const Instance& caster,
                   float gap) {
   const Kernel& kernel = receiver.model.kernel;
@@ -131,7 +133,8 @@ void gather_casters(const Scene& scene, std::uint32_t slot, Instance& receiver) 
   for (std::uint32_t i = 0; i < count; ++i)
     if (!std::binary_search(receiver.input.linked.begin(), receiver.input.linked.end(), found[i].slot))
       offer(found[i].slot);
-  // Sorts by slot, so that sums do not depend on how the casters were found.
+  // Sorts the casters by slot, so that floating-point sums do not depend on the order in which they were
+  // found.
   std::sort(receiver.plan.casters.begin(), receiver.plan.casters.end());
 }
 
@@ -148,7 +151,7 @@ void gather_occluders(const Scene& scene, Instance& receiver) {
   }
 }
 
-// A bone without geometry may have any scale, so the posed body limits the radius.
+// A bone without geometry may have any scale. So the radius is limited by the size of the posed body.
 float ground_radius(const Scene& scene, const Instance& receiver) {
   if (scene.settings.ground_radius > 0) return scene.settings.ground_radius;
   const float in_rest = receiver.model->model.bounding_radius * receiver.input.largest_scale();
@@ -156,8 +159,8 @@ float ground_radius(const Scene& scene, const Instance& receiver) {
   return default_ground_radii * (in_rest > 0 ? std::min(in_rest, 2 * posed) : posed);
 }
 
-// Places the ground's sphere so that it touches the plane below the bound's centre, on the side opposite to
-// the plane's normal.
+// Places the ground's sphere below the plane, so that it touches the plane at the projection of the bound's
+// centre.
 void place_ground(const Scene& scene, Instance& receiver) {
   receiver.plan.ground_sphere = {};
   if (!receiver.input.has_ground || !(scene.terms & NOOK_TERM_GROUND)) return;
@@ -171,8 +174,8 @@ void place_ground(const Scene& scene, Instance& receiver) {
     ++receiver.plan.culled;
 }
 
-// Distant instances take turns, each at least every lod_max_interval frames, and use the coarsest level whose
-// error their distance allows.
+// Distant instances take turns: each is evaluated at least every lod_max_interval frames. They use the
+// coarsest level whose error is acceptable at their distance.
 void choose_detail(const Scene& scene, std::uint32_t slot, bool has_result, Instance& instance) {
   instance.plan.level = 0;
   instance.plan.due = true;

@@ -16,7 +16,8 @@ constexpr std::uint32_t slot_in(std::uint32_t id) {
   return (id & max_slots) - 1;
 }
 
-// Returns the slot for the next object, a freed one or one past the end. Reserves room for freeing it again.
+// Returns the slot for the next object: a free slot, or one past the end. Also reserves memory to put the
+// slot into the free list later.
 template <class Object>
 std::uint32_t next_slot(const Vector<Object>& objects, Vector<std::uint32_t>& free_slots, const char* what) {
   if (!free_slots.empty()) return free_slots.back();
@@ -69,7 +70,7 @@ void make_room_for_one(Slots& slots) {
   if (slots.size() == slots.capacity()) slots.reserve(std::bit_ceil(slots.size() + 1));
 }
 
-// Both expect slots in ascending order.
+// insert_slot and the function below expect slots in ascending order.
 void insert_slot(Slots& slots, std::uint32_t slot) {
   slots.insert(std::lower_bound(slots.begin(), slots.end(), slot), slot);
 }
@@ -193,7 +194,7 @@ void remove_instance(Scene& scene, nook_instance_id id) {
 
 namespace {
 
-// Updates everything that depends on the matrices; all new ones are even.
+// Updates everything that depends on the bone matrices. All new matrices must be even.
 void finish_pose(Instance& instance, float longest_squared) {
   derive_bound(instance, longest_squared);
   ++instance.input.pose_revision;
@@ -220,14 +221,14 @@ PoseNotes take_pose(Instance& instance, std::span<const Mat3x4> bones) {
   return notes;
 }
 
-// True if the transforms are rest-to-world matrices in this library's own layout. They are then copied,
+// True if the transforms are rest-to-world matrices in this library's own layout. Such transforms are copied,
 // because a product with the identity would turn -0 into 0.
 bool holds_bone_matrices(const PoseSource& source) {
   return source.kind == NOOK_POSE_REST_TO_WORLD && source.layout == NOOK_TRANSFORM_ROWS_3X4 &&
          source.stride == sizeof(Mat3x4) && source.transform_of_bone.empty() && source.place.m == Affine{}.m;
 }
 
-// bones has the model's bone count.
+// `bones` has one entry for each bone of the model.
 PoseNotes set_bones(Instance& instance, std::span<const Mat3x4> bones, bool is_strict) {
   const CharacterModel& model = instance.model->model;
   for (std::size_t b = 0; b < bones.size(); ++b) {
@@ -254,7 +255,7 @@ void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) 
   casters.posed.resize(model->model.world_casters.size());
   instance.result.arrays = std::move(arrays);
   instance.light = std::move(light);
-  // The clips belong to the old model; the pose stays until the host sets another.
+  // The clips belong to the old model. The instance keeps its pose until the host sets another one.
   instance.input.clip.clips = {};
   instance.casters = std::move(casters);
   instance.model = std::move(model);
@@ -284,7 +285,8 @@ PoseNotes set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
   const CharacterModel& model = instance.model->model;
   source.is_strict = source.is_strict || scene.settings.strict_poses;
   check_pose_source(model, source);
-  // The bones that the call leaves out would take their matrices from an older pose.
+  // The bones that a partial pose leaves out keep their matrices. With a pose on the GPU, these matrices
+  // would be from an older pose.
   if (source.is_partial) need_cpu_pose(instance);
   static_assert(sizeof(Mat3x4) == 12 * sizeof(float) && alignof(Mat3x4) == alignof(float));
   if (holds_bone_matrices(source)) {

@@ -1,4 +1,4 @@
-// The steps of an update on the CPU. Each makes a few calls of the chosen kernels.
+// The steps of an update on the CPU. Each step calls a few of the chosen kernels.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -55,9 +55,9 @@ std::size_t join_paper_norm(const Scene& scene, const Instance& instance, const 
   return count;
 }
 
-// Adds the body's own spheres to norm_sum, and returns the number of sphere-key-point pairs. Directional
-// light evaluates each sphere. With a light, this sum does so too and skips the tree, because colours are
-// relative to it.
+// Adds the body's own spheres to norm_sum, and returns the number of sphere-key-point pairs. If the instance
+// has a light, evaluates each sphere instead of the tree. Directional occlusion also evaluates each sphere,
+// and its colours are relative to this sum.
 std::uint64_t sum_own_spheres(const Scene& scene, const Instance& instance, const PointLanes& points) {
   const SphereSoa spheres = spheres_of(instance, instance.plan.level);
   const SphereTree& tree = instance.model->sphere_tree;
@@ -70,8 +70,8 @@ std::uint64_t sum_own_spheres(const Scene& scene, const Instance& instance, cons
   return std::uint64_t{spheres.count} * points.count;
 }
 
-// Spreads values from the evaluated key points to all of them; the padding repeats the last. Scale and offset
-// apply to self-shadow only.
+// Computes the values of all key points from the evaluated key points. The padding repeats the last key
+// point. Scale and offset apply only to self-shadow.
 void spread_level(const CharacterLevel& level, bool with_self, const PointLanes& points) {
   for (std::uint32_t k = 0; k < points.count; ++k) {
     const std::uint16_t source = level.source[k];
@@ -195,7 +195,7 @@ void update(Scene& scene) noexcept {
 
 namespace {
 
-// The source of an instance's own AO.
+// Where the AO of an instance without casters comes from.
 enum class Self { none, shadow, clip };
 
 Self self_of(const Scene& scene, const Instance& instance) {
@@ -208,14 +208,16 @@ constexpr std::uint32_t chunk_slots = LoadedModel::slot_chunk,
 static_assert(LoadedClips::block_slots == chunk_slots);
 using ChunkAo = std::array<float, chunk_slots>;
 
-// Calls evaluate(layer, first_slot) for each chunk of the model's linear layer, then put(place, slot) for the
-// file vertices of the chunk. place is a pointer that advances by stride_bytes; slot counts within the chunk.
+// For each chunk of the model's linear layer, calls evaluate(layer, first_slot), then put(place, slot) for
+// each file vertex of the chunk. `place` is the vertex's output address: vertices are stride_bytes apart.
+// `slot` is relative to the chunk.
 template <class Stride, class Evaluate, class Put>
 void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out, Stride stride_bytes,
                     Evaluate&& evaluate, Put&& put) noexcept {
   const LinearView& view = loaded.linear.view();
   auto* const bytes = static_cast<unsigned char*>(out);
-  // Copies these pointers first: for all the compiler knows, the written bytes could overwrite the originals.
+  // Copies the pointers into local variables. Otherwise the compiler must reload them after each write,
+  // because the written bytes could alias them.
   const std::uint32_t* const begin = loaded.run_begin.data();
   const LoadedModel::FileRun* const runs = loaded.file_run.data();
   const std::uint16_t* const slots = loaded.slot_in_chunk.data();
@@ -236,7 +238,7 @@ void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out
   }
 }
 
-// Fills `own` for the slots of the chunk.
+// Decodes the clip's AO into `own`, for the slots of the chunk.
 void decode_clip(const Instance& instance, const LinearView& chunk, std::uint32_t first_slot, ChunkAo& own) {
   const InstanceClip& clip = instance.input.clip;
   decode_ao(*clip.clips, clip.weights.data(), first_slot, chunk.block_count * linear_block_vertices,
@@ -247,8 +249,8 @@ const float* open_bias_of(const LoadedModel& loaded, Self self) {
   return self == Self::shadow ? loaded.linear.view().open_bias : loaded.open_without_bias.data();
 }
 
-// Calls put(place, number) for each file vertex; place is a pointer that advances by stride_bytes. convert
-// turns the AO of a whole chunk into numbers of another type at once.
+// Calls put(place, number) for each file vertex. `place` is the vertex's output address: vertices are
+// stride_bytes apart. `convert` converts the AO of a whole chunk to another type at once.
 template <class Number, class Stride, class Convert, class Put>
 void for_each_ao(const Scene& scene, const Instance& instance, void* out, Stride stride_bytes,
                  Convert&& convert, Put&& put) noexcept {

@@ -35,7 +35,7 @@ std::uint32_t uneven_instances(const Scene& scene) noexcept {
 
 namespace {
 
-// Null at full detail.
+// Returns null at full detail.
 const CharacterLevel* level_of(const Instance& instance) {
   const auto& levels = instance.model->model.levels;
   return instance.plan.level == 0 ? nullptr : &levels[instance.plan.level - 1];
@@ -52,7 +52,7 @@ void write(float (&out)[3], Vec3 v) {
   out[2] = v.z;
 }
 
-// Linear blend skinning: the weighted mean of the bones' matrices.
+// Returns the weighted mean of the bones' matrices, as in linear blend skinning.
 Mat3x4 blended(const Vector<Mat3x4>& bones, const KeyPoint& point) {
   Mat3x4 blend{{}};
   for (std::size_t b = 0; b < KeyPoint::max_bones; ++b)
@@ -61,7 +61,7 @@ Mat3x4 blended(const Vector<Mat3x4>& bones, const KeyPoint& point) {
   return blend;
 }
 
-// False if the slot is free, because its instance was removed, or if its instance was added after the lists
+// Returns false if the instance in the caster's slot was removed, or was added after the lists of the plan
 // were made.
 bool is_there(const Instance& caster, const InstancePlan& plan) {
   return caster.id != 0 && caster.added_frame < plan.frame;
@@ -119,7 +119,7 @@ nook_scene_instance_info describe_instance(const Scene& scene, const Instance& i
 void read_spheres(const Instance& instance, nook_scene_sphere* out) noexcept {
   for (const ProxySphere& sphere : spheres_of(instance)) {
     const Mat3x4& bone = instance.input.bones[sphere.bone];
-    // Bones are rigid or scale evenly, so each row of the linear part is as long as the scale.
+    // Bones are rigid or have a uniform scale, so the length of each row of the linear part is the scale.
     const float scale = length({bone.m[0], bone.m[1], bone.m[2]});
     nook_scene_sphere& posed_sphere = *out++;
     write(posed_sphere.centre_ws, transform_point(bone, sphere.centre));

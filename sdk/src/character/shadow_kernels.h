@@ -1,10 +1,10 @@
-// The per-frame work of a character on the CPU as a table of plain functions, one table for each instruction
-// set. All of them work on arrays of numbers that the caller owns; none allocates, locks or throws.
+// The per-frame work of a character on the CPU, as a table of plain functions. There is one table for each
+// instruction set. The functions work on arrays that the caller owns. They do not allocate, lock or throw.
 //
-// A frame of a character runs as follows. pose_spheres and pose_key_points bring the model to world space.
-// self_norm_sum and norm_root compute the shadow at each key point; composed_depth, exact_open and
-// composed_occlusion compute what other casters take away. encode_points and linear_layer blend both to
-// vertices.
+// These are the steps of a frame. First, pose_spheres and pose_key_points transform the model to world space.
+// Then self_norm_sum and norm_root compute the shadow at each key point, and composed_depth, exact_open and
+// composed_occlusion compute the occlusion by other casters. Finally, encode_points and linear_layer blend
+// both to the vertices.
 #pragma once
 
 #include <cstddef>
@@ -17,23 +17,24 @@
 
 namespace nook {
 
-// Key points come in groups of this many. Arrays over key points have padded_key_points(count) entries, and
-// the padding must hold finite numbers; pose_key_points fills it.
+// Key points come in groups of this many. Arrays over key points have padded_key_points(count) entries. The
+// padding must hold finite values; pose_key_points fills it.
 inline constexpr std::uint32_t key_point_group = 16;
 constexpr std::uint32_t padded_key_points(std::uint32_t count) {
   return (count + key_point_group - 1) / key_point_group * key_point_group;
 }
 
-// Smaller spheres count as this large, 1 micrometre, so that squared distances in radii stay finite.
+// Smaller spheres are treated as spheres of this radius, 1 micrometre, so that squared distances in radii
+// stay finite.
 inline constexpr float min_sphere_radius = float(NOOK_MIN_SPHERE_RADIUS);
-// Coordinates up to this many metres from the origin give finite results; float precision runs out long
-// before.
+// Coordinates up to this many metres from the origin give finite results. Float precision becomes useless
+// long before that.
 inline constexpr float max_coordinate = 1e9f;
 constexpr float inverse_sphere_radius(float radius) {
   return 1 / (radius > min_sphere_radius ? radius : min_sphere_radius);
 }
 
-// Spheres in the space of the key points on which they act, in metres.
+// Spheres in metres, in the same space as the key points that they darken.
 struct SphereSoa {
   const float* x = nullptr;
   const float* y = nullptr;
@@ -43,8 +44,8 @@ struct SphereSoa {
   std::uint32_t count = 0;
 };
 
-// Key points in metres. Normals have unit length, or are zero in the padding. Arrays have padded_count
-// entries; they need no 64-byte alignment, but are faster with it.
+// Key points in metres. Normals have unit length, or are zero in the padding. Each array has padded_count
+// entries. 64-byte alignment is not required, but is faster.
 struct KeyPointSoa {
   const float* x = nullptr;
   const float* y = nullptr;
@@ -71,7 +72,7 @@ struct KeyPointTarget {
   float* nz = nullptr;
 };
 
-// Proxy spheres of a model in rest space and metres, which RestSpheres owns.
+// Proxy spheres of a model in rest space, in metres. RestSpheres owns the arrays.
 struct RestSphereView {
   const float* x = nullptr;
   const float* y = nullptr;
@@ -81,8 +82,8 @@ struct RestSphereView {
   std::uint32_t count = 0;
 };
 
-// Key points of a model in rest space and metres, which RestKeyPoints owns; each has four bones and weights
-// in a row.
+// Key points of a model in rest space, in metres. RestKeyPoints owns the arrays. `bone` and `weight` hold
+// four consecutive entries for each key point.
 struct RestKeyPointView {
   KeyPointSoa fitted;
   KeyPointSoa surface;
@@ -92,25 +93,26 @@ struct RestKeyPointView {
   std::uint32_t padded_count = 0;
 };
 
-// The nodes and spheres of a tree in a pose, nodes first, in the form that the plain sum of the default
-// kernel needs (shadow_nook_of_mass). World space, metres.
+// The posed nodes and spheres of a tree. World space, metres. Each array holds the nodes first, then the
+// spheres. The values have the form that the plain sum of the default kernel needs (shadow_nook_of_mass).
 struct PosedSphereTree {
   static constexpr std::uint32_t max_spheres = 256, max_masses = 512;  // there is one node less than there
                                                                        // are spheres
 
   float x[max_masses], y[max_masses], z[max_masses];
-  float softness[max_masses];  // square metres, of the horizon
+  float softness[max_masses];  // square metres, softens the horizon
   float core[max_masses];      // square metres, added to the squared distance
-  float mass[max_masses];      // square metres: 3/4 of the squared radius, for a node of the sum of squared
-                               // radii
-  float reach[max_spheres];    // square metres, of nodes: closer key points need the node's halves
+  float mass[max_masses];      // square metres: 3/4 of the squared radius, or for a node, 3/4 of the sum of
+                               // squared radii
+  float reach[max_spheres];    // squared distance in square metres, only for nodes: for key points that are
+                               // closer, use the node's halves instead of the node
 };
-// The two halves of a node. Each is the number of a node or a sphere in PosedSphereTree. Nodes come before
-// their halves.
+// The two halves of a node. Each is the index of a node or sphere in PosedSphereTree. A node has a smaller
+// index than its halves.
 struct SphereTreeNode {
   std::uint16_t half[2] = {};
 };
-// SphereTree and PosedSphereTree own it.
+// A view of data that SphereTree and PosedSphereTree own.
 struct SphereTreeView {
   const SphereTreeNode* node = nullptr;
   std::uint32_t nodes = 0;
@@ -118,11 +120,12 @@ struct SphereTreeView {
 };
 
 // 16 vertices of the linear layer as a small dense matrix with one column for each key point that any of them
-// uses. A column takes few instructions for all 16 vertices; looking up key points for each vertex would take
-// a load each. Columns come in pairs, because processors sum two products of 16-bit numbers in one
-// instruction. Pair p of the block has the key points of key_points[first_pair + p]. The two alphas of each
-// vertex are side by side from alpha[32 (first_pair + p)] on, their blend weights from blend[32 (first_pair +
-// p)] on. The last column may have no weights.
+// uses. A column takes only a few instructions for all 16 vertices. Looking up the key points of each vertex
+// would take one load per entry. Columns are stored in pairs, because processors can sum two products of
+// 16-bit numbers in one instruction. The two key points of pair p of the block are in key_points[first_pair +
+// p]. The alphas of the pair start at alpha[32 (first_pair + p)], and the blend weights at blend[32
+// (first_pair + p)]; the two values of a vertex are next to each other. If the number of columns is odd, a
+// last column without weights is added.
 struct LinearBlock {
   std::uint32_t first_pair = 0;
   std::uint32_t pairs = 0;
@@ -130,16 +133,17 @@ struct LinearBlock {
 inline constexpr std::uint32_t linear_block_vertices = 16;
 inline constexpr std::uint32_t linear_pair_weights = 2 * linear_block_vertices;
 
-// Values at key points as whole multiples of a step, which encode_points chooses so that the largest value is
-// `limit` steps. Each code is stored twice, as the lower and as the upper half of a word whose other half is
-// 0.
+// Values at key points, encoded as integer multiples of `step`. encode_points chooses the step so that the
+// largest value is `limit` steps. Each code is stored twice: in the lower half of a word in `low`, and in the
+// upper half of a word in `high`. The other half of each word is 0.
 struct PointCodes {
   std::int32_t* low = nullptr;
   std::int32_t* high = nullptr;
   float step = 0;
 };
 
-// The linear layer by slots, with its own order of the vertices. LinearLayer owns it.
+// The linear layer. Its vertices are stored in slots, in an order that differs from the file's. LinearLayer
+// owns the arrays.
 struct LinearView {
   const LinearBlock* blocks = nullptr;
   std::uint32_t block_count = 0;
@@ -150,7 +154,7 @@ struct LinearView {
   const std::int16_t* blend = nullptr;  // blend weights, in the layout of alpha
   float alpha_step = 1, blend_step = 1;
   const float* open_bias = nullptr;  // 1 - bias, for each slot
-  // With codes up to these limits, the sums of all vertices fit into 32 bits.
+  // If codes do not exceed these limits, the sum of every vertex fits into 32 bits.
   float shadow_limit = 1, occlusion_limit = 1;
 };
 inline constexpr float max_code_limit = 32767;
@@ -159,44 +163,45 @@ struct ShadowKernels {
   Isa isa = Isa::scalar;
   const char* name = nullptr;
 
-  // sum[k] += sum over spheres of y^gamma. Call it several times with the same key points to join spheres in
-  // one norm. SIMD tables use the processor's estimates of roots. The shadow after norm_root is within 2e-4
-  // of the formulas in double precision; above 1, the error is relative.
+  // sum[k] += sum over spheres of y^gamma. To join several sets of spheres in one norm, call it several times
+  // with the same key points. SIMD tables use the processor's fast estimates of roots. The shadow after
+  // norm_root differs by at most 2e-4 from the formulas in double precision; above 1, this error is relative.
   void (*self_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
                         float* sum);
-  // The same for the default kernel and gamma 1, with nodes of a tree in place of far spheres. Each group of
-  // key points uses the largest nodes whose reach its box does not touch. Returns the number of evaluated
-  // pairs of a key point and a sphere or node.
+  // The same for the default kernel and gamma 1, but uses nodes of a tree instead of far spheres. Each group
+  // of key points uses the largest nodes whose reach does not touch the group's box. Returns the number of
+  // evaluated pairs of a key point and a sphere or node.
   std::uint64_t (*tree_sum)(const SphereTreeView& tree, const KeyPointSoa& points, float* sum);
   // shadow[k] = saturated(sum[k]^(1 / gamma), saturation[k]); sum and shadow may be the same array.
   void (*norm_root)(const float* sum, const float* saturation, std::uint32_t padded_count, float gamma,
                     float* shadow);
 
-  // depth[k] += solid_depth(sum over spheres of caster_weight * form factor), by the fast form. Pass the
-  // spheres of one caster, and the surface key points.
+  // depth[k] += solid_depth(sum over spheres of caster_weight * form factor), with the fast formula of the
+  // form factor. Pass the spheres of one caster, and the surface key points.
   void (*composed_depth)(const SphereSoa& spheres, const KeyPointSoa& points, float* depth);
-  // open[k] *= 1 - min(1, caster_weight * form factor) for each sphere, by the exact form. Pass the ground or
-  // free occluders. If caster_weight is NULL, all weights are 1.
+  // open[k] *= 1 - min(1, caster_weight * form factor) for each sphere, with the exact formula of the form
+  // factor. Pass the ground or free occluders. If caster_weight is NULL, all weights are 1.
   void (*exact_open)(const SphereSoa& spheres, const KeyPointSoa& points, float* open);
-  // occlusion[k] = 1 - open[k] * exp(-depth[k]). depth NULL means 0, and open NULL means 1.
+  // occlusion[k] = 1 - open[k] * exp(-depth[k]). If `depth` is NULL, it counts as 0; if `open` is NULL, it
+  // counts as 1.
   void (*composed_occlusion)(const float* depth, const float* open, std::uint32_t padded_count,
                              float* occlusion);
 
   // Rounds values to codes from -limit to limit. A code changes a value by at most half of the step.
   void (*encode_points)(const float* value, std::uint32_t padded_count, float limit, PointCodes& codes);
   // ao[slot] = clamp(1 - (sum alpha * shadow + bias), 0, 1) * clamp(1 - sum blend * occlusion, 0, 1) in the
-  // layer's slot order, with 16 entries for each block. occlusion NULL evaluates self-shadow only. Whatever
-  // was encoded, ao is a number in [0, 1].
+  // layer's slot order, with 16 entries for each block. If `occlusion` is NULL, evaluates only self-shadow.
+  // For any input, `ao` is in [0, 1].
   void (*linear_layer)(const LinearView& layer, const PointCodes& shadow, const PointCodes* occlusion,
                        float* ao);
 
-  // These transform from rest space to world space. bones map rest space to world space; they are rigid or
-  // have a uniform scale, which scales radii. offset_ws is subtracted, so that a scene far from the world's
-  // origin keeps its precision near the instance.
+  // pose_spheres and pose_key_points transform from rest space to world space. `bones` map rest space to
+  // world space. They must be rigid or have a uniform scale, which also scales radii. offset_ws is subtracted
+  // from the positions, so that a scene far from the world's origin keeps its precision near the instance.
   void (*pose_spheres)(const RestSphereView& rest, const Mat3x4* bones, Vec3 offset_ws,
                        const SphereTarget& out);
-  // If surface is NULL, only the fitted positions and normals are transformed. Otherwise the surface's, which
-  // composed_depth reads, are transformed too.
+  // If `surface` is NULL, transforms only the fitted positions and normals. Otherwise also transforms the
+  // surface positions and normals, which composed_depth reads.
   void (*pose_key_points)(const RestKeyPointView& rest, const Mat3x4* bones, Vec3 offset_ws,
                           const KeyPointTarget& out, const KeyPointTarget* surface);
 
@@ -205,7 +210,7 @@ struct ShadowKernels {
   // over spheres of y^gamma rho, by bands (directional_occlusion.h): the coloured form of self_norm_sum.
   void (*directional_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
                                const LightBands& light, float* const* rgb);
-  // inverse[k] = inverse_hemisphere at the key point, which the next two functions need.
+  // inverse[k] = inverse_hemisphere at key point k. The next two functions need it.
   void (*directional_hemisphere)(const KeyPointSoa& points, const LightView& light, float* const* inverse);
   // rgb[k] += rho * solid_depth(sum over spheres of caster_weight * form factor): the coloured form of
   // composed_depth. Pass the spheres of one caster, which share one rho.
@@ -214,13 +219,14 @@ struct ShadowKernels {
   // rgb[k] *= 1 - min(1, form factor * rho) for each sphere: the coloured form of exact_open.
   void (*directional_open)(const SphereSoa& spheres, const KeyPointSoa& points, const LightView& light,
                            float* const* inverse, float* const* rgb);
-  // The same for the sphere of a ground whose plane has the unit normal up.
+  // The same for the sphere of the ground. `up` is the unit normal of the ground's plane.
   void (*directional_ground)(const SphereSoa& ground, const KeyPointSoa& points, const LightView& light,
                              Vec3 up, float* const* rgb);
-  // The coloured form of linear_layer. A vertex' self-shadow is linear_layer's, times the ratio of the sum of
-  // alpha * coloured to the sum of alpha * shadow (vertex_light_ratio). This applies the key points' light to
-  // the bias, too. Where key points are darker than their vertex, the bias is the small difference of large
-  // numbers. occlusion NULL evaluates self-shadow only. For any input the results are numbers in [0, 1].
+  // The coloured form of linear_layer. It multiplies the self-shadow of linear_layer by (sum alpha *
+  // coloured) / (sum alpha * shadow), see vertex_light_ratio. In this way, the light of the key points also
+  // applies to the bias. This matters where key points are darker than their vertex, because the self-shadow
+  // is then a small difference of large values. If `occlusion` is NULL, evaluates only self-shadow. For any
+  // input, the results are in [0, 1].
   void (*directional_linear_layer)(const LinearView& layer, const float* shadow, const float* const* coloured,
                                    const float* const* occlusion, float* const* rgb);
 };

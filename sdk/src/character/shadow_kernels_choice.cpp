@@ -1,4 +1,4 @@
-// The kernels of an instruction set.
+// Chooses the kernels for an instruction set.
 #include "sdk/src/character/shadow_kernels.h"
 
 namespace nook {

@@ -1,5 +1,5 @@
-// The kernels over one vector type. Each instruction set includes this file inside its own namespace, after
-// it has defined
+// The kernels for one vector type. Each instruction set includes this file inside its own namespace. Before
+// that, it must define
 //   isa, its Isa,
 //   Float, a vector of `width` numbers with the operations of core/simd_scalar.h,
 //   broadcast, load and store,
@@ -11,7 +11,7 @@
 
 namespace {
 
-// Loads and stores a number type, which is one vector or a pair of them.
+// Loads and stores the type F, which is a vector or a pair of vectors.
 template <class F>
 struct Lanes {
   static constexpr std::uint32_t count = width;
@@ -126,10 +126,10 @@ Float shadow_of_mass(const PosedSphereTree& tree, std::uint32_t i, const Points<
                              broadcast(tree.softness[i]), broadcast(tree.mass[i]));
 }
 
-// The groups of key points that choose their nodes together, with one bit each.
+// Number of groups of key points that choose their nodes together. Each group has one bit in a word.
 constexpr std::uint32_t batch_groups = 32;
 
-// The boxes of the groups of a batch along an axis.
+// The extents of the groups' boxes along one axis.
 struct Extents {
   alignas(64) float low[batch_groups];
   alignas(64) float high[batch_groups];
@@ -151,7 +151,8 @@ struct Extents {
     low[group] = lows[0];
     high[group] = highs[0];
   }
-  // Returns the distance of a place from the boxes of the groups from `group` on.
+  // Returns the distances along the axis between `place` and the boxes of the next groups, starting at
+  // `group`.
   Float outside(Float place, std::uint32_t group) const {
     return place - min(max(place, load(low + group)), load(high + group));
   }
@@ -170,7 +171,7 @@ struct GroupBoxes {
       z.put(g, points.z + k);
     }
   }
-  // Returns a bit for each group within the reach of a node.
+  // Returns a mask with a bit for each group; the bit is set if the group is within the reach of node n.
   std::uint32_t near(const PosedSphereTree& tree, std::uint32_t n) const {
     const Float at_x = broadcast(tree.x[n]), at_y = broadcast(tree.y[n]), at_z = broadcast(tree.z[n]),
                 reach = broadcast(tree.reach[n]);
@@ -195,14 +196,14 @@ void transpose_bits(std::uint32_t (&row)[32]) {
       }
 }
 
-// The masses that each group of a batch uses, one bit for each group. A group uses a node if it is outside
-// the node's reach but within the reach of all nodes above. It uses a sphere if it is within the reach of all
-// nodes above.
+// The masses that each group of a batch uses. A group uses a node if it is outside the node's reach but
+// within the reach of all of the node's ancestors. It uses a sphere if it is within the reach of all of the
+// sphere's ancestors.
 struct ChosenMasses {
   static constexpr std::uint32_t words = PosedSphereTree::max_masses / 32;
 
-  std::uint32_t count = 0;       // of words in use
-  std::uint32_t bit[words][32];  // of masses 32 w to 32 w + 31 in bit[w][group]
+  std::uint32_t count = 0;       // number of words in use
+  std::uint32_t bit[words][32];  // the bits of masses 32 w to 32 w + 31 are in bit[w][group]
 
   ChosenMasses(const SphereTreeView& tree, const GroupBoxes& boxes) : count((2 * tree.nodes + 32) / 32) {
     const auto groups = [&](std::uint32_t mass) -> std::uint32_t& { return bit[mass / 32][mass % 32]; };
@@ -217,8 +218,8 @@ struct ChosenMasses {
   }
 };
 
-// Expects a word other than 0. It avoids std::countr_zero, a function of the C++ library that the linker may
-// merge.
+// `word` must not be 0. This function does not use std::countr_zero, because the linker may merge functions
+// of the C++ library (see above).
 std::uint32_t lowest_bit(std::uint32_t word) {
 #ifdef NOOK_TRAILING_ZEROS
   return static_cast<std::uint32_t>(NOOK_TRAILING_ZEROS(word));
@@ -231,7 +232,7 @@ std::uint32_t lowest_bit(std::uint32_t word) {
 
 constexpr std::uint32_t group_parts = key_point_group / width;
 
-// Returns the number of masses.
+// Returns the number of masses that were summed.
 std::uint32_t sum_chosen(const PosedSphereTree& tree, const ChosenMasses& chosen, std::uint32_t group,
                          const KeyPointSoa& points, std::uint32_t k, float* sum) {
   Points<Float> p[group_parts];
@@ -313,12 +314,12 @@ void composed_occlusion(const float* depth, const float* open, std::uint32_t pad
   }
 }
 
-// min and max return their second operand if one operand is NaN, so a NaN becomes 1, which is open.
+// If one operand is NaN, min and max return their second operand. So a NaN becomes 1, which means fully open.
 Float clamped_open(Float a) {
   return max(min(a, broadcast(1.0f)), broadcast(0.0f));
 }
 
-// max returns its second operand if the first is NaN, so NaNs are ignored.
+// If the first operand is NaN, max returns the second one. So NaNs are ignored.
 float largest_size(const float* value, std::uint32_t padded_count) {
   Float largest = broadcast(0.0f);
   for (std::uint32_t k = 0; k < padded_count; k += width) {
@@ -340,7 +341,7 @@ void encode_points(const float* value, std::uint32_t padded_count, float limit, 
     store_codes(codes.low + k, codes.high + k, max(min(load(value + k) * inverse, high), low));
 }
 
-// The weighted sums of the vertices of a block over its columns.
+// The weighted sums over the columns of a block, for each of its vertices.
 struct BlockSums {
   static constexpr std::uint32_t parts = linear_block_vertices / width;
 
@@ -356,7 +357,7 @@ struct BlockSums {
       add(*k++, w, codes);
       w += linear_pair_weights;
     }
-    // Takes two pairs at a time, because the loop itself costs as much as a pair.
+    // Processes two pairs per iteration, because the loop overhead costs as much as a pair.
     for (; k != end; k += 2, w += 2 * linear_pair_weights) {
       add(k[0], w, codes);
       add(k[1], w + linear_pair_weights, codes);

@@ -1,11 +1,11 @@
-// The same layers with a colour: each term of a sphere is multiplied by the light behind it. Include this
-// file after shadow_kernels_impl.inl, in the same namespace.
+// The coloured forms of the kernels: each term of a sphere is multiplied by the light behind the sphere.
+// Include this file after shadow_kernels_impl.inl, in the same namespace.
 
 namespace {
 
 template <class F>
 struct SeenDirection {
-  Direction<F> offset;  // to the sphere's centre, in its radii
+  Direction<F> offset;  // from the key point to the sphere's centre, in sphere radii
   F xi, delta2;
 };
 
@@ -148,7 +148,7 @@ void directional_ground(const SphereSoa& ground, const KeyPointSoa& points, cons
   }
 }
 
-// The sums over the key points of `width` vertices.
+// The sums over the key points, for `width` vertices.
 struct DirectionalSum {
   Float shadow = broadcast(0.0f);
   Float coloured[3] = {shadow, shadow, shadow}, occlusion[3] = {shadow, shadow, shadow};

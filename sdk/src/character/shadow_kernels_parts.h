@@ -1,4 +1,5 @@
-// The headers of the .inl files of the kernels, which are included inside a namespace.
+// Includes the headers that the kernels' .inl files need. The .inl files cannot include them, because they
+// are themselves included inside a namespace.
 #pragma once
 
 #include <cstdint>

@@ -27,7 +27,8 @@ void pose_points(const KeyPointSoa& rest, const float* m, Vec3 offset_ws, std::u
   const float wx = m[0] * nx + m[1] * ny + m[2] * nz;
   const float wy = m[4] * nx + m[5] * ny + m[6] * nz;
   const float wz = m[8] * nx + m[9] * ny + m[10] * nz;
-  // Blending opposite bones can cancel a normal. It then stays zero, which shadows treat as no direction.
+  // If bones with opposite rotations are blended, a normal can become zero. It then stays zero, and shadows
+  // treat it as having no direction.
   const float scale = rsqrt(max(wx * wx + wy * wy + wz * wz, 1e-30f));
   out.nx[k] = wx * scale;
   out.ny[k] = wy * scale;
@@ -50,7 +51,8 @@ void pose_spheres(const RestSphereView& rest, const Mat3x4* bones, Vec3 offset_w
     out.x[i] = m[0] * x + m[1] * y + m[2] * z + (m[3] - offset_ws.x);
     out.y[i] = m[4] * x + m[5] * y + m[6] * z + (m[7] - offset_ws.y);
     out.z[i] = m[8] * x + m[9] * y + m[10] * z + (m[11] - offset_ws.z);
-    // Under rigid or uniformly scaled matrices, each row of the linear part is as long as the scale.
+    // The matrices are rigid or have a uniform scale, so the length of each row of the linear part is the
+    // scale.
     const float scale = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
     out.inverse_radius[i] = 1 / max(rest.radius[i] * scale, min_sphere_radius);
   }

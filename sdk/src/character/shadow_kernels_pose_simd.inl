@@ -1,9 +1,9 @@
 // Transforms from rest space to world space with four floats at a time. The file is included inside an
 // instruction set's namespace, after it has defined
 //   Four, a vector of four floats with Four(float), +, -, *, /, fma, max and sqrt,
-//   load_four(p), store(p, a) and transpose(a, b, c, d), which swaps rows and columns of a 4 x 4 matrix.
-// The matrix of a bone takes three loads, one for each row; four blended key points are then transposed to
-// arrays.
+//   load_four(p), store(p, a) and transpose(a, b, c, d), which swaps rows and columns of a 4 x 4 matrix. The
+// matrix of a bone takes three loads, one for each row. Four blended key points are transposed, so that each
+// coordinate can be stored in its own array.
 
 namespace {
 
@@ -12,7 +12,7 @@ Four inverse_root(Four a) {
   return Four(1.0f) / sqrt(a);
 }
 
-// Column c of row r of four matrices: m[4 * r + c] holds one number for each of them.
+// Four matrices: m[4 * r + c] holds the element in row r and column c of each of them.
 struct FourMatrices {
   Four m[12];
 };
@@ -30,7 +30,7 @@ NOOK_INLINE FourMatrices transposed(const Four (&rows)[4][3]) {
   return out;
 }
 
-// Returns the largest number of bones of four key points; weights of 0 come last.
+// Returns the largest number of bones that any of four key points uses. Weights of 0 must come last.
 int used_bones(const float* weight) {
   float largest[4];
   store(largest, max(max(load_four(weight), load_four(weight + 4)),
@@ -83,14 +83,15 @@ NOOK_INLINE void pose_four(const KeyPointSoa& rest, const FourMatrices& m, Vec3 
   store(out.y + k, p.y);
   store(out.z + k, p.z);
   const Three n = linear_part(m, {load_four(rest.nx + k), load_four(rest.ny + k), load_four(rest.nz + k)});
-  // Blending opposite bones can cancel a normal. It then stays zero, which shadows treat as no direction.
+  // If bones with opposite rotations are blended, a normal can become zero. It then stays zero, and shadows
+  // treat it as having no direction.
   const Four scale = inverse_root(max(squared_length(n), Four(1e-30f)));
   store(out.nx + k, n.x * scale);
   store(out.ny + k, n.y * scale);
   store(out.nz + k, n.z * scale);
 }
 
-// Without the surface, the matrices can stay in registers.
+// Without the surface positions and normals, the compiler can keep the matrices in registers.
 void pose_key_points(const RestKeyPointView& rest, const Mat3x4* bones, Vec3 offset_ws,
                      const KeyPointTarget& out, const KeyPointTarget* surface) {
   const auto blend = [&](std::uint32_t k) {
@@ -108,7 +109,7 @@ void pose_key_points(const RestKeyPointView& rest, const Mat3x4* bones, Vec3 off
   }
 }
 
-// Lanes after the last sphere repeat it.
+// Lanes after the last sphere repeat the last sphere.
 void pose_spheres(const RestSphereView& rest, const Mat3x4* bones, Vec3 offset_ws, const SphereTarget& out) {
   for (std::uint32_t i = 0; i < rest.count; i += 4) {
     float x[4], y[4], z[4], radius[4];
@@ -124,7 +125,8 @@ void pose_spheres(const RestSphereView& rest, const Mat3x4* bones, Vec3 offset_w
     }
     const FourMatrices m = transposed(rows);
     const Three p = moved_point(m, {load_four(x), load_four(y), load_four(z)}, offset_ws);
-    // Under rigid or uniformly scaled matrices, each row of the linear part is as long as the scale.
+    // The matrices are rigid or have a uniform scale, so the length of each row of the linear part is the
+    // scale.
     const Four scale = sqrt(squared_length({m.m[0], m.m[1], m.m[2]}));
     const Four scaled = max(load_four(radius) * scale, Four(min_sphere_radius));
     float ox[4], oy[4], oz[4], inverse[4];

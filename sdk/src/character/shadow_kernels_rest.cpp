@@ -14,7 +14,7 @@ void check_bone(const CharacterModel& model, std::uint16_t bone, const char* own
                   static_cast<unsigned>(bone), model.bone_count());
 }
 
-// Returns six arrays of `stride` numbers, one after another.
+// Returns six consecutive arrays of `stride` elements each.
 KeyPointSoa six_arrays(const float* first, std::uint32_t stride) {
   return {
       first, first + stride, first + 2 * stride, first + 3 * stride, first + 4 * stride, first + 5 * stride,

@@ -12,7 +12,7 @@ namespace nook {
 
 class RestSpheres {
  public:
-  // Throws Failure if the bone of a sphere is not one of the model's.
+  // Throws Failure if a sphere has a bone that is not in the model.
   explicit RestSpheres(const CharacterModel& model, Memory* memory = default_memory());
 
   const RestSphereView& view() const { return view_; }
@@ -29,7 +29,7 @@ class RestSpheres {
 // Key points, padded to key_point_group with copies of the last one.
 class RestKeyPoints {
  public:
-  // Throws Failure if a bone of a key point is not one of the model's.
+  // Throws Failure if a key point has a bone that is not in the model.
   explicit RestKeyPoints(const CharacterModel& model, Memory* memory = default_memory());
 
   const RestKeyPointView& view() const { return view_; }

@@ -7,16 +7,16 @@
 namespace nook {
 namespace {
 
-// The spheres order[begin...end], their centre and second moments along the axes.
+// The spheres order[begin...end], with their centre and their second moments along the axes.
 struct Group {
   std::uint32_t begin = 0, end = 0;
   Vec3 centre, moment;
   float total() const { return moment.x + moment.y + moment.z; }
 };
 
-// A minimum mass, so that spheres that darken nothing are split as well.
+// A sphere has at least this mass, so that spheres with weight 0 are split as well.
 constexpr float least_mass = 1e-12f;
-constexpr float least_squared_distance = 1e-6f;  // at scale 1, so that quotients stay finite
+constexpr float least_squared_distance = 1e-6f;  // for a body of scale 1; keeps quotients finite
 
 float mass_of(const ProxySphere& sphere) {
   return std::max(sphere.caster_weight * sphere.radius * sphere.radius, least_mass);
@@ -154,7 +154,7 @@ void merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const 
   for (std::uint32_t g = 0; g < out.count; ++g) {
     const std::uint32_t *const begin = tier.member.data() + tier.first[g], *const end = tier.member.data() +
                                                                                         tier.first[g + 1];
-    // Without any mass, the group takes the place of its first part.
+    // If all parts have mass 0, the group gets the position of its first part.
     float mass = 0, x = parts.x[*begin], y = parts.y[*begin], z = parts.z[*begin], own = 0;
     float sum_x = 0, sum_y = 0, sum_z = 0;
     for (const std::uint32_t* i = begin; i < end; ++i) {
@@ -176,7 +176,8 @@ void merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const 
       const float m = parts.caster_weight[*i] / (parts.inverse_radius[*i] * parts.inverse_radius[*i]);
       moment += m * (dx * dx + dy * dy + dz * dz);
     }
-    // The moment of the parts' centres determines the radius, because the parts have radii of their own.
+    // The squared radius of a group is the mean squared radius of its parts, plus a term for the spread of
+    // their centres.
     const float squared = (own + (4.0f / 3) * moment) * inverse;
     out.x[g] = x;
     out.y[g] = y;

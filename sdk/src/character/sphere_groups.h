@@ -1,10 +1,11 @@
-// Merges the spheres of a caster into a few spheres for receivers at a distance.
+// Merges the spheres of a caster into a few spheres, for distant receivers.
 //
-// A far sphere darkens by weight * radius^2 * cos / d^2, like the field of a charge of `mass` = weight *
+// A far sphere reduces AO by weight * radius^2 * cos / d^2, like the field of a charge of `mass` = weight *
 // radius^2. If spheres are close together as seen from the receiver, one sphere at their centre with the sum
-// of their masses acts like all of them. The field is a dipole's, which is harmonic. So the error of a group
-// is of second order in its extent, and vanishes if the extent is the same in all directions. The receiver's
-// nearest part decides how large the error is, so that two bodies whose arms cross keep their spheres.
+// of their masses acts like all of them. cos / d^2 is the field of a dipole, which is harmonic. So the error
+// of a group is of second order in the extent of the group, and vanishes if the extent is the same in all
+// directions. The error is determined by the nearest part of the receiver. Two bodies whose arms cross
+// therefore keep their spheres.
 #pragma once
 
 #include <cmath>
@@ -18,18 +19,18 @@
 namespace nook {
 
 inline constexpr std::uint32_t group_tiers = 3;
-// Tier 0 is the finest. A group of a tier is made of whole groups of the tier before.
+// Tier 0 is the finest. A group of a tier consists of whole groups of the previous tier.
 inline constexpr std::uint32_t tier_groups[group_tiers] = {16, 6, 2};
 
 // The groups of a model's spheres, which do not depend on the pose.
 class SphereGroups {
  public:
-  // Splits the spheres in the rest pose. It always splits the group of the largest moment, at the group's
+  // Splits the spheres in the rest pose. Each step splits the group with the largest moment, at the group's
   // centre and across its longest axis.
   explicit SphereGroups(const CharacterModel& model, Memory* memory = default_memory());
 
-  // Group g of tier t is made of member[first[g]...first[g + 1]]: spheres for t = 0, otherwise groups of tier
-  // t - 1.
+  // Group g of tier t consists of member[first[g]...first[g + 1]]: spheres for t = 0, otherwise groups of
+  // tier t - 1.
   struct Tier {
     AlignedArray<std::uint32_t> first, member;
     std::uint32_t count() const {
@@ -42,7 +43,7 @@ class SphereGroups {
   Tier tiers_[group_tiers];
 };
 
-// The groups of a tier in a pose, as spheres. Each array has tier_groups entries, padded to simd_width.
+// The posed groups of a tier, as spheres. Each array has tier_groups[tier] entries, padded to simd_width.
 struct GroupLanes {
   float *x = nullptr, *y = nullptr, *z = nullptr;
   float* inverse_radius = nullptr;  // per metre
@@ -51,31 +52,33 @@ struct GroupLanes {
   std::uint32_t count = 0;
 };
 
-// The places where a receiver feels its casters, in metres: their box, which is empty without any place, and
-// a sample of them.
+// Describes the places at which a receiver is darkened, in metres: their bounding box, and a sample of the
+// places. Without any place, the box is empty.
 struct Receiver {
   static constexpr std::uint32_t samples = 16;
 
   Vec3 min{INFINITY, INFINITY, INFINITY}, max{-INFINITY, -INFINITY, -INFINITY};
   float x[samples] = {}, y[samples] = {}, z[samples] = {};
-  float scale = 1;  // of the body's place
+  float scale = 1;  // scale of the body
 };
-// Takes samples at even steps from places in the order of with_near_key_points_together.
+// Takes samples from the places at equal index steps. The places must be in the order of
+// with_near_key_points_together.
 Receiver receiver_of(const float* x, const float* y, const float* z, std::uint32_t count, float scale);
 
-// Merges `parts`, which are the spheres of a pose or the groups of the tier before, into the groups of a
-// tier. A group has the mass and centre of its parts. Its radius gives it the spread of its parts: along each
-// axis, a disc's spread is a quarter of its squared radius. part_moments are the moments of groups, or null
-// for spheres. The pose decides a group's moment, so that a group whose parts have moved apart counts as
-// large.
+// Merges `parts` into the groups of a tier. `parts` are the posed spheres, or the groups of the previous
+// tier. A group gets the mass and centre of its parts. Its radius is chosen so that it has the same spread as
+// its parts: along each axis, the spread of a disc is a quarter of its squared radius. part_moments are the
+// moments of the groups of the previous tier, or null for spheres. A group's moment is computed from the
+// pose, so a group whose parts have moved apart counts as large.
 void merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const float* part_moments,
                   const GroupLanes& out);
 
-// Estimates the error of AO that groups cause, root mean square over a receiver. Returns infinity if the
-// centre of a group of several spheres lies in the receiver's box. The largest second derivative of cos / d^2
-// is 6 / d^4; half of the receiver faces away, and the mean square of cos over the other half is 1/3, so that
-// half of 6 * moment / d^4 becomes 1.2 * moment / d^4. The mean is over the samples, and at least 1/16 of the
-// estimate for the nearest point of the box, because the samples can miss an arm that is near.
+// Estimates the RMS error in AO that the groups cause over a receiver. Returns infinity if the centre of a
+// group of several spheres lies in the receiver's box. The largest second derivative of cos / d^2 is 6 / d^4,
+// so the error is at most half of 6 * moment / d^4. Half of the receiver faces away, and the mean square of
+// cos over the other half is 1/3, which gives 1.2 * moment / d^4. The result is the mean over the samples,
+// but at least 1/16 of the estimate for the nearest point of the box, because the samples can miss a near
+// arm.
 float group_error(const GroupLanes& groups, const Receiver& receiver);
 
 }  // namespace nook

@@ -7,8 +7,9 @@
 namespace nook {
 namespace {
 
-// A node's own estimate may be this many times the allowed error. On baked bodies, the rms error of AO is
-// then 0.8 to 1.0 of the allowed error. Errors of nodes add up, but the weights of key points reduce them.
+// The estimated error of a single node may be this many times the allowed error. Errors of several nodes add
+// up, but the weights of the key points reduce them. On baked bodies, the resulting rms error of AO is 0.8 to
+// 1.0 times the allowed error.
 constexpr float share_of_node = 1.4f;
 
 using Spheres = std::span<std::uint32_t>;
@@ -18,7 +19,7 @@ float coordinate(const CharacterModel& model, std::uint32_t sphere, int axis) {
   return axis == 0 ? centre.x : axis == 1 ? centre.y : centre.z;
 }
 
-// Returns the number of spheres of the first half: at least one, but not all.
+// Returns the number of spheres in the first half, which is at least one, but not all.
 std::uint32_t split(const CharacterModel& model, Spheres spheres) {
   int longest = 0;
   float extent = -1, middle = 0;
@@ -40,12 +41,13 @@ std::uint32_t split(const CharacterModel& model, Spheres spheres) {
   return first == 0 || first == spheres.size() ? static_cast<std::uint32_t>(spheres.size() / 2) : first;
 }
 
-// Goes breadth first, because a processor merges nodes in parallel if none waits for the one before.
+// Orders the nodes breadth first. Neighbouring nodes then do not depend on each other, so a processor can
+// merge several of them in parallel.
 Vector<SphereTreeNode> nodes_of(const CharacterModel& model, Spheres all, Memory* memory) {
   struct Range {
     std::uint32_t begin, end;
   };
-  const std::size_t first_sphere = all.size() - 1;  // one node less than spheres
+  const std::size_t first_sphere = all.size() - 1;  // there is one node less than there are spheres
   Vector<SphereTreeNode> nodes(memory);
   Vector<Range> ranges(memory);
   const auto number_of = [&](std::uint32_t begin, std::uint32_t end) {
@@ -65,16 +67,16 @@ Vector<SphereTreeNode> nodes_of(const CharacterModel& model, Spheres all, Memory
   return nodes;
 }
 
-// Sums over the spheres of a node, or for one sphere.
+// Sums over the spheres of a node, or the same values of one sphere.
 struct Moments {
   float mass = 0;    // square metres: the sum of squared radii
-  Vec3 centre;       // by mass
+  Vec3 centre;       // weighted by mass
   float spread = 0;  // metres^4: sum of mass * (distance from the centre)^2
   float fourth = 0;  // metres^4: sum of mass * radius^2
-  float extent = 0;  // metres: no sphere reaches farther from the centre
+  float extent = 0;  // metres: the largest distance of any sphere's surface from the centre
 };
 
-// `inverse` is 1 / the sum of their masses.
+// `inverse` is 1 / (a.mass + b.mass).
 Moments joined(const Moments& a, const Moments& b, float inverse) {
   const float share = b.mass * inverse;
   const Vec3 apart = b.centre - a.centre;
@@ -92,18 +94,18 @@ void put_mass(const Moments& m, std::uint32_t i, float softness, float radius_sq
   out.mass[i] = 0.75f * m.mass;
 }
 
-// Spheres that spread by sigma along the normal are, near the horizon, on average sigma / sqrt(2 pi) above
-// it. A sphere whose horizon is softened by 4 sigma^2 / (2 pi) does the same; sigma^2 is a third of the
-// variance.
+// If spheres near the horizon have the standard deviation sigma along the normal, their mean height above the
+// horizon, counting those below as 0, is sigma / sqrt(2 pi). A single sphere whose horizon is softened by 4
+// sigma^2 / (2 pi) has the same effect. sigma^2 is a third of the variance over all directions.
 constexpr float softness_of_variance = 0.21f;
 
-// The largest second derivative of cos / d^2 is 6 / d^4. Half of all key points face away, and the mean
-// square of cos over the other half is 1/3. So half of 6 * spread / d^4 becomes 1.2 * spread / d^4, root mean
-// square, which equals the error at the squared distance sqrt(1.2 * spread / error).
+// The largest second derivative of cos / d^2 is 6 / d^4. So the error is at most half of 6 * spread / d^4.
+// Half of all key points face away, and the mean square of cos over the other half is 1/3. This gives an RMS
+// error of 1.2 * spread / d^4. It equals `error` at the squared distance sqrt(1.2 * spread / error).
 //
-// Two limits apply. Within three times the deviation, the series has no meaning. Within the distance of the
-// farthest sphere, a key point may stand beside a sphere that is too small to affect the spread, and still be
-// fully in its shadow.
+// Two lower limits apply to the reach. Within three standard deviations, the series is not valid. Within the
+// distance of the farthest sphere, a key point may lie next to a single sphere and be fully in its shadow.
+// The sphere may be too small to affect the spread.
 void put_node(const Moments& m, std::uint32_t n, float inverse, float inverse_error, PosedSphereTree& out) {
   const float variance = m.spread * inverse, radius_squared = m.fourth * inverse;
   put_mass(m, n, radius_squared + softness_of_variance * variance, radius_squared, out);

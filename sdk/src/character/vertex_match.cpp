@@ -9,21 +9,23 @@
 namespace nook {
 namespace {
 
-// A vertex whose normal looks to another side has a cosine that is smaller by this. Hosts smooth normals and
-// bend them on cards and leaves, so that a smaller difference decides nothing.
+// A candidate faces another side if its cosine is smaller than the best one by this much. Smaller differences
+// are ignored, because hosts smooth normals, and bend them on cards and leaves.
 constexpr float other_side = 0.7f;
 
-// A normal within 5 degrees of the model's is the model's: steps of 2 degrees, and a normal of 8 bits. One
-// that is 10 degrees away is not.
+// A host normal within 5 degrees of the model's normal is treated as the same normal. This allows for the
+// model's steps of 2 degrees and for 8-bit normals of the host. A normal that is 10 degrees away is treated
+// as a different one.
 constexpr float fitting_cosine = 0.9962f, unfitting_cosine = 0.9848f;
 
-// Half a step of 8 bits for each of 8 weights is within this sum of absolute differences. If no candidate
-// fits this well, the weights belong to another skin.
+// Limit for the sum of absolute differences of the weights. It allows for half an 8-bit step in each of 8
+// weights. If no candidate is within this limit, the host's weights belong to another skin.
 constexpr float fitting_weights = 0.1f;
-// The steps of the file's weights.
+// Limit that allows only for the quantisation of the file's weights.
 constexpr float weight_steps = 2e-4f;
 
-// AO that differs by less in every pose counts as equal: half a step of 8 bits and what a bake is off by.
+// If the AO of two vertices differs by less than this in every pose, it counts as equal. This allows for half
+// an 8-bit step and for the error of a bake.
 constexpr float equal_ao = 0.01f;
 
 constexpr float unknown_weights = -1;
@@ -32,13 +34,14 @@ constexpr float unknown_weights = -1;
 struct Fit {
   const Candidate* candidate = nullptr;
   float distance = 0;               // host's unit
-  float facing = 1;                 // the cosine between the normals; 1 without
-  float side = 1;                   // the same with the triangles' normal, where the host gave triangles
+  float facing = 1;                 // the cosine between the normals; 1 if there are no normals
+  float side = 1;                   // the same with the normal of the host's triangles; equals `facing` if
+                                    // the host gave no triangles
   float weights = unknown_weights;  // the sum of absolute differences
 };
 using Fits = Vector<Fit>;
 
-// The alpha of a key point at a welded vertex.
+// Returns the alpha of a key point at a welded vertex.
 float alpha_of(const CharacterModel& model, std::uint32_t welded, std::uint16_t key_point) {
   const std::size_t first = std::size_t{welded} * model.influences;
   float sum = 0;
@@ -47,7 +50,7 @@ float alpha_of(const CharacterModel& model, std::uint32_t welded, std::uint16_t 
   return sum;
 }
 
-// The most by which `a` can be darker than `b`, if every key point has a shadow of 0 to 1.
+// Returns the largest amount by which `a` can be darker than `b`, if the shadow of each key point is 0 to 1.
 float darker_by(const CharacterModel& model, std::uint32_t a, std::uint32_t b) {
   const std::size_t first = std::size_t{a} * model.influences;
   float sum = model.bias[a] - model.bias[b];
@@ -56,13 +59,13 @@ float darker_by(const CharacterModel& model, std::uint32_t a, std::uint32_t b) {
   return sum;
 }
 
-// The bound of the difference in the AO that a body gives itself, in any pose.
+// Returns an upper bound for the difference of the body's own AO at two vertices, over all poses.
 float ao_difference(const CharacterModel& model, std::uint32_t a, std::uint32_t b) {
   const float rest = model.static_ao.empty() ? 0 : std::abs(model.static_ao[a] - model.static_ao[b]);
   return std::max({rest, darker_by(model, a, b), darker_by(model, b, a)});
 }
 
-// Returns the first fit with other AO than `taken`, or null.
+// Returns the first fit whose AO differs from the AO of `taken`, or null.
 const Fit* other_ao(const CharacterModel& model, const Fits& fits, const Fit& taken) {
   for (const Fit& fit : fits)
     if (fit.candidate->welded != taken.candidate->welded &&
@@ -71,8 +74,8 @@ const Fit* other_ao(const CharacterModel& model, const Fits& fits, const Fit& ta
   return nullptr;
 }
 
-// The bones of a host's vertex, with sum 1. Without a positive weight it follows its first joint, as in the
-// import.
+// Returns the bones of a host vertex, with weights that sum to 1. If no weight is positive, the vertex
+// follows its first joint. The import of the file does the same.
 BoneWeights bones_of(const HostWeights& host, std::size_t vertex) {
   BoneWeights out;
   double sum = 0;
@@ -88,7 +91,7 @@ BoneWeights bones_of(const HostWeights& host, std::size_t vertex) {
   return out;
 }
 
-// The weight of a bone, which may be named several times.
+// Returns the weight of a bone. If the bone occurs several times, returns the sum.
 float weight_of(const BoneWeights& weights, std::uint16_t bone) {
   float sum = 0;
   for (std::uint32_t b = 0; b < weights.count; ++b)
@@ -96,8 +99,8 @@ float weight_of(const BoneWeights& weights, std::uint16_t bone) {
   return sum;
 }
 
-// The sum of absolute differences over all bones. Both sum to 1, so that what `a` has more of a bone than `b`
-// is half of it.
+// Returns the sum of absolute differences over all bones. Both sets of weights sum to 1. So the result is
+// twice the sum over the bones that have more weight in `a` than in `b`.
 float weight_difference(const BoneWeights& a, const BoneWeights& b) {
   float more = 0;
   for (std::uint32_t i = 0; i < a.count; ++i) {
@@ -116,19 +119,20 @@ void drop_other_sides(Fits& fits, bool has_face, const Fit* but) {
   const Candidate* const kept = but ? but->candidate : nullptr;
   float best = -1;
   for (const Fit& fit : fits) best = std::max(best, fit.side);
-  // Then no candidate has the triangles of the vertex, and they tell nothing.
+  // If even the best candidate faces another side, no candidate belongs to the triangles of the vertex. Then
+  // the sides are not used.
   if (has_face && best < other_side) return;
   drop(fits, [&](const Fit& fit) { return fit.side < best - other_side && fit.candidate != kept; });
 }
 
-// Compares the weights of all candidates that have some.
+// Compares the weights of all candidates whose weights are known.
 void set_weights(Fits& fits, const BoneWeights& bones) {
   for (Fit& fit : fits)
     if (fit.candidate->weights) fit.weights = weight_difference(bones, *fit.candidate->weights);
 }
 
-// Drops what has other weights, if one fits within `limit`. A host may have weights of fewer bits, which are
-// then off for all candidates.
+// If the weights of some candidate fit within `limit`, drops the candidates with other weights. If none fits,
+// drops nothing: the host may store its weights with fewer bits, so that they differ from all candidates.
 void drop_other_weights(Fits& fits, float limit) {
   float best = INFINITY;
   for (const Fit& fit : fits)
@@ -136,7 +140,7 @@ void drop_other_weights(Fits& fits, float limit) {
   if (best <= limit) drop(fits, [&](const Fit& fit) { return fit.weights > 2 * best + weight_steps; });
 }
 
-// The only one that fits the normal, or null.
+// Returns the candidate that fits the normal if it is the only one; otherwise null.
 const Fit* only_facing(const Fits& fits) {
   const Fit* found = nullptr;
   for (const Fit& fit : fits) {
@@ -147,7 +151,8 @@ const Fit* only_facing(const Fits& fits) {
   return found;
 }
 
-// The vertex of the file that looks nearest to the normal, the nearest one among equals.
+// Returns the candidate whose normal is closest to the host's normal. If several are equal, returns the one
+// at the smallest distance.
 const Fit& best_fit(const Fits& fits) {
   return *std::min_element(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) {
     if (a.facing != b.facing) return a.facing > b.facing;
@@ -156,15 +161,16 @@ const Fit& best_fit(const Fits& fits) {
   });
 }
 
-// A guess at the next match from the order of the host's vertices: most meshes keep runs of the file's order.
+// Predicts the next match from the order of the host's vertices. Most meshes keep long runs of the file's
+// order.
 struct Order {
-  std::uint32_t successor = no_vertex;  // the vertex of the file after the one before
-  std::uint32_t number = no_vertex;     // the vertex of the file with the host's number
-  bool is_sure = false;                 // the one before is known
-  std::uint32_t run = 0;                // the number of matches before that each were the successor
+  std::uint32_t successor = no_vertex;  // the file vertex after the previous match
+  std::uint32_t number = no_vertex;     // the file vertex with the same index as the host vertex
+  bool is_sure = false;                 // the previous match was unambiguous
+  std::uint32_t run = 0;                // how many previous matches in a row were the successor
 
-  // Some files have vertices whose normals look to the other side of a card. Where the host keeps the file's
-  // order for a while, it tells more than a normal.
+  // In some files, the normals on a card point to the wrong side. If the host has kept the file's order for
+  // several vertices, the order is more reliable than a normal.
   bool is_kept() const { return run >= 4; }
 };
 
@@ -192,7 +198,7 @@ class Matcher {
 
   float slack_of_places(Memory* memory) const;
   void gather(std::uint32_t vertex, float reach, const Order& order);
-  // The file's vertex of a fit: the one that continues the host's order, or else the first.
+  // Returns the file vertex of a fit: the one that continues the host's order, or else the first one.
   std::uint32_t file_vertex(const Fit& fit, const Order& order) const;
   bool is_vertex_of(const Fit& fit, std::uint32_t file_vertex) const;
   const Fit* fit_of(std::uint32_t file_vertex) const;
@@ -203,19 +209,20 @@ class Matcher {
   Candidates candidates_;
   Vector<Vec3> places_;
   PlaceTree tree_;
-  Vector<float> nearest_;  // the distance of each host vertex
+  Vector<float> nearest_;  // distance of each host vertex to the nearest candidate
   Vector<std::uint32_t> found_;
-  Fits fits_;  // of the current vertex
+  Fits fits_;  // the fits of the current vertex
 };
 
-// Returns how far the right candidate may lie beyond the nearest one. That is rounding if the host's places
-// are exact, and the steps of both if the host stores fewer bits.
+// Returns by how much the distance of the right candidate may exceed the smallest distance. If the host's
+// positions are exact, this only allows for rounding. If the host stores fewer bits, it allows for the steps
+// of both.
 float Matcher::slack_of_places(Memory* memory) const {
   constexpr float model_steps = 65535, exact_share = 0.9f, rounding = 5e-7f;
   float farthest = 0;
   for (const Vec3 p : places_) farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  // Meshes of several spaces may have the same coordinates, such as what the left and the right hand hold.
-  // Their stored places are rounded differently.
+  // Meshes in different spaces may have the same coordinates, such as two equal objects in the left and the
+  // right hand. Their stored positions are rounded differently.
   const bool has_spaces =
       std::any_of(candidates_.begin(), candidates_.end(),
                   [&](const Candidate& candidate) { return candidate.space != candidates_.front().space; });
@@ -236,7 +243,8 @@ void Matcher::gather(std::uint32_t vertex, float reach, const Order& order) {
   const Vec3 position = host_.position[vertex];
   const Vec3 normal = host_.normal.first ? normalised(host_.normal[vertex]) : Vec3{};
   const bool has_normal = dot(normal, normal) > 0;
-  // The model's normals come from triangles too. Smooth normals may agree on both faces of a sharp fold.
+  // Compares the normals of the triangles, because smooth normals may be equal on both faces of a sharp fold.
+  // The model's normals come from triangles, too.
   const Vec3 face = host_.face_normal.first ? host_.face_normal[vertex] : Vec3{};
   const bool has_face = dot(face, face) > 0;
   found_.clear();
@@ -252,7 +260,8 @@ void Matcher::gather(std::uint32_t vertex, float reach, const Order& order) {
   const bool has_weights = fits_.size() > 1 && host_.weights.joint;
   if (has_weights) {
     set_weights(fits_, bones_of(host_.weights, vertex));
-    // The file's own weights tell more than a side: some files have normals that look the wrong way.
+    // If the host has exactly the file's weights, they are more reliable than a side, because some files have
+    // normals that point the wrong way.
     drop_other_weights(fits_, weight_steps);
   }
   if (fits_.size() > 1 && (has_normal || has_face))
@@ -281,8 +290,8 @@ std::uint32_t Matcher::file_vertex(const Fit& fit, const Order& order) const {
   return fit.candidate->file_vertex;
 }
 
-// Returns null if nothing decides. If the mesh is known to have another order, a successor is preferred to a
-// number.
+// Returns null if no criterion decides. If the previous match was unambiguous, its successor is preferred to
+// the vertex with the same index.
 const Fit* Matcher::decide(const Order& order) const {
   const Fit* const successor = order.is_sure ? fit_of(order.successor) : nullptr;
   if (successor && order.is_kept()) return successor;
@@ -306,7 +315,7 @@ VertexMatches Matcher::match(std::span<std::uint32_t> file_vertices, Memory* mem
       if (out.unmatched++ == 0) out.first_unmatched = i;
       continue;
     }
-    // A candidate at the host's place to the bit excludes all that lie beside it.
+    // If a candidate has bit-exactly the host's position, all candidates at other positions are excluded.
     gather(i, nearest_[i] == 0 ? 0 : nearest_[i] + slack, order);
     order.number = first + i;
     const Fit* decided = fits_.size() == 1 ? &fits_[0] : decide(order);

@@ -1,7 +1,7 @@
-// Which vertex of a model each vertex of a host's mesh is.
+// Finds the matching model vertex for each vertex of a host's mesh.
 //
-// Several vertices of a model can lie at one place: where two primitives meet, on the two sides of a card, in
-// the layers of hair. The best fit wins. These criteria decide, one after another:
+// Several vertices of a model can lie at one place: where two primitives meet, on the two sides of a card, or
+// in layers of hair. The best fit is chosen. The criteria, in order of priority:
 //   place, equal weights, side of the triangles or of the normal, near weights, normal, order of the host's
 //   vertices.
 #pragma once
@@ -16,16 +16,17 @@
 namespace nook {
 
 struct VertexMatches {
-  // Counts the host's vertices that are near no vertex of the model.
+  // Counts the host vertices that have no model vertex nearby. The first of them is first_unmatched.
   std::uint32_t unmatched = 0, first_unmatched = no_vertex;
-  // Counts the host's vertices that fit several vertices of the model with other AO.
+  // Counts the host vertices that fit several model vertices with different AO. The first of them is
+  // first_ambiguous.
   std::uint32_t ambiguous = 0, first_ambiguous = no_vertex;
-  // The file vertices that the first ambiguous vertex can be.
+  // Two file vertices that the first ambiguous vertex fits: the one that was chosen, and another one.
   std::uint32_t taken = no_vertex, other = no_vertex;
 };
 
 // Writes the file vertex of each host vertex, or no_vertex. The model must have a rest surface and bind data,
-// and the primitive must belong to it. The time is linear in the vertices, but for a logarithm and for models
+// and the primitive must belong to it. The time is about O(n log n) for n vertices. It is longer for models
 // with many vertices at one place.
 VertexMatches match_vertices(const CharacterModel& model, const HostVertices& host,
                              std::span<std::uint32_t> file_vertices, Memory* memory);
