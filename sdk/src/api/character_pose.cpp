@@ -60,7 +60,7 @@ PoseSource nook::api::source_of(const CharacterModel& model, const nook_pose_des
 
 namespace {
 
-// Returns the check vertices and their places as the caller passed them.
+// Returns the vertices of the check, with their positions as the caller passed them.
 nook::Vector<SkinnedVertex> skinned_vertices(const CharacterModel& model, const nook_pose_check_desc& check,
                                              nook::Memory* memory) {
   constexpr std::uint32_t min_vertices = 8;
@@ -90,12 +90,12 @@ nook::Vector<SkinnedVertex> skinned_vertices(const CharacterModel& model, const 
   return out;
 }
 
-// Many poses of one model, and where their AO goes.
+// A batch of poses of one model, and where their AO is written to.
 struct PoseBatch {
   nook_model_s& model;
   SceneSettings settings;
   PoseSource first;
-  std::size_t stride = 0;         // bytes from pose to pose
+  std::size_t stride = 0;         // distance between poses in bytes
   const Plane* ground = nullptr;  // null: none
   float* ao = nullptr;
 };
@@ -103,17 +103,20 @@ struct PoseBatch {
 // A run of poses that one job evaluates.
 struct PoseRun {
   std::uint32_t begin = 0, end = 0;
-  std::array<PoseNotes, 3> notes;  // of the first pose with each topic
-  std::exception_ptr failure;      // of the pose at `begin`, which moves on while poses succeed
+  std::array<PoseNotes, 3> notes;  // the notes of the first pose with each topic
+  std::exception_ptr failure;      // the failure of the pose at `begin`; `begin` is incremented after each
+                                   // pose that succeeds
 };
 
-// Keeps the notes for the log, which jobs do not write: their threads may not be ones that call Nook.
+// Stores the notes, so that they can be logged later. Jobs must not log, because the host may not expect log
+// messages on their threads.
 void keep_notes(PoseRun& run, const PoseNotes& notes) {
   for (std::size_t t = 0; t < run.notes.size(); ++t)
     if ((notes.topics() >> t & 1) && !run.notes[t].topics()) run.notes[t] = notes;
 }
 
-// Returns the bytes from pose to pose. A pose is as long as all transforms that the host gave.
+// Returns the distance between poses in bytes. By default, a pose is as long as all transforms that the host
+// gave.
 std::size_t batch_stride(const CharacterModel& model, PoseSource source, std::size_t pose_stride,
                          std::uint32_t pose_count) {
   check_pose_source(model, source);
@@ -123,7 +126,7 @@ std::size_t batch_stride(const CharacterModel& model, PoseSource source, std::si
   return checked_stride("pose_stride", pose_stride, pose_count, source.stride * source.given_count);
 }
 
-// The runs are long, because each has a scene of its own.
+// Makes few, long runs, because each run needs its own scene.
 std::uint32_t run_count(const Parallel& parallel, std::uint32_t pose_count) {
   constexpr std::uint32_t min_poses = 8, max_runs = 64;
   return parallel.run ? std::clamp(pose_count / min_poses, 1u, max_runs) : 1;
@@ -147,7 +150,7 @@ void evaluate_run(const PoseBatch& batch, PoseRun& run, nook::Memory* memory) {
   }
 }
 
-// Throws the failure of the first pose that was refused, with its number.
+// Throws the failure of the first pose that was refused, and adds the index of the pose to the message.
 void rethrow_first(std::span<const PoseRun> runs) {
   for (const PoseRun& run : runs) try {
       if (run.failure) std::rethrow_exception(run.failure);

@@ -13,7 +13,7 @@ using namespace nook;
 
 namespace {
 
-// Runs body on the scene of the handle.
+// Calls `body` with the scene of the handle.
 template <class Body>
 nook_result with_scene(const char* function, nook_scene scene, Body&& body) noexcept {
   return api::enter(function, [&] {
@@ -29,7 +29,7 @@ Sphere sphere_of(const nook_occluder& occluder) {
 
 struct ChannelForm {
   const char* name;
-  std::uint32_t numbers;  // for each vertex
+  std::uint32_t numbers;  // number of values per vertex
   nook_format first_format, last_format;
 };
 
@@ -41,7 +41,7 @@ constexpr ChannelForm channel_forms[] = {
 
 constexpr struct {
   const char* name;
-  std::uint32_t bytes;  // of one number
+  std::uint32_t bytes;  // bytes per value
 } format_forms[] = {
     {"NOOK_FORMAT_FLOAT", 4}, {"NOOK_FORMAT_HALF", 2}, {"NOOK_FORMAT_UNORM8", 1}, {"NOOK_FORMAT_SNORM8", 1}};
 

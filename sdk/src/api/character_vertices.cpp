@@ -50,7 +50,8 @@ void check_host_weights(const HostWeights& host, std::uint32_t count, std::size_
             NOOK_ERROR_INVALID_ARGUMENT,
             "desc.weights[%u] of vertex %u is out of range (got %g, need a finite number, 0 or more)", k, i,
             double(weight));
-      // Engines leave any joint where the weight is 0, but for a vertex without weights.
+      // Engines leave arbitrary joint indices where the weight is 0, so these are not checked. The first
+      // joint is checked, because a vertex without weights follows it.
       if ((weight > 0 || k == 0) && host.joint_at(i, k) >= joints)
         throw Failure(
             NOOK_ERROR_INVALID_ARGUMENT,
@@ -103,7 +104,7 @@ HostVertices host_vertices(const CharacterModel& model, const nook_vertex_match_
   return host;
 }
 
-// Names the missing data that would separate vertices at one place.
+// Returns the name of the data that is missing to distinguish vertices at the same place.
 const char* missing_evidence(const nook_vertex_match_desc& match, bool has_triangles) {
   if (!match.normals) return "give desc.normals too";
   if (!match.joints) return "give desc.joints and desc.weights too";
@@ -140,7 +141,7 @@ void check_indices(const uint32_t* indices, size_t count, std::uint32_t vertices
                     indices[i], vertices);
 }
 
-// `call` names the function in the log.
+// `call` is the name of the function for the log.
 void match(const nook_model_s& model, const nook_vertex_match_desc& match, const HostVertices& host,
            const char* call, uint32_t* vertices, nook_vertex_match_info* info) {
   const VertexMatches matches =

@@ -10,7 +10,7 @@
 namespace nook::api {
 namespace {
 
-// Plain bytes need no destructor when a thread ends or the library is unloaded.
+// A plain array of bytes, so no destructor must run when a thread ends or the library is unloaded.
 thread_local char last_message[640] = "";
 
 }  // namespace

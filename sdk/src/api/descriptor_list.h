@@ -1,4 +1,4 @@
-// The descriptors of the library, one line each: the name behind NOOK_DESC_ and the struct.
+// Lists the descriptors of the library, one per line: the name after NOOK_DESC_, and the struct.
 #pragma once
 
 #include <nook/experimental/nook_capture.h>

@@ -1,4 +1,4 @@
-// Holds the defaults of all descriptors of the library, and the call that returns them.
+// Defines the defaults of all descriptors of the library, and the function that returns them.
 #include <algorithm>
 #include <iterator>
 

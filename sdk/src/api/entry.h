@@ -1,4 +1,5 @@
-// Every C function that can fail runs its body here. An exception becomes a result and this thread's message.
+// Every C function that can fail runs its body through this header, which converts an exception to a result
+// code and to the last message of this thread.
 #pragma once
 
 #include <nook/nook.h>

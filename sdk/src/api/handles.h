@@ -13,11 +13,12 @@
 struct nook_context_s final : nook::Context {
   using Context::Context;
 
-  // Fits that nook_transfer_light_project shares.
+  // A cache of fits for nook_transfer_light_project.
   nook::transfer::FitCache lobe_fits{memory()};
 
  private:
-  // The object lies in memory of its own allocator, so a copy of the allocator must outlive it.
+  // The memory of this object comes from the allocator that it contains. So the code copies the allocator
+  // first, and frees the memory with the copy.
   void destroy() noexcept override {
     nook::HostMemory memory(allocator());
     this->~nook_context_s();
@@ -25,20 +26,20 @@ struct nook_context_s final : nook::Context {
   }
 };
 
-// It is a base class, so that it outlives the arrays of the derived object.
+// A base class, so that the meter is destroyed after the arrays of the derived object.
 struct Meter {
   explicit Meter(nook::Memory* source) noexcept : metered(source) {}
   nook::MeteredMemory metered;
 };
 
 struct nook_model_s : Meter, nook::LoadedModel {
-  // make(Memory*) returns the CharacterModel, in that memory.
+  // make(Memory*) must return the CharacterModel, allocated from that memory.
   template <class Make>
   nook_model_s(nook::Ref<nook_context_s> made_by, Make&& make)
       : Meter(made_by->memory()), LoadedModel(make(&metered), &metered), context(made_by.get()) {}
 
   nook_context_s* context;  // kept alive by this object's owner reference
-  // Topics of PoseNotes already logged for conversions with this model.
+  // Bits of the PoseNotes topics that were already logged for conversions with this model.
   std::atomic<std::uint32_t> reported{0};
 };
 
@@ -54,7 +55,7 @@ struct nook_scene_s : Meter, nook::RefCounted {
       : Meter(made_by->memory()), context(made_by), scene(settings, made_by->parallel(), &metered) {}
 
   nook_context_s* context;  // kept alive by this object's owner reference
-  // The host destroyed the scene; what other objects hold for it is invalid.
+  // True after the host destroyed the scene. Data that other objects keep for the scene is invalid then.
   std::atomic<bool> destroyed{false};
   nook::Scene scene;
 };

@@ -44,7 +44,7 @@ nook_material_info info_of(const Material& material, const MaterialTables& table
   info.light_multiply_adds = light.multiply_adds;
   info.occlusion_fetches = occlusion.fetches;
   info.occlusion_multiply_adds = occlusion.multiply_adds;
-  // In a neural material, further fetches read features.
+  // In a neural material, the further fetches read features.
   info.further_decode_fetches = is_neural ? decode.fetches : relief.fetches + further_fetches(tables.btf);
   info.further_occlusion_fetches = further_fetches(tables.votf);
   info.compressed_bytes = compressed_bytes(material);
@@ -90,7 +90,7 @@ Pixel checked(const nook_material_pixel& given, std::uint32_t index, std::uint32
 }
 
 nook_material_value value_of(const MaterialTables& tables, const Radiance& radiance, float occlusion) {
-  // Compression may leave radiance slightly negative, which nothing should draw.
+  // Compression can make radiance slightly negative. Negative radiance must not be drawn.
   return {{std::max(radiance.red, 0.0f), std::max(radiance.green, 0.0f), std::max(radiance.blue, 0.0f)},
           occlusion,
           visibility_of(tables.visibility, tables.mapping, occlusion)};

@@ -7,10 +7,10 @@
 #include "sdk/src/material/tables.h"
 
 struct nook_material_s : nook::RefCounted {
-  // Does not keep the compressed numbers.
+  // Does not keep the compressed data of `loaded`.
   nook_material_s(nook_context_s* made_by, const nook::material::Material& loaded,
                   const nook::material::ModeForm& form);
 
-  nook_material_info info{};  // without struct_size
+  nook_material_info info{};  // struct_size is not set
   nook::material::MaterialTables tables;
 };

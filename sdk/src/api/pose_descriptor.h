@@ -7,8 +7,8 @@
 
 namespace nook::api {
 
-// Throws Failure for a descriptor that is wrong whatever its transforms are; check_pose_source checks the
-// rest.
+// Converts the caller's descriptor. Throws Failure for mistakes that can be found without reading the
+// transforms. check_pose_source finds the other mistakes.
 PoseSource source_of(const CharacterModel& model, const nook_pose_desc* given);
 
 }  // namespace nook::api

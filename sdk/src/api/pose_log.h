@@ -1,4 +1,4 @@
-// Logs poses that were accepted but are probably not what the host meant.
+// Logs warnings about poses that were accepted, but that are probably not what the host meant.
 #pragma once
 
 #include <atomic>
@@ -9,12 +9,12 @@
 
 namespace nook::api {
 
-// Both log the topics of the notes that were not reported yet, and mark them as reported.
+// Both overloads log those topics of the notes that were not reported yet, and mark them as reported.
 void log_pose(const Context& context, Instance& instance, const PoseNotes& notes);
-// subject names the object or function whose pose it is.
+// `subject` is the name of the object or function to which the pose belongs.
 void log_pose(const Context& context, const char* subject, const CharacterModel& model,
               const PoseNotes& notes, std::atomic<std::uint32_t>& reported);
-// Logs that instances whose poses are on the GPU do not darken the world, once for each instance.
+// For each instance whose pose is on the GPU, logs once that the instance does not darken the world.
 void log_without_world_casters(const Context& context, Scene& scene);
 
 }  // namespace nook::api

@@ -1,4 +1,4 @@
-// Light as spherical harmonics, plain arrays of floats.
+// The C functions for light that is given as spherical harmonics, in plain arrays of floats.
 #include <nook/experimental/nook_sg.h>
 #include <nook/nook_probe.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 using Coefficients = std::array<Vec3, harmonic_count(max_order)>;
 
-// The first `count` coefficients.
+// Copies `count` coefficients to `storage`, and returns them.
 std::span<const Vec3> read_coefficients(const float* from, std::uint32_t count, Coefficients& storage) {
   need(from, "coefficients");
   for (std::uint32_t i = 0; i < count; ++i) {

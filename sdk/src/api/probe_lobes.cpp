@@ -106,7 +106,7 @@ nook_result at_directions(const char* function, const nook_lobe* lobes, std::uin
   });
 }
 
-// Calls body(a, b) with two lobes of the caller.
+// Calls body(a, b) with the two lobes that the caller passed.
 template <class Body>
 nook_result with_two(const char* function, const nook_lobe* a, const nook_lobe* b, const void* out,
                      Body&& body) noexcept {
@@ -118,7 +118,7 @@ nook_result with_two(const char* function, const nook_lobe* a, const nook_lobe* 
   });
 }
 
-// Checks that the rows of a rotation are unit vectors and right-handed.
+// Checks that the rows of a rotation are unit vectors and form a right-handed system.
 void check_rotation(const float* m) {
   const Vec3 rows[3] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
   for (std::size_t i = 0; i < 3; ++i) check_unit(rows[i], "row", i);
@@ -155,7 +155,7 @@ nook_result nook_sg_specular(const nook_lobe* lobes, uint32_t lobe_count, nook_p
     need(surfaces, "surfaces");
     need(rgb, "rgb");
     check_array("count", count, sizeof(nook_probe_surface));
-    // Checks all surfaces before anything is written.
+    // Checks all surfaces first, so that a failure writes nothing.
     for (std::size_t i = 0; i < count; ++i) surface_of(surfaces[i], i);
     for (std::size_t i = 0; i < count; ++i)
       write_vec3(rgb + 3 * i,

@@ -30,7 +30,7 @@ void write_vec3(float* out, Vec3 v) {
   out[2] = v.z;
 }
 
-// Reads the coefficients of all probes from fits with the same functions.
+// Reads the coefficients of all probes from fits. All fits must have the same functions.
 void read_fits(const nook_probe_desc& desc, Probes& probes) {
   if (desc.fit_count != probes.grid.size())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -117,7 +117,8 @@ Probes probes_of(const nook_probe_desc& desc, nook::Memory* memory) {
   return probes;
 }
 
-// Files of older versions have no amplitudes for gloss, so that glossy reflection reads the light's.
+// True if glossy reflection must use the amplitudes of the light, and some of these are negative. Files of
+// older versions have no separate amplitudes for glossy reflection.
 bool lacks_gloss(const Probes& probes) {
   return probes.basis.kind == BasisKind::gaussians && !probes.has_gloss() &&
          std::any_of(probes.coefficients.begin(), probes.coefficients.end(), [](Vec3 v) {
@@ -153,7 +154,8 @@ std::span<const Vec3> coefficients_at(const Probes& probes, const float* positio
   return out;
 }
 
-// Calls evaluate(coefficients, direction) for each direction. look_up(position, direction, out) interpolates.
+// Calls evaluate(coefficients, direction) for each direction. look_up(position, direction, out) writes the
+// interpolated coefficients to `out`.
 template <class LookUp, class Evaluate>
 nook_result at_directions(const char* function, nook_probe probe, const float* positions_ws,
                           const float* directions, float* rgb, std::size_t count, LookUp&& look_up,

@@ -1,4 +1,4 @@
-// Baked shapes, materials under lobes, and vectors at vertices.
+// The C functions for baked shapes, materials under lobes and transfer vectors.
 #include <array>
 #include <cmath>
 #include <span>

@@ -23,7 +23,7 @@ struct nook_transfer_s : nook::RefCounted {
 struct nook_transfer_light_s : nook::RefCounted {
   static constexpr std::uint32_t side = 64;
 
-  // Without cells, it is the light of one direction.
+  // If has_cells is false, the light comes from a single direction.
   nook_transfer_light_s(nook_context_s* made_by, bool has_cells)
       : context(made_by),
         cells(has_cells ? side : 0, made_by->memory()),
@@ -35,7 +35,7 @@ struct nook_transfer_light_s : nook::RefCounted {
   nook_context_s* context;  // kept alive by this object's owner reference
   nook::Vec3 direction, irradiance;
   nook::transfer::CubeCells cells;
-  nook::Vector<nook::Vec3> radiance;  // of each cell
+  nook::Vector<nook::Vec3> radiance;  // radiance of each cell
   nook::Vector<nook::MapSun> suns;
 };
 

@@ -1,4 +1,4 @@
-// Distant light, and lobes that are fitted to it.
+// The C functions for distant light, and for lobes that are fitted to it.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Collects the casters of a call: the bodies and occluders of a scene, and the host's props.
+// Collects the casters for one call: the bodies and occluders of a scene, and the host's props.
 #pragma once
 
 #include <nook/nook_world.h>
@@ -14,16 +14,17 @@ inline Vec3 vector_of(const float (&v)[3]) {
   return {v[0], v[1], v[2]};
 }
 
-// Throws Failure unless every prop is a capsule; the message begins with the descriptor's name.
+// Throws Failure unless every prop is a valid capsule. The message begins with `descriptor`, the descriptor's
+// name.
 void check_props(const char* descriptor, const nook_capsule* props, std::uint32_t count);
 
-// Converts lobes to terms. `turn`, column-major with four numbers in a column, rotates the light's axes if it
-// is not NULL. Without lobes the light is constant. Throws Failure unless every lobe is valid; the message
-// begins with the descriptor's name.
+// Converts lobes to terms. If `turn` is not NULL, it rotates the axes of the lobes; `turn` is column-major,
+// with four floats per column. Without lobes, the light is constant. Throws Failure unless every lobe is
+// valid. The message begins with the descriptor's name.
 world::LightTerms terms_of_lobes(const char* descriptor, const nook_lobe* lobes, std::uint32_t count,
                                  const float* turn = nullptr);
 
-// Returns the unit axis of a cone of light. Throws Failure if it is not a valid axis.
+// Returns the normalised axis of a cone of light. Throws Failure if the axis or the angle is invalid.
 Vec3 checked_light(const char* descriptor, const float (&axis)[3], float degrees);
 
 inline float half_angle_radians(float degrees) {
@@ -32,15 +33,17 @@ inline float half_angle_radians(float degrees) {
 
 class Casting {
  public:
-  // Poses the casters of the scene's instances, except of those whose poses are on the GPU, which do not
-  // cast. scene may be NULL. receiver: an instance that does not cast, or 0.
+  // Poses the casters of the scene's instances. Instances whose poses are on the GPU do not cast. `scene` may
+  // be NULL. `receiver` is an instance that must not cast, or 0.
   Casting(Scene* scene, nook_instance_id receiver, const nook_capsule* props, std::uint32_t prop_count);
 
-  // Bodies by slot, then occluders by slot, then props; a free slot is a group without casters.
+  // Returns the number of groups: bodies by slot, then occluders by slot, then props. A free slot is a group
+  // without casters.
   std::uint32_t group_count() const;
-  // Returns the parts of a group that is a body, NULL for others. The result is valid until the next call.
+  // If a group is a body, returns its parts. Otherwise returns NULL. The result is valid until the next call.
   const world::CasterParts* parts(std::uint32_t index) const;
-  // user: a Casting. Occluders and props have infinite strength, so that they are never left out.
+  // A callback for world::CasterGroups; `user` must point to a Casting. Occluders and props get infinite
+  // strength, so that they are never skipped.
   static world::CasterGroup group(const void* user, std::uint32_t index, PosedCaster& room);
 
  private:
@@ -55,7 +58,8 @@ class Casting {
   nook_instance_id receiver_;
   const nook_capsule* props_;
   std::uint32_t prop_count_;
-  // The parts belong to this model, the last one used: the bodies of a crowd are mostly alike.
+  // The model for which the cached parts were made. Caching one model is enough, because most bodies of a
+  // crowd have the same model.
   mutable const CharacterModel* parts_of_ = nullptr;
   mutable world::CasterParts parts_;
 };

@@ -138,8 +138,8 @@ struct InstanceInput {
   float scale = 1;
   // Returns the largest scale of the bones. It is also the scale of the whole body.
   float largest_scale() const { return scale / scale_margin; }
-  // Bone matrices may be slightly uneven and sheared (BoneAxes::is_even). Such a matrix stretches a vector by
-  // less than 2 % more than its longest axis.
+  // Bone matrices may be slightly uneven and sheared (BoneAxes::is_even). Such a matrix can stretch a vector
+  // by almost 2 % more than its longest axis.
   static constexpr float scale_margin = 1.02f;
 };
 

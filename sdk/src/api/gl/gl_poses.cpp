@@ -10,7 +10,8 @@ using namespace nook;
 
 namespace {
 
-// Throws Failure unless the numbers of the range are usable, whatever the instances are.
+// Checks those values of the descriptor that do not depend on the instances. Throws Failure if one of them is
+// not usable.
 void check_range_of(const nook_gl_poses& poses) {
   constexpr std::size_t size = offsetof(nook_gl_poses, size) + sizeof(std::uint64_t);
   if (poses.struct_size < size)
@@ -32,7 +33,7 @@ void check_range_of(const nook_gl_poses& poses) {
                   static_cast<unsigned long long>(poses.offset), static_cast<unsigned long long>(poses.size));
 }
 
-// The transforms are in a buffer, so that neither a pointer nor a place may be in the descriptor.
+// The transforms are in a buffer, so the descriptor must not contain a pointer to transforms or a place.
 PoseSource checked_source(const CharacterModel& model, const nook_gl_poses& poses) {
   PoseSource source = api::source_of(model, poses.pose);
   if (source.transforms)
@@ -53,12 +54,12 @@ PoseSource checked_source(const CharacterModel& model, const nook_gl_poses& pose
                   stride, bytes);
   constexpr std::size_t most = std::size_t{1} << 30;
   check_at_most("poses.pose->stride", static_cast<std::uint32_t>(std::min(stride, most + 4)), most);
-  // The check asks for transforms on the CPU.
+  // check_pose_source requires a pointer to transforms on the CPU, so pass a pointer that is not null.
   constexpr float somewhere = 0;
   source.transforms = &somewhere;
   source.stride = 0;
   check_pose_source(model, source);
-  // A bone without a transform is an error of the whole call.
+  // If a bone has no transform, the whole call fails.
   for_each_transform(model, source, [](std::size_t, std::uint32_t) {});
   source.transforms = nullptr;
   source.stride = stride;

@@ -33,7 +33,7 @@ void check_target(const nook_gl_ao_target& target, std::uint32_t count) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "target.buffer and target.texture are %u and %u; need exactly one of them", target.buffer,
                   target.texture);
-  // Larger than any buffer, yet sums stay within 64 bits.
+  // Larger than any buffer, but so small that sums of offsets do not overflow 64 bits.
   constexpr std::uint64_t max_offset = std::uint64_t{1} << 40;
   if (target.offset > max_offset || target.instance_stride > max_offset || count > (1u << 20))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -119,7 +119,7 @@ nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const nook_instanc
     need(instances, "instances");
     need(target, "target");
     check_target(*target, count);
-    // Looks up every instance before it writes anything.
+    // Looks up every instance before anything is written, so that a bad id changes nothing.
     for (uint32_t i = 0; i < count; ++i) gl->characters->place(scene->scene, instances[i]);
     gl->guarded(gl::output_users(gl->device.gl), [&] {
       for (uint32_t i = 0; i < count; ++i) {

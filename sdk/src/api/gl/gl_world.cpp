@@ -18,8 +18,8 @@ using namespace nook;
 
 namespace {
 
-// Returns the users of the OpenGL state that the pass touches. It uploads casters and draws, and its stages
-// may be compute shaders.
+// Returns the users of the OpenGL state that the pass touches (touched_state.h). The pass uploads casters and
+// draws, and its stages may be compute shaders.
 unsigned world_users(const gl::Functions& gl, bool computes) {
   return gl::screen_creation_users(gl) | (computes ? unsigned{gl::screen_compute} : 0u);
 }
@@ -50,7 +50,7 @@ nook_world_desc checked(const nook_world_desc* given) {
   return desc;
 }
 
-// Returns the frame in the screen pass's form, with defaults for what this pass does not read.
+// Returns the frame in the form that the screen pass takes. Fields that this pass does not read get defaults.
 gl::NnaoFrame screen_of(const nook_gl_frame_desc* given, const nook_world_frame_desc& desc,
                         const nook_world_desc& pass) {
   gl::NnaoFrame screen{read_descriptor(given), default_desc<nook_nnao_frame_desc>()};
@@ -78,8 +78,8 @@ nook_world_view shown(const void* next) {
   return show;
 }
 
-// Sets the light of a coloured pass: lobes in view space, the cone in world space. The view must have passed
-// its check.
+// Sets the light of a coloured pass: the lobes in view space, and the cone in world space. The view must
+// already be checked.
 void put_light(gl::WorldFrame& drawn, const nook_world_frame_desc& desc, bool coloured,
                float units_per_metre) {
   constexpr float default_reach_m = 30;
@@ -96,7 +96,7 @@ void put_light(gl::WorldFrame& drawn, const nook_world_frame_desc& desc, bool co
   drawn.cone = gl::LightCone{axis, api::half_angle_radians(desc.light_degrees), reach};
 }
 
-// The groups of the scene and how far they reach.
+// The groups of the scene, and how far their AO reaches.
 struct Reaching {
   const api::Casting* casting;
   float cutoff_error;

@@ -13,14 +13,15 @@
 struct nook_gl_s : nook::RefCounted {
   nook_gl_s(nook_context_s* made_by, const nook_gl_desc& desc);
 
-  // Runs body and treats the OpenGL state of these users (touched_state.h) as chosen at creation.
+  // Runs `body`. Handles the OpenGL state of these users (touched_state.h) in the way that was chosen when
+  // the handle was created.
   template <class Body>
   void guarded(unsigned users, Body&& body) {
     device.need_alive();
     const nook::gl::StateGuard guard(device, users);
     body();
   }
-  // Runs body with the OpenGL state that the evaluation of characters touches.
+  // The same, for the OpenGL state that the evaluation of characters touches.
   template <class Body>
   void guarded(Body&& body) {
     guarded(nook::gl::character_users(device.gl), std::forward<Body>(body));

@@ -43,15 +43,16 @@ struct nook_nnao_s : RefCounted {
     return (desc.views ? unsigned{gl::screen_layers} : 0u) | (desc.depth_samples ? samples : 0u);
   }
 
-  // Returns the file of the network.
+  // Returns the bytes of the network file.
   std::span<const std::byte> network() const {
     return own_network.empty() ? nnao::default_network_file() : own_network;
   }
 
   nook_gl_s* gl;
-  gl::NnaoSettings desc;  // without network
+  gl::NnaoSettings desc;  // the field `network` is not used
   nnao::NetworkForm form;
-  Vector<std::byte> own_network;  // for recordings; empty: the embedded one
+  Vector<std::byte> own_network;  // a copy of the host's network, for recordings; if empty, the embedded
+                                  // network is used
   std::optional<gl::NnaoPass> pass;
 };
 

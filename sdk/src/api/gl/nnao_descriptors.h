@@ -10,21 +10,21 @@
 
 namespace nook::api {
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless desc.max_width and desc.max_height are sizes of a pass
-// over the screen.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless max_width and max_height are valid maximum sizes of a
+// screen pass. The message calls them desc.max_width and desc.max_height.
 void check_max_size(std::int32_t max_width, std::int32_t max_height);
 
-// Returns the caller's descriptor in this library's version, with its debug descriptor. Throws
-// Failure(NOOK_ERROR_INVALID_ARGUMENT), naming the field, unless it is sound.
+// Returns the caller's descriptor in this library's version, together with its debug descriptor. If a field
+// is invalid, throws Failure(NOOK_ERROR_INVALID_ARGUMENT) with the name of the field.
 gl::NnaoSettings checked_nnao_desc(const nook_nnao_desc* given);
 
 // Returns the caller's descriptors of a frame in this library's version, unchecked.
 gl::NnaoFrame read_nnao_frame(const nook_gl_frame_desc* frame, const nook_nnao_frame_desc* desc);
 
-// Returns the file of the network, which is the embedded one if the host gave none.
+// Returns the bytes of the network file. If the host gave none, returns the embedded network.
 std::span<const std::byte> network_bytes(const nook_nnao_desc& desc);
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if the network's form lacks something that the descriptor
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if a network of this form lacks something that the descriptor
 // needs.
 void check_form(const nook_nnao_desc& desc, nnao::NetworkForm form);
 

@@ -22,13 +22,14 @@ struct nook_nnao_stages_s : RefCounted {
     desc.network = nullptr;
   }
 
-  gl::NnaoSettings desc;  // without network
+  gl::NnaoSettings desc;  // the field `network` is not used
   const gl::PassStages pass;
 };
 
 namespace {
 
-// Returns the checked frame without textures and target, which the host's graphics interface replaces.
+// Returns the checked frame, without textures and target. In the stage interface, the host binds these with
+// its own graphics API.
 gl::NnaoFrame checked_frame(const nook_gl_frame_desc* given, const nook_nnao_frame_desc* settings,
                             const nook_nnao_desc& desc) {
   gl::NnaoFrame frame = read_nnao_frame(given, settings);
@@ -46,7 +47,8 @@ gl::NnaoFrame checked_frame(const nook_gl_frame_desc* given, const nook_nnao_fra
         "debug.show %d cannot be read in a pass with max_history_frames %d; read NOOK_NNAO_IMAGE_AO",
         frame.show, desc.max_history_frames);
   frame.blend = blend;
-  // The host's format is unknown. But a bias other than 0 shows that the format has integers.
+  // The host's texture format is not known here. But if the bias is not 0, the format must be a normalised
+  // integer format.
   frame.normalised_normals = frame.normal_bias != 0;
   return frame;
 }

@@ -1,4 +1,4 @@
-// What the C functions of scenes on the GPU share.
+// Helpers that the C functions for scenes on the GPU share.
 #pragma once
 
 #include <utility>
@@ -9,7 +9,7 @@
 
 namespace nook::api {
 
-// Runs body if both handles are valid and the OpenGL context is not lost.
+// Runs `body` if both handles are valid and the OpenGL context is not lost. Otherwise throws Failure.
 template <class Body>
 nook_result with_gl_scene(const char* function, nook_gl gl, nook_scene scene, Body&& body) noexcept {
   return enter(function, [&] {

@@ -27,7 +27,7 @@ void put(nook_gl_upload_info& info, GLenum target, GLuint texture, const char* u
   info.textures[info.texture_count++] = {target, texture, uniform};
 }
 
-// Fills the info for one kind of content.
+// Fills the info, with one function for each kind of content.
 struct Describe {
   const gl::Device& device;
   nook_gl_upload_info& info;
@@ -85,7 +85,7 @@ nook_gl_upload_info info_of(const nook_gl_upload_s& upload) {
   return info;
 }
 
-// A sampler that marks a kind's GLSL, and the kind.
+// A kind of upload, and the name of a sampler that only the GLSL of this kind has.
 struct Mark {
   const char* uniform;
   const char* kind;
@@ -104,7 +104,7 @@ const char* kind_of(std::string_view uniform) {
   return "a material";
 }
 
-// Throws the failure for a program that lacks every sampler of the upload.
+// Throws Failure for a program that has none of the upload's samplers.
 [[noreturn]] void fail_kind(const gl::Functions& gl, GLuint program, const nook_gl_upload_info& info) {
   for (const Mark& mark : marks)
     if (gl.GetUniformLocation(program, mark.uniform) >= 0)

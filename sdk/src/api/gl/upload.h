@@ -1,5 +1,5 @@
 // The object behind the handle nook_gl_upload: textures of one kind, and the GLSL that reads them. Its OpenGL
-// objects outlive the handle nook_gl, because it holds a reference to its owner.
+// objects can outlive the handle nook_gl, because the object holds a reference to the owner of nook_gl.
 #pragma once
 
 #include <nook/nook_gl.h>
@@ -17,7 +17,7 @@
 
 namespace nook::api {
 
-// A transfer in the paper's form, with what its updates need.
+// A transfer in the paper's form, with the data that its updates need.
 struct PaperUpload {
   PaperUpload(gl::Device& device, nook_transfer transfer, nook_transfer_response under)
       : texture(device, transfer->transfer),
@@ -32,7 +32,8 @@ struct PaperUpload {
 }  // namespace nook::api
 
 struct nook_gl_upload_s : nook::RefCounted {
-  // Makes content of a type from its arguments, under a guard for these users of the OpenGL state.
+  // Constructs content of the given type from `arguments`. A guard protects the OpenGL state of these users
+  // meanwhile.
   template <class Content, class... Arguments>
   nook_gl_upload_s(std::in_place_type_t<Content>, nook_gl_s* made_by, unsigned users,
                    Arguments&&... arguments)
@@ -41,7 +42,7 @@ struct nook_gl_upload_s : nook::RefCounted {
     gl->guarded(users, [&] { content.emplace<Content>(gl->device, std::forward<Arguments>(arguments)...); });
   }
 
-  // NULL if the upload is of another kind.
+  // Returns NULL if the upload is of another kind.
   nook::gl::ProbeTexture* probe() { return std::get_if<nook::gl::ProbeTexture>(&content); }
   nook::gl::GridVolume* grid() { return std::get_if<nook::gl::GridVolume>(&content); }
   nook::gl::TransferTexture* vectors() { return std::get_if<nook::gl::TransferTexture>(&content); }
@@ -65,7 +66,8 @@ nook_gl_upload make_upload(nook_gl gl, unsigned users, Arguments&&... arguments)
       .detach();
 }
 
-// max_layers is the maximum of one texture array, or 0 for this OpenGL's limit. Tests set smaller limits.
+// max_layers is the maximum number of layers of one texture array, or 0 for the limit of this OpenGL context.
+// Tests set smaller limits.
 nook_gl_upload upload_material(nook_gl gl, nook_material material, std::uint32_t max_layers);
 
 }  // namespace nook::api
