@@ -92,7 +92,8 @@ V3 any_perpendicular(const V3& a) {
   return scaled(p, 1 / std::sqrt(dot(p, p)));
 }
 
-// Rotation columns from the first two columns of a, with stand-ins where they vanish.
+// Returns the columns of a rotation, computed from the first two columns of `a`. If a column vanishes,
+// another direction replaces it.
 std::array<V3, 3> gram_schmidt(const std::array<V3, 3>& a) {
   V3 x = a[0];
   const double nx = std::sqrt(dot(x, x));
@@ -113,9 +114,9 @@ V3 rotate(const V3& axis, double angle, const V3& v) {
           v[2] * c + k[2] * s + axis[2] * along};
 }
 
-// Mueller, Bender, Chentanez, Macklin 2016, "A Robust Method to Extract the Rotational Part of Deformations",
-// equation 7. The result is a rotation even for mirrored and flattened matrices, where the plain polar factor
-// is not.
+// Uses equation 7 of Mueller, Bender, Chentanez, Macklin 2016, "A Robust Method to Extract the Rotational
+// Part of Deformations". The result is a rotation even for mirrored and flattened matrices. The plain polar
+// factor would not be a rotation there.
 std::array<V3, 3> nearest_rotation(const std::array<V3, 3>& a) {
   std::array<V3, 3> r = gram_schmidt(a);
   for (int step = 0; step < 100; ++step) {
@@ -144,8 +145,8 @@ Similarity nearest_similarity(const Affine& a, const std::array<double, 3>& fixe
     for (V3& c : columns) c = scaled(c, 1 / norm);
   const std::array<V3, 3> r = nearest_rotation(columns);
 
-  // For a given R, |A - s R|^2 is smallest at s = <A, R> / <R, R>. A bone scaled to nothing keeps a tiny
-  // positive scale, because a pose matrix must stay invertible.
+  // For a given R, |A - s R|^2 is smallest at s = <A, R> / <R, R>. A bone with scale 0 gets a tiny positive
+  // scale, because a pose matrix must stay invertible.
   const double s = (dot(columns[0], r[0]) + dot(columns[1], r[1]) + dot(columns[2], r[2])) / 3 * norm;
   Similarity result;
   result.scale = std::max(s, 1e-6);

@@ -1,4 +1,5 @@
-// Affine transforms in double precision: chains of nodes under a 0.01 scale lose too many digits in floats.
+// Affine transforms in double precision. In float precision, chains of nodes below a scale of 0.01 would lose
+// too many digits.
 #pragma once
 
 #include <array>
@@ -18,13 +19,14 @@ Vec3 transform(const Affine& a, Vec3 p);
 double determinant(const Affine& a);
 bool is_finite(const Affine& a);
 
-// The caller checks determinant(a) != 0 first.
+// determinant(a) must not be 0.
 Affine inverse(const Affine& a);
 
 // Reads the columns of a 4x4 matrix as glTF stores them; the last row is assumed to be 0 0 0 1.
 Affine from_columns(const double* columns_4x4);
 
-// Translation, unit quaternion (x, y, z, w), scale, applied in the order scale, rotation, translation.
+// A translation, a unit quaternion (x, y, z, w) and a scale. The scale is applied first, then the rotation,
+// then the translation.
 struct Trs {
   std::array<double, 3> translation{0, 0, 0};
   std::array<double, 4> rotation{0, 0, 0, 1};
@@ -32,15 +34,15 @@ struct Trs {
 };
 Affine to_affine(const Trs& trs);
 
-// The nearest s * R (Frobenius norm) with R a rotation and s > 0.
+// The nearest similarity s * R in the Frobenius norm, where R is a rotation and s > 0.
 struct Similarity {
   Affine matrix;
   double scale = 1;
-  double deviation = 0;  // relative deviation of the linear part, 0 for a rigid or evenly scaled matrix
+  double deviation = 0;  // relative deviation of the linear part, 0 for a rigid or uniformly scaled matrix
 };
 
-// The image of the point `fixed` stays the same. Pass the joint's origin, so that removing shear does not
-// move the joint.
+// Both matrices map the point `fixed` to the same point. Pass the joint's origin, so that removing shear does
+// not move the joint.
 Similarity nearest_similarity(const Affine& a, const std::array<double, 3>& fixed);
 
 Mat3x4 to_float(const Affine& a);

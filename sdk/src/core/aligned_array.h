@@ -56,7 +56,7 @@ class AlignedArray {
   std::size_t size_ = 0;
 };
 
-// Arrays of SIMD loops are padded to whole blocks of this many floats, which are one AVX-512 register.
+// Arrays for SIMD loops are padded to a multiple of this many floats, which is one AVX-512 register.
 inline constexpr std::size_t simd_width = 16;
 constexpr std::size_t padded_count(std::size_t count) {
   return (count + simd_width - 1) / simd_width * simd_width;

@@ -1,5 +1,5 @@
-// Writes little-endian bytes and packed bits to a vector, and reads them back. Every read is checked against
-// the end. The bytes are the same on hosts of either byte order.
+// Writes little-endian bytes and packed bits to a vector, and reads them back. Reading past the end throws.
+// The bytes do not depend on the byte order of the machine.
 #pragma once
 
 #include <nook/nook.h>
@@ -23,7 +23,7 @@ class ByteWriter {
   void u32(std::uint32_t value) { little(value, 4); }
   void u64(std::uint64_t value) { little(value, 8); }
   void f32(float value) { u32(bit_cast<std::uint32_t>(value)); }
-  // Writes seven bits in each byte, low bits first; the top bit is set if more bytes follow.
+  // Writes seven bits per byte, low bits first. The top bit of a byte is set if more bytes follow.
   void varint(std::uint32_t value) {
     for (; value >= 128; value >>= 7) u8(value | 128);
     u8(value);
@@ -32,7 +32,7 @@ class ByteWriter {
     for (const char c : value) u8(static_cast<unsigned char>(c));
   }
 
-  // Writes packed bits, low bits first. Call align() before bytes follow.
+  // Writes packed bits, low bits first. Call align() before you write bytes again.
   void bits(std::uint32_t value, int count) {
     for (int i = 0; i < count; ++i) {
       if (used_bits_ == 0) bytes_.push_back(std::byte{0});
@@ -55,7 +55,7 @@ class ByteWriter {
 
 class ByteReader {
  public:
-  // Messages contain name, which must outlive the reader.
+  // Error messages contain `name`, which must outlive the reader.
   ByteReader(std::span<const std::byte> bytes, const char* name) : bytes_(bytes), name_(name) {}
 
   const char* name() const { return name_; }
@@ -99,7 +99,8 @@ class ByteReader {
   }
   void align() { left_bits_ = 0; }
 
-  // Throws if the rest of the section cannot hold count items, before anything is allocated for them.
+  // Throws if the rest of the section cannot hold `count` items. Call it before you allocate memory for the
+  // items.
   std::uint32_t check_count(std::uint32_t count, std::size_t bits_each, const char* what) const {
     if (count > remaining() * 8 / bits_each)
       throw Failure(NOOK_ERROR_BAD_FILE,
@@ -137,7 +138,7 @@ class ByteReader {
   int left_bits_ = 0;
 };
 
-// Returns the number of bits needed for every index below count.
+// Returns the number of bits that are needed for any index below `count`.
 constexpr int index_bits(std::size_t count) {
   return count > 1 ? std::bit_width(count - 1) : 0;
 }

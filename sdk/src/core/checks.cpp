@@ -59,7 +59,7 @@ void check_switch(const char* name, std::int32_t value) {
 
 namespace {
 
-// The largest array: differences of addresses are signed.
+// Maximum size of an array. Differences of addresses are signed, so it is PTRDIFF_MAX.
 constexpr std::size_t max_array_bytes = PTRDIFF_MAX;
 
 }  // namespace

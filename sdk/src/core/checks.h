@@ -1,5 +1,5 @@
-// Checks what a host or a file passes. Each function throws Failure with `code` unless the value fits. The
-// message says the name of the value, what it is and what is needed.
+// Checks values from a host or a file. Each function throws Failure if the value is invalid. The message
+// contains the name of the value, the value itself and what is needed.
 #pragma once
 
 #include <nook/nook.h>
@@ -13,7 +13,7 @@
 
 namespace nook {
 
-// A number of any type as the text of a message.
+// The text of a number of any type, for a message.
 class NumberText {
  public:
   template <std::integral Number>
@@ -44,41 +44,42 @@ concept CheckedNumber = std::integral<Number> || std::floating_point<Number>;
 // Throws: NAME is unknown (got GOT, need 0 to LAST).
 [[noreturn]] void fail_unknown(const char* name, std::int32_t got, std::int32_t last);
 
-// fits: whether the value is what `need` says in words, such as "0 or more". Floats must also be finite.
+// Throws unless `fits` is true. `need` says in words what is needed, such as "0 or more". Floats must also be
+// finite.
 template <CheckedNumber Number>
 void check_fits(const char* name, Number value, bool fits, const char* need,
                 nook_result code = NOOK_ERROR_INVALID_ARGUMENT) {
-  // A number minus itself is 0 where it is finite.
+  // For finite numbers only, the number minus itself is 0.
   if (!fits || !(value - value == 0)) fail_range(code, name, NumberText(value), need);
 }
 
-// low and high are included.
+// Throws unless the value is in [low, high].
 template <CheckedNumber Number>
 void check_range(const char* name, Number value, std::type_identity_t<Number> low,
                  std::type_identity_t<Number> high, nook_result code = NOOK_ERROR_INVALID_ARGUMENT) {
-  // The comparison fails for NaN.
+  // The comparison is false for NaN.
   if (!(value >= low && value <= high))
     fail_range(code, name, NumberText(value), NumberText(low), NumberText(high));
 }
 
-// Checks an index below `count`.
+// Throws unless the index is below `count`.
 void check_index(const char* name, std::size_t index, std::size_t count);
 
 void check_at_most(const char* name, std::uint32_t value, std::uint32_t most);
 
-// Returns the distance in bytes between `count` elements of the caller's array: stride, or element_bytes if
-// stride is 0. Throws INVALID_ARGUMENT if elements overlap. It also throws if no memory can hold this many
-// elements at this distance, so that addresses beyond it are never computed. name: the stride's name.
+// Returns the distance in bytes between consecutive elements of the caller's array: `stride`, or
+// element_bytes if `stride` is 0. Throws INVALID_ARGUMENT if elements overlap, or if `count` elements at this
+// distance are more than an address space can hold. `name` is the name of the stride.
 std::size_t checked_stride(const char* name, std::size_t stride, std::size_t count,
                            std::size_t element_bytes);
 
-// The same for tightly packed arrays; name: the count's name.
+// The same for tightly packed arrays. `name` is the name of the count.
 void check_array(const char* name, std::size_t count, std::size_t element_bytes);
 
-// Checks a switch, which is 0 or 1.
+// Checks a switch, which must be 0 or 1.
 void check_switch(const char* name, std::int32_t value);
 
-// Checks an enumerator, from 0 to `last`.
+// Checks an enumerator, which must be from 0 to `last`.
 inline void check_known(const char* name, std::int32_t value, std::int32_t last) {
   if (value < 0 || value > last) fail_unknown(name, value, last);
 }

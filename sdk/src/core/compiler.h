@@ -1,9 +1,11 @@
-// Defines the attributes that compilers spell differently; no other header of the library has one.
+// Defines macros for attributes that each compiler spells differently. No other header of the library uses
+// compiler-specific attributes.
 #pragma once
 
-// NOOK_PRINTF(format, first): the compiler checks the arguments from `first` on against the format string in
-// parameter `format`. Parameters count from 1, in member functions from 2. MinGW's `printf` means the format
-// of Microsoft's C library, without %zu and %llu, but libstdc++ replaces those functions by standard ones.
+// NOOK_PRINTF(format, first): parameter `format` is a printf format string, and the compiler checks the
+// arguments from parameter `first` on against it. Parameters are counted from 1, or from 2 in member
+// functions. On MinGW, the attribute `printf` stands for Microsoft's format without %zu and %llu. But
+// libstdc++ uses standard printf functions there, so the attribute must be another one.
 #if defined(__MINGW32__) && !defined(__clang__)
 #define NOOK_PRINTF(format_parameter, first_parameter) \
   __attribute__((format(gnu_printf, format_parameter, first_parameter)))
@@ -21,8 +23,8 @@
 #define NOOK_INLINE inline __attribute__((always_inline))
 #endif
 
-// NOOK_TRAILING_ZEROS(word): the number of the lowest set bit of an unsigned int. It is not defined if the
-// compiler has no such builtin.
+// NOOK_TRAILING_ZEROS(word): the index of the lowest set bit of an unsigned int. Not defined if the compiler
+// has no such builtin.
 #if defined(__GNUC__)
 #define NOOK_TRAILING_ZEROS(word) __builtin_ctz(word)
 #endif

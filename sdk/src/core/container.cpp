@@ -20,8 +20,8 @@ std::uint64_t checksum_of(std::span<const std::byte> bytes) {
   return hash.value();
 }
 
-// Returns the four letters as a C string, with '?' for unprintable ones, so that a hostile file cannot write
-// control sequences to the host's terminal.
+// Returns the four letters as a C string. Unprintable letters become '?', so that a malicious file cannot
+// write control sequences to the host's terminal.
 std::array<char, 5> letters(FourLetters value) {
   std::array<char, 5> text{};
   for (int i = 0; i < 4; ++i) {

@@ -39,8 +39,8 @@ std::vector<std::byte> write_container(const ContainerKind& kind, std::span<cons
 // Views the bytes of a file without allocating.
 class Container {
  public:
-  // Checks everything except the contents of the sections. Throws Failure, with a different message for each
-  // fault.
+  // Checks everything except the contents of the sections. If something is wrong, throws Failure. Each kind
+  // of fault has its own message.
   Container(std::span<const std::byte> bytes, const ContainerKind& kind);
 
   std::uint32_t version() const { return version_; }
@@ -61,14 +61,15 @@ class Container {
   std::uint32_t sections_ = 0;
 };
 
-// Writes the correct checksum into modified bytes, for tests of the code behind the checksum.
+// Writes the correct checksum into modified bytes. Tests use it to reach the code that runs after the
+// checksum test.
 void repair_checksum(std::span<std::byte> bytes);
-// This many bytes at the front of a file reveal its kind and size.
+// The kind and size of a file are in this many bytes at its start, the head.
 inline constexpr std::size_t container_head_bytes = 40;
-// Returns the kind of a file, so that a tool can choose a reader, or 0 if the bytes are not a .nook file. The
-// head is enough.
+// Returns the kind of a file, so that a tool can choose a reader. Returns 0 if the bytes are not a .nook
+// file. It is enough to pass the head.
 FourLetters container_kind(std::span<const std::byte> bytes);
-// Returns the file's size that the head states, or 0 if the bytes are not a .nook file.
+// Returns the file size that is stored in the head, or 0 if the bytes are not a .nook file.
 std::uint64_t container_size(std::span<const std::byte> bytes);
 
 }  // namespace nook

@@ -1,4 +1,5 @@
-// The standard containers over Memory. A container of containers passes its memory on to its elements.
+// The standard containers, with memory from a Memory. A container of containers passes its memory on to its
+// elements.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +16,8 @@
 
 namespace nook {
 
-// An allocator stays with its container and moves only when a container is constructed from an rvalue. A copy
-// uses default_memory(), so that it can outlive the original's memory.
+// Assignment and swap do not change a container's allocator. Move construction takes over the allocator of
+// the source. A copy uses default_memory(), so that it can outlive the original's memory.
 template <class T>
 class Allocator {
  public:
@@ -35,8 +36,8 @@ class Allocator {
   void deallocate(T* first, std::size_t count) noexcept {
     memory_->deallocate(first, count * sizeof(T), alignof(T));
   }
-  // Passes this allocator to elements that take one as their last argument, and constructs all others without
-  // it.
+  // Passes this allocator to elements whose constructor takes one as its last argument. Constructs all other
+  // elements without it.
   template <class U, class... Arguments>
   requires(std::uses_allocator<U, Allocator<U>>::value) void construct(U* place, Arguments&&... arguments) {
     ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)..., Allocator<U>(memory_));

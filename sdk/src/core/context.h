@@ -1,4 +1,4 @@
-// A context holds the host's callbacks. Every object created from it refers to it and so keeps it alive.
+// A context holds the host's callbacks. Every object that is created from a context keeps the context alive.
 #pragma once
 
 #include <nook/nook.h>
@@ -22,11 +22,11 @@ class Context : public RefCounted {
 
   Memory* memory() noexcept { return &memory_; }
   const Parallel& parallel() const noexcept { return parallel_; }
-  // The instruction set that the host chose, which is available, or NOOK_ISA_AUTO.
+  // Returns the instruction set that the host chose, or NOOK_ISA_AUTO. The chosen set is available.
   nook_isa isa() const noexcept { return isa_; }
-  // How many of the host's length units make a metre.
+  // Returns how many of the host's length units are one metre.
   float units_per_metre() const noexcept { return units_per_metre_; }
-  // Logs a printf-style text, cut at 512 characters. Does nothing if the host set no log.
+  // Logs a printf-style text, truncated to 512 characters. Does nothing if the host set no log.
   void log(nook_log_severity severity, const char* format, ...) const noexcept NOOK_PRINTF(3, 4);
 
  protected:

@@ -1,5 +1,6 @@
-// The structs of the C interfaces grow with versions. A caller compiled with an older or newer header passes
-// fewer or more bytes than the library's struct has.
+// Handles the versions of structs in the C interfaces. New versions may append fields to a struct. So a
+// caller that was compiled with an older or newer header passes a smaller or larger struct than the
+// library's.
 #pragma once
 
 #include <nook/nook.h>
@@ -13,12 +14,13 @@
 
 namespace nook {
 
-// Throws VERSION unless headers of `version` fit this library: the major version must be equal, and the minor
-// version must not be newer.
+// Throws VERSION unless a caller with headers of `version` can use this library. The major version must be
+// equal, and the minor version must not be newer than the library's.
 void check_version(std::uint32_t version);
 
 // A descriptor's NOOK_DESC_ value, the name of its init function and its defaults. Each library specialises
-// these three for its descriptors from one list, descriptor_list.h beside its C functions.
+// these three for its descriptors. The specialisations are made from one list, descriptor_list.h in the
+// folder of its C functions.
 template <class Desc>
 inline constexpr std::uint32_t descriptor_type = 0;
 template <class Desc>
@@ -30,7 +32,7 @@ Desc default_desc();
 template <class Struct>
 inline constexpr std::size_t first_size = sizeof(Struct);
 
-// Fills the caller's struct of `size` bytes with defaults, and any bytes beyond the library's struct with 0.
+// Fills the caller's struct of `size` bytes with defaults. Any bytes after the library's struct become 0.
 template <class Desc>
 void init_descriptor(Desc* desc, std::size_t size, std::uint32_t version) {
   need(desc, "desc");
@@ -59,7 +61,7 @@ inline DescriptorHead head_of(const void* desc) {
   return head;
 }
 
-// Returns the first extension of this type in the chain behind a descriptor's `next`, or nullptr.
+// Returns the first extension of this type in the chain that starts at a descriptor's `next`, or nullptr.
 template <class Ext>
 const Ext* find_extension(const void* next) {
   for (; next; next = head_of(next).next)
@@ -67,7 +69,7 @@ const Ext* find_extension(const void* next) {
   return nullptr;
 }
 
-// Throws unless the chain holds only extensions of these types, each at most once.
+// Throws if the chain contains an extension of another type, or an extension twice.
 template <class... Ext>
 void check_extensions(const void* next) {
   if constexpr (sizeof...(Ext) == 0) {
@@ -91,9 +93,10 @@ void check_extensions(const void* next) {
   }
 }
 
-// Returns the caller's struct in this library's version: fields beyond the caller's size keep their defaults.
-// Fields that only a newer header has must be 0. Its `next` may hold extensions of the types Ext, which
-// find_extension finds. Read an extension with this function too, and pass all types as its own Ext.
+// Returns the caller's struct in this library's version. Fields that the caller's struct does not have get
+// their defaults. Fields that only a newer header has must be 0. `next` of the struct may point to extensions
+// of the types Ext; get them with find_extension. Read each extension with this function, too, and pass the
+// same list of types as Ext.
 template <class Desc, class... Ext>
 Desc read_descriptor(const Desc* desc) {
   need(desc, "desc");
@@ -118,7 +121,7 @@ Desc read_descriptor(const Desc* desc) {
   return known;
 }
 
-// Copies as much of `value` as the caller's struct holds. The caller's struct_size stays unchanged.
+// Copies as much of `value` as fits into the caller's struct. The caller's struct_size stays unchanged.
 template <class Info>
 void write_info(Info* info, Info value) {
   need(info, "the struct for the answer");

@@ -1,4 +1,4 @@
-// The exception of the library; the api rooms turn it into a nook_result and a message.
+// The exception of the library. The C functions in the api folders convert it to a nook_result and a message.
 #pragma once
 
 #include <nook/nook.h>
@@ -11,8 +11,8 @@ namespace nook {
 
 class Failure : public std::exception {
  public:
-  // Takes a printf-style text: what is wrong, the value and what is needed. The api rooms add the name of the
-  // function. The text is cut at the buffer's end, so that throwing does not allocate.
+  // Takes a printf-style text that says what is wrong, the value, and what is needed. The C functions add
+  // their names to it. The text is truncated to the size of the buffer, so throwing does not allocate.
   Failure(nook_result code, const char* format, ...) noexcept NOOK_PRINTF(3, 4);
 
   nook_result code() const noexcept { return code_; }

@@ -7,8 +7,8 @@
 namespace nook {
 namespace {
 
-// A whole number of 192 bits, words from the lowest. The largest here has 155 bits: ten times 2^151, the
-// scale of subnormal floats.
+// An unsigned integer of 192 bits, lowest word first. The largest number that occurs here has 155 bits: ten
+// times 2^151, the scale of subnormal floats.
 class Whole {
  public:
   explicit Whole(std::uint32_t value) : words_{value} {}
@@ -34,7 +34,7 @@ class Whole {
     }
   }
 
-  // The other number must not be larger.
+  // `other` must not be larger than this number.
   void subtract(const Whole& other) {
     std::uint64_t borrow = 0;
     for (std::size_t i = 0; i < words_.size(); ++i) {
@@ -44,7 +44,8 @@ class Whole {
     }
   }
 
-  // Negative, 0 or positive, as this number is less than, equal to or greater than the other.
+  // Returns a negative value, 0 or a positive value, if this number is less than, equal to or greater than
+  // `other`.
   int compare(const Whole& other) const {
     for (std::size_t i = words_.size(); i-- > 0;)
       if (words_[i] != other.words_[i]) return words_[i] < other.words_[i] ? -1 : 1;
@@ -60,18 +61,19 @@ Whole sum(Whole a, const Whole& b) {
   return a;
 }
 
-// A positive float as the fraction value / scale, and the halves of the gaps to its neighbours, below and
-// above. Every decimal between value - below and value + above is read as this float.
+// A positive float as the fraction value / scale. `below` and `above` are half of the distances to the
+// neighbouring floats, in the same scale. A decimal number between value - below and value + above is read
+// back as this float.
 struct Interval {
   Whole value, below, above, scale;
-  bool closed;  // the ends are read as this float as well, because a tie goes to the even mantissa
+  bool closed;  // true if both ends are read back as this float, too, because a tie goes to the even mantissa
 };
 
 Interval interval_of(std::uint32_t bits) {
   const std::uint32_t field = bits >> 23, fraction = bits & 0x7fffff;
   const std::uint32_t mantissa = field > 0 ? fraction | 0x800000 : fraction;
   const int exponent = int(field > 0 ? field : 1) - 150;
-  // Below a power of two, floats lie twice as close.
+  // Just below a power of two, the distance between floats is half as large as above it.
   const bool is_uneven = fraction == 0 && field > 1;
   Interval interval{Whole(4 * mantissa), Whole(is_uneven ? 1 : 2), Whole(2), Whole(4), mantissa % 2 == 0};
   for (Whole* number : {&interval.value, &interval.below, &interval.above}) number->double_times(exponent);
@@ -79,7 +81,7 @@ Interval interval_of(std::uint32_t bits) {
   return interval;
 }
 
-// True if value + above has this relation to the scale: beyond it, or at it where the ends count.
+// True if value + above is greater than the scale, or equal to it if the interval is closed.
 bool reaches(const Interval& interval) {
   const int order = sum(interval.value, interval.above).compare(interval.scale);
   return order > 0 || (order == 0 && interval.closed);
@@ -89,8 +91,8 @@ void shift(Interval& interval) {
   for (Whole* number : {&interval.value, &interval.below, &interval.above}) number->multiply(10);
 }
 
-// Scales the interval so that its upper end lies in [1/10, 1), and returns the power of ten that it was
-// divided by.
+// Scales the interval so that its upper end is in [1/10, 1). Returns the exponent of the power of ten by
+// which it was divided.
 int normalise(Interval& interval) {
   int power = 0;
   for (; reaches(interval); ++power) interval.scale.multiply(10);
@@ -102,8 +104,8 @@ int normalise(Interval& interval) {
   }
 }
 
-// Removes the next digit from a normalised interval and returns it. Sets `last` if the digits so far, rounded
-// to the nearer side, lie in the interval.
+// Removes the next digit from a normalised interval, and returns it. Sets `last` if the digits so far,
+// rounded to the nearer side, are inside the interval.
 int next_digit(Interval& interval, bool& last) {
   shift(interval);
   int digit = 0;
@@ -118,8 +120,8 @@ int next_digit(Interval& interval, bool& last) {
 
 }  // namespace
 
-// The method is from R. G. Burger, R. K. Dybvig, Printing Floating-Point Numbers Quickly and Accurately, PLDI
-// 1996, in exact whole numbers. Speed does not matter, because a pass writes few literals.
+// Implements R. G. Burger, R. K. Dybvig, Printing Floating-Point Numbers Quickly and Accurately, PLDI 1996,
+// with exact integers. Speed does not matter, because a pass writes only a few literals.
 FloatLiteral float_literal(float value) {
   FloatLiteral literal{};
   char* out = literal.text;

@@ -46,16 +46,16 @@ inline float from_half(std::uint16_t half) {
   return sign ? -value : value;
 }
 
-// Writes numbers into the text of shaders.
+// Below: writes floats into the text of shaders.
 
-// Holds the longest text, -1.17549435e-38, and the zero at its end.
+// Has room for the longest text, -1.17549435e-38, and its terminating zero.
 struct FloatLiteral {
   char text[16];
 };
 
 // Returns the shortest GLSL literal that reads back as the same float, such as 1.5e-01, in the scientific
-// format of std::to_chars. libc++ 13 has no std::to_chars for floats, and printf uses the decimal sign of the
-// host's locale. The value must be finite.
+// format of std::to_chars. std::to_chars itself is not used, because libc++ 13 does not have it for floats.
+// printf is not used, because it writes the decimal separator of the host's locale. The value must be finite.
 FloatLiteral float_literal(float value);
 
 }  // namespace nook

@@ -13,26 +13,27 @@ struct Capsule {
   float radius_a = 0, radius_b = 0;
 };
 
-// A capsule in world space that casts. Its radii hide a light; for AO, they are multiplied by ao_scale.
+// A capsule in world space that casts a shadow and AO. For shadows, its radii are used unchanged; for AO,
+// they are multiplied by ao_scale.
 struct PosedCaster {
   Capsule capsule;
   float ao_scale = 1;
 };
 
-// The bound on each coordinate, in metres. A float's step there is 6 cm, so characters and scenes beyond it
-// make no sense, and every product of coordinates stays finite.
+// Limit for the magnitude of each coordinate, in metres. The step of a float there is 6 cm, so larger
+// characters and scenes are not useful. Within the limit, all products of coordinates are finite.
 constexpr float max_metres = 1e6f;
 
-// False if a coordinate is not finite.
+// True if no coordinate exceeds max_metres in magnitude. False if a coordinate is not finite.
 inline bool is_place(Vec3 p) {
   return std::abs(p.x) <= max_metres && std::abs(p.y) <= max_metres && std::abs(p.z) <= max_metres;
 }
 
-// Bounds for the matrices of a pose, from rest space to world. They are far beyond any world, yet squares of
-// the moved positions stay finite.
+// Limits for the matrices of a pose, which map rest space to world space. They are larger than any world
+// needs, but squares of the transformed positions are still finite.
 constexpr float max_pose_metres = 1e9f, max_pose_scale = 1e6f;
 
-// False if a number is not finite.
+// True if the matrix is within these limits. False if an element is not finite.
 inline bool is_pose_matrix(const Mat3x4& matrix) {
   for (int i = 0; i < 12; ++i)
     if (!(std::abs(matrix.m[i]) <= (i % 4 == 3 ? max_pose_metres : max_pose_scale))) return false;

@@ -1,5 +1,5 @@
 // The 64-bit hash XXH64, written from its specification (github.com/Cyan4973/xxHash, doc/xxhash_spec.md).
-// Checksums of .nook files and fingerprints of sources use it, so it must never change.
+// Checksums of .nook files and fingerprints of sources use this hash, so it must never change.
 #pragma once
 
 #include <array>
@@ -9,12 +9,12 @@
 
 namespace nook {
 
-// Hashes bytes that arrive in pieces; how they are cut into pieces does not matter.
+// Hashes bytes that are added in pieces. The result does not depend on how the bytes are divided into pieces.
 class Hash64 {
  public:
   explicit Hash64(std::uint64_t seed = 0);
   void add(std::span<const std::byte> bytes);
-  // Returns the hash of all bytes so far; more may be added afterwards.
+  // Returns the hash of all bytes so far. You may add more bytes afterwards.
   std::uint64_t value() const;
 
  private:
@@ -23,7 +23,7 @@ class Hash64 {
 
   std::uint64_t seed_;
   std::array<std::uint64_t, 4> lanes_;
-  std::uint64_t size_ = 0;                     // of all bytes so far
+  std::uint64_t size_ = 0;                     // number of bytes so far
   std::array<std::byte, stripe_size> rest_{};  // the last size_ % stripe_size bytes
 };
 

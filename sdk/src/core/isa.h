@@ -1,4 +1,4 @@
-// Chooses at run time among the instruction sets of isa_list.inl, for which kernels are compiled.
+// Chooses an instruction set at run time. Kernels are compiled for each instruction set in isa_list.inl.
 #pragma once
 
 #include <nook/nook.h>
@@ -12,13 +12,13 @@ enum class Isa : std::int32_t {
 #include "sdk/src/core/isa_list.inl"
 };
 
-// All sets of the list, even those that this build or processor lacks.
+// All instruction sets of the list, including sets that this build or processor does not have.
 inline constexpr Isa all_isas[] = {
 #define NOOK_ISA_ENTRY(name, value, built, runs) Isa::name,
 #include "sdk/src/core/isa_list.inl"
 };
 
-// The largest value in the public header; 0 is NOOK_ISA_AUTO.
+// Returns the largest value of nook_isa in the public header. The value 0 is NOOK_ISA_AUTO.
 constexpr nook_isa last_isa() {
   nook_isa last = 0;
   for (const Isa isa : all_isas)
@@ -41,13 +41,13 @@ constexpr const char* isa_name(Isa isa) {
 // available.
 bool isa_available(Isa isa);
 
-// Returns the set of a public value, or the best available one for NOOK_ISA_AUTO. Throws Failure with
-// NOOK_ERROR_INVALID_ARGUMENT for a value that is not in the list. For a set that is not available it throws
-// NOOK_ERROR_UNSUPPORTED, and the message names the available sets.
+// Returns the instruction set for a public value. For NOOK_ISA_AUTO, returns the best available set. Throws
+// Failure(NOOK_ERROR_INVALID_ARGUMENT) for a value that is not in the list. Throws
+// Failure(NOOK_ERROR_UNSUPPORTED) for a set that is not available; the message lists the available sets.
 Isa choose_isa(nook_isa asked);
 
-// Return true if both processor and operating system can run the set; always false on processors of another
-// family.
+// These functions return true if both the processor and the operating system support the set. On processors
+// of another family, they return false.
 
 bool processor_has_sse2();
 bool processor_has_avx2_and_fma();

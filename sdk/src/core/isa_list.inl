@@ -1,10 +1,9 @@
-// The instruction sets of the CPU kernels, from the simplest to the best: NOOK_ISA_AUTO takes the last one
-// that runs. Each has a folder of its name in sdk/src/isa with its vector, kernels and compiler flags. The
-// file is included after a definition of
-//   NOOK_ISA_ENTRY(name, value, built, runs)
-// The folder, the namespace isa_name and Isa::name use the name; value is the public header's. built is 1 if
-// this build has the kernels, which isa.cmake of the folder decides; runs says whether the processor can run
-// them.
+// The instruction sets of the CPU kernels, from the simplest to the best. NOOK_ISA_AUTO takes the last set
+// that can run. Each set has a folder with its name in sdk/src/isa, with its vector type, kernels and
+// compiler flags. Before you include this file, define
+//   NOOK_ISA_ENTRY(name, value, built, runs) `name` is the name of the folder, of the namespace isa_name and
+// of Isa::name. `value` is the value of the public header. `built` is 1 if this build has the kernels;
+// isa.cmake in the folder decides this. `runs` is true if the processor can run them.
 
 NOOK_ISA_ENTRY(scalar, NOOK_ISA_SCALAR, NOOK_BUILT_SCALAR, true)
 NOOK_ISA_ENTRY(sse2, NOOK_ISA_SSE2, NOOK_BUILT_SSE2, processor_has_sse2())

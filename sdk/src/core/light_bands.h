@@ -1,6 +1,6 @@
-// Bands 0 to 2 of light that is a sum of lobes, and of densities over directions. Densities are summed first
-// and then combined with the light, so the sum does not depend on the lobes. The mean of the light under a
-// density around d is
+// Bands 0 to 2 of light that is a sum of lobes, and bands 0 to 2 of densities over directions. Densities are
+// summed first and then combined with the light, so the cost of a density does not depend on the number of
+// lobes. The mean of the light under a density around d is
 //   scalar + A1 dot(vector, d) + A2 dot(d, tensor d),
 // where A1 and A2 are the density's own bands: the means of its cosine to d and of (3 cosine^2 - 1) / 2.
 //
@@ -32,23 +32,24 @@ struct LightBands {
   Vec3 scalar;     // mean radiance of all directions
   Vec3 vector[3];  // x, y, z
   Vec3 tensor[6];  // xx, yy, zz, and twice xy, yz, zx; its trace is 0
-  // A lower bound of the radiance of a hemisphere: a small share of the mean radiance of all directions, > 0.
-  // Without it, fits that ring below 0 on their dark side would give extreme ratios there.
+  // Lower bound for the radiance of a hemisphere, > 0: a small share of the mean radiance of all directions.
+  // Fitted lobes can ring below 0 on the dark side. Without the bound, the ratios there would be extreme.
   Vec3 darkest;
 };
 
-// The bands of a lobe; they do not depend on its amplitude.
+// The bands of a lobe at amplitude 1.
 struct LobeBands {
   float scalar = 0, vector = 0, tensor = 0;
 };
 
-// Returns the factors of a lobe's own bands, for its mean radiance over the sphere.
+// Returns a lobe's mean radiance over the sphere at amplitude 1, and the factors of its bands 1 and 2
+// relative to this mean.
 inline LobeBands bands_of(float sharpness) {
   const std::array<float, 5> band = gaussian_bands(sharpness);
   return {gaussian_integral(sharpness) / gaussian_integral(0.0f), 3 * band[1], 7.5f * band[2]};
 }
 
-// axis: unit, or zero where the lobe is constant.
+// `axis` must be a unit vector, or zero if the lobe is constant.
 inline void add_lobe(LightBands& bands, Vec3 axis, Vec3 amplitude, const LobeBands& own) {
   const Vec3 mean = amplitude * own.scalar;
   const float d[3] = {axis.x, axis.y, axis.z};
@@ -61,7 +62,7 @@ inline void add_lobe(LightBands& bands, Vec3 axis, Vec3 amplitude, const LobeBan
 }
 
 inline Vec3 darkest_of(std::span<const SphericalGaussian> lobes) {
-  // No hemisphere counts as darker than this share of the mean radiance.
+  // A hemisphere is never treated as darker than this share of the mean radiance.
   constexpr float darkest_share = 0.02f;
   Vec3 mean;
   for (const SphericalGaussian& lobe : lobes)
@@ -79,15 +80,16 @@ struct GatheredBands {
     return {o, o, o, o, o, o, o, o, o, o};
   }
   // Adds the density exp(dot(b, s)). Its bands are A1 = 1 - 1 / |b| and A2 = 1 - 3 A1 / |b|, without a term
-  // e^(-2 |b|). This term is below 0.015 here, because |b| >= directional_cosine unless the blend of bones
-  // cancels the normal.
+  // e^(-2 |b|). This term is below 0.015 here, because |b| >= directional_cosine. The only exception is a
+  // normal that became zero by blending bones.
   void add(const Direction<F>& b, F weight) {
     const F t = rsqrt(max(fma(b.x, b.x, fma(b.y, b.y, b.z * b.z)), F(1.0f)));
     const F a1 = F(1.0f) - t, a2 = fma(F(-3.0f) * t, a1, F(1.0f));
     const Direction<F> d{b.x * t, b.y * t, b.z * t};
     add(d, weight, weight * a1, weight * a2);
   }
-  // Adds a density around the unit vector d. Its bands are `first` and `second`, both times `weight`.
+  // Adds a density around the unit vector d. `first` and `second` are the density's bands A1 and A2,
+  // multiplied by `weight`.
   void add(const Direction<F>& d, F weight, F first, F second) {
     scalar = scalar + weight;
     x = fma(first, d.x, x);
@@ -101,7 +103,7 @@ struct GatheredBands {
     yz = fma(sy, d.z, yz);
     zx = fma(sz, d.x, zx);
   }
-  // Returns one channel of the light under the summed densities, times the sum of weights.
+  // Returns one channel of the mean light under the summed densities, multiplied by the sum of the weights.
   F light(const LightBands& bands, float Vec3::*channel) const {
     const auto c = [&](const Vec3& v) { return F(v.*channel); };
     const F one = fma(x, c(bands.vector[0]), fma(y, c(bands.vector[1]), z * c(bands.vector[2])));

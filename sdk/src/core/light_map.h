@@ -1,4 +1,4 @@
-// Maps of distant light in the memory of a host.
+// Environment maps of distant light, in host memory.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,15 @@
 
 namespace nook {
 
-// The maximum radiance of a texel. It keeps sums over any map far below the maximum of a float.
+// The maximum radiance of a texel. With this limit, sums over any map are far below the maximum of a float.
 inline constexpr float max_map_radiance = 1e15f;
 
 // A map in host memory, 3 floats for each texel.
 enum class MapLayout : std::int32_t {
-  // Rows run from +y down to -y. The middle column looks along +x, the column a quarter of the width to its
-  // right along +z.
+  // Rows run from +y down to -y. The middle column is the direction +x. The column a quarter of the width
+  // further right is the direction +z.
   latlong = 0,
-  // Six faces of width x width texels, below each other in the order and with the axes of OpenGL.
+  // Six faces of width x width texels, stacked vertically, in the order and with the axes of OpenGL.
   cube = 1,
 };
 struct MapView {
@@ -38,37 +38,41 @@ struct MapTexel {
 };
 MapTexel map_texel(const MapView& map, std::uint32_t column, std::uint32_t row);
 
-// Treats a cube of side x side cells per face like the texels of a cube map. Returns the unit direction
-// through a cell's centre, and its solid angle in steradians.
+// The cells of a cube with side x side cells per face, like the texels of a cube map. Returns the unit
+// direction through a cell's centre, and the cell's solid angle in steradians.
 Vec3 cube_cell_direction(std::uint32_t face, std::uint32_t column, std::uint32_t row, std::uint32_t side);
 double cube_cell_angle(std::uint32_t column, std::uint32_t row, std::uint32_t side);
-// Returns the number of the cell that holds a direction.
+// Returns the index of the cell that contains a direction.
 std::size_t cube_cell_at(Vec3 direction, std::uint32_t side);
 
-// The suns of a map are sources so small and bright that a host draws them as separate lights with shadow
-// maps. Lobes or probes hold the rest.
+// Suns are light sources in a map that are so small and bright that a host draws them as separate lights with
+// shadow maps. The remaining light is represented by lobes or probes.
 
-// Texels are sun if their luminance is above this many times the mean of the map without its suns.
+// A texel belongs to a sun if its luminance is more than this many times the mean luminance of the map
+// without its suns.
 inline constexpr double sun_ratio = 100;
 
 struct MapSun {
-  Vec3 direction;         // unit, towards the centre of its light
-  Vec3 irradiance;        // RGB on a surface that faces it, from its light above the limit
-  float solid_angle = 0;  // of its texels, steradians
-  // The solid angle in steradians that an even disc needs to have the sun's irradiance and the same integral
-  // of squared luminance. Texels of glare, which are many but hold little light, hardly count.
+  Vec3 direction;         // unit vector towards the centre of the sun's light
+  Vec3 irradiance;        // RGB on a surface that faces the sun, only from the sun's light above the limit
+  float solid_angle = 0;  // solid angle of the sun's texels, in steradians
+  // The solid angle, in steradians, that a uniform disc has if its irradiance and its integral of squared
+  // luminance equal the sun's. Texels of glare hardly affect it, because they hold little light even if they
+  // are many.
   float disc_solid_angle = 0;
 };
 
-// Returns the luminance where suns begin: sun_ratio times the mean of everything below it.
+// Returns the luminance above which texels belong to suns. It is sun_ratio times the mean luminance of all
+// light below this limit.
 double sun_limit(const MapView& map, Memory* memory);
 
-// Returns the part of a texel that belongs to the sky: its colour, at the luminance of the limit or less.
+// Returns the part of a texel that does not belong to a sun. It has the colour of the texel, but its
+// luminance is at most the limit.
 Vec3 without_sun(Vec3 rgb, double limit);
 
-// Removes the brightest suns, up to a number, from `rgb`, a copy of the texels of `map`: their texels keep
-// their colour at the luminance of the limit. A sun is a group of touching texels above the limit. Returns
-// the removed suns, the brightest first.
+// Removes the brightest suns, up to a maximum number, from `rgb`, a copy of the texels of `map`. The
+// luminance of the suns' texels is reduced to the limit, and their colour is kept. A sun is a group of
+// touching texels above the limit. Returns the removed suns, the brightest first.
 Vector<MapSun> take_suns(const MapView& map, Vector<float>& rgb, Memory* memory,
                          std::size_t most = ~std::size_t(0));
 

@@ -10,13 +10,13 @@
 namespace nook {
 namespace {
 
-// Rec. 709.
+// Returns the luminance with the weights of Rec. 709.
 double luminance(Vec3 rgb) {
   return 0.2126 * double(rgb.x) + 0.7152 * double(rgb.y) + 0.0722 * double(rgb.z);
 }
 
-// Returns all different solid angles: one for each texel in a column of a latitude-longitude map, or in a
-// face of a cube map.
+// Returns the solid angles of texels. For a latitude-longitude map, there is one for each texel of a column.
+// For a cube map, there is one for each texel of a face.
 Vector<double> solid_angles(const MapView& map, Memory* memory) {
   const std::uint32_t columns = map.layout == MapLayout::cube ? map.width : 1,
                       rows = map.layout == MapLayout::cube ? map.width : map.height;
@@ -38,8 +38,8 @@ double mean_below(const MapView& map, std::span<const double> angles, double lim
   return sum / (4 * std::numbers::pi);
 }
 
-// Adds the neighbours of a texel. Faces of a cube map count as separate pictures, so a sun on an edge becomes
-// two.
+// Adds the neighbours of a texel. The faces of a cube map are treated as separate images, so a sun on an edge
+// becomes two suns.
 template <class Add>
 void neighbours(const MapView& map, std::size_t at, Add&& add) {
   const std::size_t width = map.width, row = at / width, column = at % width;
@@ -59,7 +59,8 @@ struct NumberedSun {
   std::uint32_t number = 0;
 };
 
-// Assigns a number to the texels that touch the first one. stack: scratch memory.
+// Assigns `number` to `first` and to all texels above the limit that are connected to it. `stack` is scratch
+// memory.
 NumberedSun gather_sun(const MapView& map, double limit, std::size_t first, std::size_t number,
                        Vector<std::uint32_t>& group, Vector<std::size_t>& stack) {
   NumberedSun found{{}, std::uint32_t(number)};
@@ -94,8 +95,8 @@ NumberedSun gather_sun(const MapView& map, double limit, std::size_t first, std:
 
 double sun_limit(const MapView& map, Memory* memory) {
   const Vector<double> angles = solid_angles(map, memory);
-  // Each round removes light above the limit. It ends with a mean that excludes the suns, or without any
-  // light if all of it is sun.
+  // Each iteration lowers the limit and excludes the light above it from the mean. The loop ends when the
+  // mean excludes all suns, or when no light is left because all of it belongs to suns.
   double limit = sun_ratio * mean_below(map, angles, std::numeric_limits<double>::infinity());
   for (int round = 0; round < 32; ++round) {
     const double next = sun_ratio * mean_below(map, angles, limit);
@@ -120,7 +121,8 @@ Vector<MapSun> take_suns(const MapView& map, Vector<float>& rgb, Memory* memory,
   for (std::size_t first = 0; first < group.size(); ++first)
     if (group[first] == in_no_group)
       found.push_back(gather_sun(map, limit, first, found.size(), group, stack));
-  // If a sun exceeds the limit by less than float precision, it has neither light nor direction.
+  // If a sun exceeds the limit by less than float precision, it has no light and no direction, so it is
+  // dropped.
   const std::size_t groups = found.size();
   std::erase_if(found, [](const NumberedSun& one) { return !(luminance(one.sun.irradiance) > 0); });
   std::sort(found.begin(), found.end(), [](const NumberedSun& a, const NumberedSun& b) {

@@ -1,6 +1,6 @@
-// Every byte of the library comes from here: an interface, the host's allocator behind it, and the global
-// operator new. std::pmr does the same, but some standard libraries lack it: libc++ before version 16, and so
-// Emscripten 3.1 and macOS before 14.
+// The interface through which the library allocates all of its memory, with implementations for the host's
+// allocator and for the global operator new. std::pmr is not used, because some standard libraries do not
+// have it: libc++ before version 16, and therefore Emscripten 3.1 and macOS before 14.
 #pragma once
 
 #include <nook/nook.h>
@@ -14,11 +14,11 @@ namespace nook {
 
 class Memory {
  public:
-  // Throws std::bad_alloc. alignment is a power of two.
+  // Throws std::bad_alloc if no memory is left. `alignment` must be a power of two.
   void* allocate(std::size_t bytes, std::size_t alignment = alignof(std::max_align_t)) {
     return do_allocate(bytes, alignment);
   }
-  // Pass the bytes and alignment of the allocation.
+  // Pass the same `bytes` and `alignment` as to allocate.
   void deallocate(void* memory, std::size_t bytes, std::size_t alignment = alignof(std::max_align_t)) {
     do_deallocate(memory, bytes, alignment);
   }
@@ -79,7 +79,7 @@ class MeteredMemory final : public Memory {
   std::atomic<std::uint64_t> bytes_{0};
 };
 
-// The global operator new, for code without a host, such as bakers and tests.
+// Returns a Memory that uses the global operator new, for code without a host, such as bakers and tests.
 inline Memory* default_memory() noexcept {
   static HostMemory memory{nook_allocator{}};
   return &memory;

@@ -1,4 +1,4 @@
-// Similarities that may mirror: scaled rotations of a shape or of its mirror image.
+// Similarities that may include a mirroring: scaled rotations of a shape or of its mirror image.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace nook {
 
-// True for a matrix that mirrors, whose determinant is negative beyond rounding. A matrix of floats that
-// flattens has a determinant of either sign, some 1e-7 of its size.
+// True for a matrix that mirrors: its determinant is negative, and not only by rounding. For a flattening
+// matrix of floats, the determinant can have either sign, and is about 1e-7 relative to the matrix.
 inline bool mirrors(const Affine& a) {
   double square = 0;
   for (int i = 0; i < 3; ++i)
@@ -17,10 +17,10 @@ inline bool mirrors(const Affine& a) {
   return determinant(a) < -1e-6 * square * std::sqrt(square);
 }
 
-// As nearest_similarity, but a matrix that mirrors stays one that does.
+// Like nearest_similarity, but if the matrix mirrors, the result mirrors, too.
 inline Similarity nearest_mirroring_similarity(const Affine& a, const std::array<double, 3>& fixed) {
   if (!mirrors(a)) return nearest_similarity(a, fixed);
-  // The mirror image of the problem: x is turned round on both sides.
+  // Solves the mirrored problem: x is negated before and after the matrix.
   const auto mirrored = [](Affine m) {
     for (int i = 0; i < 3; ++i) m.m[4 * i] = -m.m[4 * i];
     return m;

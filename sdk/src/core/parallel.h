@@ -1,4 +1,4 @@
-// Runs a function for every index, with the host's jobs if the host set them.
+// Runs a function for every index. Uses the host's job system if the host has set one.
 #pragma once
 
 #include <nook/nook.h>
@@ -9,11 +9,11 @@
 namespace nook {
 
 struct Parallel {
-  nook_parallel_for_fn run = nullptr;  // null: everything on the calling thread
+  nook_parallel_for_fn run = nullptr;  // null: everything runs on the calling thread
   void* user = nullptr;
 };
 
-// body(index) must not throw, because nothing would catch the exception on a host's thread.
+// body(index) must not throw, because the host's threads do not catch exceptions.
 template <class Body>
 void parallel_for(const Parallel& parallel, std::uint32_t count, Body& body) {
   static_assert(std::is_nothrow_invocable_v<Body&, std::uint32_t>);

@@ -36,14 +36,15 @@ bool has_bit(int leaf, Register result, int bit) {
   return registers[result] >> bit & 1;
 }
 
-// Returns true if the operating system saves these registers of XCR0 on a switch of threads.
+// Returns true if the operating system saves these registers on a context switch. `registers` are bits of
+// XCR0.
 bool saves(unsigned registers) {
   constexpr int osxsave = 27;
   return has_bit(1, ecx, osxsave) && (_xgetbv(0) & registers) == registers;
 }
 
 constexpr unsigned xmm_ymm = 0x6;
-constexpr unsigned xmm_ymm_zmm = 0xe6;  // with the mask registers
+constexpr unsigned xmm_ymm_zmm = 0xe6;  // includes the mask registers
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// Intrusive reference counts behind the public handles. A reference keeps an object and its memory alive, so
-// that objects may be destroyed in any order.
+// Intrusive reference counts for the objects behind the public handles. A reference keeps an object and its
+// memory alive, so the host may destroy handles in any order.
 #pragma once
 
 #include <atomic>
@@ -20,7 +20,7 @@ class RefCounted {
   }
 
  protected:
-  RefCounted() = default;  // the creator holds the first reference
+  RefCounted() = default;  // the count starts at 1 for the creator's reference
   virtual ~RefCounted() = default;
 
  private:
@@ -33,7 +33,7 @@ template <class T>
 class Ref {
  public:
   Ref() = default;
-  // Takes over a reference that the caller holds.
+  // Takes over a reference from the caller, without incrementing the count.
   static Ref adopt(T* object) noexcept {
     Ref ref;
     ref.object_ = object;
@@ -67,7 +67,8 @@ class Ref {
   T* object_ = nullptr;
 };
 
-// Creates an object in `memory`, which `owner` (may be null) keeps alive until after the object is destroyed.
+// Creates an object in `memory`. If `owner` is not null, it is referenced until the object is destroyed, so
+// that it can keep `memory` alive.
 template <class T>
 class Owned final : public T {
  public:

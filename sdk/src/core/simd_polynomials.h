@@ -1,14 +1,14 @@
-// Functions that processors lack, over a SIMD vector type F of one instruction set. F must have the
-// operations of core/simd_scalar.h and
+// Mathematical functions for which processors have no instruction, for a SIMD vector type F of one
+// instruction set. F must have the operations of core/simd_scalar.h and
 //   split(x, exponent, mantissa): x = mantissa * 2^exponent with mantissa in [1/sqrt(2), sqrt(2)), for normal
 //   x > 0; times_power_of_two(a, n): a * 2^n for whole n in [-126, 127], a normal and the result too;
-//   nearest(a): a rounded to a whole number.
-// The coefficients interpolate at Chebyshev nodes, which comes close to the best polynomial of each degree.
+//   nearest(a): a rounded to a whole number. The polynomials interpolate the functions at Chebyshev nodes, so
+// each is close to the best polynomial of its degree.
 #pragma once
 
 namespace nook::simd {
 
-// The absolute error is at most 1e-6 plus rounding.
+// The logarithm to base 2 has an absolute error of at most 1e-6 plus rounding.
 template <class F>
 F log2_of(F a) {
   F exponent, mantissa;
@@ -24,7 +24,8 @@ F log2_of(F a) {
   return fma(p, f, exponent);
 }
 
-// For a <= 127. The relative error is at most 1e-7 plus rounding. The result stays normal: at least 2^-126.
+// Returns 2^a for a <= 127. The relative error is at most 1e-7 plus rounding. The result is at least 2^-126,
+// so it is never subnormal.
 template <class F>
 F exp2_of_bounded(F a) {
   const F x = max(a, F(-126.0f));
@@ -39,14 +40,14 @@ F exp2_of_bounded(F a) {
   return times_power_of_two(p, whole);
 }
 
-// The same for any a; at most 2^127.
+// The same for any a. The result is at most 2^127.
 template <class F>
 F exp2_of(F a) {
   return exp2_of_bounded(min(a, F(127.0f)));
 }
 
-// The relative error is at most 1e-5 for base in [1e-6, 1e3] and exponent in (0, 4]: it is the error of the
-// logarithm times the exponent. 0 stays 0.
+// The relative error is at most 1e-5 for base in [1e-6, 1e3] and exponent in (0, 4]. This is the error of the
+// logarithm times the exponent. For base 0, the result is 0.
 template <class F>
 F power_of(F base, F exponent) {
   const F smallest(1e-37f);
@@ -58,7 +59,8 @@ F exponential_of(F a) {
   return exp2_of(a * F(1.44269504f));
 }
 
-// Abramowitz and Stegun 4.4.46, for a in [-1, 1]. The absolute error is 2e-8 plus rounding.
+// Returns the arc cosine for a in [-1, 1] (Abramowitz and Stegun 4.4.46). The absolute error is 2e-8 plus
+// rounding.
 template <class F>
 F arc_cosine_of(F a) {
   const F x = max(a, F(0.0f) - a);

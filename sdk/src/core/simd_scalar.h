@@ -1,5 +1,5 @@
-// The operations of the SIMD vectors for float and double. A formula over a number type then serves the
-// scalar reference, the double precision of the tests and every instruction set.
+// The operations of the SIMD vectors, for float and double. A formula that is a template over its number type
+// can then be used for the scalar reference, for tests in double precision and for every instruction set.
 #pragma once
 
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace nook {
 
-// Returns a * b + c. Without an FMA instruction std::fma is a slow library call, and no caller needs its
-// single rounding.
+// Returns a * b + c. std::fma is not used, because it is a slow library call on processors without an FMA
+// instruction, and no caller needs the single rounding.
 template <std::floating_point T>
 constexpr T fma(T a, T b, T c) {
   return a * b + c;
@@ -37,13 +37,13 @@ template <std::floating_point T>
 T rsqrt(T a) {
   return 1 / std::sqrt(a);
 }
-// In the SIMD versions, the next three functions use the processor's estimates, within 1e-4 of the value.
-// This one is the square root of a >= 1e-30.
+// In the SIMD versions, the next three functions use the processor's fast estimates, with a relative error of
+// up to 1e-4. This one returns the square root of a >= 1e-30.
 template <std::floating_point T>
 T sqrt_positive(T a) {
   return std::sqrt(a);
 }
-// Returns a^(3/2), or 0 for an a that rounding made negative.
+// Returns a^(3/2). If rounding made `a` negative, returns 0.
 template <std::floating_point T>
 T power_three_halves(T a) {
   return a > 0 ? a * std::sqrt(a) : T(0);
@@ -67,7 +67,7 @@ template <std::floating_point T>
 T exponential(T a) {
   return std::exp(a);
 }
-// The caller clamps a to [-1, 1].
+// `a` must be in [-1, 1].
 template <std::floating_point T>
 T arc_cosine(T a) {
   return std::acos(a);

@@ -1,7 +1,7 @@
 // Spherical Gaussians, called lobes, and their closed forms:
-//   G(s) = amplitude exp(sharpness (dot(axis, s) - 1)).
-// Every function is accurate from sharpness 0, a constant over the sphere, to far beyond the resolution of
-// float directions, because it subtracts large numbers before it takes exponentials.
+//   G(s) = amplitude exp(sharpness (dot(axis, s) - 1)). Sharpness 0 is a constant over the sphere. The
+// functions are accurate from sharpness 0 to far beyond the resolution of float directions, because they
+// subtract large numbers before they compute exponentials.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct SphericalGaussian {
   Vec3 amplitude;       // linear RGB
 };
 
-// Returns 1 - dot(a, b) of unit vectors, without cancellation for nearly equal vectors.
+// Returns 1 - dot(a, b) of unit vectors. There is no cancellation for nearly equal vectors.
 constexpr float one_minus_cosine(Vec3 a, Vec3 b) {
   const Vec3 d = a - b;
   return 0.5f * dot(d, d);
@@ -40,7 +40,8 @@ T gaussian_integral(T sharpness) {
   return -2 * pi * std::expm1(-2 * sharpness) / sharpness;
 }
 
-// Returns the integral of G^2, which is a lobe of twice the sharpness: pi (1 - e^(-4 sharpness)) / sharpness.
+// Returns the integral of G^2 over the sphere at amplitude 1. G^2 is a lobe of twice the sharpness: pi (1 -
+// e^(-4 sharpness)) / sharpness.
 template <std::floating_point T>
 T gaussian_square_integral(T sharpness) {
   return gaussian_integral(2 * sharpness);
@@ -103,8 +104,8 @@ T gaussian_spread(T sharpness) {
   return 1 / sharpness - 2 * e / (1 - e);
 }
 
-// Returns the sharpness whose gaussian_spread is `spread`, in (0, 1]. It starts from the estimate of A.
-// Banerjee (2005) and takes two Newton steps.
+// Returns the sharpness whose gaussian_spread is `spread`, in (0, 1]. Starts from the estimate of A. Banerjee
+// (2005), and improves it by two Newton steps.
 template <std::floating_point T>
 T gaussian_sharpness_of_spread(T spread) {
   const T mean = 1 - spread;
@@ -119,8 +120,8 @@ T gaussian_sharpness_of_spread(T spread) {
   return sharpness;
 }
 
-// Returns a convolved with b as a zonal filter. The exact result is not a lobe; this is the lobe around the
-// axis of a with the same integral and mean cosine.
+// Returns the convolution of `a` with the zonal filter `b`. The exact convolution is not a lobe. The result
+// is the lobe around the axis of `a` that has the same integral and mean cosine.
 inline SphericalGaussian convolution(const SphericalGaussian& a, const SphericalGaussian& b) {
   const float spread_a = gaussian_spread(a.sharpness), spread_b = gaussian_spread(b.sharpness);
   const float sharpness = gaussian_sharpness_of_spread(spread_a + spread_b - spread_a * spread_b);
@@ -130,7 +131,7 @@ inline SphericalGaussian convolution(const SphericalGaussian& a, const Spherical
 
 // Returns the factors by which convolution with a lobe of integral 1 scales bands 0 to 4 of a function on the
 // sphere. They are the ratios i_l / i_0 of the modified spherical Bessel functions. Their upward recurrence
-// loses digits for small sharpness, while the continued fraction of i_(l+1) / i_l does not.
+// loses digits for small sharpness. The continued fraction of i_(l+1) / i_l, which is used here, does not.
 template <std::floating_point T>
 std::array<T, 5> gaussian_bands(T sharpness) {
   std::array<T, 5> band{1, 1 - gaussian_spread(sharpness)};
@@ -149,9 +150,9 @@ std::array<T, 5> gaussian_bands(T sharpness) {
 }
 
 // Returns the irradiance of a lobe of integral 1 on a surface; cosine is dot(axis, n). There are three forms.
-// This one uses the clamped cosine's series of zonal harmonics up to band 4 (odd bands above 1 are 0). Its
-// error, relative to the irradiance of a perpendicular light, is at most 1.5e-3 at sharpness 6 and 1e-2 at
-// 16.
+// This form uses the zonal harmonics of the clamped cosine up to band 4; odd bands above 1 are 0. Relative to
+// the irradiance of a perpendicular light, its error is at most 1.5e-3 at sharpness 6, and at most 1e-2 at
+// sharpness 16.
 inline float gaussian_unit_irradiance_bands(float sharpness, float cosine) {
   const std::array<float, 5> band = gaussian_bands(sharpness);
   const float c2 = cosine * cosine;
@@ -160,14 +161,14 @@ inline float gaussian_unit_irradiance_bands(float sharpness, float cosine) {
   return std::max(0.25f + 0.5f * band[1] * cosine + even, 0.0f);
 }
 
-// S. Hill's fit is within 1.6e-2 of the irradiance of a perpendicular light from sharpness 3 on. Below, the
-// fit is not defined, and the bands are used.
+// S. Hill's fit. From this sharpness on, its error is at most 1.6e-2, relative to the irradiance of a
+// perpendicular light. Below this sharpness, the fit is not defined, and the bands are used.
 inline constexpr float hill_min_sharpness = float(NOOK_FITTED_IRRADIANCE_MIN_SHARPNESS);
 inline float gaussian_unit_irradiance_fitted(float sharpness, float cosine) {
   if (sharpness < hill_min_sharpness) return gaussian_unit_irradiance_bands(sharpness, cosine);
   constexpr float c0 = float(NOOK_FITTED_IRRADIANCE_SLOPE), c1 = 1 / (4 * c0);
   const float e1 = std::exp(-sharpness), e2 = e1 * e1, inverse = 1 / sharpness;
-  const float rest = inverse - 2 * e2;  // 1 - scale, above 0 however sharp the lobe
+  const float rest = inverse - 2 * e2;  // 1 - scale; above 0 for any sharpness
   const float bias = (e1 - e2) * inverse - e2;
   const float x = std::sqrt(rest);
   const float x0 = c0 * cosine, x1 = c1 * x, n = x0 + x1;
@@ -175,15 +176,16 @@ inline float gaussian_unit_irradiance_fitted(float sharpness, float cosine) {
   return std::max((1 - rest) * y + bias, 0.0f);
 }
 
-// The best form uses the bands up to this sharpness, and the fit above it.
+// The third form, which is the most accurate, uses the bands up to this sharpness, and the fit above it.
 inline constexpr float bands_max_sharpness = float(NOOK_BANDS_MAX_SHARPNESS);
 inline float gaussian_unit_irradiance_best(float sharpness, float cosine) {
   return sharpness <= bands_max_sharpness ? gaussian_unit_irradiance_bands(sharpness, cosine)
                                           : gaussian_unit_irradiance_fitted(sharpness, cosine);
 }
 
-// The clamped cosine max(dot(n, s), 0) as a lobe around n, with B. Karis' values, which The Order: 1886 used.
-// The inner product with it is the cheapest form; it is never 0, even for light from behind.
+// A lobe around n that approximates the clamped cosine max(dot(n, s), 0), with B. Karis' values, which The
+// Order: 1886 used. The inner product of a light with this lobe is the cheapest approximation of irradiance.
+// It is never 0, even for light from behind.
 inline constexpr float cosine_lobe_sharpness = float(NOOK_COSINE_LOBE_SHARPNESS);
 inline constexpr float cosine_lobe_amplitude = float(NOOK_COSINE_LOBE_AMPLITUDE);
 inline float gaussian_irradiance_inner_product(Vec3 axis, float sharpness, Vec3 n) {

@@ -39,7 +39,7 @@ constexpr Vec3 cross(Vec3 a, Vec3 b) {
 inline float length(Vec3 a) {
   return std::sqrt(dot(a, a));
 }
-// A zero vector stays zero, so that callers can choose a replacement.
+// Returns a zero vector unchanged, so that callers can choose a replacement.
 inline Vec3 normalised(Vec3 a) {
   const float l = length(a);
   return l > 0 ? a * (1 / l) : Vec3{};
@@ -56,8 +56,8 @@ constexpr Vec3 transform_point(const Mat3x4& a, Vec3 p) {
           m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
 }
 
-// Transforms without the translation. This is correct for directions. It is correct for normals if the matrix
-// is rigid or uniformly scaled and you renormalise the result.
+// Transforms a vector without the translation. Use it for directions. You may also use it for normals, if the
+// matrix is rigid or uniformly scaled and you renormalise the result.
 constexpr Vec3 transform_vector(const Mat3x4& a, Vec3 v) {
   const float* m = a.m;
   return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,
